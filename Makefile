@@ -1,0 +1,34 @@
+# A thin front of CMake. `make help` lists the targets.
+BUILD ?= build
+JOBS  ?= $(shell nproc)
+PREFIX ?= /usr/local
+
+.PHONY: all packages demo test bench install clean help sanitize
+all: ## build/scree and libscree (static and shared)
+	@cmake --preset release -B $(BUILD) >/dev/null
+	@cmake --build $(BUILD) -j $(JOBS)
+
+packages: ## install missing Debian packages (root or sudo), or say which
+	@bash cmake/packages.sh
+
+demo: packages all ## the main job, with figures: a biaxial test past its peak, into out-demo/
+	@bash cmake/demo.sh $(BUILD)/scree out-demo
+
+test: packages all ## all tests
+	@cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
+
+bench: all ## particle-steps per second, memory, and peers where they are installed
+	@cmake --build $(BUILD) -j $(JOBS) --target benches
+	@bash bench/run.sh $(BUILD)
+
+sanitize: packages ## the tests under the address, undefined and thread sanitizers
+	@for p in asan tsan; do cmake --preset $$p >/dev/null && cmake --build --preset $$p -j $(JOBS) && ctest --preset $$p -j $(JOBS) || exit 1; done
+
+install: all ## into PREFIX (default /usr/local)
+	@cmake --install $(BUILD) --prefix $(PREFIX)
+
+clean: ## remove what was built
+	@rm -rf build build-dev build-asan build-tsan build-clang out-demo
+
+help: ## this list
+	@grep -E '^[a-z]+:.*##' Makefile | sed -E 's/:[^#]*## /\t/' | expand -t 12

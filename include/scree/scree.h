@@ -1,0 +1,131 @@
+/// Scree: a discrete-element laboratory for granular matter. Public C interface: opaque handles, read-only views.
+/// The command line uses nothing else. All values are SI. Thread safety: different handles may be used by different
+/// threads at the same time; one handle by one thread at a time.
+///
+///     scree_case *c; scree_problems *problems; scree_error error;
+///     if (scree_case_read("biaxial.yaml", NULL, &c, &problems)) { ... scree_problems_get(problems, 0) ... }
+///     scree_run_options options = {.output = "out", .threads = 2};
+///     if (scree_run(c, &options, &error)) ...
+#ifndef SCREE_H
+#define SCREE_H
+
+#include <scree/error.h>
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define SCREE_VERSION "0.1.0"
+
+/// Version text, with the compiler and the instruction set that the kernels use on this machine.
+const char *scree_version(void);
+
+// ---- cases -------------------------------------------------------------------------------------------------------
+
+typedef struct scree_case scree_case;         ///< a checked case
+typedef struct scree_problems scree_problems; ///< everything that is wrong with a case
+
+size_t scree_problems_count(const scree_problems *problems);
+const scree_error *scree_problems_get(const scree_problems *problems, size_t index);
+void scree_problems_free(scree_problems *problems);
+
+typedef struct scree_case_options {
+    const char *const *overrides; ///< "key.path=value" texts (--set), applied after the file; may be NULL
+    size_t override_count;
+    bool quick;                   ///< apply the file's `quick` section
+} scree_case_options;
+
+/// Reads, checks and completes a case file. On failure *problems holds every error found (free it); *out is NULL.
+/// Errors: SCREE_ERROR_INPUT, or SCREE_ERROR_IO when the file cannot be read.
+scree_status scree_case_read(const char *path, const scree_case_options *options, scree_case **out,
+                             scree_problems **problems);
+/// The same from text; `name` stands for the file in messages.
+scree_status scree_case_parse(const char *text, size_t length, const char *name, const scree_case_options *options,
+                              scree_case **out, scree_problems **problems);
+void scree_case_free(scree_case *c);
+
+/// Writes the resolved case: every default written out, units kept. Reading it gives the same case.
+scree_status scree_case_write(const scree_case *c, FILE *file, scree_error *error);
+
+/// What a case amounts to before it is run (`scree check`).
+typedef struct scree_case_summary {
+    char name[64];
+    uint64_t particles;
+    double step, critical_step;   ///< s
+    double phi, psi;              ///< quasistatic and size coefficients, NAN without a loading stage
+    double mean_radius, thickness; ///< m
+    double reference_velocity;    ///< m/s
+    double steps;                 ///< expected number of steps of all stages
+    double seconds;               ///< expected wall time at `rate` particle-steps per second
+    double rate;                  ///< particle-steps per second assumed (measured on this machine in a few milliseconds)
+    double memory;                ///< bytes
+} scree_case_summary;
+scree_status scree_case_summarise(const scree_case *c, scree_case_summary *summary, scree_error *error);
+
+/// Built-in cases: template texts with comments. NULL when the index or name does not exist.
+size_t scree_template_count(void);
+const char *scree_template_name(size_t index);
+const char *scree_template_meaning(size_t index);
+const char *scree_template_text(const char *name);
+
+/// The case reference, generated from the schema table, as Markdown.
+scree_status scree_schema_write_manual(FILE *file, scree_error *error);
+
+// ---- runs --------------------------------------------------------------------------------------------------------
+
+typedef struct scree_progress {
+    const char *stage;        ///< name of the stage
+    double fraction;          ///< of the stage, 0 to 1; NAN when not known in advance
+    double time;              ///< s, simulated
+    double strain;            ///< axial, NAN outside loading stages
+    double particle_steps_per_second;
+    double seconds_left;      ///< wall, of the whole run; NAN when not known
+} scree_progress;
+
+typedef struct scree_run_options {
+    const char *output;       ///< run directory
+    int threads;              ///< 0: all cores
+    bool force;               ///< write into a directory that holds another run (replaces it)
+    bool figures;             ///< draw figures at the end
+    const volatile int *stop; ///< becomes non-zero (signal number) to ask for a checkpoint and an orderly end
+    void (*progress)(void *user, const scree_progress *progress);              ///< about twice a second; may be NULL
+    void (*message)(void *user, int level, const char *line); ///< lines of log.txt as they are written; may be NULL
+    void *user;
+} scree_run_options;
+
+/// Runs a case into a new run directory. Errors: SCREE_ERROR_INPUT (directory in use), _GUARD, _IO, SCREE_INTERRUPTED.
+scree_status scree_run(const scree_case *c, const scree_run_options *options, scree_error *error);
+
+/// Continues the run in `directory` from its newest checkpoint, bit for bit.
+scree_status scree_restart(const char *directory, const scree_run_options *options, scree_error *error);
+
+/// A simulation in memory, without files (tests, bindings). Stages are run one after the other by `advance`.
+typedef struct scree_simulation scree_simulation;
+scree_status scree_simulation_create(const scree_case *c, int threads, scree_simulation **out, scree_error *error);
+/// At most `steps` steps; *done tells whether the case has ended.
+scree_status scree_simulation_advance(scree_simulation *s, uint64_t steps, bool *done, scree_error *error);
+uint64_t scree_simulation_checksum(scree_simulation *s);
+void scree_simulation_free(scree_simulation *s);
+
+// ---- results -----------------------------------------------------------------------------------------------------
+
+/// Value of `name` in summary.json as text into `value`. Errors: SCREE_ERROR_IO (no run there), SCREE_ERROR_INPUT
+/// (no such name; `accepted` holds the nearest).
+scree_status scree_result_get(const char *directory, const char *name, char *value, size_t size, scree_error *error);
+
+/// Calls `visit` for every name in summary.json.
+scree_status scree_result_visit(const char *directory, void (*visit)(void *user, const char *name, const char *value),
+                                void *user, scree_error *error);
+
+/// Draws all figures of a run into `directory`/figures. `message` tells which; may be NULL.
+scree_status scree_plot(const char *directory, void (*message)(void *user, const char *path), void *user,
+                        scree_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

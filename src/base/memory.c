@@ -1,0 +1,74 @@
+/// Aligned allocation with a count of live bytes and a hook that makes the n-th allocation fail.
+/// Each block is preceded by one alignment unit that holds its size.
+#include "base/memory.h"
+
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+static _Atomic uint64_t calls;
+static _Atomic uint64_t failing_call;
+static _Atomic size_t live, highest;
+
+uint64_t scree_allocation_fail_after(uint64_t n)
+{
+    uint64_t made = atomic_exchange(&calls, 0);
+    atomic_store(&failing_call, n);
+    return made;
+}
+
+void scree_allocation_statistics(size_t *current, size_t *peak)
+{
+    if (current) *current = atomic_load(&live);
+    if (peak) *peak = atomic_load(&highest);
+}
+
+static void *allocate_bytes(size_t bytes)
+{
+    uint64_t call = atomic_fetch_add(&calls, 1) + 1;
+    if (call == atomic_load(&failing_call)) return NULL;
+    size_t whole = (bytes + 2 * SCREE_ALIGNMENT - 1) / SCREE_ALIGNMENT * SCREE_ALIGNMENT;
+    unsigned char *block = whole < bytes ? NULL : aligned_alloc(SCREE_ALIGNMENT, whole);
+    if (!block) return NULL;
+    memcpy(block, &bytes, sizeof bytes);
+    memset(block + SCREE_ALIGNMENT, 0, whole - SCREE_ALIGNMENT);
+    size_t now = atomic_fetch_add(&live, bytes) + bytes;
+    size_t before = atomic_load(&highest);
+    while (now > before && !atomic_compare_exchange_weak(&highest, &before, now)) continue;
+    return block + SCREE_ALIGNMENT;
+}
+
+scree_status scree_allocate(void *pointer, size_t count, size_t size, scree_error *error)
+{
+    void *block = NULL;
+    size_t bytes;
+    if (__builtin_mul_overflow(count, size, &bytes)) return scree_error_set_memory(error, SIZE_MAX);
+    if (bytes > 0 && !(block = allocate_bytes(bytes))) return scree_error_set_memory(error, bytes);
+    memcpy(pointer, &block, sizeof block);
+    return SCREE_OK;
+}
+
+scree_status scree_reallocate(void *pointer, size_t old_count, size_t new_count, size_t size, scree_error *error)
+{
+    void *old_block, *new_block;
+    memcpy(&old_block, pointer, sizeof old_block);
+    scree_status status = scree_allocate(&new_block, new_count, size, error);
+    if (status) return status;
+    size_t kept = old_count < new_count ? old_count : new_count;
+    if (old_block && kept > 0) memcpy(new_block, old_block, kept * size);
+    scree_release(pointer);
+    memcpy(pointer, &new_block, sizeof new_block);
+    return SCREE_OK;
+}
+
+void scree_release(void *pointer)
+{
+    unsigned char *block, *none = NULL;
+    memcpy(&block, pointer, sizeof block);
+    if (!block) return;
+    size_t bytes;
+    memcpy(&bytes, block - SCREE_ALIGNMENT, sizeof bytes);
+    atomic_fetch_sub(&live, bytes);
+    free(block - SCREE_ALIGNMENT);
+    memcpy(pointer, &none, sizeof none);
+}

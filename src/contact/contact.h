@@ -1,0 +1,53 @@
+/// Contact forces: the batch kernels, and the contact table that measures and figures read.
+///
+/// Sign convention, the only one in the code: for the contact of `first` and `second` the unit normal n points from
+/// second to first (P 2.A1); a positive normal force pushes them apart; the tangent is t = (-n_y, n_x), and the slip is
+/// s = (v_first - v_second) . t - (R_first w_first + R_second w_second), so that pure rolling has s = 0
+/// (physics.md, P 2.A6 corrected). The force on first is f_n n + f_t t, on second the opposite; f_t opposes s.
+/// The lever arms of the tangential force are R - d/2 each (the contact point lies in the middle of the indentation).
+#ifndef SCREE_CONTACT_CONTACT_H
+#define SCREE_CONTACT_CONTACT_H
+
+#include "state/work.h"
+
+/// Clears and refills state->sum with all contact forces at the present positions, with velocities v(n - 1/2) for the
+/// position of `shift`, and advances histories by one step. Reads: rows, walls, pair list, force quantum. Writes: sums,
+/// wall force and shear, histories, ledger increments (damping, friction, stiffness, plates), largest_overlap,
+/// work->flags. Valid after: everything about step n.
+void scree_contact_forces(const scree_model *model, scree_state *state, scree_work *work);
+
+/// One touching contact, everything a measure needs. Second is a wall index when `wall` is set.
+typedef struct scree_contact {
+    uint32_t first, second; ///< rows (not ids)
+    bool wall;
+    bool sliding;
+    double normal[2];       ///< from second to first
+    double point[2];        ///< m
+    double branch[2];       ///< m, x_first - x_second; for a wall x_first - contact point
+    double indentation;     ///< m
+    double normal_force;    ///< N, >= 0
+    double tangential_force; ///< N, along t = (-n_y, n_x), on first
+    double slip;            ///< m/s along t
+    double elastic_normal;  ///< J
+    double elastic_tangential; ///< J
+} scree_contact;
+
+typedef struct scree_contact_table {
+    scree_contact *contact; ///< ordered by (id of first, id of second), walls last for each first
+    size_t count, capacity;
+} scree_contact_table;
+
+/// Evaluates all touching contacts with the scalar reference law, histories untouched: forces equal those of the last
+/// scree_contact_forces. Errors: memory.
+scree_status scree_contact_table_build(const scree_model *model, const scree_state *state, const scree_work *work,
+                                       scree_contact_table *table, scree_error *error) SCREE_MUST_USE;
+void scree_contact_table_destroy(scree_contact_table *table);
+
+/// Copies the histories of touching pairs into state->contact, sorted by (first id, second id).
+scree_status scree_contacts_save(scree_state *state, const scree_work *work, scree_error *error) SCREE_MUST_USE;
+
+/// Upper bound of any single contact or boundary force in the next evaluation, from the largest overlap and speed:
+/// K (d + 2 v dt)^1.5 + damping. Sets the quanta (powers of two) for it. `extra` is a bound of boundary forces [N].
+void scree_contact_set_quanta(const scree_model *model, scree_state *state, double extra);
+
+#endif

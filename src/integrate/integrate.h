@@ -1,0 +1,29 @@
+/// Integrators: one file a scheme, one descriptor each. A step is first(), forces at the new positions, second().
+#ifndef SCREE_INTEGRATE_INTEGRATE_H
+#define SCREE_INTEGRATE_INTEGRATE_H
+
+#include "state/work.h"
+
+typedef struct scree_integrator {
+    const char *name;
+    const char *meaning;    ///< one line for the manual
+    /// Advances rows (and angles, largest_speed, work->budget) to positions n+1 from the sums at n.
+    void (*first)(const scree_model *model, scree_state *state, scree_work *work);
+    /// Finishes velocities with the sums at n+1. May be NULL.
+    void (*second)(const scree_model *model, scree_state *state, scree_work *work);
+    double velocity_lead;   ///< stored velocity = v(n - 1/2) + velocity_lead * dt * a(n): 0 position, 1/2 velocity Verlet
+} scree_integrator;
+
+/// Descriptor of a scheme.
+const scree_integrator *scree_integrator_get(scree_scheme scheme);
+
+/// Force and torque on the body in `row` at the present step: sums, gravity. force[3] = fx, fy, torque.
+void scree_body_force(const scree_model *model, const scree_state *state, size_t row, double force[3]);
+
+/// Physical velocity at step n: vx, vy, spin.
+void scree_body_velocity(const scree_model *model, const scree_state *state, size_t row, double velocity[3]);
+
+/// Velocity v(n - 1/2) with which the contact forces at n were evaluated: vx, vy, spin.
+void scree_body_half_velocity(const scree_model *model, const scree_state *state, size_t row, double velocity[3]);
+
+#endif

@@ -1,0 +1,58 @@
+/// Snapshots and checkpoints in HDF5. During a run every snapshot is a file of its own under parts/ (written aside and
+/// renamed), and run.h5 is a small file of external links, replaced after each: a kill at any moment leaves a readable
+/// run.h5. `scree_run_file_finish` gathers everything into one self-contained run.h5 and removes the parts.
+///
+///   /snapshots/000012/            attributes: step, time [s], stage, axial_strain, unit and description on each dataset
+///       position (n x 2), radius, velocity, spin, ... from the field table (all with snapshot = true), in id order
+///       contacts/ first, second (ids), normal, point, branch, normal_force, tangential_force, ...
+///       boundary/ loop (ids), loaded; walls/ position, normal, force, ...
+///   /checkpoints/000003/          everything in scree_state, bit for bit; attribute case_checksum
+#ifndef SCREE_IO_SNAPSHOT_H
+#define SCREE_IO_SNAPSHOT_H
+
+#include "contact/contact.h"
+#include "integrate/integrate.h"
+
+typedef struct scree_snapshot_info {
+    int64_t index;        ///< running number, names the group
+    double time;          ///< s
+    double axial_strain;  ///< NAN outside loading
+    const char *stage;
+} scree_snapshot_info;
+
+/// Writes parts/snapshot-INDEX.h5 and renews run.h5's links.
+scree_status scree_snapshot_write(const char *directory, const scree_model *model, const scree_state *state,
+                                  const scree_contact_table *table, const scree_snapshot_info *info,
+                                  scree_error *error) SCREE_MUST_USE;
+
+/// Writes a checkpoint (contacts must have been saved into the state); keeps the newest two.
+scree_status scree_checkpoint_write(const char *directory, const scree_state *state, uint64_t case_checksum,
+                                    scree_error *error) SCREE_MUST_USE;
+/// Reads the newest checkpoint that is whole. Errors: none there, truncated, of another case (checksum), of another
+/// version of the state (field table).
+scree_status scree_checkpoint_read(const char *directory, scree_state *state, uint64_t case_checksum,
+                                   scree_error *error) SCREE_MUST_USE;
+
+scree_status scree_run_file_finish(const char *directory, scree_error *error) SCREE_MUST_USE;
+
+/// A snapshot read back for figures. Arrays of `count` bodies in id order, contacts of `contact_count`.
+typedef struct scree_snapshot {
+    int64_t index;
+    double time, axial_strain;
+    char stage[32];
+    size_t count;
+    double *x, *y, *radius, *angle, *vx, *vy, *spin;
+    size_t contact_count;
+    uint32_t *first, *second;   ///< ids; second >= SCREE_WALL_ID is a wall
+    double *normal_force, *tangential_force; ///< N
+    double *contact_x, *contact_y;           ///< m
+    size_t loop_count;
+    uint32_t *loop;
+    scree_wall wall[SCREE_WALL_COUNT];
+} scree_snapshot;
+scree_status scree_snapshot_count(const char *directory, size_t *count, scree_error *error) SCREE_MUST_USE;
+scree_status scree_snapshot_read(const char *directory, size_t which, scree_snapshot *snapshot, scree_error *error)
+    SCREE_MUST_USE;
+void scree_snapshot_destroy(scree_snapshot *snapshot);
+
+#endif

@@ -1,0 +1,19 @@
+/// summary.json: named scalars and texts of a run (jansson), replaced as a whole.
+#ifndef SCREE_IO_SUMMARY_H
+#define SCREE_IO_SUMMARY_H
+
+#include "base/error.h"
+
+#include <stdint.h>
+
+typedef struct scree_summary scree_summary;
+
+scree_status scree_summary_create(scree_summary **summary, scree_error *error) SCREE_MUST_USE;
+void scree_summary_destroy(scree_summary *summary);
+/// Names are kept in the order of first setting. NAN becomes null. Setting again replaces.
+void scree_summary_set_number(scree_summary *summary, const char *name, double value);
+void scree_summary_set_integer(scree_summary *summary, const char *name, int64_t value);
+void scree_summary_set_text(scree_summary *summary, const char *name, const char *value);
+scree_status scree_summary_write(const scree_summary *summary, const char *path, scree_error *error) SCREE_MUST_USE;
+
+#endif

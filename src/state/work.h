@@ -1,0 +1,54 @@
+/// Everything that can be rebuilt from the state: neighbour pairs, cell grid, scratch, flags, thread partition.
+#ifndef SCREE_STATE_WORK_H
+#define SCREE_STATE_WORK_H
+
+#include "state/state.h"
+
+/// Flags that kernels and integrators raise; the guard looks once a step.
+enum {
+    SCREE_FLAG_NAN = 1,          ///< a position or velocity is not finite
+    SCREE_FLAG_OVERLAP = 2,      ///< indentation above the guard's limit
+    SCREE_FLAG_FORCE_RANGE = 4,  ///< a force above the bound of the quanta
+    SCREE_FLAG_ESCAPED = 8,      ///< a body left the domain
+};
+
+/// Neighbour pairs in row indices, along the curve; pairs [0, touching_count) touched at the rebuild (padded groups are
+/// the kernel's own affair). Row indices are valid until the next rebuild.
+typedef struct scree_pair_list {
+    uint32_t *first, *second; ///< rows; id[first] < id[second]
+    scree_history *history;   ///< one a pair, seen from `first`
+    size_t count, capacity;
+    size_t touching_count;
+} scree_pair_list;
+
+typedef struct scree_wall_pair_list {
+    uint32_t *body;           ///< rows
+    uint32_t *wall;           ///< wall index
+    scree_history *history;
+    size_t count, capacity;
+} scree_wall_pair_list;
+
+typedef struct scree_search scree_search; ///< cell grid and scratch, private to search/
+
+typedef struct scree_work {
+    scree_pair_list pairs;
+    scree_wall_pair_list wall_pairs;
+    scree_search *search;
+    double skin;             ///< m, width added to the sum of radii in the list
+    double budget;           ///< m, distance that bodies may still move before the list must be checked
+    bool valid;              ///< false: rebuild before the next force evaluation
+    uint64_t rebuilds;
+    int threads;
+    bool ledger;             ///< dissipated energies are accumulated (default true)
+    bool reference_kernel;   ///< use the plain scalar core with runtime arguments (tests)
+    int instruction_set;     ///< 0: best of this machine; 2, 3, 4: x86-64-v2, v3, v4
+    uint32_t flags;          ///< SCREE_FLAG_...
+    uint64_t flagged_id;     ///< a body that raised a flag
+    // boundary forces of the present step, by row (pressure): see boundary/
+    uint32_t *loaded_row;
+    double *loaded_fx, *loaded_fy;
+    size_t loaded_count, loaded_capacity;
+    void *contact_scratch;   ///< private to contact/ (per-thread slots); freed by scree_contact_scratch_destroy
+} scree_work;
+
+#endif

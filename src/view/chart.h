@@ -1,0 +1,27 @@
+/// Charts through gnuplot: the script and its data are kept beside the figure (NAME.gp, NAME.csv -> NAME.svg, NAME.png).
+#ifndef SCREE_VIEW_CHART_H
+#define SCREE_VIEW_CHART_H
+
+#include "base/error.h"
+
+#include <stdbool.h>
+
+typedef struct scree_chart_line {
+    const double *x, *y;
+    size_t count;
+    const char *label;  ///< NULL: no legend entry
+    bool dashed, points;
+} scree_chart_line;
+
+typedef struct scree_chart {
+    const char *title;
+    const char *x_label, *y_label; ///< with units
+    const scree_chart_line *line;
+    size_t line_count;
+    bool log_x, log_y;
+} scree_chart;
+
+/// path without extension. Errors: gnuplot missing or failed (with its message), disk.
+scree_status scree_chart_draw(const char *path, const scree_chart *chart, scree_error *error) SCREE_MUST_USE;
+
+#endif

@@ -1,0 +1,26 @@
+/// Scenes through Cairo, drawn for paper: discs coloured by a field with a colour bar, force network with line widths,
+/// displacement fluctuations as arrows, Delaunay boundary, plates. Each writes NAME.svg and NAME.png.
+#ifndef SCREE_VIEW_SCENE_H
+#define SCREE_VIEW_SCENE_H
+
+#include "io/snapshot.h"
+
+typedef enum scree_colour_map { SCREE_COLOUR_SEQUENTIAL, SCREE_COLOUR_DIVERGING } scree_colour_map;
+
+typedef struct scree_scene {
+    const char *title;
+    const double *field;     ///< per disc, NULL: plain discs
+    const char *field_name;  ///< label of the colour bar with unit, e.g. "rotation (degrees)"
+    scree_colour_map map;
+    bool force_network;      ///< contacts as lines, width by normal force
+    bool boundary;           ///< Delaunay boundary loop
+    bool plates;
+    const double *arrow_x, *arrow_y; ///< per disc, m; NULL: none
+    double arrow_scale;      ///< drawn length over true length; 0: chosen, and told in the figure
+} scree_scene;
+
+/// path without extension.
+scree_status scree_scene_draw(const char *path, const scree_snapshot *snapshot, const scree_scene *scene,
+                              scree_error *error) SCREE_MUST_USE;
+
+#endif
