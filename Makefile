@@ -11,10 +11,12 @@ all: ## build/scree and libscree (static and shared)
 packages: ## install missing Debian packages (root or sudo), or say which
 	@bash cmake/packages.sh
 
-demo: packages all ## the main job, with figures: a biaxial test past its peak, into out-demo/
+demo: packages ## the main job, with figures: a biaxial test past its peak, into out-demo/
+	@$(MAKE) --no-print-directory all
 	@bash cmake/demo.sh $(BUILD)/scree out-demo
 
-test: packages all ## all tests
+test: packages ## all tests
+	@$(MAKE) --no-print-directory all
 	@cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
 
 bench: all ## particle-steps per second, memory, and peers where they are installed
