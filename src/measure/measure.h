@@ -9,6 +9,10 @@
 /// Area of the Delaunay boundary polygon through the centres [m2] (shoelace).
 double scree_loop_area(const scree_state *state);
 
+/// Area of the sample [m2]: bounded by the active plates where there are any (where their forces act) and by the loaded
+/// edges of the Delaunay boundary elsewhere (through the centres, where the pressure acts). Without a loop: the box of the plates.
+double scree_sample_area(const scree_state *state);
+
 /// Average stress from contacts (Christoffersen, Mehrabadi and Nemat-Nasser 1981):
 /// sigma = -(1/(V)) sum_c f (x) l over contacts between bodies, V = area * thickness, plus the boundary term: bodies that
 /// carry boundary forces (walls, pressure) add f_ext (x) (x - x_body_ref), see stress.c for why and with which V.
@@ -24,6 +28,10 @@ void scree_stress_from_plates(const scree_model *model, const scree_state *state
 /// (1/A) sum_edges (u_a + u_b)/2 (x) n L with the mid-configuration. x, y, ux, uy: count values around the loop.
 void scree_loop_gradient(const double *x, const double *y, const double *ux, const double *uy, size_t count,
                          double gradient[4]);
+
+/// Displacement gradient accumulated up to now (sum of increments over the current configuration, so its trace is the
+/// logarithmic volume change): the closed increments in state->strain plus that of the present loop. Tension positive.
+void scree_strain_measure(const scree_state *state, double gradient[4]);
 
 typedef struct scree_coordination {
     double mean;              ///< contacts per body, all bodies, walls counted
