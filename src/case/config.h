@@ -55,7 +55,7 @@ typedef struct scree_config_boundary {
     int lateral;               ///< scree_lateral: pressure on the Delaunay boundary, or rigid side plates under servo
     int64_t every;             ///< steps between two updates of the Delaunay boundary
     double gap_limit;          ///< 1, boundary edges with a free gap above this many mean diameters are cut
-    double servo_gain;         ///< 1, fraction of the stress error corrected in one response time of the plate
+    double servo_gain;         ///< 1, admittance of a plate under servo over that of the sample (1: absorbs waves)
     double servo_velocity;     ///< m/s, largest plate velocity under servo; auto
 } scree_config_boundary;
 
@@ -85,6 +85,7 @@ typedef struct scree_config_stage {
     // compress
     double strain;           ///< 1, axial (logarithmic: no; engineering) strain at which to stop, compression positive
     double rate;             ///< 1/s, axial strain rate referred to the height at the start of the stage
+    double rise_time;        ///< s, in which the plates reach their velocity; auto: four wave times of the sample
 } scree_config_stage;
 
 typedef struct scree_config_window {

@@ -73,6 +73,7 @@ typedef struct scree_loop {
     uint32_t *id;
     uint8_t *loaded;  ///< 1: the edge from id[k] to id[k+1] carries the lateral pressure
     double *x, *y;    ///< m, positions at `updated`; the strain increment since then is measured from them
+    double *fx, *fy;  ///< N, pressure force on each body of the loop at the present step (first half of the next work increment)
     size_t count, capacity;
     uint64_t updated; ///< step of the last update
 } scree_loop;

@@ -44,10 +44,6 @@ typedef struct scree_work {
     int instruction_set;     ///< 0: best of this machine; 2, 3, 4: x86-64-v2, v3, v4
     uint32_t flags;          ///< SCREE_FLAG_...
     uint64_t flagged_id;     ///< a body that raised a flag
-    // boundary forces of the present step, by row (pressure): see boundary/
-    uint32_t *loaded_row;
-    double *loaded_fx, *loaded_fy;
-    size_t loaded_count, loaded_capacity;
     void *contact_scratch;   ///< private to contact/ (per-thread slots); freed by scree_contact_scratch_destroy
 } scree_work;
 
