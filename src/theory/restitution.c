@@ -1,7 +1,7 @@
 /// Restitution of a binary impact.
 ///
-/// Viscoelastic Hertz (Brilliantov et al. 1996; P 2.16, figure 2.1). With lengths in (m v^2 / K)^(2/5) and velocities in
-/// the impact speed v the equation of motion is
+/// Viscoelastic Hertz (Brilliantov et al. 1996; P 2.16, figure 2.1). With lengths in (m v^2 / K)^(2/5) and velocities
+/// in the impact speed v the equation of motion is
 ///     x'' = -sqrt(x) (x + tau x'),   x(0) = 0,  x'(0) = 1,   tau = T v^(1/5) (K / m)^(2/5),
 /// until x + tau x' = 0. It is integrated by GSL's Prince-Dormand pair of order 8 with a tolerance of 1e-12; the last
 /// step is bisected to the moment of release. Restitution falls with tau, hence with the speed. Cost: about 0.1 ms.
@@ -9,11 +9,12 @@
 /// Hertz with damping sqrt(m k) (Tsuji et al. 1992). In the same units x'' = -(x^1.5 + damping x^0.25 x'). With
 /// ds = x^(1/4) dt and y = x^(5/4) this is the linear oscillator (Antypov & Elliott 2011)
 ///     dy/ds = (5/4) v,   dv/ds = -y - damping v,    damping ratio  z = damping / sqrt(5).
-/// The force y + damping v is -dv/ds, so bodies that do not attract each other part at the minimum of v, as for the linear
-/// spring and dashpot of Schwager & Poeschel 2007. With z = cos(a) the phase at release is 2a and the speed there
+/// The force y + damping v is -dv/ds, so bodies that do not attract each other part at the minimum of v, as for the
+/// linear spring and dashpot of Schwager & Poeschel 2007. With z = cos(a) the phase at release is 2a and the speed
+/// there
 ///     e = exp(-2 a cot a),   z < 1;       e = exp(-2 a coth a),  z = cosh(a) > 1;       e = exp(-2),  z = 1.
-/// If attraction were allowed (release at y = 0) it would be e = exp(-pi z / sqrt(1 - z^2)); the two agree to first order
-/// in z, and never attracting bodies keep more of their speed.
+/// If attraction were allowed (release at y = 0) it would be e = exp(-pi z / sqrt(1 - z^2)); the two agree to first
+/// order in z, and never attracting bodies keep more of their speed.
 #include "theory/restitution.h"
 
 #include <gsl/gsl_errno.h>
@@ -33,7 +34,10 @@ static int impact_rates(double time, const double state[2], double rates[2], voi
     return GSL_SUCCESS;
 }
 
-static double force_sign(const double state[2], double tau) { return state[0] + tau * state[1]; }
+static double force_sign(const double state[2], double tau)
+{
+    return state[0] + tau * state[1];
+}
 
 /// Shortens the step that passed the release until it ends there. `state` and `time` enter as before that step.
 static scree_status find_release(gsl_odeiv2_step *stepper, const gsl_odeiv2_system *system, double tau, double longest,

@@ -17,8 +17,8 @@ typedef struct scree_impact {
 scree_status scree_impact_viscoelastic(double speed, double stiffness, double mass, double damping_time,
                                        scree_impact *impact, scree_error *error) SCREE_MUST_USE;
 
-/// Restitution under f = k d + damping sqrt(m_eff k) d', k = A sqrt(R_eff d) (law hertz_mindlin): a function of `damping`
-/// [1] >= 0 alone, the same for every speed, stiffness and mass.
+/// Restitution under f = k d + damping sqrt(m_eff k) d', k = A sqrt(R_eff d) (law hertz_mindlin): a function of
+/// `damping` [1] >= 0 alone, the same for every speed, stiffness and mass.
 double scree_restitution_from_damping(double damping);
 
 /// The inverse, to the last bit. restitution [1]: 1 and above gives 0, 0 and below gives INFINITY.
