@@ -52,6 +52,7 @@ double scree_solid_fraction(const scree_state *state);
 typedef struct scree_energy {
     double kinetic, kinetic_rotation;  ///< J
     double elastic_normal, elastic_tangential;
+    double gravity;         ///< J, work of gravity since the ledger was opened: sum of m g . x minus ledger.gravity
     double residual;        ///< J, of the balance
     double relative;        ///< |residual| / turnover of work
 } scree_energy;

@@ -63,7 +63,7 @@ typedef struct scree_ledger {
     double stiffness; ///< put into tangential springs by the change of their stiffness with indentation (hertz_mindlin)
     double plates;    ///< work of the walls
     double pressure;  ///< work of the pressure on the Delaunay boundary
-    double gravity;   ///< work of gravity
+    double gravity;   ///< sum of m g . x when the ledger was opened
     double initial;   ///< kinetic + elastic energy when the ledger was opened
     double turnover;  ///< sum of |work| increments, the scale of the residual
 } scree_ledger;
