@@ -1,5 +1,5 @@
-/// What a run writes. Order after a step: series row, snapshot, checkpoint, so that a checkpoint knows how many rows and
-/// snapshots there are and a restart cuts what came later.
+/// What a run writes. Order after a step: series row, snapshot, checkpoint, so that a checkpoint knows how many rows
+/// and snapshots there are and a restart cuts what came later.
 #include "run/recorder.h"
 
 #include "io/paraview.h"
@@ -63,7 +63,8 @@ scree_status scree_recorder_checkpoint(scree_recorder *recorder, scree_simulatio
     return status;
 }
 
-/// A snapshot is due at the begin and end of a stage and whenever a loading stage passes another 1/snapshots of its strain.
+/// A snapshot is due at the begin and end of a stage and whenever a loading stage passes another 1/snapshots of its
+/// strain.
 static bool snapshot_due(const scree_simulation *s)
 {
     uint64_t done = s->state.step - s->state.stage.first_step;

@@ -12,12 +12,12 @@ typedef struct scree_recorder {
     scree_log log;
     scree_series_writer series;
     uint64_t case_checksum;
-    double started;           ///< s, monotonic clock at the begin of this process's part of the run
+    double started; ///< s, monotonic clock at the begin of this process's part of the run
     double last_progress, last_checkpoint;
     uint64_t progress_step, checkpoint_step;
-    double rate;              ///< particle-steps per second, over the last progress interval
-    uint64_t first_step;      ///< at `started`
-    double stepping;          ///< s of wall time in the stepping loop
+    double rate;         ///< particle-steps per second, over the last progress interval
+    uint64_t first_step; ///< at `started`
+    double stepping;     ///< s of wall time in the stepping loop
 } scree_recorder;
 
 /// Opens log and series in a run directory that exists; rows > 0 or restart: continues the series after `rows` rows.
@@ -29,7 +29,8 @@ void scree_recorder_close(scree_recorder *recorder);
 scree_status scree_recorder_follow(scree_recorder *recorder, scree_simulation *s, scree_error *error) SCREE_MUST_USE;
 
 /// Writes a checkpoint now.
-scree_status scree_recorder_checkpoint(scree_recorder *recorder, scree_simulation *s, scree_error *error) SCREE_MUST_USE;
+scree_status scree_recorder_checkpoint(scree_recorder *recorder, scree_simulation *s,
+                                       scree_error *error) SCREE_MUST_USE;
 
 /// s, monotonic.
 double scree_clock(void);

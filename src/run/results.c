@@ -1,8 +1,9 @@
 /// The named scalars of summary.json, computed from the whole series.
 ///
-/// Over the loading stages: peak of the stress ratio and its strain; mean stress ratio over the last tenth of the strain
-/// (the critical state, if it was reached); largest compaction and dilation relative to the begin of loading (dilation positive);
-/// mean disagreement of axial stress between plates and contacts; largest relative residual of the energy balance.
+/// Over the loading stages: peak of the stress ratio and its strain; mean stress ratio over the last tenth of the
+/// strain (the critical state, if it was reached); largest compaction and dilation relative to the begin of loading
+/// (dilation positive); mean disagreement of axial stress between plates and contacts; largest relative residual of the
+/// energy balance.
 #include "run/results.h"
 
 #include "io/run_directory.h"
@@ -85,7 +86,10 @@ static void summarise_run(const scree_recorder *recorder, scree_simulation *s, s
     (void)snprintf(checksum, sizeof checksum, "%016" PRIx64, scree_simulation_checksum(s));
     double steps = (double)(s->state.step - recorder->first_step);
     scree_summary_set_text(summary, "case", config->name);
-    scree_summary_set_text(summary, "status", status == SCREE_OK ? "done" : status == SCREE_INTERRUPTED ? "interrupted" : "stopped");
+    scree_summary_set_text(summary, "status",
+                           status == SCREE_OK            ? "done"
+                           : status == SCREE_INTERRUPTED ? "interrupted"
+                                                         : "stopped");
     scree_summary_set_text(summary, "version", scree_version());
     scree_summary_set_integer(summary, "seed", config->seed);
     scree_summary_set_integer(summary, "particles", (int64_t)s->state.count);

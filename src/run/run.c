@@ -40,8 +40,11 @@ static scree_status drive(scree_recorder *recorder, scree_simulation *s, scree_e
     while (!status && s->state.stage.index < s->model.config->stage_count) {
         if (stop && *stop) {
             status = scree_recorder_checkpoint(recorder, s, error);
-            if (!status) status = scree_error_set(error, SCREE_INTERRUPTED, "interrupted at step %llu; continue with "
-                                                  "`scree run --restart %s`", (unsigned long long)s->state.step, recorder->directory);
+            if (!status)
+                status = scree_error_set(error, SCREE_INTERRUPTED,
+                                         "interrupted at step %llu; continue with "
+                                         "`scree run --restart %s`",
+                                         (unsigned long long)s->state.step, recorder->directory);
             break;
         }
         status = scree_simulation_step(s, error);
@@ -69,8 +72,9 @@ static scree_status finish(scree_recorder *recorder, scree_simulation *s, scree_
     scree_status written = scree_results_write(recorder, s, status, status ? &second : error);
     if (!written && !status) written = scree_run_file_finish(recorder->directory, error);
     if (!status) status = written;
-    if (!status) scree_log_write(&recorder->log, SCREE_LOG_INFO, "done: %llu steps in %.1f s", (unsigned long long)s->state.step,
-                                 scree_clock() - recorder->started);
+    if (!status)
+        scree_log_write(&recorder->log, SCREE_LOG_INFO, "done: %llu steps in %.1f s", (unsigned long long)s->state.step,
+                        scree_clock() - recorder->started);
     return status;
 }
 
@@ -85,17 +89,17 @@ static void draw_figures(const scree_recorder *recorder, const scree_simulation 
 }
 
 /// Common part of a new and a restarted run: `s` is open and at the point where stepping begins.
-static scree_status record(scree_simulation *s, const scree_run_options *options, const char *directory, uint64_t checksum,
-                           bool restart, scree_error *error)
+static scree_status record(scree_simulation *s, const scree_run_options *options, const char *directory,
+                           uint64_t checksum, bool restart, scree_error *error)
 {
     scree_recorder recorder;
     scree_status status = scree_recorder_open(&recorder, s, options, directory, restart, error);
     recorder.case_checksum = checksum;
     if (!status) {
-        scree_log_write(&recorder.log, SCREE_LOG_INFO, "%s; case %s, %d threads%s", scree_version(), s->model.config->name,
-                        s->work.threads, restart ? ", restarted" : "");
-        scree_log_write(&recorder.log, SCREE_LOG_INFO, "step %.4g s (critical %.4g s), phi %.4g, psi %.4g", s->model.step,
-                        s->model.critical_step, s->model.phi, s->model.psi);
+        scree_log_write(&recorder.log, SCREE_LOG_INFO, "%s; case %s, %d threads%s", scree_version(),
+                        s->model.config->name, s->work.threads, restart ? ", restarted" : "");
+        scree_log_write(&recorder.log, SCREE_LOG_INFO, "step %.4g s (critical %.4g s), phi %.4g, psi %.4g",
+                        s->model.step, s->model.critical_step, s->model.phi, s->model.psi);
         status = drive(&recorder, s, error);
         status = finish(&recorder, s, status, error);
         if (!status) draw_figures(&recorder, s);

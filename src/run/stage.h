@@ -18,8 +18,8 @@ typedef struct scree_stage_plan {
 
 typedef struct scree_stage {
     const char *name;
-    bool instant;          ///< ends as soon as it has begun (no steps)
-    bool loading;          ///< samples of this stage have an axial strain, and snapshots are evenly spaced in it
+    bool instant; ///< ends as soon as it has begun (no steps)
+    bool loading; ///< samples of this stage have an axial strain, and snapshots are evenly spaced in it
     /// Once, when the stage begins: walls, pressure, reference numbers in state.stage.reference.
     scree_status (*begin)(scree_simulation *s, scree_error *error);
     /// Derives the plan from the state; at begin and after a restart.

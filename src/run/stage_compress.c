@@ -1,8 +1,7 @@
-/// Stage `compress`: the bottom and top plates approach each other at a constant rate (referred to the height at the begin),
-/// reached smoothly within `rise_time`; the sides keep the pressure of the stage before. Stop rule: the axial strain
-/// (engineering, from the plates) has reached `strain`.
-/// reference: [0] height at the begin, [1] wave time, [2..5] accumulated boundary strain at the begin (xx, xy, yx, yy),
-/// [6] impedance of the side plates.
+/// Stage `compress`: the bottom and top plates approach each other at a constant rate (referred to the height at the
+/// begin), reached smoothly within `rise_time`; the sides keep the pressure of the stage before. Stop rule: the axial
+/// strain (engineering, from the plates) has reached `strain`. reference: [0] height at the begin, [1] wave time,
+/// [2..5] accumulated boundary strain at the begin (xx, xy, yx, yy), [6] impedance of the side plates.
 #include "boundary/plates.h"
 #include "measure/measure.h"
 #include "run/simulation.h"
@@ -64,7 +63,10 @@ static scree_status finished(scree_simulation *s, bool *done, scree_error *error
     return SCREE_OK;
 }
 
-static double fraction(const scree_simulation *s) { return scree_axial_strain(s) / scree_stage_config(s)->strain; }
+static double fraction(const scree_simulation *s)
+{
+    return scree_axial_strain(s) / scree_stage_config(s)->strain;
+}
 
 const scree_stage scree_stage_compress = {.name = "compress",
                                           .loading = true,

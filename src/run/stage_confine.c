@@ -1,8 +1,8 @@
-/// Stage `confine`: the plates and the sides press with a pressure that rises smoothly; ends when the assembly is at rest
-/// under it. Stop rule: after the ramp, the mean unbalanced force over the mean contact force stays below
-/// `unbalanced_limit` and both plates carry the pressure within 1 %, for CALM samples in a row. Reaching the time limit is
-/// an error: the sample does not come to rest.
-/// reference: [0] pressure at the begin, [1] wave time, [2] impedance of the plates, [3] impedance of the side plates.
+/// Stage `confine`: the plates and the sides press with a pressure that rises smoothly; ends when the assembly is at
+/// rest under it. Stop rule: after the ramp, the mean unbalanced force over the mean contact force stays below
+/// `unbalanced_limit` and both plates carry the pressure within 1 %, for CALM samples in a row. Reaching the time limit
+/// is an error: the sample does not come to rest. reference: [0] pressure at the begin, [1] wave time, [2] impedance of
+/// the plates, [3] impedance of the side plates.
 #include "boundary/plates.h"
 #include "measure/measure.h"
 #include "run/simulation.h"
@@ -10,7 +10,7 @@
 #include <math.h>
 
 enum { CALM = 5, SAMPLES_A_WAVE = 4 };
-#define RAMP_WAVES 6.0
+#define RAMP_WAVES  6.0
 #define LIMIT_WAVES 400.0
 
 static scree_status begin(scree_simulation *s, scree_error *error)
@@ -75,11 +75,12 @@ static scree_status finished(scree_simulation *s, bool *done, scree_error *error
     (void)snprintf(s->reason, sizeof s->reason, "unbalanced force ratio %.2g below %.2g for %d samples", unbalanced,
                    stage->unbalanced_limit, CALM);
     if (*done || elapsed(s) < s->plan.time_limit) return SCREE_OK;
-    return scree_error_set(error, SCREE_ERROR_GUARD,
-                           "stage %lld (confine): not at rest after %.3g s: unbalanced force ratio %.2g (limit %.2g), plate "
-                           "stress off by %.2g; try a larger unbalanced_limit, a larger time_limit or more damping",
-                           (long long)s->state.stage.index, elapsed(s), unbalanced, stage->unbalanced_limit,
-                           fmax(fabs(bottom), fabs(top)));
+    return scree_error_set(
+        error, SCREE_ERROR_GUARD,
+        "stage %lld (confine): not at rest after %.3g s: unbalanced force ratio %.2g (limit %.2g), plate "
+        "stress off by %.2g; try a larger unbalanced_limit, a larger time_limit or more damping",
+        (long long)s->state.stage.index, elapsed(s), unbalanced, stage->unbalanced_limit,
+        fmax(fabs(bottom), fabs(top)));
 }
 
 static double fraction(const scree_simulation *s)
