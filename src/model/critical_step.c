@@ -6,22 +6,19 @@
 /// For one oscillator that is dt = (2/omega) (sqrt(1 + z^2) - z), z its damping ratio; without damping 2/omega
 /// (M 2.15).
 ///
-/// Assembly. Share the mass and inertia (m R^2/2) of each disc equally among its Z contacts. If every contact with its
-/// shares satisfies the condition by itself, so does the sum. A contact of two discs of mass m resists normal motion
-/// with k_n, c_n against 2 Z/m, and sliding, by translation and by rotation, with k_t, c_t against 2 Z (1 + 2)/m. So dt
-/// solves
-///     dt^2/4 max(k_n, 3 k_t) 2Z/m + dt/2 max(c_n, 3 c_t) 2Z/m = 1:                       a lower bound of the true
-///     one.
-/// M 2.16-2.19 is its undamped, normal part, with coordination left to the user's alpha. How far below the truth it
-/// lies: on the hexagonal lattice the fastest modes are 24 k_t/m (all discs turning alike) and 6 k_n/m, the bound has
-/// 36 k_t/m and 12 k_n/m: 1.2 to 1.4 times in the step without damping, up to twice in strong damping
-/// (tests/unit/test_model.c).
+/// Assembly. The reference is the hexagonal lattice of the smallest discs (mass m, inertia m R^2/2), every contact at
+/// the force of a strong one. Its fastest modes are known: all discs turning alike, so that every contact slides, and
+/// rows moving against each other (the corner M of the Brillouin zone):
+///     K: max(24 k_t, 6 k_n + 2 k_t) / m,     and the same for C.
+/// M 2.16-2.19 has the second alone, without damping and tangential spring, with its user's alpha for the coordination.
+/// Nothing that occurs in a real packing is faster: no disc has more than six neighbours of its own size; larger
+/// neighbours are fewer and heavier (R^2) while their contacts are stiffer only by R_eff^(1/3), a plate's by 2^(1/3).
+/// On a drop-and-roll packing with all contacts equally stiff the true critical step is 1.3 to 2.2 times this one
+/// (tests/unit/test_model.c assembles both).
 ///
-/// Numbers. Z = 6 discs around the smallest one: equal smallest discs are the worst neighbours, since larger ones are
-/// heavier by R^2 while their stiffness grows with R_eff^(1/3). All six contacts carry the force f_s of a strong
-/// contact, STRONG times the mean f0 = p 2<R> thickness: forces of a static packing fall off exponentially above the
-/// mean (P(f) ~ exp(-1.5 f/<f>)), the strongest of 10^4 contacts carries about six times it. Hertz stiffness goes as
-/// f^(1/3), so a factor of two in f_s is 12 % in the step.
+/// Force. f_s = STRONG times the mean f0 = p 2<R> thickness: forces of a static packing fall off exponentially above
+/// the mean (P(f) ~ exp(-1.5 f/<f>)), the strongest of 10^4 contacts carries about six times it. Hertz stiffness goes
+/// as f^(1/3): a factor of two in f_s is 12 % in the step.
 ///
 /// Tangents at a force f:  f = A sqrt(R_eff) d^1.5,  k_n = 1.5 A sqrt(R_eff d),  k_t = 8 Gbar sqrt(R_eff d);
 ///     hertz_brilliantov:  c_n = T A sqrt(R_eff d), no tangential spring. Its friction mu f (s/v_R)^(1/c) is bounded,
@@ -32,14 +29,14 @@
 ///
 /// Loads: the largest confining pressure; gravity as the weight of a column of the whole sample; velocities of a gas
 /// and falls through its box as the force of an elastic impact of two smallest discs at six times the root-mean-square
-/// velocity component. A case that says none of these gets the force at the indentation where its guard would stop it.
+/// velocity component. None of them counts above the force at the indentation where the guard would stop the run; a
+/// case without any load gets that force.
 /// Limits: an estimate. Grains of another material than the smallest ones, stresses far above the confining pressure
 /// and collapses at high speed are not seen; the guard on the energy ledger is.
 #include "model/critical_step.h"
 
 #include <math.h>
 
-static const double COORDINATION = 6;
 static const double STRONG = 6;
 static const double FAST = 6;             // in root-mean-square velocity components
 static const double SOLID_FRACTION = 0.8; // of a packing under its weight
@@ -62,15 +59,21 @@ scree_contact_tangent scree_contact_linearise(const scree_model *model, const sc
     return tangent;
 }
 
-double scree_critical_step_bound(const scree_contact_tangent *tangent, double mass, double coordination)
+/// Step at which one mode of given stiffness and damping, both per mass, becomes unstable.
+static double critical_step_of_mode(double stiffness, double damping)
 {
-    double stiffness = fmax(tangent->normal_stiffness, 3 * tangent->tangential_stiffness);
-    double damping = fmax(tangent->normal_damping, 3 * tangent->tangential_damping);
-    double frequency = sqrt(2 * coordination * stiffness / mass);
-    if (!(frequency > 0)) return INFINITY;
-    double ratio = coordination * damping / (mass * frequency);
+    if (!(stiffness > 0)) return INFINITY;
+    double frequency = sqrt(stiffness), ratio = damping / (2 * frequency);
     // sqrt(1 + z^2) - z without cancellation.
     return 2 / frequency / (sqrt(1 + ratio * ratio) + ratio);
+}
+
+double scree_critical_step_lattice(const scree_contact_tangent *t, double mass)
+{
+    double turning = critical_step_of_mode(24 * t->tangential_stiffness / mass, 24 * t->tangential_damping / mass);
+    double shifting = critical_step_of_mode((6 * t->normal_stiffness + 2 * t->tangential_stiffness) / mass,
+                                            (6 * t->normal_damping + 2 * t->tangential_damping) / mass);
+    return fmin(turning, shifting);
 }
 
 static const scree_config_stage *prepare_stage(const scree_config *config)
@@ -122,8 +125,9 @@ double scree_critical_step_estimate(const scree_model *model)
         double fall = sqrt(2 * hypot(model->gravity[0], model->gravity[1]) * height);
         force = fmax(force, impact_force(stiffness, effective_mass, fmax(FAST * stage->velocity, fall)));
     }
-    if (!(force > 0)) force = stiffness * pow(model->config->guard.overlap * model->radius_min, 1.5);
+    double guard = stiffness * pow(model->config->guard.overlap * model->radius_min, 1.5);
+    if (!(force > 0 && force < guard)) force = guard;
 
     scree_contact_tangent tangent = scree_contact_linearise(model, pair, effective_radius, effective_mass, force);
-    return scree_critical_step_bound(&tangent, mass, COORDINATION);
+    return scree_critical_step_lattice(&tangent, mass);
 }

@@ -15,9 +15,9 @@ typedef struct scree_contact_tangent {
 scree_contact_tangent scree_contact_linearise(const scree_model *model, const scree_pair_constants *pair,
                                               double effective_radius, double effective_mass, double force);
 
-/// Largest stable step [s] of an assembly in which no disc is lighter than `mass` [kg] nor has more than `coordination`
-/// such contacts. Never above the true one of such an assembly. INFINITY without stiffness.
-double scree_critical_step_bound(const scree_contact_tangent *tangent, double mass, double coordination);
+/// Largest stable step [s] of a hexagonal lattice of discs of `mass` [kg] with such contacts. INFINITY without
+/// stiffness.
+double scree_critical_step_lattice(const scree_contact_tangent *tangent, double mass);
 
 /// Estimate for the loads of the model's case (confining pressure, gravity, velocities). Reads everything of the model
 /// but the step.

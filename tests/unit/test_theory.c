@@ -11,9 +11,9 @@
 #include <math.h>
 
 /// Padbidri 2010, appendix B: 983 discs, radii uniform in 0.5 to 1 mm, 100 kPa, 0.005 1/s, density 2.675e8 kg/m3,
-/// thickness 2 <R>. With the mean mass (<R^2> = 7/12 mm^2) phi is 1.205e-4, with the mass of the mean radius 1.162e-4; P
-/// prints 1.1748e-4: within 3 % of both, which covers what P does not say (thickness, which mean mass).
-/// psi = (2N)^(-1/2) = 0.0226. P's 0.021 is 2R/L with the L = 72 mm of P's v0 = 0.18 mm/s (L = 2 v0 / rate), that is, with
+/// thickness 2 <R>. With the mean mass (<R^2> = 7/12 mm^2) phi is 1.205e-4, with the mass of the mean radius 1.162e-4;
+/// P prints 1.1748e-4: within 3 % of both, which covers what P does not say (thickness, which mean mass). psi =
+/// (2N)^(-1/2) = 0.0226. P's 0.021 is 2R/L with the L = 72 mm of P's v0 = 0.18 mm/s (L = 2 v0 / rate), that is, with
 /// the height of the actual sample instead of the nominal 2R (2N)^(1/2) = 66.5 mm.
 static void test_quasistatic_numbers_of_padbidri(void **unused)
 {
@@ -41,8 +41,8 @@ static void test_quasistatic_numbers_in_3d(void **unused)
     assert_true(fabs(psi * cbrt(3413) - 1) < 1e-13);
 }
 
-/// Classical Runge-Kutta with a small fixed step on x'' = -(x^1.5 + damping x^power x'); speed at release. `attractive`:
-/// release at x = 0, else when the force has fallen to zero. Independent of the code under test.
+/// Classical Runge-Kutta with a small fixed step on x'' = -(x^1.5 + damping x^power x'); speed at release.
+/// `attractive`: release at x = 0, else when the force has fallen to zero. Independent of the code under test.
 static double integrate_impact(double damping, double power, int attractive)
 {
     double x = 0, v = 1, h = 1e-4;
@@ -100,7 +100,8 @@ static void test_damping_inverts_restitution(void **unused)
     }
 }
 
-/// Antypov & Elliott 2011 (and Tsuji et al. 1992): with attraction allowed, damping = -sqrt(5) ln e / sqrt(ln^2 e + pi^2).
+/// Antypov & Elliott 2011 (and Tsuji et al. 1992): with attraction allowed, damping = -sqrt(5) ln e / sqrt(ln^2 e +
+/// pi^2).
 static void test_restitution_with_attractive_release(void **unused)
 {
     (void)unused;
@@ -147,7 +148,8 @@ static void test_viscoelastic_impact_with_damping(void **unused)
                          SCREE_OK);
         assert_true(fabs(faster.restitution / impact.restitution - 1) < 2e-8);
     }
-    // Small damping: 1 - e = 1.15344 tau (Schwager & Poeschel 1998), the work of the damping force over the undamped impact.
+    // Small damping: 1 - e = 1.15344 tau (Schwager & Poeschel 1998), the work of the damping force over the undamped
+    // impact.
     double slope = 0.8 * pow(1.25, 0.6) * tgamma(0.6) * tgamma(1.5) / tgamma(2.1), tau = 1e-4;
     assert_true(fabs(slope - 1.15344) < 1e-4);
     assert_int_equal(scree_impact_viscoelastic(1, 1, 1, tau, &impact, NULL), SCREE_OK);
