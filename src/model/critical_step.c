@@ -21,11 +21,12 @@
 /// as f^(1/3): a factor of two in f_s is 12 % in the step.
 ///
 /// Tangents at a force f:  f = A sqrt(R_eff) d^1.5,  k_n = 1.5 A sqrt(R_eff d),  k_t = 8 Gbar sqrt(R_eff d);
-///     hertz_brilliantov:  c_n = T A sqrt(R_eff d), no tangential spring. Its friction mu f (s/v_R)^(1/c) is bounded,
-///     so it cannot
-///                         make a run unstable; but slip below s = 3 mu f dt/m is not resolved: it flips sign every
-///                         step with about this size (P's large step of 1e-5 s: of the order of v_R, P figure 2.4).
+///     hertz_brilliantov:  c_n = T A sqrt(R_eff d), no tangential spring
 ///     hertz_mindlin:      c = damping sqrt(m_eff k), k without the 1.5 (Tsuji et al. 1992), normal and tangential.
+///
+/// The friction of hertz_brilliantov, mu f (s/v_R)^(1/c), is bounded and cannot make a run unstable. But slip slower
+/// than s = 3 mu f dt/m (equal discs) is not resolved: it turns its sign every step with about that size, which is of
+/// the order of v_R at P's large step of 1e-5 s (P figure 2.4, scheme I).
 ///
 /// Loads: the largest confining pressure; gravity as the weight of a column of the whole sample; velocities of a gas
 /// and falls through its box as the force of an elastic impact of two smallest discs at six times the root-mean-square
