@@ -1,9 +1,6 @@
 /// Base: order-free sums, random numbers, memory, errors.
-#include <cmocka.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
+
+#include "testing.h"
 
 #include "base/fixed.h"
 #include "base/memory.h"

@@ -1,9 +1,6 @@
 /// Integrators on an oscillator whose force the test writes into the sums: order, energy, equivalence, threads.
-#include <cmocka.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
+
+#include "testing.h"
 
 #include "base/fixed.h"
 #include "integrate/integrate.h"
