@@ -1,23 +1,24 @@
 /// Deposition of discs one by one under gravity without inertia (Jodrey & Tory 1979; Visscher & Bolsterli 1972), in
-/// exact geometry: a moving disc of radius r is a point among circles of radius R_k + r around the discs already at
-/// rest.
+/// exact geometry: a moving disc of radius r is a point among circles of radius R_k + r around the discs at rest.
 ///
 /// The point falls vertically onto the highest circle below it, then slides down along that circle, away from the top.
 /// On its way down it meets, whichever comes first,
-///     another circle: at rest if the two supports lie on either side of the centre, else it slides on along the new
-///     one
-///                     (the old one then is behind: the path only ever becomes flatter, so this ends);
-///     a side wall or the floor: at rest;
-///     the height of its support's centre: it falls again.
+///
+///   - another circle: it rests if the two supports lie on either side of its centre, else it slides on along the new
+///     one (the old one then is behind; the path only ever becomes flatter, so this ends);
+///   - a side wall or the floor: it rests;
+///   - the height of its support's centre: it falls again.
+///
 /// A point that slides clockwise around circle i enters circle k at the one of their two intersections that lies
 /// counter-clockwise of the line of centres, and the other way round: the meeting point needs no search and no angle.
-/// Only
-/// + - * / and square roots are used, so the packing is the same to the last bit on every machine.
+/// Nothing but the four operations and square roots is used, so the packing is the same to the last bit on any machine.
 ///
 /// Accuracy: a place of rest is the intersection of two circles rounded to doubles: gaps and overlaps of a few units in
-/// the last place of the coordinates, 1e-13 R in a packing of 1000 R. Cost: a grid of cells of the largest diameter
-/// holds all discs; a fall looks at three columns from their tops, a roll at the cells around the support. 1 to 2
-/// microseconds an event for radii 1:2; grows as (largest/smallest)^2 for wide distributions.
+/// the last place of the coordinates, 1e-13 R in a packing of 1000 R.
+///
+/// Cost: a grid of cells of the largest diameter holds all discs; a fall looks at three columns from their tops, a roll
+/// at the cells around the support: 0.8 s for a million discs of 1:2, as much for 1:5. Equal numbers of discs of very
+/// different sizes crowd the cells of the larger: 1.0 s at 1:20.
 #include "prepare/deposit.h"
 
 #include <math.h>

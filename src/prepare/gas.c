@@ -1,12 +1,15 @@
 /// Random loose gas: discs at random places without overlap, with random velocities.
 ///
 /// Places by random sequential addition, largest disc first: random points in the box until one is free. Random
-/// addition of equal discs jams at a solid fraction of 0.547 (Feder 1980), and the trials needed grow without bound
-/// towards it: MOST_TRIALS for one disc carry it to about 0.52. Denser packings are an error. Velocities: normal
-/// components of equal variance (Maxwell, equal temperature only for equal masses), without the drift of the centre of
-/// mass, scaled so that the root mean square of a component is exactly the one asked for. They go through log and cos,
-/// whose last bit may differ between mathematical libraries; places do not. Cost: a cell grid; 0.1 s for 100,000 discs
-/// at 0.4, 1 s at 0.5.
+/// addition of equal discs jams at a solid fraction of 0.547 (Feder 1980) and needs ever more trials towards it;
+/// MOST_TRIALS for one disc carry 100,000 equal discs to 0.51, and discs of 1:2, the small between the large, to 0.62.
+/// Above that is an error.
+///
+/// Velocities: normal components of equal variance (Maxwell; the same temperature for all only if masses are equal),
+/// without the drift of the centre of mass, scaled so that the root mean square of a component is exactly the one asked
+/// for. They go through log and cos, whose last bit may differ between mathematical libraries; places do not.
+///
+/// Cost: a cell grid; 0.3 s for 100,000 equal discs at 0.45, 1 s at 0.5.
 #include "prepare/methods.h"
 
 #include "base/random.h"
@@ -69,8 +72,8 @@ static scree_status does_not_fit(const scree_model *model, const scree_config_st
 {
     return scree_prepare_error(error, model, stage, "solid_fraction",
                                "%zu discs do not fit at random at a solid fraction of %.3g: there was room up to %.2g; "
-                               "ask for 0.5 or less, or prepare with drop_and_roll (about 0.82) or hexagonal (0.91)",
-                               count, stage->solid_fraction, reached);
+                               "ask for %.2g or less, or prepare with drop_and_roll (about 0.8) or hexagonal (0.9)",
+                               count, stage->solid_fraction, reached, 0.95 * reached);
 }
 
 static scree_status place(const scree_model *model, const scree_config_stage *stage, const double *radius, size_t count,
@@ -83,7 +86,10 @@ static scree_status place(const scree_model *model, const scree_config_stage *st
     }
     if (isnan(box->width)) box->width = sqrt(area / (stage->solid_fraction * stage->aspect_ratio));
     box->height = area / (stage->solid_fraction * box->width);
-    if (fmin(box->width, box->height) < 2 * largest) return does_not_fit(model, stage, count, 0, error);
+    if (fmin(box->width, box->height) < 2 * largest)
+        return scree_prepare_error(error, model, stage, "solid_fraction",
+                                   "a disc of radius %g m does not fit into a box of %g m by %g m", largest, box->width,
+                                   box->height);
 
     gas_grid grid = {.radius = radius, .x = x, .y = y, .cell = 2 * largest};
     grid.columns = (size_t)(box->width / grid.cell) + 1;

@@ -5,9 +5,12 @@
 /// sample: phi << 1 says that the macroscopic equations are those of equilibrium, also after the masses were scaled up.
 /// psi is the size of a particle over that of the sample.
 ///
-///     phi = m v0 / (f0 t0) * n,   psi = 1 / n,   v0 = rate L / 2,   L = 2 R n,   t0 = 1 / rate (P 2.3, 2.5, 2.12) 2D:
-///     n = (2N)^(1/2),  f0 = p 2R thickness      (P 2.B1: a sample twice as high as wide, L is its height) 3D:  n =
-///     N^(1/3),     f0 = p (2R)^2            (P 2.13, 2.14)
+///     phi = m v0 / (f0 t0) * n,   psi = 1 / n,   v0 = rate L / 2,   L = 2 R n,   t0 = 1 / rate
+///
+/// (P 2.3, 2.5, 2.12), with n the number of particles across the sample:
+///
+///     2D:  n = (2N)^(1/2),  f0 = p 2R thickness      P 2.B1: a sample twice as high as wide, L is its height
+///     3D:  n = N^(1/3),     f0 = p (2R)^2            P 2.13, 2.14
 #include "theory/quasistatic.h"
 
 #include <math.h>

@@ -1,16 +1,12 @@
 /// The model: constants against closed forms, resolved defaults, errors with their fields, and the critical step
 /// against the largest eigenvalue of assembled lattices and packings.
 #include "biaxial_config.h"
+#include "testing.h"
+
 #include "model/critical_step.h"
 #include "prepare/prepare.h"
 #include "theory/restitution.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-// cmocka.h needs the four above.
-#include <cmocka.h>
 #include <stdlib.h>
 #include <string.h>
 

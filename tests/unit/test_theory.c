@@ -1,13 +1,9 @@
 /// Closed forms: quasistatic numbers against Padbidri's own, restitution against independent integration and limits.
+#include "testing.h"
+
 #include "theory/quasistatic.h"
 #include "theory/restitution.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-// cmocka.h needs the four above.
-#include <cmocka.h>
 #include <math.h>
 
 /// Padbidri 2010, appendix B: 983 discs, radii uniform in 0.5 to 1 mm, 100 kPa, 0.005 1/s, density 2.675e8 kg/m3,
