@@ -1,0 +1,148 @@
+/// A case from its text: YAML, the quick section, --set, schema, rules.
+///
+/// The tree of the text, with everything that overruled it, is kept with the case: written cases and later messages
+/// quote what the user wrote. Numbers are read in the C locale whatever the program's locale is. Cost: about 1 ms for a
+/// usual file, and 10 ms once a process for the unit database.
+#include "case/case.h"
+
+#include "base/memory.h"
+#include "case/path.h"
+#include "case/yaml.h"
+
+#include <locale.h>
+#include <stdio.h>
+#include <string.h>
+
+struct scree_case_source {
+    scree_arena arena; ///< holds this struct and the case too
+    scree_node *root;
+};
+
+/// What is read: a text under a name, and what overrules it.
+typedef struct input {
+    const char *text;
+    size_t length;
+    const char *name;
+    const scree_case_options *options;
+    bool quick;
+    bool overrides;
+} input;
+
+/// Reads the input into `config`; the tree stays in reader->root, NULL when there is none.
+static void read_input(scree_reader *reader, const input *in, scree_config *config)
+{
+    scree_place place = {scree_arena_copy(reader->arena, in->name, strlen(in->name)), 1, 1, SCREE_ORIGIN_FILE};
+    if (!place.source) {
+        scree_reader_fail(reader, strlen(in->name));
+        return;
+    }
+    bool only_quick = reader->only_quick;
+    reader->only_quick = false; // what the YAML parser says is never about one origin
+    bool is_text = scree_text_check(reader, in->text, in->length, place);
+    reader->root = is_text ? scree_yaml_read(reader, in->text, in->length, place) : NULL;
+    reader->only_quick = only_quick;
+    if (!reader->root) return;
+    if (in->quick) scree_quick_apply(reader);
+    for (size_t i = 0; in->overrides && i < in->options->override_count; i++)
+        scree_override_apply(reader, in->options->overrides[i]);
+    if (!reader->failure.status) scree_config_read(reader, config);
+}
+
+/// Notes what is wrong with the quick section of a case that is read without it. A file that is right by itself must be
+/// right with --quick too; of another one only the quick section's own values are judged.
+static void try_quick(scree_reader *main, const input *in)
+{
+    bool overridden = in->options && in->options->override_count > 0;
+    scree_arena arena = {0};
+    scree_config config;
+    memset(&config, 0, sizeof config);
+    scree_reader trial = {.arena = &arena, .problems = main->problems, .failure = main->failure};
+    trial.only_quick = overridden || scree_problems_count(main->problems) > 0;
+    input quick = *in;
+    quick.quick = true;
+    quick.overrides = false;
+    read_input(&trial, &quick, &config);
+    main->failure = trial.failure;
+    scree_arena_release(&arena);
+}
+
+static scree_status conclude(scree_reader *reader)
+{
+    scree_problems *problems = reader->problems;
+    if (reader->failure.status) {
+        scree_problems_replace(problems, &reader->failure);
+        return reader->failure.status;
+    }
+    scree_problems_finish(problems);
+    return scree_problems_count(problems) > 0 ? SCREE_ERROR_INPUT : SCREE_OK;
+}
+
+static scree_status parse(const input *in, scree_problems *problems, scree_case **out)
+{
+    scree_arena arena = {0};
+    scree_case *c = scree_arena_take(&arena, sizeof *c);
+    struct scree_case_source *source = c ? scree_arena_take(&arena, sizeof *source) : NULL;
+    scree_reader reader = {.arena = &arena, .problems = problems};
+    if (source)
+        read_input(&reader, in, &c->config);
+    else
+        scree_reader_fail(&reader, sizeof *c);
+    if (reader.root && !in->quick && !reader.failure.status && scree_node_find(reader.root, "quick"))
+        try_quick(&reader, in);
+    scree_status status = conclude(&reader);
+    if (status) {
+        scree_arena_release(&arena);
+        return status;
+    }
+    *source = (struct scree_case_source){arena, reader.root};
+    c->source = source;
+    *out = c;
+    return SCREE_OK;
+}
+
+scree_status scree_case_parse(const char *text, size_t length, const char *name, const scree_case_options *options,
+                              scree_case **out, scree_problems **problems)
+{
+    scree_problems *found;
+    *out = NULL;
+    if (problems) *problems = NULL;
+    scree_status status = scree_problems_create(&found);
+    if (status) return status;
+    input in = {text, length, name, options, options && options->quick, options != NULL};
+    locale_t c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+    locale_t before = uselocale(c_locale);
+    status = parse(&in, found, out);
+    uselocale(before);
+    freelocale(c_locale);
+    if (status && problems)
+        *problems = found;
+    else
+        scree_problems_free(found);
+    return status;
+}
+
+void scree_case_free(scree_case *c)
+{
+    if (!c) return;
+    scree_arena arena = c->source->arena;
+    scree_arena_release(&arena);
+}
+
+scree_node *scree_case_root(const scree_case *c)
+{
+    return c->source->root;
+}
+
+void scree_case_locate(const scree_case *c, scree_error *error)
+{
+    static const scree_place nowhere = {0};
+    scree_target target;
+    scree_node *root = scree_case_root(c);
+    bool found = scree_path_follow(root, error->field, NULL, nowhere, &target);
+    const scree_node *shown = target.node ? target.node : target.parent ? target.parent : root;
+    (void)snprintf(error->file, sizeof error->file, "%s", shown->place.source);
+    error->line = shown->place.line;
+    error->column = shown->place.column;
+    const char *value = target.node ? target.node->text : found ? target.key->standard : NULL;
+    if (value) (void)snprintf(error->value, sizeof error->value, "%s", value);
+}
