@@ -89,7 +89,7 @@ static size_t number_length(const char *text)
 /// Bytes of `text` to show in a message: at most 60, whole characters.
 static int shown(const char *text)
 {
-    size_t length = strnlen(text, SHOWN + 1);
+    size_t length = strlen(text);
     if (length <= SHOWN) return (int)length;
     length = SHOWN;
     while (length > 0 && ((unsigned char)text[length] & 0xC0) == 0x80) length--;
@@ -209,12 +209,15 @@ static scree_status refuse_unit(const char *text, const char *unit_text, const c
                            unit_text, quantity_noun, example);
 }
 
-/// Powers of ten below one are divided by, so that "7 %" is the double nearest to 0.07, as "0.07" is.
+/// Factors are products of decimal prefixes that carry round-off: a factor next to a whole number is that number, and
+/// one next to the inverse of a whole number divides by it. So "7 %" is the double nearest to 0.07, as "0.07" is.
 static double scaled(double number, double factor)
 {
-    double inverse = rint(1 / factor);
-    bool is_part = factor < 1 && inverse < 1e15 && fabs(inverse * factor - 1) < 1e-14;
-    return (is_part ? number / inverse : number * factor) + 0.0;
+    bool is_part = factor < 1;
+    double whole = rint(is_part ? 1 / factor : factor);
+    bool is_whole = whole < 1e15 && fabs((is_part ? whole * factor : factor / whole) - 1) < 1e-14;
+    if (!is_whole) return number * factor + 0.0;
+    return (is_part ? number / whole : number * whole) + 0.0;
 }
 
 /// The number at the head of `text`, which has `length` bytes, in the C locale.

@@ -23,28 +23,26 @@ typedef struct input {
     const char *text;
     size_t length;
     const char *name;
-    const scree_case_options *options;
-    bool quick;
-    bool overrides;
+    const scree_case_options *options; ///< may be NULL
 } input;
 
-/// Reads the input into `config`; the tree stays in reader->root, NULL when there is none.
-static void read_input(scree_reader *reader, const input *in, scree_config *config)
+/// Reads the text into reader->root, NULL when it holds no tree.
+static void read_tree(scree_reader *reader, const input *in)
 {
     scree_place place = {scree_arena_copy(reader->arena, in->name, strlen(in->name)), 1, 1, SCREE_ORIGIN_FILE};
-    if (!place.source) {
+    if (!place.source)
         scree_reader_fail(reader, strlen(in->name));
-        return;
-    }
-    bool only_quick = reader->only_quick;
-    reader->only_quick = false; // what the YAML parser says is never about one origin
-    bool is_text = scree_text_check(reader, in->text, in->length, place);
-    reader->root = is_text ? scree_yaml_read(reader, in->text, in->length, place) : NULL;
-    reader->only_quick = only_quick;
+    else if (scree_text_check(reader, in->text, in->length, place))
+        reader->root = scree_yaml_read(reader, in->text, in->length, place);
+}
+
+/// From the tree to the config, after quick and overrides.
+static void read_config(scree_reader *reader, const scree_case_options *options, bool quick, scree_config *config)
+{
     if (!reader->root) return;
-    if (in->quick) scree_quick_apply(reader);
-    for (size_t i = 0; in->overrides && i < in->options->override_count; i++)
-        scree_override_apply(reader, in->options->overrides[i]);
+    if (quick) scree_quick_apply(reader);
+    for (size_t i = 0; options && i < options->override_count; i++)
+        scree_override_apply(reader, options->overrides[i]);
     if (!reader->failure.status) scree_config_read(reader, config);
 }
 
@@ -56,12 +54,10 @@ static void try_quick(scree_reader *main, const input *in)
     scree_arena arena = {0};
     scree_config config;
     memset(&config, 0, sizeof config);
-    scree_reader trial = {.arena = &arena, .problems = main->problems, .failure = main->failure};
+    scree_reader trial = {.arena = &arena, .problems = main->problems, .only_quick = true};
+    read_tree(&trial, in); // notes nothing: the main reading did
     trial.only_quick = overridden || scree_problems_count(main->problems) > 0;
-    input quick = *in;
-    quick.quick = true;
-    quick.overrides = false;
-    read_input(&trial, &quick, &config);
+    read_config(&trial, NULL, true, &config);
     main->failure = trial.failure;
     scree_arena_release(&arena);
 }
@@ -83,11 +79,14 @@ static scree_status parse(const input *in, scree_problems *problems, scree_case 
     scree_case *c = scree_arena_take(&arena, sizeof *c);
     struct scree_case_source *source = c ? scree_arena_take(&arena, sizeof *source) : NULL;
     scree_reader reader = {.arena = &arena, .problems = problems};
-    if (source)
-        read_input(&reader, in, &c->config);
-    else
+    bool quick = in->options && in->options->quick;
+    if (source) {
+        read_tree(&reader, in);
+        read_config(&reader, in->options, quick, &c->config);
+    } else {
         scree_reader_fail(&reader, sizeof *c);
-    if (reader.root && !in->quick && !reader.failure.status && scree_node_find(reader.root, "quick"))
+    }
+    if (reader.root && !quick && !reader.failure.status && scree_node_find(reader.root, "quick"))
         try_quick(&reader, in);
     scree_status status = conclude(&reader);
     if (status) {
@@ -108,7 +107,7 @@ scree_status scree_case_parse(const char *text, size_t length, const char *name,
     if (problems) *problems = NULL;
     scree_status status = scree_problems_create(&found);
     if (status) return status;
-    input in = {text, length, name, options, options && options->quick, options != NULL};
+    input in = {text, length, name, options};
     locale_t c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     locale_t before = uselocale(c_locale);
     status = parse(&in, found, out);

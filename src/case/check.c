@@ -5,6 +5,7 @@
 #include "case/case.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { MOST_KEYS = 64 };
@@ -88,7 +89,7 @@ static void refuse_missing(const scope *s, const scree_key *key, const char *pat
     scree_key_accepts(key, limits, sizeof limits);
     bool choices = key->type == SCREE_KEY_CHOICE;
     (void)snprintf(accepted, sizeof accepted, "%s%s%s", choices ? "" : scree_key_noun(key),
-                   limits[0] && !choices ? ": " : "", limits);
+                   limits[0] && !choices ? ", " : "", limits);
     scree_problem_add(s->reader, s->place, path, NULL, accepted, "required, but not given");
 }
 

@@ -130,8 +130,8 @@ static const scree_key boundary_keys[] = {
             .meaning = "Steps between two updates of the Delaunay boundary."),
     NUMBER(boundary, gap_limit, "1", .standard = "0.5", FROM("0"), TO("100"), .when = "lateral=pressure",
            .meaning = "Boundary edges with a free gap above this many mean diameters are cut."),
-    NUMBER(boundary, servo_gain, "1", .standard = "0.5", ABOVE("0"), TO("10"),
-           .meaning = "Part of the stress error that a plate's servo corrects in one response time."),
+    NUMBER(boundary, servo_gain, "1", .standard = "1", ABOVE("0"), TO("10"),
+           .meaning = "Admittance of a plate under servo over that of the sample; 1 absorbs waves."),
     NUMBER(boundary, servo_velocity, "m/s", .standard = "auto", ABOVE("0 m/s"), TO("1000 m/s"),
            .meaning = "Largest velocity of a plate under servo."),
 };
