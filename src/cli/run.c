@@ -70,9 +70,7 @@ static scree_status report(scree_status status, const char *folder, bool quiet, 
 {
     if (status == SCREE_OK && !quiet) fprintf(stderr, "results in %s; `scree get %s` prints them\n", folder, folder);
     if (status == SCREE_OK) return SCREE_OK;
-    if (error->message[0]) (void)scree_terminal_error("run", error);
-    if (status == SCREE_INTERRUPTED) fprintf(stderr, "`scree run --restart %s` continues this run\n", folder);
-    return status;
+    return scree_terminal_error("run", error);
 }
 
 scree_status scree_verb_run(const scree_command *command)
