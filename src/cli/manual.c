@@ -47,7 +47,7 @@ static void write_option(FILE *file, const scree_verb_option *row)
     for (const char *letter = row->name; *letter; letter++) fputs(*letter == '-' ? "\\-" : (char[]){*letter, 0}, file);
     fprintf(file, "\\fR%s%s%s\n", row->value ? " \\fI" : "", row->value ? row->value : "", row->value ? "\\fR" : "");
     write_text(file, row->meaning);
-    if (row->preset) fprintf(file, "Default: %s.\n", row->preset);
+    if (row->preset) fprintf(file, "(default: %s)\n", row->preset);
 }
 
 static void write_verb(FILE *file, const scree_verb *verb)
