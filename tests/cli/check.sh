@@ -2,6 +2,7 @@
 set -u
 scree=$(realpath "$1")
 scratch=$2
+[ -x "$scree" ] || { echo "there is no program $scree"; exit 1; }
 rm -rf "$scratch"
 mkdir -p "$scratch"
 scratch=$(realpath "$scratch")
@@ -10,7 +11,7 @@ checks=0
 failures=0
 
 complain() {
-    echo "FAIL: $*"
+    printf 'FAIL: %.600s\n' "$*"
     failures=$((failures + 1))
 }
 

@@ -44,7 +44,7 @@ read -ra static < <(pkg-config --static --libs scree)
 warnings=(-Wall -Wextra -Wpedantic -Wconversion -Werror)
 # A library built with a sanitizer needs its run time in the program too.
 sanitizer=()
-nm "$lib/libscree.a" 2>/dev/null | grep -q '__asan_init' && sanitizer=(-fsanitize=address,undefined)
+nm "$lib/libscree.a" 2>/dev/null | grep -q '__asan_init' && sanitizer=("-fsanitize=address,undefined")
 nm "$lib/libscree.a" 2>/dev/null | grep -q '__tsan_init' && sanitizer=(-fsanitize=thread)
 compiler=${CC:-cc}
 [ ${#sanitizer[@]} -gt 0 ] && "$scree" --version | grep -q clang && compiler=clang
@@ -73,4 +73,4 @@ if command -v man >/dev/null && command -v groff >/dev/null; then
     errors=$(groff -man -Tutf8 -ww "$page" 2>&1 >/dev/null)
     [ -z "$errors" ] || complain "groff: $errors"
 fi
-finish
+finish ""

@@ -91,4 +91,4 @@ for signal in INT TERM; do
     expect 0 'results in cut' "$scree" run --restart cut --no-figures --threads 1
     same "$("$scree" get cut state_checksum)" "$("$scree" get whole state_checksum)" "restart after SIG$signal"
 done
-finish
+finish ""
