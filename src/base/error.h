@@ -8,7 +8,7 @@
 #include <stdarg.h>
 
 #define SCREE_MUST_USE __attribute__((warn_unused_result))
-#define SCREE_PRINTF(format, first) __attribute__((__format__(__printf__, format, first)))
+#define SCREE_PRINTF(text, first) __attribute__((format(printf, text, first)))
 
 /// Fills `error` (which may be NULL) with a formatted message and returns `status`, so that a caller can write
 /// `return scree_error_set(error, SCREE_ERROR_IO, "cannot write '%s'", path);`. Position and field fields are cleared.

@@ -39,7 +39,7 @@ const scree_field scree_fields[] = {
     {"torque_sum", SCREE_FIELD_INT64, 1, "1", SCREE_FIELD_STATE, false,
      "sum of the contact torques, in units of scalars/torque_quantum", IN_ARRAY(sum, scree_sum_row, torque),
      .rows = SCREE_ROWS_BODIES},
-    {"contact_count", SCREE_FIELD_INT64, 1, "1", SCREE_FIELD_STATE, true, "number of touching neighbours and walls",
+    {"coordination", SCREE_FIELD_INT64, 1, "1", SCREE_FIELD_STATE, true, "number of touching neighbours and walls",
      IN_ARRAY(sum, scree_sum_row, contacts), .rows = SCREE_ROWS_BODIES},
     {"rebuild_x", SCREE_FIELD_DOUBLE, 1, "m", SCREE_FIELD_DERIVED, false, "x at the last rebuild of the neighbour list",
      PLAIN_ARRAY(rebuild_x, double), .rows = SCREE_ROWS_BODIES},
