@@ -2,9 +2,9 @@
 /// with unit and description, so a checkpoint can be read by a person and by h5py; nothing is a dump of memory.
 ///
 /// Attributes of the group: `layout` is a checksum over names, types and shapes of the tables and tells whether this
-/// build knows what it reads; `case_checksum` tells which case it belongs to; `content_checksum` covers every value.
-/// A file that HDF5 cannot open, that lacks something, or whose content does not match is damaged, and the older of the
-/// two is read. Cost: one pass over the state for the checksum, about 170 bytes a body and 40 a contact on disk.
+/// build knows what it reads; `case_checksum` tells which case it belongs to. The seal of the file (seal.h) tells
+/// whether it is whole; when it is not, the older of the two is read. Cost: about 170 bytes a body and 40 a contact on
+/// disk.
 #include "base/checksum.h"
 #include "io/run_file.h"
 #include "io/snapshot.h"
@@ -44,22 +44,6 @@ static uint64_t layout_checksum(void)
     return checksum;
 }
 
-/// Over every stored value, in row order, and the numbers of rows.
-static uint64_t content_checksum(const scree_state *state, uint64_t case_checksum)
-{
-    uint64_t checksum = case_checksum;
-    for (size_t k = 0; k < stored_count(); k++) {
-        const scree_field *field = stored_field(k);
-        if (!field) continue;
-        const size_t rows = scree_field_rows_count(state, field);
-        const size_t size = (size_t)field->components * scree_field_size(field->type);
-        checksum = scree_checksum_word(checksum, rows);
-        for (size_t row = 0; row < rows; row++)
-            checksum = scree_checksum_bytes(checksum, scree_field_get(state, field, row), size);
-    }
-    return checksum;
-}
-
 // ---- writing -----------------------------------------------------------------------------------------------------
 
 static scree_status write_part(const char *path, const char *group, const scree_state *state, uint64_t case_checksum,
@@ -71,7 +55,6 @@ static scree_status write_part(const char *path, const char *group, const scree_
     scree_hdf5_set_text(&part, group, "program", "Scree " SCREE_VERSION);
     scree_hdf5_set_integer(&part, group, "layout", layout_checksum());
     scree_hdf5_set_integer(&part, group, "case_checksum", case_checksum);
-    scree_hdf5_set_integer(&part, group, "content_checksum", content_checksum(state, case_checksum));
     for (size_t k = 0; k < stored_count() && !part.status; k++) {
         const scree_field *field = stored_field(k);
         if (!field) continue;
@@ -115,7 +98,7 @@ static scree_status find_all(const char *directory, found *all, scree_error *err
     if (!status) status = scree_parts_list(directory, SCREE_PART_CHECKPOINT, &all->parts, error);
     if (!status && access(path, F_OK) == 0) {
         scree_hdf5 run;
-        scree_hdf5_open(&run, path, error);
+        scree_hdf5_open_sealed(&run, path, error);
         (void)scree_run_file_list(&run, SCREE_PART_CHECKPOINT, true, &all->groups);
         status = scree_hdf5_close(&run);
     }
@@ -183,20 +166,15 @@ static scree_status make_loop(scree_loop *loop, size_t rows, scree_error *error)
     return status;
 }
 
-/// Makes the part of `state` that `field` describes have `rows` rows; the first field of each kind decides.
+/// Makes the part of `state` that `field` describes have `rows` rows, when it has none yet.
 static scree_status make_room(scree_state *state, const scree_field *field, size_t rows, scree_error *error)
 {
-    scree_status status;
     if (field->rows == SCREE_ROWS_BODIES && !state->row) return scree_state_create(state, rows, error);
-    if (rows == scree_field_rows_count(state, field)) return SCREE_OK;
-    if (field->rows == SCREE_ROWS_CONTACTS && state->contact_count == 0) {
-        status = scree_state_reserve_contacts(state, rows, error);
-        if (!status) state->contact_count = rows;
-        return status;
-    }
     if (field->rows == SCREE_ROWS_LOOP && state->loop.count == 0) return make_loop(&state->loop, rows, error);
-    return scree_error_set(error, SCREE_ERROR_IO, "'%s' has %zu rows, not %zu", field->name, rows,
-                           scree_field_rows_count(state, field));
+    if (field->rows != SCREE_ROWS_CONTACTS || state->contact_count > 0) return SCREE_OK;
+    scree_status status = scree_state_reserve_contacts(state, rows, error);
+    if (!status) state->contact_count = rows;
+    return status;
 }
 
 static void read_field(scree_hdf5 *file, const char *group, const scree_field *field, scree_state *state)
@@ -204,22 +182,20 @@ static void read_field(scree_hdf5 *file, const char *group, const scree_field *f
     scree_array array = scree_array_of_field(state, field);
     scree_hdf5_read(file, group, &array);
     if (!file->status) file->status = make_room(state, field, array.rows, file->error);
+    if (!file->status && array.rows != scree_field_rows_count(state, field))
+        scree_hdf5_damaged(file, "arrays of one kind have different lengths");
     if (!file->status) scree_array_to_field(&array, field, state);
     scree_array_destroy(&array);
 }
 
-/// Compares what was read with what was written, and finds the row of each id.
-static void check_content(scree_hdf5 *file, const char *group, uint64_t case_checksum, scree_state *state)
+/// Finds the row of each id.
+static void find_rows(scree_hdf5 *file, scree_state *state)
 {
-    uint64_t expected = 0;
-    scree_hdf5_get_integer(file, group, "content_checksum", &expected);
-    if (file->status) return;
-    bool same = content_checksum(state, case_checksum) == expected;
-    for (size_t row = 0; row < state->count && same; row++) {
-        same = state->id[row] < state->count;
-        if (same) state->row_of_id[state->id[row]] = (uint32_t)row;
-    }
-    if (!same) scree_hdf5_damaged(file, "its content does not match its checksum");
+    for (size_t row = 0; row < state->count && !file->status; row++)
+        if (state->id[row] < state->count)
+            state->row_of_id[state->id[row]] = (uint32_t)row;
+        else
+            scree_hdf5_damaged(file, "a body has an impossible id");
 }
 
 /// Reads one checkpoint. *damaged: the file is at fault, another one may be whole.
@@ -227,11 +203,11 @@ static scree_status read_one(const char *path, const char *group, scree_state *s
                              bool *damaged, scree_error *error)
 {
     scree_hdf5 file;
-    scree_hdf5_open(&file, path, error);
+    scree_hdf5_open_sealed(&file, path, error);
     check_origin(&file, group, case_checksum);
     for (size_t k = 0; k < stored_count() && !file.status; k++)
         if (stored_field(k)) read_field(&file, group, stored_field(k), state);
-    check_content(&file, group, case_checksum, state);
+    find_rows(&file, state);
     *damaged = file.damaged;
     scree_status status = scree_hdf5_close(&file);
     if (status) scree_state_destroy(state);

@@ -2,6 +2,7 @@
 #include "io/hdf5_file.h"
 
 #include "io/run_directory.h"
+#include "io/seal.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -66,23 +67,32 @@ void scree_hdf5_create(scree_hdf5 *hdf5, const char *path, scree_error *error)
     if (access >= 0) H5Pclose(access);
 }
 
-static void open_existing(scree_hdf5 *hdf5, unsigned mode, scree_error *error, const char *path)
+static void open_existing(scree_hdf5 *hdf5, unsigned mode)
 {
-    begin(hdf5, path, error);
     hid_t access = access_properties(false);
-    if (access >= 0) hdf5->file = H5Fopen(path, mode, access);
+    if (access >= 0) hdf5->file = H5Fopen(hdf5->path, mode, access);
     if (hdf5->file < 0) scree_hdf5_fail(hdf5, "open", NULL);
     if (access >= 0) H5Pclose(access);
 }
 
 void scree_hdf5_open(scree_hdf5 *hdf5, const char *path, scree_error *error)
 {
-    open_existing(hdf5, H5F_ACC_RDONLY, error, path);
+    begin(hdf5, path, error);
+    open_existing(hdf5, H5F_ACC_RDONLY);
+}
+
+void scree_hdf5_open_sealed(scree_hdf5 *hdf5, const char *path, scree_error *error)
+{
+    begin(hdf5, path, error);
+    hdf5->status = scree_seal_check(path, error);
+    hdf5->damaged = hdf5->status != SCREE_OK;
+    if (!hdf5->status) open_existing(hdf5, H5F_ACC_RDONLY);
 }
 
 void scree_hdf5_extend(scree_hdf5 *hdf5, const char *path, scree_error *error)
 {
-    open_existing(hdf5, H5F_ACC_RDWR, error, path);
+    begin(hdf5, path, error);
+    open_existing(hdf5, H5F_ACC_RDWR);
 }
 
 scree_status scree_hdf5_close(scree_hdf5 *hdf5)
@@ -94,35 +104,35 @@ scree_status scree_hdf5_close(scree_hdf5 *hdf5)
     return hdf5->status;
 }
 
-/// The file as it would lie on disk.
-static scree_status take_image(scree_hdf5 *hdf5, void **image, size_t *size)
+/// The bytes of a file in memory, as they would lie on disk; they belong to the core driver, which holds more of them
+/// than the file needs. (H5Fget_file_image gives the size; the copy that it makes has a wrong checksum in HDF5 1.10.8.)
+static void find_image(scree_hdf5 *hdf5, const void **image, size_t *size)
 {
-    ssize_t length = -1;
-    if (H5Fflush(hdf5->file, H5F_SCOPE_GLOBAL) < 0 || (length = H5Fget_file_image(hdf5->file, NULL, 0)) < 0) {
+    void **handle = NULL;
+    ssize_t length = 0;
+    if (H5Fflush(hdf5->file, H5F_SCOPE_GLOBAL) < 0 || (length = H5Fget_file_image(hdf5->file, NULL, 0)) < 0 ||
+        H5Fget_vfd_handle(hdf5->file, H5P_DEFAULT, (void **)&handle) < 0)
         scree_hdf5_fail(hdf5, "prepare", NULL);
-        return hdf5->status;
-    }
     *size = (size_t)length;
-    hdf5->status = scree_allocate(image, *size, 1, hdf5->error);
-    if (!hdf5->status && H5Fget_file_image(hdf5->file, *image, *size) < 0) scree_hdf5_fail(hdf5, "prepare", NULL);
-    return hdf5->status;
+    *image = handle ? *handle : NULL;
 }
 
 scree_status scree_hdf5_save(scree_hdf5 *hdf5)
 {
-    void *image = NULL;
+    const void *image = NULL;
     size_t size = 0;
     FILE *file;
-    if (!hdf5->status) (void)take_image(hdf5, &image, &size);
-    scree_status status = scree_hdf5_close(hdf5);
-    if (!status && !(status = scree_replace_begin(hdf5->path, &file, hdf5->error))) {
-        bool whole = fwrite(image, 1, size, file) == size;
-        if (!whole) status = scree_error_set_errno(hdf5->error, SCREE_ERROR_IO, "cannot write '%s'", hdf5->path);
+    if (!hdf5->status) find_image(hdf5, &image, &size);
+    if (!hdf5->status) hdf5->status = scree_replace_begin(hdf5->path, &file, hdf5->error);
+    if (!hdf5->status) {
+        unsigned char seal[SCREE_SEAL_SIZE];
+        scree_seal_make(image, size, seal);
+        bool whole = fwrite(image, 1, size, file) == size && fwrite(seal, 1, sizeof seal, file) == sizeof seal;
+        if (!whole) hdf5->status = scree_error_set_errno(hdf5->error, SCREE_ERROR_IO, "cannot write '%s'", hdf5->path);
         scree_status finished = scree_replace_finish(hdf5->path, file, whole, whole ? hdf5->error : NULL);
-        if (!status) status = finished;
+        if (whole) hdf5->status = finished;
     }
-    scree_release(&image);
-    return hdf5->status = status;
+    return scree_hdf5_close(hdf5);
 }
 
 // ---- arrays ------------------------------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 #include "io/run_file.h"
 
 #include "io/run_directory.h"
+#include "io/seal.h"
 #include "io/snapshot.h"
 
 #include <scree/scree.h>
@@ -159,7 +160,7 @@ static scree_status read_case_name(const char *path, char *name, size_t size, sc
     name[0] = 0;
     if (access(path, F_OK) != 0) return SCREE_OK;
     scree_hdf5 run;
-    scree_hdf5_open(&run, path, error);
+    scree_hdf5_open_sealed(&run, path, error);
     scree_hdf5_get_text(&run, "/", "case", name, size);
     return scree_hdf5_close(&run);
 }
@@ -184,7 +185,7 @@ static scree_status split(const char *directory, const char *path, int64_t limit
 {
     if (access(path, F_OK) != 0) return SCREE_OK;
     scree_hdf5 run;
-    scree_hdf5_open(&run, path, error);
+    scree_hdf5_open_sealed(&run, path, error);
     for (scree_part_kind kind = 0; kind < SCREE_PART_KINDS && !run.status; kind++) {
         scree_part_list groups, parts;
         if (scree_run_file_list(&run, kind, true, &groups)) break;
@@ -272,9 +273,11 @@ static scree_status reserve(const char *path, off_t bytes, scree_error *error)
     return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot write %jd bytes to '%s'", (intmax_t)bytes, path);
 }
 
-/// Flushes `temporary` to the disk and renames it to `path`.
+/// Seals `temporary`, flushes it to the disk and renames it to `path`.
 static scree_status put_in_place(const char *temporary, const char *path, scree_error *error)
 {
+    scree_status status = scree_seal_append(temporary, error);
+    if (status) return status;
     int file = open(temporary, O_RDWR | O_CLOEXEC);
     bool good = file >= 0 && fsync(file) == 0;
     if (file >= 0) close(file);
@@ -306,7 +309,7 @@ static void gather_part(scree_hdf5 *run, const char *directory, scree_part_kind 
     if (run->status || (run->status = scree_part_path(directory, kind, index, path, sizeof path, run->error))) return;
     scree_part_group(kind, index, group, sizeof group);
     scree_hdf5 part;
-    scree_hdf5_open(&part, path, run->error);
+    scree_hdf5_open_sealed(&part, path, run->error);
     if (!part.status && H5Ocopy(part.file, group, run->file, group, H5P_DEFAULT, H5P_DEFAULT) < 0)
         scree_hdf5_fail(&part, "copy", group);
     run->status = scree_hdf5_close(&part);

@@ -6,7 +6,7 @@
 ///       position (n x 2), radius, velocity, spin, ... from the field table and io/array.h, in id order
 ///       contacts/ first, second (ids), normal, point, branch, normal_force, tangential_force, ...
 ///       boundary/ id (the loop), loaded, ...; walls/ position, normal, force, ...
-///   /checkpoints/000003/          everything in scree_state, bit for bit; attributes case_checksum, content_checksum
+///   /checkpoints/000003/          everything in scree_state, bit for bit; attribute case_checksum
 /// Every dataset has the attributes `unit` and `description`; docs/output.md lists all of them.
 #ifndef SCREE_IO_SNAPSHOT_H
 #define SCREE_IO_SNAPSHOT_H
