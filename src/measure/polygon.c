@@ -1,6 +1,6 @@
 /// Area and displacement gradient of a closed polygon: see polygon.h for the formula and what is exact about it.
 /// Cost: O(1) an edge.
-#include "search/polygon.h"
+#include "measure/polygon.h"
 
 void scree_polygon_add_edge(scree_polygon_sum *sum, const double a[2], const double ua[2], const double b[2],
                             const double ub[2])
@@ -18,17 +18,4 @@ void scree_polygon_add_edge(scree_polygon_sum *sum, const double a[2], const dou
 void scree_polygon_finish(const scree_polygon_sum *sum, double gradient[4])
 {
     for (int i = 0; i < 4; i++) gradient[i] = sum->area > 0 || sum->area < 0 ? sum->gradient[i] / sum->area : 0;
-}
-
-void scree_loop_gradient(const double *x, const double *y, const double *ux, const double *uy, size_t count,
-                         double gradient[4])
-{
-    scree_polygon_sum sum = {0};
-    for (size_t k = 0; k < count; k++) {
-        size_t next = k + 1 < count ? k + 1 : 0;
-        // Relative to the first vertex, so that the area loses no digits far from the origin.
-        double a[2] = {x[k] - x[0], y[k] - y[0]}, b[2] = {x[next] - x[0], y[next] - y[0]};
-        scree_polygon_add_edge(&sum, a, (double[2]){ux[k], uy[k]}, b, (double[2]){ux[next], uy[next]});
-    }
-    scree_polygon_finish(&sum, gradient);
 }

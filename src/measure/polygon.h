@@ -7,10 +7,8 @@
 /// x + u/2. Then exactly, for any polygon and any displacement, trace G = (A_new - A_old) / A_mid; for an affine map
 /// x -> F x + c of any polygon G = 2 (F - 1)(F + 1)^-1, which is log F to third order, and a rigid rotation by theta
 /// gives the antisymmetric 2 tan(theta/2) alone: no spurious strain.
-#ifndef SCREE_SEARCH_POLYGON_H
-#define SCREE_SEARCH_POLYGON_H
-
-#include <stddef.h>
+#ifndef SCREE_MEASURE_POLYGON_H
+#define SCREE_MEASURE_POLYGON_H
 
 /// Start from zeros.
 typedef struct scree_polygon_sum {
@@ -24,10 +22,5 @@ void scree_polygon_add_edge(scree_polygon_sum *sum, const double a[2], const dou
 
 /// Divides by the area; zeros when the area is zero.
 void scree_polygon_finish(const scree_polygon_sum *sum, double gradient[4]);
-
-/// Displacement gradient of the interior of a loop from the displacements of its vertices, as above.
-/// x, y, ux, uy: count values [m] around the loop; gradient out: xx, xy, yx, yy.
-void scree_loop_gradient(const double *x, const double *y, const double *ux, const double *uy, size_t count,
-                         double gradient[4]);
 
 #endif
