@@ -80,9 +80,8 @@ static void replace_loop(const scree_model *model, scree_state *state, const uin
     scree_loop_mark_loaded(model, state);
 }
 
-scree_status scree_boundary_refresh(const scree_model *model, scree_state *state, scree_work *work, scree_error *error)
+scree_status scree_boundary_refresh(const scree_model *model, scree_state *state, scree_error *error)
 {
-    (void)work;
     const scree_loop *loop = &state->loop;
     if (loop->count > 0 && state->step - loop->updated < (uint64_t)model->config->boundary.every) return SCREE_OK;
     uint32_t *ids = NULL;
@@ -135,9 +134,8 @@ static void book_half_work(scree_state *state)
     state->ledger.turnover += fabs(work);
 }
 
-void scree_pressure_forces(const scree_model *model, scree_state *state, scree_work *work)
+void scree_pressure_forces(const scree_model *model, scree_state *state)
 {
-    (void)work;
     scree_loop *loop = &state->loop;
     if (loop->count == 0) return;
     memset(loop->fx, 0, loop->count * sizeof *loop->fx);
