@@ -224,7 +224,7 @@ static scree_status fill_level(scree_cell_grid *grid, const scree_state *state, 
     return SCREE_OK;
 }
 
-scree_status scree_cell_grid_fill(scree_cell_grid *grid, const scree_state *state, int threads, scree_error *error)
+scree_status scree_cell_grid_fill(scree_cell_grid *grid, const scree_state *state, scree_error *error)
 {
     for (size_t k = 0; k < state->count; k++) {
         int m = level_of(grid, state->row[k].radius);

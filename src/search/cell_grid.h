@@ -64,8 +64,7 @@ scree_status scree_cell_grid_order(scree_cell_grid *grid, const scree_state *sta
                                    scree_error *error) SCREE_MUST_USE;
 
 /// Builds cells and slots, after the rows have been brought into grid->order. Errors: memory.
-scree_status scree_cell_grid_fill(scree_cell_grid *grid, const scree_state *state, int threads,
-                                  scree_error *error) SCREE_MUST_USE;
+scree_status scree_cell_grid_fill(scree_cell_grid *grid, const scree_state *state, scree_error *error) SCREE_MUST_USE;
 
 void scree_cell_grid_destroy(scree_cell_grid *grid);
 

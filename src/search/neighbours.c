@@ -179,7 +179,7 @@ static scree_status rebuild(scree_state *state, scree_work *work, scree_error *e
     }
     status = scree_cell_grid_order(&search->grid, state, work->threads, error);
     if (!status) status = scree_state_permute(state, search->grid.order, error);
-    if (!status) status = scree_cell_grid_fill(&search->grid, state, work->threads, error);
+    if (!status) status = scree_cell_grid_fill(&search->grid, state, error);
     if (!status) status = scree_histories_index(search, state, error);
     if (!status) status = search_pairs(state, work, error);
     if (!status) status = assemble(state, work, error);

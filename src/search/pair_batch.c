@@ -12,10 +12,18 @@
 #define JOIN_(name, isa) name##_v##isa
 #define JOIN(name, isa)  JOIN_(name, isa)
 
-enum { LANES = SCREE_SLOT_PADDING, RANGES = 3 };
+/// Doubles in a vector register, and slots that are looked at together.
+#if SCREE_ISA >= 4
+enum { WIDTH = 8 };
+#elif SCREE_ISA == 3
+enum { WIDTH = 4 };
+#else
+enum { WIDTH = 2 };
+#endif
+enum { GROUP = SCREE_SLOT_PADDING, GROUPS = 64 / GROUP, RANGES = 3 };
 
-typedef double wide __attribute__((vector_size(8 * LANES)));
-typedef int64_t wide_mask __attribute__((vector_size(8 * LANES)));
+typedef double wide __attribute__((vector_size(8 * WIDTH)));
+typedef int64_t wide_mask __attribute__((vector_size(8 * WIDTH)));
 
 static inline wide load(const double *from)
 {
@@ -25,55 +33,93 @@ static inline wide load(const double *from)
 }
 
 /// One bit a lane.
-static inline unsigned bits_of(wide_mask mask)
+static inline uint64_t bits_of(wide_mask mask)
 {
-    unsigned bits = 0;
 #if SCREE_ISA >= 4
-    __m512i whole;
-    memcpy(&whole, &mask, sizeof whole);
-    bits = _mm512_movepi64_mask(whole);
+    return _mm512_movepi64_mask((__m512i)mask);
 #elif SCREE_ISA == 3
-    __m256d half[2];
-    memcpy(half, &mask, sizeof half);
-    bits = (unsigned)_mm256_movemask_pd(half[0]) | (unsigned)_mm256_movemask_pd(half[1]) << 4;
+    return (uint64_t)_mm256_movemask_pd((__m256d)mask);
+#elif SCREE_ISA == 2
+    return (uint64_t)_mm_movemask_pd((__m128d)mask);
 #else
-    for (int lane = 0; lane < LANES; lane++) bits |= (unsigned)(mask[lane] & 1) << lane;
+    return (uint64_t)(mask[0] & 1) | (uint64_t)(mask[1] & 2);
 #endif
+}
+
+/// One bit for each slot of a group whose row is above `row`.
+static inline uint64_t rows_above(const uint32_t *rows, uint32_t row)
+{
+#if SCREE_ISA >= 3
+    __m256i group = _mm256_loadu_si256((const __m256i *)rows), limit = _mm256_set1_epi32((int)row);
+    return (uint64_t)(unsigned)_mm256_movemask_ps(_mm256_castsi256_ps(_mm256_cmpgt_epi32(group, limit)));
+#else
+    uint64_t bits = 0;
+    for (int lane = 0; lane < GROUP; lane++) bits |= (uint64_t)(rows[lane] > row) << lane;
     return bits;
+#endif
 }
 
 /// The body that looks for partners.
 typedef struct seeker {
     double x, y, radius, reach; ///< reach = radius + skin
     uint32_t row, id;
-    uint32_t above; ///< only slots with rows >= this one: what lies below finds the seeker, if it is of the same level
+    bool lower; ///< looks in its own level: only for bodies with higher rows, which do not find it in turn
 } seeker;
 
-/// Appends the pairs of the seeker with slots [begin, end). The chunk has room for all of them and one more.
-static inline void search_range(const scree_cell_grid *grid, seeker body, uint32_t begin, uint32_t end,
+/// Groups of slots that have been tested, a bit for each slot of each group.
+typedef struct findings {
+    uint64_t close, touching;
+    uint32_t slot[GROUPS];
+    int groups;
+} findings;
+
+/// Tests the `valid` first slots of a group.
+static inline void test_group(const scree_cell_grid *grid, seeker body, uint32_t slot, uint32_t valid, findings *found)
+{
+    uint64_t close = 0, touching = 0, wanted = valid < GROUP ? (UINT64_C(1) << valid) - 1 : (1 << GROUP) - 1;
+    for (int part = 0; part < GROUP; part += WIDTH) {
+        const uint32_t at = slot + (uint32_t)part;
+        wide dx = load(grid->x + at) - body.x, dy = load(grid->y + at) - body.y;
+        wide radius = load(grid->radius + at), sum = radius + body.radius, wider = radius + body.reach;
+        wide square = dx * dx + dy * dy;
+        close |= bits_of(square < wider * wider) << part;
+        touching |= bits_of(square < sum * sum) << part;
+    }
+    if (body.lower) wanted &= rows_above(grid->row + slot, body.row);
+    found->close |= (close & wanted) << GROUP * found->groups;
+    found->touching |= touching << GROUP * found->groups;
+    found->slot[found->groups++] = slot;
+}
+
+/// Appends what has been found. The chunk has room for all of it and one more.
+static inline void append(const scree_cell_grid *grid, seeker body, findings *found, scree_pair_chunk *chunk)
+{
+    scree_row_pair *touching = chunk->touching.pair + chunk->touching.count;
+    scree_row_pair *near = chunk->near.pair + chunk->near.count;
+    for (uint64_t close = found->close; close; close &= close - 1) {
+        unsigned bit = (unsigned)__builtin_ctzll(close);
+        uint32_t slot = found->slot[bit / GROUP] + bit % GROUP, row = grid->row[slot];
+        bool first = body.id < grid->id[slot], touch = found->touching >> bit & 1;
+        touching->first = near->first = first ? body.row : row;
+        touching->second = near->second = first ? row : body.row;
+        touching += touch;
+        near += !touch;
+    }
+    chunk->touching.count = (size_t)(touching - chunk->touching.pair);
+    chunk->near.count = (size_t)(near - chunk->near.pair);
+    *found = (findings){0};
+}
+
+static inline void search_cells(const scree_cell_grid *grid, seeker body, const scree_cell_ranges *ranges,
                                 scree_pair_chunk *chunk)
 {
-    scree_row_pair *touching = chunk->touching.pair, *near = chunk->near.pair;
-    size_t touching_count = chunk->touching.count, near_count = chunk->near.count;
-    for (uint32_t slot = begin; slot < end; slot += LANES) {
-        wide dx = load(grid->x + slot) - body.x, dy = load(grid->y + slot) - body.y;
-        wide radius = load(grid->radius + slot), sum = radius + body.radius, wider = radius + body.reach;
-        wide square = dx * dx + dy * dy;
-        unsigned close = bits_of(square < wider * wider), touches = bits_of(square < sum * sum);
-        if (end - slot < LANES) close &= (1u << (end - slot)) - 1;
-        for (; close; close &= close - 1) {
-            unsigned lane = (unsigned)__builtin_ctz(close);
-            uint32_t row = grid->row[slot + lane];
-            bool first = body.id < grid->id[slot + lane], touch = touches >> lane & 1, wanted = row >= body.above;
-            scree_row_pair pair = first ? (scree_row_pair){body.row, row} : (scree_row_pair){row, body.row};
-            touching[touching_count] = pair;
-            near[near_count] = pair;
-            touching_count += wanted & touch;
-            near_count += wanted & !touch;
+    findings found = {0};
+    for (int d = 0; d < RANGES; d++)
+        for (uint32_t slot = ranges->begin[d]; slot < ranges->end[d]; slot += GROUP) {
+            test_group(grid, body, slot, ranges->end[d] - slot, &found);
+            if (found.groups == GROUPS) append(grid, body, &found, chunk);
         }
-    }
-    chunk->touching.count = touching_count;
-    chunk->near.count = near_count;
+    append(grid, body, &found, chunk);
 }
 
 static inline scree_status reserve(scree_pair_buffer *buffer, size_t more, size_t guess, scree_error *error)
@@ -127,8 +173,7 @@ scree_status JOIN(scree_pair_search, SCREE_ISA)(const scree_cell_grid *grid, con
     chunk->candidates = 0;
     for (size_t k = begin; k < end; k++) {
         const scree_row *row = &state->row[k];
-        seeker body = {row->x,      row->y,       row->radius,    row->radius + grid->skin,
-                       (uint32_t)k, state->id[k], (uint32_t)k + 1};
+        seeker body = {row->x, row->y, row->radius, row->radius + grid->skin, (uint32_t)k, state->id[k], true};
         scree_status status = search_walls(state, body, &chunk->wall, error);
         for (int m = grid->body_level[k]; m <= grid->top && !status; m++) {
             const scree_cell_level *level = &grid->level[m];
@@ -140,9 +185,9 @@ scree_status JOIN(scree_pair_search, SCREE_ISA)(const scree_cell_grid *grid, con
             status = reserve(&chunk->touching, candidates, 2 * (end - begin), error);
             if (!status) status = reserve(&chunk->near, candidates, (end - begin) / 2, error);
             if (status) break;
-            for (int d = 0; d < RANGES; d++) search_range(grid, body, ranges->begin[d], ranges->end[d], chunk);
+            search_cells(grid, body, ranges, chunk);
             chunk->candidates += candidates;
-            body.above = 0;
+            body.lower = false;
         }
         if (status) return status;
     }
