@@ -226,6 +226,7 @@ static scree_status fill_level(scree_cell_grid *grid, const scree_state *state, 
 
 scree_status scree_cell_grid_fill(scree_cell_grid *grid, const scree_state *state, scree_error *error)
 {
+    grid->levels_in_use = 0;
     for (size_t k = 0; k < state->count; k++) {
         int m = level_of(grid, state->row[k].radius);
         grid->body_level[k] = (uint8_t)m;
@@ -235,6 +236,7 @@ scree_status scree_cell_grid_fill(scree_cell_grid *grid, const scree_state *stat
     scree_status status = SCREE_OK;
     for (int m = 0; m <= grid->top && !status; m++) {
         if (grid->level[m].bodies == 0) continue;
+        grid->levels_in_use++;
         status = fill_level(grid, state, m, cells, (uint32_t)slots, error);
         cells += grid->level[m].cells;
         slots += grid->level[m].bodies;

@@ -35,8 +35,9 @@ typedef struct scree_cell_level {
 } scree_cell_level;
 
 typedef struct scree_cell_grid {
-    double skin; ///< m
-    int top;     ///< highest level
+    double skin;       ///< m
+    int top;           ///< highest level
+    int levels_in_use; ///< levels that hold bodies
     scree_cell_level level[SCREE_CELL_LEVELS];
     double lowest_x, lowest_y; ///< lowest coordinates of an occupied finest cell
     bool finite;               ///< all positions are finite

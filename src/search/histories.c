@@ -68,7 +68,6 @@ scree_status scree_histories_collect(scree_state *state, scree_work *work, scree
             }
     }
     state->contact_count = total;
-    search->listed = false;
     return SCREE_OK;
 }
 

@@ -89,28 +89,63 @@ static scree_status search_pairs(const scree_state *state, scree_work *work, scr
     return scree_error_set_memory(error, search->chunk[failed].touching.capacity * sizeof(scree_row_pair));
 }
 
-/// Puts the pairs of a buffer into the list from number `at` on, with their histories.
-static void list_pairs(const scree_state *state, scree_work *work, const scree_pair_buffer *from, size_t at)
+static uint32_t lower_row(scree_row_pair pair)
 {
-    scree_pair_list *pairs = &work->pairs;
-    for (size_t k = 0; k < from->count; k++, at++) {
-        uint32_t first = from->pair[k].first, second = from->pair[k].second;
-        pairs->first[at] = first;
-        pairs->second[at] = second;
-        pairs->history[at] = scree_history_find(work->search, state, first < second ? first : second, state->id[first],
-                                                state->id[second]);
+    return pair.first < pair.second ? pair.first : pair.second;
+}
+
+/// Puts the touching or near pairs of all chunks into the list from number `at` on.
+/// Within one level they come in the order of their lower rows; else a counting sort brings them into it.
+static void list_pairs(scree_search *search, scree_pair_list *pairs, bool touching, size_t at)
+{
+    uint32_t *next = search->grid.order;
+    const bool sorted = search->grid.levels_in_use <= 1;
+    if (!sorted) memset(next, 0, search->bodies * sizeof *next);
+    for (int c = 0; c < search->chunks && !sorted; c++) {
+        const scree_pair_buffer *from = touching ? &search->chunk[c].touching : &search->chunk[c].near;
+        for (size_t k = 0; k < from->count; k++) next[lower_row(from->pair[k])]++;
+    }
+    size_t sum = at;
+    for (size_t row = 0; row < search->bodies && !sorted; row++) {
+        size_t size = next[row];
+        next[row] = (uint32_t)sum;
+        sum += size;
+    }
+    for (int c = 0; c < search->chunks; c++) {
+        const scree_pair_buffer *from = touching ? &search->chunk[c].touching : &search->chunk[c].near;
+        for (size_t k = 0; k < from->count; k++) {
+            size_t to = sorted ? at++ : next[lower_row(from->pair[k])]++;
+            pairs->first[to] = from->pair[k].first;
+            pairs->second[to] = from->pair[k].second;
+        }
     }
 }
 
-static void list_wall_pairs(const scree_state *state, scree_work *work, const scree_pair_buffer *from, size_t at)
+static void list_wall_pairs(const scree_search *search, scree_wall_pair_list *walls)
 {
-    scree_wall_pair_list *pairs = &work->wall_pairs;
-    for (size_t k = 0; k < from->count; k++, at++) {
-        uint32_t body = from->pair[k].first, wall = from->pair[k].second;
-        pairs->body[at] = body;
-        pairs->wall[at] = wall;
-        pairs->history[at] = scree_history_find(work->search, state, body, state->id[body], SCREE_WALL_ID + wall);
+    size_t at = 0;
+    for (int c = 0; c < search->chunks; c++)
+        for (size_t k = 0; k < search->chunk[c].wall.count; k++, at++) {
+            walls->body[at] = search->chunk[c].wall.pair[k].first;
+            walls->wall[at] = search->chunk[c].wall.pair[k].second;
+        }
+}
+
+/// Gives every pair of the new list its history.
+static void attach_histories(const scree_state *state, scree_work *work)
+{
+    const scree_search *search = work->search;
+    scree_pair_list *pairs = &work->pairs;
+    scree_wall_pair_list *walls = &work->wall_pairs;
+#pragma omp parallel for num_threads(work->threads) schedule(static) if (work->threads > 1)
+    for (size_t k = 0; k < pairs->count; k++) {
+        uint32_t first = pairs->first[k], second = pairs->second[k];
+        pairs->history[k] =
+            scree_history_find(search, state, first < second ? first : second, state->id[first], state->id[second]);
     }
+    for (size_t k = 0; k < walls->count; k++)
+        walls->history[k] = scree_history_find(search, state, walls->body[k], state->id[walls->body[k]],
+                                               SCREE_WALL_ID + walls->wall[k]);
 }
 
 /// Row 0 (wall 0) and no history behind the last pair.
@@ -146,18 +181,10 @@ static scree_status assemble(const scree_state *state, scree_work *work, scree_e
     pairs->count = touching + near;
     pairs->touching_count = touching;
     walls->count = wall;
-#pragma omp parallel for num_threads(search->chunks) schedule(static, 1) if (search->chunks > 1)
-    for (int c = 0; c < search->chunks; c++) {
-        size_t touching_at = 0, near_at = touching, wall_at = 0;
-        for (int before = 0; before < c; before++) {
-            touching_at += search->chunk[before].touching.count;
-            near_at += search->chunk[before].near.count;
-            wall_at += search->chunk[before].wall.count;
-        }
-        list_pairs(state, work, &search->chunk[c].touching, touching_at);
-        list_pairs(state, work, &search->chunk[c].near, near_at);
-        list_wall_pairs(state, work, &search->chunk[c].wall, wall_at);
-    }
+    list_pairs(search, pairs, true, 0);
+    list_pairs(search, pairs, false, touching);
+    list_wall_pairs(search, walls);
+    attach_histories(state, work);
     pad_lists(work);
     return SCREE_OK;
 }
@@ -169,8 +196,10 @@ static scree_status rebuild(scree_state *state, scree_work *work, scree_error *e
     work->valid = false;
     // Until the new list is whole, state->contact holds the histories: a rebuild that fails can be repeated.
     if (search->listed && search->bodies == state->count) status = scree_histories_collect(state, work, error);
-    search->listed = false;
     if (status) return status;
+    search->listed = false;
+    search->bodies = state->count;
+    work->pairs.count = work->pairs.touching_count = work->wall_pairs.count = 0;
 
     scree_cell_grid_fit(&search->grid, state, work->skin, work->threads);
     if (!search->grid.finite) {
@@ -190,7 +219,6 @@ static scree_status rebuild(scree_state *state, scree_work *work, scree_error *e
         state->rebuild_y[k] = state->row[k].y;
     }
     memcpy(search->wall, state->wall, sizeof search->wall);
-    search->bodies = state->count;
     search->listed = work->valid = true;
     work->budget = half_skin(work);
     work->rebuilds++;

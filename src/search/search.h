@@ -21,7 +21,7 @@ struct scree_search {
     size_t entry_begin_capacity, entry_capacity;
 };
 
-/// Moves the nonzero histories of the list to state->contact, with ids. The list holds them no more. Errors: memory.
+/// Copies the nonzero histories of the list to state->contact, with ids. Errors: memory.
 scree_status scree_histories_collect(scree_state *state, scree_work *work, scree_error *error) SCREE_MUST_USE;
 
 /// Sorts the entries of state->contact by rows, for scree_history_find. Entries with unknown ids are left out.
