@@ -7,16 +7,21 @@
 /// Moves every active wall by velocity * dt.
 void scree_plates_move(scree_state *state);
 
-/// Sets the velocity of wall `index` so that its normal stress goes to `pressure` [Pa, compression positive], with the
-/// gain and velocity limit of the case. Damped so that it does not ring: see plates.c.
-void scree_plate_servo(const scree_model *model, scree_state *state, int index, double pressure);
+/// Wave impedance [N s/m] of a sample of the present mass and area at `pressure`, for a plate of `length` [m].
+double scree_sample_impedance(const scree_model *model, const scree_state *state, double length, double pressure);
 
-/// Normal stress on a wall [Pa, compression positive] = force / (length * thickness); length of the wall is the extent of
-/// the sample along it.
+/// Time [s] that a longitudinal wave needs through the longer side of the sample at `pressure`.
+double scree_sample_wave_time(const scree_model *model, const scree_state *state, double pressure);
+
+/// Sets the velocity of wall `index` so that its normal stress goes to `pressure` [Pa, compression positive]:
+/// velocity = gain * (force error) / impedance, within the velocity limit of the case.
+void scree_plate_servo(const scree_model *model, scree_state *state, int index, double impedance, double pressure);
+
+/// Normal stress on a wall [Pa, compression positive] = force / (length * thickness).
 double scree_plate_stress(const scree_model *model, const scree_state *state, int index);
 
 /// Extent of the sample along the wall [m]: between the side plates when they are active, else the mean width of the
 /// Delaunay boundary (area / height).
-double scree_plate_length(const scree_model *model, const scree_state *state, int index);
+double scree_plate_length(const scree_state *state, int index);
 
 #endif

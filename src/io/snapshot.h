@@ -2,7 +2,8 @@
 /// renamed), and run.h5 is a small file of external links, replaced after each: a kill at any moment leaves a readable
 /// run.h5. `scree_run_file_finish` gathers everything into one self-contained run.h5 and removes the parts.
 ///
-///   /snapshots/000012/            attributes: step, time [s], stage, axial_strain, unit and description on each dataset
+///   /snapshots/000012/            attributes: step, time [s], stage, axial_strain, unit and description on each
+///   dataset
 ///       position (n x 2), radius, velocity, spin, ... from the field table (all with snapshot = true), in id order
 ///       contacts/ first, second (ids), normal, point, branch, normal_force, tangential_force, ...
 ///       boundary/ loop (ids), loaded; walls/ position, normal, force, ...
@@ -14,9 +15,9 @@
 #include "integrate/integrate.h"
 
 typedef struct scree_snapshot_info {
-    int64_t index;        ///< running number, names the group
-    double time;          ///< s
-    double axial_strain;  ///< NAN outside loading
+    int64_t index;       ///< running number, names the group
+    double time;         ///< s
+    double axial_strain; ///< NAN outside loading
     const char *stage;
 } scree_snapshot_info;
 
@@ -43,7 +44,7 @@ typedef struct scree_snapshot {
     size_t count;
     double *x, *y, *radius, *angle, *vx, *vy, *spin;
     size_t contact_count;
-    uint32_t *first, *second;   ///< ids; second >= SCREE_WALL_ID is a wall
+    uint32_t *first, *second;                ///< ids; second >= SCREE_WALL_ID is a wall
     double *normal_force, *tangential_force; ///< N
     double *contact_x, *contact_y;           ///< m
     size_t loop_count;
@@ -51,8 +52,8 @@ typedef struct scree_snapshot {
     scree_wall wall[SCREE_WALL_COUNT];
 } scree_snapshot;
 scree_status scree_snapshot_count(const char *directory, size_t *count, scree_error *error) SCREE_MUST_USE;
-scree_status scree_snapshot_read(const char *directory, size_t which, scree_snapshot *snapshot, scree_error *error)
-    SCREE_MUST_USE;
+scree_status scree_snapshot_read(const char *directory, size_t which, scree_snapshot *snapshot,
+                                 scree_error *error) SCREE_MUST_USE;
 void scree_snapshot_destroy(scree_snapshot *snapshot);
 
 #endif

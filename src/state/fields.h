@@ -12,13 +12,13 @@ typedef struct scree_field {
     const char *name;
     scree_field_type type;
     int components;
-    const char *unit;     ///< udunits text, "1" for none
+    const char *unit; ///< udunits text, "1" for none
     scree_field_role role;
-    bool snapshot;        ///< written into snapshots and ParaView files
+    bool snapshot; ///< written into snapshots and ParaView files
     const char *meaning;
-    size_t array_offset;  ///< of the array pointer in scree_state
-    size_t stride;        ///< bytes from one body to the next
-    size_t offset;        ///< bytes from the start of a body's element to the first component
+    size_t array_offset; ///< of the array pointer in scree_state
+    size_t stride;       ///< bytes from one body to the next
+    size_t offset;       ///< bytes from the start of a body's element to the first component
 } scree_field;
 
 extern const scree_field scree_fields[];

@@ -1,7 +1,9 @@
-/// Colour maps in polar CIELUV (lightness L*, chroma C, hue h; CIE 15:2004, D65 white), converted to sRGB (IEC 61966-2-1).
-/// Polar CIELUV palettes after Zeileis, Hornik and Murrell 2009 (Comput. Stat. Data Anal. 53, 3259):
-/// - sequential: a helix, L* and h linear in the position, C constant: equal steps in the data are equal steps to the eye;
-/// - diverging: two rays of constant hue from white, of the same lightness at both ends. Blue against orange-red stays apart
+/// Colour maps in polar CIELUV (lightness L*, chroma C, hue h; CIE 15:2004, D65 white), converted to sRGB (IEC
+/// 61966-2-1). Polar CIELUV palettes after Zeileis, Hornik and Murrell 2009 (Comput. Stat. Data Anal. 53, 3259):
+/// - sequential: a helix, L* and h linear in the position, C constant: equal steps in the data are equal steps to the
+/// eye;
+/// - diverging: two rays of constant hue from white, of the same lightness at both ends. Blue against orange-red stays
+/// apart
 ///   for all common kinds of colour blindness, and lightness alone tells the magnitude.
 /// The constants keep every colour inside the sRGB gamut to 0.01 (tested).
 #include "view/colour.h"

@@ -1,5 +1,5 @@
-/// Pages through Cairo: an SVG surface and an image surface get the same drawing calls. Files are written aside and renamed
-/// (io/run_directory.h), so a full disk leaves no torn figure.
+/// Pages through Cairo: an SVG surface and an image surface get the same drawing calls. Files are written aside and
+/// renamed (io/run_directory.h), so a full disk leaves no torn figure.
 #include "view/page.h"
 
 #include "io/run_directory.h"

@@ -18,7 +18,7 @@ scree_status scree_page_write(const char *path, double width, double height, scr
                               scree_error *error) SCREE_MUST_USE;
 
 typedef struct scree_text_style {
-    double size;      ///< pt
+    double size; ///< pt
     bool bold;
     scree_colour colour;
 } scree_text_style;
@@ -27,11 +27,12 @@ typedef struct scree_text_style {
 void scree_text_show(cairo_t *cairo, double x, double y, double anchor, const char *text, scree_text_style style);
 double scree_text_width(cairo_t *cairo, const char *text, scree_text_style style);
 
-/// Text broken at spaces into lines of at most `width` pt; (x, y) is the top left corner. Returns the y below the last line.
+/// Text broken at spaces into lines of at most `width` pt; (x, y) is the top left corner. Returns the y below the last
+/// line.
 double scree_text_paragraph(cairo_t *cairo, double x, double y, double width, const char *text, scree_text_style style);
 
-/// Copies `text` with every byte that is not valid UTF-8, and every control character, replaced by '?' (white space by a
-/// space); truncated to whole characters.
+/// Copies `text` with every byte that is not valid UTF-8, and every control character, replaced by '?' (white space by
+/// a space); truncated to whole characters.
 void scree_text_clean(char *out, size_t size, const char *text);
 
 void scree_page_colour(cairo_t *cairo, scree_colour colour);

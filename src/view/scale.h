@@ -10,9 +10,9 @@
 double scree_round_below(double value);
 
 typedef struct scree_limits {
-    double low, high;         ///< low < high, what the colours span
-    double smallest, largest; ///< of the finite values; NAN when there is none
-    size_t undefined;         ///< values that are not finite
+    double low, high;               ///< low < high, what the colours span
+    double smallest, largest;       ///< of the finite values; NAN when there is none
+    size_t undefined;               ///< values that are not finite
     bool clipped_low, clipped_high; ///< values lie outside
 } scree_limits;
 

@@ -1,7 +1,7 @@
 /// Scenes: measure what is to be drawn, lay out the page, draw it.
 ///
-/// The page is at most 170 mm wide and 180 mm high, so that it fits an A4 text block as it is, and shrunk to a column of
-/// 80 mm its smallest text still has 5 pt. Sample at the left, legend at the right, title above, scale bar below.
+/// The page is at most 170 mm wide and 180 mm high, so that it fits an A4 text block as it is, and shrunk to a column
+/// of 80 mm its smallest text still has 5 pt. Sample at the left, legend at the right, title above, scale bar below.
 #include "view/scene_parts.h"
 
 #include "base/memory.h"
@@ -127,7 +127,8 @@ static scree_status measure_arrows(scree_scene_view *view, scree_error *error)
     if (!(typical > 0)) typical = count > 0 ? length[count - 1] : 0;
     scree_release(&length);
     if (!(typical > 0)) return SCREE_OK;
-    view->arrow_scale = scene->arrow_scale > 0 ? scene->arrow_scale : scree_round_below(6 * view->mean_radius / typical * 1.2);
+    view->arrow_scale =
+        scene->arrow_scale > 0 ? scene->arrow_scale : scree_round_below(6 * view->mean_radius / typical * 1.2);
     return SCREE_OK;
 }
 
@@ -135,7 +136,8 @@ static void write_caption(scree_scene_view *view)
 {
     const scree_snapshot *s = view->snapshot;
     char strain[48] = "", time[48] = "", left_out[64] = "", number[32];
-    if (isfinite(s->axial_strain)) (void)snprintf(strain, sizeof strain, ", axial strain %.2f %%", 100 * s->axial_strain);
+    if (isfinite(s->axial_strain))
+        (void)snprintf(strain, sizeof strain, ", axial strain %.2f %%", 100 * s->axial_strain);
     scree_number_text(number, sizeof number, s->time, 4);
     if (isfinite(s->time)) (void)snprintf(time, sizeof time, ", t = %s s", number);
     if (view->disc_count < s->count)

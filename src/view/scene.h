@@ -10,18 +10,18 @@
 
 typedef struct scree_scene {
     const char *title;
-    const double *field;     ///< per disc, NULL: plain discs; discs where it is not finite are grey
-    const char *field_name;  ///< label of the colour bar with unit, e.g. "rotation (degrees)"
-    scree_colour_map map;    ///< diverging: limits symmetric about zero
-    bool force_network;      ///< contacts as lines, width by normal force
-    bool boundary;           ///< Delaunay boundary loop
+    const double *field;    ///< per disc, NULL: plain discs; discs where it is not finite are grey
+    const char *field_name; ///< label of the colour bar with unit, e.g. "rotation (degrees)"
+    scree_colour_map map;   ///< diverging: limits symmetric about zero
+    bool force_network;     ///< contacts as lines, width by normal force
+    bool boundary;          ///< Delaunay boundary loop
     bool plates;
     const double *arrow_x, *arrow_y; ///< per disc, m; NULL: none
-    double arrow_scale;      ///< drawn length over true length; 0: chosen, and told in the figure
+    double arrow_scale;              ///< drawn length over true length; 0: chosen, and told in the figure
 } scree_scene;
 
-/// path without extension. Discs without a finite position or a positive radius are left out, and counted in the caption.
-/// Errors: no disc to draw (SCREE_ERROR_INPUT), disk, memory.
+/// path without extension. Discs without a finite position or a positive radius are left out, and counted in the
+/// caption. Errors: no disc to draw (SCREE_ERROR_INPUT), disk, memory.
 scree_status scree_scene_draw(const char *path, const scree_snapshot *snapshot, const scree_scene *scene,
                               scree_error *error) SCREE_MUST_USE;
 

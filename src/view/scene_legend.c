@@ -1,5 +1,5 @@
-/// The legend of a scene, a column of parts from top to bottom: colour bar, line widths, reference arrow, boundary. A part
-/// that the scene does not have takes no room.
+/// The legend of a scene, a column of parts from top to bottom: colour bar, line widths, reference arrow, boundary. A
+/// part that the scene does not have takes no room.
 #include "view/scene_parts.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/// The marks of a scene: plates, discs, force network, Delaunay boundary, arrows. Marks of equal style share one path, which
-/// keeps the SVG of 5000 discs near 2 MB. Cost: linear.
+/// The marks of a scene: plates, discs, force network, Delaunay boundary, arrows. Marks of equal style share one path,
+/// which keeps the SVG of 5000 discs near 2 MB. Cost: linear.
 #include "view/scene_parts.h"
 
 #include <math.h>
@@ -10,8 +10,8 @@ static void draw_disc_paths(const scree_scene_view *view, cairo_t *cairo, size_t
     for (size_t k = from; k < to; k++) {
         uint32_t disc = view->order[k];
         cairo_new_sub_path(cairo);
-        cairo_arc(cairo, scree_scene_x(view, s->x[disc]), scree_scene_y(view, s->y[disc]), s->radius[disc] * view->scale,
-                  0, 2 * M_PI);
+        cairo_arc(cairo, scree_scene_x(view, s->x[disc]), scree_scene_y(view, s->y[disc]),
+                  s->radius[disc] * view->scale, 0, 2 * M_PI);
         cairo_close_path(cairo);
     }
 }
@@ -41,7 +41,8 @@ double scree_scene_force_width(const scree_scene_view *view, double ratio)
     return fmax(0.1, fmin(ratio, SCREE_SCENE_FORCE_LIMIT) * SCREE_SCENE_FORCE_WIDTH * diameter);
 }
 
-/// Where the line of a contact ends: the centre of the other disc, or the contact point on a wall. False: not to be drawn.
+/// Where the line of a contact ends: the centre of the other disc, or the contact point on a wall. False: not to be
+/// drawn.
 static bool contact_end(const scree_snapshot *s, size_t k, double *x, double *y)
 {
     if (s->first[k] >= s->count || !scree_scene_drawn(s, s->first[k])) return false;
@@ -129,8 +130,9 @@ void scree_scene_arrow(const scree_scene_view *view, cairo_t *cairo, double x, d
     double shaft = fmin(0.7, fmax(0.3, 0.09 * 2 * view->mean_radius * view->scale)) / 2;
     double head = fmin(0.45 * length, 9 * shaft), half = 0.42 * head;
     shaft = fmin(shaft, half / 2);
-    const double outline[7][2] = {{0, shaft},      {length - head, shaft},   {length - head, half}, {length, 0},
-                                  {length - head, -half}, {length - head, -shaft}, {0, -shaft}};
+    const double outline[7][2] = {{0, shaft},  {length - head, shaft}, {length - head, half},
+                                  {length, 0}, {length - head, -half}, {length - head, -shaft},
+                                  {0, -shaft}};
     for (int k = 0; k < 7; k++) {
         double px = x + outline[k][0] * ex - outline[k][1] * ey, py = y + outline[k][0] * ey + outline[k][1] * ex;
         if (k == 0)

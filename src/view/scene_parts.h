@@ -6,7 +6,7 @@
 #include "view/scale.h"
 #include "view/scene.h"
 
-#define SCREE_SCENE_LEVELS       96   ///< colours and line widths are drawn in so many steps, one path each (small files)
+#define SCREE_SCENE_LEVELS       96 ///< colours and line widths are drawn in so many steps, one path each (small files)
 #define SCREE_SCENE_FORCE_LIMIT  6.0  ///< times the mean normal force: lines grow no wider beyond it
 #define SCREE_SCENE_FORCE_WIDTH  0.15 ///< width of the line of the mean force over the mean diameter
 #define SCREE_SCENE_LEGEND_WIDTH 106  ///< pt
@@ -15,24 +15,25 @@ typedef struct scree_scene_view {
     const scree_snapshot *snapshot;
     const scree_scene *scene;
     // what is drawn
-    size_t disc_count;              ///< discs with a place on the page
-    double low[2], high[2];         ///< m, corners of what is drawn
-    double mean_radius;             ///< m
-    scree_limits limits;            ///< of the field
-    uint32_t *order;                ///< drawn discs by colour level
+    size_t disc_count;                    ///< discs with a place on the page
+    double low[2], high[2];               ///< m, corners of what is drawn
+    double mean_radius;                   ///< m
+    scree_limits limits;                  ///< of the field
+    uint32_t *order;                      ///< drawn discs by colour level
     size_t start[SCREE_SCENE_LEVELS + 2]; ///< of each level in `order`; the last level is "undefined"
-    double mean_force;              ///< N, over touching contacts between discs; 0: none
-    double arrow_scale;             ///< drawn over true length; 0: no arrows
-    double arrow_typical;           ///< m, 95th percentile of their true length
+    double mean_force;                    ///< N, over touching contacts between discs; 0: none
+    double arrow_scale;                   ///< drawn over true length; 0: no arrows
+    double arrow_typical;                 ///< m, 95th percentile of their true length
     // where, pt
-    double scale;                   ///< pt per m
+    double scale;                    ///< pt per m
     double left, top, width, height; ///< of the sample
     double page_width, page_height;
     char title[512], caption[160], field_name[160];
 } scree_scene_view;
 
 /// Line colours and text styles of all scenes.
-extern const scree_colour scree_scene_ink, scree_scene_quiet, scree_scene_weak, scree_scene_strong, scree_scene_boundary;
+extern const scree_colour scree_scene_ink, scree_scene_quiet, scree_scene_weak, scree_scene_strong,
+    scree_scene_boundary;
 scree_text_style scree_scene_text(double size);
 
 static inline double scree_scene_x(const scree_scene_view *view, double x)

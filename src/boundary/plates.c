@@ -1,0 +1,72 @@
+/// Rigid plates.
+///
+/// Servo. A plate under servo is a dashpot that closes the sample with its own wave impedance: its velocity is the
+/// force error over Z, so a wave that reaches it is absorbed instead of reflected, and it cannot ring whatever the
+/// stiffness of the sample. Z = L t sqrt(M rho), M the longitudinal modulus and rho the bulk density of the assembly; M
+/// is estimated from the Hertz stiffness at the mean contact force f = p 2R t: k = 1.5 K^(2/3) f^(1/3), M t = k (a
+/// triangular net of springs k has M = 1.3 k, a loose one about half of it; the gain of the case scales the estimate).
+/// Limits: quasistatic servo; the stress is the one of the last force evaluation. Cost: O(boundary) a step.
+#include "boundary/plates.h"
+
+#include "measure/measure.h"
+
+#include <math.h>
+
+void scree_plates_move(scree_state *state)
+{
+    for (int w = 0; w < SCREE_WALL_COUNT; w++)
+        if (state->wall[w].active) state->wall[w].position += state->wall[w].velocity * state->step_size;
+}
+
+/// Distance between a pair of opposite walls.
+static double distance(const scree_state *state, int one, int other)
+{
+    // Opposite normals: positions along them add up to minus the distance.
+    return -(state->wall[one].position + state->wall[other].position);
+}
+
+double scree_plate_length(const scree_state *state, int index)
+{
+    bool horizontal = index == SCREE_WALL_BOTTOM || index == SCREE_WALL_TOP;
+    double height = distance(state, SCREE_WALL_BOTTOM, SCREE_WALL_TOP);
+    if (!horizontal) return height;
+    if (state->wall[SCREE_WALL_LEFT].active && state->wall[SCREE_WALL_RIGHT].active)
+        return distance(state, SCREE_WALL_LEFT, SCREE_WALL_RIGHT);
+    return scree_sample_area(state) / height;
+}
+
+double scree_plate_stress(const scree_model *model, const scree_state *state, int index)
+{
+    return state->wall[index].force / (scree_plate_length(state, index) * model->thickness);
+}
+
+double scree_sample_impedance(const scree_model *model, const scree_state *state, double length, double pressure)
+{
+    double mass = 0, area = scree_sample_area(state);
+    for (size_t id = 0; id < state->count; id++) mass += state->row[state->row_of_id[id]].mass;
+    double contact_force = pressure * 2 * model->mean_radius * model->thickness;
+    double k = model->pairs[0][0].normal_stiffness * sqrt(0.5 * model->mean_radius);
+    double stiffness = 1.5 * cbrt(k * k * contact_force);
+    return length * sqrt(stiffness * mass / area);
+}
+
+double scree_sample_wave_time(const scree_model *model, const scree_state *state, double pressure)
+{
+    double mass = 0;
+    for (size_t id = 0; id < state->count; id++) mass += state->row[state->row_of_id[id]].mass;
+    double height = distance(state, SCREE_WALL_BOTTOM, SCREE_WALL_TOP);
+    double length = scree_plate_length(state, SCREE_WALL_TOP);
+    return mass / (scree_sample_impedance(model, state, length, pressure)) * (height > length ? 1 : length / height);
+}
+
+void scree_plate_servo(const scree_model *model, scree_state *state, int index, double impedance, double pressure)
+{
+    const scree_config_boundary *boundary = &model->config->boundary;
+    scree_wall *wall = &state->wall[index];
+    double target = pressure * scree_plate_length(state, index) * model->thickness;
+    double velocity = boundary->servo_gain * (target - wall->force) / impedance;
+    double limit = boundary->servo_velocity;
+    // Auto: a plate may not cross a hundredth of the smallest radius in a step.
+    if (isnan(limit)) limit = 0.01 * model->radius_min / state->step_size;
+    wall->velocity = fmax(-limit, fmin(limit, velocity));
+}

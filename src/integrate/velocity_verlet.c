@@ -1,0 +1,24 @@
+/// Velocity Verlet (Swope, Andersen, Berens and Wilson 1982): half a kick, drift, forces, half a kick. Stored
+/// velocities belong to the same instant as positions; contact forces see v(n+1/2), as in every code that uses this
+/// scheme for grains. Order: 2 for forces of positions; 1 for forces of velocities. Costs one pass over the bodies more
+/// than position Verlet, with which it shares its trajectory when started alike (tests/unit/test_integrate.c).
+#include "integrate/kick.h"
+#include "integrate/schemes.h"
+
+static void first(const scree_model *model, scree_state *state, scree_work *work)
+{
+    scree_kick_book(state, work, scree_kick(model, state, 0.5, true, work->threads));
+}
+
+static void second(const scree_model *model, scree_state *state, scree_work *work)
+{
+    (void)scree_kick(model, state, 0.5, false, work->threads);
+}
+
+const scree_integrator scree_velocity_verlet = {
+    .name = "velocity_verlet",
+    .meaning = "half kick, drift, forces, half kick; velocities and positions belong to the same instant; two passes",
+    .first = first,
+    .second = second,
+    .velocity_lead = 0.5,
+};

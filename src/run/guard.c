@@ -1,0 +1,79 @@
+/// Guards and their messages: which body, why, and what to try.
+#include "run/guard.h"
+
+#include <math.h>
+
+/// Lowest id whose row is not finite; count when there is none.
+static size_t first_not_finite(const scree_state *state)
+{
+    for (size_t id = 0; id < state->count; id++) {
+        const scree_row *row = &state->row[state->row_of_id[id]];
+        if (!isfinite(row->x) || !isfinite(row->y) || !isfinite(row->vx) || !isfinite(row->vy) || !isfinite(row->spin))
+            return id;
+    }
+    return state->count;
+}
+
+static scree_status stop_not_finite(const scree_simulation *s, scree_error *error)
+{
+    size_t id = first_not_finite(&s->state);
+    return scree_error_set(error, SCREE_ERROR_GUARD,
+                           "step %llu: position or velocity of particle %zu is not a number; "
+                           "the step is probably too large: try integrator.step=%.2g s (now %.2g s, critical %.2g s)",
+                           (unsigned long long)s->state.step, id, 0.2 * s->state.step_size, s->state.step_size,
+                           s->model.critical_step);
+}
+
+static scree_status stop_overlap(const scree_simulation *s, scree_error *error)
+{
+    const scree_row *row = &s->state.row[s->state.row_of_id[s->work.flagged_id]];
+    return scree_error_set(error, SCREE_ERROR_GUARD,
+                           "step %llu: particle %llu at (%.4g, %.4g) m is indented by more than %.3g of its radius "
+                           "(guard.overlap); the load is too high for the stiffness or the motion too fast: "
+                           "try a stiffer material, a lower pressure or a slower rate",
+                           (unsigned long long)s->state.step, (unsigned long long)s->work.flagged_id, row->x, row->y,
+                           s->model.config->guard.overlap);
+}
+
+scree_status scree_guard_step(const scree_simulation *s, scree_error *error)
+{
+    uint32_t flags = s->work.flags;
+    if (!flags) return SCREE_OK;
+    if (flags & SCREE_FLAG_NAN) return stop_not_finite(s, error);
+    if (flags & SCREE_FLAG_OVERLAP) return stop_overlap(s, error);
+    return scree_error_set(error, SCREE_ERROR_GUARD,
+                           "step %llu: a force on particle %llu exceeds the bound of this step (%.3g N); "
+                           "the motion changes too much within one step: try a smaller integrator.step",
+                           (unsigned long long)s->state.step, (unsigned long long)s->work.flagged_id,
+                           ldexp(s->state.force_quantum, 50));
+}
+
+/// A body that has left the neighbourhood of all others by more than the size of the sample will not come back.
+static scree_status stop_escaped(const scree_simulation *s, scree_error *error)
+{
+    const scree_state *state = &s->state;
+    const scree_wall *bottom = &state->wall[SCREE_WALL_BOTTOM], *top = &state->wall[SCREE_WALL_TOP];
+    for (size_t id = 0; id < state->count; id++) {
+        const scree_row *row = &state->row[state->row_of_id[id]];
+        bool below = bottom->active && row->y < bottom->position;
+        bool above = top->active && -row->y < top->position;
+        if (below || above)
+            return scree_error_set(error, SCREE_ERROR_GUARD,
+                                   "step %llu: the centre of particle %zu is behind the %s plate, at (%.4g, %.4g) m: "
+                                   "the plate moves too fast or the step is too large",
+                                   (unsigned long long)state->step, id, below ? "bottom" : "top", row->x, row->y);
+    }
+    return SCREE_OK;
+}
+
+scree_status scree_guard_sample(const scree_simulation *s, double relative_residual, scree_error *error)
+{
+    scree_status status = stop_escaped(s, error);
+    if (status) return status;
+    double limit = s->model.config->guard.energy_growth;
+    if (relative_residual <= limit) return SCREE_OK;
+    return scree_error_set(error, SCREE_ERROR_GUARD,
+                           "step %llu: the energy balance is open by %.2g of the work done (guard.energy_growth %.2g); "
+                           "energy appears from nowhere: try integrator.step=%.2g s",
+                           (unsigned long long)s->state.step, relative_residual, limit, 0.25 * s->state.step_size);
+}

@@ -1,0 +1,44 @@
+/// A simulation in memory: the case, its model, the state, the work, and the stage that runs now.
+#ifndef SCREE_RUN_SIMULATION_H
+#define SCREE_RUN_SIMULATION_H
+
+#include "case/case.h"
+#include "contact/contact.h"
+#include "integrate/integrate.h"
+#include "run/stage.h"
+
+/// One row of series.csv; the columns are in sample.c.
+#define SCREE_SAMPLE_COLUMNS 35
+typedef struct scree_sample {
+    double value[SCREE_SAMPLE_COLUMNS];
+} scree_sample;
+
+struct scree_simulation {
+    const scree_case *c;
+    scree_model model;       ///< of the case
+    scree_model stage_model; ///< with the friction of the present stage; what the kernels see
+    const scree_integrator *integrator;
+    scree_state state;
+    scree_work work;
+    scree_contact_table table; ///< at the last sample
+    const scree_stage *stage;  ///< NULL when the case has ended
+    scree_stage_plan plan;
+    scree_sample sample; ///< the last one
+    bool sampled;        ///< the last step made a sample
+    bool stage_ended;    ///< the last step ended a stage
+    char reason[192];    ///< why it ended
+};
+
+/// Builds model and work; the first stage has not begun. Errors: model_build's, memory.
+scree_status scree_simulation_open(const scree_case *c, int threads, scree_simulation *s,
+                                   scree_error *error) SCREE_MUST_USE;
+void scree_simulation_close(scree_simulation *s);
+
+/// Begins the stage in state.stage.index (a new stage), or takes it up again after a restart.
+scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *error) SCREE_MUST_USE;
+
+/// One step with all that hangs on it: sample when due, end of the stage, begin of the next. Sets sampled, stage_ended;
+/// stage becomes NULL at the end of the case.
+scree_status scree_simulation_step(scree_simulation *s, scree_error *error) SCREE_MUST_USE;
+
+#endif

@@ -1,0 +1,55 @@
+/// Stages: one file a kind (stage_*.c), one descriptor each, listed in stage.c.
+#ifndef SCREE_RUN_STAGE_H
+#define SCREE_RUN_STAGE_H
+
+#include "state/work.h"
+
+typedef struct scree_simulation scree_simulation;
+
+/// What a stage needs at every step and can be derived from the state at its begin (so it is not stored).
+typedef struct scree_stage_plan {
+    uint64_t interval;     ///< steps between two samples
+    uint64_t expected;     ///< steps of the whole stage, 0: not known in advance
+    double ramp_time;      ///< s
+    double impedance;      ///< N s/m, of the bottom and top plates
+    double side_impedance; ///< N s/m, of the side plates
+    double time_limit;     ///< s
+} scree_stage_plan;
+
+typedef struct scree_stage {
+    const char *name;
+    bool instant; ///< ends as soon as it has begun (no steps)
+    bool loading; ///< samples of this stage have an axial strain, and snapshots are evenly spaced in it
+    /// Once, when the stage begins: walls, pressure, reference numbers in state.stage.reference.
+    scree_status (*begin)(scree_simulation *s, scree_error *error);
+    /// Derives the plan from the state; at begin and after a restart.
+    void (*plan)(scree_simulation *s);
+    /// Every step, before the plates move: velocities of plates, pressure. NULL: nothing to do.
+    void (*control)(scree_simulation *s);
+    /// At every sample: has the stage ended? Then writes the reason. May fail: time limit.
+    scree_status (*finished)(scree_simulation *s, bool *done, scree_error *error);
+    /// Fraction done, NAN when not known.
+    double (*fraction)(const scree_simulation *s);
+} scree_stage;
+
+const scree_stage *scree_stage_get(scree_stage_kind kind);
+extern const scree_stage scree_stage_prepare;
+extern const scree_stage scree_stage_confine;
+extern const scree_stage scree_stage_compress;
+
+/// The config of the stage that runs now.
+const scree_config_stage *scree_stage_config(const scree_simulation *s);
+
+/// Axial strain from the plates [1, compression positive], engineering, since the begin of the loading stage; NAN else.
+double scree_axial_strain(const scree_simulation *s);
+
+/// Smooth step from 0 to 1 (cubic), for pressures and velocities that must not shock the sample.
+double scree_smooth_ramp(double fraction);
+
+/// Side plates under servo to `pressure`, where they are active.
+void scree_servo_sides(scree_simulation *s, double pressure);
+
+/// Distance between bottom and top plate [m].
+double scree_sample_height(const scree_state *state);
+
+#endif
