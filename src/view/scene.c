@@ -21,7 +21,7 @@ const scree_colour scree_scene_ink = {0.13, 0.13, 0.15};
 const scree_colour scree_scene_quiet = {0.38, 0.38, 0.41};
 const scree_colour scree_scene_weak = {0.60, 0.66, 0.75};
 const scree_colour scree_scene_strong = {0.07, 0.13, 0.30};
-const scree_colour scree_scene_boundary = {0.835, 0.369, 0.0};
+const scree_colour scree_scene_boundary = {0.0, 0.56, 0.42};
 
 scree_text_style scree_scene_text(double size)
 {

@@ -35,22 +35,22 @@ static void bar_path(const scree_limits *limits, cairo_t *cairo, double x, doubl
     cairo_close_path(cairo);
 }
 
-static void draw_ticks(const scree_limits *limits, cairo_t *cairo, double x, double top, double bottom)
+static void draw_ticks(const scree_limits *limits, const scree_ticks *ticks, cairo_t *cairo, double x, double top,
+                       double bottom)
 {
-    scree_ticks ticks = scree_ticks_make(limits->low, limits->high);
     cairo_set_line_width(cairo, 0.6);
-    for (int k = 0; k < ticks.count; k++) {
-        double part = (ticks.value[k] - limits->low) / (limits->high - limits->low);
+    for (int k = 0; k < ticks->count; k++) {
+        double part = (ticks->value[k] - limits->low) / (limits->high - limits->low);
         double y = bottom + part * (top - bottom);
         scree_page_colour(cairo, scree_scene_ink);
         cairo_move_to(cairo, x, y);
         cairo_line_to(cairo, x + 3, y);
         cairo_stroke(cairo);
-        scree_text_show(cairo, x + 6, y + 3, 0, ticks.text[k], scree_scene_text(8.5));
+        scree_text_show(cairo, x + 6, y + 3, 0, ticks->text[k], scree_scene_text(8.5));
     }
-    if (ticks.factor[0]) {
+    if (ticks->factor[0]) {
         char text[40];
-        (void)snprintf(text, sizeof text, "× %s", ticks.factor);
+        (void)snprintf(text, sizeof text, "× %s", ticks->factor);
         scree_text_show(cairo, x + 6, top - 9, 0, text, scree_scene_text(8.5));
     }
 }
@@ -68,9 +68,8 @@ static void limits_text(const scree_limits *limits, bool symmetric, char *text, 
     else if (!limits->clipped_low && !limits->clipped_high)
         (void)snprintf(text, size, "values from %s to %s", smallest, largest);
     else
-        (void)snprintf(text, size, "colours span %s; values from %s to %s",
-                       symmetric ? "the 98th percentile of the magnitude" : "the 2nd to the 98th percentile", smallest,
-                       largest);
+        (void)snprintf(text, size, "limits: %s; values from %s to %s",
+                       symmetric ? "98th percentile of the magnitude" : "2nd and 98th percentile", smallest, largest);
 }
 
 static double draw_bar(const scree_scene_view *view, cairo_t *cairo, double x, double y)
@@ -80,17 +79,20 @@ static double draw_bar(const scree_scene_view *view, cairo_t *cairo, double x, d
     scree_text_style name = scree_scene_text(9), note = scree_scene_text(7);
     note.colour = scree_scene_quiet;
     y = scree_text_paragraph(cairo, x, y, SCREE_SCENE_LEGEND_WIDTH, view->field_name, name);
-    double top = y + 6 + 9 + BAR_TIP, bottom = top + BAR_HEIGHT;
+    scree_ticks ticks = scree_ticks_make(view->limits.low, view->limits.high);
+    double above = fmax(view->limits.clipped_high ? BAR_TIP : 0, ticks.factor[0] ? 14 : 0);
+    double top = y + 5 + above, bottom = top + BAR_HEIGHT;
     bar_path(&view->limits, cairo, x, top, bottom);
     set_gradient(cairo, scene->map, bottom, top);
     cairo_fill_preserve(cairo);
     scree_page_colour(cairo, scree_scene_ink);
     cairo_set_line_width(cairo, 0.6);
     cairo_stroke(cairo);
-    draw_ticks(&view->limits, cairo, x + BAR_WIDTH, top, bottom);
+    draw_ticks(&view->limits, &ticks, cairo, x + BAR_WIDTH, top, bottom);
     char text[256];
     limits_text(&view->limits, scene->map == SCREE_COLOUR_DIVERGING, text, sizeof text);
-    y = scree_text_paragraph(cairo, x, bottom + BAR_TIP + 5, SCREE_SCENE_LEGEND_WIDTH, text, note);
+    double below = bottom + (view->limits.clipped_low ? BAR_TIP : 0) + 4;
+    y = scree_text_paragraph(cairo, x, below, SCREE_SCENE_LEGEND_WIDTH, text, note);
     if (view->limits.undefined > 0) {
         scree_page_colour(cairo, scree_colour_at(scene->map, NAN));
         cairo_arc(cairo, x + 4, y + 10, 4, 0, 2 * M_PI);

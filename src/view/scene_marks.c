@@ -160,7 +160,7 @@ void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo)
 {
     draw_plates(view, cairo);
     draw_discs(view, cairo);
-    draw_network(view, cairo);
     draw_boundary(view, cairo);
+    draw_network(view, cairo);
     draw_arrows(view, cairo);
 }

@@ -8,7 +8,7 @@
 
 #define SCREE_SCENE_LEVELS       96 ///< colours and line widths are drawn in so many steps, one path each (small files)
 #define SCREE_SCENE_FORCE_LIMIT  6.0  ///< times the mean normal force: lines grow no wider beyond it
-#define SCREE_SCENE_FORCE_WIDTH  0.15 ///< width of the line of the mean force over the mean diameter
+#define SCREE_SCENE_FORCE_WIDTH  0.13 ///< width of the line of the mean force over the mean diameter
 #define SCREE_SCENE_LEGEND_WIDTH 106  ///< pt
 
 typedef struct scree_scene_view {
