@@ -1,10 +1,8 @@
 /// Charts: a CSV of the values, a gnuplot script that draws them, and the figures it makes. The script uses relative
-/// names, so the folder can be moved and the figure changed by hand: `gnuplot NAME.gp`. Texts go into the script in
-/// single quotes, in which gnuplot neither expands nor runs anything; only the quote itself must be doubled. Palette:
-/// Okabe and Ito 2008, made for all kinds of colour blindness (without its yellow, too light for lines).
+/// names, so the folder can be moved and the figure changed by hand: `gnuplot NAME.gp`.
+/// Palette: Okabe and Ito 2008, made for all kinds of colour blindness (without its yellow, too light for lines).
 #include "view/chart.h"
 
-#include "base/memory.h"
 #include "io/run_directory.h"
 #include "view/gnuplot.h"
 #include "view/page.h"
@@ -41,27 +39,34 @@ static bool line_drawable(const scree_chart *chart, const scree_chart_line *line
     return false;
 }
 
-/// Text in single quotes for gnuplot.
+/// Text in double quotes for gnuplot. In them it runs what stands in back quotes, so these are written by their number.
 static void write_quoted(FILE *file, const char *text)
 {
     char clean[TEXT_LIMIT];
     scree_text_clean(clean, sizeof clean, text ? text : "");
-    fputc('\'', file);
-    for (const char *c = clean; *c; c++) fputs(*c == '\'' ? "''" : (char[]){*c, '\0'}, file);
-    fputc('\'', file);
+    fputc('"', file);
+    for (const char *c = clean; *c; c++) {
+        if (*c == '"' || *c == '\\') fputc('\\', file);
+        if (*c == '`')
+            fputs("\\140", file);
+        else
+            fputc(*c, file);
+    }
+    fputc('"', file);
 }
 
-/// Text for gnuplot in bold and scaled, with everything that enhanced text would interpret escaped.
-static void write_plain(FILE *file, const char *text, double size)
+/// The title: bold, `size` times the usual size, with everything that enhanced text would interpret escaped.
+static void write_title(FILE *file, const char *title, double size)
 {
-    char clean[TEXT_LIMIT];
-    scree_text_clean(clean, sizeof clean, text ? text : "");
-    fprintf(file, "'{/:Bold*%.2f ", size);
-    for (const char *c = clean; *c; c++) {
-        if (strchr("\\^_{}@&~", *c)) fputc('\\', file);
-        fputs(*c == '\'' ? "''" : (char[]){*c, '\0'}, file);
+    char text[2 * TEXT_LIMIT];
+    int used = snprintf(text, sizeof text, "{/:Bold*%.2f ", size);
+    for (const char *c = title ? title : ""; *c && used < TEXT_LIMIT - 4; c++) {
+        if (strchr("\\^_{}@&~", *c)) text[used++] = '\\';
+        text[used++] = *c;
     }
-    fputs("}'", file);
+    text[used++] = '}';
+    text[used] = '\0';
+    write_quoted(file, text);
 }
 
 /// Text in double quotes for CSV (RFC 4180).
@@ -157,7 +162,7 @@ static void write_style(FILE *file, const scree_chart *chart)
     double title_size = length > 60 ? fmax(0.4, 1.15 * 60 / (double)length) : 1.15;
     fputs("set encoding utf8\nset datafile separator comma\nset datafile missing 'nan'\nset minussign\nset label 1 ",
           file);
-    write_plain(file, chart->title, title_size);
+    write_title(file, chart->title, title_size);
     fputs(" at screen 0.02,0.955 left textcolor rgb '#222222'\n", file);
     fputs("set xlabel ", file);
     write_quoted(file, chart->x_label);

@@ -8,7 +8,7 @@
 #include <cairo.h>
 #include <stdbool.h>
 
-#define SCREE_PAGE_PIXELS 2400 ///< long side of the PNG
+#define SCREE_PAGE_PIXELS 2000 ///< long side of the PNG
 
 typedef void scree_page_draw(cairo_t *cairo, void *user);
 

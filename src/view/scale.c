@@ -131,6 +131,8 @@ void scree_number_text(char *text, size_t size, double value, int digits)
     int power = exponent_of(value);
     if (!isfinite(value)) {
         (void)snprintf(text, size, "%s", isnan(value) ? "undefined" : value < 0 ? "−∞" : "∞");
+    } else if (value == 0) {
+        (void)snprintf(text, size, "0");
     } else if (power > 4 || power < -3) {
         char mantissa[32], factor[32];
         fixed_text(mantissa, sizeof mantissa, value * pow(10, -power), digits - 1);

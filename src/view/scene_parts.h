@@ -6,7 +6,9 @@
 #include "view/scale.h"
 #include "view/scene.h"
 
-#define SCREE_SCENE_LEVELS       96 ///< colours and line widths are drawn in so many steps, one path each (small files)
+/// Colours and line widths are drawn in so many steps, one path each, which keeps files small. Odd: zero is one of the
+/// colours of a diverging map.
+#define SCREE_SCENE_LEVELS       97
 #define SCREE_SCENE_FORCE_LIMIT  6.0  ///< times the mean normal force: lines grow no wider beyond it
 #define SCREE_SCENE_FORCE_WIDTH  0.13 ///< width of the line of the mean force over the mean diameter
 #define SCREE_SCENE_LEGEND_WIDTH 106  ///< pt
