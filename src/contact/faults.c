@@ -5,6 +5,8 @@
 #include "contact/bounds.h"
 #include "contact/single.h"
 
+#include <math.h>
+
 /// Smallest id for each fault; UINT64_MAX for none.
 typedef struct faults {
     uint64_t not_finite, overlap, force;
