@@ -20,13 +20,13 @@ typedef enum scree_status {
 /// One problem, caller-owned, no allocation. Empty strings and zeros mean "does not apply".
 typedef struct scree_error {
     scree_status status;
-    int line;            ///< 1-based position in `file`
-    int column;          ///< 1-based
-    char file[256];      ///< case file, or the file that input/output failed on
-    char field[160];     ///< key path, e.g. "stages.2.rate"
-    char value[160];     ///< what was given
-    char accepted[256];  ///< what is accepted: type, unit, range, or the nearest valid key
-    char message[1024];  ///< a whole sentence for a person
+    int line;           ///< 1-based position in `file`
+    int column;         ///< 1-based
+    char file[256];     ///< case file, or the file that input/output failed on
+    char field[160];    ///< key path, e.g. "stages.2.rate"
+    char value[160];    ///< what was given
+    char accepted[256]; ///< what is accepted: type, unit, range, or the nearest valid key
+    char message[1024]; ///< a whole sentence for a person
 } scree_error;
 
 /// Writes "file:line:column: field: message (accepted: ...)" into `text` (NUL-terminated, truncated to `size`).

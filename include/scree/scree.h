@@ -36,7 +36,7 @@ void scree_problems_free(scree_problems *problems);
 typedef struct scree_case_options {
     const char *const *overrides; ///< "key.path=value" texts (--set), applied after the file; may be NULL
     size_t override_count;
-    bool quick;                   ///< apply the file's `quick` section
+    bool quick; ///< apply the file's `quick` section
 } scree_case_options;
 
 /// Reads, checks and completes a case file. On failure *problems holds every error found (free it); *out is NULL.
@@ -55,14 +55,14 @@ scree_status scree_case_write(const scree_case *c, FILE *file, scree_error *erro
 typedef struct scree_case_summary {
     char name[64];
     uint64_t particles;
-    double step, critical_step;   ///< s
-    double phi, psi;              ///< quasistatic and size coefficients, NAN without a loading stage
+    double step, critical_step;    ///< s
+    double phi, psi;               ///< quasistatic and size coefficients, NAN without a loading stage
     double mean_radius, thickness; ///< m
-    double reference_velocity;    ///< m/s
-    double steps;                 ///< expected number of steps of all stages
-    double seconds;               ///< expected wall time at `rate` particle-steps per second
-    double rate;                  ///< particle-steps per second assumed (measured on this machine in a few milliseconds)
-    double memory;                ///< bytes
+    double reference_velocity;     ///< m/s
+    double steps;                  ///< expected number of steps of all stages
+    double seconds;                ///< expected wall time at `rate` particle-steps per second
+    double rate;   ///< particle-steps per second assumed (measured on this machine in a few milliseconds)
+    double memory; ///< bytes
 } scree_case_summary;
 scree_status scree_case_summarise(const scree_case *c, scree_case_summary *summary, scree_error *error);
 
@@ -78,12 +78,12 @@ scree_status scree_schema_write_manual(FILE *file, scree_error *error);
 // ---- runs --------------------------------------------------------------------------------------------------------
 
 typedef struct scree_progress {
-    const char *stage;        ///< name of the stage
-    double fraction;          ///< of the stage, 0 to 1; NAN when not known in advance
-    double time;              ///< s, simulated
-    double strain;            ///< axial, NAN outside loading stages
+    const char *stage; ///< name of the stage
+    double fraction;   ///< of the stage, 0 to 1; NAN when not known in advance
+    double time;       ///< s, simulated
+    double strain;     ///< axial, NAN outside loading stages
     double particle_steps_per_second;
-    double seconds_left;      ///< wall, of the whole run; NAN when not known
+    double seconds_left; ///< wall, of the whole run; NAN when not known
 } scree_progress;
 
 typedef struct scree_run_options {
@@ -92,8 +92,8 @@ typedef struct scree_run_options {
     bool force;               ///< write into a directory that holds another run (replaces it)
     bool figures;             ///< draw figures at the end
     const volatile int *stop; ///< becomes non-zero (signal number) to ask for a checkpoint and an orderly end
-    void (*progress)(void *user, const scree_progress *progress);              ///< about twice a second; may be NULL
-    void (*message)(void *user, int level, const char *line); ///< lines of log.txt as they are written; may be NULL
+    void (*progress)(void *user, const scree_progress *progress); ///< about twice a second; may be NULL
+    void (*message)(void *user, int level, const char *line);     ///< lines of log.txt as they are written; may be NULL
     void *user;
 } scree_run_options;
 

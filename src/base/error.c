@@ -49,8 +49,8 @@ size_t scree_error_format(const scree_error *error, char *text, size_t size)
         (void)snprintf(place, sizeof place, "%s:%d:%d: ", error->file, error->line, error->column);
     else if (error->file[0])
         (void)snprintf(place, sizeof place, "%s: ", error->file);
-    int length = snprintf(text, size, "%s%s%s%s%s%s%s", place, error->field, error->field[0] ? ": " : "",
-                          error->message, error->accepted[0] ? " (accepted: " : "", error->accepted,
-                          error->accepted[0] ? ")" : "");
+    int length =
+        snprintf(text, size, "%s%s%s%s%s%s%s", place, error->field, error->field[0] ? ": " : "", error->message,
+                 error->accepted[0] ? " (accepted: " : "", error->accepted, error->accepted[0] ? ")" : "");
     return length < 0 ? 0 : (size_t)length;
 }

@@ -7,7 +7,7 @@
 
 #include <stdarg.h>
 
-#define SCREE_MUST_USE __attribute__((warn_unused_result))
+#define SCREE_MUST_USE            __attribute__((warn_unused_result))
 #define SCREE_PRINTF(text, first) __attribute__((format(printf, text, first)))
 
 /// Fills `error` (which may be NULL) with a formatted message and returns `status`, so that a caller can write
@@ -15,8 +15,7 @@
 scree_status scree_error_set(scree_error *error, scree_status status, const char *format, ...) SCREE_PRINTF(3, 4);
 
 /// The same for a failed system call: appends ": " and strerror(errno).
-scree_status scree_error_set_errno(scree_error *error, scree_status status, const char *format, ...)
-    SCREE_PRINTF(3, 4);
+scree_status scree_error_set_errno(scree_error *error, scree_status status, const char *format, ...) SCREE_PRINTF(3, 4);
 
 /// Out of memory, with the number of bytes that were asked for.
 scree_status scree_error_set_memory(scree_error *error, size_t bytes);

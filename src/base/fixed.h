@@ -14,7 +14,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#define SCREE_FIXED_MAGIC 6755399441055744.0 /* 1.5 * 2^52 */
+#define SCREE_FIXED_MAGIC      6755399441055744.0 /* 1.5 * 2^52 */
 #define SCREE_FIXED_MAGIC_BITS INT64_C(0x4338000000000000)
 #define SCREE_FIXED_RANGE_BITS 50
 
@@ -36,6 +36,9 @@ static inline int64_t scree_fixed_from(double value, double inverse)
     return bits - SCREE_FIXED_MAGIC_BITS;
 }
 
-static inline double scree_fixed_to(int64_t sum, double quantum) { return (double)sum * quantum; }
+static inline double scree_fixed_to(int64_t sum, double quantum)
+{
+    return (double)sum * quantum;
+}
 
 #endif

@@ -9,7 +9,7 @@
 typedef enum scree_log_level { SCREE_LOG_INFO, SCREE_LOG_WARNING, SCREE_LOG_ERROR } scree_log_level;
 
 typedef struct scree_log {
-    FILE *file;                                                            ///< may be NULL
+    FILE *file;                                                        ///< may be NULL
     void (*sink)(void *user, scree_log_level level, const char *line); ///< may be NULL; the library itself never prints
     void *user;
 } scree_log;

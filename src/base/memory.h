@@ -11,15 +11,16 @@
 /// Sets *pointer to `count * size` zeroed bytes, 64-byte aligned (NULL when the product is zero). Checks overflow.
 scree_status scree_allocate(void *pointer, size_t count, size_t size, scree_error *error) SCREE_MUST_USE;
 
-/// Grows *pointer (holding `old_count` elements) to `new_count`, keeping contents, zeroing the rest. On failure *pointer
-/// is unchanged.
-scree_status scree_reallocate(void *pointer, size_t old_count, size_t new_count, size_t size, scree_error *error)
-    SCREE_MUST_USE;
+/// Grows *pointer (holding `old_count` elements) to `new_count`, keeping contents, zeroing the rest. On failure
+/// *pointer is unchanged.
+scree_status scree_reallocate(void *pointer, size_t old_count, size_t new_count, size_t size,
+                              scree_error *error) SCREE_MUST_USE;
 
 /// Frees *pointer (from the two functions above) and sets it to NULL.
 void scree_release(void *pointer);
 
-/// Test hook: the n-th allocation from now fails (0: never). Returns the number of allocations made since the last call.
+/// Test hook: the n-th allocation from now fails (0: never). Returns the number of allocations made since the last
+/// call.
 uint64_t scree_allocation_fail_after(uint64_t n);
 
 /// Bytes now allocated through these functions, and the peak.

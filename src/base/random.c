@@ -1,4 +1,5 @@
-/// Philox 4x32-10 (Salmon et al. 2011): ten rounds of multiply-high, exclusive-or and key schedule on a 128-bit counter.
+/// Philox 4x32-10 (Salmon et al. 2011): ten rounds of multiply-high, exclusive-or and key schedule on a 128-bit
+/// counter.
 #include "base/random.h"
 
 #include <math.h>

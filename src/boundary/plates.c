@@ -1,10 +1,10 @@
 /// Rigid plates.
 ///
-/// Servo. A plate under servo is a dashpot that closes the sample with its own wave impedance: its velocity is the force
-/// error over Z, so a wave that reaches it is absorbed instead of reflected, and it cannot ring whatever the stiffness of
-/// the sample. Z = L t sqrt(M rho), M the longitudinal modulus and rho the bulk density of the assembly; M is estimated from the
-/// Hertz stiffness at the mean contact force f = p 2R t: k = 1.5 K^(2/3) f^(1/3), M t = k (a triangular net of springs k has
-/// M = 1.3 k, a loose one about half of it; the gain of the case scales the estimate).
+/// Servo. A plate under servo is a dashpot that closes the sample with its own wave impedance: its velocity is the
+/// force error over Z, so a wave that reaches it is absorbed instead of reflected, and it cannot ring whatever the
+/// stiffness of the sample. Z = L t sqrt(M rho), M the longitudinal modulus and rho the bulk density of the assembly; M
+/// is estimated from the Hertz stiffness at the mean contact force f = p 2R t: k = 1.5 K^(2/3) f^(1/3), M t = k (a
+/// triangular net of springs k has M = 1.3 k, a loose one about half of it; the gain of the case scales the estimate).
 /// Limits: quasistatic servo; the stress is the one of the last force evaluation. Cost: O(boundary) a step.
 #include "boundary/plates.h"
 

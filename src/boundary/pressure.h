@@ -5,9 +5,9 @@
 
 #include "state/work.h"
 
-/// Re-finds the boundary loop if it is due (every config->boundary.every steps, or none yet): triangulates, cleans, marks
-/// which edges carry the lateral pressure (those not facing an active top or bottom plate), closes the strain increment
-/// of the old loop (measure of Bagi) before replacing it.
+/// Re-finds the boundary loop if it is due (every config->boundary.every steps, or none yet): triangulates, cleans,
+/// marks which edges carry the lateral pressure (those not facing an active top or bottom plate), closes the strain
+/// increment of the old loop (measure of Bagi) before replacing it.
 scree_status scree_boundary_refresh(const scree_model *model, scree_state *state, scree_work *work,
                                     scree_error *error) SCREE_MUST_USE;
 

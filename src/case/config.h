@@ -11,52 +11,56 @@
 
 typedef struct scree_config_material {
     char *name;
-    double young_modulus;  ///< Pa
-    double poisson_ratio;  ///< 1
-    double density;        ///< kg/m3
-    double friction;       ///< 1, grain on grain
-    double wall_friction;  ///< 1, grain on plate; auto: friction
-    double restitution;    ///< 1, used by laws that damp by restitution
+    double young_modulus; ///< Pa
+    double poisson_ratio; ///< 1
+    double density;       ///< kg/m3
+    double friction;      ///< 1, grain on grain
+    double wall_friction; ///< 1, grain on plate; auto: friction
+    double restitution;   ///< 1, used by laws that damp by restitution
 } scree_config_material;
 
 typedef enum scree_shape_kind { SCREE_SHAPE_DISC } scree_shape_kind;
-typedef enum scree_size_distribution { SCREE_SIZE_UNIFORM, SCREE_SIZE_TWO_SIZES, SCREE_SIZE_EQUAL } scree_size_distribution;
+typedef enum scree_size_distribution {
+    SCREE_SIZE_UNIFORM,
+    SCREE_SIZE_TWO_SIZES,
+    SCREE_SIZE_EQUAL
+} scree_size_distribution;
 
 typedef struct scree_config_particles {
-    int shape;             ///< scree_shape_kind
-    char *material;        ///< name in `materials`
+    int shape;      ///< scree_shape_kind
+    char *material; ///< name in `materials`
     int64_t count;
-    int distribution;      ///< scree_size_distribution of radii
-    double radius_min;     ///< m; SCREE_SIZE_EQUAL uses the mean of min and max
-    double radius_max;     ///< m
-    double thickness;      ///< m, length of a disc (a cylinder); auto: twice the mean radius
+    int distribution;  ///< scree_size_distribution of radii
+    double radius_min; ///< m; SCREE_SIZE_EQUAL uses the mean of min and max
+    double radius_max; ///< m
+    double thickness;  ///< m, length of a disc (a cylinder); auto: twice the mean radius
 } scree_config_particles;
 
 typedef enum scree_law { SCREE_LAW_HERTZ_BRILLIANTOV, SCREE_LAW_HERTZ_MINDLIN } scree_law;
 
 typedef struct scree_config_contact {
-    int law;                    ///< scree_law
-    double damping_time;        ///< s, T of hertz_brilliantov
-    double friction_exponent;   ///< 1, c of hertz_brilliantov
-    double reference_velocity;  ///< m/s, v_R; auto: 2 * rate * mean radius of the first compress stage
+    int law;                   ///< scree_law
+    double damping_time;       ///< s, T of hertz_brilliantov
+    double friction_exponent;  ///< 1, c of hertz_brilliantov
+    double reference_velocity; ///< m/s, v_R; auto: 2 * rate * mean radius of the first compress stage
 } scree_config_contact;
 
 typedef enum scree_scheme { SCREE_SCHEME_POSITION_VERLET, SCREE_SCHEME_VELOCITY_VERLET } scree_scheme;
 
 typedef struct scree_config_integrator {
-    int scheme;          ///< scree_scheme
-    double step;         ///< s; auto: step_fraction * critical step
+    int scheme;           ///< scree_scheme
+    double step;          ///< s; auto: step_fraction * critical step
     double step_fraction; ///< 1, of the critical step, when step is auto
 } scree_config_integrator;
 
 typedef enum scree_lateral { SCREE_LATERAL_PRESSURE, SCREE_LATERAL_PLATES } scree_lateral;
 
 typedef struct scree_config_boundary {
-    int lateral;               ///< scree_lateral: pressure on the Delaunay boundary, or rigid side plates under servo
-    int64_t every;             ///< steps between two updates of the Delaunay boundary
-    double gap_limit;          ///< 1, boundary edges with a free gap above this many mean diameters are cut
-    double servo_gain;         ///< 1, admittance of a plate under servo over that of the sample (1: absorbs waves)
-    double servo_velocity;     ///< m/s, largest plate velocity under servo; auto
+    int lateral;           ///< scree_lateral: pressure on the Delaunay boundary, or rigid side plates under servo
+    int64_t every;         ///< steps between two updates of the Delaunay boundary
+    double gap_limit;      ///< 1, boundary edges with a free gap above this many mean diameters are cut
+    double servo_gain;     ///< 1, admittance of a plate under servo over that of the sample (1: absorbs waves)
+    double servo_velocity; ///< m/s, largest plate velocity under servo; auto
 } scree_config_boundary;
 
 typedef enum scree_stage_kind { SCREE_STAGE_PREPARE, SCREE_STAGE_CONFINE, SCREE_STAGE_COMPRESS } scree_stage_kind;
@@ -69,23 +73,23 @@ typedef enum scree_prepare_method {
 
 /// One stage; the schema lists for each kind which members its keys fill. All stages keep `name` and `kind`.
 typedef struct scree_config_stage {
-    int kind;                ///< scree_stage_kind
+    int kind; ///< scree_stage_kind
     // prepare
-    int method;              ///< scree_prepare_method
-    double aspect_ratio;     ///< 1, height over width of the box
-    double width;            ///< m; auto: from count, sizes and aspect ratio
-    double solid_fraction;   ///< 1, gas only
-    double velocity;         ///< m/s, gas only: root-mean-square velocity component
+    int method;            ///< scree_prepare_method
+    double aspect_ratio;   ///< 1, height over width of the box
+    double width;          ///< m; auto: from count, sizes and aspect ratio
+    double solid_fraction; ///< 1, gas only
+    double velocity;       ///< m/s, gas only: root-mean-square velocity component
     // confine
-    double pressure;         ///< Pa, compression positive
-    double ramp_time;        ///< s; auto
-    double unbalanced_limit; ///< 1, stop when the unbalanced force ratio stays below it
-    double time_limit;       ///< s; auto; reaching it is an error of the case, not a silent stop
+    double pressure;           ///< Pa, compression positive
+    double ramp_time;          ///< s; auto
+    double unbalanced_limit;   ///< 1, stop when the unbalanced force ratio stays below it
+    double time_limit;         ///< s; auto; reaching it is an error of the case, not a silent stop
     double mobilised_friction; ///< 1, inter-particle friction during this stage; auto: the material's
     // compress
-    double strain;           ///< 1, axial (logarithmic: no; engineering) strain at which to stop, compression positive
-    double rate;             ///< 1/s, axial strain rate referred to the height at the start of the stage
-    double rise_time;        ///< s, in which the plates reach their velocity; auto: four wave times of the sample
+    double strain;    ///< 1, axial (logarithmic: no; engineering) strain at which to stop, compression positive
+    double rate;      ///< 1/s, axial strain rate referred to the height at the start of the stage
+    double rise_time; ///< s, in which the plates reach their velocity; auto: four wave times of the sample
 } scree_config_stage;
 
 typedef struct scree_config_window {
@@ -94,28 +98,28 @@ typedef struct scree_config_window {
 } scree_config_window;
 
 typedef struct scree_config_measure {
-    int64_t samples;             ///< rows of series.csv per loading stage
+    int64_t samples;              ///< rows of series.csv per loading stage
     scree_config_window *windows; ///< strain windows of the displacement fluctuations
     int64_t window_count;
 } scree_config_measure;
 
 typedef struct scree_config_output {
-    int64_t snapshots;         ///< per loading stage, evenly in strain
+    int64_t snapshots;          ///< per loading stage, evenly in strain
     double checkpoint_interval; ///< s of wall time between two checkpoints
-    int64_t checkpoint_steps;  ///< and/or steps between two checkpoints; 0: wall time only
+    int64_t checkpoint_steps;   ///< and/or steps between two checkpoints; 0: wall time only
     bool figures;
     bool paraview;
 } scree_config_output;
 
 typedef struct scree_config_guard {
-    double overlap;        ///< 1, largest indentation over the smaller radius
-    double energy_growth;  ///< 1, largest energy-ledger residual over the work done
+    double overlap;       ///< 1, largest indentation over the smaller radius
+    double energy_growth; ///< 1, largest energy-ledger residual over the work done
 } scree_config_guard;
 
 typedef struct scree_config {
     char *name;
     char *title;
-    int64_t dimension;     ///< 2
+    int64_t dimension; ///< 2
     int64_t seed;
     double gravity_x, gravity_y; ///< m/s2
     scree_config_material *materials;

@@ -6,12 +6,12 @@
 
 typedef struct scree_integrator {
     const char *name;
-    const char *meaning;    ///< one line for the manual
+    const char *meaning; ///< one line for the manual
     /// Advances rows (and angles, largest_speed, work->budget) to positions n+1 from the sums at n.
     void (*first)(const scree_model *model, scree_state *state, scree_work *work);
     /// Finishes velocities with the sums at n+1. May be NULL.
     void (*second)(const scree_model *model, scree_state *state, scree_work *work);
-    double velocity_lead;   ///< stored velocity = v(n - 1/2) + velocity_lead * dt * a(n): 0 position, 1/2 velocity Verlet
+    double velocity_lead; ///< stored velocity = v(n - 1/2) + velocity_lead * dt * a(n): 0 position, 1/2 velocity Verlet
 } scree_integrator;
 
 /// Descriptor of a scheme.

@@ -1,7 +1,7 @@
-/// Velocity Verlet (Swope, Andersen, Berens and Wilson 1982): half a kick, drift, forces, half a kick. Stored velocities
-/// belong to the same instant as positions; contact forces see v(n+1/2), as in every code that uses this scheme for
-/// grains. Order: 2 for forces of positions; 1 for forces of velocities. Costs one pass over the bodies more than position Verlet, with
-/// which it shares its trajectory when started alike (tests/unit/test_integrate.c).
+/// Velocity Verlet (Swope, Andersen, Berens and Wilson 1982): half a kick, drift, forces, half a kick. Stored
+/// velocities belong to the same instant as positions; contact forces see v(n+1/2), as in every code that uses this
+/// scheme for grains. Order: 2 for forces of positions; 1 for forces of velocities. Costs one pass over the bodies more
+/// than position Verlet, with which it shares its trajectory when started alike (tests/unit/test_integrate.c).
 #include "integrate/kick.h"
 #include "integrate/schemes.h"
 

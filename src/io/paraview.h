@@ -1,5 +1,5 @@
-/// ParaView files, written without VTK: discs as points (.vtp, fields of the field table), contacts as lines (.vtp), and
-/// .pvd collections that are replaced after every snapshot. Binary appended raw data, little endian.
+/// ParaView files, written without VTK: discs as points (.vtp, fields of the field table), contacts as lines (.vtp),
+/// and .pvd collections that are replaced after every snapshot. Binary appended raw data, little endian.
 #ifndef SCREE_IO_PARAVIEW_H
 #define SCREE_IO_PARAVIEW_H
 

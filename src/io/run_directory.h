@@ -7,14 +7,14 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#define SCREE_FILE_CASE "case.yaml"
-#define SCREE_FILE_SUMMARY "summary.json"
-#define SCREE_FILE_SERIES "series.csv"
-#define SCREE_FILE_RUN "run.h5"
-#define SCREE_FILE_LOG "log.txt"
-#define SCREE_FOLDER_FIGURES "figures"
+#define SCREE_FILE_CASE       "case.yaml"
+#define SCREE_FILE_SUMMARY    "summary.json"
+#define SCREE_FILE_SERIES     "series.csv"
+#define SCREE_FILE_RUN        "run.h5"
+#define SCREE_FILE_LOG        "log.txt"
+#define SCREE_FOLDER_FIGURES  "figures"
 #define SCREE_FOLDER_PARAVIEW "paraview"
-#define SCREE_FOLDER_PARTS "parts" ///< snapshots and checkpoints of a run that has not ended, linked from run.h5
+#define SCREE_FOLDER_PARTS    "parts" ///< snapshots and checkpoints of a run that has not ended, linked from run.h5
 
 /// Creates `path` and its folders. A directory that already holds a run is refused (SCREE_ERROR_INPUT) without `force`;
 /// with it the files of the old run (only those that Scree writes) are removed first.
@@ -26,7 +26,7 @@ scree_status scree_replace_begin(const char *path, FILE **file, scree_error *err
 scree_status scree_replace_finish(const char *path, FILE *file, bool keep, scree_error *error) SCREE_MUST_USE;
 
 /// path = directory/name, checked for length.
-scree_status scree_path_join(char *path, size_t size, const char *directory, const char *name, scree_error *error)
-    SCREE_MUST_USE;
+scree_status scree_path_join(char *path, size_t size, const char *directory, const char *name,
+                             scree_error *error) SCREE_MUST_USE;
 
 #endif

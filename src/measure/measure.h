@@ -10,18 +10,19 @@
 double scree_loop_area(const scree_state *state);
 
 /// Area of the sample [m2]: bounded by the active plates where there are any (where their forces act) and by the loaded
-/// edges of the Delaunay boundary elsewhere (through the centres, where the pressure acts). Without a loop: the box of the plates.
+/// edges of the Delaunay boundary elsewhere (through the centres, where the pressure acts). Without a loop: the box of
+/// the plates.
 double scree_sample_area(const scree_state *state);
 
 /// Average stress from contacts (Christoffersen, Mehrabadi and Nemat-Nasser 1981):
-/// sigma = -(1/(V)) sum_c f (x) l over contacts between bodies, V = area * thickness, plus the boundary term: bodies that
-/// carry boundary forces (walls, pressure) add f_ext (x) (x - x_body_ref), see stress.c for why and with which V.
+/// sigma = -(1/(V)) sum_c f (x) l over contacts between bodies, V = area * thickness, plus the boundary term: bodies
+/// that carry boundary forces (walls, pressure) add f_ext (x) (x - x_body_ref), see stress.c for why and with which V.
 /// stress [Pa] out 4.
 void scree_stress_from_contacts(const scree_model *model, const scree_state *state, const scree_work *work,
                                 const scree_contact_table *table, double volume, double stress[4]);
 
-/// Stress from what the boundary applies: plates along their normals, lateral pressure. [Pa], tension positive; NAN where
-/// nothing is applied in that direction.
+/// Stress from what the boundary applies: plates along their normals, lateral pressure. [Pa], tension positive; NAN
+/// where nothing is applied in that direction.
 void scree_stress_from_plates(const scree_model *model, const scree_state *state, double stress[4]);
 
 /// Displacement gradient of the interior of a loop from the displacements of its vertices (Bagi 1996; P 3.1-3.3):
@@ -34,8 +35,9 @@ void scree_loop_gradient(const double *x, const double *y, const double *ux, con
 void scree_strain_measure(const scree_state *state, double gradient[4]);
 
 typedef struct scree_coordination {
-    double mean;              ///< contacts per body, all bodies, walls counted
-    double mean_without_rattlers; ///< over bodies with at least 2 contacts (3 with friction < infinity: see coordination.c)
+    double mean;                  ///< contacts per body, all bodies, walls counted
+    double mean_without_rattlers; ///< over bodies with at least 2 contacts (3 with friction < infinity: see
+                                  ///< coordination.c)
     double rattler_fraction;
 } scree_coordination;
 void scree_coordination_measure(const scree_state *state, const scree_contact_table *table, scree_coordination *out);
@@ -50,17 +52,19 @@ double scree_unbalanced_ratio(const scree_model *model, const scree_state *state
 double scree_solid_fraction(const scree_state *state);
 
 typedef struct scree_energy {
-    double kinetic, kinetic_rotation;  ///< J
+    double kinetic, kinetic_rotation; ///< J
     double elastic_normal, elastic_tangential;
-    double residual;        ///< J, of the balance
-    double relative;        ///< |residual| / turnover of work
+    double gravity;  ///< J, work of gravity since the ledger was opened: sum of m g . x minus ledger.gravity
+    double residual; ///< J, of the balance
+    double relative; ///< |residual| / turnover of work
 } scree_energy;
 /// Energies at step n by the scheme's own discrete definition (kinetic = 1/2 m v(n-1/2).v(n+1/2)), and the residual.
 void scree_energy_measure(const scree_model *model, const scree_state *state, const scree_contact_table *table,
                           scree_energy *energy);
 
-/// Displacement of each body relative to an affine field fitted by least squares to all displacements (P figs. 2.6, 3.7).
-/// x0, y0, x1, y1: count [m]; fx, fy out: count [m]; gradient out: 2 x 2 of the affine part; returns rms fluctuation [m].
+/// Displacement of each body relative to an affine field fitted by least squares to all displacements (P
+/// figs. 2.6, 3.7). x0, y0, x1, y1: count [m]; fx, fy out: count [m]; gradient out: 2 x 2 of the affine part; returns
+/// rms fluctuation [m].
 double scree_fluctuations(const double *x0, const double *y0, const double *x1, const double *y1, size_t count,
                           double *fx, double *fy, double gradient[4]);
 

@@ -14,32 +14,33 @@ typedef struct scree_pair_constants {
     double normal_stiffness;     ///< Pa, (4/3) Ebar;  f_n = normal_stiffness sqrt(R_eff) d^1.5
     double tangential_stiffness; ///< Pa, 8 Gbar;      k_t = tangential_stiffness sqrt(R_eff d)
     double friction;             ///< 1
-    double damping;              ///< 1, hertz_mindlin: eta = damping sqrt(m_eff k_n), k_n = normal_stiffness sqrt(R_eff d)
+    double damping; ///< 1, hertz_mindlin: eta = damping sqrt(m_eff k_n), k_n = normal_stiffness sqrt(R_eff d)
 } scree_pair_constants;
 
 typedef struct scree_model {
     int dimension;
-    double thickness;            ///< m, length of the discs; 1 in 3D
+    double thickness; ///< m, length of the discs; 1 in 3D
     scree_law law;
-    double damping_time;         ///< s, T of hertz_brilliantov
-    double inverse_exponent;     ///< 1/c of hertz_brilliantov
-    double reference_velocity;   ///< m/s, v_R
+    double damping_time;       ///< s, T of hertz_brilliantov
+    double inverse_exponent;   ///< 1/c of hertz_brilliantov
+    double reference_velocity; ///< m/s, v_R
     scree_scheme scheme;
-    double step;                 ///< s
-    double critical_step;        ///< s, estimate at the confining pressure (see model.c)
-    double gravity[3];           ///< m/s2
-    double mean_radius;          ///< m, of the distribution
+    double step;                   ///< s
+    double critical_step;          ///< s, estimate at the confining pressure (see model.c)
+    double gravity[3];             ///< m/s2
+    double mean_radius;            ///< m, of the distribution
     double radius_min, radius_max; ///< m
-    double phi, psi;             ///< quasistatic and size coefficients (P 2.13, 2.14, B1), NAN without a loading stage
+    double phi, psi; ///< quasistatic and size coefficients (P 2.13, 2.14, B1), NAN without a loading stage
     int material_count;
     scree_pair_constants pairs[SCREE_MAX_MATERIALS][SCREE_MAX_MATERIALS]; ///< grain on grain
     scree_pair_constants walls[SCREE_MAX_MATERIALS];                      ///< grain on a plate of the same material
     double density[SCREE_MAX_MATERIALS];
-    const scree_config *config;  ///< what the user said; outlives the model
+    const scree_config *config; ///< what the user said; outlives the model
 } scree_model;
 
-/// Resolves `config` into `model`. Errors: SCREE_ERROR_INPUT with the field for anything that only shows when values meet:
-/// a step above the critical one (names it and offers it), a packing that cannot fit, a material that does not exist.
+/// Resolves `config` into `model`. Errors: SCREE_ERROR_INPUT with the field for anything that only shows when values
+/// meet: a step above the critical one (names it and offers it), a packing that cannot fit, a material that does not
+/// exist.
 scree_status scree_model_build(const scree_config *config, scree_model *model, scree_error *error) SCREE_MUST_USE;
 
 /// A copy with every friction coefficient replaced by `friction` (used while preparing dense samples). NAN copies only.

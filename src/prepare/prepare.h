@@ -22,7 +22,8 @@ const scree_preparation *scree_preparation_get(scree_prepare_method method);
 /// Draws `count` radii from the case's distribution (stream SCREE_RANDOM_RADIUS, counter = index).
 void scree_draw_radii(const scree_model *model, double *radius, size_t count);
 
-/// Creates the state: radii, positions, masses (density * pi R^2 * thickness), walls of the box, ids in order of placement.
+/// Creates the state: radii, positions, masses (density * pi R^2 * thickness), walls of the box, ids in order of
+/// placement.
 scree_status scree_prepare(const scree_model *model, const scree_config_stage *stage, scree_state *state,
                            scree_error *error) SCREE_MUST_USE;
 

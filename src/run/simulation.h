@@ -15,22 +15,23 @@ typedef struct scree_sample {
 
 struct scree_simulation {
     const scree_case *c;
-    scree_model model;         ///< of the case
-    scree_model stage_model;   ///< with the friction of the present stage; what the kernels see
+    scree_model model;       ///< of the case
+    scree_model stage_model; ///< with the friction of the present stage; what the kernels see
     const scree_integrator *integrator;
     scree_state state;
     scree_work work;
     scree_contact_table table; ///< at the last sample
     const scree_stage *stage;  ///< NULL when the case has ended
     scree_stage_plan plan;
-    scree_sample sample;       ///< the last one
-    bool sampled;              ///< the last step made a sample
-    bool stage_ended;          ///< the last step ended a stage
-    char reason[192];          ///< why it ended
+    scree_sample sample; ///< the last one
+    bool sampled;        ///< the last step made a sample
+    bool stage_ended;    ///< the last step ended a stage
+    char reason[192];    ///< why it ended
 };
 
 /// Builds model and work; the first stage has not begun. Errors: model_build's, memory.
-scree_status scree_simulation_open(const scree_case *c, int threads, scree_simulation *s, scree_error *error) SCREE_MUST_USE;
+scree_status scree_simulation_open(const scree_case *c, int threads, scree_simulation *s,
+                                   scree_error *error) SCREE_MUST_USE;
 void scree_simulation_close(scree_simulation *s);
 
 /// Begins the stage in state.stage.index (a new stage), or takes it up again after a restart.

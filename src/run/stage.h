@@ -11,13 +11,15 @@ typedef struct scree_stage_plan {
     uint64_t interval;     ///< steps between two samples
     uint64_t expected;     ///< steps of the whole stage, 0: not known in advance
     double ramp_time;      ///< s
-    double impedance;      ///< N s/m, of the plates
+    double impedance;      ///< N s/m, of the bottom and top plates
+    double side_impedance; ///< N s/m, of the side plates
     double time_limit;     ///< s
 } scree_stage_plan;
 
 typedef struct scree_stage {
     const char *name;
-    bool loading;          ///< samples of this stage have an axial strain, and snapshots are evenly spaced in it
+    bool instant; ///< ends as soon as it has begun (no steps)
+    bool loading; ///< samples of this stage have an axial strain, and snapshots are evenly spaced in it
     /// Once, when the stage begins: walls, pressure, reference numbers in state.stage.reference.
     scree_status (*begin)(scree_simulation *s, scree_error *error);
     /// Derives the plan from the state; at begin and after a restart.
@@ -40,6 +42,12 @@ const scree_config_stage *scree_stage_config(const scree_simulation *s);
 
 /// Axial strain from the plates [1, compression positive], engineering, since the begin of the loading stage; NAN else.
 double scree_axial_strain(const scree_simulation *s);
+
+/// Smooth step from 0 to 1 (cubic), for pressures and velocities that must not shock the sample.
+double scree_smooth_ramp(double fraction);
+
+/// Side plates under servo to `pressure`, where they are active.
+void scree_servo_sides(scree_simulation *s, double pressure);
 
 /// Distance between bottom and top plate [m].
 double scree_sample_height(const scree_state *state);

@@ -1,4 +1,5 @@
-/// The step. Between two steps the state holds x(n), the scheme's velocity and the force sums at n; a restart begins here.
+/// The step. Between two steps the state holds x(n), the scheme's velocity and the force sums at n; a restart begins
+/// here.
 #include "run/step.h"
 
 #include "boundary/plates.h"

@@ -4,7 +4,8 @@
 
 #include "base/memory.h"
 
-/// Triangles of point indices, counter-clockwise, with neighbours across the edge opposite to each vertex (-1: outside).
+/// Triangles of point indices, counter-clockwise, with neighbours across the edge opposite to each vertex (-1:
+/// outside).
 typedef struct scree_triangulation {
     size_t count;
     uint32_t (*vertex)[3];
@@ -17,8 +18,8 @@ scree_status scree_triangulation_build(const double *points, size_t count, scree
 void scree_triangulation_destroy(scree_triangulation *triangulation);
 
 /// Outer boundary of the triangulation after cleaning: boundary triangles whose outer edge leaves a free gap
-/// |x_a - x_b| - R_a - R_b > gap_limit (m), or which are slivers, are cut, longest edge first, as long as the loop stays
-/// ONE simple closed loop through which no point falls out. `removed[t]` (may be NULL) marks the cut triangles.
+/// |x_a - x_b| - R_a - R_b > gap_limit (m), or which are slivers, are cut, longest edge first, as long as the loop
+/// stays ONE simple closed loop through which no point falls out. `removed[t]` (may be NULL) marks the cut triangles.
 /// loop: point indices counter-clockwise, caller frees with scree_release. Cost: O(n log n).
 scree_status scree_boundary_loop(const scree_triangulation *triangulation, const double *points, const double *radius,
                                  size_t count, double gap_limit, uint32_t **loop, size_t *loop_count, uint8_t *removed,

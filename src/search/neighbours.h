@@ -4,16 +4,17 @@
 
 #include "state/work.h"
 
-/// Rebuilds the list if a body may have moved more than half the skin (or work->valid is false): re-sorts the rows along
-/// the curve, finds all pairs with |x_i - x_j| < R_i + R_j + skin, carries the histories of touching pairs over by id
-/// (from the old list, or from state->contact when there is none), and does the same for body-wall pairs.
+/// Rebuilds the list if a body may have moved more than half the skin (or work->valid is false): re-sorts the rows
+/// along the curve, finds all pairs with |x_i - x_j| < R_i + R_j + skin, carries the histories of touching pairs over
+/// by id (from the old list, or from state->contact when there is none), and does the same for body-wall pairs.
 scree_status scree_neighbours_refresh(const scree_model *model, scree_state *state, scree_work *work,
                                       scree_error *error) SCREE_MUST_USE;
 
 /// Forces a rebuild at the next refresh; histories are kept (they must have been saved if `work` is about to go).
 void scree_neighbours_invalidate(scree_work *work);
 
-scree_status scree_work_create(scree_work *work, const scree_model *model, int threads, scree_error *error) SCREE_MUST_USE;
+scree_status scree_work_create(scree_work *work, const scree_model *model, int threads,
+                               scree_error *error) SCREE_MUST_USE;
 void scree_work_destroy(scree_work *work);
 
 #endif

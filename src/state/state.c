@@ -36,10 +36,10 @@ scree_status scree_state_create(scree_state *state, size_t count, scree_error *e
 
 void scree_state_destroy(scree_state *state)
 {
-    void *const arrays[] = {&state->row,         &state->sum,       &state->id,        &state->angle,
+    void *const arrays[] = {&state->row,         &state->sum,         &state->id,        &state->angle,
                             &state->reference_x, &state->reference_y, &state->rebuild_x, &state->rebuild_y,
-                            &state->row_of_id,   &state->contact,   &state->loop.id,   &state->loop.loaded,
-                            &state->loop.x,      &state->loop.y,      &state->loop.fx,    &state->loop.fy};
+                            &state->row_of_id,   &state->contact,     &state->loop.id,   &state->loop.loaded,
+                            &state->loop.x,      &state->loop.y,      &state->loop.fx,   &state->loop.fy};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
     memset(state, 0, sizeof *state);
 }
@@ -79,7 +79,8 @@ scree_status scree_state_reserve_contacts(scree_state *state, size_t count, scre
 {
     if (count <= state->contact_capacity) return SCREE_OK;
     size_t capacity = count + count / 8 + 16;
-    scree_status status = scree_reallocate(&state->contact, state->contact_count, capacity, sizeof *state->contact, error);
+    scree_status status =
+        scree_reallocate(&state->contact, state->contact_count, capacity, sizeof *state->contact, error);
     if (!status) state->contact_capacity = capacity;
     return status;
 }

@@ -3,7 +3,8 @@
 ///
 /// Hot data. One 64-byte row a body (`scree_row`) holds what the contact kernels read, so that a contact touches one
 /// cache line a body; the integer force sums are a second, 32-byte row. Cold data lies in separate arrays. Rows are
-/// re-sorted along a space-filling curve when neighbour lists are rebuilt; `id` never changes and `row_of_id` finds a body.
+/// re-sorted along a space-filling curve when neighbour lists are rebuilt; `id` never changes and `row_of_id` finds a
+/// body.
 #ifndef SCREE_STATE_STATE_H
 #define SCREE_STATE_STATE_H
 
@@ -13,12 +14,12 @@
 /// Velocities are those of the scheme: position_verlet keeps v(n - 1/2), velocity_verlet v(n). `state_velocity` in
 /// integrate.h gives the physical velocity at n.
 typedef struct scree_row {
-    double x, y;      ///< m
-    double material;  ///< index as a double: rows are moved as vectors of doubles
-    double radius;    ///< m
-    double vx, vy;    ///< m/s
-    double spin;      ///< rad/s, counter-clockwise
-    double mass;      ///< kg
+    double x, y;     ///< m
+    double material; ///< index as a double: rows are moved as vectors of doubles
+    double radius;   ///< m
+    double vx, vy;   ///< m/s
+    double spin;     ///< rad/s, counter-clockwise
+    double mass;     ///< kg
 } scree_row;
 
 /// Sum of the contact and boundary forces on a body at step n, in quanta (base/fixed.h).
@@ -43,14 +44,14 @@ typedef struct scree_contact_memory {
 
 /// A rigid plane wall: all bodies lie on the side that its unit normal points to. Plates move along their normal.
 typedef struct scree_wall {
-    double position;    ///< m, along the normal: points x with normal . x = position
-    double normal[2];   ///< 1
-    double velocity;    ///< m/s along the normal, v(n - 1/2): position(n) = position(n-1) + velocity dt
-    double force;       ///< N, normal force by the bodies on the wall at n, compression positive
-    double shear;       ///< N, tangential force by the bodies on the wall at n
+    double position;            ///< m, along the normal: points x with normal . x = position
+    double normal[2];           ///< 1
+    double velocity;            ///< m/s along the normal, v(n - 1/2): position(n) = position(n-1) + velocity dt
+    double force;               ///< N, normal force by the bodies on the wall at n, compression positive
+    double shear;               ///< N, tangential force by the bodies on the wall at n
     double tangential_velocity; ///< m/s along (-normal y, normal x)
-    int32_t active;     ///< 0: does not exist in this stage
-    int32_t material;   ///< material index of the plate
+    int32_t active;             ///< 0: does not exist in this stage
+    int32_t material;           ///< material index of the plate
 } scree_wall;
 
 enum { SCREE_WALL_BOTTOM, SCREE_WALL_TOP, SCREE_WALL_LEFT, SCREE_WALL_RIGHT, SCREE_WALL_COUNT };
@@ -63,7 +64,7 @@ typedef struct scree_ledger {
     double stiffness; ///< put into tangential springs by the change of their stiffness with indentation (hertz_mindlin)
     double plates;    ///< work of the walls
     double pressure;  ///< work of the pressure on the Delaunay boundary
-    double gravity;   ///< work of gravity
+    double gravity;   ///< sum of m g . x when the ledger was opened
     double initial;   ///< kinetic + elastic energy when the ledger was opened
     double turnover;  ///< sum of |work| increments, the scale of the residual
 } scree_ledger;
@@ -71,9 +72,10 @@ typedef struct scree_ledger {
 /// Closed loop of bodies on the outer Delaunay boundary, counter-clockwise, by id; empty when there is none.
 typedef struct scree_loop {
     uint32_t *id;
-    uint8_t *loaded;  ///< 1: the edge from id[k] to id[k+1] carries the lateral pressure
-    double *x, *y;    ///< m, positions at `updated`; the strain increment since then is measured from them
-    double *fx, *fy;  ///< N, pressure force on each body of the loop at the present step (first half of the next work increment)
+    uint8_t *loaded; ///< 1: the edge from id[k] to id[k+1] carries the lateral pressure
+    double *x, *y;   ///< m, positions at `updated`; the strain increment since then is measured from them
+    double *fx,
+        *fy; ///< N, pressure force on each body of the loop at the present step (first half of the next work increment)
     size_t count, capacity;
     uint64_t updated; ///< step of the last update
 } scree_loop;
@@ -84,36 +86,36 @@ typedef struct scree_strain {
 } scree_strain;
 
 typedef struct scree_stage_state {
-    int64_t index;          ///< which stage of the case
-    uint64_t first_step;    ///< step at which it began
-    double first_time;      ///< s
-    double reference[8];    ///< stage-specific numbers (height at start, pressure at start, ...): see the stage's file
-    int64_t samples;        ///< rows written in this stage
+    int64_t index;       ///< which stage of the case
+    uint64_t first_step; ///< step at which it began
+    double first_time;   ///< s
+    double reference[8]; ///< stage-specific numbers (height at start, pressure at start, ...): see the stage's file
+    int64_t samples;     ///< rows written in this stage
     int64_t snapshots;
-    int64_t counter;        ///< stage-specific
+    int64_t counter; ///< stage-specific
 } scree_stage_state;
 
 typedef struct scree_state {
     size_t count;
-    uint64_t step;             ///< of the whole run; time = stage.first_time + (step - stage.first_step) * dt
-    double step_size;          ///< s, dt now
-    scree_row *row;            ///< count
-    scree_sum_row *sum;        ///< count, forces at `step`
-    double force_quantum;      ///< N
-    double torque_quantum;     ///< N m
-    double largest_overlap;    ///< m, over all contacts at `step`
-    double largest_speed;      ///< m/s, bound of |v| + radius |spin| over all bodies
+    uint64_t step;          ///< of the whole run; time = stage.first_time + (step - stage.first_step) * dt
+    double step_size;       ///< s, dt now
+    scree_row *row;         ///< count
+    scree_sum_row *sum;     ///< count, forces at `step`
+    double force_quantum;   ///< N
+    double torque_quantum;  ///< N m
+    double largest_overlap; ///< m, over all contacts at `step`
+    double largest_speed;   ///< m/s, bound of |v| + radius |spin| over all bodies
     // cold
-    uint32_t *id;              ///< count
-    double *angle;             ///< rad, orientation
+    uint32_t *id;                      ///< count
+    double *angle;                     ///< rad, orientation
     double *reference_x, *reference_y; ///< m, positions at the start of the loading stage
     double *rebuild_x, *rebuild_y;     ///< m, positions at the last neighbour rebuild (derived, kept sorted with rows)
-    uint32_t *row_of_id;       ///< derived
+    uint32_t *row_of_id;               ///< derived
     // contacts: filled from `work` by scree_contacts_save, consumed by scree_contacts_load (contact/contact.h)
     scree_contact_memory *contact;
     size_t contact_count, contact_capacity;
     scree_wall wall[SCREE_WALL_COUNT];
-    double pressure;           ///< Pa, lateral pressure applied now
+    double pressure; ///< Pa, lateral pressure applied now
     scree_loop loop;
     scree_strain strain;
     scree_ledger ledger;

@@ -6,10 +6,10 @@
 
 /// Flags that kernels and integrators raise; the guard looks once a step.
 enum {
-    SCREE_FLAG_NAN = 1,          ///< a position or velocity is not finite
-    SCREE_FLAG_OVERLAP = 2,      ///< indentation above the guard's limit
-    SCREE_FLAG_FORCE_RANGE = 4,  ///< a force above the bound of the quanta
-    SCREE_FLAG_ESCAPED = 8,      ///< a body left the domain
+    SCREE_FLAG_NAN = 1,         ///< a position or velocity is not finite
+    SCREE_FLAG_OVERLAP = 2,     ///< indentation above the guard's limit
+    SCREE_FLAG_FORCE_RANGE = 4, ///< a force above the bound of the quanta
+    SCREE_FLAG_ESCAPED = 8,     ///< a body left the domain
 };
 
 /// Neighbour pairs in row indices, along the curve; pairs [0, touching_count) touched at the rebuild (padded groups are
@@ -22,8 +22,8 @@ typedef struct scree_pair_list {
 } scree_pair_list;
 
 typedef struct scree_wall_pair_list {
-    uint32_t *body;           ///< rows
-    uint32_t *wall;           ///< wall index
+    uint32_t *body; ///< rows
+    uint32_t *wall; ///< wall index
     scree_history *history;
     size_t count, capacity;
 } scree_wall_pair_list;
@@ -34,17 +34,17 @@ typedef struct scree_work {
     scree_pair_list pairs;
     scree_wall_pair_list wall_pairs;
     scree_search *search;
-    double skin;             ///< m, width added to the sum of radii in the list
-    double budget;           ///< m, distance that bodies may still move before the list must be checked
-    bool valid;              ///< false: rebuild before the next force evaluation
+    double skin;   ///< m, width added to the sum of radii in the list
+    double budget; ///< m, distance that bodies may still move before the list must be checked
+    bool valid;    ///< false: rebuild before the next force evaluation
     uint64_t rebuilds;
     int threads;
-    bool ledger;             ///< dissipated energies are accumulated (default true)
-    bool reference_kernel;   ///< use the plain scalar core with runtime arguments (tests)
-    int instruction_set;     ///< 0: best of this machine; 2, 3, 4: x86-64-v2, v3, v4
-    uint32_t flags;          ///< SCREE_FLAG_...
-    uint64_t flagged_id;     ///< a body that raised a flag
-    void *contact_scratch;   ///< private to contact/ (per-thread slots); freed by scree_contact_scratch_destroy
+    bool ledger;           ///< dissipated energies are accumulated (default true)
+    bool reference_kernel; ///< use the plain scalar core with runtime arguments (tests)
+    int instruction_set;   ///< 0: best of this machine; 2, 3, 4: x86-64-v2, v3, v4
+    uint32_t flags;        ///< SCREE_FLAG_...
+    uint64_t flagged_id;   ///< a body that raised a flag
+    void *contact_scratch; ///< private to contact/ (per-thread slots); freed by scree_contact_scratch_destroy
 } scree_work;
 
 #endif

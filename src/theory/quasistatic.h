@@ -2,7 +2,8 @@
 #ifndef SCREE_THEORY_QUASISTATIC_H
 #define SCREE_THEORY_QUASISTATIC_H
 
-/// mass [kg] mean; radius [m] mean; rate [1/s]; pressure [Pa]; thickness [m] (2D: f0 = p 2R thickness; 3D: f0 = p (2R)^2).
+/// mass [kg] mean; radius [m] mean; rate [1/s]; pressure [Pa]; thickness [m] (2D: f0 = p 2R thickness; 3D: f0 = p
+/// (2R)^2).
 void scree_quasistatic_numbers(int dimension, double count, double mass, double radius, double thickness, double rate,
                                double pressure, double *phi, double *psi);
 

@@ -1,4 +1,5 @@
-/// Charts through gnuplot: the script and its data are kept beside the figure (NAME.gp, NAME.csv -> NAME.svg, NAME.png).
+/// Charts through gnuplot: the script and its data are kept beside the figure (NAME.gp, NAME.csv -> NAME.svg,
+/// NAME.png).
 #ifndef SCREE_VIEW_CHART_H
 #define SCREE_VIEW_CHART_H
 
@@ -9,7 +10,7 @@
 typedef struct scree_chart_line {
     const double *x, *y;
     size_t count;
-    const char *label;  ///< NULL: no legend entry
+    const char *label; ///< NULL: no legend entry
     bool dashed, points;
 } scree_chart_line;
 

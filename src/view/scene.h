@@ -9,14 +9,14 @@ typedef enum scree_colour_map { SCREE_COLOUR_SEQUENTIAL, SCREE_COLOUR_DIVERGING 
 
 typedef struct scree_scene {
     const char *title;
-    const double *field;     ///< per disc, NULL: plain discs
-    const char *field_name;  ///< label of the colour bar with unit, e.g. "rotation (degrees)"
+    const double *field;    ///< per disc, NULL: plain discs
+    const char *field_name; ///< label of the colour bar with unit, e.g. "rotation (degrees)"
     scree_colour_map map;
-    bool force_network;      ///< contacts as lines, width by normal force
-    bool boundary;           ///< Delaunay boundary loop
+    bool force_network; ///< contacts as lines, width by normal force
+    bool boundary;      ///< Delaunay boundary loop
     bool plates;
     const double *arrow_x, *arrow_y; ///< per disc, m; NULL: none
-    double arrow_scale;      ///< drawn length over true length; 0: chosen, and told in the figure
+    double arrow_scale;              ///< drawn length over true length; 0: chosen, and told in the figure
 } scree_scene;
 
 /// path without extension.

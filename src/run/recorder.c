@@ -1,0 +1,146 @@
+/// What a run writes. Order after a step: series row, snapshot, checkpoint, so that a checkpoint knows how many rows
+/// and snapshots there are and a restart cuts what came later.
+#include "run/recorder.h"
+
+#include "io/paraview.h"
+#include "io/run_directory.h"
+#include "io/snapshot.h"
+#include "run/sample.h"
+
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+/// Wall time between two progress reports, and steps between two looks at the clock.
+#define PROGRESS_SECONDS 0.5
+enum { CLOCK_STEPS = 16 };
+
+double scree_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void forward_line(void *user, scree_log_level level, const char *line)
+{
+    const scree_run_options *options = user;
+    if (options->message) options->message(options->user, (int)level, line);
+}
+
+scree_status scree_recorder_open(scree_recorder *recorder, const scree_simulation *s, const scree_run_options *options,
+                                 const char *directory, bool restart, scree_error *error)
+{
+    char path[4096];
+    *recorder = (scree_recorder){.options = options, .directory = directory, .rate = NAN};
+    scree_status status = scree_path_join(path, sizeof path, directory, SCREE_FILE_LOG, error);
+    if (status) return status;
+    recorder->log = (scree_log){.file = fopen(path, "a"), .sink = forward_line};
+    memcpy(&recorder->log.user, &options, sizeof options);
+    if (!recorder->log.file) return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot open '%s'", path);
+    if ((status = scree_path_join(path, sizeof path, directory, SCREE_FILE_SERIES, error))) return status;
+    status = scree_series_open(&recorder->series, path, scree_sample_columns, SCREE_SAMPLE_COUNT,
+                               restart ? s->state.stage.samples : -1, error);
+    recorder->started = recorder->last_checkpoint = recorder->last_progress = scree_clock();
+    recorder->first_step = recorder->progress_step = recorder->checkpoint_step = s->state.step;
+    return status;
+}
+
+void scree_recorder_close(scree_recorder *recorder)
+{
+    scree_error ignored;
+    if (recorder->series.file) (void)!scree_series_close(&recorder->series, &ignored);
+    if (recorder->log.file) fclose(recorder->log.file);
+    recorder->log.file = NULL;
+}
+
+scree_status scree_recorder_checkpoint(scree_recorder *recorder, scree_simulation *s, scree_error *error)
+{
+    scree_status status = scree_contacts_save(&s->state, &s->work, error);
+    if (!status) status = scree_checkpoint_write(recorder->directory, &s->state, recorder->case_checksum, error);
+    recorder->last_checkpoint = scree_clock();
+    recorder->checkpoint_step = s->state.step;
+    return status;
+}
+
+/// A snapshot is due at the begin and end of a stage and whenever a loading stage passes another 1/snapshots of its
+/// strain.
+static bool snapshot_due(const scree_simulation *s)
+{
+    uint64_t done = s->state.step - s->state.stage.first_step;
+    if (s->stage_ended) return true;
+    if (!s->stage->loading) return false;
+    if (done == 0) return true;
+    uint64_t wanted = (uint64_t)s->model.config->output.snapshots;
+    uint64_t before = done > s->plan.interval ? done - s->plan.interval : 0;
+    return done * wanted / s->plan.expected != before * wanted / s->plan.expected;
+}
+
+static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s, scree_error *error)
+{
+    scree_snapshot_info info = {.index = s->state.stage.snapshots,
+                                .time = scree_state_time(&s->state),
+                                .axial_strain = s->sample.value[SCREE_SAMPLE_AXIAL_STRAIN],
+                                .stage = s->stage->name};
+    const scree_model *model = &s->stage_model;
+    scree_status status = scree_snapshot_write(recorder->directory, model, &s->state, &s->table, &info, error);
+    if (!status && s->model.config->output.paraview)
+        status = scree_paraview_write(recorder->directory, model, &s->state, &s->table, &info, error);
+    if (!status) s->state.stage.snapshots++;
+    return status;
+}
+
+/// Steps of this and the following loading stages that are still to come; NAN when a stage has no planned end.
+static double steps_left(const scree_simulation *s)
+{
+    if (!s->plan.expected) return NAN;
+    double left = (double)s->plan.expected - (double)(s->state.step - s->state.stage.first_step);
+    for (int64_t k = s->state.stage.index + 1; k < s->model.config->stage_count; k++) {
+        const scree_config_stage *stage = &s->model.config->stages[k];
+        if (stage->kind != SCREE_STAGE_COMPRESS) return NAN;
+        left += stage->strain / stage->rate / s->state.step_size;
+    }
+    return left;
+}
+
+static void report_progress(scree_recorder *recorder, const scree_simulation *s, double now)
+{
+    double passed = now - recorder->last_progress;
+    recorder->rate = (double)s->state.count * (double)(s->state.step - recorder->progress_step) / passed;
+    recorder->last_progress = now;
+    recorder->progress_step = s->state.step;
+    if (!recorder->options->progress || !s->stage || s->stage_ended) return;
+    scree_progress progress = {.stage = s->stage->name,
+                               .fraction = s->stage->fraction ? s->stage->fraction(s) : NAN,
+                               .time = scree_state_time(&s->state),
+                               .strain = scree_axial_strain(s),
+                               .particle_steps_per_second = recorder->rate,
+                               .seconds_left = steps_left(s) * (double)s->state.count / recorder->rate};
+    recorder->options->progress(recorder->options->user, &progress);
+}
+
+static bool checkpoint_due(const scree_recorder *recorder, const scree_simulation *s, double now)
+{
+    const scree_config_output *output = &s->model.config->output;
+    uint64_t every = (uint64_t)output->checkpoint_steps;
+    return (every > 0 && s->state.step - recorder->checkpoint_step >= every) ||
+           now - recorder->last_checkpoint > output->checkpoint_interval;
+}
+
+scree_status scree_recorder_follow(scree_recorder *recorder, scree_simulation *s, scree_error *error)
+{
+    scree_status status = SCREE_OK;
+    if (s->sampled) {
+        if ((status = scree_series_append(&recorder->series, s->sample.value, error))) return status;
+        s->state.stage.samples++;
+        if (snapshot_due(s) && (status = write_snapshot(recorder, s, error))) return status;
+    }
+    if (s->stage_ended)
+        scree_log_write(&recorder->log, SCREE_LOG_INFO, "stage %s ended at step %llu, time %.6g s: %s", s->stage->name,
+                        (unsigned long long)s->state.step, scree_state_time(&s->state), s->reason);
+    if (s->state.step % CLOCK_STEPS != 0 && !s->stage_ended) return SCREE_OK;
+    double now = scree_clock();
+    if (s->stage_ended || checkpoint_due(recorder, s, now)) status = scree_recorder_checkpoint(recorder, s, error);
+    if (now - recorder->last_progress > PROGRESS_SECONDS) report_progress(recorder, s, now);
+    return status;
+}

@@ -1,0 +1,38 @@
+/// Everything that a run writes while it goes on: series, snapshots, ParaView files, checkpoints, log, progress.
+#ifndef SCREE_RUN_RECORDER_H
+#define SCREE_RUN_RECORDER_H
+
+#include "base/log.h"
+#include "io/series.h"
+#include "run/simulation.h"
+
+typedef struct scree_recorder {
+    const scree_run_options *options;
+    const char *directory;
+    scree_log log;
+    scree_series_writer series;
+    uint64_t case_checksum;
+    double started; ///< s, monotonic clock at the begin of this process's part of the run
+    double last_progress, last_checkpoint;
+    uint64_t progress_step, checkpoint_step;
+    double rate;         ///< particle-steps per second, over the last progress interval
+    uint64_t first_step; ///< at `started`
+    double stepping;     ///< s of wall time in the stepping loop
+} scree_recorder;
+
+/// Opens log and series in a run directory that exists; rows > 0 or restart: continues the series after `rows` rows.
+scree_status scree_recorder_open(scree_recorder *recorder, const scree_simulation *s, const scree_run_options *options,
+                                 const char *directory, bool restart, scree_error *error) SCREE_MUST_USE;
+void scree_recorder_close(scree_recorder *recorder);
+
+/// After every step: writes what is due.
+scree_status scree_recorder_follow(scree_recorder *recorder, scree_simulation *s, scree_error *error) SCREE_MUST_USE;
+
+/// Writes a checkpoint now.
+scree_status scree_recorder_checkpoint(scree_recorder *recorder, scree_simulation *s,
+                                       scree_error *error) SCREE_MUST_USE;
+
+/// s, monotonic.
+double scree_clock(void);
+
+#endif

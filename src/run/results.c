@@ -1,0 +1,129 @@
+/// The named scalars of summary.json, computed from the whole series.
+///
+/// Over the loading stages: peak of the stress ratio and its strain; mean stress ratio over the last tenth of the
+/// strain (the critical state, if it was reached); largest compaction and dilation relative to the begin of loading
+/// (dilation positive); mean disagreement of axial stress between plates and contacts; largest relative residual of the
+/// energy balance.
+#include "run/results.h"
+
+#include "io/run_directory.h"
+#include "io/summary.h"
+#include "run/sample.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+/// The rows of the last loading stage.
+typedef struct loading {
+    const double *strain, *ratio, *volumetric, *plates, *contacts, *slip, *coordination;
+    size_t first, last; ///< rows [first, last)
+} loading;
+
+static bool find_loading(const scree_series *series, loading *l)
+{
+    const double *stage = scree_series_get(series, "stage");
+    *l = (loading){.strain = scree_series_get(series, "axial_strain"),
+                   .ratio = scree_series_get(series, "stress_ratio"),
+                   .volumetric = scree_series_get(series, "volumetric_strain"),
+                   .plates = scree_series_get(series, "stress_axial_plates"),
+                   .contacts = scree_series_get(series, "stress_axial_contacts"),
+                   .slip = scree_series_get(series, "slip_ratio"),
+                   .coordination = scree_series_get(series, "coordination"),
+                   .last = series->row_count};
+    if (series->row_count == 0 || isnan(l->strain[series->row_count - 1])) return false;
+    for (l->first = l->last; l->first > 0 && stage[l->first - 1] == stage[l->last - 1]; l->first--) continue;
+    return l->last - l->first > 1;
+}
+
+static void summarise_loading(const loading *l, scree_summary *summary)
+{
+    size_t peak = l->first;
+    double compaction = 0, dilation = 0, disagreement = 0, final_ratio = 0, slip = 0;
+    size_t final_count = 0, rows = l->last - l->first;
+    double end = l->strain[l->last - 1];
+    for (size_t k = l->first; k < l->last; k++) {
+        if (l->ratio[k] > l->ratio[peak]) peak = k;
+        compaction = fmax(compaction, l->volumetric[k]);
+        dilation = fmax(dilation, -l->volumetric[k]);
+        disagreement += fabs(l->contacts[k] / l->plates[k] - 1) / (double)rows;
+        slip += l->slip[k] / (double)rows;
+        if (l->strain[k] < 0.9 * end) continue;
+        final_ratio += l->ratio[k];
+        final_count++;
+    }
+    scree_summary_set_number(summary, "axial_strain", end);
+    scree_summary_set_number(summary, "peak_stress_ratio", l->ratio[peak]);
+    scree_summary_set_number(summary, "strain_at_peak", l->strain[peak]);
+    scree_summary_set_number(summary, "final_stress_ratio", final_ratio / (double)final_count);
+    scree_summary_set_number(summary, "max_volumetric_compaction", compaction);
+    scree_summary_set_number(summary, "max_volumetric_dilation", dilation);
+    scree_summary_set_number(summary, "stress_disagreement", disagreement);
+    scree_summary_set_number(summary, "mean_slip_ratio", slip);
+    scree_summary_set_number(summary, "coordination_at_start", l->coordination[l->first]);
+}
+
+static void summarise_series(const scree_series *series, scree_summary *summary)
+{
+    loading l;
+    if (find_loading(series, &l)) summarise_loading(&l, summary);
+    const double *residual = scree_series_get(series, "energy_residual_relative");
+    double largest = 0;
+    for (size_t k = 0; k < series->row_count; k++) largest = fmax(largest, residual[k]);
+    scree_summary_set_number(summary, "energy_residual", largest);
+    if (series->row_count == 0) return;
+    static const char *const finals[] = {"coordination", "coordination_without_rattlers", "rattler_fraction",
+                                         "solid_fraction", "unbalanced_ratio"};
+    for (size_t k = 0; k < sizeof finals / sizeof *finals; k++)
+        scree_summary_set_number(summary, finals[k], scree_series_get(series, finals[k])[series->row_count - 1]);
+}
+
+static void summarise_run(const scree_recorder *recorder, scree_simulation *s, scree_status status,
+                          scree_summary *summary)
+{
+    const scree_config *config = s->model.config;
+    char checksum[32];
+    (void)snprintf(checksum, sizeof checksum, "%016" PRIx64, scree_simulation_checksum(s));
+    double steps = (double)(s->state.step - recorder->first_step);
+    scree_summary_set_text(summary, "case", config->name);
+    scree_summary_set_text(summary, "status",
+                           status == SCREE_OK            ? "done"
+                           : status == SCREE_INTERRUPTED ? "interrupted"
+                                                         : "stopped");
+    scree_summary_set_text(summary, "version", scree_version());
+    scree_summary_set_integer(summary, "seed", config->seed);
+    scree_summary_set_integer(summary, "particles", (int64_t)s->state.count);
+    scree_summary_set_integer(summary, "steps", (int64_t)s->state.step);
+    scree_summary_set_number(summary, "step_size", s->state.step_size);
+    scree_summary_set_number(summary, "critical_step", s->model.critical_step);
+    scree_summary_set_number(summary, "time", scree_state_time(&s->state));
+    scree_summary_set_number(summary, "phi", s->model.phi);
+    scree_summary_set_number(summary, "psi", s->model.psi);
+    scree_summary_set_number(summary, "reference_velocity", s->model.reference_velocity);
+    scree_summary_set_number(summary, "thickness", s->model.thickness);
+    scree_summary_set_text(summary, "state_checksum", checksum);
+    scree_summary_set_integer(summary, "threads", s->work.threads);
+    scree_summary_set_number(summary, "wall_time", scree_clock() - recorder->started);
+    scree_summary_set_number(summary, "particle_steps_per_second", steps * (double)s->state.count / recorder->stepping);
+    scree_summary_set_integer(summary, "neighbour_rebuilds", (int64_t)s->work.rebuilds);
+}
+
+scree_status scree_results_write(const scree_recorder *recorder, scree_simulation *s, scree_status status,
+                                 scree_error *error)
+{
+    char path[4096];
+    scree_series series = {0};
+    scree_summary *summary = NULL;
+    scree_status result = scree_path_join(path, sizeof path, recorder->directory, SCREE_FILE_SERIES, error);
+    if (!result) result = scree_series_read(&series, path, error);
+    if (!result) result = scree_summary_create(&summary, error);
+    if (!result) {
+        summarise_run(recorder, s, status, summary);
+        summarise_series(&series, summary);
+        result = scree_path_join(path, sizeof path, recorder->directory, SCREE_FILE_SUMMARY, error);
+    }
+    if (!result) result = scree_summary_write(summary, path, error);
+    scree_summary_destroy(summary);
+    scree_series_destroy(&series);
+    return result;
+}

@@ -1,0 +1,12 @@
+/// The named scalars of summary.json.
+#ifndef SCREE_RUN_RESULTS_H
+#define SCREE_RUN_RESULTS_H
+
+#include "run/recorder.h"
+
+/// Writes summary.json from series.csv (so that a restarted run gives the same) and the final state. `status` is how
+/// the run ended.
+scree_status scree_results_write(const scree_recorder *recorder, scree_simulation *s, scree_status status,
+                                 scree_error *error) SCREE_MUST_USE;
+
+#endif

@@ -1,0 +1,133 @@
+/// The columns of series.csv and how each comes from the measures.
+#include "run/sample.h"
+
+#include "boundary/plates.h"
+#include "measure/measure.h"
+#include "run/guard.h"
+
+#include <math.h>
+
+const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
+    [SCREE_SAMPLE_STEP] = {"step", "1", "number of the step"},
+    [SCREE_SAMPLE_TIME] = {"time", "s", "simulated time"},
+    [SCREE_SAMPLE_STAGE] = {"stage", "1", "index of the stage in the case, from 0"},
+    [SCREE_SAMPLE_AXIAL_STRAIN] = {"axial_strain", "1", "from the plates, engineering, compression positive"},
+    [SCREE_SAMPLE_VOLUMETRIC_STRAIN] = {"volumetric_strain", "1",
+                                        "from the Delaunay boundary (Bagi), logarithmic, compression positive"},
+    [SCREE_SAMPLE_BOUNDARY_AXIAL] = {"boundary_axial_strain", "1",
+                                     "axial strain from the Delaunay boundary, compression positive"},
+    [SCREE_SAMPLE_BOUNDARY_LATERAL] = {"boundary_lateral_strain", "1",
+                                       "lateral strain from the Delaunay boundary, compression positive"},
+    [SCREE_SAMPLE_STRESS_RATIO] = {"stress_ratio", "1", "axial stress on the plates over the lateral stress applied"},
+    [SCREE_SAMPLE_STRESS_RATIO_CONTACTS] = {"stress_ratio_contacts", "1", "the same from contact forces"},
+    [SCREE_SAMPLE_AXIAL_PLATES] = {"stress_axial_plates", "Pa", "mean of bottom and top plate, compression positive"},
+    [SCREE_SAMPLE_LATERAL_APPLIED] = {"stress_lateral_applied", "Pa",
+                                      "pressure on the Delaunay boundary or mean of the side plates"},
+    [SCREE_SAMPLE_AXIAL_CONTACTS] = {"stress_axial_contacts", "Pa",
+                                     "average stress from contacts, compression positive"},
+    [SCREE_SAMPLE_LATERAL_CONTACTS] = {"stress_lateral_contacts", "Pa",
+                                       "average stress from contacts, compression positive"},
+    [SCREE_SAMPLE_SHEAR_CONTACTS] = {"stress_shear_contacts", "Pa",
+                                     "symmetric part of the average stress from contacts, tension positive"},
+    [SCREE_SAMPLE_SLIP_RATIO] = {"slip_ratio", "1", "mean slip speed of contacts over the characteristic velocity v_R"},
+    [SCREE_SAMPLE_SLIDING_FRACTION] = {"sliding_fraction", "1", "fraction of contacts at the Coulomb limit"},
+    [SCREE_SAMPLE_COORDINATION] = {"coordination", "1", "contacts a particle"},
+    [SCREE_SAMPLE_COORDINATION_WITHOUT_RATTLERS] = {"coordination_without_rattlers", "1",
+                                                    "contacts a load-bearing particle"},
+    [SCREE_SAMPLE_RATTLER_FRACTION] = {"rattler_fraction", "1", "fraction of particles that bear no load"},
+    [SCREE_SAMPLE_SOLID_FRACTION] = {"solid_fraction", "1", "disc area over sample area, inside the Delaunay boundary"},
+    [SCREE_SAMPLE_UNBALANCED_RATIO] = {"unbalanced_ratio", "1", "mean unbalanced force over mean contact force"},
+    [SCREE_SAMPLE_KINETIC] = {"kinetic", "J", "kinetic energy, translation and rotation"},
+    [SCREE_SAMPLE_ELASTIC_NORMAL] = {"elastic_normal", "J", "stored in normal contact springs"},
+    [SCREE_SAMPLE_ELASTIC_TANGENTIAL] = {"elastic_tangential", "J", "stored in tangential contact springs"},
+    [SCREE_SAMPLE_DISSIPATED_DAMPING] = {"dissipated_damping", "J",
+                                         "dissipated by contact damping since the ledger was opened"},
+    [SCREE_SAMPLE_DISSIPATED_FRICTION] = {"dissipated_friction", "J", "dissipated by sliding"},
+    [SCREE_SAMPLE_STIFFNESS_WORK] = {"stiffness_work", "J", "put into tangential springs by their change of stiffness"},
+    [SCREE_SAMPLE_WORK_PLATES] = {"work_plates", "J", "work of the plates on the particles"},
+    [SCREE_SAMPLE_WORK_PRESSURE] = {"work_pressure", "J", "work of the pressure on the Delaunay boundary"},
+    [SCREE_SAMPLE_WORK_GRAVITY] = {"work_gravity", "J", "work of gravity"},
+    [SCREE_SAMPLE_ENERGY_RESIDUAL] = {"energy_residual", "J", "what the energy balance leaves open"},
+    [SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE] = {"energy_residual_relative", "1", "the same over the work done"},
+    [SCREE_SAMPLE_HEIGHT] = {"height", "m", "distance of bottom and top plate"},
+    [SCREE_SAMPLE_AREA] = {"area", "m2", "area of the sample between plates and Delaunay boundary"},
+    [SCREE_SAMPLE_BOUNDARY_COUNT] = {"boundary_count", "1", "particles on the Delaunay boundary"},
+};
+
+static void sample_strain(const scree_simulation *s, double *value)
+{
+    const double *begin = s->state.stage.reference;
+    double gradient[4];
+    scree_strain_measure(&s->state, gradient);
+    bool loading = s->stage->loading;
+    value[SCREE_SAMPLE_AXIAL_STRAIN] = scree_axial_strain(s);
+    value[SCREE_SAMPLE_BOUNDARY_AXIAL] = loading ? begin[5] - gradient[3] : NAN;
+    value[SCREE_SAMPLE_BOUNDARY_LATERAL] = loading ? begin[2] - gradient[0] : NAN;
+    value[SCREE_SAMPLE_VOLUMETRIC_STRAIN] = value[SCREE_SAMPLE_BOUNDARY_AXIAL] + value[SCREE_SAMPLE_BOUNDARY_LATERAL];
+}
+
+static void sample_stress(const scree_simulation *s, double *value)
+{
+    const scree_model *model = &s->stage_model;
+    double area = scree_sample_area(&s->state), plates[4], contacts[4];
+    scree_stress_from_plates(model, &s->state, plates);
+    scree_stress_from_contacts(model, &s->state, &s->work, &s->table, area * model->thickness, contacts);
+    value[SCREE_SAMPLE_AREA] = area;
+    value[SCREE_SAMPLE_AXIAL_PLATES] = -plates[3];
+    value[SCREE_SAMPLE_LATERAL_APPLIED] = -plates[0];
+    value[SCREE_SAMPLE_STRESS_RATIO] = plates[3] / plates[0];
+    value[SCREE_SAMPLE_AXIAL_CONTACTS] = -contacts[3];
+    value[SCREE_SAMPLE_LATERAL_CONTACTS] = -contacts[0];
+    value[SCREE_SAMPLE_SHEAR_CONTACTS] = 0.5 * (contacts[1] + contacts[2]);
+    value[SCREE_SAMPLE_STRESS_RATIO_CONTACTS] = contacts[3] / contacts[0];
+}
+
+static void sample_structure(const scree_simulation *s, double *value)
+{
+    double slip, sliding;
+    scree_slip_measure(&s->table, &slip, &sliding);
+    scree_coordination coordination;
+    scree_coordination_measure(&s->state, &s->table, &coordination);
+    value[SCREE_SAMPLE_SLIP_RATIO] = slip / s->model.reference_velocity;
+    value[SCREE_SAMPLE_SLIDING_FRACTION] = sliding;
+    value[SCREE_SAMPLE_COORDINATION] = coordination.mean;
+    value[SCREE_SAMPLE_COORDINATION_WITHOUT_RATTLERS] = coordination.mean_without_rattlers;
+    value[SCREE_SAMPLE_RATTLER_FRACTION] = coordination.rattler_fraction;
+    value[SCREE_SAMPLE_SOLID_FRACTION] = scree_solid_fraction(&s->state);
+    value[SCREE_SAMPLE_UNBALANCED_RATIO] = scree_unbalanced_ratio(&s->stage_model, &s->state, &s->table);
+    value[SCREE_SAMPLE_BOUNDARY_COUNT] = (double)s->state.loop.count;
+    value[SCREE_SAMPLE_HEIGHT] = scree_sample_height(&s->state);
+}
+
+static void sample_energy(const scree_simulation *s, double *value)
+{
+    const scree_ledger *ledger = &s->state.ledger;
+    scree_energy energy;
+    scree_energy_measure(&s->stage_model, &s->state, &s->table, &energy);
+    value[SCREE_SAMPLE_KINETIC] = energy.kinetic + energy.kinetic_rotation;
+    value[SCREE_SAMPLE_ELASTIC_NORMAL] = energy.elastic_normal;
+    value[SCREE_SAMPLE_ELASTIC_TANGENTIAL] = energy.elastic_tangential;
+    value[SCREE_SAMPLE_DISSIPATED_DAMPING] = ledger->damping;
+    value[SCREE_SAMPLE_DISSIPATED_FRICTION] = ledger->friction;
+    value[SCREE_SAMPLE_STIFFNESS_WORK] = ledger->stiffness;
+    value[SCREE_SAMPLE_WORK_PLATES] = ledger->plates;
+    value[SCREE_SAMPLE_WORK_PRESSURE] = ledger->pressure;
+    value[SCREE_SAMPLE_WORK_GRAVITY] = energy.gravity;
+    value[SCREE_SAMPLE_ENERGY_RESIDUAL] = energy.residual;
+    value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE] = energy.relative;
+}
+
+scree_status scree_sample_take(scree_simulation *s, scree_error *error)
+{
+    scree_status status = scree_contact_table_build(&s->stage_model, &s->state, &s->work, &s->table, error);
+    if (status) return status;
+    double *value = s->sample.value;
+    value[SCREE_SAMPLE_STEP] = (double)s->state.step;
+    value[SCREE_SAMPLE_TIME] = scree_state_time(&s->state);
+    value[SCREE_SAMPLE_STAGE] = (double)s->state.stage.index;
+    sample_strain(s, value);
+    sample_stress(s, value);
+    sample_structure(s, value);
+    sample_energy(s, value);
+    return scree_guard_sample(s, value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE], error);
+}

@@ -1,0 +1,154 @@
+/// Stages one after the other, a step at a time; the public simulation handle.
+#include "run/simulation.h"
+
+#include "measure/measure.h"
+#include "run/sample.h"
+#include "run/step.h"
+#include "search/neighbours.h"
+
+#include <math.h>
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// state.stage.counter of a stage that has not begun.
+enum { NOT_BEGUN = -1 };
+
+scree_status scree_simulation_open(const scree_case *c, int threads, scree_simulation *s, scree_error *error)
+{
+    memset(s, 0, sizeof *s);
+    s->c = c;
+    s->state.stage.counter = NOT_BEGUN;
+    scree_status status = scree_model_build(&c->config, &s->model, error);
+    if (status) {
+        scree_case_locate(c, error);
+        return status;
+    }
+    s->stage_model = s->model;
+    s->integrator = scree_integrator_get(s->model.scheme);
+    if (threads <= 0) threads = omp_get_num_procs();
+    return scree_work_create(&s->work, &s->model, threads, error);
+}
+
+void scree_simulation_close(scree_simulation *s)
+{
+    scree_contact_table_destroy(&s->table);
+    scree_work_destroy(&s->work);
+    scree_state_destroy(&s->state);
+}
+
+/// The first stage with contacts opens the energy ledger.
+static void open_ledger(scree_simulation *s)
+{
+    s->state.ledger = (scree_ledger){0};
+    scree_energy energy;
+    scree_contact_table empty = {0};
+    scree_energy_measure(&s->stage_model, &s->state, &empty, &energy);
+    s->state.ledger.initial = energy.kinetic + energy.kinetic_rotation;
+    s->state.ledger.gravity = energy.gravity;
+}
+
+scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *error)
+{
+    scree_stage_state *stage = &s->state.stage;
+    if (stage->index >= s->model.config->stage_count) {
+        s->stage = NULL;
+        return SCREE_OK;
+    }
+    const scree_config_stage *config = scree_stage_config(s);
+    s->stage = scree_stage_get((scree_stage_kind)config->kind);
+    s->stage_model = scree_model_with_friction(&s->model, config->mobilised_friction);
+    if (!restart || stage->counter == NOT_BEGUN) {
+        stage->first_time = scree_state_time(&s->state);
+        stage->first_step = s->state.step;
+        stage->counter = 0;
+        scree_status status = s->stage->begin(s, error);
+        if (status) return status;
+        if (s->stage->instant) open_ledger(s);
+        scree_neighbours_invalidate(&s->work);
+    }
+    if (s->stage->plan) s->stage->plan(s);
+    return SCREE_OK;
+}
+
+/// Marks the present stage as ended; the next step begins the next one.
+static void end_stage(scree_simulation *s)
+{
+    s->stage_ended = true;
+    s->state.stage.first_time = scree_state_time(&s->state);
+    s->state.stage.first_step = s->state.step;
+    s->state.stage.index++;
+    s->state.stage.counter = NOT_BEGUN;
+}
+
+/// Begins the next stage; a loading stage is sampled at zero strain.
+static scree_status begin_next(scree_simulation *s, scree_error *error)
+{
+    scree_status status = scree_stage_enter(s, false, error);
+    if (status) return status;
+    if (!s->stage) return SCREE_OK;
+    if (s->stage->instant) {
+        end_stage(s);
+        return SCREE_OK;
+    }
+    if (!s->stage->loading) return SCREE_OK;
+    s->sampled = true;
+    return scree_sample_take(s, error);
+}
+
+scree_status scree_simulation_step(scree_simulation *s, scree_error *error)
+{
+    s->sampled = s->stage_ended = false;
+    if (s->state.stage.counter == NOT_BEGUN) return begin_next(s, error);
+    scree_status status = scree_step(s, error);
+    if (status) return status;
+    uint64_t done = s->state.step - s->state.stage.first_step;
+    if (done % s->plan.interval != 0 && done != s->plan.expected) return SCREE_OK;
+    s->sampled = true;
+    if ((status = scree_sample_take(s, error))) return status;
+    bool finished = false;
+    if ((status = s->stage->finished(s, &finished, error))) return status;
+    if (finished) end_stage(s);
+    return SCREE_OK;
+}
+
+scree_status scree_simulation_create(const scree_case *c, int threads, scree_simulation **out, scree_error *error)
+{
+    scree_status status = scree_allocate(out, 1, sizeof **out, error);
+    if (status) return status;
+    status = scree_simulation_open(c, threads, *out, error);
+    if (status) {
+        scree_simulation_close(*out);
+        scree_release(out);
+    }
+    return status;
+}
+
+scree_status scree_simulation_advance(scree_simulation *s, uint64_t steps, bool *done, scree_error *error)
+{
+    uint64_t target = s->state.step + steps;
+    scree_status status = SCREE_OK;
+    *done = false;
+    while (!status && s->state.step < target) {
+        status = scree_simulation_step(s, error);
+        if (!status && s->state.stage.index >= s->model.config->stage_count) {
+            *done = true;
+            break;
+        }
+    }
+    return status;
+}
+
+uint64_t scree_simulation_checksum(scree_simulation *s)
+{
+    scree_error error;
+    if (scree_contacts_save(&s->state, &s->work, &error)) return 0;
+    return scree_state_checksum(&s->state);
+}
+
+void scree_simulation_free(scree_simulation *s)
+{
+    if (!s) return;
+    scree_simulation_close(s);
+    scree_release(&s);
+}

@@ -1,0 +1,77 @@
+/// Stage `compress`: the bottom and top plates approach each other at a constant rate (referred to the height at the
+/// begin), reached smoothly within `rise_time`; the sides keep the pressure of the stage before. Stop rule: the axial
+/// strain (engineering, from the plates) has reached `strain`. reference: [0] height at the begin, [1] wave time,
+/// [2..5] accumulated boundary strain at the begin (xx, xy, yx, yy), [6] impedance of the side plates.
+#include "boundary/plates.h"
+#include "measure/measure.h"
+#include "run/simulation.h"
+
+#include <math.h>
+#include <string.h>
+
+#define RISE_WAVES 4.0
+
+static scree_status begin(scree_simulation *s, scree_error *error)
+{
+    (void)error;
+    scree_state *state = &s->state;
+    double *reference = state->stage.reference;
+    reference[0] = scree_sample_height(state);
+    reference[1] = scree_sample_wave_time(&s->model, state, state->pressure);
+    scree_strain_measure(state, &reference[2]);
+    reference[6] = scree_sample_impedance(&s->model, state, reference[0], state->pressure);
+    for (size_t row = 0; row < state->count; row++) {
+        state->reference_x[row] = state->row[row].x;
+        state->reference_y[row] = state->row[row].y;
+    }
+    memset(state->angle, 0, state->count * sizeof *state->angle);
+    return SCREE_OK;
+}
+
+static void plan(scree_simulation *s)
+{
+    const scree_config_stage *stage = scree_stage_config(s);
+    double dt = s->state.step_size;
+    double rise = isnan(stage->rise_time) ? RISE_WAVES * s->state.stage.reference[1] : stage->rise_time;
+    // The smooth start costs half the rise time.
+    uint64_t expected = (uint64_t)ceil((stage->strain / stage->rate + 0.5 * rise) / dt);
+    uint64_t interval = expected / (uint64_t)s->model.config->measure.samples;
+    s->plan = (scree_stage_plan){.interval = interval > 0 ? interval : 1,
+                                 .expected = expected,
+                                 .ramp_time = rise,
+                                 .side_impedance = s->state.stage.reference[6]};
+}
+
+static void control(scree_simulation *s)
+{
+    const scree_config_stage *stage = scree_stage_config(s);
+    double elapsed = (double)(s->state.step - s->state.stage.first_step) * s->state.step_size;
+    double rise = s->plan.ramp_time > 0 ? scree_smooth_ramp(elapsed / s->plan.ramp_time) : 1;
+    double velocity = 0.5 * stage->rate * s->state.stage.reference[0] * rise;
+    s->state.wall[SCREE_WALL_BOTTOM].velocity = s->state.wall[SCREE_WALL_TOP].velocity = velocity;
+    scree_servo_sides(s, s->state.pressure);
+}
+
+static scree_status finished(scree_simulation *s, bool *done, scree_error *error)
+{
+    (void)error;
+    double strain = scree_axial_strain(s);
+    // The last sample lies on the planned last step; half a step of strain covers round-off.
+    double step = scree_stage_config(s)->rate * s->state.step_size;
+    *done = strain >= scree_stage_config(s)->strain - 0.5 * step;
+    (void)snprintf(s->reason, sizeof s->reason, "axial strain %.4g reached", strain);
+    return SCREE_OK;
+}
+
+static double fraction(const scree_simulation *s)
+{
+    return scree_axial_strain(s) / scree_stage_config(s)->strain;
+}
+
+const scree_stage scree_stage_compress = {.name = "compress",
+                                          .loading = true,
+                                          .begin = begin,
+                                          .plan = plan,
+                                          .control = control,
+                                          .finished = finished,
+                                          .fraction = fraction};

@@ -1,0 +1,111 @@
+/// What a case amounts to before it is run: numbers of the model, and an estimate of steps, wall time and memory.
+///
+/// Wall time = particles x steps / rate; the rate is measured on this machine by a few dozen steps of a small hexagonal
+/// packing under the case's own law and scheme (about 10 ms). Steps of a confinement are not known in advance:
+/// CONFINE_WAVES wave times through the sample, the typical duration seen. Memory: rows, cold arrays and about 2.6
+/// listed pairs a disc.
+#include "boundary/plates.h"
+#include "case/case.h"
+#include "contact/contact.h"
+#include "integrate/integrate.h"
+#include "run/recorder.h"
+#include "search/neighbours.h"
+
+#include <math.h>
+#include <string.h>
+
+#define CONFINE_WAVES          60.0
+#define TYPICAL_SOLID_FRACTION 0.82
+enum { PROBE_SIDE = 32, PROBE_STEPS = 60, BYTES_A_DISC = 330 };
+
+/// A square of discs of the mean radius on a hexagonal lattice, slightly pressed together.
+static scree_status make_probe(const scree_model *model, scree_state *state, scree_error *error)
+{
+    double radius = model->mean_radius, spacing = 2 * radius * (1 - 1e-4);
+    scree_status status = scree_state_create(state, PROBE_SIDE * PROBE_SIDE, error);
+    if (status) return status;
+    state->step_size = model->step;
+    for (size_t k = 0; k < state->count; k++) {
+        size_t i = k % PROBE_SIDE, j = k / PROBE_SIDE;
+        state->row[k] = (scree_row){.x = spacing * ((double)i + 0.5 * (double)(j % 2)),
+                                    .y = spacing * sqrt(0.75) * (double)j,
+                                    .radius = radius,
+                                    .mass = model->density[0] * M_PI * radius * radius * model->thickness};
+    }
+    return SCREE_OK;
+}
+
+/// Particle-steps per second of the stepping loop on the probe.
+static scree_status measure_rate(const scree_model *model, double *rate, scree_error *error)
+{
+    scree_state state;
+    scree_work work;
+    const scree_integrator *integrator = scree_integrator_get(model->scheme);
+    scree_status status = make_probe(model, &state, error);
+    if (status) return status;
+    status = scree_work_create(&work, model, 1, error);
+    if (!status) status = scree_neighbours_refresh(model, &state, &work, error);
+    double begin = scree_clock();
+    for (int k = 0; k < PROBE_STEPS && !status; k++) {
+        integrator->first(model, &state, &work);
+        status = scree_neighbours_refresh(model, &state, &work, error);
+        scree_contact_set_quanta(model, &state, 0);
+        scree_contact_forces(model, &state, &work);
+        if (integrator->second) integrator->second(model, &state, &work);
+    }
+    *rate = (double)state.count * PROBE_STEPS / (scree_clock() - begin);
+    scree_work_destroy(&work);
+    scree_state_destroy(&state);
+    return status;
+}
+
+/// Wave time through the sample at `pressure`, from the numbers of the model alone (see boundary/plates.c).
+static double expected_wave_time(const scree_model *model, double count, double aspect_ratio, double pressure)
+{
+    double disc = M_PI * model->mean_radius * model->mean_radius;
+    double area = count * disc / TYPICAL_SOLID_FRACTION;
+    double mass_per_area = model->density[0] * model->thickness * TYPICAL_SOLID_FRACTION;
+    double k = model->pairs[0][0].normal_stiffness * sqrt(0.5 * model->mean_radius);
+    double stiffness = 1.5 * cbrt(k * k * pressure * 2 * model->mean_radius * model->thickness);
+    return sqrt(area * fmax(aspect_ratio, 1 / aspect_ratio) * mass_per_area / stiffness);
+}
+
+static double expected_steps(const scree_model *model)
+{
+    const scree_config *config = model->config;
+    double steps = 0, aspect_ratio = 1;
+    for (int64_t k = 0; k < config->stage_count; k++) {
+        const scree_config_stage *stage = &config->stages[k];
+        if (stage->kind == SCREE_STAGE_PREPARE && stage->aspect_ratio > 0) aspect_ratio = stage->aspect_ratio;
+        if (stage->kind == SCREE_STAGE_CONFINE) {
+            double wave = expected_wave_time(model, (double)config->particles.count, aspect_ratio, stage->pressure);
+            steps += CONFINE_WAVES * wave / model->step;
+        }
+        if (stage->kind == SCREE_STAGE_COMPRESS) steps += stage->strain / stage->rate / model->step;
+    }
+    return steps;
+}
+
+scree_status scree_case_summarise(const scree_case *c, scree_case_summary *summary, scree_error *error)
+{
+    scree_model model;
+    scree_status status = scree_model_build(&c->config, &model, error);
+    if (status) {
+        scree_case_locate(c, error);
+        return status;
+    }
+    *summary = (scree_case_summary){.particles = (uint64_t)c->config.particles.count,
+                                    .step = model.step,
+                                    .critical_step = model.critical_step,
+                                    .phi = model.phi,
+                                    .psi = model.psi,
+                                    .mean_radius = model.mean_radius,
+                                    .thickness = model.thickness,
+                                    .reference_velocity = model.reference_velocity,
+                                    .steps = expected_steps(&model)};
+    (void)snprintf(summary->name, sizeof summary->name, "%s", c->config.name);
+    status = measure_rate(&model, &summary->rate, error);
+    summary->seconds = summary->steps * (double)summary->particles / summary->rate;
+    summary->memory = BYTES_A_DISC * (double)summary->particles;
+    return status;
+}

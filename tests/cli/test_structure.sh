@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# The structure that docs/architecture.md promises: a file includes only from its own layer or layers above it in the table;
+# the command line includes only the public headers; the library never exits, aborts or prints; files stay below 600 lines.
+set -u
+source_dir=${SCREE_SOURCE_DIR:?}
+cd "$source_dir" || exit 1
+mapfile -t layers < <(grep -oE '^\| `src/[a-z]+/` ' docs/architecture.md | grep -oE 'src/[a-z]+' | cut -d/ -f2)
+[ ${#layers[@]} -ge 12 ] || { echo "the layer table of docs/architecture.md was not found"; exit 1; }
+rank() { local k; for k in "${!layers[@]}"; do [ "${layers[k]}" = "$1" ] && { echo "$k"; return; }; done; echo 99; }
+
+failures=0
+complain() { echo "FAIL: $*"; failures=$((failures + 1)); }
+
+for folder in src/*/; do
+    layer=$(basename "$folder")
+    mine=$(rank "$layer")
+    [ "$mine" = 99 ] && complain "src/$layer is not in the table of docs/architecture.md"
+    while IFS=: read -r file line include; do
+        other=$(echo "$include" | sed -E 's/.*"([a-z]+)\/.*/\1/')
+        if [ "$layer" = cli ]; then
+            [ "$other" = cli ] || complain "$file:$line: the command line includes only <scree/...>, not $include"
+        elif [ "$(rank "$other")" -gt "$mine" ]; then
+            complain "$file:$line: layer $layer includes from $other, which lies below it"
+        fi
+    done < <(grep -nHE '^#include "[a-z]+/' "$folder"*.[ch])
+done
+while IFS= read -r hit; do complain "$hit: the library never exits, aborts or prints"; done \
+    < <(grep -nHE '(^|[^a-z_>.])(exit|abort|printf|puts|perror)\(' $(find src -name '*.[ch]' ! -path 'src/cli/*') | grep -vE '///|// ')
+while read -r lines file; do [ "$lines" -gt 600 ] && complain "$file has $lines lines"; done < <(wc -l $(find src include -name '*.[ch]') | grep -v total)
+[ "$failures" -eq 0 ] && echo "structure: ${#layers[@]} layers, $(find src -name '*.[ch]' | wc -l) files, no complaint"
+exit $((failures > 0))

@@ -1,0 +1,220 @@
+/// Whole simulations of small samples: threads, throwing `work` away, restart, energy, stresses.
+#include "testing.h"
+
+#include "base/random.h"
+#include "io/run_directory.h"
+#include "measure/measure.h"
+#include "run/sample.h"
+#include "run/simulation.h"
+#include "search/neighbours.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char case_text[] =
+    "scree: 1\n"
+    "name: small\n"
+    "dimension: 2\n"
+    "seed: 3\n"
+    "materials:\n"
+    "  - {name: quartz, young_modulus: 30 GPa, poisson_ratio: 0.3, density: 2.675e8 kg/m3,\n"
+    "     friction: 0.45, restitution: 0.2}\n"
+    "particles: {shape: disc, material: quartz, count: 90, distribution: uniform,\n"
+    "            radius_min: 0.5 mm, radius_max: 1 mm}\n"
+    "contact: {law: hertz_mindlin}\n"
+    "integrator: {scheme: velocity_verlet, step: 2e-5 s}\n"
+    "boundary: {lateral: pressure, every: 100}\n"
+    "stages:\n"
+    "  - {stage: prepare, method: drop_and_roll, aspect_ratio: 1.5}\n"
+    "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 2e-2}\n"
+    "  - {stage: compress, strain: 1 %, rate: 5e-2 1/s}\n"
+    "measure: {samples: 20}\n"
+    "output: {snapshots: 2, paraview: no, figures: no, checkpoint_steps: 700}\n";
+
+/// The four combinations of law and scheme.
+static const char *const combinations[4][2] = {
+    {"contact.law=hertz_mindlin", "integrator.scheme=velocity_verlet"},
+    {"contact.law=hertz_mindlin", "integrator.scheme=position_verlet"},
+    {"contact.law=hertz_brilliantov", "integrator.scheme=velocity_verlet"},
+    {"contact.law=hertz_brilliantov", "integrator.scheme=position_verlet"},
+};
+
+static scree_case *read_case(const char *const *overrides, size_t count)
+{
+    scree_case *c = NULL;
+    scree_problems *problems = NULL;
+    scree_case_options options = {.overrides = overrides, .override_count = count};
+    if (scree_case_parse(case_text, strlen(case_text), "small.yaml", &options, &c, &problems)) {
+        char text[2048];
+        for (size_t k = 0; k < scree_problems_count(problems); k++) {
+            scree_error_format(scree_problems_get(problems, k), text, sizeof text);
+            print_message("%s\n", text);
+        }
+        fail_msg("the case of this test is not valid");
+    }
+    return c;
+}
+
+static void check(scree_status status, const scree_error *error)
+{
+    if (status) fail_msg("status %d: %s", (int)status, error->message);
+}
+
+/// Runs to the end in memory; at `discard` (a step, 0: never) the work is thrown away and rebuilt.
+static uint64_t run_to_end(const scree_case *c, int threads, uint64_t discard, uint64_t *steps)
+{
+    scree_simulation s;
+    scree_error error;
+    check(scree_simulation_open(c, threads, &s, &error), &error);
+    while (s.state.stage.index < s.model.config->stage_count) {
+        check(scree_simulation_step(&s, &error), &error);
+        if (discard == 0 || s.state.step != discard) continue;
+        check(scree_contacts_save(&s.state, &s.work, &error), &error);
+        scree_work_destroy(&s.work);
+        check(scree_work_create(&s.work, &s.model, threads, &error), &error);
+        discard = 0;
+    }
+    if (steps) *steps = s.state.step;
+    uint64_t checksum = scree_simulation_checksum(&s);
+    scree_simulation_close(&s);
+    return checksum;
+}
+
+static void threads_and_lost_work_give_the_same_bits(void **unused)
+{
+    (void)unused;
+    for (int k = 0; k < 4; k++) {
+        uint64_t steps;
+        scree_case *c = read_case(combinations[k], 2);
+        uint64_t reference = run_to_end(c, 1, 0, &steps);
+        assert_true(run_to_end(c, 2, 0, NULL) == reference);
+        assert_true(run_to_end(c, 3, 0, NULL) == reference);
+        for (uint64_t draw = 0; draw < 2; draw++) {
+            uint64_t when = 1 + (uint64_t)((double)(steps - 2) *
+                                           scree_random_uniform(1, SCREE_RANDOM_TEST, 10 * (uint64_t)k + draw));
+            assert_true(run_to_end(c, 1, when, NULL) == reference);
+        }
+        scree_case_free(c);
+    }
+}
+
+/// Stops a run after a number of progress looks: the stop flag is raised by the message of a stage's end or a
+/// countdown.
+typedef struct stopper {
+    volatile int stop;
+} stopper;
+
+static void stop_at_end_of_confine(void *user, int level, const char *line)
+{
+    (void)level;
+    if (strstr(line, "stage confine ended")) ((stopper *)user)->stop = 1;
+}
+
+static void read_checksum(const char *directory, char text[32])
+{
+    scree_error error;
+    check(scree_result_get(directory, "state_checksum", text, 32, &error), &error);
+}
+
+/// Uninterrupted run against one that is stopped and restarted, and one that lost everything after a checkpoint.
+static void restart_gives_the_same_bits(void **unused)
+{
+    (void)unused;
+    char folder[64] = "/tmp/scree-test-XXXXXX", whole[96], part[96], one[32], two[32];
+    assert_non_null(mkdtemp(folder));
+    snprintf(whole, sizeof whole, "%s/whole", folder);
+    snprintf(part, sizeof part, "%s/part", folder);
+    for (int k = 0; k < 4; k++) {
+        scree_error error;
+        stopper stopping = {0};
+        scree_case *c = read_case(combinations[k], 2);
+        scree_run_options options = {.output = whole, .threads = 1, .force = true};
+        check(scree_run(c, &options, &error), &error);
+        options = (scree_run_options){.output = part,
+                                      .threads = 2,
+                                      .force = true,
+                                      .stop = &stopping.stop,
+                                      .message = stop_at_end_of_confine,
+                                      .user = &stopping};
+        assert_int_equal(scree_run(c, &options, &error), SCREE_INTERRUPTED);
+        options = (scree_run_options){.threads = 1};
+        check(scree_restart(part, &options, &error), &error);
+        read_checksum(whole, one);
+        read_checksum(part, two);
+        assert_string_equal(one, two);
+        // From the last periodic checkpoint of the finished run, in the middle of loading: the end is reached again.
+        check(scree_restart(whole, &options, &error), &error);
+        read_checksum(whole, two);
+        assert_string_equal(one, two);
+        scree_case_free(c);
+    }
+    char command[128];
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    assert_int_equal(system(command), 0);
+}
+
+/// History laws close the energy balance; second order in the step.
+static void energy_balance_closes(void **unused)
+{
+    (void)unused;
+    const char *const overrides[] = {"integrator.step=2e-6 s", "stages.confine.unbalanced_limit=5e-2",
+                                     "stages.compress.strain=0.2 %"};
+    scree_case *c = read_case(overrides, 3);
+    scree_simulation s;
+    scree_error error;
+    double worst = 0;
+    check(scree_simulation_open(c, 2, &s, &error), &error);
+    while (s.state.stage.index < s.model.config->stage_count) {
+        check(scree_simulation_step(&s, &error), &error);
+        if (s.sampled) worst = fmax(worst, s.sample.value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE]);
+    }
+    print_message("largest energy residual over work: %.3g\n", worst);
+    // The bound that the program promises for history laws.
+    assert_true(worst < 1e-6);
+    assert_true(s.state.ledger.damping > 0 && s.state.ledger.friction > 0 && s.state.ledger.plates > 0);
+    scree_simulation_close(&s);
+    scree_case_free(c);
+}
+
+/// Stress from contacts and from plates agree in quasistatic loading; both equal the pressure at its begin.
+static void stresses_agree(void **unused)
+{
+    (void)unused;
+    const char *const overrides[] = {"stages.confine.unbalanced_limit=2e-3", "stages.compress.rate=1e-2 1/s"};
+    scree_case *c = read_case(overrides, 2);
+    scree_simulation s;
+    scree_error error;
+    check(scree_simulation_open(c, 2, &s, &error), &error);
+    double disagreement = 0, count = 0;
+    bool first = true;
+    while (s.state.stage.index < s.model.config->stage_count) {
+        check(scree_simulation_step(&s, &error), &error);
+        if (!s.sampled || !s.stage || !s.stage->loading) continue;
+        const double *v = s.sample.value;
+        if (first) {
+            // The stop rule of the confinement allows 1 % for the plates.
+            assert_true(fabs(v[SCREE_SAMPLE_AXIAL_PLATES] / 1e5 - 1) < 0.011);
+            assert_true(fabs(v[SCREE_SAMPLE_LATERAL_CONTACTS] / 1e5 - 1) < 0.02);
+            first = false;
+        }
+        disagreement += fabs(v[SCREE_SAMPLE_AXIAL_CONTACTS] / v[SCREE_SAMPLE_AXIAL_PLATES] - 1);
+        count += 1;
+    }
+    print_message("mean disagreement of plates and contacts: %.3g\n", disagreement / count);
+    assert_true(disagreement / count < 0.01);
+    scree_simulation_close(&s);
+    scree_case_free(c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(threads_and_lost_work_give_the_same_bits),
+        cmocka_unit_test(restart_gives_the_same_bits),
+        cmocka_unit_test(energy_balance_closes),
+        cmocka_unit_test(stresses_agree),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
