@@ -18,7 +18,8 @@ static scree_status write_one(const char *directory, int64_t index, scree_error 
     if (!status) status = sample_loop(&state, 10, error);
     if (!status) status = sample_contacts(&state, 20, error);
     if (!status) status = sample_table(&state, &table, error);
-    const scree_snapshot_info info = {.index = index, .time = 0.5 * (double)index, .axial_strain = 0.25, .stage = "compress"};
+    const scree_snapshot_info info = {
+        .index = index, .time = 0.5 * (double)index, .axial_strain = 0.25, .stage = "compress"};
     if (!status) status = scree_snapshot_write(directory, &model, &state, &table, &info, error);
     if (!status) status = scree_paraview_write(directory, &model, &state, &table, &info, error);
     if (!status) status = scree_checkpoint_write(directory, &state, 1, error);
