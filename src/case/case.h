@@ -13,10 +13,8 @@ struct scree_case {
     struct scree_case_source *source;
 };
 
-/// Fills file, line, column and value of `error` from its `field` (a key path), when the case came from a file.
+/// Fills file, line, column and value of `error` from its `field` (a key path). A key that the case does not give has
+/// its default as value and the position of its section.
 void scree_case_locate(const scree_case *c, scree_error *error);
-
-/// Nearest of `names` to `text` (Damerau-Levenshtein, at most a third of the letters wrong), or NULL.
-const char *scree_nearest(const char *text, const char *const *names, size_t count);
 
 #endif

@@ -31,7 +31,7 @@ typedef struct scree_config_particles {
     char *material; ///< name in `materials`
     int64_t count;
     int distribution;  ///< scree_size_distribution of radii
-    double radius_min; ///< m; SCREE_SIZE_EQUAL uses the mean of min and max
+    double radius_min; ///< m; equal to radius_max with SCREE_SIZE_EQUAL
     double radius_max; ///< m
     double thickness;  ///< m, length of a disc (a cylinder); auto: twice the mean radius
 } scree_config_particles;
@@ -73,7 +73,8 @@ typedef enum scree_prepare_method {
 
 /// One stage; the schema lists for each kind which members its keys fill. All stages keep `name` and `kind`.
 typedef struct scree_config_stage {
-    int kind; ///< scree_stage_kind
+    int kind;   ///< scree_stage_kind
+    char *name; ///< unique among the stages: the kind, numbered (compress_1, compress_2) if there are several
     // prepare
     int method;            ///< scree_prepare_method
     double aspect_ratio;   ///< 1, height over width of the box
@@ -117,6 +118,7 @@ typedef struct scree_config_guard {
 } scree_config_guard;
 
 typedef struct scree_config {
+    int64_t language; ///< version of the case language
     char *name;
     char *title;
     int64_t dimension; ///< 2

@@ -7,6 +7,7 @@
 
 typedef struct scree_template {
     const char *name;
+    const char *meaning; ///< the first line of the file without its "# "
     const char *text;
     size_t length;
 } scree_template;

@@ -1,0 +1,206 @@
+/// Reads the tree of a case into the config, section by section, along the schema.
+#include "case/check.h"
+
+#include "base/memory.h"
+#include "case/case.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_KEYS = 64 };
+
+void scree_path_join(char out[SCREE_PATH_BYTES], const char *path, const char *name)
+{
+    size_t length = path[0] ? (size_t)snprintf(out, SCREE_PATH_BYTES, "%s.", path) : 0;
+    if (length < SCREE_PATH_BYTES) (void)snprintf(out + length, SCREE_PATH_BYTES - length, "%s", name);
+}
+
+/// A section that is being read.
+typedef struct scope {
+    scree_reader *reader;
+    const scree_section *section;
+    const scree_key *list; ///< whose element this is, when it has several kinds of elements; else NULL
+    scree_node *mapping;   ///< NULL when the case does not have the section
+    scree_place place;     ///< for keys that are missing
+    const char *path;
+    void *base; ///< the section's struct
+} scope;
+
+static void read_section(const scope *s);
+
+/// A key that another kind of element has (a `rate` in a confine stage): left out when an override chose the kind.
+static bool is_of_another_kind(const scope *s, scree_node *child, const char *path)
+{
+    if (!s->list) return false;
+    char kinds[200] = "";
+    size_t length = 0;
+    for (size_t i = 0; i < s->list->section_count && length < sizeof kinds; i++)
+        if (scree_section_find(&s->list->sections[i], child->key, strlen(child->key)))
+            length += (size_t)snprintf(kinds + length, sizeof kinds - length, "%s%s", length > 0 ? ", " : "",
+                                       s->list->sections[i].name);
+    if (length == 0) return false;
+    const char *chooser = s->section->keys[0].name;
+    child->unused = scree_node_find(s->mapping, chooser)->place.origin > child->place.origin;
+    char accepted[256];
+    (void)snprintf(accepted, sizeof accepted, "only with %s: %s", chooser, kinds);
+    if (!child->unused)
+        scree_problem_add(s->reader, child->key_place, path, child->text, accepted, "not used with %s: %s", chooser,
+                          s->section->name);
+    return true;
+}
+
+static void refuse_unknown(const scope *s, scree_node *child)
+{
+    char path[SCREE_PATH_BYTES], accepted[256] = "";
+    scree_path_join(path, s->path, child->key);
+    if (is_of_another_kind(s, child, path)) return;
+    const char *names[MOST_KEYS];
+    size_t count = 0, length = 0;
+    for (size_t i = 0; i < s->section->count && count < MOST_KEYS; i++) {
+        names[count++] = s->section->keys[i].name;
+        if (length < sizeof accepted)
+            length += (size_t)snprintf(accepted + length, sizeof accepted - length, "%s%s", i > 0 ? ", " : "",
+                                       s->section->keys[i].name);
+    }
+    const char *nearest = scree_nearest(child->key, names, count);
+    scree_problem_add(s->reader, child->key_place, path, child->text, accepted, "unknown key%s%s%s",
+                      nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
+}
+
+/// "law: hertz_mindlin" from a `when` and one of its texts.
+static void refuse_unused(const scope *s, const scree_key *key, scree_node *child, const scree_usage *usage,
+                          const char *path)
+{
+    child->unused = usage->choice && usage->choice->place.origin > child->place.origin;
+    if (child->unused) return;
+    size_t equals = strcspn(key->when, "=");
+    char accepted[256];
+    int length = snprintf(accepted, sizeof accepted, "only with %.*s: ", (int)equals, key->when);
+    for (const char *c = key->when + equals + 1; *c && (size_t)length + 5 < sizeof accepted; c++)
+        length += snprintf(accepted + length, sizeof accepted - (size_t)length, *c == '|' ? " or " : "%c", *c);
+    scree_problem_add(s->reader, child->key_place, path, child->text, accepted, "not used with %.*s: %s", (int)equals,
+                      key->when, scree_show(usage->choice ? usage->choice->text : usage->chooser->standard).text);
+}
+
+static void refuse_missing(const scope *s, const scree_key *key, const char *path)
+{
+    char limits[200], accepted[256];
+    scree_key_accepts(key, limits, sizeof limits);
+    bool choices = key->type == SCREE_KEY_CHOICE;
+    (void)snprintf(accepted, sizeof accepted, "%s%s%s", choices ? "" : scree_key_noun(key),
+                   limits[0] && !choices ? ", " : "", limits);
+    scree_problem_add(s->reader, s->place, path, NULL, accepted, "required, but not given");
+}
+
+static void read_element(const scope *s, const scree_key *list, scree_node *element, const char *path, void *base)
+{
+    scope inner = {s->reader, scree_element_section(list, element), NULL, element, element->place, path, base};
+    if (element->kind != SCREE_NODE_MAPPING) {
+        scree_problem_add(s->reader, element->place, path, element->text, NULL,
+                          "expected keys with values, e.g. '- %s: ...'", list->sections[0].keys[0].name);
+        return;
+    }
+    if (list->section_count > 1) inner.list = list;
+    if (inner.section) {
+        read_section(&inner);
+        return;
+    }
+    // Without its kind nothing else of the element can be judged.
+    const scree_key *kind = &list->sections[0].keys[0];
+    const scree_node *given = scree_node_find(element, kind->name);
+    char kind_path[SCREE_PATH_BYTES];
+    scree_path_join(kind_path, path, kind->name);
+    if (given)
+        scree_value_store(s->reader, kind, given, kind_path, base);
+    else
+        refuse_missing(&inner, kind, kind_path);
+    int unknown = -1;
+    memcpy((char *)base + kind->offset, &unknown, sizeof unknown);
+}
+
+static void read_list(const scope *s, const scree_key *key, scree_node *node, const char *path)
+{
+    char limits[200];
+    scree_limits_text(key, limits, sizeof limits);
+    if (node->kind != SCREE_NODE_LIST) {
+        scree_problem_add(s->reader, node->place, path, node->text, limits, "expected %s", scree_key_noun(key));
+        return;
+    }
+    if (node->count < strtoull(key->least.text, NULL, 10) || node->count > strtoull(key->most.text, NULL, 10)) {
+        scree_problem_add(s->reader, node->place, path, NULL, limits, "%zu elements are too %s", node->count,
+                          node->count == 0 ? "few" : "many");
+        return;
+    }
+    char *elements = scree_arena_take(s->reader->arena, node->count * key->element_size);
+    if (!elements) {
+        scree_reader_fail(s->reader, node->count * key->element_size);
+        return;
+    }
+    int64_t index = 0;
+    for (scree_node *element = node->first; element; element = element->next, index++) {
+        char number[24], inner[SCREE_PATH_BYTES];
+        (void)snprintf(number, sizeof number, "%lld", (long long)index);
+        scree_path_join(inner, path, number);
+        read_element(s, key, element, inner, elements + (size_t)index * key->element_size);
+    }
+    memcpy((char *)s->base + key->offset, &elements, sizeof elements);
+    memcpy((char *)s->base + key->count_offset, &index, sizeof index);
+}
+
+/// A section, whether the case has it or not: its defaults count either way.
+static void read_inner_section(const scope *s, const scree_key *key, scree_node *node, const char *path)
+{
+    bool empty = !node || (node->kind == SCREE_NODE_SCALAR && !node->text[0]);
+    if (!empty && node->kind != SCREE_NODE_MAPPING) {
+        scree_problem_add(s->reader, node->place, path, node->text, NULL, "expected %s", scree_key_noun(key));
+        return;
+    }
+    scope inner = {s->reader,
+                   key->sections,
+                   NULL,
+                   empty ? NULL : node,
+                   node ? node->key_place : s->place,
+                   path,
+                   (char *)s->base + key->offset};
+    read_section(&inner);
+}
+
+static void read_key(const scope *s, const scree_key *key)
+{
+    char path[SCREE_PATH_BYTES];
+    scree_path_join(path, s->path, key->name);
+    scree_node *child = scree_node_find(s->mapping, key->name);
+    scree_usage usage = scree_key_usage(s->reader->root, s->section, s->mapping, key);
+    if (child && usage.use == SCREE_UNUSED) refuse_unused(s, key, child, &usage, path);
+    bool silent = usage.use == SCREE_UNUSED || (usage.use == SCREE_USE_UNKNOWN && !child);
+    if (key->type == SCREE_KEY_PATHS || silent) return;
+    if (key->type == SCREE_KEY_SECTION)
+        read_inner_section(s, key, child, path);
+    else if (!child && !key->standard)
+        refuse_missing(s, key, path);
+    else if (key->type == SCREE_KEY_LIST)
+        read_list(s, key, child, path);
+    else
+        scree_value_store(s->reader, key, child, path, s->base);
+}
+
+static void read_section(const scope *s)
+{
+    for (scree_node *child = s->mapping ? s->mapping->first : NULL; child; child = child->next)
+        if (!scree_section_find(s->section, child->key, strlen(child->key))) refuse_unknown(s, child);
+    for (size_t i = 0; i < s->section->count; i++) read_key(s, &s->section->keys[i]);
+}
+
+void scree_config_read(scree_reader *reader, scree_config *config)
+{
+    if (reader->root->kind != SCREE_NODE_MAPPING) {
+        scree_problem_add(reader, reader->root->place, NULL, NULL, NULL,
+                          "expected keys with values, e.g. 'name: sample'");
+        return;
+    }
+    scope whole = {reader, &scree_schema, NULL, reader->root, reader->root->place, "", config};
+    whole.place.line = whole.place.column = 1;
+    read_section(&whole);
+    scree_rules_check(reader, config);
+}

@@ -1,0 +1,50 @@
+/// From the tree to the config: types, units, ranges, unknown and unused keys (check.c), one value (value.c), rules
+/// that tie several keys together (rules.c). Private to src/case/.
+#ifndef SCREE_CASE_CHECK_H
+#define SCREE_CASE_CHECK_H
+
+#include "case/problems.h"
+#include "case/schema.h"
+
+enum { SCREE_PATH_BYTES = 160 };
+
+/// path.name into `out`, which may be longer than what fits: then it is cut.
+void scree_path_join(char out[SCREE_PATH_BYTES], const char *path, const char *name);
+
+/// Whether a key is used, given the choices that its `when` names.
+typedef enum scree_use {
+    SCREE_USED,
+    SCREE_UNUSED,
+    SCREE_USE_UNKNOWN, ///< the choice itself is wrong
+} scree_use;
+
+typedef struct scree_usage {
+    scree_use use;
+    const scree_key *chooser; ///< the key that `when` names, or NULL
+    const scree_node *choice; ///< its value where it is given
+} scree_usage;
+scree_usage scree_key_usage(const scree_node *root, const scree_section *section, const scree_node *mapping,
+                            const scree_key *key);
+
+/// The section of `list` that describes `element`, or NULL when its first key is missing or wrong.
+const scree_section *scree_element_section(const scree_key *list, const scree_node *element);
+
+/// Name of an element of a list: its `name`; of a stage without one its kind, numbered from 1 when several such stages
+/// are of the same kind. False when it has none.
+bool scree_element_name(const scree_key *list, const scree_node *parent, const scree_node *element, char *name,
+                        size_t size);
+
+/// Reads the whole tree into `config` (zeroed before), applies the rules, notes all problems.
+void scree_config_read(scree_reader *reader, scree_config *config);
+
+/// Stores one value, or notes why not. `node` is the value; NULL stores the default. base: the section's struct.
+void scree_value_store(scree_reader *reader, const scree_key *key, const scree_node *node, const char *path,
+                       void *base);
+
+/// The tree of a case, with everything that overruled the file.
+scree_node *scree_case_root(const scree_case *c);
+
+/// Rules that tie keys together. Values that are missing or wrong are left out: they have been noted.
+void scree_rules_check(scree_reader *reader, scree_config *config);
+
+#endif

@@ -1,0 +1,81 @@
+/// The name that was probably meant. Optimal string alignment (Damerau 1964, Levenshtein 1966: insertions, deletions,
+/// substitutions and swaps of neighbours count one each), ignoring case and taking '-' for '_'.
+/// Cost: product of the lengths, which are limited to 80 letters.
+#include "case/case.h"
+
+#include "case/nearest.h"
+
+#include <ctype.h>
+#include <string.h>
+
+enum { LONGEST = 80 };
+
+static char folded(char c)
+{
+    return c == '-' ? '_' : (char)tolower((unsigned char)c);
+}
+
+static size_t smaller(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+size_t scree_letters_wrong(const char *a, const char *b)
+{
+    size_t m = strnlen(a, LONGEST + 1), n = strnlen(b, LONGEST + 1);
+    if (m > LONGEST || n > LONGEST) return SIZE_MAX / 4;
+    size_t rows[3][LONGEST + 1];
+    size_t *before = rows[0], *last = rows[1], *now = rows[2];
+    for (size_t j = 0; j <= n; j++) last[j] = j;
+    for (size_t i = 1; i <= m; i++) {
+        now[0] = i;
+        for (size_t j = 1; j <= n; j++) {
+            bool same = folded(a[i - 1]) == folded(b[j - 1]);
+            now[j] = smaller(smaller(last[j], now[j - 1]) + 1, last[j - 1] + !same);
+            bool swapped =
+                i > 1 && j > 1 && folded(a[i - 1]) == folded(b[j - 2]) && folded(a[i - 2]) == folded(b[j - 1]);
+            if (swapped) now[j] = smaller(now[j], before[j - 2] + 1);
+        }
+        size_t *free_row = before;
+        before = last;
+        last = now;
+        now = free_row;
+    }
+    return last[n];
+}
+
+bool scree_letters_near(const char *text, const char *name, size_t wrong)
+{
+    size_t m = strnlen(text, LONGEST), n = strlen(name);
+    return 3 * wrong <= (m > n ? m : n);
+}
+
+/// Whether `part` stands in `whole` as one or more whole words (words are parted by '_', '-' or '.').
+static bool holds_words(const char *whole, const char *part)
+{
+    size_t m = strlen(whole), n = strnlen(part, LONGEST);
+    for (size_t start = 0; n >= 3 && start + n <= m; start++) {
+        size_t same = 0;
+        while (same < n && folded(whole[start + same]) == folded(part[same])) same++;
+        bool begins = start == 0 || strchr("_-.", whole[start - 1]);
+        bool ends = start + n == m || strchr("_-.", whole[start + n]);
+        if (same == n && begins && ends) return true;
+    }
+    return false;
+}
+
+const char *scree_nearest(const char *text, const char *const *names, size_t count)
+{
+    const char *nearest = NULL;
+    size_t fewest = SIZE_MAX / 8;
+    for (size_t i = 0; i < count; i++) {
+        size_t wrong = scree_letters_wrong(text, names[i]);
+        if (wrong >= fewest || !scree_letters_near(text, names[i], wrong)) continue;
+        fewest = wrong;
+        nearest = names[i];
+    }
+    // "poisson" for "poisson_ratio", "contact_law" for "law".
+    for (size_t i = 0; i < count && !nearest; i++)
+        if (holds_words(names[i], text) || holds_words(text, names[i])) nearest = names[i];
+    return nearest;
+}

@@ -1,0 +1,150 @@
+/// Rules that tie keys of a case together and need no model. What needs numbers of the sample (a step above the
+/// critical one, a packing that does not fit) is model_build's.
+#include "case/case.h"
+#include "case/check.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MOST_MATERIALS = 16 };
+
+/// Place and text of the value at section.key, or of element `index` of a list. Falls back to the section.
+static scree_place place_of(const scree_node *section, const char *key, const char **text)
+{
+    static const scree_place nowhere = {0};
+    const scree_node *node = scree_node_find(section, key);
+    *text = node ? node->text : NULL;
+    if (node) return node->place;
+    return section ? section->place : nowhere;
+}
+
+static const scree_node *element(const scree_reader *reader, const char *list, int64_t index)
+{
+    return scree_node_at(scree_node_find(reader->root, list), (size_t)index);
+}
+
+static void check_materials(scree_reader *reader, const scree_config *config)
+{
+    const char *names[MOST_MATERIALS] = {0}, *text;
+    char path[SCREE_PATH_BYTES], list[256] = "";
+    size_t count = 0, length = 0;
+    for (int64_t i = 0; i < config->material_count; i++) {
+        const char *name = config->materials[i].name;
+        if (!name) return; // wrong, and noted
+        for (size_t k = 0; k < count; k++) {
+            if (strcmp(names[k], name) != 0) continue;
+            (void)snprintf(path, sizeof path, "materials.%lld.name", (long long)i);
+            scree_place place = place_of(element(reader, "materials", i), "name", &text);
+            scree_problem_add(reader, place, path, name, NULL, "materials.%zu has the name '%s' too", k, name);
+        }
+        if (length < sizeof list)
+            length += (size_t)snprintf(list + length, sizeof list - length, "%s%s", i > 0 ? ", " : "", name);
+        names[count++] = name;
+    }
+    const char *wanted = config->particles.material;
+    if (!wanted || count == 0) return;
+    for (size_t k = 0; k < count; k++)
+        if (strcmp(names[k], wanted) == 0) return;
+    scree_place place = place_of(scree_node_find(reader->root, "particles"), "material", &text);
+    const char *nearest = scree_nearest(wanted, names, count);
+    scree_problem_add(reader, place, "particles.material", wanted, list, "there is no material '%s'%s%s%s", wanted,
+                      nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
+}
+
+static void check_radii(scree_reader *reader, scree_config *config)
+{
+    scree_config_particles *particles = &config->particles;
+    if (particles->distribution == SCREE_SIZE_EQUAL) particles->radius_max = particles->radius_min;
+    if (!(particles->radius_min > particles->radius_max)) return;
+    const scree_node *section = scree_node_find(reader->root, "particles");
+    const char *text, *largest;
+    scree_place place = place_of(section, "radius_min", &text);
+    (void)place_of(section, "radius_max", &largest);
+    if (!text || !largest) return; // one of the two is missing, and noted
+    scree_problem_add(reader, place, "particles.radius_min", text, NULL, "'%s' is larger than radius_max, '%s'", text,
+                      largest);
+}
+
+/// Names the stages, and notes names that occur twice.
+static void name_stages(scree_reader *reader, scree_config *config)
+{
+    const scree_node *list = scree_node_find(reader->root, "stages");
+    const scree_key *key = scree_section_find(&scree_schema, "stages", strlen("stages"));
+    for (int64_t i = 0; i < config->stage_count; i++) {
+        const scree_node *stage = element(reader, "stages", i);
+        char name[80], path[SCREE_PATH_BYTES];
+        if (!scree_element_name(key, list, stage, name, sizeof name)) continue;
+        config->stages[i].name = scree_arena_copy(reader->arena, name, strlen(name));
+        if (!config->stages[i].name) {
+            scree_reader_fail(reader, sizeof name);
+            return;
+        }
+        for (int64_t k = 0; k < i; k++) {
+            if (!config->stages[k].name || strcmp(config->stages[k].name, name) != 0) continue;
+            const char *text;
+            scree_place place = place_of(stage, "name", &text);
+            (void)snprintf(path, sizeof path, "stages.%lld.name", (long long)i);
+            scree_problem_add(reader, place, path, name, NULL, "stages.%lld has the name '%s' too", (long long)k, name);
+        }
+    }
+}
+
+static void check_stage_order(scree_reader *reader, const scree_config *config)
+{
+    bool confined = false;
+    for (int64_t i = 0; i < config->stage_count; i++)
+        if (config->stages[i].kind < 0) return; // wrong, and noted
+    for (int64_t i = 0; i < config->stage_count; i++) {
+        int kind = config->stages[i].kind;
+        const char *wrong = NULL, *text;
+        if (i == 0 && kind != SCREE_STAGE_PREPARE)
+            wrong = "the first stage must be prepare: it places the particles";
+        else if (i > 0 && kind == SCREE_STAGE_PREPARE)
+            wrong = "only the first stage can be prepare";
+        else if (kind == SCREE_STAGE_COMPRESS && !confined)
+            wrong = "a confine stage must come before: compress keeps its pressure";
+        confined = confined || kind == SCREE_STAGE_CONFINE;
+        if (!wrong) continue;
+        char path[SCREE_PATH_BYTES];
+        (void)snprintf(path, sizeof path, "stages.%lld.stage", (long long)i);
+        scree_place place = place_of(element(reader, "stages", i), "stage", &text);
+        scree_problem_add(reader, place, path, text, NULL, "%s", wrong);
+    }
+}
+
+static void check_windows(scree_reader *reader, const scree_config *config)
+{
+    double largest = 0;
+    const char *largest_text = "0 %";
+    for (int64_t i = 0; i < config->stage_count; i++) {
+        const scree_config_stage *stage = &config->stages[i];
+        if (stage->kind < 0 || (stage->kind == SCREE_STAGE_COMPRESS && !(stage->strain > 0))) return; // noted
+        if (stage->kind != SCREE_STAGE_COMPRESS || stage->strain <= largest) continue;
+        largest = stage->strain;
+        (void)place_of(element(reader, "stages", i), "strain", &largest_text);
+    }
+    const scree_node *list = scree_node_find(scree_node_find(reader->root, "measure"), "windows");
+    for (int64_t i = 0; i < config->measure.window_count; i++) {
+        const scree_config_window *window = &config->measure.windows[i];
+        const scree_node *pair = scree_node_at(list, (size_t)i);
+        char path[SCREE_PATH_BYTES];
+        (void)snprintf(path, sizeof path, "measure.windows.%lld", (long long)i);
+        if (window->from >= window->to)
+            scree_problem_add(reader, pair->place, path, NULL, NULL, "a window must begin before it ends");
+        else if (largest == 0 && config->stage_count > 0 && !isnan(window->to))
+            scree_problem_add(reader, pair->place, path, NULL, NULL, "no stage compresses, so there is no strain");
+        else if (largest > 0 && window->to > largest)
+            scree_problem_add(reader, pair->place, path, NULL, NULL, "ends at '%s', beyond the largest strain, '%s'",
+                              pair->last->text, largest_text);
+    }
+}
+
+void scree_rules_check(scree_reader *reader, scree_config *config)
+{
+    check_materials(reader, config);
+    check_radii(reader, config);
+    name_stages(reader, config);
+    check_stage_order(reader, config);
+    check_windows(reader, config);
+}

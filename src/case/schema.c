@@ -1,0 +1,268 @@
+/// The schema table of a case file. Add a key: a member in config.h, a line here; the rest follows.
+/// Ranges are wide: they keep out slips of the unit and numbers that would overflow, not unusual physics.
+#include "case/schema.h"
+
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+#define FROM(limit)  .least = {limit, false}
+#define ABOVE(limit) .least = {limit, true}
+#define TO(limit)    .most = {limit, false}
+#define BELOW(limit) .most = {limit, true}
+
+/// A key called like the member that it fills.
+#define KEY(owner, member, kind, ...)                                                                                  \
+    {                                                                                                                  \
+        .name = #member, .type = kind, .offset = offsetof(owner, member), __VA_ARGS__                                  \
+    }
+#define NUMBER(owner, member, si, ...)   KEY(owner, member, SCREE_KEY_NUMBER, .unit = si, __VA_ARGS__)
+#define INTEGER(owner, member, ...)      KEY(owner, member, SCREE_KEY_INTEGER, __VA_ARGS__)
+#define CHOICE(owner, member, list, ...) KEY(owner, member, SCREE_KEY_CHOICE, .choices = list, __VA_ARGS__)
+#define FLAG(owner, member, ...)         KEY(owner, member, SCREE_KEY_FLAG, __VA_ARGS__)
+#define SECTION(member, table, ...)                                                                                    \
+    KEY(scree_config, member, SCREE_KEY_SECTION, .sections = table, .section_count = 1, __VA_ARGS__)
+
+// ---- choices -----------------------------------------------------------------------------------------------------
+
+static const scree_choice shapes[] = {
+    {"disc", SCREE_SHAPE_DISC, "a cylinder whose axis is normal to the plane"},
+    {0},
+};
+static const scree_choice distributions[] = {
+    {"uniform", SCREE_SIZE_UNIFORM, "every radius between the smallest and the largest is equally likely"},
+    {"two_sizes", SCREE_SIZE_TWO_SIZES, "the smallest and the largest radius, in equal numbers"},
+    {"equal", SCREE_SIZE_EQUAL, "one radius for all"},
+    {0},
+};
+static const scree_choice laws[] = {
+    {"hertz_brilliantov", SCREE_LAW_HERTZ_BRILLIANTOV,
+     "Hertz with the viscous damping of Brilliantov et al. (1996) and friction regularised by the slip speed; no "
+     "history"},
+    {"hertz_mindlin", SCREE_LAW_HERTZ_MINDLIN,
+     "Hertz with the tangential spring of Mindlin (with history), Coulomb limit, damping from the restitution"},
+    {0},
+};
+static const scree_choice schemes[] = {
+    {"position_verlet", SCREE_SCHEME_POSITION_VERLET, "leapfrog with velocities half a step behind"},
+    {"velocity_verlet", SCREE_SCHEME_VELOCITY_VERLET, "velocities and positions at the same time"},
+    {0},
+};
+static const scree_choice laterals[] = {
+    {"pressure", SCREE_LATERAL_PRESSURE, "traction on the Delaunay boundary of the assembly"},
+    {"plates", SCREE_LATERAL_PLATES, "rigid side plates that a servo holds at the pressure"},
+    {0},
+};
+static const scree_choice methods[] = {
+    {"drop_and_roll", SCREE_PREPARE_DROP_AND_ROLL,
+     "each disc falls and rolls on those below until it is stable (Jodrey and Tory 1979)"},
+    {"hexagonal", SCREE_PREPARE_HEXAGONAL, "triangular lattice, spaced for the largest radius"},
+    {"square", SCREE_PREPARE_SQUARE, "square lattice, spaced for the largest radius"},
+    {"gas", SCREE_PREPARE_GAS, "loose random places without contacts"},
+    {0},
+};
+static const scree_choice stage_kinds[] = {
+    {"prepare", SCREE_STAGE_PREPARE, "places the particles"},
+    {"confine", SCREE_STAGE_CONFINE, "raises the pressure and waits for equilibrium"},
+    {"compress", SCREE_STAGE_COMPRESS, "moves the plates together to a strain"},
+    {0},
+};
+
+// ---- sections ----------------------------------------------------------------------------------------------------
+
+typedef scree_config_material material;
+static const scree_key material_keys[] = {
+    KEY(material, name, SCREE_KEY_WORD, FROM("1"), TO("63"), .meaning = "Name, for particles.material."),
+    NUMBER(material, young_modulus, "Pa", FROM("1 Pa"), TO("1e6 GPa"), .meaning = "Young's modulus."),
+    NUMBER(material, poisson_ratio, "1", .standard = "0.3", ABOVE("-1"), TO("0.5"), .meaning = "Poisson's ratio."),
+    NUMBER(material, density, "kg/m3", FROM("1e-3 kg/m3"), TO("1e12 kg/m3"),
+           .meaning = "Density; often scaled up to allow larger steps."),
+    NUMBER(material, friction, "1", FROM("0"), TO("10"), .meaning = "Coefficient of friction between particles."),
+    NUMBER(material, wall_friction, "1", .standard = "auto", FROM("0"), TO("10"),
+           .meaning = "Coefficient of friction on plates; auto: `friction`."),
+    NUMBER(material, restitution, "1", .standard = "0.2", ABOVE("0"), TO("1"), .when = "contact.law=hertz_mindlin",
+           .meaning = "Coefficient of restitution of a normal impact; sets the damping."),
+};
+
+typedef scree_config_particles particles;
+static const scree_key particles_keys[] = {
+    CHOICE(particles, shape, shapes, .standard = "disc", .meaning = "Shape of the particles."),
+    KEY(particles, material, SCREE_KEY_WORD, FROM("1"), TO("63"), .meaning = "Name of one of the materials."),
+    INTEGER(particles, count, FROM("1"), TO("1e8"), .meaning = "Number of particles."),
+    CHOICE(particles, distribution, distributions, .standard = "uniform", .meaning = "Distribution of the radii."),
+    {.name = "radius",
+     .type = SCREE_KEY_NUMBER,
+     .unit = "m",
+     FROM("1 nm"),
+     TO("100 m"),
+     .when = "distribution=equal",
+     .offset = offsetof(particles, radius_min),
+     .meaning = "Radius of all particles."},
+    NUMBER(particles, radius_min, "m", FROM("1 nm"), TO("100 m"), .when = "distribution=uniform|two_sizes",
+           .meaning = "Smallest radius."),
+    NUMBER(particles, radius_max, "m", FROM("1 nm"), TO("100 m"), .when = "distribution=uniform|two_sizes",
+           .meaning = "Largest radius."),
+    NUMBER(particles, thickness, "m", .standard = "auto", FROM("1 nm"), TO("1 km"),
+           .meaning = "Length of a disc along its axis; auto: twice the mean radius."),
+};
+
+typedef scree_config_contact contact;
+static const scree_key contact_keys[] = {
+    CHOICE(contact, law, laws, .standard = "hertz_mindlin", .meaning = "Force law of a contact."),
+    NUMBER(contact, damping_time, "s", .standard = "2 ms", FROM("0 s"), TO("1000 s"), .when = "law=hertz_brilliantov",
+           .meaning = "Time T of the viscous part T K d^0.5 d'."),
+    NUMBER(contact, friction_exponent, "1", .standard = "50", FROM("1"), TO("1e6"), .when = "law=hertz_brilliantov",
+           .meaning = "Exponent c of the regularised friction mu f_n (s/v_R)^(1/c)."),
+    NUMBER(contact, reference_velocity, "m/s", .standard = "auto", ABOVE("0 m/s"), TO("1000 m/s"),
+           .meaning = "v_R, to which slip speeds are referred; auto: 2 x strain rate x mean radius."),
+};
+
+typedef scree_config_integrator integrator;
+static const scree_key integrator_keys[] = {
+    CHOICE(integrator, scheme, schemes, .standard = "velocity_verlet", .meaning = "Integration scheme."),
+    NUMBER(integrator, step, "s", .standard = "auto", ABOVE("0 s"), TO("10 s"),
+           .meaning = "Time step; auto: `step_fraction` of the critical step."),
+    NUMBER(integrator, step_fraction, "1", .standard = "0.1", ABOVE("0"), TO("1"), .when = "step=auto",
+           .meaning = "Step over critical step."),
+};
+
+typedef scree_config_boundary boundary;
+static const scree_key boundary_keys[] = {
+    CHOICE(boundary, lateral, laterals, .standard = "pressure", .meaning = "What holds the sides."),
+    INTEGER(boundary, every, .standard = "250", FROM("1"), TO("1e9"), .when = "lateral=pressure",
+            .meaning = "Steps between two updates of the Delaunay boundary."),
+    NUMBER(boundary, gap_limit, "1", .standard = "0.5", FROM("0"), TO("100"), .when = "lateral=pressure",
+           .meaning = "Boundary edges with a free gap above this many mean diameters are cut."),
+    NUMBER(boundary, servo_gain, "1", .standard = "1", ABOVE("0"), TO("10"),
+           .meaning = "Admittance of a plate under servo over that of the sample; 1 absorbs waves."),
+    NUMBER(boundary, servo_velocity, "m/s", .standard = "auto", ABOVE("0 m/s"), TO("1000 m/s"),
+           .meaning = "Largest velocity of a plate under servo."),
+};
+
+typedef scree_config_stage stage;
+#define STAGE_HEAD                                                                                                     \
+    {.name = "stage",                                                                                                  \
+     .type = SCREE_KEY_CHOICE,                                                                                         \
+     .choices = stage_kinds,                                                                                           \
+     .offset = offsetof(stage, kind),                                                                                  \
+     .meaning = "Kind of the stage."},                                                                                 \
+        KEY(stage, name, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),                                      \
+            .meaning = "Name in the log and for --set; auto: the kind, numbered from 1 if there are several.")
+
+static const scree_key prepare_keys[] = {
+    STAGE_HEAD,
+    CHOICE(stage, method, methods, .standard = "drop_and_roll", .meaning = "How the particles are placed."),
+    NUMBER(stage, aspect_ratio, "1", .standard = "2", FROM("0.01"), TO("100"), .when = "width=auto",
+           .meaning = "Height over width of the sample."),
+    NUMBER(stage, width, "m", .standard = "auto", FROM("1 nm"), TO("100 km"),
+           .meaning = "Width of the sample; auto: from `aspect_ratio`, and number and sizes of the particles."),
+    NUMBER(stage, solid_fraction, "1", .standard = "30 %", ABOVE("0"), TO("90 %"), .when = "method=gas",
+           .meaning = "Area of the discs over area of the box."),
+    NUMBER(stage, velocity, "m/s", .standard = "0 m/s", FROM("0 m/s"), TO("1000 m/s"), .when = "method=gas",
+           .meaning = "Root-mean-square velocity component."),
+};
+static const scree_key confine_keys[] = {
+    STAGE_HEAD,
+    NUMBER(stage, pressure, "Pa", FROM("1e-3 Pa"), TO("1000 GPa"), .meaning = "Confining pressure."),
+    NUMBER(stage, ramp_time, "s", .standard = "auto", FROM("0 s"), TO("1e9 s"),
+           .meaning = "Time in which the pressure is raised."),
+    NUMBER(stage, unbalanced_limit, "1", .standard = "1e-3", FROM("1e-9"), BELOW("1"),
+           .meaning = "The stage ends when the unbalanced force ratio stays below this."),
+    NUMBER(stage, time_limit, "s", .standard = "auto", ABOVE("0 s"), TO("1e9 s"),
+           .meaning = "The run stops with a message if equilibrium takes longer."),
+    NUMBER(stage, mobilised_friction, "1", .standard = "auto", FROM("0"), TO("10"),
+           .meaning = "Friction between particles in this stage, less for a denser sample; auto: the material's."),
+};
+static const scree_key compress_keys[] = {
+    STAGE_HEAD,
+    NUMBER(stage, strain, "1", ABOVE("0 %"), TO("90 %"), .meaning = "Axial strain at which the stage ends."),
+    NUMBER(stage, rate, "1/s", ABOVE("0 1/s"), TO("1e6 1/s"), .meaning = "Axial strain rate."),
+};
+
+typedef scree_config_measure measure;
+static const scree_key measure_keys[] = {
+    INTEGER(measure, samples, .standard = "200", FROM("1"), TO("1e6"),
+            .meaning = "Rows of series.csv for each loading stage."),
+    KEY(measure, windows, SCREE_KEY_PAIRS, .unit = "1", .standard = "[]", FROM("0 %"), TO("90 %"),
+        .count_offset = offsetof(measure, window_count), .element_size = sizeof(scree_config_window),
+        .meaning = "Windows [from, to] of axial strain over which displacement fluctuations are taken."),
+};
+
+typedef scree_config_output output;
+static const scree_key output_keys[] = {
+    INTEGER(output, snapshots, .standard = "10", FROM("0"), TO("1e5"),
+            .meaning = "Snapshots of each loading stage, evenly in strain."),
+    NUMBER(output, checkpoint_interval, "s", .standard = "60 s", FROM("0.1 s"), TO("1e7 s"),
+           .meaning = "Wall time between two checkpoints."),
+    INTEGER(output, checkpoint_steps, .standard = "0", FROM("0"), TO("1e15"),
+            .meaning = "Steps between two checkpoints, besides the wall time; 0: wall time only."),
+    FLAG(output, figures, .standard = "yes", .meaning = "Draw charts and scenes at the end."),
+    FLAG(output, paraview, .standard = "yes", .meaning = "Write files for ParaView."),
+};
+
+typedef scree_config_guard guard;
+static const scree_key guard_keys[] = {
+    NUMBER(guard, overlap, "1", .standard = "20 %", ABOVE("0 %"), TO("100 %"),
+           .meaning = "Largest indentation over the smaller radius."),
+    NUMBER(guard, energy_growth, "1", .standard = "5 %", ABOVE("0 %"), TO("10000 %"),
+           .meaning = "Largest residual of the energy ledger over the work done."),
+};
+
+#define TABLE(title, text, keys)                                                                                       \
+    {                                                                                                                  \
+        title, text, keys, COUNT(keys)                                                                                 \
+    }
+static const scree_section material_table[] = {
+    TABLE("materials", "What particles and plates are made of.", material_keys)};
+static const scree_section particles_table[] = {TABLE("particles", "Shape, number and sizes.", particles_keys)};
+static const scree_section contact_table[] = {TABLE("contact", "Forces between touching particles.", contact_keys)};
+static const scree_section integrator_table[] = {TABLE("integrator", "Motion in time.", integrator_keys)};
+static const scree_section boundary_table[] = {TABLE("boundary", "What surrounds the sample.", boundary_keys)};
+static const scree_section stage_tables[] = {
+    TABLE("prepare", "Places the particles; the first stage of every case.", prepare_keys),
+    TABLE("confine", "Raises the pressure on all sides and waits for equilibrium.", confine_keys),
+    TABLE("compress", "Moves the plates together at a constant rate under the pressure reached before.", compress_keys),
+};
+static const scree_section measure_table[] = {TABLE("measure", "What is recorded.", measure_keys)};
+static const scree_section output_table[] = {TABLE("output", "What is written, and how often.", output_keys)};
+static const scree_section guard_table[] = {TABLE("guard", "Limits that stop a run that went wrong.", guard_keys)};
+
+static const scree_key root_keys[] = {
+    {.name = "scree",
+     .type = SCREE_KEY_INTEGER,
+     .standard = "1",
+     FROM("1"),
+     TO("1"),
+     .offset = offsetof(scree_config, language),
+     .meaning = "Version of the case language."},
+    KEY(scree_config, name, SCREE_KEY_WORD, .standard = "case", FROM("1"), TO("63"),
+        .meaning = "Short name, for file names and tables."),
+    KEY(scree_config, title, SCREE_KEY_TEXT, .standard = "", FROM("0"), TO("200"), .meaning = "Title of the figures."),
+    INTEGER(scree_config, dimension, .standard = "2", FROM("2"), TO("2"), .meaning = "Dimensions of space."),
+    INTEGER(scree_config, seed, .standard = "1", FROM("0"), TO("9007199254740992"),
+            .meaning = "Seed of the random numbers: the same seed gives the same sample on any machine."),
+    {.name = "gravity",
+     .type = SCREE_KEY_VECTOR,
+     .unit = "m/s2",
+     .standard = "[0, 0]",
+     FROM("-1e6 m/s2"),
+     TO("1e6 m/s2"),
+     .offset = offsetof(scree_config, gravity_x),
+     .meaning = "Acceleration [x, y]; y is upwards."},
+    KEY(scree_config, materials, SCREE_KEY_LIST, FROM("1"), TO("16"), .sections = material_table, .section_count = 1,
+        .count_offset = offsetof(scree_config, material_count), .element_size = sizeof(material),
+        .meaning = "What particles and plates are made of."),
+    SECTION(particles, particles_table, .meaning = "Shape, number and sizes of the particles."),
+    SECTION(contact, contact_table, .meaning = "Force law."),
+    SECTION(integrator, integrator_table, .meaning = "Integration in time."),
+    SECTION(boundary, boundary_table, .meaning = "What holds the sample."),
+    KEY(scree_config, stages, SCREE_KEY_LIST, FROM("1"), TO("100"), .sections = stage_tables,
+        .section_count = COUNT(stage_tables), .count_offset = offsetof(scree_config, stage_count),
+        .element_size = sizeof(stage), .meaning = "What happens, one stage after the other."),
+    SECTION(measure, measure_table, .meaning = "What is recorded."),
+    SECTION(output, output_table, .meaning = "What is written."),
+    SECTION(guard, guard_table, .meaning = "When a run is stopped."),
+    {.name = "quick",
+     .type = SCREE_KEY_PATHS,
+     .standard = "{}",
+     .meaning = "Key path and value of everything that --quick changes."},
+};
+
+const scree_section scree_schema = TABLE("case", "A case file.", root_keys);

@@ -1,0 +1,78 @@
+/// Searching the schema table, and its words for people.
+#include "base/units.h"
+#include "case/schema.h"
+
+#include <stdio.h>
+#include <string.h>
+
+const scree_key *scree_section_find(const scree_section *section, const char *name, size_t length)
+{
+    for (size_t i = 0; i < section->count; i++)
+        if (strlen(section->keys[i].name) == length && strncmp(section->keys[i].name, name, length) == 0)
+            return &section->keys[i];
+    return NULL;
+}
+
+const scree_choice *scree_choice_find(const scree_choice *choices, const char *text)
+{
+    for (; choices->name; choices++)
+        if (strcmp(choices->name, text) == 0) return choices;
+    return NULL;
+}
+
+const char *scree_key_noun(const scree_key *key)
+{
+    switch (key->type) {
+    case SCREE_KEY_NUMBER:
+        return scree_units_quantity(key->unit);
+    case SCREE_KEY_INTEGER:
+        return "a whole number";
+    case SCREE_KEY_TEXT:
+        return "text";
+    case SCREE_KEY_WORD:
+        return "a name of letters, digits, _ and -, a letter first";
+    case SCREE_KEY_FLAG:
+        return "yes or no";
+    case SCREE_KEY_CHOICE:
+        return "one of the choices";
+    case SCREE_KEY_VECTOR:
+        return "a list of two values, e.g. [0, -9.81 m/s2]";
+    case SCREE_KEY_PAIRS:
+        return "a list of pairs, e.g. [[1 %, 3 %], [10 %, 15 %]]";
+    case SCREE_KEY_SECTION:
+        return "a section: keys with values, indented below";
+    case SCREE_KEY_LIST:
+        return "a list: each element starts with '- '";
+    case SCREE_KEY_PATHS:
+        return "a section: key paths with values, indented below";
+    }
+    return "";
+}
+
+void scree_limits_text(const scree_key *key, char *text, size_t size)
+{
+    const scree_limit *least = &key->least, *most = &key->most;
+    const char *things = key->type == SCREE_KEY_LIST                                  ? " elements"
+                         : key->type == SCREE_KEY_TEXT || key->type == SCREE_KEY_WORD ? " characters"
+                                                                                      : "";
+    text[0] = 0;
+    if (!least->text || !most->text) return;
+    if (strcmp(least->text, most->text) == 0)
+        (void)snprintf(text, size, "only %s", least->text);
+    else if (!least->open && !most->open)
+        (void)snprintf(text, size, "%s to %s%s", least->text, most->text, things);
+    else
+        (void)snprintf(text, size, "%s %s, %s %s", least->open ? "more than" : "at least", least->text,
+                       most->open ? "less than" : "at most", most->text);
+}
+
+void scree_key_accepts(const scree_key *key, char *text, size_t size)
+{
+    scree_limits_text(key, text, size);
+    if (key->type == SCREE_KEY_FLAG) (void)snprintf(text, size, "yes, no");
+    for (size_t i = 0, length = 0; key->choices && key->choices[i].name && length < size; i++)
+        length += (size_t)snprintf(text + length, size - length, "%s%s", i > 0 ? ", " : "", key->choices[i].name);
+    size_t length = strlen(text);
+    if (key->standard && strcmp(key->standard, "auto") == 0)
+        (void)snprintf(text + length, size - length, "%sauto", length > 0 ? "; or " : "");
+}

@@ -1,0 +1,78 @@
+/// Which keys are used, given the choices of a case; which section describes a list's element; what it is called.
+#include "case/check.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/// Whether `text` is one of the alternatives "a|b|c".
+static bool is_among(const char *text, const char *alternatives)
+{
+    size_t length = strlen(text);
+    for (const char *at = alternatives;; at++) {
+        size_t one = strcspn(at, "|");
+        if (one == length && strncmp(at, text, length) == 0) return true;
+        at += one;
+        if (!*at) return false;
+    }
+}
+
+scree_usage scree_key_usage(const scree_node *root, const scree_section *section, const scree_node *mapping,
+                            const scree_key *key)
+{
+    scree_usage usage = {SCREE_USED, NULL, NULL};
+    if (!key->when) return usage;
+    size_t dot = strcspn(key->when, ".="), equals = strcspn(key->when, "=");
+    const char *name = key->when;
+    if (dot < equals) {
+        const scree_key *owner = scree_section_find(&scree_schema, key->when, dot);
+        section = owner->sections;
+        mapping = scree_node_find(root, owner->name);
+        name += dot + 1;
+    }
+    usage.chooser = scree_section_find(section, name, (size_t)(key->when + equals - name));
+    usage.choice = scree_node_find(mapping, usage.chooser->name);
+    const char *text = usage.choice ? usage.choice->text : usage.chooser->standard;
+    bool known = text && text[0] && (!usage.chooser->choices || scree_choice_find(usage.chooser->choices, text));
+    if (!known)
+        usage.use = SCREE_USE_UNKNOWN;
+    else if (!is_among(text, key->when + equals + 1))
+        usage.use = SCREE_UNUSED;
+    return usage;
+}
+
+const scree_section *scree_element_section(const scree_key *list, const scree_node *element)
+{
+    if (list->section_count == 1) return list->sections;
+    const scree_node *kind = scree_node_find(element, list->sections[0].keys[0].name);
+    for (size_t i = 0; kind && kind->text && i < list->section_count; i++)
+        if (strcmp(list->sections[i].name, kind->text) == 0) return &list->sections[i];
+    return NULL;
+}
+
+/// Text of the scalar `key` of an element, NULL when it is missing, empty, "auto" or not a scalar.
+static const char *given_text(const scree_node *element, const char *key)
+{
+    const scree_node *node = scree_node_find(element, key);
+    bool given = node && node->text && node->text[0] && strcmp(node->text, "auto") != 0;
+    return given ? node->text : NULL;
+}
+
+bool scree_element_name(const scree_key *list, const scree_node *parent, const scree_node *element, char *name,
+                        size_t size)
+{
+    const char *own = given_text(element, "name");
+    const char *kind_key = list->sections[0].keys[0].name;
+    const char *kind = list->section_count > 1 ? given_text(element, kind_key) : NULL;
+    if (!own && !kind) return false;
+    size_t before = 0, all = 0;
+    for (const scree_node *other = parent->first; !own && other; other = other->next) {
+        const char *its_kind = given_text(other, kind_key);
+        if (other == element) before = all;
+        all += its_kind && strcmp(its_kind, kind) == 0 && !given_text(other, "name");
+    }
+    if (own || all == 1)
+        (void)snprintf(name, size, "%s", own ? own : kind);
+    else
+        (void)snprintf(name, size, "%s_%zu", kind, before + 1);
+    return true;
+}

@@ -1,0 +1,230 @@
+/// One value of a case: from its text to a member of the config, with the messages of everything that can be wrong.
+#include "base/units.h"
+#include "case/case.h"
+#include "case/check.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+enum { MOST_CHOICES = 32 };
+
+/// The value that is being stored.
+typedef struct value {
+    scree_reader *reader;
+    const scree_key *key;
+    scree_place place;
+    const char *path;
+    const char *text; ///< of a scalar
+} value;
+
+static void reject(const value *v, const char *accepted, const char *message)
+{
+    scree_problem_add(v->reader, v->place, v->path, v->text, accepted, "%s", message);
+}
+
+static void reject_kind(const value *v, const scree_node *node)
+{
+    static const char *const kinds[] = {"a single value", "a list", "a section"};
+    bool empty = node->kind == SCREE_NODE_SCALAR && !node->text[0];
+    char limits[200];
+    scree_limits_text(v->key, limits, sizeof limits);
+    scree_problem_add(v->reader, v->place, v->path, v->text, limits, "%s %s; expected %s",
+                      empty ? "nothing" : kinds[node->kind], "is given", scree_key_noun(v->key));
+}
+
+static double limit_value(const scree_key *key, const scree_limit *limit)
+{
+    double number;
+    if (!limit->text || scree_units_parse(limit->text, key->unit ? key->unit : "1", &number, NULL)) return NAN;
+    return number;
+}
+
+/// Notes a number outside the limits of its key.
+static bool is_within(const value *v, double number)
+{
+    double least = limit_value(v->key, &v->key->least), most = limit_value(v->key, &v->key->most);
+    bool small = number < least || (v->key->least.open && number == least);
+    bool large = number > most || (v->key->most.open && number == most);
+    if (!small && !large) return true;
+    char limits[200];
+    scree_limits_text(v->key, limits, sizeof limits);
+    scree_problem_add(v->reader, v->place, v->path, v->text, limits, "'%s' is too %s", scree_show(v->text).text,
+                      small ? "small" : "large");
+    return false;
+}
+
+static double number_of(const value *v)
+{
+    double number;
+    scree_error error;
+    if (v->key->standard && strcmp(v->key->standard, "auto") == 0 && strcmp(v->text, "auto") == 0) return NAN;
+    scree_status status = scree_units_parse(v->text, v->key->unit, &number, &error);
+    if (status == SCREE_ERROR_IO) {
+        if (!v->reader->failure.status) v->reader->failure = error;
+        return NAN;
+    }
+    if (status) {
+        char limits[200];
+        scree_key_accepts(v->key, limits, sizeof limits);
+        reject(v, limits, error.message);
+        return NAN;
+    }
+    return is_within(v, number) ? number : NAN;
+}
+
+/// A whole number: digits, or a decimal form without a fraction ("1e5", "250.0").
+static int64_t integer_of(const value *v)
+{
+    char limits[200], *end;
+    scree_limits_text(v->key, limits, sizeof limits);
+    double number = strtod(v->text, &end);
+    bool decimal = v->text[0] && !*end && strspn(v->text, "0123456789+-.eE") == strlen(v->text);
+    if (!decimal || (isfinite(number) && number != rint(number))) {
+        scree_problem_add(v->reader, v->place, v->path, v->text, limits, "'%s' is not a whole number",
+                          scree_show(v->text).text);
+        return 0;
+    }
+    return is_within(v, number) ? (int64_t)number : 0;
+}
+
+static bool flag_of(const value *v)
+{
+    static const char *const names[] = {"no", "yes", "false", "true"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcasecmp(v->text, names[i]) == 0) return i % 2 == 1;
+    scree_problem_add(v->reader, v->place, v->path, v->text, "yes, no", "'%s' is neither yes nor no",
+                      scree_show(v->text).text);
+    return false;
+}
+
+static int choice_of(const value *v)
+{
+    const scree_choice *found = scree_choice_find(v->key->choices, v->text);
+    if (found) return found->value;
+    const char *names[MOST_CHOICES];
+    size_t count = 0;
+    while (count < MOST_CHOICES && v->key->choices[count].name) {
+        names[count] = v->key->choices[count].name;
+        count++;
+    }
+    char accepted[256];
+    scree_key_accepts(v->key, accepted, sizeof accepted);
+    const char *nearest = scree_nearest(v->text, names, count);
+    scree_problem_add(v->reader, v->place, v->path, v->text, accepted, "there is no %s '%s'%s%s%s", v->key->name,
+                      scree_show(v->text).text, nearest ? "; did you mean '" : "", nearest ? nearest : "",
+                      nearest ? "'?" : "");
+    return -1;
+}
+
+static char *text_of(const value *v)
+{
+    const char *text = v->text;
+    bool word = v->key->type == SCREE_KEY_WORD;
+    if (word && v->key->standard && strcmp(v->key->standard, "auto") == 0 && strcmp(text, "auto") == 0) return NULL;
+    size_t length = strlen(text);
+    char limits[200];
+    scree_limits_text(v->key, limits, sizeof limits);
+    if ((double)length < limit_value(v->key, &v->key->least) || (double)length > limit_value(v->key, &v->key->most)) {
+        scree_problem_add(v->reader, v->place, v->path, text, limits, "%zu characters are too %s", length,
+                          length == 0 ? "few" : "many");
+        return NULL;
+    }
+    for (size_t i = 0; i < length; i++) {
+        unsigned char c = (unsigned char)text[i];
+        bool control = c < 0x20 || c == 0x7F;
+        bool fits = word ? c < 0x80 && (isalpha(c) || (i > 0 && (isdigit(c) || c == '_' || c == '-'))) : !control;
+        if (fits) continue;
+        scree_problem_add(v->reader, v->place, v->path, text, scree_key_noun(v->key), "'%s' is not %s",
+                          scree_show(text).text, word ? "a name" : "a single line of text");
+        return NULL;
+    }
+    return (char *)text;
+}
+
+/// Two numbers of a list into `out`.
+static void store_two(const value *v, const scree_node *node, double out[2])
+{
+    out[0] = out[1] = NAN;
+    if (node->kind != SCREE_NODE_LIST || node->count != 2) {
+        value whole = *v;
+        whole.place = node->place;
+        reject(&whole, NULL,
+               v->key->type == SCREE_KEY_PAIRS ? "expected a pair of values, e.g. [1 %, 3 %]"
+                                               : "expected two values, e.g. [0, -9.81 m/s2]");
+        return;
+    }
+    for (size_t i = 0; i < 2; i++) {
+        const scree_node *part = scree_node_at(node, i);
+        value one = {v->reader, v->key, part->place, v->path, part->text};
+        if (part->kind == SCREE_NODE_SCALAR && part->text[0])
+            out[i] = number_of(&one);
+        else
+            reject(&one, NULL, "expected a number in the list");
+    }
+}
+
+static void store_pairs(const value *v, const scree_node *node, char *member, int64_t *count)
+{
+    if (node->kind != SCREE_NODE_LIST) {
+        reject_kind(v, node);
+        return;
+    }
+    double(*pairs)[2] = scree_arena_take(v->reader->arena, node->count * v->key->element_size);
+    if (!pairs) {
+        scree_reader_fail(v->reader, node->count * v->key->element_size);
+        return;
+    }
+    size_t index = 0;
+    for (const scree_node *pair = node->first; pair; pair = pair->next) store_two(v, pair, pairs[index++]);
+    memcpy(member, &pairs, sizeof pairs);
+    *count = (int64_t)node->count;
+}
+
+static void store_scalar(const value *v, char *member)
+{
+    double number;
+    int64_t integer;
+    int choice;
+    bool flag;
+    char *text;
+    switch (v->key->type) {
+    case SCREE_KEY_NUMBER:
+        memcpy(member, (number = number_of(v), &number), sizeof number);
+        break;
+    case SCREE_KEY_INTEGER:
+        memcpy(member, (integer = integer_of(v), &integer), sizeof integer);
+        break;
+    case SCREE_KEY_CHOICE:
+        memcpy(member, (choice = choice_of(v), &choice), sizeof choice);
+        break;
+    case SCREE_KEY_FLAG:
+        memcpy(member, (flag = flag_of(v), &flag), sizeof flag);
+        break;
+    default:
+        memcpy(member, (text = text_of(v), &text), sizeof text);
+        break;
+    }
+}
+
+void scree_value_store(scree_reader *reader, const scree_key *key, const scree_node *node, const char *path, void *base)
+{
+    static const scree_place nowhere = {0};
+    char *member = (char *)base + key->offset;
+    value v = {reader, key, node ? node->place : nowhere, path, node ? node->text : key->standard};
+    bool list = key->type == SCREE_KEY_VECTOR || key->type == SCREE_KEY_PAIRS;
+    if (list && !node) return; // the defaults of lists are zeros, or empty
+    if (key->type == SCREE_KEY_VECTOR) {
+        double two[2];
+        store_two(&v, node, two);
+        memcpy(member, two, sizeof two);
+    } else if (key->type == SCREE_KEY_PAIRS) {
+        store_pairs(&v, node, member, (int64_t *)(void *)((char *)base + key->count_offset));
+    } else if (node && (node->kind != SCREE_NODE_SCALAR || (!node->text[0] && key->type != SCREE_KEY_TEXT))) {
+        reject_kind(&v, node);
+    } else {
+        store_scalar(&v, member);
+    }
+}

@@ -1,0 +1,148 @@
+/// The resolved case as YAML: every key that is used, the user's text where there is one, else the default, and the
+/// schema's line as comment. Reading it gives the same config, bit for bit, because each number is the same text.
+#include "case/check.h"
+
+#include <ctype.h>
+#include <string.h>
+
+enum { COMMENT_COLUMN = 40 };
+
+/// The file, and the column of the line that is being written.
+typedef struct writer {
+    FILE *file;
+    const scree_node *root;
+    int column;
+} writer;
+
+static void put(writer *w, const char *text)
+{
+    // Columns are characters, not bytes.
+    for (const char *c = text; *c; c++) w->column += ((unsigned char)*c & 0xC0) != 0x80;
+    (void)fputs(text, w->file);
+}
+
+static void end_line(writer *w, const char *comment)
+{
+    if (comment) {
+        int gap = w->column < COMMENT_COLUMN ? COMMENT_COLUMN - w->column : 1;
+        (void)fprintf(w->file, "%*s# %s", gap, "", comment);
+    }
+    (void)fputc('\n', w->file);
+    w->column = 0;
+}
+
+/// Whether YAML takes `text` as it stands, within [ ] too.
+static bool is_plain(const char *text)
+{
+    size_t length = strlen(text);
+    bool begins = isalnum((unsigned char)text[0]) || (strchr("+-.", text[0]) && isdigit((unsigned char)text[1]));
+    if (length == 0 || !begins || text[length - 1] == ' ') return false;
+    for (const char *c = text; *c; c++)
+        if (!isalnum((unsigned char)*c) && (unsigned char)*c < 0x80 && !strchr(" _%/.*+-^()", *c)) return false;
+    return true;
+}
+
+static void put_text(writer *w, const char *text)
+{
+    if (is_plain(text)) {
+        put(w, text);
+        return;
+    }
+    put(w, "\"");
+    for (const char *c = text; *c; c++) {
+        char one[3] = {*c, 0, 0};
+        if (*c == '"' || *c == '\\') {
+            one[0] = '\\';
+            one[1] = *c;
+        }
+        put(w, one);
+    }
+    put(w, "\"");
+}
+
+/// A value in one line. Its depth is that of the file, which is limited.
+static void put_value(writer *w, const scree_node *node)
+{
+    if (node->kind == SCREE_NODE_SCALAR) {
+        put_text(w, node->text);
+        return;
+    }
+    put(w, node->kind == SCREE_NODE_LIST ? "[" : "{");
+    for (const scree_node *child = node->first; child; child = child->next) {
+        if (node->kind == SCREE_NODE_MAPPING) {
+            put_text(w, child->key);
+            put(w, ": ");
+        }
+        put_value(w, child);
+        if (child->next) put(w, ", ");
+    }
+    put(w, node->kind == SCREE_NODE_LIST ? "]" : "}");
+}
+
+/// Keys of a section that hold values. `first`: what stands before the first key ("  - "), `rest` before the others.
+static void write_values(writer *w, const scree_section *section, const scree_node *mapping, const char *first,
+                         const char *rest)
+{
+    const char *before = first;
+    for (size_t i = 0; i < section->count; i++) {
+        const scree_key *key = &section->keys[i];
+        bool value = key->type != SCREE_KEY_SECTION && key->type != SCREE_KEY_LIST && key->type != SCREE_KEY_PATHS;
+        if (!value || scree_key_usage(w->root, section, mapping, key).use != SCREE_USED) continue;
+        const scree_node *node = scree_node_find(mapping, key->name);
+        put(w, before);
+        put(w, key->name);
+        put(w, ": ");
+        if (node)
+            put_value(w, node);
+        else if (key->type == SCREE_KEY_VECTOR || key->type == SCREE_KEY_PAIRS)
+            put(w, key->standard);
+        else
+            put_text(w, key->standard);
+        end_line(w, key->meaning);
+        before = rest;
+    }
+}
+
+static void write_quick(writer *w, const scree_key *key, const scree_node *quick)
+{
+    if (!quick || quick->kind != SCREE_NODE_MAPPING || quick->count == 0) return;
+    end_line(w, NULL);
+    put(w, "quick:");
+    end_line(w, key->meaning);
+    for (const scree_node *entry = quick->first; entry; entry = entry->next) {
+        put(w, "  ");
+        put_text(w, entry->key);
+        put(w, ": ");
+        put_value(w, entry);
+        end_line(w, NULL);
+    }
+}
+
+static void write_key(writer *w, const scree_key *key)
+{
+    const scree_node *node = scree_node_find(w->root, key->name);
+    if (key->type == SCREE_KEY_PATHS) {
+        write_quick(w, key, node);
+        return;
+    }
+    if (key->type != SCREE_KEY_SECTION && key->type != SCREE_KEY_LIST) return;
+    end_line(w, NULL);
+    put(w, key->name);
+    put(w, ":");
+    end_line(w, key->meaning);
+    if (key->type == SCREE_KEY_SECTION) write_values(w, key->sections, node, "  ", "  ");
+    const scree_node *element = key->type == SCREE_KEY_LIST ? node->first : NULL;
+    for (; element; element = element->next)
+        write_values(w, scree_element_section(key, element), element, "  - ", "    ");
+}
+
+scree_status scree_case_write(const scree_case *c, FILE *file, scree_error *error)
+{
+    writer w = {file, scree_case_root(c), 0};
+    (void)fprintf(file, "# The case with every value that it uses, written by Scree %s.\n", SCREE_VERSION);
+    write_values(&w, &scree_schema, w.root, "", "");
+    for (size_t i = 0; i < scree_schema.count; i++) write_key(&w, &scree_schema.keys[i]);
+    if (fflush(file) != 0 || ferror(file))
+        return scree_error_set_errno(error, SCREE_ERROR_IO, "the case cannot be written");
+    return SCREE_OK;
+}
