@@ -70,13 +70,13 @@ static inline uint32_t picture_pixel(const picture *p, int x, int y)
     return pixel & 0xffffff;
 }
 
-/// Part of the pixels that are not white.
+/// Part of the pixels that are not white, from every third in each direction.
 static inline double picture_ink(const picture *p)
 {
-    size_t dark = 0;
-    for (int y = 0; y < p->height; y++)
-        for (int x = 0; x < p->width; x++) dark += picture_pixel(p, x, y) != 0xffffff;
-    return (double)dark / ((double)p->width * p->height);
+    size_t dark = 0, all = 0;
+    for (int y = 0; y < p->height; y += 3)
+        for (int x = 0; x < p->width; x += 3, all++) dark += picture_pixel(p, x, y) != 0xffffff;
+    return (double)dark / (double)all;
 }
 
 /// Colours are stored in 8 bits, and rounding is up to the library.
