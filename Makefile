@@ -5,7 +5,9 @@ PREFIX ?= /usr/local
 
 .PHONY: all packages demo test bench install clean help sanitize
 all: ## build/scree and libscree (static and shared)
-	@cmake --preset release -B $(BUILD) >/dev/null
+	@mkdir -p $(BUILD)
+	@cmake --preset release -B $(BUILD) >$(BUILD)/configure.log 2>&1 || \
+	    { bash cmake/packages.sh --check && cat $(BUILD)/configure.log; exit 1; }
 	@cmake --build $(BUILD) -j $(JOBS)
 
 packages: ## install missing Debian packages (root or sudo), or say which

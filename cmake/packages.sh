@@ -1,26 +1,30 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that Scree needs and that are missing, as root or through sudo. Where neither is possible
-# it prints the one command to run and stops.
+# (or with --check, always) it prints the one command to run and stops with status 1. On other systems than Debian it
+# leaves the matter to CMake.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
+command -v dpkg-query >/dev/null || exit 0
 missing=()
 while read -r package; do
     dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
 done <"$here/debian-packages.txt"
 [ ${#missing[@]} -eq 0 ] && exit 0
+
+say_how() {
+    echo "Scree needs packages that are not installed. Run this once, then try again:" >&2
+    echo "    sudo apt-get install -y --no-install-recommends ${missing[*]}" >&2
+    exit 1
+}
+[ "${1-}" = --check ] && say_how
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
-    if sudo -n true 2>/dev/null; then
-        as_root=(sudo)
-    else
-        echo "Scree needs packages that are not installed. Run this once, then try again:" >&2
-        echo "    sudo apt-get install -y --no-install-recommends ${missing[*]}" >&2
-        exit 1
-    fi
+    sudo -n true 2>/dev/null || say_how
+    as_root=(sudo)
 fi
 echo "Installing: ${missing[*]}"
 export DEBIAN_FRONTEND=noninteractive
-"${as_root[@]}" apt-get install -y -q --no-install-recommends "${missing[@]}" >/dev/null 2>&1 || {
-    "${as_root[@]}" apt-get update -q >/dev/null
-    "${as_root[@]}" apt-get install -y -q --no-install-recommends "${missing[@]}" >/dev/null
-}
+install=("${as_root[@]}" apt-get install -y -q --no-install-recommends "${missing[@]}")
+"${install[@]}" >/dev/null 2>&1 && exit 0
+"${as_root[@]}" apt-get update -q >/dev/null || true
+"${install[@]}" >/dev/null || say_how

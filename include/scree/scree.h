@@ -24,6 +24,9 @@ extern "C" {
 /// Version text, with the compiler and the instruction set that the kernels use on this machine.
 const char *scree_version(void);
 
+/// Nearest of `names` to `text` (Damerau-Levenshtein, at most a third of the letters wrong), or NULL.
+const char *scree_nearest(const char *text, const char *const *names, size_t count);
+
 // ---- cases -------------------------------------------------------------------------------------------------------
 
 typedef struct scree_case scree_case;         ///< a checked case
@@ -93,7 +96,8 @@ typedef struct scree_run_options {
     bool figures;             ///< draw figures at the end
     const volatile int *stop; ///< becomes non-zero (signal number) to ask for a checkpoint and an orderly end
     void (*progress)(void *user, const scree_progress *progress); ///< about twice a second; may be NULL
-    void (*message)(void *user, int level, const char *line);     ///< lines of log.txt as they are written; may be NULL
+    void (*message)(void *user, int level, const char *line);     ///< lines of log.txt (level 0 information, 1 warning,
+                                                                  ///< 2 error) as they are written; may be NULL
     void *user;
 } scree_run_options;
 
@@ -113,7 +117,8 @@ void scree_simulation_free(scree_simulation *s);
 
 // ---- results -----------------------------------------------------------------------------------------------------
 
-/// Value of `name` in summary.json as text into `value`. Errors: SCREE_ERROR_IO (no run there), SCREE_ERROR_INPUT
+/// Value of `name` in summary.json as text into `value` (cut to `size`). Numbers have the fewest digits that read back
+/// as the same double; a value that does not exist is `nan`. Errors: SCREE_ERROR_IO (no run there), SCREE_ERROR_INPUT
 /// (no such name; `accepted` holds the nearest).
 scree_status scree_result_get(const char *directory, const char *name, char *value, size_t size, scree_error *error);
 

@@ -17,8 +17,4 @@ struct scree_case {
 /// its default as value and the position of its section.
 void scree_case_locate(const scree_case *c, scree_error *error);
 
-/// Nearest of `names` to `text` (Damerau-Levenshtein, at most a third of the letters wrong); else the first that holds
-/// `text`, or is held by it, as whole words ("poisson" in "poisson_ratio"); else NULL. Case does not count.
-const char *scree_nearest(const char *text, const char *const *names, size_t count);
-
 #endif

@@ -11,7 +11,7 @@
 
 enum { MOST_KEYS = 64 };
 
-void scree_path_join(char out[SCREE_PATH_BYTES], const char *path, const char *name)
+void scree_key_join(char out[SCREE_PATH_BYTES], const char *path, const char *name)
 {
     size_t length = path[0] ? (size_t)snprintf(out, SCREE_PATH_BYTES, "%s.", path) : 0;
     if (length < SCREE_PATH_BYTES) (void)snprintf(out + length, SCREE_PATH_BYTES - length, "%s", name);
@@ -55,7 +55,7 @@ static bool is_of_another_kind(const scope *s, scree_node *child, const char *pa
 static uint64_t refuse_unknown(const scope *s, scree_node *child)
 {
     char path[SCREE_PATH_BYTES], accepted[256] = "";
-    scree_path_join(path, s->path, child->key);
+    scree_key_join(path, s->path, child->key);
     if (is_of_another_kind(s, child, path)) return 0;
     const char *names[MOST_KEYS];
     size_t count = 0, length = 0;
@@ -116,7 +116,7 @@ static void read_element(const scope *s, const scree_key *list, scree_node *elem
     const scree_key *kind = &list->sections[0].keys[0];
     const scree_node *given = scree_node_find(element, kind->name);
     char kind_path[SCREE_PATH_BYTES];
-    scree_path_join(kind_path, path, kind->name);
+    scree_key_join(kind_path, path, kind->name);
     if (given)
         scree_value_store(s->reader, kind, given, kind_path, base);
     else
@@ -147,7 +147,7 @@ static void read_list(const scope *s, const scree_key *key, scree_node *node, co
     for (scree_node *element = node->first; element; element = element->next, index++) {
         char number[24], inner[SCREE_PATH_BYTES];
         (void)snprintf(number, sizeof number, "%lld", (long long)index);
-        scree_path_join(inner, path, number);
+        scree_key_join(inner, path, number);
         read_element(s, key, element, inner, elements + (size_t)index * key->element_size);
     }
     memcpy((char *)s->base + key->offset, &elements, sizeof elements);
@@ -175,7 +175,7 @@ static void read_inner_section(const scope *s, const scree_key *key, scree_node 
 static void read_key(const scope *s, const scree_key *key)
 {
     char path[SCREE_PATH_BYTES];
-    scree_path_join(path, s->path, key->name);
+    scree_key_join(path, s->path, key->name);
     scree_node *child = scree_node_find(s->mapping, key->name);
     scree_usage usage = scree_key_usage(s->reader->root, s->section, s->mapping, key);
     if (child && usage.use == SCREE_UNUSED) refuse_unused(s, key, child, &usage, path);

@@ -2,9 +2,10 @@
 ///
 /// Sign convention, the only one in the code: for the contact of `first` and `second` the unit normal n points from
 /// second to first (P 2.A1); a positive normal force pushes them apart; the tangent is t = (-n_y, n_x), and the slip is
-/// s = (v_first - v_second) . t - (R_first w_first + R_second w_second), so that pure rolling has s = 0
-/// (physics.md, P 2.A6 corrected). The force on first is f_n n + f_t t, on second the opposite; f_t opposes s.
-/// The lever arms of the tangential force are R - d/2 each (the contact point lies in the middle of the indentation).
+/// s = (v_first - v_second) . t - (a_first w_first + a_second w_second), so that pure rolling has s = 0
+/// (P 2.A6 corrected). The force on first is f_n n + f_t t, on second the opposite; f_t opposes s.
+/// The lever arms of slip and of tangential force are a = R - d/2 each (the contact point lies in the middle of the
+/// indentation; motion.h says why slip and torque must have the same arm).
 #ifndef SCREE_CONTACT_CONTACT_H
 #define SCREE_CONTACT_CONTACT_H
 
@@ -15,6 +16,13 @@
 /// wall force and shear, histories, ledger increments (damping, friction, stiffness, plates), largest_overlap,
 /// work->flags. Valid after: everything about step n.
 void scree_contact_forces(const scree_model *model, scree_state *state, scree_work *work);
+
+/// Instruction set of the kernels that a work with `instruction_set` = wanted uses on this machine: 2, 3, 4 for
+/// x86-64-v2, v3, v4; never above `wanted` unless that is 0, never above what the machine has; 0 when there is none.
+int scree_contact_instruction_set(int wanted);
+
+/// Frees what scree_contact_forces keeps in work->contact_scratch.
+void scree_contact_scratch_destroy(scree_work *work);
 
 /// One touching contact, everything a measure needs. Second is a wall index when `wall` is set.
 typedef struct scree_contact {

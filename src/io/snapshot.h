@@ -2,12 +2,12 @@
 /// renamed), and run.h5 is a small file of external links, replaced after each: a kill at any moment leaves a readable
 /// run.h5. `scree_run_file_finish` gathers everything into one self-contained run.h5 and removes the parts.
 ///
-///   /snapshots/000012/            attributes: step, time [s], stage, axial_strain, unit and description on each
-///   dataset
-///       position (n x 2), radius, velocity, spin, ... from the field table (all with snapshot = true), in id order
+///   /snapshots/000012/            attributes: step, time [s], stage, axial_strain, pressure [Pa]
+///       position (n x 2), radius, velocity, spin, ... from the field table and io/array.h, in id order
 ///       contacts/ first, second (ids), normal, point, branch, normal_force, tangential_force, ...
-///       boundary/ loop (ids), loaded; walls/ position, normal, force, ...
+///       boundary/ id (the loop), loaded, ...; walls/ position, normal, force, ...
 ///   /checkpoints/000003/          everything in scree_state, bit for bit; attribute case_checksum
+/// Every dataset has the attributes `unit` and `description`; docs/output.md lists all of them.
 #ifndef SCREE_IO_SNAPSHOT_H
 #define SCREE_IO_SNAPSHOT_H
 
@@ -29,11 +29,20 @@ scree_status scree_snapshot_write(const char *directory, const scree_model *mode
 /// Writes a checkpoint (contacts must have been saved into the state); keeps the newest two.
 scree_status scree_checkpoint_write(const char *directory, const scree_state *state, uint64_t case_checksum,
                                     scree_error *error) SCREE_MUST_USE;
-/// Reads the newest checkpoint that is whole. Errors: none there, truncated, of another case (checksum), of another
-/// version of the state (field table).
+/// Reads the newest checkpoint that is whole into *state, which must own nothing and stays empty on failure; rows are
+/// in the order in which they were written, derived arrays but row_of_id are zero. When the newest is damaged and an
+/// older one is used, the status is SCREE_OK and error->message says so; else the message is empty. Errors:
+/// SCREE_ERROR_INPUT: none there, of another case (checksum), of another version of the state (field tables);
+/// SCREE_ERROR_IO: none is whole, memory.
 scree_status scree_checkpoint_read(const char *directory, scree_state *state, uint64_t case_checksum,
                                    scree_error *error) SCREE_MUST_USE;
 
+/// Drops the snapshots with numbers from `from_index` on: a run that continues from an older step writes them anew. A
+/// finished run.h5 is taken apart into parts again. Call before the first snapshot after a restart.
+scree_status scree_snapshots_truncate(const char *directory, int64_t from_index, scree_error *error) SCREE_MUST_USE;
+
+/// The end of a run: everything into one self-contained run.h5, parts removed. Killed at any moment, or out of disk
+/// space, it leaves what was there before. Calling it again is harmless.
 scree_status scree_run_file_finish(const char *directory, scree_error *error) SCREE_MUST_USE;
 
 /// A snapshot read back for figures. Arrays of `count` bodies in id order, contacts of `contact_count`.

@@ -11,22 +11,31 @@ double scree_loop_area(const scree_state *state);
 
 /// Area of the sample [m2]: bounded by the active plates where there are any (where their forces act) and by the loaded
 /// edges of the Delaunay boundary elsewhere (through the centres, where the pressure acts). Without a loop: the box of
-/// the plates.
+/// the plates. Outline in outline.h. With all four plates active: their box.
 double scree_sample_area(const scree_state *state);
 
-/// Average stress from contacts (Christoffersen, Mehrabadi and Nemat-Nasser 1981):
-/// sigma = -(1/(V)) sum_c f (x) l over contacts between bodies, V = area * thickness, plus the boundary term: bodies
-/// that carry boundary forces (walls, pressure) add f_ext (x) (x - x_body_ref), see stress.c for why and with which V.
-/// stress [Pa] out 4.
-void scree_stress_from_contacts(const scree_model *model, const scree_state *state, const scree_work *work,
-                                const scree_contact_table *table, double volume, double stress[4]);
+/// Average stress from contacts (Christoffersen, Mehrabadi and Nemat-Nasser 1981), walls included:
+/// sigma = -(1/V) sum_c f (x) branch, f the force on `first`; volume V [m3] = scree_sample_area * thickness. In
+/// equilibrium equal to the stress that the boundary applies; in motion less by (1/V) sum m a (x) x: see stress.c.
+/// stress [Pa] out 4: row the direction of the force, column that of the branch.
+void scree_stress_from_contacts(const scree_contact_table *table, double volume, double stress[4]);
 
-/// Stress from what the boundary applies: plates along their normals, lateral pressure. [Pa], tension positive; NAN
-/// where nothing is applied in that direction.
+/// Average stress from the boundary alone: wall contacts at their points, pressure at the bodies that carry it. The
+/// exact counterpart of scree_stress_from_contacts. stress [Pa] out 4.
+void scree_stress_from_boundary(const scree_model *model, const scree_state *state, const scree_contact_table *table,
+                                double stress[4]);
+
+/// The same as far as an experimenter knows it, from the resultant forces on the plates and the pressure. Along the
+/// normal of a plate it is exact (the vertical part of the pressure on inclined edges included); what needs to know
+/// WHERE on a plate its forces act is missing: the plates' friction in the lateral stress, which so is exactly -p with
+/// pressed sides. [Pa], tension positive; normal components NAN where nothing is applied in that direction, shear
+/// components NAN with plates on all sides and otherwise taken to be symmetric.
 void scree_stress_from_plates(const scree_model *model, const scree_state *state, double stress[4]);
 
 /// Displacement gradient of the interior of a loop from the displacements of its vertices (Bagi 1996; P 3.1-3.3):
-/// (1/A) sum_edges (u_a + u_b)/2 (x) n L with the mid-configuration. x, y, ux, uy: count values around the loop.
+/// (1/A) sum_edges (u_a + u_b)/2 (x) n L on the mid configuration x + u/2. Exact: trace = (A_new - A_old) / A_mid for
+/// any motion; 2 (F - 1)(F + 1)^-1 for an affine map F; no symmetric part for a rigid rotation (polygon.h). x, y, ux,
+/// uy: count values around the loop [m]; gradient out: xx, xy, yx, yy (d u_row / d x_column).
 void scree_loop_gradient(const double *x, const double *y, const double *ux, const double *uy, size_t count,
                          double gradient[4]);
 
@@ -36,19 +45,23 @@ void scree_strain_measure(const scree_state *state, double gradient[4]);
 
 typedef struct scree_coordination {
     double mean;                  ///< contacts per body, all bodies, walls counted
-    double mean_without_rattlers; ///< over bodies with at least 2 contacts (3 with friction < infinity: see
-                                  ///< coordination.c)
-    double rattler_fraction;
+    double mean_without_rattlers; ///< the same over bodies that are no rattlers and their contacts with such bodies
+    double rattler_fraction;      ///< bodies that cannot be in equilibrium with the contacts they have: coordination.c
 } scree_coordination;
-void scree_coordination_measure(const scree_state *state, const scree_contact_table *table, scree_coordination *out);
+/// Errors: memory.
+scree_status scree_coordination_measure(const scree_model *model, const scree_state *state,
+                                        const scree_contact_table *table, scree_coordination *out,
+                                        scree_error *error) SCREE_MUST_USE;
 
-/// Mean |slip| over touching body-body contacts [m/s] (P fig. 2.4), and the fraction of sliding ones.
+/// Mean |slip| over touching body-body contacts [m/s] (P fig. 2.4), and the fraction of sliding ones; 0 without
+/// contacts.
 void scree_slip_measure(const scree_contact_table *table, double *mean_slip, double *sliding_fraction);
 
-/// Largest and mean unbalanced force over the mean contact force.
+/// Mean resultant force on the bodies that touch something, over the mean contact force. NAN without contact forces.
 double scree_unbalanced_ratio(const scree_model *model, const scree_state *state, const scree_contact_table *table);
 
-/// Solid fraction inside the Delaunay boundary: disc areas (partial ones at the boundary by angle) over loop area.
+/// Solid fraction inside the Delaunay boundary: disc areas (partial ones at the boundary by angle) over loop area. NAN
+/// without a loop.
 double scree_solid_fraction(const scree_state *state);
 
 typedef struct scree_energy {

@@ -43,6 +43,9 @@ typedef struct scree_model {
 /// exist.
 scree_status scree_model_build(const scree_config *config, scree_model *model, scree_error *error) SCREE_MUST_USE;
 
+/// Index of the material that the particles are made of.
+int scree_model_particle_material(const scree_model *model);
+
 /// A copy with every friction coefficient replaced by `friction` (used while preparing dense samples). NAN copies only.
 scree_model scree_model_with_friction(const scree_model *model, double friction);
 

@@ -12,9 +12,12 @@ typedef struct scree_box {
 typedef struct scree_preparation {
     const char *name;
     const char *meaning;
-    /// radius: count radii already drawn; x, y: count centres to fill; box in/out. Errors: does not fit.
+    /// radius: count radii already drawn; x, y: count centres to fill; box in/out, width NAN for auto. Errors: does
+    /// not fit, memory.
     scree_status (*place)(const scree_model *model, const scree_config_stage *stage, const double *radius, size_t count,
                           double *x, double *y, scree_box *box, scree_error *error);
+    /// Velocities at the start, when the rows are filled. NULL: at rest.
+    void (*set_moving)(const scree_model *model, const scree_config_stage *stage, scree_state *state);
 } scree_preparation;
 
 const scree_preparation *scree_preparation_get(scree_prepare_method method);

@@ -71,7 +71,7 @@ static void sample_stress(const scree_simulation *s, double *value)
     const scree_model *model = &s->stage_model;
     double area = scree_sample_area(&s->state), plates[4], contacts[4];
     scree_stress_from_plates(model, &s->state, plates);
-    scree_stress_from_contacts(model, &s->state, &s->work, &s->table, area * model->thickness, contacts);
+    scree_stress_from_contacts(&s->table, area * model->thickness, contacts);
     value[SCREE_SAMPLE_AREA] = area;
     value[SCREE_SAMPLE_AXIAL_PLATES] = -plates[3];
     value[SCREE_SAMPLE_LATERAL_APPLIED] = -plates[0];
@@ -82,12 +82,13 @@ static void sample_stress(const scree_simulation *s, double *value)
     value[SCREE_SAMPLE_STRESS_RATIO_CONTACTS] = contacts[3] / contacts[0];
 }
 
-static void sample_structure(const scree_simulation *s, double *value)
+static scree_status sample_structure(const scree_simulation *s, double *value, scree_error *error)
 {
     double slip, sliding;
     scree_slip_measure(&s->table, &slip, &sliding);
     scree_coordination coordination;
-    scree_coordination_measure(&s->state, &s->table, &coordination);
+    scree_status status = scree_coordination_measure(&s->stage_model, &s->state, &s->table, &coordination, error);
+    if (status) return status;
     value[SCREE_SAMPLE_SLIP_RATIO] = slip / s->model.reference_velocity;
     value[SCREE_SAMPLE_SLIDING_FRACTION] = sliding;
     value[SCREE_SAMPLE_COORDINATION] = coordination.mean;
@@ -97,6 +98,7 @@ static void sample_structure(const scree_simulation *s, double *value)
     value[SCREE_SAMPLE_UNBALANCED_RATIO] = scree_unbalanced_ratio(&s->stage_model, &s->state, &s->table);
     value[SCREE_SAMPLE_BOUNDARY_COUNT] = (double)s->state.loop.count;
     value[SCREE_SAMPLE_HEIGHT] = scree_sample_height(&s->state);
+    return SCREE_OK;
 }
 
 static void sample_energy(const scree_simulation *s, double *value)
@@ -127,7 +129,7 @@ scree_status scree_sample_take(scree_simulation *s, scree_error *error)
     value[SCREE_SAMPLE_STAGE] = (double)s->state.stage.index;
     sample_strain(s, value);
     sample_stress(s, value);
-    sample_structure(s, value);
+    if ((status = sample_structure(s, value, error))) return status;
     sample_energy(s, value);
     return scree_guard_sample(s, value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE], error);
 }

@@ -23,10 +23,10 @@ scree_status scree_step(scree_simulation *s, scree_error *error)
 
     // Forces at n + 1: contacts of bodies and plates, then the pressure on the Delaunay boundary.
     if ((status = scree_neighbours_refresh(model, state, work, error))) return status;
-    if ((status = scree_boundary_refresh(model, state, work, error))) return status;
+    if ((status = scree_boundary_refresh(model, state, error))) return status;
     scree_contact_set_quanta(model, state, scree_pressure_bound(model, state));
     scree_contact_forces(model, state, work);
-    scree_pressure_forces(model, state, work);
+    scree_pressure_forces(model, state);
 
     if (s->integrator->second) s->integrator->second(model, state, work);
     return scree_guard_step(s, error);

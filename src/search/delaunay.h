@@ -12,15 +12,19 @@ typedef struct scree_triangulation {
     int32_t (*neighbour)[3];
 } scree_triangulation;
 
-/// points: count x 2 [m]. Errors: fewer than three points, all on a line, memory.
+/// points: count x 2 [m]. Errors: memory; SCREE_ERROR_GUARD for fewer than three points, not a number, all on a line,
+/// two in one place. Every point is a corner of some triangle. Triangles come in ascending order, lowest index first;
+/// where points are cocircular the diagonals depend on their order, so give bodies in the order of their ids.
 scree_status scree_triangulation_build(const double *points, size_t count, scree_triangulation *triangulation,
                                        scree_error *error) SCREE_MUST_USE;
 void scree_triangulation_destroy(scree_triangulation *triangulation);
 
 /// Outer boundary of the triangulation after cleaning: boundary triangles whose outer edge leaves a free gap
-/// |x_a - x_b| - R_a - R_b > gap_limit (m), or which are slivers, are cut, longest edge first, as long as the loop
-/// stays ONE simple closed loop through which no point falls out. `removed[t]` (may be NULL) marks the cut triangles.
-/// loop: point indices counter-clockwise, caller frees with scree_release. Cost: O(n log n).
+/// |x_a - x_b| - R_a - R_b > gap_limit (m), or which are slivers (an angle above 150 degrees opposite to the outer
+/// edge), are cut, slivers first, then the widest gap first, unless their third point is on the loop already: so the
+/// loop stays ONE simple closed polygon with all points inside or on it. `removed[t]` (may be NULL) marks the cut
+/// triangles. loop: point indices counter-clockwise from the lowest, caller frees with scree_release. Cost: O(n + h log
+/// h).
 scree_status scree_boundary_loop(const scree_triangulation *triangulation, const double *points, const double *radius,
                                  size_t count, double gap_limit, uint32_t **loop, size_t *loop_count, uint8_t *removed,
                                  scree_error *error) SCREE_MUST_USE;

@@ -1,31 +1,65 @@
 /// The one field table: drives snapshots, checkpoints, comparison, ParaView files and the documentation of body data.
-/// A new per-body quantity is one row here and one member of `scree_state`.
+/// A new per-body quantity is one row here and one member of `scree_state`. A second table of the same form,
+/// `scree_members`, names everything else that a checkpoint holds: contacts, boundary loop, walls, single values.
+///
+/// Reference positions and rebuild positions are two arrays each in the state, so they are two fields of one component;
+/// all other vectors have their components side by side.
 #ifndef SCREE_STATE_FIELDS_H
 #define SCREE_STATE_FIELDS_H
 
 #include "state/state.h"
 
-typedef enum scree_field_type { SCREE_FIELD_DOUBLE, SCREE_FIELD_INT64, SCREE_FIELD_UINT32 } scree_field_type;
+typedef enum scree_field_type {
+    SCREE_FIELD_DOUBLE,
+    SCREE_FIELD_INT64,
+    SCREE_FIELD_UINT64,
+    SCREE_FIELD_INT32,
+    SCREE_FIELD_UINT32,
+    SCREE_FIELD_UINT8
+} scree_field_type;
+
 typedef enum scree_field_role { SCREE_FIELD_STATE, SCREE_FIELD_DERIVED } scree_field_role;
 
+/// What a field has one element of. Bodies, contacts and loop are arrays that the state points to; walls and the single
+/// values lie inside the state itself.
+typedef enum scree_field_rows {
+    SCREE_ROWS_BODIES,
+    SCREE_ROWS_CONTACTS,
+    SCREE_ROWS_LOOP,
+    SCREE_ROWS_WALLS,
+    SCREE_ROWS_ONE
+} scree_field_rows;
+
 typedef struct scree_field {
-    const char *name;
+    const char *name; ///< in scree_members with its group: "walls/position"
     scree_field_type type;
     int components;
     const char *unit; ///< udunits text, "1" for none
     scree_field_role role;
-    bool snapshot; ///< written into snapshots and ParaView files
+    bool snapshot; ///< written as it is into snapshots and ParaView files
     const char *meaning;
-    size_t array_offset; ///< of the array pointer in scree_state
-    size_t stride;       ///< bytes from one body to the next
-    size_t offset;       ///< bytes from the start of a body's element to the first component
+    size_t array_offset; ///< of the array pointer (bodies, contacts, loop) or of the first element in scree_state
+    size_t stride;       ///< bytes from one element to the next
+    size_t offset;       ///< bytes from the start of an element to the first component
+    scree_field_rows rows;
 } scree_field;
 
+/// Per body.
 extern const scree_field scree_fields[];
 extern const size_t scree_field_count;
 
-/// Address of component 0 of `field` of the body in `row`.
+/// Everything else; role is always SCREE_FIELD_STATE.
+extern const scree_field scree_members[];
+extern const size_t scree_member_count;
+
+/// Address of component 0 of `field` of the body (or contact, vertex of the loop, wall) in `row`.
 const void *scree_field_get(const scree_state *state, const scree_field *field, size_t row);
 void *scree_field_get_mutable(scree_state *state, const scree_field *field, size_t row);
+
+/// Bytes of one component.
+size_t scree_field_size(scree_field_type type);
+
+/// Number of elements that `state` has of what `field` describes.
+size_t scree_field_rows_count(const scree_state *state, const scree_field *field);
 
 #endif

@@ -7,11 +7,13 @@
 
 #include <stdbool.h>
 
+/// Labels (not titles) may use gnuplot's enhanced text, e.g. `v_R` or `10^{-3}`.
 typedef struct scree_chart_line {
     const double *x, *y;
     size_t count;
     const char *label; ///< NULL: no legend entry
     bool dashed, points;
+    int colour; ///< 1 to 7: of the palette, e.g. the same for two lines that belong together; 0: the next one
 } scree_chart_line;
 
 typedef struct scree_chart {
@@ -22,7 +24,8 @@ typedef struct scree_chart {
     bool log_x, log_y;
 } scree_chart;
 
-/// path without extension. Errors: gnuplot missing or failed (with its message), disk.
+/// path without extension. Values that are not finite are gaps, and so are those not above zero on a logarithmic axis.
+/// Errors: no value to draw (SCREE_ERROR_INPUT); gnuplot missing or failed (SCREE_ERROR_IO with its message), disk.
 scree_status scree_chart_draw(const char *path, const scree_chart *chart, scree_error *error) SCREE_MUST_USE;
 
 #endif

@@ -4,22 +4,24 @@
 #define SCREE_VIEW_SCENE_H
 
 #include "io/snapshot.h"
+#include "view/colour.h"
 
-typedef enum scree_colour_map { SCREE_COLOUR_SEQUENTIAL, SCREE_COLOUR_DIVERGING } scree_colour_map;
+#include <stdbool.h>
 
 typedef struct scree_scene {
     const char *title;
-    const double *field;    ///< per disc, NULL: plain discs
+    const double *field;    ///< per disc, NULL: plain discs; discs where it is not finite are grey
     const char *field_name; ///< label of the colour bar with unit, e.g. "rotation (degrees)"
-    scree_colour_map map;
-    bool force_network; ///< contacts as lines, width by normal force
-    bool boundary;      ///< Delaunay boundary loop
+    scree_colour_map map;   ///< diverging: limits symmetric about zero
+    bool force_network;     ///< contacts as lines, width by normal force
+    bool boundary;          ///< Delaunay boundary loop
     bool plates;
     const double *arrow_x, *arrow_y; ///< per disc, m; NULL: none
     double arrow_scale;              ///< drawn length over true length; 0: chosen, and told in the figure
 } scree_scene;
 
-/// path without extension.
+/// path without extension. Discs without a finite position or a positive radius are left out, and counted in the
+/// caption. Errors: no disc to draw (SCREE_ERROR_INPUT), disk, memory.
 scree_status scree_scene_draw(const char *path, const scree_snapshot *snapshot, const scree_scene *scene,
                               scree_error *error) SCREE_MUST_USE;
 

@@ -1,0 +1,67 @@
+/// scree check CASE: the resolved case, and what it amounts to as comments below it.
+#include "cli/case_argument.h"
+#include "cli/terminal.h"
+
+#include <math.h>
+
+enum { TEXT = 64 };
+
+static void print_line(const char *name, const char *value, const char *more)
+{
+    printf("# %-20s %s%s%s\n", name, value, more[0] ? ", " : "", more);
+}
+
+static void print_quantity(const char *name, double value, const char *unit)
+{
+    char text[TEXT];
+    scree_human_quantity(text, sizeof text, value, unit);
+    print_line(name, text, "");
+}
+
+static void print_coefficient(const char *name, double value, const char *meaning)
+{
+    char text[TEXT];
+    (void)snprintf(text, sizeof text, "%.3g", value);
+    if (!isnan(value)) print_line(name, text, meaning);
+}
+
+static void print_summary(const scree_case_summary *summary)
+{
+    char text[TEXT], more[2 * TEXT], part[TEXT];
+    printf("\n# --- what this case amounts to ---\n");
+    (void)snprintf(text, sizeof text, "%llu", (unsigned long long)summary->particles);
+    print_line("particles", text, "");
+    print_quantity("mean radius", summary->mean_radius, "m");
+    print_quantity("thickness", summary->thickness, "m");
+    print_coefficient("phi", summary->phi, "quasistatic coefficient (inertia against pressure)");
+    print_coefficient("psi", summary->psi, "size coefficient (grain against sample)");
+    if (!isnan(summary->reference_velocity)) print_quantity("reference velocity", summary->reference_velocity, "m/s");
+    scree_human_quantity(text, sizeof text, summary->step, "s");
+    scree_human_quantity(part, sizeof part, summary->critical_step, "s");
+    (void)snprintf(more, sizeof more, "%.2g of the critical step of %s", summary->step / summary->critical_step, part);
+    print_line("time step", text, more);
+    scree_human_count(text, sizeof text, summary->steps);
+    print_line("steps", text, "");
+    scree_human_duration(text, sizeof text, summary->seconds);
+    scree_human_count(part, sizeof part, summary->rate);
+    (void)snprintf(more, sizeof more, "at %s particle-steps/s", part);
+    print_line("time needed", text, more);
+    print_quantity("memory", summary->memory, "B");
+}
+
+scree_status scree_verb_check(const scree_command *command)
+{
+    scree_case *c;
+    scree_status status = scree_case_argument_read(command, command->argument[0], &c);
+    if (status) return status;
+    scree_case_summary summary;
+    scree_error error = {0};
+    status = scree_case_summarise(c, &summary, &error);
+    if (!status) status = scree_case_write(c, stdout, &error);
+    if (status)
+        status = scree_terminal_error("check", &error);
+    else
+        print_summary(&summary);
+    scree_case_free(c);
+    return status;
+}

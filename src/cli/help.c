@@ -1,0 +1,148 @@
+/// The verb `help`, and help as text, wrapped at 80 columns.
+#include "cli/help.h"
+
+#include "cli/command.h"
+#include "cli/terminal.h"
+
+#include <string.h>
+
+enum { WIDTH = 80, TERM_WIDTH = 26 };
+
+/// Prints paragraphs wrapped at WIDTH; the cursor stands in `column`, new lines begin at `indent`.
+static void write_wrapped(FILE *file, const char *text, size_t column, size_t indent)
+{
+    while (*text) {
+        size_t length = strcspn(text, " \n");
+        if (column > indent && column + 1 + length > WIDTH) {
+            fprintf(file, "\n%*s", (int)indent, "");
+            column = indent;
+        }
+        column += (size_t)fprintf(file, "%s%.*s", column > indent ? " " : "", (int)length, text);
+        text += length;
+        if (strncmp(text, "\n\n", 2) == 0) {
+            fprintf(file, "\n\n%*s", (int)indent, "");
+            column = indent;
+        }
+        text += strspn(text, " \n");
+    }
+    fputc('\n', file);
+}
+
+/// "  term     meaning", the meaning on its own line when the term is long.
+static void write_term(FILE *file, const char *term, const char *meaning)
+{
+    fprintf(file, "  %-*s", TERM_WIDTH - 2, term);
+    if (strlen(term) > TERM_WIDTH - 4) fprintf(file, "\n%*s", TERM_WIDTH, "");
+    write_wrapped(file, meaning, TERM_WIDTH, TERM_WIDTH);
+}
+
+void scree_help_usage(const scree_verb *verb, char *text, size_t size)
+{
+    size_t used = (size_t)snprintf(text, size, "%s%s", verb->name, verb->option[0].name ? " [OPTION]..." : "");
+    for (const scree_verb_argument *row = verb->argument; row->name && used < size; row++)
+        used += (size_t)snprintf(text + used, size - used, row->optional ? " [%s]%s" : " %s%s", row->name,
+                                 row->repeated ? "..." : "");
+}
+
+void scree_help_write(FILE *file)
+{
+    fprintf(file, "Usage: scree VERB [OPTION]... [ARGUMENT]...\n\n");
+    write_wrapped(file, scree_purpose, 0, 0);
+    fprintf(file, "\nVerbs:\n");
+    for (size_t i = 0; i < scree_verbs_count; i++) write_term(file, scree_verbs[i].name, scree_verbs[i].meaning);
+    fprintf(file, "\nOptions:\n");
+    write_term(file, "-h, --help", "print this help; `scree VERB --help` tells about one verb");
+    write_term(file, "-V, --version", "print the version");
+    fprintf(file, "\nExit status:\n");
+    for (const scree_exit_status *row = scree_exit_statuses; row->meaning; row++) {
+        char number[16];
+        (void)snprintf(number, sizeof number, "%d", row->status);
+        write_term(file, number, row->meaning);
+    }
+    fprintf(file, "\nA first run:\n");
+    fprintf(file, "  scree new biaxial > my.yaml\n  scree run my.yaml --quick -o out\n  scree get out\n");
+}
+
+static void write_options(FILE *file, const scree_verb_option *row)
+{
+    for (; row->name; row++) {
+        char term[80], meaning[256];
+        char letter[8] = "    ";
+        if (row->letter) (void)snprintf(letter, sizeof letter, "-%c, ", row->letter);
+        (void)snprintf(term, sizeof term, "%s--%s%s%s", letter, row->name, row->value ? " " : "",
+                       row->value ? row->value : "");
+        (void)snprintf(meaning, sizeof meaning, "%s%s%s%s", row->meaning, row->preset ? " (default: " : "",
+                       row->preset ? row->preset : "", row->preset ? ")" : "");
+        write_term(file, term, meaning);
+    }
+}
+
+void scree_help_write_verb(FILE *file, const scree_verb *verb)
+{
+    char usage[160];
+    scree_help_usage(verb, usage, sizeof usage);
+    fprintf(file, "Usage: scree %s\n\n", usage);
+    write_wrapped(file, verb->text, 0, 0);
+    if (verb->argument[0].name) fprintf(file, "\nArguments:\n");
+    for (const scree_verb_argument *row = verb->argument; row->name; row++) write_term(file, row->name, row->meaning);
+    fprintf(file, "\nOptions:\n");
+    write_options(file, verb->option);
+    write_options(file, scree_common_options);
+    fprintf(file, "\nExit status:\n");
+    write_term(file, "0", scree_exit_status_meaning(SCREE_OK));
+    for (const int *status = verb->status; *status; status++) {
+        char number[16];
+        (void)snprintf(number, sizeof number, "%d", *status);
+        write_term(file, number, scree_exit_status_meaning(*status));
+    }
+    fprintf(file, "\nExamples:\n");
+    for (const scree_verb_example *row = verb->example; row->line; row++)
+        fprintf(file, "  %s\n      %s\n", row->line, row->meaning);
+}
+
+scree_status scree_verb_refuse(const char *name)
+{
+    const char *names[32];
+    size_t count = 0;
+    scree_error error;
+    char accepted[sizeof error.accepted] = "";
+    for (; count < scree_verbs_count && count < sizeof names / sizeof names[0]; count++) {
+        size_t used = strlen(accepted);
+        names[count] = scree_verbs[count].name;
+        (void)snprintf(accepted + used, sizeof accepted - used, "%s%s", count > 0 ? ", " : "", names[count]);
+    }
+    const char *nearest = scree_nearest(name, names, count);
+    scree_command_refuse(&error, name, nearest ? nearest : accepted, "there is no such verb");
+    return scree_terminal_error(NULL, &error);
+}
+
+scree_status scree_verb_help(const scree_command *command)
+{
+    scree_error error = {0};
+    const char *shell = scree_command_value(command, "completion");
+    const char *name = command->argument_count > 0 ? command->argument[0] : NULL;
+    int asked = scree_command_has(command, "man") + (shell != NULL) + scree_command_has(command, "case-reference");
+    if (asked + (name != NULL) > 1) {
+        scree_command_refuse(&error, "", "", "one of VERB, --man, --completion and --case-reference at a time");
+        return scree_terminal_error("help", &error);
+    }
+    if (shell && strcmp(shell, "bash") != 0) {
+        scree_command_refuse(&error, "--completion", "bash", "there is no completion for '%s'", shell);
+        return scree_terminal_error("help", &error);
+    }
+    if (scree_command_has(command, "case-reference")) {
+        scree_status status = scree_schema_write_manual(stdout, &error);
+        return status ? scree_terminal_error("help", &error) : SCREE_OK;
+    }
+    const scree_verb *verb = name ? scree_verb_find(name) : NULL;
+    if (name && !verb) return scree_verb_refuse(name);
+    if (verb)
+        scree_help_write_verb(stdout, verb);
+    else if (shell)
+        scree_help_write_completion(stdout);
+    else if (asked)
+        scree_help_write_manual(stdout);
+    else
+        scree_help_write(stdout);
+    return SCREE_OK;
+}

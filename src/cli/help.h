@@ -1,0 +1,19 @@
+/// Texts made from the table of verbs.
+#ifndef SCREE_CLI_HELP_H
+#define SCREE_CLI_HELP_H
+
+#include "cli/verbs.h"
+
+/// `scree --help`.
+void scree_help_write(FILE *file);
+/// `scree VERB --help`.
+void scree_help_write_verb(FILE *file, const scree_verb *verb);
+/// The man page, in roff.
+void scree_help_write_manual(FILE *file);
+/// Completion for bash.
+void scree_help_write_completion(FILE *file);
+
+/// "run [OPTION]... [CASE]": how a verb is called.
+void scree_help_usage(const scree_verb *verb, char *text, size_t size);
+
+#endif

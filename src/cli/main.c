@@ -1,0 +1,64 @@
+/// The program `scree`: finds the verb, reads the rest of the command line against its row of the table, calls it.
+#include "cli/command.h"
+#include "cli/help.h"
+#include "cli/terminal.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <string.h>
+#include <unistd.h>
+
+/// A closed standard stream is replaced, so that no file of a run gets its number and receives what is printed. Writing
+/// to its replacement fails.
+static void keep_standard_streams(void)
+{
+    for (int stream = 0; stream <= 2; stream++)
+        if (fcntl(stream, F_GETFD) < 0) (void)open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
+}
+
+/// What was printed has to arrive. A reader that has gone away (`scree get out | head -1`) knows that itself.
+static scree_status finish_output(scree_status status)
+{
+    errno = 0;
+    if (fflush(stdout) == 0 && !ferror(stdout)) return status;
+    if (errno != EPIPE) fprintf(stderr, "scree: cannot write standard output: %s\n", strerror(errno ? errno : EIO));
+    return status ? status : SCREE_ERROR_IO;
+}
+
+static scree_status call_verb(const scree_verb *verb, int count, char *const *words)
+{
+    scree_command command;
+    scree_error error;
+    scree_status status = scree_command_parse(verb, (size_t)count, words, &command, &error);
+    if (status)
+        status = scree_terminal_error(verb->name, &error);
+    else if (scree_command_has(&command, "help"))
+        scree_help_write_verb(stdout, verb);
+    else
+        status = verb->function(&command);
+    scree_command_free(&command);
+    return status;
+}
+
+int main(int argc, char **argv)
+{
+    keep_standard_streams();
+    (void)signal(SIGPIPE, SIG_IGN);
+    if (argc < 2) {
+        scree_help_write(stderr);
+        return SCREE_ERROR_INPUT;
+    }
+    const char *first = argv[1];
+    const scree_verb *verb = scree_verb_find(first);
+    scree_status status = SCREE_OK;
+    if (verb)
+        status = call_verb(verb, argc - 2, argv + 2);
+    else if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0)
+        scree_help_write(stdout);
+    else if (strcmp(first, "--version") == 0 || strcmp(first, "-V") == 0)
+        printf("scree %s\n", scree_version());
+    else
+        status = scree_verb_refuse(first);
+    return (int)finish_output(status);
+}

@@ -1,0 +1,176 @@
+/// The table of verbs.
+#include "cli/verbs.h"
+
+#include <string.h>
+
+const char scree_purpose[] =
+    "A discrete-element laboratory for granular matter: prepares an assembly of grains, loads it through a choice of "
+    "boundaries, and turns its contacts into stress, strain and figures.";
+
+const scree_exit_status scree_exit_statuses[] = {
+    {SCREE_OK, "done"},
+    {SCREE_ERROR_INPUT, "the input is wrong: the case, an option, a name, or a folder that is in use"},
+    {SCREE_ERROR_GUARD, "a physics guard stopped the run, after a checkpoint"},
+    {SCREE_ERROR_IO, "reading or writing failed, or memory ran out"},
+    {SCREE_INTERRUPTED, "interrupted by a signal, after a checkpoint"},
+    {0, NULL},
+};
+
+const scree_verb_option scree_common_options[] = {
+    {.name = "help", .letter = 'h', .meaning = "print this help and stop"},
+    {0},
+};
+
+#define OPTION_SET                                                                                                     \
+    {                                                                                                                  \
+        .name = "set", .value = "KEY=VALUE",                                                                           \
+        .meaning = "change one value of the case, such as `--set materials.0.friction=0.3`; may be repeated",          \
+        .repeatable = true                                                                                             \
+    }
+#define OPTION_QUICK                                                                                                   \
+    {                                                                                                                  \
+        .name = "quick", .meaning = "apply the `quick` section of the case: the same physics, smaller"                 \
+    }
+
+const scree_verb scree_verbs[] = {
+    {
+        .name = "list",
+        .meaning = "list the built-in cases, one line each",
+        .text = "Prints the name and the meaning of every case that is built in. `scree new` turns one into a file to "
+                "edit, "
+                "`scree run` takes its name in place of a file.",
+        .example = {{"scree list", "what there is"}},
+        .status = {SCREE_ERROR_IO},
+        .function = scree_verb_list,
+    },
+    {
+        .name = "new",
+        .meaning = "print a built-in case as a commented file to edit",
+        .text = "Prints the case file to standard output, or writes it to a file that does not exist yet.",
+        .argument = {{"NAME", "a built-in case; `scree list` names them", SCREE_VALUE_BUILTIN, false, false}},
+        .option = {{.name = "output",
+                    .letter = 'o',
+                    .value = "FILE",
+                    .meaning = "write to FILE",
+                    .preset = "standard output",
+                    .kind = SCREE_VALUE_FILE},
+                   {.name = "force", .letter = 'f', .meaning = "replace FILE when it exists"}},
+        .example = {{"scree new biaxial > my.yaml", "a biaxial compression test to edit"}},
+        .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO},
+        .function = scree_verb_new,
+    },
+    {
+        .name = "check",
+        .meaning = "check a case, and say what it amounts to",
+        .text =
+            "Prints the resolved case, every default written out, and below it as comments: the numbers of particles "
+            "and steps, the quasistatic and size coefficients phi and psi, the critical time step, and an estimate of "
+            "time and memory. The output is a case file again.\n\n"
+            "Everything that is wrong with a case is reported at once, as `file:line:column: key: what is wrong "
+            "(accepted: what would be right)`.",
+        .argument = {{"CASE", "a case file, or the name of a built-in case", SCREE_VALUE_CASE, false, false}},
+        .option = {OPTION_SET, OPTION_QUICK},
+        .example = {{"scree check my.yaml", "before a long run"},
+                    {"scree check biaxial --set stages.compress.rate=1e-3", "how much slower, and how quasistatic"}},
+        .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO},
+        .function = scree_verb_check,
+    },
+    {
+        .name = "run",
+        .meaning = "run a case into a folder of results, or continue a run",
+        .text =
+            "Runs a case file; where there is no file of that name, the built-in case of that name. The folder of "
+            "results "
+            "holds `case.yaml` (resolved), `summary.json` (named results), `series.csv` (time series), `run.h5` "
+            "(snapshots, contacts, checkpoints), `figures/`, `paraview/` and `log.txt`.\n\n"
+            "A folder that holds another run is refused unless `--force` is given; then the old run's files are "
+            "removed, "
+            "and nothing else.\n\n"
+            "Progress goes to standard error: one line that is rewritten on a terminal, plain lines every ten seconds "
+            "elsewhere. The first interrupt (Ctrl-C, SIGTERM) stops the run after a checkpoint, a second one ends it "
+            "at "
+            "once. `scree run --restart DIR` continues a run that was stopped or killed, bit for bit.",
+        .argument = {{"CASE", "a case file, or the name of a built-in case; none with --restart", SCREE_VALUE_CASE,
+                      true, false}},
+        .option = {{.name = "output",
+                    .letter = 'o',
+                    .value = "DIR",
+                    .meaning = "folder of results",
+                    .preset = "out",
+                    .kind = SCREE_VALUE_FOLDER},
+                   OPTION_SET,
+                   OPTION_QUICK,
+                   {.name = "threads",
+                    .letter = 't',
+                    .value = "N",
+                    .meaning = "number of threads; the results do not depend on it",
+                    .preset = "all cores"},
+                   {.name = "force", .letter = 'f', .meaning = "replace the run that DIR holds"},
+                   {.name = "no-figures", .meaning = "leave the figures out; `scree plot` draws them later"},
+                   {.name = "restart",
+                    .value = "DIR",
+                    .meaning = "continue the run in DIR from its newest checkpoint",
+                    .kind = SCREE_VALUE_FOLDER},
+                   {.name = "quiet", .letter = 'q', .meaning = "no progress, warnings and errors only"}},
+        .example = {{"scree run biaxial --quick -o out", "a built-in case in a minute"},
+                    {"scree run my.yaml -o out --set stages.compress.rate=1e-2 --threads 2", "one value changed"},
+                    {"scree run --restart out", "continue after an interrupt"}},
+        .status = {SCREE_ERROR_INPUT, SCREE_ERROR_GUARD, SCREE_ERROR_IO, SCREE_INTERRUPTED},
+        .function = scree_verb_run,
+    },
+    {
+        .name = "get",
+        .meaning = "print results of a run",
+        .text =
+            "With one name prints the bare value, for use in a shell; with several names, or none for all, prints "
+            "lines "
+            "of name and value. Numbers are SI and have as many digits as are needed to read back the same double; a "
+            "value that does not exist is `nan`.",
+        .argument = {{"DIR", "folder of a run", SCREE_VALUE_FOLDER, false, false},
+                     {"NAME", "a result; all when none is given", SCREE_VALUE_RESULT, true, true}},
+        .example = {{"scree get out", "all names and values"},
+                    {"peak=$(scree get out peak_stress_ratio)", "one value into a shell variable"},
+                    {"scree get out phi psi", "two lines of name and value"}},
+        .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO},
+        .function = scree_verb_get,
+    },
+    {
+        .name = "plot",
+        .meaning = "draw the figures of a run again",
+        .text = "Draws charts and scenes as SVG and PNG into DIR/figures and prints the path of each. The gnuplot "
+                "script and "
+                "the data of a chart are kept beside it.",
+        .argument = {{"DIR", "folder of a run", SCREE_VALUE_FOLDER, false, false}},
+        .example = {{"scree plot out", "after a run with --no-figures"}},
+        .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO},
+        .function = scree_verb_plot,
+    },
+    {
+        .name = "help",
+        .meaning = "print help, the man page, shell completion or the case reference",
+        .text = "Without options prints what `scree --help` or `scree VERB --help` prints.",
+        .argument = {{"VERB", "a verb of this table", SCREE_VALUE_VERB, true, false}},
+        .option = {{.name = "man", .meaning = "print the man page (roff)"},
+                   {.name = "completion", .value = "SHELL", .meaning = "print completion for SHELL, which is `bash`"},
+                   {.name = "case-reference", .meaning = "print the reference of case files (Markdown)"}},
+        .example = {{"scree help run", "the same as scree run --help"},
+                    {"source <(scree help --completion bash)", "completion in this shell"}},
+        .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO},
+        .function = scree_verb_help,
+    },
+};
+const size_t scree_verbs_count = sizeof scree_verbs / sizeof scree_verbs[0];
+
+const scree_verb *scree_verb_find(const char *name)
+{
+    for (size_t i = 0; i < scree_verbs_count; i++)
+        if (strcmp(scree_verbs[i].name, name) == 0) return &scree_verbs[i];
+    return NULL;
+}
+
+const char *scree_exit_status_meaning(int status)
+{
+    const scree_exit_status *row = scree_exit_statuses;
+    while (row->meaning && row->status != status) row++;
+    return row->meaning;
+}

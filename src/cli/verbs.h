@@ -1,0 +1,88 @@
+/// The one table of the command line: every verb with its arguments, options, texts and function. Parsing, --help, the
+/// man page and shell completion are made from it and from nothing else.
+///
+/// Long texts are paragraphs separated by an empty line; words between backquotes are literal.
+#ifndef SCREE_CLI_VERBS_H
+#define SCREE_CLI_VERBS_H
+
+#include <scree/scree.h>
+
+/// What a value stands for, so that a shell can complete it.
+typedef enum scree_value_kind {
+    SCREE_VALUE_TEXT,
+    SCREE_VALUE_FILE,
+    SCREE_VALUE_FOLDER,
+    SCREE_VALUE_CASE,    ///< a case file or the name of a built-in case
+    SCREE_VALUE_BUILTIN, ///< the name of a built-in case
+    SCREE_VALUE_RESULT,  ///< the name of a result of the run in the first argument
+    SCREE_VALUE_VERB,
+} scree_value_kind;
+
+typedef struct scree_verb_argument {
+    const char *name; ///< in capitals
+    const char *meaning;
+    scree_value_kind kind;
+    bool optional;
+    bool repeated; ///< the last one only: takes all that follow
+} scree_verb_argument;
+
+typedef struct scree_verb_option {
+    const char *name;  ///< without its two dashes
+    char letter;       ///< one-letter form, 0: none
+    const char *value; ///< name of its value, in capitals; NULL: a switch
+    const char *meaning;
+    const char *preset; ///< what holds without the option; NULL: nothing to say
+    scree_value_kind kind;
+    bool repeatable;
+} scree_verb_option;
+
+typedef struct scree_verb_example {
+    const char *line;
+    const char *meaning;
+} scree_verb_example;
+
+enum { SCREE_VERB_ROWS = 12 }; ///< most arguments, options, examples of a verb; each list ends with an empty row
+
+struct scree_command;
+
+typedef struct scree_verb {
+    const char *name;
+    const char *meaning; ///< one line
+    const char *text;
+    scree_verb_argument argument[SCREE_VERB_ROWS];
+    scree_verb_option option[SCREE_VERB_ROWS];
+    scree_verb_example example[SCREE_VERB_ROWS];
+    int status[6]; ///< exit statuses beside 0, ends with 0
+    scree_status (*function)(const struct scree_command *command);
+} scree_verb;
+
+extern const scree_verb scree_verbs[];
+extern const size_t scree_verbs_count;
+
+/// Options that every verb has.
+extern const scree_verb_option scree_common_options[];
+
+/// What the program is, for the head of the help and the man page.
+extern const char scree_purpose[];
+
+typedef struct scree_exit_status {
+    int status;
+    const char *meaning;
+} scree_exit_status;
+extern const scree_exit_status scree_exit_statuses[]; ///< ends with a NULL meaning
+
+/// NULL when there is none.
+const scree_verb *scree_verb_find(const char *name);
+const char *scree_exit_status_meaning(int status);
+/// Prints to standard error that there is no such verb, with the nearest; returns the exit status.
+scree_status scree_verb_refuse(const char *name);
+
+scree_status scree_verb_list(const struct scree_command *command);
+scree_status scree_verb_new(const struct scree_command *command);
+scree_status scree_verb_check(const struct scree_command *command);
+scree_status scree_verb_run(const struct scree_command *command);
+scree_status scree_verb_get(const struct scree_command *command);
+scree_status scree_verb_plot(const struct scree_command *command);
+scree_status scree_verb_help(const struct scree_command *command);
+
+#endif

@@ -1,0 +1,60 @@
+/// Faults are sought again from positions and velocities, body by body and pair by pair, so the answer does not depend
+/// on the kernel, on threads or on the order of the list.
+#include "contact/faults.h"
+
+#include "contact/bounds.h"
+#include "contact/single.h"
+
+#include <math.h>
+
+/// Smallest id for each fault; UINT64_MAX for none.
+typedef struct faults {
+    uint64_t not_finite, overlap, force;
+} faults;
+
+static void lower(uint64_t *least, uint64_t id)
+{
+    if (id < *least) *least = id;
+}
+
+static void check_rows(const scree_state *state, faults *f)
+{
+    for (size_t k = 0; k < state->count; k++) {
+        const scree_row *row = &state->row[k];
+        double sum = row->x + row->y + row->vx + row->vy + row->spin;
+        if (!isfinite(sum)) lower(&f->not_finite, state->id[k]);
+    }
+}
+
+static void check_contact(const scree_contact *c, double overlap_limit, double force_limit, uint64_t id, faults *f)
+{
+    if (c->indentation > overlap_limit) lower(&f->overlap, id);
+    if (!(c->normal_force + fabs(c->tangential_force) <= force_limit)) lower(&f->force, id);
+}
+
+void contact_find_faults(const scree_model *model, const scree_state *state, scree_work *work, double force_limit)
+{
+    faults f = {UINT64_MAX, UINT64_MAX, UINT64_MAX};
+    double limit = contact_overlap_limit(model);
+    scree_contact c;
+    check_rows(state, &f);
+    const scree_pair_list *pairs = &work->pairs;
+    for (size_t p = 0; p < pairs->count; p++) {
+        const scree_row *first = &state->row[pairs->first[p]], *second = &state->row[pairs->second[p]];
+        if (contact_of_pair(model, first, second, &pairs->history[p], &c))
+            check_contact(&c, limit * fmin(first->radius, second->radius), force_limit, state->id[pairs->first[p]], &f);
+    }
+    const scree_wall_pair_list *walls = &work->wall_pairs;
+    for (size_t p = 0; p < walls->count; p++) {
+        const scree_row *body = &state->row[walls->body[p]];
+        if (contact_of_wall(model, body, &state->wall[walls->wall[p]], &walls->history[p], &c))
+            check_contact(&c, limit * body->radius, force_limit, state->id[walls->body[p]], &f);
+    }
+
+    uint64_t id = f.not_finite < UINT64_MAX ? f.not_finite : f.overlap < UINT64_MAX ? f.overlap : f.force;
+    if (id == UINT64_MAX) return;
+    if (!work->flags) work->flagged_id = id;
+    if (f.not_finite < UINT64_MAX) work->flags |= SCREE_FLAG_NAN;
+    if (f.overlap < UINT64_MAX) work->flags |= SCREE_FLAG_OVERLAP;
+    if (f.force < UINT64_MAX) work->flags |= SCREE_FLAG_FORCE_RANGE;
+}

@@ -1,0 +1,42 @@
+/// One thread's share of a force evaluation: what a kernel reads and what it gives back. Between contact/forces.c,
+/// which cuts the work, and the kernels (scree_pairs_batch_vN: one compilation of pairs_batch.c for each instruction
+/// set).
+#ifndef SCREE_CONTACT_JOB_H
+#define SCREE_CONTACT_JOB_H
+
+#include "contact/law.h"
+
+/// Inverse quanta (base/fixed.h) of the integer sums, and the largest force they may hold.
+typedef struct contact_scale {
+    double inverse_force, inverse_torque;     ///< 1/N, 1/(N m)
+    double inverse_damping, inverse_friction; ///< 1/J, of the ledger's damping and of its friction and stiffness
+    double force_limit;                       ///< N
+} contact_scale;
+
+typedef struct contact_totals {
+    int64_t damping, friction, stiffness; ///< energy quanta
+    double largest_overlap;               ///< m
+    bool in_range;                        ///< no force is NaN or above the limit of the quanta
+    int64_t wall_force[SCREE_WALL_COUNT], wall_shear[SCREE_WALL_COUNT]; ///< force quanta, by the bodies on the wall
+} contact_totals;
+
+typedef struct contact_job {
+    const scree_model *model;
+    const scree_row *row;
+    scree_sum_row *sum;             ///< the sum of row r is sum[r]; this thread's own
+    const uint32_t *first, *second; ///< the whole pair list
+    scree_history *history;
+    size_t near;                         ///< number of the first near pair; touching pairs come before it
+    size_t touching_begin, touching_end; ///< pairs of this job
+    size_t near_begin, near_end;         ///< near pairs of this job; near_begin - near is a multiple of 8
+    uint8_t *near_touched;               ///< one bit a near pair: it touched in the last evaluation
+    law_settings settings;
+    contact_scale scale;
+    bool ledger;
+    contact_totals totals; ///< out
+} contact_job;
+
+typedef void contact_kernel(contact_job *job);
+contact_kernel scree_pairs_batch_v0, scree_pairs_batch_v2, scree_pairs_batch_v3, scree_pairs_batch_v4;
+
+#endif

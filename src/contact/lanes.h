@@ -1,0 +1,232 @@
+/// Lanes: one arithmetic type for several contacts at once, so that the physics of a law is written once and serves the
+/// scalar reference (one lane, a plain double) and the vector kernels (2, 4 or 8 lanes, GNU vector extensions).
+///
+/// Every operation here is one correctly rounded IEEE operation, or a SLEEF function that gives the same bits in all
+/// its instruction sets; the build forbids contraction (-ffp-contract=off). So any number of lanes gives the same bits.
+/// `SCREE_LANES` follows `SCREE_ISA` (kernel files, see CMakeLists.txt) and is 1 in all other files.
+///
+/// Comparisons give masks: 64-bit integers with all bits set or clear. A NaN passes through at_least and at_most when
+/// it is the value, and is dropped when it is the limit.
+#ifndef SCREE_CONTACT_LANES_H
+#define SCREE_CONTACT_LANES_H
+
+#include "base/fixed.h"
+
+#include <sleef.h>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#ifndef SCREE_LANES
+#if !defined(SCREE_ISA)
+#define SCREE_LANES 1
+#elif SCREE_ISA == 4
+#define SCREE_LANES 8
+#elif SCREE_ISA == 3
+#define SCREE_LANES 4
+#else
+#define SCREE_LANES 2
+#endif
+#endif
+
+#define SCREE_INLINE static inline __attribute__((always_inline))
+
+#if SCREE_LANES == 1
+
+typedef double lanes;
+typedef int64_t lanes_int;
+
+SCREE_INLINE lanes lanes_all(double value)
+{
+    return value;
+}
+SCREE_INLINE lanes_int lanes_less(lanes a, lanes b)
+{
+    return -(lanes_int)(a < b);
+}
+SCREE_INLINE lanes_int lanes_at_or_below(lanes a, lanes b)
+{
+    return -(lanes_int)(a <= b);
+}
+SCREE_INLINE lanes_int lanes_differ(lanes a, lanes b)
+{
+    return -(lanes_int)(a != b);
+}
+SCREE_INLINE unsigned lanes_bits(lanes_int mask)
+{
+    return (unsigned)(mask & 1);
+}
+SCREE_INLINE lanes lanes_root(lanes a)
+{
+    return sqrt(a);
+}
+SCREE_INLINE lanes lanes_log(lanes a)
+{
+    return Sleef_cinz_logd1_u35purec(a);
+}
+SCREE_INLINE lanes lanes_exp(lanes a)
+{
+    return Sleef_cinz_expd1_u10purec(a);
+}
+
+SCREE_INLINE lanes_int lanes_as_int(lanes a)
+{
+    lanes_int bits;
+    memcpy(&bits, &a, sizeof bits);
+    return bits;
+}
+
+SCREE_INLINE lanes lanes_as_double(lanes_int bits)
+{
+    lanes a;
+    memcpy(&a, &bits, sizeof a);
+    return a;
+}
+
+SCREE_INLINE lanes lanes_at_least(lanes value, lanes limit)
+{
+    return limit > value ? limit : value;
+}
+SCREE_INLINE lanes lanes_at_most(lanes value, lanes limit)
+{
+    return limit < value ? limit : value;
+}
+
+#else
+
+#define SCREE_LANES_BYTES (8 * SCREE_LANES)
+typedef double lanes __attribute__((vector_size(SCREE_LANES_BYTES)));
+typedef int64_t lanes_int __attribute__((vector_size(SCREE_LANES_BYTES)));
+
+SCREE_INLINE lanes lanes_all(double value)
+{
+    return value - (lanes){0};
+}
+SCREE_INLINE lanes_int lanes_less(lanes a, lanes b)
+{
+    return (lanes_int)(a < b);
+}
+SCREE_INLINE lanes_int lanes_at_or_below(lanes a, lanes b)
+{
+    return (lanes_int)(a <= b);
+}
+SCREE_INLINE lanes_int lanes_differ(lanes a, lanes b)
+{
+    return (lanes_int)(a != b);
+}
+SCREE_INLINE lanes_int lanes_as_int(lanes a)
+{
+    return (lanes_int)a;
+}
+SCREE_INLINE lanes lanes_as_double(lanes_int bits)
+{
+    return (lanes)bits;
+}
+
+#if SCREE_LANES == 8 && defined(__AVX512DQ__)
+#define LANES_MACHINE(name)         _mm512_##name
+#define LANES_SLEEF(name, accuracy) Sleef_cinz_##name##d8_##accuracy##avx512fnofma
+SCREE_INLINE unsigned lanes_bits(lanes_int mask)
+{
+    return _mm512_movepi64_mask((__m512i)mask);
+}
+#elif SCREE_LANES == 4 && defined(__AVX__)
+#define LANES_MACHINE(name)         _mm256_##name
+#define LANES_SLEEF(name, accuracy) Sleef_cinz_##name##d4_##accuracy##avx
+SCREE_INLINE unsigned lanes_bits(lanes_int mask)
+{
+    return (unsigned)_mm256_movemask_pd((__m256d)mask);
+}
+#elif SCREE_LANES == 2 && defined(__SSE4_1__)
+#define LANES_MACHINE(name)         _mm_##name
+#define LANES_SLEEF(name, accuracy) Sleef_cinz_##name##d2_##accuracy##sse4
+SCREE_INLINE unsigned lanes_bits(lanes_int mask)
+{
+    return (unsigned)_mm_movemask_pd((__m128d)mask);
+}
+#endif
+
+#ifdef LANES_MACHINE
+SCREE_INLINE lanes lanes_at_least(lanes value, lanes limit)
+{
+    return (lanes)LANES_MACHINE(max_pd)(limit, value);
+}
+SCREE_INLINE lanes lanes_at_most(lanes value, lanes limit)
+{
+    return (lanes)LANES_MACHINE(min_pd)(limit, value);
+}
+SCREE_INLINE lanes lanes_root(lanes a)
+{
+    return (lanes)LANES_MACHINE(sqrt_pd)(a);
+}
+SCREE_INLINE lanes lanes_log(lanes a)
+{
+    return (lanes)LANES_SLEEF(log, u35)(a);
+}
+SCREE_INLINE lanes lanes_exp(lanes a)
+{
+    return (lanes)LANES_SLEEF(exp, u10)(a);
+}
+#else // a machine without these instructions: lane by lane
+#define LANES_ONE_BY_ONE(name, expression)                                                                             \
+    SCREE_INLINE lanes lanes_##name(lanes a)                                                                           \
+    {                                                                                                                  \
+        for (int k = 0; k < SCREE_LANES; k++) a[k] = expression(a[k]);                                                 \
+        return a;                                                                                                      \
+    }
+LANES_ONE_BY_ONE(root, sqrt)
+LANES_ONE_BY_ONE(log, Sleef_cinz_logd1_u35purec)
+LANES_ONE_BY_ONE(exp, Sleef_cinz_expd1_u10purec)
+
+SCREE_INLINE unsigned lanes_bits(lanes_int mask)
+{
+    unsigned bits = 0;
+    for (int k = 0; k < SCREE_LANES; k++) bits |= (unsigned)(mask[k] & 1) << k;
+    return bits;
+}
+
+SCREE_INLINE lanes lanes_at_least(lanes value, lanes limit)
+{
+    lanes_int above = limit > value;
+    return (lanes)(((lanes_int)limit & above) | ((lanes_int)value & ~above));
+}
+
+SCREE_INLINE lanes lanes_at_most(lanes value, lanes limit)
+{
+    lanes_int below = limit < value;
+    return (lanes)(((lanes_int)limit & below) | ((lanes_int)value & ~below));
+}
+#endif
+#endif
+
+/// `a` where the mask is set, zero elsewhere.
+SCREE_INLINE lanes lanes_keep(lanes_int mask, lanes a)
+{
+    return lanes_as_double(mask & lanes_as_int(a));
+}
+
+/// `a` where the mask is set, `b` elsewhere.
+SCREE_INLINE lanes lanes_select(lanes_int mask, lanes a, lanes b)
+{
+    return lanes_as_double((mask & lanes_as_int(a)) | (~mask & lanes_as_int(b)));
+}
+
+SCREE_INLINE lanes lanes_abs(lanes a)
+{
+    return lanes_as_double(lanes_as_int(a) & INT64_MAX);
+}
+
+/// |magnitude| with the sign of `sign`.
+SCREE_INLINE lanes lanes_with_sign(lanes magnitude, lanes sign)
+{
+    return lanes_as_double((lanes_as_int(magnitude) & INT64_MAX) | (lanes_as_int(sign) & INT64_MIN));
+}
+
+/// value / quantum as an integer, see base/fixed.h.
+SCREE_INLINE lanes_int lanes_fixed(lanes value, double inverse_quantum)
+{
+    return lanes_as_int(value * inverse_quantum + SCREE_FIXED_MAGIC) - SCREE_FIXED_MAGIC_BITS;
+}
+
+#endif

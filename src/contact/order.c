@@ -1,0 +1,51 @@
+/// Counting sort by the first id; the few contacts of one body are then put in order by insertion.
+#include "contact/order.h"
+
+#include "contact/scalar.h"
+
+/// Contact number k of all pairs and then all wall pairs; false when it does not touch.
+static bool reference_get(const scree_state *state, const scree_work *work, size_t k, contact_reference *r)
+{
+    const scree_pair_list *pairs = &work->pairs;
+    if (k < pairs->count) {
+        uint32_t a = pairs->first[k], b = pairs->second[k];
+        *r = (contact_reference){state->id[a], state->id[b], (uint32_t)k};
+        return pair_touches(&state->row[a], &state->row[b]);
+    }
+    k -= pairs->count;
+    uint32_t body = work->wall_pairs.body[k], wall = work->wall_pairs.wall[k];
+    *r = (contact_reference){state->id[body], SCREE_WALL_ID + wall, (uint32_t)k};
+    return wall_touches(&state->row[body], &state->wall[wall]);
+}
+
+/// Puts list[k] in its place among list[begin .. k - 1], which are in order.
+static void insert(contact_reference *list, size_t begin, size_t k)
+{
+    contact_reference r = list[k];
+    for (; k > begin && list[k - 1].second > r.second; k--) list[k] = list[k - 1];
+    list[k] = r;
+}
+
+scree_status contact_order(const scree_state *state, const scree_work *work, contact_reference **list, size_t *count,
+                           scree_error *error)
+{
+    size_t candidates = work->pairs.count + work->wall_pairs.count;
+    contact_reference r;
+    size_t *begin;
+    *list = NULL;
+    scree_status status = scree_allocate(&begin, state->count + 2, sizeof *begin, error);
+    if (status) return status;
+
+    // begin[id + 2] counts, begin[id + 1] becomes the place where the contacts of id are put, and in the end their end.
+    for (size_t k = 0; k < candidates; k++)
+        if (reference_get(state, work, k, &r)) begin[r.first + 2]++;
+    for (size_t id = 0; id < state->count; id++) begin[id + 2] += begin[id + 1];
+    *count = begin[state->count + 1];
+    if (!(status = scree_allocate(list, *count, sizeof **list, error)))
+        for (size_t k = 0; k < candidates; k++)
+            if (reference_get(state, work, k, &r)) (*list)[begin[r.first + 1]++] = r;
+    for (size_t id = 0; id < state->count && !status; id++)
+        for (size_t k = begin[id]; k < begin[id + 1]; k++) insert(*list, begin[id], k);
+    scree_release(&begin);
+    return status;
+}

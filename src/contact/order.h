@@ -1,0 +1,22 @@
+/// Touching contacts in the order of ids, which does not depend on how rows and pairs lie in memory.
+#ifndef SCREE_CONTACT_ORDER_H
+#define SCREE_CONTACT_ORDER_H
+
+#include "state/work.h"
+
+typedef struct contact_reference {
+    uint32_t first, second; ///< ids; a wall is SCREE_WALL_ID + its index
+    uint32_t pair;          ///< in work->pairs, or in work->wall_pairs
+} contact_reference;
+
+static inline bool contact_reference_is_wall(const contact_reference *r)
+{
+    return r->second >= SCREE_WALL_ID;
+}
+
+/// All pairs and wall pairs that touch at the present positions, ordered by (first, second): walls come last for each
+/// first. *list is allocated here and released by the caller. Errors: memory. Cost: linear.
+scree_status contact_order(const scree_state *state, const scree_work *work, contact_reference **list, size_t *count,
+                           scree_error *error) SCREE_MUST_USE;
+
+#endif

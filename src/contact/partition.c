@@ -1,0 +1,165 @@
+/// Partition of the pair list. Cost: one pass over the list a rebuild (windows only for more than one part); in a step
+/// 32 bytes cleared and, for the buffered rows, 32 bytes added.
+#include "contact/partition.h"
+
+#include "contact/contact.h"
+#include "contact/scalar.h"
+
+static void release_parts(contact_scratch *scratch)
+{
+    for (int k = 0; k < scratch->part_capacity; k++) scree_release(&scratch->part[k].buffer);
+    scree_release(&scratch->part);
+    scratch->part_count = scratch->part_capacity = 0;
+}
+
+void scree_contact_scratch_destroy(scree_work *work)
+{
+    contact_scratch *scratch = work->contact_scratch;
+    if (!scratch) return;
+    release_parts(scratch);
+    scree_release(&scratch->near_touched);
+    scree_release(&work->contact_scratch);
+}
+
+/// Marks the near pairs whose history is not clear: they touched in the last evaluation.
+static scree_status mark_near(contact_scratch *scratch, const scree_pair_list *pairs)
+{
+    size_t near = pairs->count - pairs->touching_count, bytes = (near + 7) / 8;
+    if (bytes > scratch->near_capacity) {
+        scratch->near_capacity = 0;
+        scree_release(&scratch->near_touched);
+        scree_status status = scree_allocate(&scratch->near_touched, bytes + bytes / 4, 1, NULL);
+        if (status) return status;
+        scratch->near_capacity = bytes + bytes / 4;
+    }
+    if (bytes > 0) memset(scratch->near_touched, 0, bytes);
+    for (size_t k = 0; k < near; k++)
+        if (!history_is_clear(&pairs->history[pairs->touching_count + k]))
+            scratch->near_touched[k / 8] |= (uint8_t)(1U << k % 8);
+    return SCREE_OK;
+}
+
+/// Rows that the pairs [begin, end) name, joined to the window of `part`.
+static void extend_window(contact_part *part, const scree_pair_list *pairs, size_t begin, size_t end)
+{
+    for (size_t p = begin; p < end; p++) {
+        size_t a = pairs->first[p], b = pairs->second[p];
+        size_t low = a < b ? a : b, high = a < b ? b : a;
+        if (low < part->low) part->low = low;
+        if (high >= part->high) part->high = high + 1;
+    }
+}
+
+/// Start of part k of `parts` equal shares of `count` pairs, at a whole group.
+static size_t share(size_t count, int k, int parts)
+{
+    return k == parts ? count : count / (size_t)parts * (size_t)k / 8 * 8;
+}
+
+static scree_status cut_part(contact_scratch *scratch, const scree_pair_list *pairs, size_t rows, int k)
+{
+    contact_part *part = &scratch->part[k];
+    size_t touching = pairs->touching_count, near = pairs->count - touching;
+    int parts = scratch->part_count;
+    contact_job *job = &part->job;
+    job->near = touching;
+    job->touching_begin = share(touching, k, parts);
+    job->touching_end = share(touching, k + 1, parts);
+    job->near_begin = touching + share(near, k, parts);
+    job->near_end = touching + share(near, k + 1, parts);
+    part->low = 0, part->high = rows;
+    if (parts == 1) return SCREE_OK;
+
+    part->low = rows, part->high = 0;
+    extend_window(part, pairs, job->touching_begin, job->touching_end);
+    extend_window(part, pairs, job->near_begin, job->near_end);
+    if (part->high == 0) part->low = 0;
+    size_t window = part->high - part->low;
+    if (k == 0 || window <= part->capacity) return SCREE_OK;
+    scree_release(&part->buffer);
+    part->capacity = 0;
+    scree_status status = scree_allocate(&part->buffer, window, sizeof *part->buffer, NULL);
+    if (!status) part->capacity = window;
+    return status;
+}
+
+static scree_status cut(contact_scratch *scratch, const scree_work *work, size_t rows)
+{
+    int parts = work->threads > 1 ? work->threads : 1;
+    if (parts > scratch->part_capacity) {
+        release_parts(scratch);
+        scree_status status = scree_allocate(&scratch->part, (size_t)parts, sizeof *scratch->part, NULL);
+        if (status) return status;
+        scratch->part_capacity = parts;
+    }
+    scratch->part_count = parts;
+    scree_status status = mark_near(scratch, &work->pairs);
+    for (int k = 0; k < parts && !status; k++) status = cut_part(scratch, &work->pairs, rows, k);
+    return status;
+}
+
+static bool is_current(const contact_scratch *scratch, const scree_work *work, size_t rows)
+{
+    return scratch->part_count > 0 && scratch->rebuilds == work->rebuilds && scratch->first == work->pairs.first &&
+           scratch->count == work->pairs.count && scratch->touching_count == work->pairs.touching_count &&
+           scratch->threads == work->threads && scratch->rows == rows;
+}
+
+contact_scratch *contact_scratch_refresh(scree_work *work, size_t rows)
+{
+    contact_scratch *scratch = work->contact_scratch;
+    if (scratch && is_current(scratch, work, rows)) return scratch;
+    if (!scratch) {
+        if (scree_allocate(&scratch, 1, sizeof *scratch, NULL)) return NULL;
+        work->contact_scratch = scratch;
+    }
+    if (cut(scratch, work, rows)) {
+        scree_contact_scratch_destroy(work);
+        return NULL;
+    }
+    scratch->rebuilds = work->rebuilds;
+    scratch->first = work->pairs.first;
+    scratch->count = work->pairs.count;
+    scratch->touching_count = work->pairs.touching_count;
+    scratch->threads = work->threads;
+    scratch->rows = rows;
+    return scratch;
+}
+
+scree_sum_row *contact_part_clear(contact_part *part, scree_state *state)
+{
+    size_t rows = part->high - part->low;
+    scree_sum_row *window = part->buffer ? part->buffer : state->sum + part->low;
+    if (rows > 0) memset(window, 0, rows * sizeof *window);
+    // The base from which the rows of the window are counted lies before the buffer; as an integer it may.
+    return (scree_sum_row *)((uintptr_t)window - part->low * sizeof *window);
+}
+
+void contact_merge_range(const contact_scratch *scratch, size_t rows, int index, size_t *begin, size_t *end)
+{
+    *begin = rows * (size_t)index / (size_t)scratch->part_count;
+    *end = rows * (size_t)(index + 1) / (size_t)scratch->part_count;
+}
+
+static void clear_rows(scree_state *state, size_t begin, size_t end)
+{
+    if (begin < end) memset(state->sum + begin, 0, (end - begin) * sizeof *state->sum);
+}
+
+void contact_merge(const contact_scratch *scratch, scree_state *state, size_t begin, size_t end)
+{
+    const contact_part *own = &scratch->part[0];
+    clear_rows(state, begin, end < own->low ? end : own->low);
+    clear_rows(state, begin > own->high ? begin : own->high, end);
+    for (int k = 1; k < scratch->part_count; k++) {
+        const contact_part *part = &scratch->part[k];
+        size_t from = begin > part->low ? begin : part->low, to = end < part->high ? end : part->high;
+        for (size_t row = from; row < to; row++) {
+            const scree_sum_row *more = &part->buffer[row - part->low];
+            state->sum[row].fx += more->fx;
+            state->sum[row].fy += more->fy;
+            state->sum[row].torque += more->torque;
+            state->sum[row].contacts += more->contacts;
+        }
+    }
+}

@@ -1,0 +1,46 @@
+/// The pair list cut among threads, and the buffers that make it free of conflicts.
+///
+/// Both ranges of the list are cut into as many parts as threads, at rebuilds. Part 0 adds to state->sum itself; every
+/// other part has a private buffer for the window of rows that its pairs name (the list runs along a space-filling
+/// curve, so the windows hardly overlap). When all are done, each part merges a range of rows: it clears what part 0
+/// has not cleared, and adds the buffers. Sums are integers, so any partition gives the same bits. A single part has no
+/// buffer and nothing to merge.
+#ifndef SCREE_CONTACT_PARTITION_H
+#define SCREE_CONTACT_PARTITION_H
+
+#include "contact/job.h"
+#include "state/work.h"
+
+typedef struct contact_part {
+    contact_job job;       ///< ranges are set here; the rest by each evaluation
+    size_t low, high;      ///< window: rows that its pairs name
+    scree_sum_row *buffer; ///< sums of the window; none for part 0
+    size_t capacity;
+} contact_part;
+
+typedef struct contact_scratch {
+    contact_part *part;
+    int part_count, part_capacity;
+    uint8_t *near_touched; ///< one bit a near pair: it touched in the last evaluation
+    size_t near_capacity;
+    // the list and the number of threads that all this belongs to
+    uint64_t rebuilds;
+    const uint32_t *first;
+    size_t count, touching_count, rows;
+    int threads;
+} contact_scratch;
+
+/// The partition of the present list over `rows` bodies, made anew when the list is. NULL when there is no memory for
+/// it.
+contact_scratch *contact_scratch_refresh(scree_work *work, size_t rows);
+
+/// Before the kernel: clears the sums of the part's window. Returns the base for contact_job.sum.
+scree_sum_row *contact_part_clear(contact_part *part, scree_state *state);
+
+/// Rows that part `index` merges.
+void contact_merge_range(const contact_scratch *scratch, size_t rows, int index, size_t *begin, size_t *end);
+
+/// After all kernels: makes state->sum of the rows [begin, end) whole.
+void contact_merge(const contact_scratch *scratch, scree_state *state, size_t begin, size_t end);
+
+#endif

@@ -1,0 +1,211 @@
+/// Packing: from the structs of a state and a contact table to plain arrays and back.
+#include "io/array.h"
+
+#include <stddef.h>
+#include <string.h>
+
+void scree_array_destroy(scree_array *array)
+{
+    scree_release(&array->data);
+}
+
+scree_status scree_array_allocate(scree_array *array, scree_error *error)
+{
+    return scree_allocate(&array->data, array->rows, (size_t)array->components * scree_field_size(array->type), error);
+}
+
+scree_array scree_array_of_field(const scree_state *state, const scree_field *field)
+{
+    return (scree_array){.name = field->name,
+                         .type = field->type,
+                         .rows = scree_field_rows_count(state, field),
+                         .components = field->components,
+                         .single = field->rows == SCREE_ROWS_ONE,
+                         .unit = field->unit,
+                         .meaning = field->meaning};
+}
+
+scree_status scree_array_from_field(const scree_state *state, const scree_field *field, bool by_id, scree_array *array,
+                                    scree_error *error)
+{
+    *array = scree_array_of_field(state, field);
+    scree_status status = scree_array_allocate(array, error);
+    if (status) return status;
+    by_id = by_id && field->rows == SCREE_ROWS_BODIES;
+    const size_t size = (size_t)array->components * scree_field_size(array->type);
+    unsigned char *target = array->data;
+    for (size_t k = 0; k < array->rows; k++, target += size)
+        memcpy(target, scree_field_get(state, field, by_id ? state->row_of_id[k] : k), size);
+    return SCREE_OK;
+}
+
+void scree_array_to_field(const scree_array *array, const scree_field *field, scree_state *state)
+{
+    const size_t size = (size_t)array->components * scree_field_size(array->type);
+    const unsigned char *source = array->data;
+    for (size_t k = 0; k < array->rows; k++, source += size)
+        memcpy(scree_field_get_mutable(state, field, k), source, size);
+}
+
+// ---- bodies ------------------------------------------------------------------------------------------------------
+
+/// What follows from the state of a body; always doubles.
+typedef struct body_result {
+    const char *name;
+    int components;
+    const char *unit;
+    const char *meaning;
+    void (*evaluate)(const scree_model *model, const scree_state *state, size_t row, double *value);
+} body_result;
+
+static void velocity(const scree_model *model, const scree_state *state, size_t row, double *value)
+{
+    double whole[3];
+    scree_body_velocity(model, state, row, whole);
+    memcpy(value, whole, 2 * sizeof *value);
+}
+
+static void spin(const scree_model *model, const scree_state *state, size_t row, double *value)
+{
+    double whole[3];
+    scree_body_velocity(model, state, row, whole);
+    *value = whole[2];
+}
+
+static void force(const scree_model *model, const scree_state *state, size_t row, double *value)
+{
+    double whole[3];
+    scree_body_force(model, state, row, whole);
+    memcpy(value, whole, 2 * sizeof *value);
+}
+
+static void torque(const scree_model *model, const scree_state *state, size_t row, double *value)
+{
+    double whole[3];
+    scree_body_force(model, state, row, whole);
+    *value = whole[2];
+}
+
+static void displacement(const scree_model *model, const scree_state *state, size_t row, double *value)
+{
+    (void)model;
+    value[0] = state->row[row].x - state->reference_x[row];
+    value[1] = state->row[row].y - state->reference_y[row];
+}
+
+static const body_result body_results[] = {
+    {"velocity", 2, "m/s", "velocity of the centre", velocity},
+    {"spin", 1, "rad/s", "angular velocity, counter-clockwise", spin},
+    {"force", 2, "N", "sum of all forces, with boundary forces and gravity", force},
+    {"torque", 1, "N m", "sum of all torques, counter-clockwise", torque},
+    {"displacement", 2, "m", "displacement since the start of the loading stage", displacement},
+};
+enum { BODY_RESULT_COUNT = sizeof body_results / sizeof *body_results };
+
+/// The index-th field with snapshot = true, NULL when there are fewer.
+static const scree_field *snapshot_field(size_t index)
+{
+    for (size_t k = 0; k < scree_field_count; k++)
+        if (scree_fields[k].snapshot && index-- == 0) return &scree_fields[k];
+    return NULL;
+}
+
+static size_t snapshot_field_count(void)
+{
+    size_t count = 0;
+    while (snapshot_field(count)) count++;
+    return count;
+}
+
+size_t scree_body_array_count(void)
+{
+    return snapshot_field_count() + BODY_RESULT_COUNT;
+}
+
+scree_status scree_body_array(const scree_model *model, const scree_state *state, size_t index, scree_array *array,
+                              scree_error *error)
+{
+    const scree_field *field = snapshot_field(index);
+    if (field) return scree_array_from_field(state, field, true, array, error);
+    const body_result *result = &body_results[index - snapshot_field_count()];
+    *array = (scree_array){.name = result->name,
+                           .type = SCREE_FIELD_DOUBLE,
+                           .rows = state->count,
+                           .components = result->components,
+                           .unit = result->unit,
+                           .meaning = result->meaning};
+    scree_status status = scree_array_allocate(array, error);
+    if (status) return status;
+    double *value = array->data;
+    for (size_t id = 0; id < state->count; id++, value += result->components)
+        result->evaluate(model, state, state->row_of_id[id], value);
+    return SCREE_OK;
+}
+
+// ---- contacts ----------------------------------------------------------------------------------------------------
+
+typedef struct contact_member {
+    const char *name;
+    scree_field_type type;
+    int components;
+    const char *unit;
+    const char *meaning;
+    size_t offset; ///< in scree_contact
+} contact_member;
+
+/// Rows of `first` and `second` become ids when they are packed.
+static const contact_member contact_members[] = {
+    {"first", SCREE_FIELD_UINT32, 1, "1", "id of the first body", offsetof(scree_contact, first)},
+    {"second", SCREE_FIELD_UINT32, 1, "1", "id of the second body; 4294967280 + index for a wall",
+     offsetof(scree_contact, second)},
+    {"normal", SCREE_FIELD_DOUBLE, 2, "1", "unit normal n, from the second to the first",
+     offsetof(scree_contact, normal)},
+    {"point", SCREE_FIELD_DOUBLE, 2, "m", "contact point", offsetof(scree_contact, point)},
+    {"branch", SCREE_FIELD_DOUBLE, 2, "m",
+     "from the centre of the second (a wall: the contact point) to that of the first", offsetof(scree_contact, branch)},
+    {"indentation", SCREE_FIELD_DOUBLE, 1, "m", "overlap of the undeformed bodies",
+     offsetof(scree_contact, indentation)},
+    {"normal_force", SCREE_FIELD_DOUBLE, 1, "N", "force on the first along n, pushing apart: positive",
+     offsetof(scree_contact, normal_force)},
+    {"tangential_force", SCREE_FIELD_DOUBLE, 1, "N", "force on the first along t = (-n_y, n_x)",
+     offsetof(scree_contact, tangential_force)},
+    {"slip", SCREE_FIELD_DOUBLE, 1, "m/s", "slip velocity of the first past the second, along t",
+     offsetof(scree_contact, slip)},
+    {"sliding", SCREE_FIELD_UINT8, 1, "1", "1: friction is fully mobilised", offsetof(scree_contact, sliding)},
+    {"elastic_normal", SCREE_FIELD_DOUBLE, 1, "J", "elastic energy of the indentation",
+     offsetof(scree_contact, elastic_normal)},
+    {"elastic_tangential", SCREE_FIELD_DOUBLE, 1, "J", "elastic energy of the tangential spring",
+     offsetof(scree_contact, elastic_tangential)},
+};
+_Static_assert(sizeof(bool) == 1, "a bool is written as one byte");
+
+size_t scree_contact_array_count(void)
+{
+    return sizeof contact_members / sizeof *contact_members;
+}
+
+scree_status scree_contact_array(const scree_state *state, const scree_contact_table *table, size_t index,
+                                 scree_array *array, scree_error *error)
+{
+    const contact_member *member = &contact_members[index];
+    *array = (scree_array){.name = member->name,
+                           .type = member->type,
+                           .rows = table->count,
+                           .components = member->components,
+                           .unit = member->unit,
+                           .meaning = member->meaning};
+    scree_status status = scree_array_allocate(array, error);
+    if (status) return status;
+    const size_t size = (size_t)member->components * scree_field_size(member->type);
+    unsigned char *target = array->data;
+    for (size_t k = 0; k < table->count; k++, target += size) {
+        const scree_contact *contact = &table->contact[k];
+        uint32_t first = state->id[contact->first];
+        uint32_t second = contact->wall ? SCREE_WALL_ID + contact->second : state->id[contact->second];
+        const void *source = (const unsigned char *)contact + member->offset;
+        if (member->offset == offsetof(scree_contact, first)) source = &first;
+        if (member->offset == offsetof(scree_contact, second)) source = &second;
+        memcpy(target, source, size);
+    }
+    return SCREE_OK;
+}

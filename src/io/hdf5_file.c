@@ -1,0 +1,315 @@
+/// HDF5 files: opening, arrays, attributes. See the header for the method.
+#include "io/hdf5_file.h"
+
+#include "io/run_directory.h"
+#include "io/seal.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/// Growth of a file in memory.
+enum { MEMORY_STEP = 1 << 20 };
+
+// ---- errors ------------------------------------------------------------------------------------------------------
+
+/// Keeps the first message of HDF5's stack, which is the innermost.
+static herr_t keep_first(unsigned n, const H5E_error2_t *entry, void *text)
+{
+    if (n == 0 && entry->desc) (void)snprintf(text, 256, ": %s", entry->desc);
+    return 0;
+}
+
+void scree_hdf5_fail(scree_hdf5 *hdf5, const char *action, const char *name)
+{
+    if (hdf5->status) return;
+    char reason[256] = "";
+    const char *quote = name ? "'" : "", *of = name ? " of " : "";
+    (void)H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first, reason);
+    hdf5->damaged = true;
+    hdf5->status = scree_error_set(hdf5->error, SCREE_ERROR_IO, "cannot %s %s%s%s%s'%s'%s", action, quote,
+                                   name ? name : "", quote, of, hdf5->path, reason);
+}
+
+void scree_hdf5_damaged(scree_hdf5 *hdf5, const char *reason)
+{
+    if (hdf5->status) return;
+    hdf5->damaged = true;
+    hdf5->status = scree_error_set(hdf5->error, SCREE_ERROR_IO, "'%s' is damaged: %s", hdf5->path, reason);
+}
+
+// ---- opening and closing -----------------------------------------------------------------------------------------
+
+static void begin(scree_hdf5 *hdf5, const char *path, scree_error *error)
+{
+    *hdf5 = (scree_hdf5){.file = H5I_INVALID_HID, .path = path, .error = error};
+    (void)H5Eget_auto2(H5E_DEFAULT, &hdf5->printing, &hdf5->printing_data);
+    (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+}
+
+/// No locks: a file on disk is never changed, only replaced, and locks fail on some network file systems.
+static hid_t access_properties(bool in_memory)
+{
+    hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    bool good = access >= 0 && H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST) >= 0 &&
+                H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0 && H5Pset_file_locking(access, false, true) >= 0 &&
+                (!in_memory || H5Pset_fapl_core(access, MEMORY_STEP, false) >= 0);
+    if (good) return access;
+    if (access >= 0) H5Pclose(access);
+    return H5I_INVALID_HID;
+}
+
+void scree_hdf5_create(scree_hdf5 *hdf5, const char *path, scree_error *error)
+{
+    begin(hdf5, path, error);
+    hid_t access = access_properties(true);
+    if (access >= 0) hdf5->file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
+    if (hdf5->file < 0) scree_hdf5_fail(hdf5, "prepare", NULL);
+    if (access >= 0) H5Pclose(access);
+}
+
+static void open_existing(scree_hdf5 *hdf5, unsigned mode)
+{
+    hid_t access = access_properties(false);
+    if (access >= 0) hdf5->file = H5Fopen(hdf5->path, mode, access);
+    if (hdf5->file < 0) scree_hdf5_fail(hdf5, "open", NULL);
+    if (access >= 0) H5Pclose(access);
+}
+
+void scree_hdf5_open(scree_hdf5 *hdf5, const char *path, scree_error *error)
+{
+    begin(hdf5, path, error);
+    open_existing(hdf5, H5F_ACC_RDONLY);
+}
+
+void scree_hdf5_open_sealed(scree_hdf5 *hdf5, const char *path, scree_error *error)
+{
+    begin(hdf5, path, error);
+    hdf5->status = scree_seal_check(path, error);
+    hdf5->damaged = hdf5->status != SCREE_OK;
+    if (!hdf5->status) open_existing(hdf5, H5F_ACC_RDONLY);
+}
+
+void scree_hdf5_extend(scree_hdf5 *hdf5, const char *path, scree_error *error)
+{
+    begin(hdf5, path, error);
+    open_existing(hdf5, H5F_ACC_RDWR);
+}
+
+scree_status scree_hdf5_close(scree_hdf5 *hdf5)
+{
+    if (hdf5->file >= 0 && H5Fclose(hdf5->file) < 0) scree_hdf5_fail(hdf5, "close", NULL);
+    hdf5->file = H5I_INVALID_HID;
+    (void)H5Eclear2(H5E_DEFAULT);
+    (void)H5Eset_auto2(H5E_DEFAULT, hdf5->printing, hdf5->printing_data);
+    return hdf5->status;
+}
+
+/// The bytes of a file in memory, as they would lie on disk; they belong to the core driver, which holds more of them
+/// than the file needs. (H5Fget_file_image gives the size; the copy that it makes has a wrong checksum in HDF5 1.10.8.)
+static void find_image(scree_hdf5 *hdf5, const void **image, size_t *size)
+{
+    void **handle = NULL;
+    ssize_t length = 0;
+    if (H5Fflush(hdf5->file, H5F_SCOPE_GLOBAL) < 0 || (length = H5Fget_file_image(hdf5->file, NULL, 0)) < 0 ||
+        H5Fget_vfd_handle(hdf5->file, H5P_DEFAULT, (void **)&handle) < 0)
+        scree_hdf5_fail(hdf5, "prepare", NULL);
+    *size = (size_t)length;
+    *image = handle ? *handle : NULL;
+}
+
+scree_status scree_hdf5_save(scree_hdf5 *hdf5)
+{
+    const void *image = NULL;
+    size_t size = 0;
+    FILE *file;
+    if (!hdf5->status) find_image(hdf5, &image, &size);
+    if (!hdf5->status) hdf5->status = scree_replace_begin(hdf5->path, &file, hdf5->error);
+    if (!hdf5->status) {
+        unsigned char seal[SCREE_SEAL_SIZE];
+        scree_seal_make(image, size, seal);
+        bool whole = fwrite(image, 1, size, file) == size && fwrite(seal, 1, sizeof seal, file) == sizeof seal;
+        if (!whole) hdf5->status = scree_error_set_errno(hdf5->error, SCREE_ERROR_IO, "cannot write '%s'", hdf5->path);
+        scree_status finished = scree_replace_finish(hdf5->path, file, whole, whole ? hdf5->error : NULL);
+        if (whole) hdf5->status = finished;
+    }
+    return scree_hdf5_close(hdf5);
+}
+
+// ---- arrays ------------------------------------------------------------------------------------------------------
+
+static hid_t memory_type(scree_field_type type)
+{
+    switch (type) {
+    case SCREE_FIELD_DOUBLE:
+        return H5T_NATIVE_DOUBLE;
+    case SCREE_FIELD_INT64:
+        return H5T_NATIVE_INT64;
+    case SCREE_FIELD_UINT64:
+        return H5T_NATIVE_UINT64;
+    case SCREE_FIELD_INT32:
+        return H5T_NATIVE_INT32;
+    case SCREE_FIELD_UINT32:
+        return H5T_NATIVE_UINT32;
+    case SCREE_FIELD_UINT8:
+        break;
+    }
+    return H5T_NATIVE_UINT8;
+}
+
+/// Dimensions of the dataset of an array; returns the rank. A single value has rank 0, a single vector rank 1.
+static int dimensions_of(const scree_array *array, hsize_t dimensions[2])
+{
+    int rank = 0;
+    if (!array->single) dimensions[rank++] = array->rows;
+    if (array->components > 1) dimensions[rank++] = (hsize_t)array->components;
+    return rank;
+}
+
+static void path_in_file(char *path, size_t size, const char *group, const char *name)
+{
+    (void)snprintf(path, size, "%s/%s", group ? group : "", name);
+}
+
+/// Creation properties of links that make the groups above them.
+static hid_t making_groups(void)
+{
+    hid_t links = H5Pcreate(H5P_LINK_CREATE);
+    if (links >= 0 && H5Pset_create_intermediate_group(links, 1) >= 0) return links;
+    if (links >= 0) H5Pclose(links);
+    return H5I_INVALID_HID;
+}
+
+void scree_hdf5_group(scree_hdf5 *hdf5, const char *name)
+{
+    if (hdf5->status) return;
+    hid_t links = making_groups(), group = H5I_INVALID_HID;
+    if (H5Lexists(hdf5->file, name, H5P_DEFAULT) <= 0 && links >= 0)
+        group = H5Gcreate2(hdf5->file, name, links, H5P_DEFAULT, H5P_DEFAULT);
+    else
+        group = H5Gopen2(hdf5->file, name, H5P_DEFAULT);
+    if (group < 0) scree_hdf5_fail(hdf5, "make group", name);
+    if (group >= 0) H5Gclose(group);
+    if (links >= 0) H5Pclose(links);
+}
+
+void scree_hdf5_write(scree_hdf5 *hdf5, const char *group, const scree_array *array)
+{
+    if (hdf5->status) return;
+    char name[160];
+    path_in_file(name, sizeof name, group, array->name);
+    hsize_t dimensions[2];
+    int rank = dimensions_of(array, dimensions);
+    hid_t space = rank ? H5Screate_simple(rank, dimensions, NULL) : H5Screate(H5S_SCALAR);
+    hid_t links = making_groups(), dataset = H5I_INVALID_HID, type = memory_type(array->type);
+    if (space >= 0 && links >= 0) dataset = H5Dcreate2(hdf5->file, name, type, space, links, H5P_DEFAULT, H5P_DEFAULT);
+    if (dataset < 0 || (array->rows > 0 && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, array->data) < 0))
+        scree_hdf5_fail(hdf5, "write", name);
+    if (dataset >= 0) H5Dclose(dataset);
+    if (links >= 0) H5Pclose(links);
+    if (space >= 0) H5Sclose(space);
+    scree_hdf5_set_text(hdf5, name, "unit", array->unit);
+    scree_hdf5_set_text(hdf5, name, "description", array->meaning);
+}
+
+/// True when the dataset has the type and shape of `array`; sets array->rows.
+static bool agrees(hid_t dataset, scree_array *array)
+{
+    hid_t space = H5Dget_space(dataset), type = H5Dget_type(dataset);
+    hsize_t expected[2] = {0, 0}, found[H5S_MAX_RANK] = {0};
+    int rank = dimensions_of(array, expected);
+    bool same = space >= 0 && type >= 0 && H5Tequal(type, memory_type(array->type)) > 0 &&
+                H5Sget_simple_extent_ndims(space) == rank && H5Sget_simple_extent_dims(space, found, NULL) == rank;
+    if (same && array->components > 1) same = found[rank - 1] == (hsize_t)array->components;
+    if (same) array->rows = array->single ? 1 : (size_t)found[0];
+    if (type >= 0) H5Tclose(type);
+    if (space >= 0) H5Sclose(space);
+    return same;
+}
+
+void scree_hdf5_read(scree_hdf5 *hdf5, const char *group, scree_array *array)
+{
+    array->data = NULL;
+    array->rows = 0;
+    if (hdf5->status) return;
+    char name[160];
+    path_in_file(name, sizeof name, group, array->name);
+    hid_t dataset = H5Dopen2(hdf5->file, name, H5P_DEFAULT);
+    if (dataset < 0)
+        scree_hdf5_fail(hdf5, "read", name);
+    else if (!agrees(dataset, array))
+        scree_hdf5_damaged(hdf5, "a dataset has another type or shape");
+    else if (!(hdf5->status = scree_array_allocate(array, hdf5->error)) && array->rows > 0 &&
+             H5Dread(dataset, memory_type(array->type), H5S_ALL, H5S_ALL, H5P_DEFAULT, array->data) < 0)
+        scree_hdf5_fail(hdf5, "read", name);
+    if (dataset >= 0) H5Dclose(dataset);
+    if (hdf5->status) scree_array_destroy(array);
+}
+
+// ---- attributes --------------------------------------------------------------------------------------------------
+
+static void set_attribute(scree_hdf5 *hdf5, const char *name, const char *attribute, hid_t type, const void *value)
+{
+    if (hdf5->status) return;
+    hid_t space = H5Screate(H5S_SCALAR), made = H5I_INVALID_HID;
+    if (space >= 0 && type >= 0)
+        made = H5Acreate_by_name(hdf5->file, name, attribute, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    if (made < 0 || H5Awrite(made, type, value) < 0) scree_hdf5_fail(hdf5, "write attribute", attribute);
+    if (made >= 0) H5Aclose(made);
+    if (space >= 0) H5Sclose(space);
+}
+
+static void get_attribute(scree_hdf5 *hdf5, const char *name, const char *attribute, hid_t type, void *value)
+{
+    if (hdf5->status) return;
+    hid_t found = H5Aopen_by_name(hdf5->file, name, attribute, H5P_DEFAULT, H5P_DEFAULT);
+    hid_t space = found >= 0 ? H5Aget_space(found) : H5I_INVALID_HID;
+    bool scalar = space >= 0 && H5Sget_simple_extent_npoints(space) == 1;
+    if (!scalar || H5Aread(found, type, value) < 0) scree_hdf5_fail(hdf5, "read attribute", attribute);
+    if (space >= 0) H5Sclose(space);
+    if (found >= 0) H5Aclose(found);
+}
+
+/// A text of fixed length, filled with zeros; negative on failure.
+static hid_t text_type(size_t size)
+{
+    hid_t type = H5Tcopy(H5T_C_S1);
+    if (type >= 0 && H5Tset_size(type, size) >= 0 && H5Tset_cset(type, H5T_CSET_UTF8) >= 0) return type;
+    if (type >= 0) H5Tclose(type);
+    return H5I_INVALID_HID;
+}
+
+void scree_hdf5_set_text(scree_hdf5 *hdf5, const char *name, const char *attribute, const char *text)
+{
+    hid_t type = text_type(strlen(text) + 1);
+    set_attribute(hdf5, name, attribute, type, text);
+    if (type >= 0) H5Tclose(type);
+}
+
+void scree_hdf5_set_number(scree_hdf5 *hdf5, const char *name, const char *attribute, double value)
+{
+    set_attribute(hdf5, name, attribute, H5T_NATIVE_DOUBLE, &value);
+}
+
+void scree_hdf5_set_integer(scree_hdf5 *hdf5, const char *name, const char *attribute, uint64_t value)
+{
+    set_attribute(hdf5, name, attribute, H5T_NATIVE_UINT64, &value);
+}
+
+void scree_hdf5_get_text(scree_hdf5 *hdf5, const char *name, const char *attribute, char *text, size_t size)
+{
+    text[0] = 0;
+    hid_t type = text_type(size);
+    get_attribute(hdf5, name, attribute, type, text);
+    text[size - 1] = 0;
+    if (type >= 0) H5Tclose(type);
+}
+
+void scree_hdf5_get_number(scree_hdf5 *hdf5, const char *name, const char *attribute, double *value)
+{
+    get_attribute(hdf5, name, attribute, H5T_NATIVE_DOUBLE, value);
+}
+
+void scree_hdf5_get_integer(scree_hdf5 *hdf5, const char *name, const char *attribute, uint64_t *value)
+{
+    get_attribute(hdf5, name, attribute, H5T_NATIVE_UINT64, value);
+}

@@ -1,0 +1,124 @@
+/// The outline of a sample, segment by segment: see outline.h.
+/// Which plate a run of unloaded edges faces: the active one of bottom and top to which its two end discs are nearer.
+#include "measure/outline.h"
+
+#include <math.h>
+
+typedef void visitor(void *user, const scree_outline_segment *segment);
+
+void scree_loop_position(const scree_state *state, size_t k, double position[2])
+{
+    const scree_row *row = &state->row[state->row_of_id[state->loop.id[k]]];
+    position[0] = row->x;
+    position[1] = row->y;
+}
+
+static size_t next_place(const scree_loop *loop, size_t k)
+{
+    return k + 1 < loop->count ? k + 1 : 0;
+}
+
+static double distance_to(const scree_wall *wall, const double x[2])
+{
+    return wall->normal[0] * x[0] + wall->normal[1] * x[1] - wall->position;
+}
+
+/// The plate that two discs face; NULL when neither bottom nor top is active.
+static const scree_wall *facing_plate(const scree_state *state, const double a[2], const double b[2])
+{
+    const scree_wall *nearest = NULL;
+    double least = INFINITY;
+    for (int w = SCREE_WALL_BOTTOM; w <= SCREE_WALL_TOP; w++) {
+        const scree_wall *wall = &state->wall[w];
+        double distance = distance_to(wall, a) + distance_to(wall, b);
+        if (!wall->active || !(distance < least)) continue;
+        nearest = wall;
+        least = distance;
+    }
+    return nearest;
+}
+
+/// Foot of the perpendicular from x on a wall. Its coordinate along an axis-parallel normal is the wall's own, to the
+/// bit.
+static void foot_on(const scree_wall *wall, const double x[2], double foot[2])
+{
+    double along = -wall->normal[1] * x[0] + wall->normal[0] * x[1];
+    foot[0] = wall->position * wall->normal[0] - along * wall->normal[1];
+    foot[1] = wall->position * wall->normal[1] + along * wall->normal[0];
+}
+
+static void emit(visitor *visit, void *user, scree_outline_kind kind, const double from[2], const double to[2],
+                 size_t first, size_t second)
+{
+    scree_outline_segment segment = {
+        .kind = kind, .from = {from[0], from[1]}, .to = {to[0], to[1]}, .first = first, .second = second};
+    visit(user, &segment);
+}
+
+/// The three segments that stand for the run of unloaded edges which begins at place k.
+static void emit_run(const scree_state *state, visitor *visit, void *user, size_t k)
+{
+    const scree_loop *loop = &state->loop;
+    size_t end = k;
+    while (!loop->loaded[end]) end = next_place(loop, end);
+    double a[2], b[2], foot_a[2], foot_b[2];
+    scree_loop_position(state, k, a);
+    scree_loop_position(state, end, b);
+    const scree_wall *wall = facing_plate(state, a, b);
+    if (!wall) {
+        emit(visit, user, SCREE_OUTLINE_BARE, a, b, k, end);
+        return;
+    }
+    foot_on(wall, a, foot_a);
+    foot_on(wall, b, foot_b);
+    emit(visit, user, SCREE_OUTLINE_END, a, foot_a, k, k);
+    emit(visit, user, SCREE_OUTLINE_BARE, foot_a, foot_b, k, end);
+    emit(visit, user, SCREE_OUTLINE_END, foot_b, b, end, end);
+}
+
+void scree_outline_visit(const scree_state *state, visitor *visit, void *user)
+{
+    const scree_loop *loop = &state->loop;
+    bool any = false;
+    for (size_t k = 0; k < loop->count; k++) any = any || loop->loaded[k];
+    for (size_t k = 0; k < loop->count; k++) {
+        size_t next = next_place(loop, k), previous = k > 0 ? k - 1 : loop->count - 1;
+        if (!any || loop->loaded[k]) {
+            double a[2], b[2];
+            scree_loop_position(state, k, a);
+            scree_loop_position(state, next, b);
+            emit(visit, user, any ? SCREE_OUTLINE_EDGE : SCREE_OUTLINE_BARE, a, b, k, next);
+        } else if (loop->loaded[previous]) {
+            emit_run(state, visit, user, k);
+        }
+    }
+}
+
+typedef struct area_sum {
+    bool begun;
+    double origin[2], area, moment[2];
+} area_sum;
+
+/// Triangle of the segment and the first point (shoelace), with its centre of area.
+static void add_area(void *user, const scree_outline_segment *segment)
+{
+    area_sum *sum = user;
+    if (!sum->begun) {
+        sum->begun = true;
+        sum->origin[0] = segment->from[0];
+        sum->origin[1] = segment->from[1];
+    }
+    double a[2] = {segment->from[0] - sum->origin[0], segment->from[1] - sum->origin[1]};
+    double b[2] = {segment->to[0] - sum->origin[0], segment->to[1] - sum->origin[1]};
+    double area = (a[0] * b[1] - a[1] * b[0]) / 2;
+    sum->area += area;
+    for (int i = 0; i < 2; i++) sum->moment[i] += area * (a[i] + b[i]) / 3;
+}
+
+double scree_outline_area(const scree_state *state, double centre[2])
+{
+    area_sum sum = {0};
+    scree_outline_visit(state, add_area, &sum);
+    for (int i = 0; i < 2; i++) centre[i] = sum.area > 0 ? sum.origin[i] + sum.moment[i] / sum.area : 0;
+    return sum.area;
+}

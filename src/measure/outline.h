@@ -1,0 +1,40 @@
+/// The outline of a sample: what bounds it, as straight segments counter-clockwise. One description serves the pressure
+/// (what it acts on), the area of the sample and the stress that the boundary applies, so that they agree exactly.
+///
+/// The outline follows the loaded edges of the Delaunay boundary. Where a run of edges without pressure faces the
+/// bottom or top plate, it leaves the run: from the last loaded disc (a corner) along the normal of the plate to the
+/// plate, along the plate, and back to the disc at the other end of the run. The two short segments, one gap of about a
+/// radius each, carry the pressure too, all of it on their corner disc: so the lateral force is exactly pressure x
+/// distance of the plates x thickness. Between the active plates nothing of the sample is left out and nothing is
+/// counted twice.
+#ifndef SCREE_MEASURE_OUTLINE_H
+#define SCREE_MEASURE_OUTLINE_H
+
+#include "state/state.h"
+
+#include <stdbool.h>
+
+typedef enum scree_outline_kind {
+    SCREE_OUTLINE_EDGE, ///< between two discs; pressure shared equally by the two
+    SCREE_OUTLINE_END,  ///< between a corner disc and the plate; pressure on the disc alone
+    SCREE_OUTLINE_BARE, ///< along a plate (or an edge of a loop without any loaded edge); no pressure
+} scree_outline_kind;
+
+typedef struct scree_outline_segment {
+    scree_outline_kind kind;
+    double from[2], to[2]; ///< m
+    size_t first, second;  ///< places in the loop of the discs at both ends; equal for SCREE_OUTLINE_END
+} scree_outline_segment;
+
+/// Calls `visit` for every segment, at the present positions of the bodies. Nothing when there is no loop.
+/// Cost: O(length of the loop).
+void scree_outline_visit(const scree_state *state, void (*visit)(void *user, const scree_outline_segment *segment),
+                         void *user);
+
+/// Present position [m] of the body at place k of the loop.
+void scree_loop_position(const scree_state *state, size_t k, double position[2]);
+
+/// Area [m2] and centre of area [m] of the outline; zeros when there is no loop.
+double scree_outline_area(const scree_state *state, double centre[2]);
+
+#endif

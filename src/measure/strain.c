@@ -1,0 +1,43 @@
+/// Strain from the motion of a closed loop (Bagi 1996; P 3.1-3.3): see polygon.h for the formula and its exactness.
+/// Accumulation: each increment is taken on its own mid configuration, so the sum is the logarithmic strain of the
+/// region to third order in the increments, and its trace the logarithm of the area ratio. Cost: O(length of the loop).
+#include "measure/measure.h"
+
+#include "measure/outline.h"
+#include "measure/polygon.h"
+
+void scree_loop_gradient(const double *x, const double *y, const double *ux, const double *uy, size_t count,
+                         double gradient[4])
+{
+    scree_polygon_sum sum = {0};
+    for (size_t k = 0; k < count; k++) {
+        size_t next = k + 1 < count ? k + 1 : 0;
+        // Relative to the first vertex, so that the area loses no digits far from the origin.
+        double a[2] = {x[k] - x[0], y[k] - y[0]}, b[2] = {x[next] - x[0], y[next] - y[0]};
+        double ua[2] = {ux[k] - ux[0], uy[k] - uy[0]}, ub[2] = {ux[next] - ux[0], uy[next] - uy[0]};
+        scree_polygon_add_edge(&sum, a, ua, b, ub);
+    }
+    scree_polygon_finish(&sum, gradient);
+}
+
+void scree_strain_measure(const scree_state *state, double gradient[4])
+{
+    const scree_loop *loop = &state->loop;
+    scree_polygon_sum sum = {0};
+    double first[2] = {0}, position[2], a[2] = {0}, ua[2] = {0};
+    if (loop->count > 0) scree_loop_position(state, 0, first);
+    for (size_t k = 0; k < loop->count; k++) {
+        size_t next = k + 1 < loop->count ? k + 1 : 0;
+        scree_loop_position(state, next, position);
+        double b[2] = {loop->x[next] - loop->x[0], loop->y[next] - loop->y[0]};
+        double ub[2] = {position[0] - first[0] - b[0], position[1] - first[1] - b[1]};
+        scree_polygon_add_edge(&sum, a, ua, b, ub);
+        for (int i = 0; i < 2; i++) {
+            a[i] = b[i];
+            ua[i] = ub[i];
+        }
+    }
+    double increment[4];
+    scree_polygon_finish(&sum, increment);
+    for (int i = 0; i < 4; i++) gradient[i] = state->strain.gradient[i] + increment[i];
+}

@@ -1,0 +1,124 @@
+/// Average stress of the sample, from its contacts and from what its boundary applies. Tension positive,
+/// sigma_ij = (1/V) sum f_i x_j over the external forces f on the sample at points x.
+///
+/// Equality. Multiply the resultant F_k of each body k by its centre x_k and add up. Contacts between bodies give
+/// f (x) (x_first - x_second), f the force on `first`; wall contacts f (x) x_k = f (x) (x_k - x_c) + f (x) x_c with the
+/// point x_c on the wall; the pressure acts at the centres of its bodies. Hence, with l the branch of the contact
+/// table,
+///     -(1/V) sum_contacts f (x) l = (1/V) [sum_walls f (x) x_c + sum_pressure f (x) x_k] - (1/V) sum_k F_k (x) (x_k -
+///     x_0):
+/// contact stress = boundary stress - residual. In equilibrium (F_k = 0) the two are equal to round-off, with walls and
+/// with pressure, for any V, so no boundary term is missing on the left; in motion they differ by the average m a (x)
+/// (x - x_0), of the order of the unbalanced force ratio. The left side does not depend on the origin x_0; the right
+/// side is taken about the centre of the sample. Moments: sigma is symmetric as far as the bodies are in rotational
+/// equilibrium.
+///
+/// V = scree_sample_area * thickness is the volume to divide by: its outline runs along the plates, where their forces
+/// act, and through the centres of the pressed bodies, where theirs do. So a sample under pressure p on all sides has
+/// sigma = -p exactly (integral of n (x) x over a closed outline = area), and the lateral stress of the boundary is -p
+/// for any shape of the sides. Sources: Christoffersen, Mehrabadi, Nemat-Nasser 1981 (contact stress); Bagi 1996
+/// (boundary). Cost: O(contacts), O(loop).
+#include "measure/measure.h"
+
+#include "measure/outline.h"
+
+#include <math.h>
+
+/// sum_ij += f_i x_j
+static void add_product(double sum[4], const double f[2], const double x[2])
+{
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 2; j++) sum[2 * i + j] += f[i] * x[j];
+}
+
+/// Force on `first` [N].
+static void contact_force(const scree_contact *contact, double force[2])
+{
+    const double *n = contact->normal;
+    force[0] = contact->normal_force * n[0] - contact->tangential_force * n[1];
+    force[1] = contact->normal_force * n[1] + contact->tangential_force * n[0];
+}
+
+void scree_stress_from_contacts(const scree_contact_table *table, double volume, double stress[4])
+{
+    double sum[4] = {0}, force[2];
+    for (size_t c = 0; c < table->count; c++) {
+        contact_force(&table->contact[c], force);
+        add_product(sum, force, table->contact[c].branch);
+    }
+    for (int i = 0; i < 4; i++) stress[i] = -sum[i] / volume;
+}
+
+typedef struct pressure_sum {
+    const scree_state *state;
+    double traction; ///< N/m, pressure times thickness
+    double centre[2];
+    double sum[4];
+} pressure_sum;
+
+/// Pressure on a segment: half at each end of an edge is the same as all of it in the middle.
+static void add_pressure(void *user, const scree_outline_segment *segment)
+{
+    pressure_sum *pressure = user;
+    if (segment->kind == SCREE_OUTLINE_BARE) return;
+    double force[2] = {-pressure->traction * (segment->to[1] - segment->from[1]),
+                       pressure->traction * (segment->to[0] - segment->from[0])};
+    double a[2], b[2];
+    scree_loop_position(pressure->state, segment->first, a);
+    scree_loop_position(pressure->state, segment->second, b);
+    double middle[2] = {(a[0] + b[0]) / 2 - pressure->centre[0], (a[1] + b[1]) / 2 - pressure->centre[1]};
+    add_product(pressure->sum, force, middle);
+}
+
+/// Centre of the sample, and the sum over the pressure forces about it.
+static pressure_sum sum_pressure(const scree_model *model, const scree_state *state)
+{
+    pressure_sum pressure = {.state = state, .traction = state->pressure * model->thickness};
+    scree_outline_area(state, pressure.centre);
+    if (pressure.traction > 0) scree_outline_visit(state, add_pressure, &pressure);
+    return pressure;
+}
+
+void scree_stress_from_boundary(const scree_model *model, const scree_state *state, const scree_contact_table *table,
+                                double stress[4])
+{
+    pressure_sum pressure = sum_pressure(model, state);
+    double volume = scree_sample_area(state) * model->thickness, force[2];
+    for (size_t c = 0; c < table->count; c++) {
+        const scree_contact *contact = &table->contact[c];
+        if (!contact->wall) continue;
+        contact_force(contact, force);
+        double point[2] = {contact->point[0] - pressure.centre[0], contact->point[1] - pressure.centre[1]};
+        add_product(pressure.sum, force, point);
+    }
+    for (int i = 0; i < 4; i++) stress[i] = pressure.sum[i] / volume;
+}
+
+/// Forces of a wall on the bodies, as far as their place is known: all of them at the distance of the wall.
+static void add_wall(const scree_wall *wall, const double centre[2], double sum[4])
+{
+    const double *n = wall->normal;
+    double distance = wall->position - (n[0] * centre[0] + n[1] * centre[1]);
+    double force[2] = {wall->force * n[0] + wall->shear * n[1], wall->force * n[1] - wall->shear * n[0]};
+    double point[2] = {distance * n[0], distance * n[1]};
+    add_product(sum, force, point);
+}
+
+void scree_stress_from_plates(const scree_model *model, const scree_state *state, double stress[4])
+{
+    pressure_sum pressure = sum_pressure(model, state);
+    const scree_wall *wall = state->wall;
+    for (int w = 0; w < SCREE_WALL_COUNT; w++)
+        if (wall[w].active) add_wall(&wall[w], pressure.centre, pressure.sum);
+    double volume = scree_sample_area(state) * model->thickness;
+    for (int i = 0; i < 4; i++) stress[i] = pressure.sum[i] / volume;
+
+    // What cannot be known from the resultants of the walls: see measure.h.
+    bool pressed = state->pressure > 0 && state->loop.count > 0;
+    bool axial = wall[SCREE_WALL_BOTTOM].active || wall[SCREE_WALL_TOP].active;
+    bool lateral = wall[SCREE_WALL_LEFT].active || wall[SCREE_WALL_RIGHT].active;
+    if (!lateral && !pressed) stress[0] = NAN;
+    if (!axial && !pressed) stress[3] = NAN;
+    if (axial) stress[2] = lateral ? NAN : stress[1];
+    if (lateral) stress[1] = axial ? NAN : stress[2];
+}

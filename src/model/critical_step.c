@@ -1,0 +1,134 @@
+/// Critical time step of the explicit schemes, from what a case says before there is a packing.
+///
+/// Scheme. Both Verlet schemes evaluate forces at x(n+1) with v(n+1/2). For small motions M a + C v + K x = 0 this is
+///     (M - dt/2 C) (x+ - 2x + x-)/dt^2 + C (x+ - x-)/(2 dt) + K x = 0,
+/// a central difference with the mass M - dt/2 C, stable exactly as long as M - dt/2 C - dt^2/4 K is positive definite.
+/// For one oscillator that is dt = (2/omega) (sqrt(1 + z^2) - z), z its damping ratio; without damping 2/omega
+/// (M 2.15).
+///
+/// Assembly. The reference is the hexagonal lattice of the smallest discs (mass m, inertia m R^2/2), every contact at
+/// the force of a strong one. Its fastest modes are known: all discs turning alike, so that every contact slides, and
+/// rows moving against each other (the corner M of the Brillouin zone):
+///     K: max(24 k_t, 6 k_n + 2 k_t) / m,     and the same for C.
+/// M 2.16-2.19 has the second alone, without damping and tangential spring, with its user's alpha for the coordination.
+/// Nothing that occurs in a real packing is faster: no disc has more than six neighbours of its own size; larger
+/// neighbours are fewer and heavier (R^2) while their contacts are stiffer only by R_eff^(1/3), a plate's by 2^(1/3).
+/// On a drop-and-roll packing with all contacts equally stiff the true critical step is 1.3 to 2.2 times this one
+/// (tests/unit/test_model.c assembles both).
+///
+/// Force. f_s = STRONG times the mean f0 = p 2<R> thickness: forces of a static packing fall off exponentially above
+/// the mean (P(f) ~ exp(-1.5 f/<f>)), the strongest of 10^4 contacts carries about six times it. Hertz stiffness goes
+/// as f^(1/3): a factor of two in f_s is 12 % in the step.
+///
+/// Tangents at a force f:  f = A sqrt(R_eff) d^1.5,  k_n = 1.5 A sqrt(R_eff d),  k_t = 8 Gbar sqrt(R_eff d);
+///     hertz_brilliantov:  c_n = T A sqrt(R_eff d), no tangential spring
+///     hertz_mindlin:      c = damping sqrt(m_eff k), k without the 1.5 (Tsuji et al. 1992), normal and tangential.
+///
+/// The friction of hertz_brilliantov, mu f (s/v_R)^(1/c), is bounded and cannot make a run unstable. But slip slower
+/// than s = 3 mu f dt/m (equal discs) is not resolved: it turns its sign every step with about that size, which is of
+/// the order of v_R at P's large step of 1e-5 s (P figure 2.4, scheme I).
+///
+/// Loads: the largest confining pressure; gravity as the weight of a column of the whole sample; velocities of a gas
+/// and falls through its box as the force of an elastic impact of two smallest discs at six times the root-mean-square
+/// velocity component. None of them counts above the force at the indentation where the guard would stop the run; a
+/// case without any load gets that force.
+/// Limits: an estimate. Grains of another material than the smallest ones, stresses far above the confining pressure
+/// and collapses at high speed are not seen; the guard on the energy ledger is.
+#include "model/critical_step.h"
+
+#include <math.h>
+
+static const double STRONG = 6;
+static const double FAST = 6;             // in root-mean-square velocity components
+static const double SOLID_FRACTION = 0.8; // of a packing under its weight
+
+scree_contact_tangent scree_contact_linearise(const scree_model *model, const scree_pair_constants *pair,
+                                              double effective_radius, double effective_mass, double force)
+{
+    double root = sqrt(effective_radius);
+    double indentation = cbrt(force / (pair->normal_stiffness * root));
+    indentation *= indentation;
+    double secant = pair->normal_stiffness * root * sqrt(indentation);
+    scree_contact_tangent tangent = {.normal_stiffness = 1.5 * secant};
+    if (model->law == SCREE_LAW_HERTZ_BRILLIANTOV) {
+        tangent.normal_damping = model->damping_time * secant;
+        return tangent;
+    }
+    tangent.tangential_stiffness = pair->tangential_stiffness * root * sqrt(indentation);
+    tangent.normal_damping = pair->damping * sqrt(effective_mass * secant);
+    tangent.tangential_damping = pair->damping * sqrt(effective_mass * tangent.tangential_stiffness);
+    return tangent;
+}
+
+/// Step at which one mode of given stiffness and damping, both per mass, becomes unstable.
+static double critical_step_of_mode(double stiffness, double damping)
+{
+    if (!(stiffness > 0)) return INFINITY;
+    double frequency = sqrt(stiffness), ratio = damping / (2 * frequency);
+    // sqrt(1 + z^2) - z without cancellation.
+    return 2 / frequency / (sqrt(1 + ratio * ratio) + ratio);
+}
+
+double scree_critical_step_lattice(const scree_contact_tangent *t, double mass)
+{
+    double turning = critical_step_of_mode(24 * t->tangential_stiffness / mass, 24 * t->tangential_damping / mass);
+    double shifting = critical_step_of_mode((6 * t->normal_stiffness + 2 * t->tangential_stiffness) / mass,
+                                            (6 * t->normal_damping + 2 * t->tangential_damping) / mass);
+    return fmin(turning, shifting);
+}
+
+static const scree_config_stage *prepare_stage(const scree_config *config)
+{
+    for (int64_t i = 0; i < config->stage_count; i++)
+        if (config->stages[i].kind == SCREE_STAGE_PREPARE) return &config->stages[i];
+    return NULL;
+}
+
+/// Height of the sample as prepared.
+static double sample_height(const scree_model *model, const scree_config_stage *stage)
+{
+    const scree_config *config = model->config;
+    bool gas = stage && stage->method == SCREE_PREPARE_GAS;
+    double disc = M_PI * model->mean_radius * model->mean_radius;
+    double area = (double)config->particles.count * disc / (gas ? stage->solid_fraction : SOLID_FRACTION);
+    if (stage && !isnan(stage->width)) return area / stage->width;
+    return sqrt(area * (stage ? stage->aspect_ratio : 1));
+}
+
+/// Force of a strong contact under pressure and weight.
+static double strong_static_force(const scree_model *model, double height, int material)
+{
+    const scree_config *config = model->config;
+    double pressure = hypot(model->gravity[0], model->gravity[1]) * model->density[material] * SOLID_FRACTION * height;
+    for (int64_t i = 0; i < config->stage_count; i++)
+        if (config->stages[i].kind == SCREE_STAGE_CONFINE) pressure = fmax(pressure, config->stages[i].pressure);
+    return STRONG * pressure * 2 * model->mean_radius * model->thickness;
+}
+
+/// Largest force of an elastic impact: m v^2 / 2 = (2/5) K d^2.5 and f = K d^1.5.
+static double impact_force(double stiffness, double effective_mass, double speed)
+{
+    return stiffness * pow(1.25 * effective_mass * speed * speed / stiffness, 0.6);
+}
+
+double scree_critical_step_estimate(const scree_model *model)
+{
+    int material = scree_model_particle_material(model);
+    const scree_pair_constants *pair = &model->pairs[material][material];
+    double mass = model->density[material] * M_PI * model->radius_min * model->radius_min * model->thickness;
+    double effective_radius = model->radius_min / 2, effective_mass = mass / 2;
+    double stiffness = pair->normal_stiffness * sqrt(effective_radius);
+
+    const scree_config_stage *stage = prepare_stage(model->config);
+    double height = sample_height(model, stage);
+    double force = strong_static_force(model, height, material);
+    if (stage && stage->method == SCREE_PREPARE_GAS) {
+        double fall = sqrt(2 * hypot(model->gravity[0], model->gravity[1]) * height);
+        force = fmax(force, impact_force(stiffness, effective_mass, fmax(FAST * stage->velocity, fall)));
+    }
+    double guard = stiffness * pow(model->config->guard.overlap * model->radius_min, 1.5);
+    if (!(force > 0 && force < guard)) force = guard;
+
+    scree_contact_tangent tangent = scree_contact_linearise(model, pair, effective_radius, effective_mass, force);
+    return scree_critical_step_lattice(&tangent, mass);
+}

@@ -1,0 +1,26 @@
+/// Critical time step of an assembly before its contacts are known: what the head of critical_step.c derives.
+#ifndef SCREE_MODEL_CRITICAL_STEP_H
+#define SCREE_MODEL_CRITICAL_STEP_H
+
+#include "model/model.h"
+
+/// Stiffness [N/m] and viscosity [N s/m] of a contact under small changes of its indentation and its slip.
+typedef struct scree_contact_tangent {
+    double normal_stiffness, normal_damping;
+    double tangential_stiffness, tangential_damping;
+} scree_contact_tangent;
+
+/// Tangent of the model's law at the static normal force `force` [N] between bodies of the effective radius [m] and
+/// mass [kg].
+scree_contact_tangent scree_contact_linearise(const scree_model *model, const scree_pair_constants *pair,
+                                              double effective_radius, double effective_mass, double force);
+
+/// Largest stable step [s] of a hexagonal lattice of discs of `mass` [kg] with such contacts. INFINITY without
+/// stiffness.
+double scree_critical_step_lattice(const scree_contact_tangent *tangent, double mass);
+
+/// Estimate for the loads of the model's case (confining pressure, gravity, velocities). Reads everything of the model
+/// but the step.
+double scree_critical_step_estimate(const scree_model *model);
+
+#endif

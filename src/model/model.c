@@ -1,0 +1,222 @@
+/// From what the user said to the constants that kernels use.
+///
+/// Contacts of two materials (Hertz 1882, Mindlin 1949; unlike bodies as in Johnson 1985, eqs. 4.3-4.6 and 7.40):
+///     1/Ebar = (1 - nu1^2)/E1 + (1 - nu2^2)/E2,     normal stiffness      (4/3) Ebar
+///     1/Gbar = (2 - nu1)/G1 + (2 - nu2)/G2,         tangential stiffness  8 Gbar,      G = E / (2 (1 + nu))
+/// The weaker rules where materials have no theory of the pair: the smaller friction, the smaller restitution.
+/// Everything here is O(materials^2 + stages).
+#include "model/model.h"
+
+#include "model/critical_step.h"
+#include "theory/quasistatic.h"
+#include "theory/restitution.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/// An input error at `field`; the caller adds value and accepted range when it knows them.
+#define FIELD_ERROR(error, path, ...) set_field(error, scree_error_set(error, SCREE_ERROR_INPUT, __VA_ARGS__), path)
+
+static scree_status set_field(scree_error *error, scree_status status, const char *path)
+{
+    if (error) (void)snprintf(error->field, sizeof error->field, "%s", path);
+    return status;
+}
+
+static scree_status indexed_error(scree_error *error, const char *list, int64_t index, const char *key,
+                                  const char *text)
+{
+    char path[64];
+    (void)snprintf(path, sizeof path, "%s.%lld.%s", list, (long long)index, key);
+    return FIELD_ERROR(error, path, "%s", text);
+}
+
+int scree_model_particle_material(const scree_model *model)
+{
+    const scree_config *config = model->config;
+    for (int i = 0; i < model->material_count; i++)
+        if (strcmp(config->materials[i].name, config->particles.material) == 0) return i;
+    return -1;
+}
+
+static double shear_modulus(const scree_config_material *m)
+{
+    return m->young_modulus / (2 * (1 + m->poisson_ratio));
+}
+
+static scree_pair_constants pair_constants(const scree_config_material *a, const scree_config_material *b,
+                                           scree_law law)
+{
+    double compliance = (1 - a->poisson_ratio * a->poisson_ratio) / a->young_modulus +
+                        (1 - b->poisson_ratio * b->poisson_ratio) / b->young_modulus;
+    double shear_compliance = (2 - a->poisson_ratio) / shear_modulus(a) + (2 - b->poisson_ratio) / shear_modulus(b);
+    double restitution = fmin(a->restitution, b->restitution);
+    return (scree_pair_constants){
+        .normal_stiffness = 4.0 / 3.0 / compliance,
+        .tangential_stiffness = 8 / shear_compliance,
+        .friction = fmin(a->friction, b->friction),
+        .damping = law == SCREE_LAW_HERTZ_MINDLIN ? scree_damping_from_restitution(restitution) : 0,
+    };
+}
+
+static scree_status resolve_materials(scree_model *model, scree_error *error)
+{
+    const scree_config *config = model->config;
+    if (config->material_count < 1 || config->material_count > SCREE_MAX_MATERIALS)
+        return FIELD_ERROR(error, "materials", "a case has 1 to %d materials, this one has %lld", SCREE_MAX_MATERIALS,
+                           (long long)config->material_count);
+    model->material_count = (int)config->material_count;
+    for (int i = 0; i < model->material_count; i++) {
+        const scree_config_material *material = &config->materials[i];
+        for (int j = 0; j < i; j++)
+            if (strcmp(material->name, config->materials[j].name) == 0)
+                return indexed_error(error, "materials", i, "name", "two materials have the same name");
+        if (model->law == SCREE_LAW_HERTZ_MINDLIN && !(material->restitution > 0))
+            return indexed_error(error, "materials", i, "restitution",
+                                 "hertz_mindlin reaches a restitution of zero only with infinite damping; "
+                                 "give a value above 0, such as 0.05");
+        for (int j = 0; j <= i; j++)
+            model->pairs[i][j] = model->pairs[j][i] = pair_constants(material, &config->materials[j], model->law);
+        model->walls[i] = model->pairs[i][i];
+        if (!isnan(material->wall_friction)) model->walls[i].friction = material->wall_friction;
+        model->density[i] = material->density;
+    }
+    return SCREE_OK;
+}
+
+static scree_status resolve_particles(scree_model *model, scree_error *error)
+{
+    const scree_config_particles *particles = &model->config->particles;
+    if (scree_model_particle_material(model) < 0) {
+        scree_status status =
+            FIELD_ERROR(error, "particles.material", "there is no material '%s' in this case", particles->material);
+        for (int i = 0; error && i < model->material_count; i++) {
+            size_t used = strlen(error->accepted);
+            (void)snprintf(error->accepted + used, sizeof error->accepted - used, "%s%s", i ? ", " : "",
+                           model->config->materials[i].name);
+        }
+        return status;
+    }
+    if (particles->radius_min > particles->radius_max)
+        return FIELD_ERROR(error, "particles.radius_min", "radius_min (%g m) is above radius_max (%g m)",
+                           particles->radius_min, particles->radius_max);
+    model->mean_radius = (particles->radius_min + particles->radius_max) / 2;
+    bool equal = particles->distribution == SCREE_SIZE_EQUAL;
+    model->radius_min = equal ? model->mean_radius : particles->radius_min;
+    model->radius_max = equal ? model->mean_radius : particles->radius_max;
+    model->thickness = isnan(particles->thickness) ? 2 * model->mean_radius : particles->thickness;
+    return SCREE_OK;
+}
+
+/// Does the packing of a prepare stage exist?
+static scree_status check_prepare(const scree_model *model, int64_t index, scree_error *error)
+{
+    const scree_config_stage *stage = &model->config->stages[index];
+    bool lattice = stage->method == SCREE_PREPARE_HEXAGONAL || stage->method == SCREE_PREPARE_SQUARE;
+    if (lattice && model->radius_min < model->radius_max)
+        return indexed_error(error, "stages", index, "method",
+                             "a lattice needs particles of one radius: set particles.distribution to equal");
+    if (!isnan(stage->width) && stage->width < 2 * model->radius_max) {
+        char text[160];
+        (void)snprintf(text, sizeof text, "a disc of radius %g m does not fit into a box %g m wide", model->radius_max,
+                       stage->width);
+        return indexed_error(error, "stages", index, "width", text);
+    }
+    return SCREE_OK;
+}
+
+/// Mean square of the radius, of the distribution. Two sizes are equally frequent.
+static double mean_square_radius(const scree_model *model)
+{
+    double a = model->radius_min, b = model->radius_max;
+    return model->config->particles.distribution == SCREE_SIZE_UNIFORM ? (a * a + a * b + b * b) / 3
+                                                                       : (a * a + b * b) / 2;
+}
+
+/// Reference velocity, phi and psi: those of the first compress stage under the pressure of the last confine stage
+/// before it.
+static scree_status resolve_loading(scree_model *model, scree_error *error)
+{
+    const scree_config *config = model->config;
+    const scree_config_stage *compress = NULL;
+    double pressure = NAN;
+    for (int64_t i = 0; i < config->stage_count && !compress; i++) {
+        const scree_config_stage *stage = &config->stages[i];
+        if (stage->kind == SCREE_STAGE_PREPARE) {
+            scree_status status = check_prepare(model, i, error);
+            if (status) return status;
+        }
+        if (stage->kind == SCREE_STAGE_CONFINE) pressure = stage->pressure;
+        if (stage->kind == SCREE_STAGE_COMPRESS) compress = stage;
+    }
+    model->reference_velocity = config->contact.reference_velocity;
+    if (isnan(model->reference_velocity) && compress)
+        model->reference_velocity = 2 * fabs(compress->rate) * model->mean_radius;
+    if (model->law == SCREE_LAW_HERTZ_BRILLIANTOV && !(model->reference_velocity > 0))
+        return FIELD_ERROR(error, "contact.reference_velocity",
+                           "hertz_brilliantov needs a reference slip velocity: without a compress stage (2 rate <R>) "
+                           "give contact.reference_velocity");
+    model->phi = model->psi = NAN;
+    if (!compress) return SCREE_OK;
+    double mass =
+        model->density[scree_model_particle_material(model)] * M_PI * mean_square_radius(model) * model->thickness;
+    scree_quasistatic_numbers(model->dimension, (double)config->particles.count, mass, model->mean_radius,
+                              model->thickness, compress->rate, pressure, &model->phi, &model->psi);
+    return SCREE_OK;
+}
+
+/// Rounds down to two significant digits.
+static double two_digits_below(double value)
+{
+    double unit = pow(10, floor(log10(value)) - 1);
+    return floor(value / unit) * unit;
+}
+
+static scree_status resolve_step(scree_model *model, scree_error *error)
+{
+    const scree_config_integrator *integrator = &model->config->integrator;
+    model->critical_step = scree_critical_step_estimate(model);
+    double offered = integrator->step_fraction * model->critical_step;
+    model->step = isnan(integrator->step) ? offered : integrator->step;
+    if (model->step <= model->critical_step) return SCREE_OK;
+    scree_status status =
+        FIELD_ERROR(error, "integrator.step",
+                    "a step of %.3g s is above the critical step of this case, %.3g s, and would be unstable; "
+                    "give %.2g s, or auto",
+                    model->step, model->critical_step, two_digits_below(offered));
+    if (error) {
+        (void)snprintf(error->value, sizeof error->value, "%.6g s", model->step);
+        (void)snprintf(error->accepted, sizeof error->accepted, "up to %.3g s", two_digits_below(model->critical_step));
+    }
+    return status;
+}
+
+scree_status scree_model_build(const scree_config *config, scree_model *model, scree_error *error)
+{
+    *model = (scree_model){
+        .dimension = (int)config->dimension,
+        .law = (scree_law)config->contact.law,
+        .damping_time = config->contact.damping_time,
+        .inverse_exponent = 1 / config->contact.friction_exponent,
+        .scheme = (scree_scheme)config->integrator.scheme,
+        .gravity = {config->gravity_x, config->gravity_y, 0},
+        .config = config,
+    };
+    scree_status status = resolve_materials(model, error);
+    if (!status) status = resolve_particles(model, error);
+    if (!status) status = resolve_loading(model, error);
+    if (!status) status = resolve_step(model, error);
+    return status;
+}
+
+scree_model scree_model_with_friction(const scree_model *model, double friction)
+{
+    scree_model copy = *model;
+    if (isnan(friction)) return copy;
+    for (int i = 0; i < SCREE_MAX_MATERIALS; i++) {
+        copy.walls[i].friction = friction;
+        for (int j = 0; j < SCREE_MAX_MATERIALS; j++) copy.pairs[i][j].friction = friction;
+    }
+    return copy;
+}

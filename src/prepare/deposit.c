@@ -1,0 +1,234 @@
+/// Deposition of discs one by one under gravity without inertia (Jodrey & Tory 1979; Visscher & Bolsterli 1972), in
+/// exact geometry: a moving disc of radius r is a point among circles of radius R_k + r around the discs at rest.
+///
+/// The point falls vertically onto the highest circle below it, then slides down along that circle, away from the top.
+/// On its way down it meets, whichever comes first,
+///
+///   - another circle: it rests if the two supports lie on either side of its centre, else it slides on along the new
+///     one (the old one then is behind; the path only ever becomes flatter, so this ends);
+///   - a side wall or the floor: it rests;
+///   - the height of its support's centre: it falls again.
+///
+/// A point that slides clockwise around circle i enters circle k at the one of their two intersections that lies
+/// counter-clockwise of the line of centres, and the other way round: the meeting point needs no search and no angle.
+/// Nothing but the four operations and square roots is used, so the packing is the same to the last bit on any machine.
+///
+/// Accuracy: a place of rest is the intersection of two circles rounded to doubles: gaps and overlaps of a few units in
+/// the last place of the coordinates, 1e-13 R in a packing of 1000 R.
+///
+/// Cost: a grid of cells of the largest diameter holds all discs; a fall looks at three columns from their tops, a roll
+/// at the cells around the support: 0.8 s for a million discs of 1:2, as much for 1:5. Equal numbers of discs of very
+/// different sizes crowd the cells of the larger: 1.0 s at 1:20.
+#include "prepare/deposit.h"
+
+#include <math.h>
+
+enum { NOTHING = UINT32_MAX, MOST_EVENTS = 100000 };
+static const double TOUCH = 1e-9; // of the radius: contacts met this little behind the present point count as met here
+
+typedef struct point {
+    double x, y;
+} point;
+
+/// The disc on its way.
+typedef struct mover {
+    double radius;
+    point at;
+    uint32_t support;
+    double side; ///< +1 rolls to the right and clockwise, -1 to the left
+} mover;
+
+typedef enum meeting_kind { MEET_EQUATOR, MEET_DISC, MEET_REST } meeting_kind;
+
+/// Next thing on the path along the support.
+typedef struct meeting {
+    meeting_kind kind;
+    point at;
+    double distance; ///< sum of the advances in x and downwards
+    uint32_t disc;
+} meeting;
+
+scree_status scree_deposit_create(scree_deposit *deposit, const double *radius, size_t count, double width, double *x,
+                                  double *y, scree_error *error)
+{
+    *deposit = (scree_deposit){.radius = radius, .x = x, .y = y, .width = width};
+    for (size_t i = 0; i < count; i++) deposit->largest = fmax(deposit->largest, radius[i]);
+    deposit->cell = 2 * deposit->largest;
+    deposit->columns = (size_t)(width / deposit->cell) + 1;
+    deposit->rows = 4;
+    scree_status status =
+        scree_allocate(&deposit->head, deposit->rows * deposit->columns, sizeof *deposit->head, error);
+    if (!status) status = scree_allocate(&deposit->next, count, sizeof *deposit->next, error);
+    if (!status) status = scree_allocate(&deposit->filled, deposit->columns, sizeof *deposit->filled, error);
+    if (status) scree_deposit_destroy(deposit);
+    return status;
+}
+
+void scree_deposit_destroy(scree_deposit *deposit)
+{
+    scree_release(&deposit->head);
+    scree_release(&deposit->next);
+    scree_release(&deposit->filled);
+}
+
+/// Cell index of a coordinate, kept within [0, count).
+static size_t cell_of(double coordinate, double cell, size_t count)
+{
+    if (!(coordinate > 0)) return 0;
+    double index = coordinate / cell;
+    return index < (double)count ? (size_t)index : count - 1;
+}
+
+static scree_status insert(scree_deposit *deposit, size_t index, point at, scree_error *error)
+{
+    size_t row = (size_t)(at.y / deposit->cell), column = cell_of(at.x, deposit->cell, deposit->columns);
+    if (row >= deposit->rows) {
+        size_t rows = 2 * row;
+        scree_status status = scree_reallocate(&deposit->head, deposit->rows * deposit->columns,
+                                               rows * deposit->columns, sizeof *deposit->head, error);
+        if (status) return status;
+        deposit->rows = rows;
+    }
+    deposit->x[index] = at.x;
+    deposit->y[index] = at.y;
+    uint32_t *head = &deposit->head[row * deposit->columns + column];
+    deposit->next[index] = *head;
+    *head = (uint32_t)index + 1;
+    if (deposit->filled[column] <= row) deposit->filled[column] = row + 1;
+    return SCREE_OK;
+}
+
+/// Height at which a point falling from `from` at its abscissa meets circle k; -1 if it passes.
+static double hit(const scree_deposit *deposit, const mover *disc, point from, uint32_t k)
+{
+    double reach = deposit->radius[k] + disc->radius, dx = from.x - deposit->x[k];
+    double rise2 = (reach - dx) * (reach + dx);
+    if (rise2 <= 0) return -1;
+    double y = deposit->y[k] + sqrt(rise2);
+    return y <= from.y + TOUCH * disc->radius && deposit->y[k] < from.y ? y : -1;
+}
+
+/// Highest circle below `from`, other than that of the support just left; NOTHING above the floor. `y`: where it is
+/// met.
+static uint32_t look_down(const scree_deposit *deposit, const mover *disc, point from, double *y)
+{
+    double reach = deposit->largest + disc->radius;
+    size_t first = cell_of(from.x - reach, deposit->cell, deposit->columns);
+    size_t last = cell_of(from.x + reach, deposit->cell, deposit->columns);
+    size_t top = 0;
+    for (size_t column = first; column <= last; column++)
+        if (deposit->filled[column] > top) top = deposit->filled[column];
+    size_t below = cell_of(from.y, deposit->cell, deposit->rows) + 1;
+    uint32_t found = NOTHING;
+    *y = disc->radius;
+    // Circles of lower rows end below (row + 1) cell + reach.
+    for (size_t row = top < below ? top : below; row-- > 0 && *y < (double)(row + 1) * deposit->cell + reach;)
+        for (size_t column = first; column <= last; column++)
+            for (uint32_t k = deposit->head[row * deposit->columns + column]; k > 0; k = deposit->next[k - 1]) {
+                if (k - 1 == disc->support) continue;
+                double height = hit(deposit, disc, from, k - 1);
+                if (height <= *y) continue;
+                *y = height;
+                found = k - 1;
+            }
+    return found;
+}
+
+bool scree_deposit_sees_floor(const scree_deposit *deposit, size_t index, double x)
+{
+    mover disc = {.radius = deposit->radius[index], .support = NOTHING};
+    double y;
+    return look_down(deposit, &disc, (point){x, INFINITY}, &y) == NOTHING;
+}
+
+/// Takes a meeting at `at` into account if it lies ahead on the quarter circle and before the one already known.
+static void consider(const scree_deposit *deposit, const mover *disc, point at, meeting_kind kind, uint32_t k,
+                     meeting *nearest)
+{
+    point centre = {deposit->x[disc->support], deposit->y[disc->support]};
+    double touch = TOUCH * disc->radius;
+    if (at.y < centre.y || disc->side * (at.x - centre.x) < -touch) return;
+    double distance = disc->side * (at.x - disc->at.x) + (disc->at.y - at.y);
+    if (distance < -touch || distance >= nearest->distance) return;
+    *nearest = (meeting){kind, at, distance, k};
+}
+
+/// Walls, floor and the height of the support's centre.
+static void meet_box(const scree_deposit *deposit, const mover *disc, meeting *nearest)
+{
+    double x = deposit->x[disc->support], y = deposit->y[disc->support];
+    double reach = deposit->radius[disc->support] + disc->radius;
+    *nearest = (meeting){.kind = MEET_EQUATOR, .at = {x + disc->side * reach, y}, .distance = INFINITY};
+    double wall = disc->side > 0 ? deposit->width - disc->radius : disc->radius;
+    double across = wall - x, up = disc->radius - y;
+    if (fabs(across) < reach)
+        consider(deposit, disc, (point){wall, y + sqrt((reach - across) * (reach + across))}, MEET_REST, NOTHING,
+                 nearest);
+    if (up > 0)
+        consider(deposit, disc, (point){x + disc->side * sqrt((reach - up) * (reach + up)), disc->radius}, MEET_REST,
+                 NOTHING, nearest);
+}
+
+/// Where the path around the support enters circle k.
+static void meet_disc(const scree_deposit *deposit, const mover *disc, uint32_t k, meeting *nearest)
+{
+    uint32_t i = disc->support;
+    double reach = deposit->radius[i] + disc->radius, other = deposit->radius[k] + disc->radius;
+    double dx = deposit->x[k] - deposit->x[i], dy = deposit->y[k] - deposit->y[i];
+    double distance2 = dx * dx + dy * dy;
+    if (k == i || distance2 >= (reach + other) * (reach + other)) return;
+    double distance = sqrt(distance2), ex = dx / distance, ey = dy / distance;
+    double along = (distance2 + (reach - other) * (reach + other)) / (2 * distance);
+    double height2 = (reach - along) * (reach + along);
+    double aside = disc->side * sqrt(fmax(height2, 0));
+    point at = {deposit->x[i] + along * ex - aside * ey, deposit->y[i] + along * ey + aside * ex};
+    consider(deposit, disc, at, MEET_DISC, k, nearest);
+}
+
+static meeting look_ahead(const scree_deposit *deposit, const mover *disc)
+{
+    meeting nearest;
+    meet_box(deposit, disc, &nearest);
+    // The path ahead lies between the present point and the equator of the support; touched discs within `reach` of it.
+    double reach = deposit->largest + disc->radius;
+    double equator = deposit->x[disc->support] + disc->side * (deposit->radius[disc->support] + disc->radius);
+    double left = fmin(disc->at.x, equator), right = fmax(disc->at.x, equator);
+    size_t first = cell_of(left - reach, deposit->cell, deposit->columns);
+    size_t last = cell_of(right + reach, deposit->cell, deposit->columns);
+    size_t bottom = cell_of(deposit->y[disc->support] - reach, deposit->cell, deposit->rows);
+    size_t top = cell_of(disc->at.y + reach, deposit->cell, deposit->rows);
+    for (size_t row = bottom; row <= top; row++)
+        for (size_t column = first; column <= last; column++)
+            for (uint32_t k = deposit->head[row * deposit->columns + column]; k > 0; k = deposit->next[k - 1])
+                meet_disc(deposit, disc, k - 1, &nearest);
+    return nearest;
+}
+
+/// Falls to the next support, which is NOTHING on the floor.
+static void fall(const scree_deposit *deposit, mover *disc)
+{
+    double y;
+    disc->support = look_down(deposit, disc, disc->at, &y);
+    disc->at.y = y;
+    if (disc->support != NOTHING) disc->side = disc->at.x < deposit->x[disc->support] ? -1 : 1;
+}
+
+scree_status scree_deposit_drop(scree_deposit *deposit, size_t index, double x, scree_error *error)
+{
+    mover disc = {.radius = deposit->radius[index], .at = {x, INFINITY}, .support = NOTHING};
+    fall(deposit, &disc);
+    for (int events = 0; events < MOST_EVENTS; events++) {
+        if (disc.support == NOTHING) return insert(deposit, index, disc.at, error);
+        meeting next = look_ahead(deposit, &disc);
+        disc.at = next.at;
+        if (next.kind == MEET_EQUATOR) {
+            fall(deposit, &disc);
+            continue;
+        }
+        bool straddled = next.kind == MEET_DISC && disc.side * (deposit->x[next.disc] - disc.at.x) >= 0;
+        if (next.kind == MEET_REST || straddled) return insert(deposit, index, disc.at, error);
+        disc.support = next.disc;
+    }
+    return scree_error_set(error, SCREE_ERROR_INPUT, "disc %zu of radius %g m finds no place of rest", index,
+                           disc.radius);
+}

@@ -1,0 +1,69 @@
+/// Hexagonal and square lattices of equal discs that touch each other, floor and side walls.
+///
+/// hexagonal: rows of n and n - 1 discs in turn, sqrt(3) R apart, in a box 2 n R wide. square: rows of n discs, 2 R
+/// apart. The last row may be incomplete; it fills from the left. Width auto: the number n whose height over width
+/// comes nearest to the aspect ratio; a given width is lowered to the next that the lattice fills. The model has
+/// checked that radii are equal.
+#include "prepare/methods.h"
+
+#include <math.h>
+
+/// Rows that `count` discs need when rows of n and of n - missing discs alternate.
+static size_t rows_needed(size_t count, size_t n, size_t missing)
+{
+    size_t pair = 2 * n - missing, rest = count % pair;
+    return 2 * (count / pair) + (rest > 0) + (rest > n);
+}
+
+/// Number of discs in the first row. Height over width falls with it: the first below the aspect ratio, or the one
+/// before.
+static size_t columns_for(size_t count, size_t missing, double rise, double aspect_ratio)
+{
+    double before = INFINITY;
+    for (size_t n = 1 + missing;; n++) {
+        double ratio = (2 + rise * (double)(rows_needed(count, n, missing) - 1)) / (2 * (double)n);
+        if (ratio <= aspect_ratio || n >= count) return before - aspect_ratio < aspect_ratio - ratio ? n - 1 : n;
+        before = ratio;
+    }
+}
+
+/// missing: by how many discs every second row is shorter; rise: distance of rows in radii.
+static scree_status place_lattice(const scree_model *model, const scree_config_stage *stage, const double *radius,
+                                  size_t count, double *x, double *y, scree_box *box, size_t missing, double rise,
+                                  scree_error *error)
+{
+    if (count == 0) return SCREE_OK;
+    double r = radius[0];
+    size_t n = isnan(box->width) ? columns_for(count, missing, rise, stage->aspect_ratio)
+                                 : (size_t)floor(box->width / (2 * r) * (1 + 1e-12));
+    if (n < 1 + missing && count > 1)
+        return scree_prepare_error(error, model, stage, "width", "a row of the lattice needs at least %g m",
+                                   2 * (double)(1 + missing) * r);
+    size_t pair = 2 * n - missing;
+    for (size_t i = 0; i < count; i++) {
+        size_t within = i % pair, row = 2 * (i / pair) + (within >= n);
+        bool shorter = within >= n;
+        x[i] = r * (1 + 2 * (double)(shorter ? within - n : within) + (shorter && missing ? 1 : 0));
+        y[i] = r * (1 + rise * (double)row);
+    }
+    box->width = 2 * (double)n * r;
+    box->height = r * (2 + rise * (double)(rows_needed(count, n, missing) - 1));
+    return SCREE_OK;
+}
+
+static scree_status place_hexagonal(const scree_model *model, const scree_config_stage *stage, const double *radius,
+                                    size_t count, double *x, double *y, scree_box *box, scree_error *error)
+{
+    return place_lattice(model, stage, radius, count, x, y, box, 1, sqrt(3.0), error);
+}
+
+static scree_status place_square(const scree_model *model, const scree_config_stage *stage, const double *radius,
+                                 size_t count, double *x, double *y, scree_box *box, scree_error *error)
+{
+    return place_lattice(model, stage, radius, count, x, y, box, 0, 2, error);
+}
+
+const scree_preparation scree_prepare_hexagonal = {
+    .name = "hexagonal", .meaning = "equal discs on a triangular lattice, just touching", .place = place_hexagonal};
+const scree_preparation scree_prepare_square = {
+    .name = "square", .meaning = "equal discs on a square lattice, just touching", .place = place_square};

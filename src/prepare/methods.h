@@ -1,0 +1,16 @@
+/// The methods, one file each.
+#ifndef SCREE_PREPARE_METHODS_H
+#define SCREE_PREPARE_METHODS_H
+
+#include "prepare/prepare.h"
+
+extern const scree_preparation scree_prepare_drop_and_roll;
+extern const scree_preparation scree_prepare_hexagonal;
+extern const scree_preparation scree_prepare_square;
+extern const scree_preparation scree_prepare_gas;
+
+/// Input error at a key of `stage`, with its place in the list of stages when it is one of the model's.
+scree_status scree_prepare_error(scree_error *error, const scree_model *model, const scree_config_stage *stage,
+                                 const char *key, const char *format, ...) SCREE_PRINTF(5, 6);
+
+#endif

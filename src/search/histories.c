@@ -1,0 +1,113 @@
+/// Contact histories from one neighbour list to the next, by ids.
+///
+/// Method. The histories of the old list that are not zero (in any bit) are packed into state->contact, the form in
+/// which they also come from a checkpoint. When the rows have their new order, a counting sort puts them by the lower
+/// row of their pair; the new list then finds each one among the few of its row. Old and new order differ little, so
+/// all of it runs through memory nearly in order. Linear cost. A pair that has left the list loses its history; it is
+/// separated by more than the skin then.
+#include "search/search.h"
+
+#include <omp.h>
+#include <string.h>
+
+/// Any bit set: also a negative zero survives.
+static bool holds_something(const scree_history *history)
+{
+    uint64_t word[SCREE_HISTORY], any = 0;
+    memcpy(word, history->value, sizeof word);
+    for (int k = 0; k < SCREE_HISTORY; k++) any |= word[k];
+    return any != 0;
+}
+
+/// The pairs of bodies and then those with walls, as one sequence: ids and history of number `k`.
+static const scree_history *entry_of(const scree_state *state, const scree_work *work, size_t k, uint32_t *first,
+                                     uint32_t *second)
+{
+    const scree_pair_list *pairs = &work->pairs;
+    if (k < pairs->count) {
+        *first = state->id[pairs->first[k]];
+        *second = state->id[pairs->second[k]];
+        return &pairs->history[k];
+    }
+    k -= pairs->count;
+    *first = state->id[work->wall_pairs.body[k]];
+    *second = SCREE_WALL_ID + work->wall_pairs.wall[k];
+    return &work->wall_pairs.history[k];
+}
+
+static bool entry_holds_something(const scree_work *work, size_t k)
+{
+    size_t pairs = work->pairs.count;
+    return holds_something(k < pairs ? &work->pairs.history[k] : &work->wall_pairs.history[k - pairs]);
+}
+
+scree_status scree_histories_collect(scree_state *state, scree_work *work, scree_error *error)
+{
+    scree_search *search = work->search;
+    const size_t count = work->pairs.count + work->wall_pairs.count, chunks = (size_t)search->chunks;
+    // Each chunk counts its entries, so that all chunks can write theirs at once.
+#pragma omp parallel for num_threads(search->chunks) schedule(static, 1) if (search->chunks > 1)
+    for (size_t c = 0; c < chunks; c++) {
+        search->chunk[c].carried = 0;
+        for (size_t k = count * c / chunks; k < count * (c + 1) / chunks; k++)
+            search->chunk[c].carried += entry_holds_something(work, k);
+    }
+    size_t total = 0;
+    for (size_t c = 0; c < chunks; c++) total += search->chunk[c].carried;
+    state->contact_count = 0;
+    scree_status status = scree_state_reserve_contacts(state, total, error);
+    if (status) return status;
+#pragma omp parallel for num_threads(search->chunks) schedule(static, 1) if (search->chunks > 1)
+    for (size_t c = 0; c < chunks; c++) {
+        scree_contact_memory *to = state->contact;
+        for (size_t before = 0; before < c; before++) to += search->chunk[before].carried;
+        for (size_t k = count * c / chunks; k < count * (c + 1) / chunks; k++)
+            if (entry_holds_something(work, k)) {
+                to->history = *entry_of(state, work, k, &to->first, &to->second);
+                to++;
+            }
+    }
+    state->contact_count = total;
+    return SCREE_OK;
+}
+
+/// Lower row of the pair of an entry; `count` for an entry that belongs to no pair.
+static uint32_t lower_row(const scree_state *state, const scree_contact_memory *memory)
+{
+    if (memory->first >= state->count) return (uint32_t)state->count;
+    uint32_t first = state->row_of_id[memory->first];
+    if (memory->second >= SCREE_WALL_ID) return first;
+    if (memory->second >= state->count) return (uint32_t)state->count;
+    uint32_t second = state->row_of_id[memory->second];
+    return first < second ? first : second;
+}
+
+static scree_status reserve_indices(uint32_t **array, size_t *capacity, size_t count, scree_error *error)
+{
+    if (count <= *capacity) return SCREE_OK;
+    scree_release(array);
+    *capacity = 0;
+    scree_status status = scree_allocate(array, count + count / 8, sizeof **array, error);
+    if (!status) *capacity = count + count / 8;
+    return status;
+}
+
+scree_status scree_histories_index(scree_search *search, const scree_state *state, scree_error *error)
+{
+    // One more for entries of no pair, and one for the end.
+    scree_status status = reserve_indices(&search->entry_begin, &search->entry_begin_capacity, state->count + 2, error);
+    if (!status) status = reserve_indices(&search->entry, &search->entry_capacity, state->contact_count, error);
+    if (status) return status;
+    uint32_t *begin = search->entry_begin;
+    memset(begin, 0, (state->count + 2) * sizeof *begin);
+    for (size_t k = 0; k < state->contact_count; k++) begin[lower_row(state, &state->contact[k])]++;
+    uint32_t sum = 0;
+    for (size_t row = 0; row <= state->count; row++) {
+        sum += begin[row];
+        begin[row] = sum;
+    }
+    // Filled from behind, so that the sort is stable and ends become begins.
+    for (size_t k = state->contact_count; k-- > 0;)
+        search->entry[--begin[lower_row(state, &state->contact[k])]] = (uint32_t)k;
+    return SCREE_OK;
+}

@@ -1,0 +1,239 @@
+/// When the neighbour list is rebuilt, and the order in which its parts are.
+///
+/// The budget. After a rebuild no pair outside the list is closer than R_i + R_j + skin, so none can touch before some
+/// body has moved by half the skin (a body and a wall together). work->budget is a distance that no body can have left
+/// to go without reaching that: a rebuild sets it to skin / 2, and the integrator subtracts |v|_max dt in every drift,
+/// |v|_max over all bodies (NaN counts as infinite). Walls do not concern the integrator: their positions are compared
+/// here, in every step. When the budget is used up, true displacements decide: below half the skin, the budget
+/// becomes what is left; else the list is rebuilt. Half the skin is taken 1e-6 short against round-off, so that a list
+/// never misses a contact and results do not depend on when lists were built.
+///
+/// A rebuild: histories to state->contact; levels, keys and order of the bodies; permutation of the state; cells;
+/// search by ranges of rows, a thread each; the ranges one after the other into the list, touching pairs first, each
+/// with its history. The list depends on positions and ids alone, not on threads or on the order before. Cost: see
+/// docs/performance.md (bench/bench_neighbours).
+#include "search/neighbours.h"
+
+#include "search/search.h"
+
+#include <float.h>
+#include <math.h>
+#include <omp.h>
+#include <string.h>
+
+static double half_skin(const scree_work *work)
+{
+    return 0.5 * work->skin * (1 - 1e-6);
+}
+
+void scree_neighbours_invalidate(scree_work *work)
+{
+    work->valid = false;
+}
+
+/// Largest displacement of a body since the last rebuild [m]; infinite if a position is not finite.
+static double largest_displacement(const scree_state *state, int threads)
+{
+    double largest = 0;
+#pragma omp parallel for num_threads(threads) schedule(static) reduction(max : largest) if (threads > 1)
+    for (size_t k = 0; k < state->count; k++) {
+        double dx = state->row[k].x - state->rebuild_x[k], dy = state->row[k].y - state->rebuild_y[k];
+        double square = dx * dx + dy * dy;
+        square = square <= DBL_MAX ? square : (double)INFINITY;
+        largest = square > largest ? square : largest;
+    }
+    return sqrt(largest);
+}
+
+/// A wall has come up, turned, or moved by half the skin. Walls that go away do no harm.
+static bool walls_need_rebuild(const scree_state *state, const scree_work *work)
+{
+    for (int w = 0; w < SCREE_WALL_COUNT; w++) {
+        const scree_wall *now = &state->wall[w], *then = &work->search->wall[w];
+        if (!now->active) continue;
+        bool same = then->active && now->normal[0] == then->normal[0] && now->normal[1] == then->normal[1];
+        if (!same || !(fabs(now->position - then->position) < half_skin(work))) return true;
+    }
+    return false;
+}
+
+/// Makes room for `count` pairs and the padding; contents are lost when it grows.
+static scree_status reserve_pairs(uint32_t **one, uint32_t **other, scree_history **history, size_t *capacity,
+                                  size_t count, scree_error *error)
+{
+    if (count + SCREE_PAIR_PADDING <= *capacity) return SCREE_OK;
+    size_t room = count + count / 8 + 4 * SCREE_PAIR_PADDING;
+    scree_release(one);
+    scree_release(other);
+    scree_release(history);
+    *capacity = 0;
+    scree_status status = scree_allocate(one, room, sizeof **one, error);
+    if (!status) status = scree_allocate(other, room, sizeof **other, error);
+    if (!status) status = scree_allocate(history, room, sizeof **history, error);
+    if (!status) *capacity = room;
+    return status;
+}
+
+static scree_status search_pairs(const scree_state *state, scree_work *work, scree_error *error)
+{
+    scree_search *search = work->search;
+    scree_pair_search *find = scree_pair_search_get(work->instruction_set);
+    const size_t chunks = (size_t)search->chunks;
+    size_t failed = chunks;
+#pragma omp parallel for num_threads(search->chunks) schedule(static, 1) reduction(min : failed) if (search->chunks > 1)
+    for (size_t c = 0; c < chunks; c++)
+        if (find(&search->grid, state, state->count * c / chunks, state->count * (c + 1) / chunks, &search->chunk[c],
+                 NULL))
+            failed = c < failed ? c : failed;
+    if (failed == chunks) return SCREE_OK;
+    return scree_error_set_memory(error, search->chunk[failed].touching.capacity * sizeof(scree_row_pair));
+}
+
+static uint32_t lower_row(scree_row_pair pair)
+{
+    return pair.first < pair.second ? pair.first : pair.second;
+}
+
+/// Puts the touching or near pairs of all chunks into the list from number `at` on.
+/// Within one level they come in the order of their lower rows; else a counting sort brings them into it.
+static void list_pairs(scree_search *search, scree_pair_list *pairs, bool touching, size_t at)
+{
+    uint32_t *next = search->grid.order;
+    const bool sorted = search->grid.levels_in_use <= 1;
+    if (!sorted) memset(next, 0, search->bodies * sizeof *next);
+    for (int c = 0; c < search->chunks && !sorted; c++) {
+        const scree_pair_buffer *from = touching ? &search->chunk[c].touching : &search->chunk[c].near;
+        for (size_t k = 0; k < from->count; k++) next[lower_row(from->pair[k])]++;
+    }
+    size_t sum = at;
+    for (size_t row = 0; row < search->bodies && !sorted; row++) {
+        size_t size = next[row];
+        next[row] = (uint32_t)sum;
+        sum += size;
+    }
+    for (int c = 0; c < search->chunks; c++) {
+        const scree_pair_buffer *from = touching ? &search->chunk[c].touching : &search->chunk[c].near;
+        for (size_t k = 0; k < from->count; k++) {
+            size_t to = sorted ? at++ : next[lower_row(from->pair[k])]++;
+            pairs->first[to] = from->pair[k].first;
+            pairs->second[to] = from->pair[k].second;
+        }
+    }
+}
+
+static void list_wall_pairs(const scree_search *search, scree_wall_pair_list *walls)
+{
+    size_t at = 0;
+    for (int c = 0; c < search->chunks; c++)
+        for (size_t k = 0; k < search->chunk[c].wall.count; k++, at++) {
+            walls->body[at] = search->chunk[c].wall.pair[k].first;
+            walls->wall[at] = search->chunk[c].wall.pair[k].second;
+        }
+}
+
+/// Gives every pair of the new list its history.
+static void attach_histories(const scree_state *state, scree_work *work)
+{
+    const scree_search *search = work->search;
+    scree_pair_list *pairs = &work->pairs;
+    scree_wall_pair_list *walls = &work->wall_pairs;
+#pragma omp parallel for num_threads(work->threads) schedule(static) if (work->threads > 1)
+    for (size_t k = 0; k < pairs->count; k++) {
+        uint32_t first = pairs->first[k], second = pairs->second[k];
+        pairs->history[k] =
+            scree_history_find(search, state, first < second ? first : second, state->id[first], state->id[second]);
+    }
+    for (size_t k = 0; k < walls->count; k++)
+        walls->history[k] = scree_history_find(search, state, walls->body[k], state->id[walls->body[k]],
+                                               SCREE_WALL_ID + walls->wall[k]);
+}
+
+/// Row 0 (wall 0) and no history behind the last pair.
+static void pad_lists(scree_work *work)
+{
+    scree_pair_list *pairs = &work->pairs;
+    scree_wall_pair_list *walls = &work->wall_pairs;
+    for (size_t k = 0; k < SCREE_PAIR_PADDING; k++) {
+        pairs->first[pairs->count + k] = pairs->second[pairs->count + k] = 0;
+        pairs->history[pairs->count + k] = (scree_history){{0}};
+        walls->body[walls->count + k] = walls->wall[walls->count + k] = 0;
+        walls->history[walls->count + k] = (scree_history){{0}};
+    }
+}
+
+/// The chunks' pairs one after the other: the same list however many chunks there are.
+static scree_status assemble(const scree_state *state, scree_work *work, scree_error *error)
+{
+    scree_search *search = work->search;
+    scree_pair_list *pairs = &work->pairs;
+    scree_wall_pair_list *walls = &work->wall_pairs;
+    size_t touching = 0, near = 0, wall = 0;
+    for (int c = 0; c < search->chunks; c++) {
+        touching += search->chunk[c].touching.count;
+        near += search->chunk[c].near.count;
+        wall += search->chunk[c].wall.count;
+    }
+    pairs->count = pairs->touching_count = walls->count = 0;
+    scree_status status =
+        reserve_pairs(&pairs->first, &pairs->second, &pairs->history, &pairs->capacity, touching + near, error);
+    if (!status) status = reserve_pairs(&walls->body, &walls->wall, &walls->history, &walls->capacity, wall, error);
+    if (status) return status;
+    pairs->count = touching + near;
+    pairs->touching_count = touching;
+    walls->count = wall;
+    list_pairs(search, pairs, true, 0);
+    list_pairs(search, pairs, false, touching);
+    list_wall_pairs(search, walls);
+    attach_histories(state, work);
+    pad_lists(work);
+    return SCREE_OK;
+}
+
+static scree_status rebuild(scree_state *state, scree_work *work, scree_error *error)
+{
+    scree_search *search = work->search;
+    scree_status status = SCREE_OK;
+    work->valid = false;
+    // Until the new list is whole, state->contact holds the histories: a rebuild that fails can be repeated.
+    if (search->listed && search->bodies == state->count) status = scree_histories_collect(state, work, error);
+    if (status) return status;
+    search->listed = false;
+    search->bodies = state->count;
+    work->pairs.count = work->pairs.touching_count = work->wall_pairs.count = 0;
+
+    scree_cell_grid_fit(&search->grid, state, work->skin, work->threads);
+    if (!search->grid.finite) {
+        work->flags |= SCREE_FLAG_NAN;
+        work->flagged_id = search->grid.odd_id;
+    }
+    status = scree_cell_grid_order(&search->grid, state, work->threads, error);
+    if (!status) status = scree_state_permute(state, search->grid.order, error);
+    if (!status) status = scree_cell_grid_fill(&search->grid, state, error);
+    if (!status) status = scree_histories_index(search, state, error);
+    if (!status) status = search_pairs(state, work, error);
+    if (!status) status = assemble(state, work, error);
+    if (status) return status;
+
+    for (size_t k = 0; k < state->count; k++) {
+        state->rebuild_x[k] = state->row[k].x;
+        state->rebuild_y[k] = state->row[k].y;
+    }
+    memcpy(search->wall, state->wall, sizeof search->wall);
+    search->listed = work->valid = true;
+    work->budget = half_skin(work);
+    work->rebuilds++;
+    return SCREE_OK;
+}
+
+scree_status scree_neighbours_refresh(const scree_model *model, scree_state *state, scree_work *work,
+                                      scree_error *error)
+{
+    (void)model;
+    if (!work->valid || work->search->bodies != state->count || walls_need_rebuild(state, work))
+        return rebuild(state, work, error);
+    if (work->budget >= 0) return SCREE_OK;
+    double moved = largest_displacement(state, work->threads);
+    if (!(moved < half_skin(work))) return rebuild(state, work, error);
+    work->budget = half_skin(work) - moved;
+    return SCREE_OK;
+}

@@ -1,0 +1,41 @@
+/// Private to search/ (and its tests): everything that the neighbour list needs besides the list itself.
+#ifndef SCREE_SEARCH_SEARCH_H
+#define SCREE_SEARCH_SEARCH_H
+
+#include "search/pair_search.h"
+#include "state/work.h"
+
+/// Entries behind the last one that kernels may read ahead; they hold row 0 and zero histories.
+#define SCREE_PAIR_PADDING 16
+
+struct scree_search {
+    scree_cell_grid grid;
+    scree_pair_chunk *chunk; ///< one a thread
+    int chunks;
+    bool listed;                       ///< the list in `work` is whole and holds the contact histories
+    size_t bodies;                     ///< in the list
+    scree_wall wall[SCREE_WALL_COUNT]; ///< as they were at the last rebuild
+    // histories on their way to the new list: entries of state->contact by the lower of their two rows
+    uint32_t *entry_begin; ///< bodies + 1
+    uint32_t *entry;
+    size_t entry_begin_capacity, entry_capacity;
+};
+
+/// Copies the nonzero histories of the list to state->contact, with ids. Errors: memory.
+scree_status scree_histories_collect(scree_state *state, scree_work *work, scree_error *error) SCREE_MUST_USE;
+
+/// Sorts the entries of state->contact by rows, for scree_history_find. Entries with unknown ids are left out.
+scree_status scree_histories_index(scree_search *search, const scree_state *state, scree_error *error) SCREE_MUST_USE;
+
+/// History of a pair of ids with the lower row `row` (the body's, for a wall); zero if there is none.
+static inline scree_history scree_history_find(const scree_search *search, const scree_state *state, uint32_t row,
+                                               uint32_t first, uint32_t second)
+{
+    for (uint32_t k = search->entry_begin[row]; k < search->entry_begin[row + 1]; k++) {
+        const scree_contact_memory *memory = &state->contact[search->entry[k]];
+        if (memory->first == first && memory->second == second) return memory->history;
+    }
+    return (scree_history){{0}};
+}
+
+#endif

@@ -1,0 +1,56 @@
+/// Space-filling curve of cells, and the sort that puts bodies or cells into its order.
+///
+/// The curve is Morton's (1966): the bits of the two cell coordinates are interleaved, x in the even places. Dropping
+/// the last 2 m bits of a key gives the key of the cell of 2^m x 2^m cells around it, so bodies sorted by the key of
+/// the finest cells are sorted by coarser cells too: all bodies of a coarse cell are neighbours in the order.
+#ifndef SCREE_SEARCH_SPACE_CURVE_H
+#define SCREE_SEARCH_SPACE_CURVE_H
+
+#include "base/error.h"
+
+#include <stdint.h>
+
+/// Every second bit of the result is a bit of `value`.
+static inline uint64_t scree_curve_spread(uint32_t value)
+{
+    uint64_t bits = value;
+    bits = (bits | bits << 16) & UINT64_C(0x0000ffff0000ffff);
+    bits = (bits | bits << 8) & UINT64_C(0x00ff00ff00ff00ff);
+    bits = (bits | bits << 4) & UINT64_C(0x0f0f0f0f0f0f0f0f);
+    bits = (bits | bits << 2) & UINT64_C(0x3333333333333333);
+    return (bits | bits << 1) & UINT64_C(0x5555555555555555);
+}
+
+/// Inverse of scree_curve_spread; bits in odd places are ignored.
+static inline uint32_t scree_curve_gather(uint64_t bits)
+{
+    bits &= UINT64_C(0x5555555555555555);
+    bits = (bits | bits >> 1) & UINT64_C(0x3333333333333333);
+    bits = (bits | bits >> 2) & UINT64_C(0x0f0f0f0f0f0f0f0f);
+    bits = (bits | bits >> 4) & UINT64_C(0x00ff00ff00ff00ff);
+    bits = (bits | bits >> 8) & UINT64_C(0x0000ffff0000ffff);
+    return (uint32_t)(bits | bits >> 16);
+}
+
+static inline uint64_t scree_curve_key(uint32_t x, uint32_t y)
+{
+    return scree_curve_spread(x) | scree_curve_spread(y) << 1;
+}
+
+/// Keys with a 32-bit companion each, and room for a second copy that the sort needs.
+typedef struct scree_key_list {
+    uint64_t *key, *other_key;
+    uint32_t *index, *other_index;
+    size_t capacity;
+} scree_key_list;
+
+/// Makes room for `count` keys; contents are lost when it grows.
+scree_status scree_key_list_reserve(scree_key_list *list, size_t count, scree_error *error) SCREE_MUST_USE;
+void scree_key_list_destroy(scree_key_list *list);
+
+/// Sorts the first `count` keys in ascending order with their indices; equal keys keep their order (stable). Radix sort
+/// by digits of 11 bits from the last, without those that all keys share: linear cost, two passes for up to 4 million
+/// cells. `other_key` and `other_index` are overwritten.
+void scree_key_list_sort(scree_key_list *list, size_t count);
+
+#endif

@@ -1,0 +1,51 @@
+/// Life of `work`.
+///
+/// The skin. Let a step move the fastest body by u mean radii. A list with a skin of s mean radii lasts s / (2 u)
+/// steps, so a rebuild costs 2 u r / s a body and step, r nanoseconds being the cost of a rebuild a body; the skin
+/// makes the list longer by n s pairs a body, which are tested at a cost of t each. The sum is least at s = sqrt(2 u r
+/// / (n t)). Measured with bench/bench_neighbours: see docs/performance.md; with r = 80 ns, n = 3.1 and t = 2.5 ns, s =
+/// 0.14 for u = 1e-3 (a rapid flow), 0.05 for u = 1e-4. The curve is flat to the right of its minimum where rebuilds
+/// are rare: 0.15 costs a quasistatic run 1 ns a body and step and spares a flow its rebuilds.
+#include "search/neighbours.h"
+#include "search/search.h"
+
+#include <string.h>
+
+/// Mean radii.
+static const double default_skin = 0.15;
+
+scree_status scree_work_create(scree_work *work, const scree_model *model, int threads, scree_error *error)
+{
+    memset(work, 0, sizeof *work);
+    work->threads = threads > 1 ? threads : 1;
+    work->ledger = true;
+    work->skin = default_skin * model->mean_radius;
+    scree_status status = scree_allocate(&work->search, 1, sizeof *work->search, error);
+    if (!status)
+        status = scree_allocate(&work->search->chunk, (size_t)work->threads, sizeof *work->search->chunk, error);
+    if (status)
+        scree_work_destroy(work);
+    else
+        work->search->chunks = work->threads;
+    return status;
+}
+
+void scree_work_destroy(scree_work *work)
+{
+    scree_search *search = work->search;
+    if (search) {
+        for (int c = 0; c < search->chunks; c++) scree_pair_chunk_destroy(&search->chunk[c]);
+        scree_release(&search->chunk);
+        scree_cell_grid_destroy(&search->grid);
+        scree_release(&search->entry_begin);
+        scree_release(&search->entry);
+    }
+    scree_release(&work->search);
+    scree_release(&work->pairs.first);
+    scree_release(&work->pairs.second);
+    scree_release(&work->pairs.history);
+    scree_release(&work->wall_pairs.body);
+    scree_release(&work->wall_pairs.wall);
+    scree_release(&work->wall_pairs.history);
+    memset(work, 0, sizeof *work);
+}

@@ -1,0 +1,176 @@
+/// The tables of everything in a state: where it lies, its unit, what it means. Every member of `scree_state` is in one
+/// of them except the counts (they are the lengths of the arrays) and row_of_id (the inverse of `id`).
+#include "state/fields.h"
+
+#include <stddef.h>
+#include <string.h>
+
+// Offsets of component 0 and strides, for arrays of structures, plain arrays, walls and single values.
+#define IN_ARRAY(array, type, member)                                                                                  \
+    .array_offset = offsetof(scree_state, array), .stride = sizeof(type), .offset = offsetof(type, member)
+#define PLAIN_ARRAY(array, type) .array_offset = offsetof(scree_state, array), .stride = sizeof(type), .offset = 0
+
+const scree_field scree_fields[] = {
+    {"id", SCREE_FIELD_UINT32, 1, "1", SCREE_FIELD_STATE, true, "number of the body, never changes",
+     PLAIN_ARRAY(id, uint32_t), .rows = SCREE_ROWS_BODIES},
+    {"position", SCREE_FIELD_DOUBLE, 2, "m", SCREE_FIELD_STATE, true, "centre", IN_ARRAY(row, scree_row, x),
+     .rows = SCREE_ROWS_BODIES},
+    {"radius", SCREE_FIELD_DOUBLE, 1, "m", SCREE_FIELD_STATE, true, "radius", IN_ARRAY(row, scree_row, radius),
+     .rows = SCREE_ROWS_BODIES},
+    {"mass", SCREE_FIELD_DOUBLE, 1, "kg", SCREE_FIELD_STATE, true, "mass", IN_ARRAY(row, scree_row, mass),
+     .rows = SCREE_ROWS_BODIES},
+    {"material", SCREE_FIELD_DOUBLE, 1, "1", SCREE_FIELD_STATE, true, "index of the material in the case",
+     IN_ARRAY(row, scree_row, material), .rows = SCREE_ROWS_BODIES},
+    {"angle", SCREE_FIELD_DOUBLE, 1, "rad", SCREE_FIELD_STATE, true, "rotation since the start, counter-clockwise",
+     PLAIN_ARRAY(angle, double), .rows = SCREE_ROWS_BODIES},
+    {"scheme_velocity", SCREE_FIELD_DOUBLE, 2, "m/s", SCREE_FIELD_STATE, false,
+     "velocity that the integrator keeps: half a step behind the position in position_verlet",
+     IN_ARRAY(row, scree_row, vx), .rows = SCREE_ROWS_BODIES},
+    {"scheme_spin", SCREE_FIELD_DOUBLE, 1, "rad/s", SCREE_FIELD_STATE, false,
+     "angular velocity that the integrator keeps, counter-clockwise", IN_ARRAY(row, scree_row, spin),
+     .rows = SCREE_ROWS_BODIES},
+    {"reference_x", SCREE_FIELD_DOUBLE, 1, "m", SCREE_FIELD_STATE, false, "x at the start of the loading stage",
+     PLAIN_ARRAY(reference_x, double), .rows = SCREE_ROWS_BODIES},
+    {"reference_y", SCREE_FIELD_DOUBLE, 1, "m", SCREE_FIELD_STATE, false, "y at the start of the loading stage",
+     PLAIN_ARRAY(reference_y, double), .rows = SCREE_ROWS_BODIES},
+    {"force_sum", SCREE_FIELD_INT64, 2, "1", SCREE_FIELD_STATE, false,
+     "sum of the contact and boundary forces, in units of scalars/force_quantum", IN_ARRAY(sum, scree_sum_row, fx),
+     .rows = SCREE_ROWS_BODIES},
+    {"torque_sum", SCREE_FIELD_INT64, 1, "1", SCREE_FIELD_STATE, false,
+     "sum of the contact torques, in units of scalars/torque_quantum", IN_ARRAY(sum, scree_sum_row, torque),
+     .rows = SCREE_ROWS_BODIES},
+    {"coordination", SCREE_FIELD_INT64, 1, "1", SCREE_FIELD_STATE, true, "number of touching neighbours and walls",
+     IN_ARRAY(sum, scree_sum_row, contacts), .rows = SCREE_ROWS_BODIES},
+    {"rebuild_x", SCREE_FIELD_DOUBLE, 1, "m", SCREE_FIELD_DERIVED, false, "x at the last rebuild of the neighbour list",
+     PLAIN_ARRAY(rebuild_x, double), .rows = SCREE_ROWS_BODIES},
+    {"rebuild_y", SCREE_FIELD_DOUBLE, 1, "m", SCREE_FIELD_DERIVED, false, "y at the last rebuild of the neighbour list",
+     PLAIN_ARRAY(rebuild_y, double), .rows = SCREE_ROWS_BODIES},
+};
+const size_t scree_field_count = sizeof scree_fields / sizeof *scree_fields;
+
+#define CONTACT(name_, type_, components_, unit_, member, meaning_)                                                    \
+    {                                                                                                                  \
+        "contacts/" name_, type_, components_, unit_, SCREE_FIELD_STATE, false, meaning_,                              \
+            IN_ARRAY(contact, scree_contact_memory, member), .rows = SCREE_ROWS_CONTACTS                               \
+    }
+#define LOOP(name_, type_, c_type, unit_, member, meaning_)                                                            \
+    {                                                                                                                  \
+        "boundary/" name_, type_, 1, unit_, SCREE_FIELD_STATE, true, meaning_, PLAIN_ARRAY(loop.member, c_type),       \
+            .rows = SCREE_ROWS_LOOP                                                                                    \
+    }
+#define WALL(name_, type_, components_, unit_, member, meaning_)                                                       \
+    {                                                                                                                  \
+        "walls/" name_, type_, components_, unit_, SCREE_FIELD_STATE, true, meaning_,                                  \
+            .array_offset = offsetof(scree_state, wall), .stride = sizeof(scree_wall),                                 \
+            .offset = offsetof(scree_wall, member), .rows = SCREE_ROWS_WALLS                                           \
+    }
+#define ONE(name_, type_, components_, unit_, member, meaning_)                                                        \
+    {                                                                                                                  \
+        name_, type_, components_, unit_, SCREE_FIELD_STATE, false, meaning_,                                          \
+            .array_offset = offsetof(scree_state, member), .stride = sizeof(((scree_state *)0)->member), .offset = 0,  \
+            .rows = SCREE_ROWS_ONE                                                                                     \
+    }
+
+const scree_field scree_members[] = {
+    CONTACT("first", SCREE_FIELD_UINT32, 1, "1", first, "id of the first body"),
+    CONTACT("second", SCREE_FIELD_UINT32, 1, "1", second,
+            "id of the second body, larger than the first; 4294967280 + index for a wall"),
+    CONTACT("history", SCREE_FIELD_DOUBLE, SCREE_HISTORY, "1", history, "memory of the contact law, in its own units"),
+
+    LOOP("id", SCREE_FIELD_UINT32, uint32_t, "1", id, "bodies along the closed boundary, counter-clockwise, by id"),
+    LOOP("loaded", SCREE_FIELD_UINT8, uint8_t, "1", loaded,
+         "1: the edge from this body to the next carries the lateral pressure"),
+    LOOP("x", SCREE_FIELD_DOUBLE, double, "m", x, "x when the boundary was last found"),
+    LOOP("y", SCREE_FIELD_DOUBLE, double, "m", y, "y when the boundary was last found"),
+    LOOP("force_x", SCREE_FIELD_DOUBLE, double, "N", fx, "x component of the force of the pressure on this body"),
+    LOOP("force_y", SCREE_FIELD_DOUBLE, double, "N", fy, "y component of the force of the pressure on this body"),
+
+    WALL("position", SCREE_FIELD_DOUBLE, 1, "m", position, "position along the normal: normal . x = position"),
+    WALL("normal", SCREE_FIELD_DOUBLE, 2, "1", normal, "unit normal, towards the bodies"),
+    WALL("velocity", SCREE_FIELD_DOUBLE, 1, "m/s", velocity, "velocity along the normal"),
+    WALL("tangential_velocity", SCREE_FIELD_DOUBLE, 1, "m/s", tangential_velocity,
+         "velocity along (-normal y, normal x)"),
+    WALL("force", SCREE_FIELD_DOUBLE, 1, "N", force, "normal force of the bodies on the wall, compression positive"),
+    WALL("shear", SCREE_FIELD_DOUBLE, 1, "N", shear, "force of the bodies on the wall along (-normal y, normal x)"),
+    WALL("active", SCREE_FIELD_INT32, 1, "1", active, "1: the wall exists in this stage"),
+    WALL("material", SCREE_FIELD_INT32, 1, "1", material, "index of the material in the case"),
+
+    ONE("scalars/step", SCREE_FIELD_UINT64, 1, "1", step, "steps since the start of the run"),
+    ONE("scalars/step_size", SCREE_FIELD_DOUBLE, 1, "s", step_size, "time step"),
+    ONE("scalars/force_quantum", SCREE_FIELD_DOUBLE, 1, "N", force_quantum, "unit of force_sum"),
+    ONE("scalars/torque_quantum", SCREE_FIELD_DOUBLE, 1, "N m", torque_quantum, "unit of torque_sum"),
+    ONE("scalars/largest_overlap", SCREE_FIELD_DOUBLE, 1, "m", largest_overlap, "largest indentation of all contacts"),
+    ONE("scalars/largest_speed", SCREE_FIELD_DOUBLE, 1, "m/s", largest_speed,
+        "bound of the surface speed of all bodies"),
+    ONE("scalars/pressure", SCREE_FIELD_DOUBLE, 1, "Pa", pressure, "lateral pressure applied now"),
+    ONE("scalars/boundary_updated", SCREE_FIELD_UINT64, 1, "1", loop.updated,
+        "step at which the boundary was last found"),
+
+    ONE("strain/gradient", SCREE_FIELD_DOUBLE, 4, "1", strain.gradient,
+        "displacement gradient accumulated from the boundary: xx, xy, yx, yy, extension positive"),
+
+    ONE("ledger/damping", SCREE_FIELD_DOUBLE, 1, "J", ledger.damping, "energy dissipated by contact damping"),
+    ONE("ledger/friction", SCREE_FIELD_DOUBLE, 1, "J", ledger.friction, "energy dissipated by sliding"),
+    ONE("ledger/stiffness", SCREE_FIELD_DOUBLE, 1, "J", ledger.stiffness,
+        "energy put into tangential springs by the change of their stiffness"),
+    ONE("ledger/plates", SCREE_FIELD_DOUBLE, 1, "J", ledger.plates, "work of the walls on the bodies"),
+    ONE("ledger/pressure", SCREE_FIELD_DOUBLE, 1, "J", ledger.pressure, "work of the pressure on the bodies"),
+    ONE("ledger/gravity", SCREE_FIELD_DOUBLE, 1, "J", ledger.gravity, "work of gravity on the bodies"),
+    ONE("ledger/initial", SCREE_FIELD_DOUBLE, 1, "J", ledger.initial, "energy when the ledger was opened"),
+    ONE("ledger/turnover", SCREE_FIELD_DOUBLE, 1, "J", ledger.turnover, "sum of the magnitudes of all work increments"),
+
+    ONE("stage/index", SCREE_FIELD_INT64, 1, "1", stage.index, "number of the stage in the case"),
+    ONE("stage/first_step", SCREE_FIELD_UINT64, 1, "1", stage.first_step, "step at which the stage began"),
+    ONE("stage/first_time", SCREE_FIELD_DOUBLE, 1, "s", stage.first_time, "time at which the stage began"),
+    ONE("stage/reference", SCREE_FIELD_DOUBLE, 8, "1", stage.reference, "numbers of the stage, in its own SI units"),
+    ONE("stage/samples", SCREE_FIELD_INT64, 1, "1", stage.samples, "rows of series.csv written in this stage"),
+    ONE("stage/snapshots", SCREE_FIELD_INT64, 1, "1", stage.snapshots, "snapshots written in this stage"),
+    ONE("stage/counter", SCREE_FIELD_INT64, 1, "1", stage.counter, "counter of the stage"),
+};
+const size_t scree_member_count = sizeof scree_members / sizeof *scree_members;
+
+size_t scree_field_size(scree_field_type type)
+{
+    switch (type) {
+    case SCREE_FIELD_DOUBLE:
+    case SCREE_FIELD_INT64:
+    case SCREE_FIELD_UINT64:
+        return 8;
+    case SCREE_FIELD_INT32:
+    case SCREE_FIELD_UINT32:
+        return 4;
+    case SCREE_FIELD_UINT8:
+        break;
+    }
+    return 1;
+}
+
+size_t scree_field_rows_count(const scree_state *state, const scree_field *field)
+{
+    switch (field->rows) {
+    case SCREE_ROWS_BODIES:
+        return state->count;
+    case SCREE_ROWS_CONTACTS:
+        return state->contact_count;
+    case SCREE_ROWS_LOOP:
+        return state->loop.count;
+    case SCREE_ROWS_WALLS:
+        return SCREE_WALL_COUNT;
+    case SCREE_ROWS_ONE:
+        break;
+    }
+    return 1;
+}
+
+const void *scree_field_get(const scree_state *state, const scree_field *field, size_t row)
+{
+    const unsigned char *place = (const unsigned char *)state + field->array_offset, *first = place;
+    // Bodies, contacts and loop are behind a pointer; walls and single values are in the state itself.
+    if (field->rows <= SCREE_ROWS_LOOP) memcpy(&first, place, sizeof(void *));
+    return first + row * field->stride + field->offset;
+}
+
+void *scree_field_get_mutable(scree_state *state, const scree_field *field, size_t row)
+{
+    return (void *)(uintptr_t)scree_field_get(state, field, row);
+}

@@ -1,0 +1,243 @@
+/// Charts: a CSV of the values, a gnuplot script that draws them, and the figures it makes. The script uses relative
+/// names, so the folder can be moved and the figure changed by hand: `gnuplot NAME.gp`.
+/// Palette: Okabe and Ito 2008, made for all kinds of colour blindness (without its yellow, too light for lines).
+#include "view/chart.h"
+
+#include "io/run_directory.h"
+#include "view/gnuplot.h"
+#include "view/page.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#define WIDTH      720 /* pt of the SVG; the PNG has PNG_SCALE pixels for each */
+#define HEIGHT     450
+#define PNG_SCALE  3
+#define COLOURS    7
+#define TEXT_LIMIT 512
+
+static const char *const palette[COLOURS] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                             "#56b4e9", "#e69f00", "#000000"};
+
+typedef struct chart_place {
+    char folder[PATH_MAX];
+    const char *name; ///< of the figure, without folder and extension
+} chart_place;
+
+static bool drawable(const scree_chart *chart, double x, double y)
+{
+    return isfinite(x) && isfinite(y) && !(chart->log_x && x <= 0) && !(chart->log_y && y <= 0);
+}
+
+static bool line_drawable(const scree_chart *chart, const scree_chart_line *line)
+{
+    for (size_t k = 0; k < line->count; k++)
+        if (drawable(chart, line->x[k], line->y[k])) return true;
+    return false;
+}
+
+/// Text in double quotes for gnuplot. In them it runs what stands in back quotes, so these are written by their number.
+static void write_quoted(FILE *file, const char *text)
+{
+    char clean[TEXT_LIMIT];
+    scree_text_clean(clean, sizeof clean, text ? text : "");
+    fputc('"', file);
+    for (const char *c = clean; *c; c++) {
+        if (*c == '"' || *c == '\\') fputc('\\', file);
+        if (*c == '`')
+            fputs("\\140", file);
+        else
+            fputc(*c, file);
+    }
+    fputc('"', file);
+}
+
+/// The title: bold, `size` times the usual size, with everything that enhanced text would interpret escaped.
+static void write_title(FILE *file, const char *title, double size)
+{
+    char text[2 * TEXT_LIMIT];
+    int used = snprintf(text, sizeof text, "{/:Bold*%.2f ", size);
+    for (const char *c = title ? title : ""; *c && used < TEXT_LIMIT - 4; c++) {
+        if (strchr("\\^_{}@&~", *c)) text[used++] = '\\';
+        text[used++] = *c;
+    }
+    text[used++] = '}';
+    text[used] = '\0';
+    write_quoted(file, text);
+}
+
+/// Text in double quotes for CSV (RFC 4180).
+static void write_csv_text(FILE *file, const char *text)
+{
+    char clean[TEXT_LIMIT];
+    scree_text_clean(clean, sizeof clean, text ? text : "");
+    fputc('"', file);
+    for (const char *c = clean; *c; c++) fputs(*c == '"' ? "\"\"" : (char[]){*c, '\0'}, file);
+    fputc('"', file);
+}
+
+/// A line shares the x column of the line before it when its x is the same array.
+static bool shares_x(const scree_chart *chart, size_t line)
+{
+    return line > 0 && chart->line[line].x == chart->line[line - 1].x &&
+           chart->line[line].count == chart->line[line - 1].count;
+}
+
+static void write_value(FILE *file, const scree_chart_line *line, const double *value, size_t row)
+{
+    if (row < line->count && isfinite(value[row]))
+        fprintf(file, "%.9g", value[row]);
+    else
+        fputs("nan", file);
+}
+
+static void write_data(FILE *file, const scree_chart *chart)
+{
+    size_t rows = 0;
+    for (size_t k = 0; k < chart->line_count; k++) {
+        const scree_chart_line *line = &chart->line[k];
+        if (line->count > rows) rows = line->count;
+        if (!shares_x(chart, k)) {
+            if (k > 0) fputc(',', file);
+            write_csv_text(file, chart->x_label);
+        }
+        fputc(',', file);
+        write_csv_text(file, line->label ? line->label : chart->y_label);
+    }
+    fputc('\n', file);
+    for (size_t row = 0; row < rows; row++) {
+        for (size_t k = 0; k < chart->line_count; k++) {
+            const scree_chart_line *line = &chart->line[k];
+            if (!shares_x(chart, k)) {
+                if (k > 0) fputc(',', file);
+                write_value(file, line, line->x, row);
+            }
+            fputc(',', file);
+            write_value(file, line, line->y, row);
+        }
+        fputc('\n', file);
+    }
+}
+
+static void write_plot(FILE *file, const scree_chart *chart, const char *name)
+{
+    size_t column = 0, x_column = 0, written = 0;
+    for (size_t k = 0; k < chart->line_count; k++) {
+        const scree_chart_line *line = &chart->line[k];
+        if (!shares_x(chart, k)) x_column = ++column;
+        column++;
+        if (!line_drawable(chart, line)) continue;
+        fputs(written == 0 ? "plot " : ", \\\n     ", file);
+        write_quoted(file, name);
+        fprintf(file, ".'.csv' skip 1 using %zu:%zu with %s", x_column, column, line->points ? "linespoints" : "lines");
+        int colour = line->colour > 0 ? (line->colour - 1) % COLOURS : (int)(written % COLOURS);
+        fprintf(file, " linecolor rgb '%s' linewidth 2 dashtype %s", palette[colour], line->dashed ? "(7,4)" : "solid");
+        if (line->points) fputs(" pointtype 7 pointsize 0.5", file);
+        if (line->label) {
+            fputs(" title ", file);
+            write_quoted(file, line->label);
+        } else {
+            fputs(" notitle", file);
+        }
+        written++;
+    }
+    fputc('\n', file);
+}
+
+static void write_output(FILE *file, const char *name, const char *extension, const char *terminal)
+{
+    fprintf(file, "\nset terminal %s\nset output ", terminal);
+    write_quoted(file, name);
+    fprintf(file, ".'.%s'\n", extension);
+}
+
+/// Everything but the data: the look of all charts.
+static void write_style(FILE *file, const scree_chart *chart)
+{
+    // A long title is set smaller, so that it stays on the page.
+    size_t length = chart->title ? strlen(chart->title) : 0;
+    double title_size = length > 60 ? fmax(0.4, 1.15 * 60 / (double)length) : 1.15;
+    fputs("set encoding utf8\nset datafile separator comma\nset datafile missing 'nan'\nset minussign\nset label 1 ",
+          file);
+    write_title(file, chart->title, title_size);
+    fputs(" at screen 0.02,0.955 left textcolor rgb '#222222'\n", file);
+    fputs("set xlabel ", file);
+    write_quoted(file, chart->x_label);
+    fputs("\nset ylabel ", file);
+    write_quoted(file, chart->y_label);
+    fputs(" offset 0.5,0\nset border 3 linecolor rgb '#333333' linewidth 1\n"
+          "set tics nomirror out scale 0.6 textcolor rgb '#222222'\nset mxtics 2\n"
+          "set grid back xtics ytics linetype 1 linecolor rgb '#e4e4e4' linewidth 0.8\n"
+          "set xzeroaxis linetype 1 linecolor rgb '#999999' linewidth 1\n"
+          "set autoscale xfix\nset lmargin at screen 0.125\nset bmargin at screen 0.15\nset tmargin at screen 0.89\n",
+          file);
+    bool legend = false;
+    for (size_t k = 0; k < chart->line_count; k++) legend |= chart->line[k].label != NULL;
+    fputs(legend ? "set rmargin at screen 0.70\n"
+                   "set key at screen 0.715,0.90 left top vertical Left reverse samplen 2.2 spacing 1.35\n"
+                 : "set rmargin at screen 0.965\nunset key\n",
+          file);
+    if (chart->log_x) fputs("set logscale x\nset format x '10^{%L}'\n", file);
+    if (chart->log_y) fputs("set logscale y\nset format y '10^{%L}'\n", file);
+}
+
+static void write_script(FILE *file, const scree_chart *chart, const char *name)
+{
+    char terminal[256];
+    fprintf(file, "# Run in this folder to draw the figure again: gnuplot %s.gp\n", name);
+    write_style(file, chart);
+    (void)snprintf(terminal, sizeof terminal,
+                   "svg size %d,%d dynamic enhanced font 'DejaVu Sans,13' background rgb 'white'", WIDTH, HEIGHT);
+    write_output(file, name, "svg", terminal);
+    write_plot(file, chart, name);
+    (void)snprintf(terminal, sizeof terminal,
+                   "pngcairo size %d,%d enhanced font 'DejaVu Sans,10' fontscale %d linewidth %d", WIDTH * PNG_SCALE,
+                   HEIGHT * PNG_SCALE, PNG_SCALE, PNG_SCALE);
+    write_output(file, name, "png", terminal);
+    fputs("replot\nset output\n", file);
+}
+
+static scree_status split_path(const char *path, chart_place *place, scree_error *error)
+{
+    const char *slash = strrchr(path, '/');
+    size_t length = slash ? (size_t)(slash - path) : 0;
+    place->name = slash ? slash + 1 : path;
+    if (length + 1 >= sizeof place->folder || strlen(place->name) > 240)
+        return scree_error_set(error, SCREE_ERROR_IO, "the path of the figure '%s' is too long", path);
+    for (const char *c = place->name; *c; c++)
+        if ((unsigned char)*c < 0x20)
+            return scree_error_set(error, SCREE_ERROR_IO, "the figure '%s' has a control character in its name", path);
+    memcpy(place->folder, path, length);
+    if (length == 0) place->folder[length++] = slash ? '/' : '.';
+    place->folder[length] = '\0';
+    return SCREE_OK;
+}
+
+scree_status scree_chart_draw(const char *path, const scree_chart *chart, scree_error *error)
+{
+    chart_place place;
+    scree_status status = split_path(path, &place, error);
+    if (status) return status;
+    bool any = false;
+    for (size_t k = 0; k < chart->line_count; k++) any |= line_drawable(chart, &chart->line[k]);
+    if (!any) return scree_error_set(error, SCREE_ERROR_INPUT, "the chart '%s' has no value to draw", place.name);
+    char file_name[PATH_MAX + 8], script[256];
+    FILE *file;
+    (void)snprintf(file_name, sizeof file_name, "%s.csv", path);
+    status = scree_replace_begin(file_name, &file, error);
+    if (status) return status;
+    write_data(file, chart);
+    status = scree_replace_finish(file_name, file, true, error);
+    if (status) return status;
+    (void)snprintf(file_name, sizeof file_name, "%s.gp", path);
+    status = scree_replace_begin(file_name, &file, error);
+    if (status) return status;
+    write_script(file, chart, place.name);
+    status = scree_replace_finish(file_name, file, true, error);
+    if (status) return status;
+    (void)snprintf(script, sizeof script, "%s.gp", place.name);
+    return scree_gnuplot_run(place.folder, script, error);
+}

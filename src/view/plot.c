@@ -1,0 +1,106 @@
+/// All figures of a run directory. A figure that cannot be drawn does not keep the others from being drawn: the first
+/// failure is what scree_plot returns at the end.
+#include "view/plot_parts.h"
+
+#include "base/memory.h"
+#include "io/run_directory.h"
+
+#include <scree/scree.h>
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <sys/stat.h>
+
+static void tell(const scree_plot_run *run, const char *line)
+{
+    if (run->message) run->message(run->user, line);
+}
+
+void scree_plot_report(scree_plot_run *run, const char *name, scree_status status, const scree_error *error)
+{
+    char line[PATH_MAX + 300];
+    if (status == SCREE_OK)
+        (void)snprintf(line, sizeof line, "%s/%s.svg", run->figures, name);
+    else
+        (void)snprintf(line, sizeof line, "%s %s: %.900s", name, status == SCREE_ERROR_INPUT ? "left out" : "failed",
+                       error->message);
+    tell(run, line);
+    if (status == SCREE_OK || status == SCREE_ERROR_INPUT || run->status) return;
+    run->status = status;
+    run->error = *error;
+}
+
+/// The rows of the stage that the largest axial strain belongs to.
+static scree_status find_loading_rows(scree_plot_run *run, scree_error *error)
+{
+    const double *strain = scree_series_get(&run->series, "axial_strain");
+    const double *stage = scree_series_get(&run->series, "stage");
+    scree_status status = scree_allocate(&run->row, run->series.row_count, sizeof *run->row, error);
+    if (status || !strain || !stage) return status;
+    double largest = 0, loading = NAN;
+    for (size_t k = 0; k < run->series.row_count; k++) {
+        if (!(fabs(strain[k]) > largest)) continue;
+        largest = fabs(strain[k]);
+        loading = stage[k];
+    }
+    for (size_t k = 0; k < run->series.row_count; k++)
+        if (stage[k] == loading && isfinite(strain[k])) run->row[run->row_count++] = k;
+    return SCREE_OK;
+}
+
+static scree_status read_series(scree_plot_run *run, scree_error *error)
+{
+    char path[PATH_MAX];
+    scree_status status = scree_path_join(path, sizeof path, run->directory, SCREE_FILE_SERIES, error);
+    if (!status) status = scree_series_read(&run->series, path, error);
+    if (!status) status = find_loading_rows(run, error);
+    return status;
+}
+
+/// Only the strain of each snapshot is kept: a scene reads the snapshots that it needs again.
+static scree_status read_strains(scree_plot_run *run, scree_error *error)
+{
+    scree_snapshot snapshot;
+    size_t count = 0;
+    scree_status status = scree_snapshot_count(run->directory, &count, error);
+    if (!status) status = scree_allocate(&run->strain, count, sizeof *run->strain, error);
+    for (size_t k = 0; !status && k < count; k++) {
+        status = scree_snapshot_read(run->directory, k, &snapshot, error);
+        if (status) break;
+        run->strain[run->snapshot_count++] = snapshot.axial_strain;
+        scree_snapshot_destroy(&snapshot);
+    }
+    return status;
+}
+
+scree_status scree_plot(const char *directory, void (*message)(void *user, const char *path), void *user,
+                        scree_error *error)
+{
+    scree_plot_run run = {.directory = directory, .message = message, .user = user};
+    scree_error series_error = {0}, snapshot_error = {0};
+    scree_status series = read_series(&run, &series_error);
+    scree_status snapshots = read_strains(&run, &snapshot_error);
+    scree_status status = SCREE_OK;
+    if (series && snapshots && run.snapshot_count == 0) {
+        status = scree_error_set(error, SCREE_ERROR_IO, "no run to draw in '%s': %s", directory, series_error.message);
+    } else {
+        status = scree_path_join(run.figures, sizeof run.figures, directory, SCREE_FOLDER_FIGURES, error);
+        if (!status && mkdir(run.figures, 0777) != 0 && errno != EEXIST)
+            status = scree_error_set_errno(error, SCREE_ERROR_IO, "cannot create the folder '%s'", run.figures);
+    }
+    if (!status) {
+        if (series)
+            scree_plot_report(&run, SCREE_FILE_SERIES, series, &series_error);
+        else
+            scree_plot_charts(&run);
+        if (snapshots) scree_plot_report(&run, SCREE_FILE_RUN, snapshots, &snapshot_error);
+        scree_plot_scenes(&run);
+        status = run.status;
+        if (status && error) *error = run.error;
+    }
+    scree_series_destroy(&run.series);
+    scree_release(&run.row);
+    scree_release(&run.strain);
+    return status;
+}

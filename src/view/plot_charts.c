@@ -1,0 +1,130 @@
+/// The charts of a run: columns of series.csv over the axial strain of the loading stage.
+#include "view/plot_parts.h"
+
+#include "base/memory.h"
+#include "io/run_directory.h"
+#include "view/chart.h"
+
+#define CURVES 12
+
+enum { AUTOMATIC, BLUE, VERMILLION, GREEN, PINK, SKY, ORANGE, BLACK };
+
+typedef struct curve {
+    const char *column, *label;
+    double factor; ///< from the unit of the column to that of the axis
+    int colour;
+    bool dashed;
+} curve;
+
+static const struct chart_entry {
+    const char *name, *title, *y_label;
+    bool log_y;
+    curve curve[CURVES]; ///< ended by a column that is NULL
+} charts[] = {
+    {"volumetric-strain",
+     "Volumetric strain",
+     "dilation −ε_v (%), positive: volume grows",
+     false,
+     {{"volumetric_strain", NULL, -100, BLUE, false}}},
+    {"stress-ratio",
+     "Stress ratio",
+     "axial over lateral stress (1)",
+     false,
+     {{"stress_ratio", "from plates", 1, BLUE, false},
+      {"stress_ratio_contacts", "from contacts", 1, VERMILLION, true}}},
+    {"slip", "Slip at contacts", "mean slip speed / v_R (1)", false, {{"slip_ratio", NULL, 1, BLUE, false}}},
+    {"stress",
+     "Stress from plates and from contacts",
+     "stress (kPa), compression positive",
+     false,
+     {{"stress_axial_plates", "axial, plates", 1e-3, BLUE, false},
+      {"stress_axial_contacts", "axial, contacts", 1e-3, SKY, true},
+      {"stress_lateral_applied", "lateral, applied", 1e-3, VERMILLION, false},
+      {"stress_lateral_contacts", "lateral, contacts", 1e-3, ORANGE, true}}},
+    {"energy",
+     "Energy ledger",
+     "energy (J)",
+     false,
+     {{"work_plates", "work of plates", 1, BLUE, false},
+      {"work_pressure", "work of pressure", 1, SKY, false},
+      {"work_gravity", "work of gravity", 1, GREEN, false},
+      {"dissipated_friction", "lost to friction", 1, VERMILLION, false},
+      {"dissipated_damping", "lost to damping", 1, ORANGE, false},
+      {"elastic_normal", "elastic, normal", 1, PINK, false},
+      {"elastic_tangential", "elastic, tangential", 1, PINK, true},
+      {"kinetic", "kinetic", 1, BLACK, true},
+      {"stiffness_work", "change of stiffness", 1, GREEN, true},
+      {"energy_residual", "residual", 1, BLACK, false}}},
+    {"energy-stored",
+     "Stored energy and residual",
+     "energy (J)",
+     false,
+     {{"elastic_normal", "elastic, normal", 1, PINK, false},
+      {"elastic_tangential", "elastic, tangential", 1, PINK, true},
+      {"kinetic", "kinetic", 1, BLACK, true},
+      {"stiffness_work", "change of stiffness", 1, GREEN, true},
+      {"energy_residual", "residual", 1, BLACK, false}}},
+    {"coordination",
+     "Coordination",
+     "contacts per particle (1)",
+     false,
+     {{"coordination", "all particles", 1, BLUE, false},
+      {"coordination_without_rattlers", "without rattlers", 1, VERMILLION, true}}},
+    {"solid-fraction", "Solid fraction", "solid fraction (1)", false, {{"solid_fraction", NULL, 1, BLUE, false}}},
+    {"unbalanced-force",
+     "Unbalanced force",
+     "mean unbalanced over mean contact force (1)",
+     true,
+     {{"unbalanced_ratio", NULL, 1, BLUE, false}}},
+};
+
+/// The loading rows of `column`, times `factor`, into `value`. False: there is no such column.
+static bool gather(const scree_plot_run *run, const char *column, double factor, double *value)
+{
+    const double *all = scree_series_get(&run->series, column);
+    for (size_t k = 0; all && k < run->row_count; k++) value[k] = factor * all[run->row[k]];
+    return all != NULL;
+}
+
+static scree_status draw_chart(const scree_plot_run *run, const struct chart_entry *entry, double *value,
+                               scree_error *error)
+{
+    char path[PATH_MAX];
+    scree_chart_line line[CURVES];
+    scree_status status = scree_path_join(path, sizeof path, run->figures, entry->name, error);
+    if (status) return status;
+    if (run->row_count == 0)
+        return scree_error_set(error, SCREE_ERROR_INPUT, "%s has no rows of a loading stage", SCREE_FILE_SERIES);
+    size_t count = 0;
+    (void)gather(run, "axial_strain", 100, value);
+    for (const curve *c = entry->curve; c->column; c++) {
+        double *y = value + (count + 1) * run->row_count;
+        if (!gather(run, c->column, c->factor, y))
+            return scree_error_set(error, SCREE_ERROR_INPUT, "%s has no column '%s'", SCREE_FILE_SERIES, c->column);
+        line[count++] = (scree_chart_line){
+            .x = value, .y = y, .count = run->row_count, .label = c->label, .dashed = c->dashed, .colour = c->colour};
+    }
+    scree_chart chart = {.title = entry->title,
+                         .x_label = "axial strain (%)",
+                         .y_label = entry->y_label,
+                         .line = line,
+                         .line_count = count,
+                         .log_y = entry->log_y};
+    return scree_chart_draw(path, &chart, error);
+}
+
+void scree_plot_charts(scree_plot_run *run)
+{
+    double *value;
+    scree_error error = {0};
+    scree_status status = scree_allocate(&value, (CURVES + 1) * run->row_count, sizeof *value, &error);
+    if (status) {
+        scree_plot_report(run, "charts", status, &error);
+        return;
+    }
+    for (size_t k = 0; k < sizeof charts / sizeof charts[0]; k++) {
+        status = draw_chart(run, &charts[k], value, &error);
+        scree_plot_report(run, charts[k].name, status, &error);
+    }
+    scree_release(&value);
+}

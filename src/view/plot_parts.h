@@ -1,0 +1,33 @@
+/// What the charts and the scenes of a run share. Private to src/view/.
+#ifndef SCREE_VIEW_PLOT_PARTS_H
+#define SCREE_VIEW_PLOT_PARTS_H
+
+#include "io/series.h"
+#include "io/snapshot.h"
+
+#include <limits.h>
+#include <stdbool.h>
+
+typedef struct scree_plot_run {
+    const char *directory;
+    char figures[PATH_MAX]; ///< folder that the figures go to
+    void (*message)(void *user, const char *line);
+    void *user;
+    scree_series series; ///< no column when it could not be read
+    size_t *row;         ///< rows of the loading stage
+    size_t row_count;
+    double *strain; ///< axial strain of each snapshot, NAN outside loading
+    size_t snapshot_count;
+    scree_status status; ///< of the first figure that failed; the others are drawn all the same
+    scree_error error;
+} scree_plot_run;
+
+/// Tells that the figure `name` was drawn, was left out (SCREE_ERROR_INPUT: the run does not have what it shows), or
+/// failed.
+void scree_plot_report(scree_plot_run *run, const char *name, scree_status status, const scree_error *error);
+
+/// Draws all charts from run->series, and all scenes from the snapshots.
+void scree_plot_charts(scree_plot_run *run);
+void scree_plot_scenes(scree_plot_run *run);
+
+#endif

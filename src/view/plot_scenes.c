@@ -1,0 +1,196 @@
+/// The scenes of a run: single snapshots, and displacements between two of them.
+#include "view/plot_parts.h"
+
+#include "base/memory.h"
+#include "io/run_directory.h"
+#include "measure/measure.h"
+#include "view/scene.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { WHEN_START, WHEN_PEAK, WHEN_END };
+enum { FIELD_NONE, FIELD_ROTATION, FIELD_SPIN, FIELD_SPEED };
+
+static const struct field_entry {
+    const char *label;
+    scree_colour_map map;
+} fields[] = {
+    [FIELD_ROTATION] = {"rotation since the start of loading (degrees), counter-clockwise positive",
+                        SCREE_COLOUR_DIVERGING},
+    [FIELD_SPIN] = {"spin (rad/s), counter-clockwise positive", SCREE_COLOUR_DIVERGING},
+    [FIELD_SPEED] = {"speed (mm/s)", SCREE_COLOUR_SEQUENTIAL},
+};
+
+static const struct scene_entry {
+    const char *name, *title;
+    int when, field;
+    bool force_network, boundary;
+} scenes[] = {
+    {"packing-start", "Packing at the start of loading", WHEN_START, FIELD_NONE, false, true},
+    {"packing-end", "Packing at the end: rotations", WHEN_END, FIELD_ROTATION, false, true},
+    {"forces-peak", "Force network at the peak of the stress ratio", WHEN_PEAK, FIELD_NONE, true, false},
+    {"forces-end", "Force network at the end", WHEN_END, FIELD_NONE, true, false},
+    {"speed-end", "Speed at the end", WHEN_END, FIELD_SPEED, false, false},
+    {"spin-end", "Spin at the end", WHEN_END, FIELD_SPIN, false, false},
+};
+
+/// Strain windows of the displacement fluctuations, as parts of the loaded strain.
+static const double windows[][2] = {{0, 0.25}, {0.75, 1}};
+
+/// First, or last, snapshot of the loading stage; of all when nothing was loaded.
+static size_t end_snapshot(const scree_plot_run *run, bool last)
+{
+    for (size_t k = 0; k < run->snapshot_count; k++) {
+        size_t which = last ? run->snapshot_count - 1 - k : k;
+        if (isfinite(run->strain[which])) return which;
+    }
+    return last ? run->snapshot_count - 1 : 0;
+}
+
+static size_t nearest_snapshot(const scree_plot_run *run, double strain)
+{
+    size_t best = end_snapshot(run, false);
+    for (size_t k = 0; k < run->snapshot_count; k++)
+        if (fabs(run->strain[k] - strain) < fabs(run->strain[best] - strain)) best = k;
+    return best;
+}
+
+static scree_status find_snapshot(const scree_plot_run *run, int when, size_t *which, scree_error *error)
+{
+    *which = end_snapshot(run, when == WHEN_END);
+    if (when != WHEN_PEAK) return SCREE_OK;
+    const double *strain = scree_series_get(&run->series, "axial_strain");
+    const double *ratio = scree_series_get(&run->series, "stress_ratio");
+    double highest = -INFINITY;
+    for (size_t k = 0; strain && ratio && k < run->row_count; k++) {
+        if (!(ratio[run->row[k]] > highest)) continue;
+        highest = ratio[run->row[k]];
+        *which = nearest_snapshot(run, strain[run->row[k]]);
+    }
+    if (isfinite(highest)) return SCREE_OK;
+    return scree_error_set(error, SCREE_ERROR_INPUT, "%s has no stress ratio to find the peak of", SCREE_FILE_SERIES);
+}
+
+static double field_value(int field, const scree_snapshot *start, const scree_snapshot *now, size_t k)
+{
+    switch (field) {
+    case FIELD_ROTATION:
+        return (now->angle[k] - start->angle[k]) * 180 / M_PI;
+    case FIELD_SPIN:
+        return now->spin[k];
+    default:
+        return 1e3 * hypot(now->vx[k], now->vy[k]);
+    }
+}
+
+static scree_status draw_scene(const scree_plot_run *run, const struct scene_entry *entry, const scree_snapshot *start,
+                               const scree_snapshot *now, scree_error *error)
+{
+    char path[PATH_MAX];
+    double *field = NULL;
+    scree_status status = scree_path_join(path, sizeof path, run->figures, entry->name, error);
+    if (!status && entry->field != FIELD_NONE) status = scree_allocate(&field, now->count, sizeof *field, error);
+    for (size_t k = 0; field && k < now->count; k++) field[k] = field_value(entry->field, start, now, k);
+    scree_scene scene = {.title = entry->title,
+                         .field = field,
+                         .field_name = fields[entry->field].label,
+                         .map = fields[entry->field].map,
+                         .force_network = entry->force_network,
+                         .boundary = entry->boundary,
+                         .plates = true};
+    if (!status) status = scree_scene_draw(path, now, &scene, error);
+    scree_release(&field);
+    return status;
+}
+
+/// Reads two snapshots of the same bodies. Neither is left behind on failure.
+static scree_status read_two(const scree_plot_run *run, size_t first, size_t second, scree_snapshot *a,
+                             scree_snapshot *b, scree_error *error)
+{
+    scree_status status = scree_snapshot_read(run->directory, first, a, error);
+    if (status) return status;
+    status = scree_snapshot_read(run->directory, second, b, error);
+    if (!status && a->count != b->count) {
+        status = scree_error_set(error, SCREE_ERROR_INPUT, "snapshots %zu and %zu have different numbers of particles",
+                                 first, second);
+        scree_snapshot_destroy(b);
+    }
+    if (status) scree_snapshot_destroy(a);
+    return status;
+}
+
+/// Strain as text of a file name or a title: whole percents where it is one.
+static void percent_text(char *text, size_t size, double strain, bool name)
+{
+    double percent = 100 * strain;
+    bool whole = fabs(percent - round(percent)) < 0.05;
+    if (whole) percent = round(percent) + 0.0; // no minus zero
+    (void)snprintf(text, size, "%0*.*f", !name ? 0 : whole ? 2 : 4, whole ? 0 : 1, percent);
+}
+
+static scree_status draw_fluctuations(const scree_plot_run *run, const scree_snapshot *from, const scree_snapshot *to,
+                                      char name[64], scree_error *error)
+{
+    char path[PATH_MAX], first[16], second[16], title[160];
+    double *arrow = NULL, gradient[4];
+    percent_text(first, sizeof first, from->axial_strain, true);
+    percent_text(second, sizeof second, to->axial_strain, true);
+    (void)snprintf(name, 64, "fluctuations-%s-%s", first, second);
+    percent_text(first, sizeof first, from->axial_strain, false);
+    percent_text(second, sizeof second, to->axial_strain, false);
+    (void)snprintf(title, sizeof title, "Displacements relative to the affine field, axial strain %s to %s %%", first,
+                   second);
+    scree_status status = scree_path_join(path, sizeof path, run->figures, name, error);
+    if (!status) status = scree_allocate(&arrow, 2 * from->count, sizeof *arrow, error);
+    if (!status) {
+        (void)scree_fluctuations(from->x, from->y, to->x, to->y, from->count, arrow, arrow + from->count, gradient);
+        scree_scene scene = {.title = title, .arrow_x = arrow, .arrow_y = arrow + from->count, .plates = true};
+        status = scree_scene_draw(path, from, &scene, error);
+    }
+    scree_release(&arrow);
+    return status;
+}
+
+static void plot_window(scree_plot_run *run, double from, double to)
+{
+    scree_snapshot a, b;
+    scree_error error = {0};
+    char name[64] = "fluctuations";
+    size_t first = nearest_snapshot(run, from), second = nearest_snapshot(run, to);
+    scree_status status;
+    if (first == second || !isfinite(run->strain[first]) || !isfinite(run->strain[second])) {
+        status =
+            scree_error_set(&error, SCREE_ERROR_INPUT, "too few snapshots between axial strains %g and %g", from, to);
+    } else {
+        status = read_two(run, first, second, &a, &b, &error);
+        if (!status) {
+            status = draw_fluctuations(run, &a, &b, name, &error);
+            scree_snapshot_destroy(&a);
+            scree_snapshot_destroy(&b);
+        }
+    }
+    scree_plot_report(run, name, status, &error);
+}
+
+void scree_plot_scenes(scree_plot_run *run)
+{
+    if (run->snapshot_count == 0) return;
+    size_t start = end_snapshot(run, false), end = end_snapshot(run, true);
+    for (size_t k = 0; k < sizeof scenes / sizeof scenes[0]; k++) {
+        scree_snapshot first, now;
+        scree_error error = {0};
+        size_t which;
+        scree_status status = find_snapshot(run, scenes[k].when, &which, &error);
+        if (!status) status = read_two(run, start, which, &first, &now, &error);
+        if (!status) {
+            status = draw_scene(run, &scenes[k], &first, &now, &error);
+            scree_snapshot_destroy(&first);
+            scree_snapshot_destroy(&now);
+        }
+        scree_plot_report(run, scenes[k].name, status, &error);
+    }
+    double low = run->strain[start], high = run->strain[end];
+    for (size_t k = 0; k < sizeof windows / sizeof windows[0]; k++)
+        plot_window(run, low + windows[k][0] * (high - low), low + windows[k][1] * (high - low));
+}

@@ -1,0 +1,207 @@
+/// Scenes: measure what is to be drawn, lay out the page, draw it.
+///
+/// The page is at most 170 mm wide and 180 mm high, so that it fits an A4 text block as it is, and shrunk to a column
+/// of 80 mm its smallest text still has 5 pt. Sample at the left, legend at the right, title above, scale bar below.
+#include "view/scene_parts.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#define MARGIN        9.0
+#define LEGEND_GAP    14.0
+#define SAMPLE_WIDTH  345.0 /* pt: with margins and legend 170 mm */
+#define SAMPLE_HEIGHT 430.0
+#define LARGEST_DISC  30.0 /* pt, mean radius of a sample of a few discs */
+#define TITLE_SIZE    11.0
+#define CAPTION_SIZE  8.5
+
+const scree_colour scree_scene_ink = {0.13, 0.13, 0.15};
+const scree_colour scree_scene_quiet = {0.38, 0.38, 0.41};
+const scree_colour scree_scene_weak = {0.60, 0.66, 0.75};
+const scree_colour scree_scene_strong = {0.07, 0.13, 0.30};
+const scree_colour scree_scene_boundary = {0.0, 0.56, 0.42};
+
+scree_text_style scree_scene_text(double size)
+{
+    return (scree_text_style){.size = size, .colour = scree_scene_ink};
+}
+
+bool scree_scene_drawn(const scree_snapshot *snapshot, size_t k)
+{
+    return isfinite(snapshot->x[k]) && isfinite(snapshot->y[k]) && isfinite(snapshot->radius[k]) &&
+           snapshot->radius[k] > 0;
+}
+
+static void extend(scree_scene_view *view, int axis, double low, double high)
+{
+    view->low[axis] = fmin(view->low[axis], low);
+    view->high[axis] = fmax(view->high[axis], high);
+}
+
+/// Corners of the drawn discs, and of the plates that lie near them.
+static scree_status measure_extent(scree_scene_view *view, scree_error *error)
+{
+    const scree_snapshot *s = view->snapshot;
+    view->low[0] = view->low[1] = INFINITY;
+    view->high[0] = view->high[1] = -INFINITY;
+    for (size_t k = 0; k < s->count; k++) {
+        if (!scree_scene_drawn(s, k)) continue;
+        extend(view, 0, s->x[k] - s->radius[k], s->x[k] + s->radius[k]);
+        extend(view, 1, s->y[k] - s->radius[k], s->y[k] + s->radius[k]);
+        view->disc_count++;
+        view->mean_radius += (s->radius[k] - view->mean_radius) / (double)view->disc_count;
+    }
+    double size = fmax(view->high[0] - view->low[0], view->high[1] - view->low[1]);
+    if (view->disc_count == 0 || !isfinite(size) || !(size > 0))
+        return scree_error_set(error, SCREE_ERROR_INPUT, "the snapshot has no disc that could be drawn");
+    for (int k = 0; view->scene->plates && k < SCREE_WALL_COUNT; k++) {
+        const scree_wall *wall = &s->wall[k];
+        int axis = fabs(wall->normal[0]) > 0.999 ? 0 : fabs(wall->normal[1]) > 0.999 ? 1 : -1;
+        if (!wall->active || axis < 0) continue;
+        double place = wall->position * wall->normal[axis];
+        if (place > view->low[axis] - size / 4 && place < view->high[axis] + size / 4) extend(view, axis, place, place);
+    }
+    return SCREE_OK;
+}
+
+static int colour_level(const scree_scene_view *view, size_t k)
+{
+    if (!view->scene->field) return 0;
+    double value = view->scene->field[k];
+    if (!isfinite(value)) return SCREE_SCENE_LEVELS;
+    double position = (value - view->limits.low) / (view->limits.high - view->limits.low);
+    return (int)lround(fmin(1, fmax(0, position)) * (SCREE_SCENE_LEVELS - 1));
+}
+
+/// Sorts the drawn discs by colour level (counting sort).
+static scree_status order_discs(scree_scene_view *view, scree_error *error)
+{
+    const scree_snapshot *s = view->snapshot;
+    scree_status status = SCREE_OK;
+    if (view->scene->field)
+        status = scree_limits_find(view->scene->field, s->count, view->scene->map == SCREE_COLOUR_DIVERGING,
+                                   &view->limits, error);
+    if (!status) status = scree_allocate(&view->order, view->disc_count, sizeof *view->order, error);
+    if (status) return status;
+    size_t next[SCREE_SCENE_LEVELS + 2] = {0};
+    for (size_t k = 0; k < s->count; k++)
+        if (scree_scene_drawn(s, k)) view->start[colour_level(view, k) + 1]++;
+    for (int level = 0; level <= SCREE_SCENE_LEVELS; level++) {
+        view->start[level + 1] += view->start[level];
+        next[level] = view->start[level];
+    }
+    for (size_t k = 0; k < s->count; k++)
+        if (scree_scene_drawn(s, k)) view->order[next[colour_level(view, k)]++] = (uint32_t)k;
+    return SCREE_OK;
+}
+
+static void measure_forces(scree_scene_view *view)
+{
+    const scree_snapshot *s = view->snapshot;
+    size_t touching = 0;
+    for (size_t k = 0; view->scene->force_network && k < s->contact_count; k++) {
+        if (s->second[k] >= SCREE_WALL_ID || !isfinite(s->normal_force[k]) || !(s->normal_force[k] > 0)) continue;
+        touching++;
+        view->mean_force += (s->normal_force[k] - view->mean_force) / (double)touching;
+    }
+}
+
+/// Chosen so that the 95th percentile is drawn about three diameters long, as a round number times the true length.
+static scree_status measure_arrows(scree_scene_view *view, scree_error *error)
+{
+    const scree_scene *scene = view->scene;
+    const scree_snapshot *s = view->snapshot;
+    double *length;
+    if (!scene->arrow_x || !scene->arrow_y) return SCREE_OK;
+    scree_status status = scree_allocate(&length, s->count, sizeof *length, error);
+    if (status) return status;
+    size_t count = 0;
+    for (size_t k = 0; k < s->count; k++) {
+        double size = hypot(scene->arrow_x[k], scene->arrow_y[k]);
+        if (isfinite(size) && scree_scene_drawn(s, k)) length[count++] = size;
+    }
+    scree_sort(length, count);
+    double typical = scree_quantile(length, count, 0.95);
+    if (!(typical > 0)) typical = count > 0 ? length[count - 1] : 0;
+    scree_release(&length);
+    if (!(typical > 0)) return SCREE_OK;
+    view->arrow_scale =
+        scene->arrow_scale > 0 ? scene->arrow_scale : scree_round_below(6 * view->mean_radius / typical * 1.2);
+    return SCREE_OK;
+}
+
+static void write_caption(scree_scene_view *view)
+{
+    const scree_snapshot *s = view->snapshot;
+    char strain[48] = "", time[48] = "", left_out[64] = "", number[32];
+    if (isfinite(s->axial_strain))
+        (void)snprintf(strain, sizeof strain, ", axial strain %.2f %%", 100 * s->axial_strain);
+    scree_number_text(number, sizeof number, s->time, 4);
+    if (isfinite(s->time)) (void)snprintf(time, sizeof time, ", t = %s s", number);
+    if (view->disc_count < s->count)
+        (void)snprintf(left_out, sizeof left_out, ", %zu without a position", s->count - view->disc_count);
+    (void)snprintf(view->caption, sizeof view->caption, "%zu disc%s%s%s%s", view->disc_count,
+                   view->disc_count == 1 ? "" : "s", left_out, strain, time);
+}
+
+/// Title and caption from the top margin; returns the y below them.
+static double draw_heading(const scree_scene_view *view, cairo_t *cairo)
+{
+    scree_text_style title = {.size = TITLE_SIZE, .bold = true, .colour = scree_scene_ink};
+    scree_text_style caption = {.size = CAPTION_SIZE, .colour = scree_scene_quiet};
+    double width = view->page_width - 2 * MARGIN;
+    double y = scree_text_paragraph(cairo, MARGIN, MARGIN, width, view->title, title);
+    return scree_text_paragraph(cairo, MARGIN, y + 1, width, view->caption, caption);
+}
+
+/// Heading and legend are drawn once on paper that is thrown away, to learn their heights.
+static void lay_out(scree_scene_view *view)
+{
+    double width = view->high[0] - view->low[0], height = view->high[1] - view->low[1];
+    view->scale = fmin(fmin(SAMPLE_WIDTH / width, SAMPLE_HEIGHT / height), LARGEST_DISC / view->mean_radius);
+    view->width = width * view->scale;
+    view->height = height * view->scale;
+    cairo_surface_t *paper = cairo_recording_surface_create(CAIRO_CONTENT_COLOR_ALPHA, NULL);
+    cairo_t *cairo = cairo_create(paper);
+    double legend = scree_scene_legend(view, cairo, 0, 0);
+    double column = legend > 0 ? LEGEND_GAP + SCREE_SCENE_LEGEND_WIDTH : 0;
+    view->page_width = fmax(2 * MARGIN + view->width + column, 230);
+    view->left = MARGIN;
+    view->top = draw_heading(view, cairo) + 9;
+    view->page_height = view->top + fmax(view->height + 22, legend) + MARGIN;
+    cairo_destroy(cairo);
+    cairo_surface_destroy(paper);
+}
+
+static void draw_page(cairo_t *cairo, void *user)
+{
+    const scree_scene_view *view = user;
+    cairo_set_source_rgb(cairo, 1, 1, 1);
+    cairo_paint(cairo);
+    draw_heading(view, cairo);
+    scree_scene_marks(view, cairo);
+    scree_scene_scale_bar(view, cairo, view->left, view->top + view->height + 15);
+    double legend = fmax(view->left + view->width + LEGEND_GAP, view->page_width - MARGIN - SCREE_SCENE_LEGEND_WIDTH);
+    scree_scene_legend(view, cairo, legend, view->top);
+}
+
+scree_status scree_scene_draw(const char *path, const scree_snapshot *snapshot, const scree_scene *scene,
+                              scree_error *error)
+{
+    scree_scene_view view = {.snapshot = snapshot, .scene = scene};
+    scree_text_clean(view.title, sizeof view.title, scene->title ? scene->title : "");
+    scree_text_clean(view.field_name, sizeof view.field_name, scene->field_name ? scene->field_name : "");
+    scree_status status = measure_extent(&view, error);
+    if (!status) status = order_discs(&view, error);
+    if (!status) status = measure_arrows(&view, error);
+    if (!status) {
+        measure_forces(&view);
+        write_caption(&view);
+        lay_out(&view);
+        status = scree_page_write(path, view.page_width, view.page_height, draw_page, &view, error);
+    }
+    scree_release(&view.order);
+    return status;
+}

@@ -1,0 +1,94 @@
+#!/usr/bin/env bash
+# What every verb does when all is well.
+# shellcheck source=tests/cli/check.sh
+. "$(dirname "$0")/check.sh"
+
+# A biaxial test that runs in about a second.
+small=(--quick --set particles.count=120 --set 'stages.compress.strain=1 %' --set 'stages.compress.rate=5e-2 1/s'
+    --set 'measure.windows=[]' --no-figures)
+
+# --- help, all from one table
+verbs=(list new check run get plot help)
+expect 0 'Usage: scree VERB' "$scree" --help
+for verb in "${verbs[@]}"; do grep -qE "^  $verb " <<<"$output" || complain "--help does not name $verb"; done
+expect 2 'Usage: scree VERB' "$scree"
+expect 0 '^scree [0-9]+\.[0-9]+\.[0-9]+ \((gcc|clang) .*kernels for ' "$scree" --version
+for verb in "${verbs[@]}"; do
+    expect 0 "^Usage: scree $verb" "$scree" "$verb" --help
+    same "$output" "$("$scree" help "$verb")" "scree help $verb against scree $verb --help"
+    expect 0 "^Usage: scree $verb" "$scree" "$verb" -h
+done
+longest=$({ "$scree" --help; for verb in "${verbs[@]}"; do "$scree" "$verb" --help; done; } | awk '{ if (length > n) n = length } END { print n }')
+[ "$longest" -le 80 ] || complain "the help has a line of $longest letters"
+expect 0 '^\.TH SCREE 1' "$scree" help --man
+for verb in "${verbs[@]}"; do grep -q "^.SS scree $verb" <<<"$output" || complain "the man page does not have $verb"; done
+expect 0 'case|key|material' "$scree" help --case-reference
+
+# --- completion, in the shell it is for
+"$scree" help --completion bash >completion.bash
+complete_line() {
+    PATH=$(dirname "$scree"):$PATH bash -c '. ./completion.bash; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _scree; echo "${COMPREPLY[*]}"' bash "$@"
+}
+same "$(complete_line scree ch)" check
+same "$(complete_line scree run --no)" --no-figures
+same "$(complete_line scree new bia)" biaxial
+same "$(complete_line scree help --com)" --completion
+touch some.yaml other.txt
+same "$(complete_line scree check s)" some.yaml
+same "$(complete_line scree check o)" ''
+
+# --- list, new, check
+expect 0 '^biaxial +[A-Z]' "$scree" list
+expect 0 '^name: biaxial' "$scree" new biaxial
+same "$output" "$(cat "${SCREE_SOURCE_DIR:?}/cases/biaxial.yaml")" "scree new against the file it was made from"
+expect 0 '' "$scree" new biaxial -o my.yaml
+expect 0 '^# phi +[0-9]' "$scree" check my.yaml
+resolved=$output
+expect 0 '^# time step +.*of the critical step' "$scree" check biaxial
+printf '%s\n' "$resolved" >resolved.yaml
+expect 0 '^# psi' "$scree" check resolved.yaml
+same "$(grep -v '^#' <<<"$output")" "$(grep -v '^#' <<<"$resolved")" "a resolved case, resolved again"
+expect 0 'friction: 0?\.3\b' "$scree" check my.yaml --set materials.0.friction=0.3
+expect 0 '^# particles +600' "$scree" check my.yaml --quick
+
+# --- run: a file of the name wins over the built-in case
+expect 0 'results in out' "$scree" run biaxial -o out "${small[@]}"
+for file in case.yaml summary.json series.csv run.h5 log.txt; do [ -s "out/$file" ] || complain "no out/$file"; done
+same "$("$scree" get out case)" biaxial
+sed 's/^name: .*/name: mine/' my.yaml >biaxial
+expect 0 '' "$scree" run biaxial -q --output=mine --threads=1 "${small[@]}"
+same "$("$scree" get mine case)" mine
+same "$("$scree" get mine state_checksum)" "$("$scree" get out state_checksum)" "checksum with one thread and with all"
+expect 0 '' "$scree" run biaxial -q -omine -f "${small[@]}"
+
+# --- get
+expect 0 '^[-0-9.e]+$' "$scree" get out phi
+expect 0 '^psi [-0-9.e]+$' "$scree" get out phi psi
+same "$(wc -l <<<"$output")" 2
+expect 0 '^state_checksum +[0-9a-f]{16}$' "$scree" get out
+same "$(wc -l <<<"$output")" "$(python3 -c 'import json; print(len(json.load(open("out/summary.json"))))' 2>/dev/null || grep -c '^  "' out/summary.json)"
+
+# --- plot
+expect 0 '\.svg$' "$scree" plot out
+while read -r path; do [ -s "$path" ] || complain "plot names $path, which is not there"; done <<<"$output"
+
+# --- an interrupt leaves a checkpoint, and the restart ends where an uninterrupted run does
+long=(--quick --set particles.count=300 --no-figures)
+"$scree" run biaxial -o whole -q "${long[@]}" || complain "the uninterrupted run"
+for signal in INT TERM; do
+    "$scree" run biaxial -o cut "${long[@]}" --force 2>cut.txt &
+    pid=$!
+    for ((i = 0; i < 600; i++)); do
+        [ -s cut/series.csv ] && [ "$(wc -l <cut/series.csv)" -gt 3 ] && break
+        sleep 0.05
+    done
+    kill -$signal $pid
+    wait $pid
+    status=$?
+    checks=$((checks + 1))
+    [ $status -eq 130 ] || complain "after SIG$signal the run ended with $status: $(cat cut.txt)"
+    grep -q 'scree run --restart cut' cut.txt || complain "the interrupted run does not say how to continue: $(cat cut.txt)"
+    expect 0 'results in cut' "$scree" run --restart cut --no-figures --threads 1
+    same "$("$scree" get cut state_checksum)" "$("$scree" get whole state_checksum)" "restart after SIG$signal"
+done
+finish ""

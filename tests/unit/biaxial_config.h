@@ -1,0 +1,65 @@
+/// Padbidri's biaxial case as a config, for tests that start below the case language.
+#ifndef SCREE_TEST_BIAXIAL_CONFIG_H
+#define SCREE_TEST_BIAXIAL_CONFIG_H
+
+#include "case/config.h"
+
+#include <math.h>
+
+typedef struct biaxial_config {
+    scree_config config;
+    scree_config_material material[2];
+    scree_config_stage stage[3];
+    char quartz[8], steel[8];
+} biaxial_config;
+
+/// 30 GPa, 0.3, 2.675e8 kg/m3, friction 0.45; radii uniform in 0.5 to 1 mm; 100 kPa, 0.005 1/s; every `auto` left open.
+static inline void biaxial_config_set(biaxial_config *c, int64_t count)
+{
+    *c = (biaxial_config){.quartz = "quartz", .steel = "steel"};
+    c->material[0] = (scree_config_material){.name = c->quartz,
+                                             .young_modulus = 30e9,
+                                             .poisson_ratio = 0.3,
+                                             .density = 2.675e8,
+                                             .friction = 0.45,
+                                             .wall_friction = NAN,
+                                             .restitution = 0.2};
+    c->material[1] = (scree_config_material){.name = c->steel,
+                                             .young_modulus = 200e9,
+                                             .poisson_ratio = 0.25,
+                                             .density = 8e3,
+                                             .friction = 0.3,
+                                             .wall_friction = 0.1,
+                                             .restitution = 0.6};
+    c->stage[0] = (scree_config_stage){.kind = SCREE_STAGE_PREPARE,
+                                       .method = SCREE_PREPARE_DROP_AND_ROLL,
+                                       .aspect_ratio = 2,
+                                       .width = NAN,
+                                       .solid_fraction = 0.4,
+                                       .velocity = 0.1};
+    c->stage[1] = (scree_config_stage){.kind = SCREE_STAGE_CONFINE, .pressure = 100e3};
+    c->stage[2] = (scree_config_stage){.kind = SCREE_STAGE_COMPRESS, .strain = 0.1, .rate = 5e-3};
+    c->config = (scree_config){
+        .dimension = 2,
+        .seed = 1,
+        .materials = c->material,
+        .material_count = 2,
+        .particles = {.shape = SCREE_SHAPE_DISC,
+                      .material = c->quartz,
+                      .count = count,
+                      .distribution = SCREE_SIZE_UNIFORM,
+                      .radius_min = 0.5e-3,
+                      .radius_max = 1e-3,
+                      .thickness = NAN},
+        .contact = {.law = SCREE_LAW_HERTZ_BRILLIANTOV,
+                    .damping_time = 0.002,
+                    .friction_exponent = 50,
+                    .reference_velocity = NAN},
+        .integrator = {.scheme = SCREE_SCHEME_POSITION_VERLET, .step = NAN, .step_fraction = 0.5},
+        .stages = c->stage,
+        .stage_count = 3,
+        .guard = {.overlap = 0.1, .energy_growth = 1e-3},
+    };
+}
+
+#endif

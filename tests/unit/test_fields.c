@@ -1,0 +1,189 @@
+/// The tables of fields: names, units, places, and that nothing of a state is missing from them.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "io/array.h"
+#include "io_sample.h"
+
+#include <udunits2.h>
+
+static size_t all_count(void)
+{
+    return scree_field_count + scree_member_count;
+}
+static const scree_field *all(size_t k)
+{
+    return k < scree_field_count ? &scree_fields[k] : &scree_members[k - scree_field_count];
+}
+
+static void every_name_is_unique_and_explained(void **unused)
+{
+    (void)unused;
+    for (size_t k = 0; k < all_count(); k++) {
+        assert_true(strlen(all(k)->name) > 1);
+        assert_true(strlen(all(k)->meaning) > 3);
+        for (size_t j = 0; j < k; j++) assert_string_not_equal(all(k)->name, all(j)->name);
+    }
+}
+
+static void every_unit_is_known_to_udunits(void **unused)
+{
+    (void)unused;
+    ut_set_error_message_handler(ut_ignore);
+    ut_system *system = ut_read_xml(NULL);
+    assert_non_null(system);
+    for (size_t k = 0; k < all_count(); k++) {
+        ut_unit *unit = ut_parse(system, all(k)->unit, UT_ASCII);
+        if (!unit) fail_msg("'%s' has the unit '%s'", all(k)->name, all(k)->unit);
+        ut_free(unit);
+    }
+    ut_free_system(system);
+}
+
+/// Fills each component of each field with a number of its own, in every row; none may overwrite another.
+static void fields_do_not_overlap(void **unused)
+{
+    (void)unused;
+    scree_state state;
+    assert_int_equal(sample_state(&state, 5, 1, NULL), SCREE_OK);
+    assert_int_equal(sample_loop(&state, 4, NULL), SCREE_OK);
+    assert_int_equal(sample_contacts(&state, 3, NULL), SCREE_OK);
+    for (int reading = 0; reading < 2; reading++) {
+        unsigned char value = 0;
+        for (size_t k = 0; k < all_count(); k++)
+            for (size_t row = 0; row < scree_field_rows_count(&state, all(k)); row++) {
+                size_t size = (size_t)all(k)->components * scree_field_size(all(k)->type);
+                unsigned char *bytes = scree_field_get_mutable(&state, all(k), row);
+                for (size_t b = 0; b < size; b++, value = (unsigned char)(value * 5 + 1)) {
+                    if (!reading) bytes[b] = value;
+                    if (reading && bytes[b] != value) fail_msg("'%s' row %zu was overwritten", all(k)->name, row);
+                }
+            }
+    }
+    scree_state_destroy(&state);
+}
+
+static void fields_lie_where_their_names_say(void **unused)
+{
+    (void)unused;
+    scree_state state;
+    assert_int_equal(sample_state(&state, 5, 1, NULL), SCREE_OK);
+    assert_int_equal(sample_loop(&state, 4, NULL), SCREE_OK);
+    assert_int_equal(sample_contacts(&state, 3, NULL), SCREE_OK);
+    const struct {
+        const char *name;
+        const void *place;
+    } expected[] = {
+        {"id", &state.id[2]},
+        {"position", &state.row[2].x},
+        {"radius", &state.row[2].radius},
+        {"mass", &state.row[2].mass},
+        {"material", &state.row[2].material},
+        {"scheme_velocity", &state.row[2].vx},
+        {"scheme_spin", &state.row[2].spin},
+        {"angle", &state.angle[2]},
+        {"reference_y", &state.reference_y[2]},
+        {"force_sum", &state.sum[2].fx},
+        {"torque_sum", &state.sum[2].torque},
+        {"coordination", &state.sum[2].contacts},
+        {"rebuild_y", &state.rebuild_y[2]},
+        {"contacts/second", &state.contact[2].second},
+        {"contacts/history", state.contact[2].history.value},
+        {"boundary/force_y", &state.loop.fy[2]},
+        {"boundary/loaded", &state.loop.loaded[2]},
+        {"walls/normal", state.wall[2].normal},
+        {"walls/active", &state.wall[2].active},
+    };
+    for (size_t e = 0; e < sizeof expected / sizeof *expected; e++) {
+        const void *found = NULL;
+        for (size_t k = 0; k < all_count(); k++)
+            if (strcmp(all(k)->name, expected[e].name) == 0) found = scree_field_get(&state, all(k), 2);
+        if (found != expected[e].place) fail_msg("'%s' lies elsewhere", expected[e].name);
+    }
+    scree_state_destroy(&state);
+}
+
+/// Marks the bytes of scree_state that the tables speak of, with the array pointers; a new member that is in neither
+/// table and not in this list is found here.
+static void no_member_of_the_state_is_missing(void **unused)
+{
+    (void)unused;
+    static unsigned char covered[sizeof(scree_state)];
+#define EXCEPT(member) memset(covered + offsetof(scree_state, member), 1, sizeof(((scree_state *)0)->member))
+    EXCEPT(count); // lengths and the inverse of `id` follow from the arrays
+    EXCEPT(row_of_id);
+    EXCEPT(contact_count);
+    EXCEPT(contact_capacity);
+    EXCEPT(loop.count);
+    EXCEPT(loop.capacity);
+    for (size_t k = 0; k < all_count(); k++) {
+        const scree_field *field = all(k);
+        size_t size = (size_t)field->components * scree_field_size(field->type);
+        if (field->rows <= SCREE_ROWS_LOOP) memset(covered + field->array_offset, 1, sizeof(void *));
+        if (field->rows == SCREE_ROWS_ONE) memset(covered + field->array_offset, 1, size);
+        for (size_t w = 0; w < SCREE_WALL_COUNT && field->rows == SCREE_ROWS_WALLS; w++)
+            memset(covered + field->array_offset + w * field->stride + field->offset, 1, size);
+    }
+    for (size_t b = 0; b < sizeof covered; b++)
+        if (!covered[b]) fail_msg("byte %zu of scree_state is in no table", b);
+}
+
+/// The same inside the arrays of structures: every byte of an element belongs to exactly one field.
+static void no_member_of_an_element_is_missing(void **unused)
+{
+    (void)unused;
+    const size_t arrays[][2] = {{offsetof(scree_state, row), sizeof(scree_row)},
+                                {offsetof(scree_state, sum), sizeof(scree_sum_row)},
+                                {offsetof(scree_state, contact), sizeof(scree_contact_memory)}};
+    for (size_t a = 0; a < 3; a++) {
+        size_t bytes = 0;
+        for (size_t k = 0; k < all_count(); k++)
+            if (all(k)->array_offset == arrays[a][0] && all(k)->rows <= SCREE_ROWS_LOOP) {
+                bytes += (size_t)all(k)->components * scree_field_size(all(k)->type);
+                assert_int_equal(all(k)->stride, arrays[a][1]);
+            }
+        assert_int_equal(bytes, arrays[a][1]);
+    }
+}
+
+static void packing_and_unpacking_agree(void **unused)
+{
+    (void)unused;
+    scree_state state, copy;
+    assert_int_equal(sample_state(&state, 7, 1, NULL), SCREE_OK);
+    assert_int_equal(scree_state_create(&copy, 7, NULL), SCREE_OK);
+    for (size_t k = 0; k < scree_field_count; k++) {
+        scree_array array;
+        assert_int_equal(scree_array_from_field(&state, &scree_fields[k], false, &array, NULL), SCREE_OK);
+        scree_array_to_field(&array, &scree_fields[k], &copy);
+        scree_array_destroy(&array);
+    }
+    assert_memory_equal(state.row, copy.row, 7 * sizeof *state.row);
+    assert_memory_equal(state.sum, copy.sum, 7 * sizeof *state.sum);
+    assert_memory_equal(state.id, copy.id, 7 * sizeof *state.id);
+    scree_array array;
+    assert_int_equal(scree_array_from_field(&state, &scree_fields[0], true, &array, NULL), SCREE_OK);
+    const uint32_t *id = array.data;
+    for (uint32_t k = 0; k < 7; k++) assert_int_equal(id[k], k);
+    scree_array_destroy(&array);
+    scree_state_destroy(&state);
+    scree_state_destroy(&copy);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_name_is_unique_and_explained),
+        cmocka_unit_test(every_unit_is_known_to_udunits),
+        cmocka_unit_test(fields_do_not_overlap),
+        cmocka_unit_test(fields_lie_where_their_names_say),
+        cmocka_unit_test(no_member_of_the_state_is_missing),
+        cmocka_unit_test(no_member_of_an_element_is_missing),
+        cmocka_unit_test(packing_and_unpacking_agree),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

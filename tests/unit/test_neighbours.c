@@ -1,0 +1,636 @@
+/// Neighbour list against brute force, histories over rebuilds, the budget rule, independence of order, threads and
+/// instruction sets, odd positions, failing memory, and linear cost by counts of what is looked at.
+
+#include "testing.h"
+
+#include "base/random.h"
+#include "search/neighbours.h"
+#include "search/search.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SKIN 0.3
+
+/// A pair by ids, in a form that sorts.
+typedef struct id_pair {
+    uint64_t ids; ///< first << 32 | second
+    bool touching;
+    scree_history history;
+} id_pair;
+
+typedef struct id_list {
+    id_pair *pair;
+    size_t count;
+} id_list;
+
+static double uniform(uint64_t seed, uint64_t counter)
+{
+    return scree_random_uniform(seed, SCREE_RANDOM_TEST, counter);
+}
+
+static int by_ids(const void *a, const void *b)
+{
+    uint64_t x = ((const id_pair *)a)->ids, y = ((const id_pair *)b)->ids;
+    return (x > y) - (x < y);
+}
+
+static void make_work(scree_work *work, int threads)
+{
+    const scree_model model = {.mean_radius = 1};
+    scree_error error;
+    assert_int_equal(scree_work_create(work, &model, threads, &error), SCREE_OK);
+    work->skin = SKIN;
+}
+
+static void refresh(scree_state *state, scree_work *work)
+{
+    const scree_model model = {.mean_radius = 1};
+    scree_error error;
+    assert_int_equal(scree_neighbours_refresh(&model, state, work, &error), SCREE_OK);
+}
+
+static void rebuild(scree_state *state, scree_work *work)
+{
+    scree_neighbours_invalidate(work);
+    refresh(state, work);
+}
+
+/// Bodies with radii from 1 to `ratio`, small ones frequent (area shared equally by the octaves), at random in a square
+/// of which they cover 80 %; four walls around it.
+static void make_state(scree_state *state, size_t count, double ratio, uint64_t seed)
+{
+    scree_error error;
+    assert_int_equal(scree_state_create(state, count, &error), SCREE_OK);
+    double area = 0;
+    for (size_t k = 0; k < count; k++) {
+        double u = uniform(seed, 3 * k), small = 1 / (ratio * ratio);
+        double radius = 1 / sqrt(1 - u * (1 - small));
+        state->row[k] = (scree_row){.radius = radius, .mass = 1};
+        area += M_PI * radius * radius;
+    }
+    double side = sqrt(area / 0.8);
+    for (size_t k = 0; k < count; k++) {
+        state->row[k].x = side * uniform(seed, 3 * k + 1);
+        state->row[k].y = side * uniform(seed, 3 * k + 2);
+    }
+    const double normal[SCREE_WALL_COUNT][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
+    for (int w = 0; w < SCREE_WALL_COUNT; w++)
+        state->wall[w] = (scree_wall){
+            .position = w % 2 ? -side : 0, .normal = {normal[w][0], normal[w][1]}, .active = w != SCREE_WALL_TOP};
+}
+
+/// All pairs within the skin by brute force, sorted by ids; walls as in scree_contact_memory.
+static id_list brute_force(const scree_state *state, double skin)
+{
+    id_list list = {malloc((state->count * (state->count + 8) / 2 + 1) * sizeof(id_pair)), 0};
+    assert_non_null(list.pair);
+    for (size_t a = 0; a < state->count; a++) {
+        const scree_row *one = &state->row[a];
+        for (size_t b = a + 1; b < state->count; b++) {
+            const scree_row *other = &state->row[b];
+            double dx = one->x - other->x, dy = one->y - other->y, sum = one->radius + other->radius;
+            if (!(dx * dx + dy * dy < (sum + skin) * (sum + skin))) continue;
+            uint64_t first = state->id[a], second = state->id[b];
+            list.pair[list.count++] = (id_pair){.ids = first < second ? first << 32 | second : second << 32 | first,
+                                                .touching = dx * dx + dy * dy < sum * sum};
+        }
+        for (uint64_t w = 0; w < SCREE_WALL_COUNT; w++) {
+            const scree_wall *wall = &state->wall[w];
+            double distance = wall->normal[0] * one->x + wall->normal[1] * one->y - wall->position;
+            if (wall->active && distance < one->radius + skin)
+                list.pair[list.count++] = (id_pair){.ids = (uint64_t)state->id[a] << 32 | (SCREE_WALL_ID + w)};
+        }
+    }
+    qsort(list.pair, list.count, sizeof *list.pair, by_ids);
+    return list;
+}
+
+/// The list in `work` in its own order, as ids; checks rows and the order of the ids of a pair.
+static id_list listed(const scree_state *state, const scree_work *work)
+{
+    const scree_pair_list *pairs = &work->pairs;
+    const scree_wall_pair_list *walls = &work->wall_pairs;
+    id_list list = {malloc((pairs->count + walls->count + 1) * sizeof(id_pair)), 0};
+    assert_non_null(list.pair);
+    for (size_t k = 0; k < pairs->count; k++) {
+        assert_true(pairs->first[k] < state->count && pairs->second[k] < state->count);
+        uint64_t first = state->id[pairs->first[k]], second = state->id[pairs->second[k]];
+        assert_true(first < second);
+        list.pair[list.count++] = (id_pair){first << 32 | second, k < pairs->touching_count, pairs->history[k]};
+    }
+    for (size_t k = 0; k < walls->count; k++) {
+        assert_true(walls->body[k] < state->count && walls->wall[k] < SCREE_WALL_COUNT);
+        uint64_t id = state->id[walls->body[k]];
+        list.pair[list.count++] = (id_pair){id << 32 | (SCREE_WALL_ID + walls->wall[k]), false, walls->history[k]};
+    }
+    return list;
+}
+
+static id_list sorted(id_list list)
+{
+    qsort(list.pair, list.count, sizeof *list.pair, by_ids);
+    return list;
+}
+
+static void assert_same_pairs(id_list a, id_list b)
+{
+    assert_int_equal(a.count, b.count);
+    for (size_t k = 0; k < a.count; k++) {
+        assert_true(a.pair[k].ids == b.pair[k].ids);
+        assert_int_equal(a.pair[k].touching, b.pair[k].touching);
+    }
+}
+
+static void assert_equals_brute_force(const scree_state *state, const scree_work *work)
+{
+    id_list expected = brute_force(state, work->skin), found = sorted(listed(state, work));
+    assert_same_pairs(expected, found);
+    free(expected.pair);
+    free(found.pair);
+}
+
+static uint32_t lower(const scree_pair_list *pairs, size_t k)
+{
+    return pairs->first[k] < pairs->second[k] ? pairs->first[k] : pairs->second[k];
+}
+
+static void list_equals_brute_force(void **unused)
+{
+    (void)unused;
+    const double ratios[] = {1, 2, 10, 50};
+    for (size_t r = 0; r < sizeof ratios / sizeof *ratios; r++)
+        for (uint64_t seed = 1; seed <= 4; seed++) {
+            scree_state state;
+            scree_work work;
+            make_state(&state, 150 * seed, ratios[r], seed);
+            make_work(&work, 2);
+            rebuild(&state, &work);
+            assert_equals_brute_force(&state, &work);
+            // Both parts along the curve; the padding can be read.
+            const scree_pair_list *pairs = &work.pairs;
+            for (size_t k = 1; k < pairs->count; k++)
+                if (k != pairs->touching_count) assert_true(lower(pairs, k - 1) <= lower(pairs, k));
+            for (size_t k = pairs->count; k < pairs->count + SCREE_PAIR_PADDING; k++)
+                assert_int_equal(pairs->first[k] + pairs->second[k], 0);
+            assert_int_equal((uintptr_t)pairs->history % SCREE_ALIGNMENT, 0);
+            scree_work_destroy(&work);
+            scree_state_destroy(&state);
+        }
+}
+
+static void list_is_the_same_for_any_instruction_set(void **unused)
+{
+    (void)unused;
+    scree_state state;
+    make_state(&state, 500, 10, 5);
+    id_list reference = {0};
+    const bool available[] = {true, __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2"),
+                              __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")};
+    for (int set = 2; set <= 4; set++) {
+        if (!available[set - 2]) continue;
+        scree_work work;
+        make_work(&work, 1);
+        work.instruction_set = set;
+        rebuild(&state, &work);
+        id_list found = listed(&state, &work);
+        if (reference.pair) assert_same_pairs(reference, found);
+        free(reference.pair);
+        reference = found;
+        scree_work_destroy(&work);
+    }
+    free(reference.pair);
+    scree_state_destroy(&state);
+}
+
+static void list_depends_on_positions_and_ids_alone(void **unused)
+{
+    (void)unused;
+    enum { COUNT = 700 };
+    id_list reference = {0};
+    for (int variant = 0; variant < 5; variant++) {
+        scree_state state;
+        scree_work work;
+        scree_error error;
+        uint32_t order[COUNT];
+        make_state(&state, COUNT, 10, 6);
+        for (uint32_t k = 0; k < COUNT; k++) order[k] = k;
+        for (uint32_t k = COUNT; variant > 0 && k-- > 1;) {
+            uint32_t other = (uint32_t)(uniform(20 + (uint64_t)variant, k) * (k + 1)), kept = order[k];
+            order[k] = order[other];
+            order[other] = kept;
+        }
+        assert_int_equal(scree_state_permute(&state, order, &error), SCREE_OK);
+        make_work(&work, variant < 2 ? 1 : variant);
+        rebuild(&state, &work);
+        id_list found = listed(&state, &work);
+        if (reference.pair) assert_same_pairs(reference, found);
+        free(reference.pair);
+        reference = found;
+        scree_work_destroy(&work);
+        scree_state_destroy(&state);
+    }
+    free(reference.pair);
+}
+
+/// Bits that tell pairs apart and that arithmetic would not keep: a signalling NaN, minus zero.
+static scree_history mark(uint64_t ids, uint64_t round)
+{
+    uint64_t word[SCREE_HISTORY] = {ids * UINT64_C(0x9e3779b97f4a7c15) + round, UINT64_C(0x7ff0000000000001),
+                                    UINT64_C(0x8000000000000000), round};
+    if (ids % 3 == 0) word[0] = word[1] = word[3] = 0;
+    scree_history history;
+    memcpy(history.value, word, sizeof word);
+    return history;
+}
+
+static void shake(scree_state *state, double size, uint64_t seed)
+{
+    for (size_t id = 0; id < state->count; id++) {
+        scree_row *row = &state->row[state->row_of_id[id]];
+        row->x += size * (2 * uniform(seed, 2 * id) - 1);
+        row->y += size * (2 * uniform(seed, 2 * id + 1) - 1);
+    }
+}
+
+/// Writes a history to every touching pair, every second near pair and every wall pair, none to others.
+static void mark_list(const scree_state *state, scree_work *work, uint64_t round)
+{
+    for (size_t k = 0; k < work->pairs.count; k++) {
+        uint64_t ids = (uint64_t)state->id[work->pairs.first[k]] << 32 | state->id[work->pairs.second[k]];
+        bool marked = k < work->pairs.touching_count || ids % 2;
+        work->pairs.history[k] = marked ? mark(ids, round) : (scree_history){{0}};
+    }
+    for (size_t k = 0; k < work->wall_pairs.count; k++) {
+        uint64_t ids = (uint64_t)state->id[work->wall_pairs.body[k]] << 32 | work->wall_pairs.wall[k];
+        work->wall_pairs.history[k] = mark(ids, round);
+    }
+}
+
+/// Every pair of `after` has the history that it had in `before`, or none if it was not there. Returns how many had
+/// one.
+static size_t assert_histories_kept(id_list before, id_list after)
+{
+    const scree_history none = {{0}};
+    size_t kept = 0;
+    for (size_t k = 0; k < after.count; k++) {
+        const id_pair *old = bsearch(&after.pair[k], before.pair, before.count, sizeof *before.pair, by_ids);
+        const scree_history *expected = old ? &old->history : &none;
+        assert_memory_equal(&after.pair[k].history, expected, sizeof none);
+        kept += memcmp(expected, &none, sizeof none) != 0;
+    }
+    return kept;
+}
+
+static void histories_survive_rebuilds(void **unused)
+{
+    (void)unused;
+    const double ratios[] = {1.5, 10};
+    for (size_t r = 0; r < 2; r++) {
+        scree_state state;
+        scree_work work;
+        make_state(&state, 400, ratios[r], 7);
+        make_work(&work, 2);
+        rebuild(&state, &work);
+        for (uint64_t round = 0; round < 6; round++) {
+            mark_list(&state, &work, round);
+            id_list before = sorted(listed(&state, &work));
+            shake(&state, 0.4, 30 + round);
+            rebuild(&state, &work);
+            id_list after = sorted(listed(&state, &work));
+            size_t kept = assert_histories_kept(before, after);
+            // The shakes part some pairs and leave most.
+            assert_true(kept > before.count / 3 && kept < before.count);
+            free(before.pair);
+            free(after.pair);
+        }
+        scree_work_destroy(&work);
+        scree_state_destroy(&state);
+    }
+}
+
+/// What a checkpoint does: histories to state->contact by ids, and a new `work`.
+static void histories_come_back_from_the_state(void **unused)
+{
+    (void)unused;
+    scree_state state;
+    scree_work work;
+    scree_error error;
+    make_state(&state, 300, 2, 8);
+    make_work(&work, 1);
+    rebuild(&state, &work);
+    mark_list(&state, &work, 1);
+    id_list before = sorted(listed(&state, &work));
+    assert_int_equal(scree_state_reserve_contacts(&state, before.count + 1, &error), SCREE_OK);
+    for (size_t k = 0; k < before.count; k++)
+        state.contact[k] = (scree_contact_memory){(uint32_t)(before.pair[k].ids >> 32), (uint32_t)before.pair[k].ids,
+                                                  before.pair[k].history};
+    // A contact of a body that does not exist, as a damaged file might hold, is left out.
+    state.contact[before.count] = (scree_contact_memory){.first = 5, .second = 1000000};
+    state.contact_count = before.count + 1;
+    scree_work_destroy(&work);
+    make_work(&work, 2);
+    refresh(&state, &work);
+    id_list after = sorted(listed(&state, &work));
+    assert_same_pairs(before, after);
+    (void)assert_histories_kept(before, after);
+    free(before.pair);
+    free(after.pair);
+    scree_work_destroy(&work);
+    scree_state_destroy(&state);
+}
+
+/// Bodies fly at random, walls close in; after each refresh every touching pair must be in the list.
+static void no_contact_is_missed_between_rebuilds(void **unused)
+{
+    (void)unused;
+    enum { STEPS = 600 };
+    scree_state state;
+    scree_work work;
+    make_state(&state, 150, 4, 9);
+    make_work(&work, 2);
+    for (size_t id = 0; id < state.count; id++) {
+        // A few fast ones, so that the budget is a poor bound for the others.
+        double speed = id % 20 == 0 ? 0.05 : 0.01, angle = 2 * M_PI * uniform(41, id);
+        state.row[id].vx = speed * cos(angle);
+        state.row[id].vy = speed * sin(angle);
+    }
+    state.wall[SCREE_WALL_BOTTOM].velocity = 0.03;
+    for (int step = 0; step < STEPS; step++) {
+        double fastest = 0;
+        for (size_t k = 0; k < state.count; k++) {
+            scree_row *row = &state.row[k];
+            // Velocities turn, so that displacements stay below the paths.
+            double turn = 0.05, vx = row->vx;
+            row->vx = cos(turn) * vx - sin(turn) * row->vy;
+            row->vy = sin(turn) * vx + cos(turn) * row->vy;
+            row->x += row->vx;
+            row->y += row->vy;
+            fastest = fmax(fastest, hypot(row->vx, row->vy));
+        }
+        state.wall[SCREE_WALL_BOTTOM].position += state.wall[SCREE_WALL_BOTTOM].velocity;
+        work.budget -= fastest;
+        refresh(&state, &work);
+        id_list needed = brute_force(&state, 0), found = sorted(listed(&state, &work));
+        for (size_t k = 0; k < needed.count; k++)
+            assert_non_null(bsearch(&needed.pair[k], found.pair, found.count, sizeof *found.pair, by_ids));
+        free(needed.pair);
+        free(found.pair);
+    }
+    // The paths alone would ask for 600 * 0.05 / 0.15 = 200 rebuilds; the wall needs 600 * 0.03 / 0.15 = 120.
+    assert_in_range(work.rebuilds, 100, 400);
+    scree_work_destroy(&work);
+    scree_state_destroy(&state);
+}
+
+static void rebuild_waits_for_half_the_skin(void **unused)
+{
+    (void)unused;
+    scree_state state;
+    scree_work work;
+    make_state(&state, 50, 1, 10);
+    make_work(&work, 1);
+    refresh(&state, &work);
+    assert_int_equal(work.rebuilds, 1);
+    // 1e-6 short of skin / 2, as documented.
+    assert_true(fabs(work.budget - SKIN / 2) < 1.1e-6 * SKIN / 2);
+    work.budget = -1;
+    state.row[7].x += 0.4 * SKIN;
+    refresh(&state, &work);
+    assert_int_equal(work.rebuilds, 1);
+    assert_true(fabs(work.budget - 0.1 * SKIN) < 1.1e-6 * SKIN);
+    work.budget = -1;
+    state.row[7].x += 0.11 * SKIN;
+    refresh(&state, &work);
+    assert_int_equal(work.rebuilds, 2);
+    // Walls: a small motion, a large one, a new wall, one that goes.
+    state.wall[SCREE_WALL_LEFT].position -= 0.45 * SKIN;
+    refresh(&state, &work);
+    assert_int_equal(work.rebuilds, 2);
+    state.wall[SCREE_WALL_LEFT].position -= 0.1 * SKIN;
+    refresh(&state, &work);
+    assert_int_equal(work.rebuilds, 3);
+    state.wall[SCREE_WALL_TOP].active = 1;
+    refresh(&state, &work);
+    assert_int_equal(work.rebuilds, 4);
+    assert_equals_brute_force(&state, &work);
+    state.wall[SCREE_WALL_TOP].active = 0;
+    refresh(&state, &work);
+    assert_int_equal(work.rebuilds, 4);
+    scree_work_destroy(&work);
+    scree_state_destroy(&state);
+}
+
+static void odd_positions_give_a_valid_list(void **unused)
+{
+    (void)unused;
+    const double odd[] = {NAN, INFINITY, -INFINITY};
+    for (size_t k = 0; k < sizeof odd / sizeof *odd; k++) {
+        scree_state state;
+        scree_work work;
+        make_state(&state, 200, 10, 11);
+        make_work(&work, 2);
+        refresh(&state, &work);
+        assert_int_equal(work.flags, 0);
+        state.row[state.row_of_id[150]].x = odd[k];
+        state.row[state.row_of_id[42]].y = odd[k];
+        work.budget = -INFINITY;
+        refresh(&state, &work);
+        assert_int_equal(work.rebuilds, 2);
+        assert_true(work.flags & SCREE_FLAG_NAN);
+        assert_int_equal(work.flagged_id, 42);
+        assert_equals_brute_force(&state, &work);
+        scree_work_destroy(&work);
+        scree_state_destroy(&state);
+    }
+}
+
+/// Slots and cells that a rebuild has looked at, a body.
+static double effort(const scree_state *state, const scree_work *work)
+{
+    uint64_t sum = 0;
+    for (int c = 0; c < work->search->chunks; c++) sum += work->search->chunk[c].candidates;
+    for (int m = 0; m <= work->search->grid.top; m++) sum += work->search->grid.level[m].cells;
+    return (double)sum / (double)state->count;
+}
+
+static void escaped_bodies_cost_nothing(void **unused)
+{
+    (void)unused;
+    const double far[] = {1e6, -1e15, 1e300};
+    scree_state state;
+    scree_work work;
+    make_state(&state, 600, 2, 12);
+    make_work(&work, 1);
+    refresh(&state, &work);
+    double before = effort(&state, &work);
+    size_t bytes_before, bytes;
+    scree_allocation_statistics(&bytes_before, NULL);
+    for (size_t k = 0; k < sizeof far / sizeof *far; k++) {
+        state.row[state.row_of_id[k]].x = far[k];
+        state.row[state.row_of_id[k + 1]].y = far[k];
+        rebuild(&state, &work);
+        assert_equals_brute_force(&state, &work);
+        assert_true(effort(&state, &work) < before + 1);
+    }
+    scree_allocation_statistics(&bytes, NULL);
+    assert_true(bytes <= bytes_before);
+    scree_work_destroy(&work);
+    scree_state_destroy(&state);
+}
+
+static void few_bodies_and_bodies_at_one_point(void **unused)
+{
+    (void)unused;
+    const size_t counts[] = {0, 1, 2, 90};
+    for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
+        scree_state state;
+        scree_work work;
+        make_state(&state, counts[k], 3, 13);
+        make_work(&work, 2);
+        for (size_t row = 0; row < state.count; row++) state.row[row].x = state.row[row].y = -7;
+        refresh(&state, &work);
+        assert_equals_brute_force(&state, &work);
+        assert_int_equal(work.pairs.count, counts[k] * (counts[k] - 1) / 2);
+        assert_int_equal(work.pairs.first[work.pairs.count + SCREE_PAIR_PADDING - 1], 0);
+        scree_work_destroy(&work);
+        scree_state_destroy(&state);
+    }
+}
+
+/// Counts instead of times: what is looked at a body does not grow with the number of bodies.
+static void cost_is_linear(void **unused)
+{
+    (void)unused;
+    const double ratios[] = {1, 2, 10, 50};
+    for (size_t r = 0; r < sizeof ratios / sizeof *ratios; r++) {
+        double per_body[2];
+        for (int large = 0; large < 2; large++) {
+            scree_state state;
+            scree_work work;
+            make_state(&state, large ? 32000 : 4000, ratios[r], 14);
+            make_work(&work, 1);
+            refresh(&state, &work);
+            per_body[large] = effort(&state, &work);
+            scree_work_destroy(&work);
+            scree_state_destroy(&state);
+        }
+        // Eight times the bodies: quadratic cost would give 8. The margin leaves room for the edges of the small
+        // sample.
+        assert_true(per_body[1] < 1.3 * per_body[0]);
+        // 9 cells of 4 R^2 at a cover of 0.8 hold about 10 bodies a level; cells of up to twice the needed width
+        // hold 40.
+        assert_true(per_body[1] < 60);
+    }
+}
+
+/// A few large bodies among many small ones must not make the small ones' cells large.
+static void few_large_bodies_cost_little(void **unused)
+{
+    (void)unused;
+    scree_state state;
+    scree_work work;
+    make_state(&state, 20000, 1, 15);
+    make_work(&work, 1);
+    refresh(&state, &work);
+    double like = effort(&state, &work);
+    for (size_t id = 0; id < 5; id++) state.row[state.row_of_id[id]].radius = 50;
+    rebuild(&state, &work);
+    // Each body also looks at the large ones around it (at most 5), and the grid of large cells is small.
+    assert_true(effort(&state, &work) < like * 2 + 5);
+    // A slanting line of bodies has no area for a grid of boxes to hold.
+    for (size_t id = 0; id < state.count; id++) {
+        scree_row *row = &state.row[state.row_of_id[id]];
+        *row = (scree_row){.x = 1.9 * (double)id, .y = 1.3 * (double)id, .radius = 1, .mass = 1};
+    }
+    rebuild(&state, &work);
+    assert_true(effort(&state, &work) < 8);
+    scree_work_destroy(&work);
+    scree_state_destroy(&state);
+}
+
+static void rebuild_without_growth_allocates_nothing(void **unused)
+{
+    (void)unused;
+    scree_state state;
+    scree_work work;
+    make_state(&state, 500, 10, 16);
+    make_work(&work, 2);
+    refresh(&state, &work);
+    mark_list(&state, &work, 0);
+    rebuild(&state, &work);
+    mark_list(&state, &work, 1);
+    (void)scree_allocation_fail_after(0);
+    rebuild(&state, &work);
+    // The one is the scratch of scree_state_permute.
+    assert_in_range(scree_allocation_fail_after(0), 0, 1);
+    scree_work_destroy(&work);
+    scree_state_destroy(&state);
+}
+
+/// Each allocation of the first rebuilds fails once: an error, and the next refresh goes on with all histories.
+static void failed_allocations_lose_nothing(void **unused)
+{
+    (void)unused;
+    const scree_model model = {.mean_radius = 1};
+    scree_error error;
+    int failures = 0;
+    for (uint64_t site = 1; site < 1000; site++) {
+        scree_state state;
+        scree_work work;
+        make_state(&state, 60, 10, 17);
+        (void)scree_allocation_fail_after(site <= 3 ? site : 0);
+        if (scree_work_create(&work, &model, 1, &error)) {
+            (void)scree_allocation_fail_after(0);
+            scree_state_destroy(&state);
+            failures++;
+            continue;
+        }
+        (void)scree_allocation_fail_after(0);
+        refresh(&state, &work);
+        mark_list(&state, &work, site);
+        id_list before = sorted(listed(&state, &work));
+        // A wider skin makes everything grow; the pairs of before are all in the new list.
+        work.skin = 3;
+        scree_neighbours_invalidate(&work);
+        (void)scree_allocation_fail_after(site);
+        scree_status status = scree_neighbours_refresh(&model, &state, &work, &error);
+        (void)scree_allocation_fail_after(0);
+        if (status) {
+            assert_int_equal(status, SCREE_ERROR_IO);
+            failures++;
+            refresh(&state, &work);
+        }
+        id_list after = sorted(listed(&state, &work));
+        size_t marked = assert_histories_kept(before, before);
+        assert_int_equal(assert_histories_kept(before, after), marked);
+        free(before.pair);
+        free(after.pair);
+        scree_work_destroy(&work);
+        scree_state_destroy(&state);
+        if (!status && site > 3) break;
+    }
+    assert_true(failures > 5);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(list_equals_brute_force),
+        cmocka_unit_test(list_is_the_same_for_any_instruction_set),
+        cmocka_unit_test(list_depends_on_positions_and_ids_alone),
+        cmocka_unit_test(histories_survive_rebuilds),
+        cmocka_unit_test(histories_come_back_from_the_state),
+        cmocka_unit_test(no_contact_is_missed_between_rebuilds),
+        cmocka_unit_test(rebuild_waits_for_half_the_skin),
+        cmocka_unit_test(odd_positions_give_a_valid_list),
+        cmocka_unit_test(escaped_bodies_cost_nothing),
+        cmocka_unit_test(few_bodies_and_bodies_at_one_point),
+        cmocka_unit_test(cost_is_linear),
+        cmocka_unit_test(few_large_bodies_cost_little),
+        cmocka_unit_test(rebuild_without_growth_allocates_nothing),
+        cmocka_unit_test(failed_allocations_lose_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
