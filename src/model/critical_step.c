@@ -22,7 +22,7 @@
 ///
 /// Tangents at a force f:  f = A sqrt(R_eff) d^1.5,  k_n = 1.5 A sqrt(R_eff d),  k_t = 8 Gbar sqrt(R_eff d);
 ///     hertz_brilliantov:  c_n = T A sqrt(R_eff d), no tangential spring
-///     hertz_mindlin:      c = damping sqrt(m_eff k), k without the 1.5 (Tsuji et al. 1992), normal and tangential.
+///     hertz_mindlin:      c_n = c_t = damping sqrt(m_eff k), k = A sqrt(R_eff d) without the 1.5
 ///
 /// The friction of hertz_brilliantov, mu f (s/v_R)^(1/c), is bounded and cannot make a run unstable. But slip slower
 /// than s = 3 mu f dt/m (equal discs) is not resolved: it turns its sign every step with about that size, which is of
@@ -56,7 +56,7 @@ scree_contact_tangent scree_contact_linearise(const scree_model *model, const sc
     }
     tangent.tangential_stiffness = pair->tangential_stiffness * root * sqrt(indentation);
     tangent.normal_damping = pair->damping * sqrt(effective_mass * secant);
-    tangent.tangential_damping = pair->damping * sqrt(effective_mass * tangent.tangential_stiffness);
+    tangent.tangential_damping = tangent.normal_damping;
     return tangent;
 }
 
