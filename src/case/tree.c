@@ -1,5 +1,5 @@
-/// Arena and tree of a case file. Lists are linked, and each piece of an arena is an allocation of its own, so that a test
-/// can make every one of them fail: a case file has at most a few thousand values (yaml.c).
+/// Arena and tree of a case file. Lists are linked, and each piece of an arena is an allocation of its own, so that a
+/// test can make every one of them fail: a case file has at most a few thousand values (yaml.c).
 #include "case/tree.h"
 
 #include "base/memory.h"
