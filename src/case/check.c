@@ -56,7 +56,7 @@ static uint64_t refuse_unknown(const scope *s, scree_node *child)
 {
     char path[SCREE_PATH_BYTES], accepted[256] = "";
     scree_key_join(path, s->path, child->key);
-    if (is_of_another_kind(s, child, path)) return 0;
+    if (is_of_another_kind(s, child, path) || scree_problem_omit(s->reader, child->key_place)) return 0;
     const char *names[MOST_KEYS];
     size_t count = 0, length = 0;
     for (size_t i = 0; i < s->section->count && count < MOST_KEYS; i++) {
