@@ -172,6 +172,7 @@ static void test_impossible_directories(void **state)
     memset(name, 'x', sizeof name - 1);
     name[sizeof name - 1] = 0;
     assert_int_equal(scree_run_directory_create(name, false, &error), SCREE_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "the run's folder has"));
     name[300] = 0; // a component longer than file systems take
     assert_int_equal(scree_run_directory_create(name, false, &error), SCREE_ERROR_IO);
 }
@@ -331,7 +332,8 @@ static void test_series_reader_on_damaged_files(void **state)
                                           "a [1]\n\n5\n",
                                           "a [1],b [1]\n1,x\n",
                                           "a [1],b [1]\n1\n2,3\n",
-                                          "a [1],\n1,2\n"};
+                                          "a [1],\n1,2\n",
+                                          "a [1\n5\n"};
     for (size_t i = 0; i < sizeof damaged / sizeof damaged[0]; i++) {
         put("damaged.csv", damaged[i]);
         assert_int_equal(scree_series_read(&series, "damaged.csv", &error), SCREE_ERROR_IO);
