@@ -30,7 +30,7 @@ typedef struct scree_scene_view {
     double scale;                    ///< pt per m
     double left, top, width, height; ///< of the sample
     double page_width, page_height;
-    char title[512], caption[160], field_name[160];
+    char title[512], caption[256], field_name[160];
 } scree_scene_view;
 
 /// Line colours and text styles of all scenes.
