@@ -9,6 +9,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+/// What libfyaml and udunits2 lose themselves on malformed text (16 kB in 100,000 files) is not Scree's to free.
+const char *__lsan_default_suppressions(void);
+const char *__lsan_default_suppressions(void)
+{
+    return "leak:libfyaml\nleak:libudunits2\n";
+}
+
 enum { LARGEST = 1 << 16, MOST_CHANGES = 4 };
 
 typedef struct sample {
@@ -240,6 +247,7 @@ int main(int count, char **arguments)
         wrong++;
     }
     printf("%llu files, %llu accepted, %llu rejected\n", files, accepted, files - accepted - wrong);
+    (void)fflush(stdout); // before a leak checker may end the process
     free(f);
     return wrong > 0;
 }

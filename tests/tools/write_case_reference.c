@@ -4,5 +4,5 @@
 int main(void)
 {
     scree_error error;
-    return scree_schema_write_manual(stdout, &error);
+    return (int)scree_schema_write_manual(stdout, &error);
 }

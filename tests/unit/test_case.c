@@ -189,6 +189,9 @@ static void files_that_are_no_cases_are_refused(void **state)
     check_bytes(large, 4000, SCREE_ERROR_INPUT, "nested more than 16 levels");
     for (size_t i = 0; i < 1 << 20; i++) large[i] = "- b\n"[i % 4];
     check_bytes(large, 1 << 20, SCREE_ERROR_INPUT, "more than 10000 keys and values");
+    for (size_t i = 0; i < TEN_MEGABYTES; i++) large[i] = "#\n"[i % 2];
+    large[(1 << 20) + 1] = 0;
+    wrong(large, NULL, "too large for a case file: 1048577 bytes (accepted: at most 1 MiB)");
     free(large);
     check_bytes("", 0, SCREE_ERROR_INPUT, "the case file is empty");
     check_bytes("\x7f"
@@ -323,6 +326,16 @@ static void stages_of_one_kind_are_numbered(void **state)
     assert_true(c->config.stages[3].rate == 5);
     scree_case_free(c);
     wrong(text, SET("stages.compress.rate=7"), "did you mean 'stages.compress_1.rate'?");
+    c = right(text,
+              SET("stages=[{stage: prepare}, {stage: confine, pressure: 1}, {stage: confine, pressure: 1}, {stage: "
+                  "confine, pressure: 1}, {stage: confine, pressure: 1}, {stage: confine, pressure: 1}, {stage: "
+                  "confine, pressure: 1}, {stage: confine, pressure: 1}, {stage: confine, pressure: 1}, {stage: "
+                  "confine, pressure: 1}, {stage: confine, pressure: 1}, {stage: confine, pressure: 1}]",
+                  "stages.10.pressure=7"),
+              false);
+    assert_true(c->config.stages[10].pressure == 7);
+    assert_string_equal(c->config.stages[10].name, "confine_10");
+    scree_case_free(c);
 }
 
 static void many_problems_are_counted(void **state)
@@ -383,7 +396,7 @@ static void nearest_names(void **state)
         {"poisson", "poisson_ratio"},
         {"frction", "friction"},
         {"densit", "density"},
-        {"rat", "rate"},
+        {"raet", "rate"},
         {"modulus", "young_modulus"},
         {"strain_rate", "rate"},
         {"wall_frictoin", "wall_friction"},
@@ -418,7 +431,8 @@ static void lost_memory_is_survived(void **state)
             assert_true(++n < 1000);
             scree_allocation_fail_after(n);
             status = parse(texts[t], SET("seed=3", "guard.overlap=3 %"), false, &c, &problems);
-            scree_allocation_fail_after(0);
+            uint64_t made = scree_allocation_fail_after(0);
+            assert_int_equal(status == SCREE_ERROR_IO, made >= n); // no failure is overlooked
             if (status == SCREE_ERROR_IO && problems)
                 assert_non_null(strstr(scree_problems_get(problems, 0)->message, "out of memory"));
             scree_problems_free(problems);

@@ -189,6 +189,8 @@ static void written_cases_read_back_the_same(void **state)
         "particles.radius_min=0.1 \u00b5m",
         "title=\"quotes\" \\ and: colons # and \u00e9, [brackets]",
         "title=- ",
+        "title=a: b",
+        "title=a # b",
         "title=yes",
         "title=.5 ",
         "materials.0.poisson_ratio=-0.0",
