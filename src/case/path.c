@@ -150,7 +150,7 @@ static void consider_section(search *s, const scree_section *section, const scre
     for (size_t i = 0; i < section->count; i++) {
         const scree_key *key = &section->keys[i];
         char inner[SCREE_PATH_BYTES];
-        scree_path_join(inner, path, key->name);
+        scree_key_join(inner, path, key->name);
         const scree_node *node = scree_node_find(mapping, key->name);
         if (key->type == SCREE_KEY_SECTION) {
             consider_section(s, key->sections, node, inner);
@@ -164,7 +164,7 @@ static void consider_section(search *s, const scree_section *section, const scre
             char name[64], deeper[SCREE_PATH_BYTES];
             if (s->by_index || !scree_element_name(key, node, element, name, sizeof name))
                 (void)snprintf(name, sizeof name, "%zu", index);
-            scree_path_join(deeper, inner, name);
+            scree_key_join(deeper, inner, name);
             const scree_section *kind = scree_element_section(key, element);
             if (kind) consider_section(s, kind, element, deeper);
         }

@@ -1,10 +1,5 @@
 /// The tables of fields: names, units, places, and that nothing of a state is missing from them.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "testing.h"
 
 #include "io/array.h"
 #include "io_sample.h"
