@@ -154,9 +154,9 @@ static void write_caption(scree_scene_view *view)
     const scree_snapshot *s = view->snapshot;
     char strain[48] = "", time[48] = "", left_out[64] = "", number[32];
     if (isfinite(s->axial_strain))
-        (void)snprintf(strain, sizeof strain, ", axial strain %.2f %%", 100 * s->axial_strain);
+        (void)snprintf(strain, sizeof strain, ", axial strain %.2f %%", 100 * s->axial_strain);
     scree_number_text(number, sizeof number, s->time, 4);
-    if (isfinite(s->time)) (void)snprintf(time, sizeof time, ", t = %s s", number);
+    if (isfinite(s->time)) (void)snprintf(time, sizeof time, ", t = %s s", number);
     if (view->disc_count < s->count)
         (void)snprintf(left_out, sizeof left_out, ", %zu without a position", s->count - view->disc_count);
     (void)snprintf(view->caption, sizeof view->caption, "%zu disc%s%s%s%s", view->disc_count,

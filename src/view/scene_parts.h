@@ -10,7 +10,7 @@
 /// colours of a diverging map.
 #define SCREE_SCENE_LEVELS       97
 #define SCREE_SCENE_FORCE_LIMIT  6.0  ///< times the mean normal force: lines grow no wider beyond it
-#define SCREE_SCENE_FORCE_WIDTH  0.13 ///< width of the line of the mean force over the mean diameter
+#define SCREE_SCENE_FORCE_WIDTH  0.11 ///< width of the line of the mean force over the mean diameter
 #define SCREE_SCENE_LEGEND_WIDTH 106  ///< pt
 
 typedef struct scree_scene_view {
