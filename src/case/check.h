@@ -9,7 +9,7 @@
 enum { SCREE_PATH_BYTES = 160 };
 
 /// path.name into `out`, which may be longer than what fits: then it is cut.
-void scree_path_join(char out[SCREE_PATH_BYTES], const char *path, const char *name);
+void scree_key_join(char out[SCREE_PATH_BYTES], const char *path, const char *name);
 
 /// Whether a key is used, given the choices that its `when` names.
 typedef enum scree_use {
