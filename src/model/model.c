@@ -181,7 +181,7 @@ static scree_status resolve_step(scree_model *model, scree_error *error)
     if (model->step <= model->critical_step) return SCREE_OK;
     scree_status status =
         FIELD_ERROR(error, "integrator.step",
-                    "a step of %.3g s is above the critical step of this case, %.3g s, and would be unstable; "
+                    "a step of %.3g s is above the critical step of this case, %.3g s, and may be unstable; "
                     "give %.2g s, or auto",
                     model->step, model->critical_step, two_digits_below(0.5 * model->critical_step));
     if (error) {
