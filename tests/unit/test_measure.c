@@ -288,11 +288,11 @@ static void stress_differs_by_the_residual(void **user)
     bench_destroy(&b);
 }
 
-/// Largest difference of two 2 x 2 matrices.
+/// Largest difference of two 2 x 2 matrices; NAN if any.
 static double distance(const double a[4], const double b[4])
 {
     double largest = 0;
-    for (int i = 0; i < 4; i++) largest = fmax(largest, fabs(a[i] - b[i]));
+    for (int i = 0; i < 4; i++) largest = fabs(a[i] - b[i]) <= largest ? largest : fabs(a[i] - b[i]);
     return largest;
 }
 
@@ -582,7 +582,7 @@ static void fluctuations_about_an_affine_field(void **user)
     // On a line: no gradient, the mean displacement goes.
     for (int i = 0; i < COUNT; i++) y0[i] = 2 * x0[i];
     (void)scree_fluctuations(x0, y0, x1, y1, COUNT, fx, fy, g);
-    assert_true(distance(g, (double[4]){0}) == 0);
+    for (int i = 0; i < 4; i++) assert_true(g[i] == 0);
     assert_true(scree_fluctuations(x0, y0, x1, y1, 0, fx, fy, g) == 0);
 }
 

@@ -245,6 +245,28 @@ static void run_without_loading_has_its_packing_drawn(void **state)
     assert_int_equal(r.drawn, 5);
 }
 
+/// Two snapshots of loading, at 0 and 5 %: the windows that are the default without a case need more of them.
+static void strain_windows_come_from_the_case(void **state)
+{
+    (void)state;
+    report r;
+    scree_error error;
+    const char *text = scree_template_text("biaxial"), *key = "windows: ", *windows = strstr(text, key);
+    assert_non_null(windows);
+    new_directory("windows");
+    make_snapshots("windows", 3);
+    FILE *file = fopen("windows/case.yaml", "w");
+    assert_non_null(file);
+    fprintf(file, "%.*s%s[[0 %%, 5 %%]]%s", (int)(windows - text), text, key, strchr(windows, '\n'));
+    fclose(file);
+    assert_int_equal(plot("windows", &r, &error), SCREE_ERROR_IO); // no series.csv
+    assert_int_equal(r.drawn, 6);
+    assert_non_null(strstr(r.text, "fluctuations-00-05.svg"));
+    assert_int_equal(unlink("windows/case.yaml"), 0);
+    assert_int_equal(plot("windows", &r, &error), SCREE_ERROR_IO);
+    assert_int_equal(r.drawn, 5);
+}
+
 static void no_run_is_an_error(void **state)
 {
     (void)state;
@@ -280,6 +302,7 @@ int main(void)
         cmocka_unit_test(missing_columns_leave_out_their_charts),
         cmocka_unit_test(empty_series_is_told),
         cmocka_unit_test(run_without_loading_has_its_packing_drawn),
+        cmocka_unit_test(strain_windows_come_from_the_case),
         cmocka_unit_test(no_run_is_an_error),
         cmocka_unit_test(scenes_are_drawn_without_gnuplot),
     };

@@ -175,7 +175,7 @@ static void few_discs_between_plates(void **user)
     scree_state_destroy(state);
 }
 
-/// Reverses the rows; ids stay with their bodies.
+/// The same bodies in rows of another order.
 static void rows_and_threads_do_not_show(void **user)
 {
     (void)user;
@@ -183,7 +183,7 @@ static void rows_and_threads_do_not_show(void **user)
     bench_create(&a, 9, 17, true);
     bench_create(&b, 9, 17, true);
     uint32_t order[9 * 17];
-    for (uint32_t k = 0; k < 9 * 17; k++) order[k] = 9 * 17 - 1 - k;
+    for (uint32_t k = 0; k < 9 * 17; k++) order[k] = 40 * k % (9 * 17); // 40 and 153 have no common factor
     assert_int_equal(scree_state_permute(&b.state, order, NULL), SCREE_OK);
     assert_int_equal(scree_boundary_refresh(&a.model, &a.state, NULL), SCREE_OK);
     assert_int_equal(scree_boundary_refresh(&b.model, &b.state, NULL), SCREE_OK);
