@@ -60,6 +60,9 @@ expect 0 '' "$scree" run biaxial -q --output=mine --threads=1 "${small[@]}"
 same "$("$scree" get mine case)" mine
 same "$("$scree" get mine state_checksum)" "$("$scree" get out state_checksum)" "checksum with one thread and with two"
 expect 0 '' "$scree" run biaxial -q -omine -f -t1 "${small[@]}"
+# Nothing that is meant for a closed stream ends up in a file of the run.
+"$scree" run biaxial -o closed -t1 "${small[@]}" <&- >&- 2>&- || complain "a run without standard streams"
+for file in case.yaml series.csv; do cmp -s mine/$file closed/$file || complain "$file differs without standard streams"; done
 
 # --- get
 expect 0 '^[-0-9.e]+$' "$scree" get out phi
