@@ -3,7 +3,7 @@
 ///
 /// Attributes of the group: `layout` is a checksum over names, types and shapes of the tables and tells whether this
 /// build knows what it reads; `case_checksum` tells which case it belongs to. The seal of the file (seal.h) tells
-/// whether it is whole; when it is not, the older of the two is read. Cost: about 170 bytes a body and 40 a contact on
+/// whether it is whole; when it is not, the older of the two is read. Cost: about 125 bytes a body and 40 a contact on
 /// disk.
 #include "base/checksum.h"
 #include "io/run_file.h"

@@ -1,10 +1,13 @@
-/// ParaView files, written without VTK: discs as points (.vtp, fields of the field table), contacts as lines (.vtp),
-/// and .pvd collections that are replaced after every snapshot. Binary appended raw data, little endian.
+/// ParaView files, written without VTK: discs as points, contacts, Delaunay boundary and plates as lines (.vtp), and
+/// .pvd collections with the times, which are replaced after every snapshot. Binary appended raw data in the byte order
+/// of the machine, which the files name.
 #ifndef SCREE_IO_PARAVIEW_H
 #define SCREE_IO_PARAVIEW_H
 
 #include "io/snapshot.h"
 
+/// Writes paraview/discs-INDEX.vtp, contacts-, boundary-, plates-, and renews the collections; entries of snapshots
+/// from INDEX on that a run before a restart has left are dropped. Errors: SCREE_ERROR_IO.
 scree_status scree_paraview_write(const char *directory, const scree_model *model, const scree_state *state,
                                   const scree_contact_table *table, const scree_snapshot_info *info,
                                   scree_error *error) SCREE_MUST_USE;

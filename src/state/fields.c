@@ -123,8 +123,8 @@ const scree_field scree_members[] = {
     ONE("stage/first_step", SCREE_FIELD_UINT64, 1, "1", stage.first_step, "step at which the stage began"),
     ONE("stage/first_time", SCREE_FIELD_DOUBLE, 1, "s", stage.first_time, "time at which the stage began"),
     ONE("stage/reference", SCREE_FIELD_DOUBLE, 8, "1", stage.reference, "numbers of the stage, in its own SI units"),
-    ONE("stage/samples", SCREE_FIELD_INT64, 1, "1", stage.samples, "rows of series.csv written in this stage"),
-    ONE("stage/snapshots", SCREE_FIELD_INT64, 1, "1", stage.snapshots, "snapshots written in this stage"),
+    ONE("stage/samples", SCREE_FIELD_INT64, 1, "1", stage.samples, "rows of series.csv written in this run"),
+    ONE("stage/snapshots", SCREE_FIELD_INT64, 1, "1", stage.snapshots, "snapshots written in this run"),
     ONE("stage/counter", SCREE_FIELD_INT64, 1, "1", stage.counter, "counter of the stage"),
 };
 const size_t scree_member_count = sizeof scree_members / sizeof *scree_members;

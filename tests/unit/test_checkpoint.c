@@ -1,10 +1,5 @@
 /// Checkpoints: every bit comes back; what is damaged, foreign or missing is recognised and nothing is lost.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "testing.h"
 
 #include "io/run_file.h"
 #include "io/seal.h"

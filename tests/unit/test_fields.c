@@ -1,14 +1,10 @@
 /// The tables of fields: names, units, places, and that nothing of a state is missing from them.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "testing.h"
 
 #include "io/array.h"
 #include "io_sample.h"
 
+#include <stdio.h>
 #include <udunits2.h>
 
 static size_t all_count(void)
@@ -174,6 +170,62 @@ static void packing_and_unpacking_agree(void **unused)
     scree_state_destroy(&copy);
 }
 
+/// The row of a dataset in docs/output.md.
+static void format_row(const scree_array *array, const char *group, const char *rows, char *line, size_t size)
+{
+    static const char *const types[] = {"float64", "int64", "uint64", "int32", "uint32", "uint8"};
+    char shape[32];
+    if (array->single && array->components == 1)
+        (void)snprintf(shape, sizeof shape, "one");
+    else if (array->single)
+        (void)snprintf(shape, sizeof shape, "%d", array->components);
+    else if (array->components == 1)
+        (void)snprintf(shape, sizeof shape, "%s", rows);
+    else
+        (void)snprintf(shape, sizeof shape, "%s x %d", rows, array->components);
+    (void)snprintf(line, size, "\n| `%s%s` | %s | %s | %s | %s |\n", group, array->name, shape, types[array->type],
+                   array->unit, array->meaning);
+}
+
+static void assert_documented(const char *manual, const scree_array *array, const char *group, const char *rows)
+{
+    char line[400];
+    format_row(array, group, rows, line, sizeof line);
+    if (!strstr(manual, line)) fail_msg("docs/output.md lacks this row:%s", line);
+}
+
+static void the_manual_lists_every_dataset(void **unused)
+{
+    (void)unused;
+    static char manual[1 << 16];
+    static const char *const rows[] = {"n", "c", "b", "4", "1"};
+    FILE *file = fopen(SCREE_SOURCE_DIR "/docs/output.md", "r");
+    assert_non_null(file);
+    assert_true(fread(manual, 1, sizeof manual - 1, file) > 1000);
+    (void)fclose(file);
+    scree_state state;
+    scree_array array;
+    scree_contact_table table = {0};
+    const scree_config config = {0};
+    const scree_model model = sample_model(&config);
+    assert_int_equal(sample_state(&state, 1, 1, NULL), SCREE_OK);
+    for (size_t k = 0; k < scree_body_array_count(); k++) {
+        assert_int_equal(scree_body_array(&model, &state, k, &array, NULL), SCREE_OK);
+        assert_documented(manual, &array, "", "n");
+        scree_array_destroy(&array);
+    }
+    for (size_t k = 0; k < scree_contact_array_count(); k++) {
+        assert_int_equal(scree_contact_array(&state, &table, k, &array, NULL), SCREE_OK);
+        assert_documented(manual, &array, "contacts/", "c");
+        scree_array_destroy(&array);
+    }
+    for (size_t k = 0; k < all_count(); k++) {
+        array = scree_array_of_field(&state, all(k));
+        if (all(k)->role == SCREE_FIELD_STATE) assert_documented(manual, &array, "", rows[all(k)->rows]);
+    }
+    scree_state_destroy(&state);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -184,6 +236,7 @@ int main(void)
         cmocka_unit_test(no_member_of_the_state_is_missing),
         cmocka_unit_test(no_member_of_an_element_is_missing),
         cmocka_unit_test(packing_and_unpacking_agree),
+        cmocka_unit_test(the_manual_lists_every_dataset),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

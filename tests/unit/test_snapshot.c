@@ -1,11 +1,6 @@
 /// Snapshots and run.h5: what is written comes back, from a run that goes on and from one that has ended; kills, full
 /// disks, damage and restarts lose nothing.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "testing.h"
 
 #include "io/run_file.h"
 #include "io/snapshot.h"

@@ -1,0 +1,187 @@
+/// Files of points and lines. See the header.
+#include "io/vtp.h"
+
+#include "io/run_directory.h"
+
+#include <assert.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+#define BYTE_ORDER_NAME "LittleEndian"
+#else
+#define BYTE_ORDER_NAME "BigEndian"
+#endif
+
+// ---- building ----------------------------------------------------------------------------------------------------
+
+static void number_cells(scree_vtp *vtp, size_t cells, bool chain)
+{
+    int64_t *connectivity = vtp->connectivity.data, *ends = vtp->ends.data;
+    const size_t per_cell = vtp->cells == SCREE_VTP_LINES ? 2 : 1;
+    for (size_t k = 0; k < cells; k++) {
+        ends[k] = (int64_t)(per_cell * (k + 1));
+        connectivity[per_cell * k] = (int64_t)(chain ? k : per_cell * k);
+        if (per_cell == 2) connectivity[2 * k + 1] = (int64_t)(chain ? (k + 1) % cells : 2 * k + 1);
+    }
+}
+
+scree_status scree_vtp_create(scree_vtp *vtp, size_t points, scree_vtp_cells cells, bool chain, scree_error *error)
+{
+    const size_t per_cell = cells == SCREE_VTP_LINES ? 2 : 1, count = chain ? points : points / per_cell;
+    *vtp = (scree_vtp){.cells = cells};
+    vtp->points = (scree_array){.name = "Points", .components = 3, .rows = points, .unit = "m"};
+    vtp->connectivity =
+        (scree_array){.name = "connectivity", .type = SCREE_FIELD_INT64, .components = 1, .rows = per_cell * count};
+    vtp->ends = (scree_array){.name = "offsets", .type = SCREE_FIELD_INT64, .components = 1, .rows = count};
+    scree_status status = scree_array_allocate(&vtp->points, error);
+    if (!status) status = scree_array_allocate(&vtp->connectivity, error);
+    if (!status) status = scree_array_allocate(&vtp->ends, error);
+    if (status)
+        scree_vtp_destroy(vtp);
+    else
+        number_cells(vtp, count, chain);
+    return status;
+}
+
+void scree_vtp_destroy(scree_vtp *vtp)
+{
+    scree_array_destroy(&vtp->points);
+    scree_array_destroy(&vtp->connectivity);
+    scree_array_destroy(&vtp->ends);
+    for (size_t k = 0; k < vtp->point_data_count; k++) scree_array_destroy(&vtp->point_data[k]);
+    for (size_t k = 0; k < vtp->cell_data_count; k++) scree_array_destroy(&vtp->cell_data[k]);
+    vtp->point_data_count = vtp->cell_data_count = 0;
+}
+
+void scree_vtp_place(scree_vtp *vtp, size_t k, double x, double y)
+{
+    double *point = (double *)vtp->points.data + 3 * k;
+    point[0] = x;
+    point[1] = y;
+}
+
+/// (x, y) becomes (x, y, 0).
+static scree_status widen(scree_array *array, scree_error *error)
+{
+    scree_array wide = *array;
+    wide.components = 3;
+    scree_status status = scree_array_allocate(&wide, error);
+    if (status) return status;
+    const double *from = array->data;
+    double *to = wide.data;
+    for (size_t k = 0; k < array->rows; k++) memcpy(to + 3 * k, from + 2 * k, 2 * sizeof *to);
+    scree_array_destroy(array);
+    *array = wide;
+    return SCREE_OK;
+}
+
+scree_status scree_vtp_add(scree_vtp *vtp, bool of_cells, scree_array array, scree_error *error)
+{
+    size_t *count = of_cells ? &vtp->cell_data_count : &vtp->point_data_count;
+    assert(*count < SCREE_VTP_ARRAYS);
+    assert(array.rows == (of_cells ? vtp->ends.rows : vtp->points.rows));
+    const char *group = strchr(array.name, '/');
+    if (group) array.name = group + 1;
+    scree_status status = array.components == 2 ? widen(&array, error) : SCREE_OK;
+    if (status)
+        scree_array_destroy(&array);
+    else
+        (of_cells ? vtp->cell_data : vtp->point_data)[(*count)++] = array;
+    return status;
+}
+
+// ---- writing -----------------------------------------------------------------------------------------------------
+
+static const char *type_name(scree_field_type type)
+{
+    switch (type) {
+    case SCREE_FIELD_DOUBLE:
+        return "Float64";
+    case SCREE_FIELD_INT64:
+        return "Int64";
+    case SCREE_FIELD_UINT64:
+        return "UInt64";
+    case SCREE_FIELD_INT32:
+        return "Int32";
+    case SCREE_FIELD_UINT32:
+        return "UInt32";
+    case SCREE_FIELD_UINT8:
+        break;
+    }
+    return "UInt8";
+}
+
+static uint64_t bytes_of(const scree_array *array)
+{
+    return (uint64_t)array->rows * (uint64_t)array->components * scree_field_size(array->type);
+}
+
+/// The element that announces an array, whose bytes begin at *offset; *offset moves on to the next one.
+static void announce(FILE *file, const scree_array *array, uint64_t *offset)
+{
+    fprintf(file,
+            "        <DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"appended\" offset=\"%" PRIu64
+            "\"",
+            type_name(array->type), array->name, array->components, *offset);
+    if (array->unit && strcmp(array->unit, "1") != 0)
+        fprintf(file,
+                "><InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">%s</InformationKey></DataArray>\n",
+                array->unit);
+    else
+        fputs("/>\n", file);
+    *offset += sizeof(uint64_t) + bytes_of(array);
+}
+
+static void announce_section(FILE *file, const char *section, const scree_array *arrays, size_t count, uint64_t *offset)
+{
+    fprintf(file, "      <%s>\n", section);
+    for (size_t k = 0; k < count; k++) announce(file, &arrays[k], offset);
+    fprintf(file, "      </%s>\n", section);
+}
+
+static void write_head(FILE *file, const scree_vtp *vtp, double time)
+{
+    const bool lines = vtp->cells == SCREE_VTP_LINES;
+    const scree_array cells[] = {vtp->connectivity, vtp->ends};
+    uint64_t offset = 0;
+    fprintf(
+        file,
+        "<?xml version=\"1.0\"?>\n"
+        "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"" BYTE_ORDER_NAME "\" header_type=\"UInt64\">\n"
+        "  <PolyData>\n"
+        "    <FieldData>\n"
+        "      <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">%.17g</DataArray>\n"
+        "    </FieldData>\n"
+        "    <Piece NumberOfPoints=\"%zu\" NumberOfVerts=\"%zu\" NumberOfLines=\"%zu\" NumberOfStrips=\"0\" "
+        "NumberOfPolys=\"0\">\n",
+        time, vtp->points.rows, lines ? (size_t)0 : vtp->ends.rows, lines ? vtp->ends.rows : (size_t)0);
+    announce_section(file, "Points", &vtp->points, 1, &offset);
+    announce_section(file, lines ? "Lines" : "Verts", cells, 2, &offset);
+    announce_section(file, "PointData", vtp->point_data, vtp->point_data_count, &offset);
+    announce_section(file, "CellData", vtp->cell_data, vtp->cell_data_count, &offset);
+    fputs("    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_", file);
+}
+
+static bool append(FILE *file, const scree_array *array)
+{
+    uint64_t bytes = bytes_of(array);
+    return fwrite(&bytes, sizeof bytes, 1, file) == 1 &&
+           (bytes == 0 || fwrite(array->data, 1, (size_t)bytes, file) == bytes);
+}
+
+scree_status scree_vtp_write(const scree_vtp *vtp, const char *path, double time, scree_error *error)
+{
+    FILE *file;
+    scree_status status = scree_replace_begin(path, &file, error);
+    if (status) return status;
+    write_head(file, vtp, time);
+    bool whole = append(file, &vtp->points) && append(file, &vtp->connectivity) && append(file, &vtp->ends);
+    for (size_t k = 0; k < vtp->point_data_count && whole; k++) whole = append(file, &vtp->point_data[k]);
+    for (size_t k = 0; k < vtp->cell_data_count && whole; k++) whole = append(file, &vtp->cell_data[k]);
+    if (!whole) status = scree_error_set_errno(error, SCREE_ERROR_IO, "cannot write '%s'", path);
+    fputs("\n  </AppendedData>\n</VTKFile>\n", file);
+    scree_status finished = scree_replace_finish(path, file, whole, whole ? error : NULL);
+    return status ? status : finished;
+}
