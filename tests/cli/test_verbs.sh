@@ -3,8 +3,8 @@
 # shellcheck source=tests/cli/check.sh
 . "$(dirname "$0")/check.sh"
 
-# A biaxial test that runs in about a second.
-small=(--quick --set particles.count=120 --set 'stages.compress.strain=1 %' --set 'stages.compress.rate=5e-2 1/s'
+# A biaxial test that runs in a few seconds.
+small=(--quick --set particles.count=200 --set 'stages.compress.strain=1 %' --set 'stages.compress.rate=5e-2 1/s'
     --set 'measure.windows=[]' --no-figures)
 
 # --- help, all from one table
@@ -76,10 +76,11 @@ expect 0 '\.svg$' "$scree" plot out
 while read -r path; do [ -s "$path" ] || complain "plot names $path, which is not there"; done <<<"$output"
 
 # --- an interrupt leaves a checkpoint, and the restart ends where an uninterrupted run does
-long=(--quick --set particles.count=300 --no-figures --threads 1)
+long=("${small[@]}" --threads 1 --set 'stages.compress.strain=2 %')
 "$scree" run biaxial -o whole -q "${long[@]}" || complain "the uninterrupted run"
 for signal in INT TERM; do
-    "$scree" run biaxial -o cut "${long[@]}" --force 2>cut.txt &
+    rm -rf cut
+    "$scree" run biaxial -o cut "${long[@]}" 2>cut.txt &
     pid=$!
     for ((i = 0; i < 600; i++)); do
         [ -s cut/series.csv ] && [ "$(wc -l <cut/series.csv)" -gt 3 ] && break
