@@ -29,8 +29,8 @@ typedef struct scree_error {
     char message[1024]; ///< a whole sentence for a person
 } scree_error;
 
-/// Writes "file:line:column: field: message (accepted: ...)" into `text` (NUL-terminated, truncated to `size`).
-/// Returns the length that the whole text would have.
+/// Writes "file:line:column: field: message (accepted: ...)", without what the message itself suggests in quotes, into
+/// `text` (NUL-terminated, truncated to `size`). Returns the length that the whole text would have.
 size_t scree_error_format(const scree_error *error, char *text, size_t size);
 
 #ifdef __cplusplus

@@ -49,8 +49,11 @@ size_t scree_error_format(const scree_error *error, char *text, size_t size)
         (void)snprintf(place, sizeof place, "%s:%d:%d: ", error->file, error->line, error->column);
     else if (error->file[0])
         (void)snprintf(place, sizeof place, "%s: ", error->file);
-    int length =
-        snprintf(text, size, "%s%s%s%s%s%s%s", place, error->field, error->field[0] ? ": " : "", error->message,
-                 error->accepted[0] ? " (accepted: " : "", error->accepted, error->accepted[0] ? ")" : "");
+    // What the message suggests is not said again.
+    char quoted[sizeof error->accepted + 2];
+    (void)snprintf(quoted, sizeof quoted, "'%s'", error->accepted);
+    const char *accepted = strstr(error->message, quoted) ? "" : error->accepted;
+    int length = snprintf(text, size, "%s%s%s%s%s%s%s", place, error->field, error->field[0] ? ": " : "",
+                          error->message, accepted[0] ? " (accepted: " : "", accepted, accepted[0] ? ")" : "");
     return length < 0 ? 0 : (size_t)length;
 }

@@ -144,9 +144,9 @@ static double factor_between(const ut_unit *from, const ut_unit *to)
     cv_converter *converter = ut_get_converter((ut_unit *)from, (ut_unit *)to);
     if (!converter) return 0;
     double zero = cv_convert_double(converter, 0), one = cv_convert_double(converter, 1);
-    double two = cv_convert_double(converter, 2);
     cv_free(converter);
-    return zero == 0 && isfinite(two) && one > 0 && fabs(two - 2 * one) <= 1e-12 * two ? one : 0;
+    // Neither offsets nor logarithms nor reciprocals map 0 to 0.
+    return zero == 0 && isfinite(one) && one > 0 ? one : 0;
 }
 
 typedef enum lookup { FOUND, UNKNOWN_UNIT, OTHER_DIMENSION, NO_DATABASE } lookup;

@@ -7,15 +7,21 @@
 /// Moves every active wall by velocity * dt.
 void scree_plates_move(scree_state *state);
 
-/// Wave impedance [N s/m] of a sample of the present mass and area at `pressure`, for a plate of `length` [m].
-double scree_sample_impedance(const scree_model *model, const scree_state *state, double length, double pressure);
+/// A plate under servo: its dashpot and its mass, see plates.c.
+typedef struct scree_servo {
+    double impedance; ///< N s/m
+    double mass;      ///< kg
+} scree_servo;
+
+/// The servo of wall `index` that suits the present sample at `pressure` [Pa].
+scree_servo scree_servo_for(const scree_model *model, const scree_state *state, int index, double pressure);
 
 /// Time [s] that a longitudinal wave needs through the longer side of the sample at `pressure`.
 double scree_sample_wave_time(const scree_model *model, const scree_state *state, double pressure);
 
-/// Sets the velocity of wall `index` so that its normal stress goes to `pressure` [Pa, compression positive]:
-/// velocity = gain * (force error) / impedance, within the velocity limit of the case.
-void scree_plate_servo(const scree_model *model, scree_state *state, int index, double impedance, double pressure);
+/// Advances the velocity of wall `index` by one step, so that its normal stress goes to `pressure` [Pa, compression
+/// positive], within the velocity limit of the case.
+void scree_plate_servo(const scree_model *model, scree_state *state, int index, scree_servo servo, double pressure);
 
 /// Normal stress on a wall [Pa, compression positive] = force / (length * thickness).
 double scree_plate_stress(const scree_model *model, const scree_state *state, int index);

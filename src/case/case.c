@@ -41,8 +41,7 @@ static void read_config(scree_reader *reader, const scree_case_options *options,
 {
     if (!reader->root) return;
     if (quick) scree_quick_apply(reader);
-    for (size_t i = 0; options && i < options->override_count; i++)
-        scree_override_apply(reader, options->overrides[i]);
+    for (size_t i = 0; options && i < options->override_count; i++) scree_override_apply(reader, options->overrides[i]);
     if (!reader->failure.status) scree_config_read(reader, config);
 }
 

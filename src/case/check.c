@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "case/case.h"
 
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -50,11 +51,12 @@ static bool is_of_another_kind(const scope *s, scree_node *child, const char *pa
     return true;
 }
 
-static void refuse_unknown(const scope *s, scree_node *child)
+/// Notes an unknown key. Returns the bit of the key that was probably meant, or 0: that one is then not missed too.
+static uint64_t refuse_unknown(const scope *s, scree_node *child)
 {
     char path[SCREE_PATH_BYTES], accepted[256] = "";
     scree_key_join(path, s->path, child->key);
-    if (is_of_another_kind(s, child, path)) return;
+    if (is_of_another_kind(s, child, path) || scree_problem_omit(s->reader, child->key_place)) return 0;
     const char *names[MOST_KEYS];
     size_t count = 0, length = 0;
     for (size_t i = 0; i < s->section->count && count < MOST_KEYS; i++) {
@@ -64,11 +66,13 @@ static void refuse_unknown(const scope *s, scree_node *child)
                                        s->section->keys[i].name);
     }
     const char *nearest = scree_nearest(child->key, names, count);
-    scree_problem_add(s->reader, child->key_place, path, child->text, accepted, "unknown key%s%s%s",
+    scree_problem_add(s->reader, child->key_place, path, child->text, nearest ? nearest : accepted, "unknown key%s%s%s",
                       nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
+    uint64_t meant = 0;
+    for (size_t i = 0; i < count; i++) meant |= (uint64_t)(names[i] == nearest) << i;
+    return meant;
 }
 
-/// "law: hertz_mindlin" from a `when` and one of its texts.
 static void refuse_unused(const scope *s, const scree_key *key, scree_node *child, const scree_usage *usage,
                           const char *path)
 {
@@ -88,9 +92,11 @@ static void refuse_missing(const scope *s, const scree_key *key, const char *pat
     char limits[200], accepted[256];
     scree_key_accepts(key, limits, sizeof limits);
     bool choices = key->type == SCREE_KEY_CHOICE;
+    scree_place place = s->place;
+    place.origin = SCREE_ORIGIN_FILE; // also where the quick section made the section
     (void)snprintf(accepted, sizeof accepted, "%s%s%s", choices ? "" : scree_key_noun(key),
                    limits[0] && !choices ? ", " : "", limits);
-    scree_problem_add(s->reader, s->place, path, NULL, accepted, "required, but not given");
+    scree_problem_add(s->reader, place, path, NULL, accepted, "required, but not given");
 }
 
 static void read_element(const scope *s, const scree_key *list, scree_node *element, const char *path, void *base)
@@ -187,9 +193,14 @@ static void read_key(const scope *s, const scree_key *key)
 
 static void read_section(const scope *s)
 {
+    uint64_t meant = 0;
     for (scree_node *child = s->mapping ? s->mapping->first : NULL; child; child = child->next)
-        if (!scree_section_find(s->section, child->key, strlen(child->key))) refuse_unknown(s, child);
-    for (size_t i = 0; i < s->section->count; i++) read_key(s, &s->section->keys[i]);
+        if (!scree_section_find(s->section, child->key, strlen(child->key))) meant |= refuse_unknown(s, child);
+    for (size_t i = 0; i < s->section->count; i++) {
+        const scree_key *key = &s->section->keys[i];
+        bool misspelt = meant >> i & 1 && !scree_node_find(s->mapping, key->name);
+        if (!misspelt) read_key(s, key);
+    }
 }
 
 void scree_config_read(scree_reader *reader, scree_config *config)

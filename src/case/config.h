@@ -82,15 +82,16 @@ typedef struct scree_config_stage {
     double solid_fraction; ///< 1, gas only
     double velocity;       ///< m/s, gas only: root-mean-square velocity component
     // confine
-    double pressure;           ///< Pa, compression positive
-    double ramp_time;          ///< s; auto
-    double unbalanced_limit;   ///< 1, stop when the unbalanced force ratio stays below it
-    double time_limit;         ///< s; auto; reaching it is an error of the case, not a silent stop
-    double mobilised_friction; ///< 1, inter-particle friction during this stage; auto: the material's
+    double pressure;         ///< Pa, compression positive
+    double ramp_time;        ///< s; auto
+    double unbalanced_limit; ///< 1, stop when the unbalanced force ratio stays below it
+    double time_limit;       ///< s; auto; reaching it is an error of the case, not a silent stop
     // compress
-    double strain;    ///< 1, axial (logarithmic: no; engineering) strain at which to stop, compression positive
+    double strain;    ///< 1, axial strain (engineering) at which to stop, compression positive
     double rate;      ///< 1/s, axial strain rate referred to the height at the start of the stage
     double rise_time; ///< s, in which the plates reach their velocity; auto: four wave times of the sample
+    // confine and compress
+    double friction; ///< 1, friction during this stage; auto: the material's
 } scree_config_stage;
 
 typedef struct scree_config_window {

@@ -20,10 +20,9 @@ static size_t smaller(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-size_t scree_letters_wrong(const char *a, const char *b)
+/// Distance of `a` and `b`, of m and n letters, at most LONGEST.
+static size_t letters_wrong(const char *a, size_t m, const char *b, size_t n)
 {
-    size_t m = strnlen(a, LONGEST + 1), n = strnlen(b, LONGEST + 1);
-    if (m > LONGEST || n > LONGEST) return SIZE_MAX / 4;
     size_t rows[3][LONGEST + 1];
     size_t *before = rows[0], *last = rows[1], *now = rows[2];
     for (size_t j = 0; j <= n; j++) last[j] = j;
@@ -44,10 +43,13 @@ size_t scree_letters_wrong(const char *a, const char *b)
     return last[n];
 }
 
-bool scree_letters_near(const char *text, const char *name, size_t wrong)
+bool scree_letters_near(const char *text, const char *name, size_t *wrong)
 {
-    size_t m = strnlen(text, LONGEST), n = strlen(name);
-    return 3 * wrong <= (m > n ? m : n);
+    size_t m = strnlen(text, LONGEST + 1), n = strnlen(name, LONGEST + 1);
+    size_t longer = m > n ? m : n, shorter = m > n ? n : m;
+    if (longer > LONGEST || 3 * (longer - shorter) > longer) return false;
+    *wrong = letters_wrong(text, m, name, n);
+    return 3 * *wrong <= longer;
 }
 
 /// Whether `part` stands in `whole` as one or more whole words (words are parted by '_', '-' or '.').
@@ -67,10 +69,10 @@ static bool holds_words(const char *whole, const char *part)
 const char *scree_nearest(const char *text, const char *const *names, size_t count)
 {
     const char *nearest = NULL;
-    size_t fewest = SIZE_MAX / 8;
+    size_t fewest = SIZE_MAX;
     for (size_t i = 0; i < count; i++) {
-        size_t wrong = scree_letters_wrong(text, names[i]);
-        if (wrong >= fewest || !scree_letters_near(text, names[i], wrong)) continue;
+        size_t wrong;
+        if (!scree_letters_near(text, names[i], &wrong) || wrong >= fewest) continue;
         fewest = wrong;
         nearest = names[i];
     }

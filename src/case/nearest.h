@@ -5,10 +5,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/// Insertions, deletions, substitutions and swaps that turn one into the other; huge for texts above 80 letters.
-size_t scree_letters_wrong(const char *a, const char *b);
-
-/// Whether at most a third of the letters are wrong.
-bool scree_letters_near(const char *text, const char *name, size_t wrong);
+/// Whether at most a third of the letters are wrong; *wrong counts insertions, deletions, substitutions and swaps of
+/// neighbours that turn one into the other. False for texts above 80 letters.
+bool scree_letters_near(const char *text, const char *name, size_t *wrong);
 
 #endif

@@ -131,15 +131,11 @@ typedef struct search {
 static void consider(search *s, const char *path, const char *tail)
 {
     enum { SAME_TAIL = 1000, NEAR_TAIL = 2000 };
-    size_t wrong = scree_letters_wrong(s->wanted, path);
-    size_t tail_wrong = scree_letters_wrong(s->wanted_tail, tail);
-    size_t score = SIZE_MAX;
-    if (scree_letters_near(s->wanted, path, wrong))
+    size_t wrong, score = SIZE_MAX;
+    if (scree_letters_near(s->wanted, path, &wrong))
         score = wrong;
-    else if (tail_wrong == 0)
-        score = SAME_TAIL;
-    else if (scree_letters_near(s->wanted_tail, tail, tail_wrong))
-        score = NEAR_TAIL + tail_wrong;
+    else if (scree_letters_near(s->wanted_tail, tail, &wrong))
+        score = wrong == 0 ? SAME_TAIL : NEAR_TAIL + wrong;
     if (score >= s->score) return;
     s->score = score;
     (void)snprintf(s->best, sizeof s->best, "%s", path);
@@ -174,6 +170,7 @@ static void consider_section(search *s, const scree_section *section, const scre
 static void refuse_path(scree_reader *reader, const char *path, const scree_node *value, scree_place place,
                         const char *reason)
 {
+    if (scree_problem_omit(reader, place)) return;
     search s = {.wanted = path, .score = SIZE_MAX};
     const char *dot = strrchr(path, '.');
     s.wanted_tail = dot ? dot + 1 : path;

@@ -77,10 +77,6 @@ static void put(char *field, size_t size, const char *text)
 static scree_error *next_slot(scree_reader *reader)
 {
     scree_problems *list = reader->problems;
-    if (list->count >= MOST_PROBLEMS) {
-        list->omitted++;
-        return NULL;
-    }
     // One slot more than is used stays free for the closing line.
     if (list->count + 1 >= list->capacity) {
         size_t larger = 2 * list->capacity;
@@ -93,10 +89,18 @@ static scree_error *next_slot(scree_reader *reader)
     return &list->items[list->count++];
 }
 
+bool scree_problem_omit(scree_reader *reader, scree_place place)
+{
+    if (reader->only_quick && place.origin != SCREE_ORIGIN_QUICK) return true;
+    if (reader->problems->count < MOST_PROBLEMS) return false;
+    reader->problems->omitted++;
+    return true;
+}
+
 void scree_problem_add(scree_reader *reader, scree_place place, const char *field, const char *value,
                        const char *accepted, const char *format, ...)
 {
-    if (reader->only_quick && place.origin != SCREE_ORIGIN_QUICK) return;
+    if (scree_problem_omit(reader, place)) return;
     scree_error *slot = next_slot(reader);
     if (!slot) return;
     char message[1200];

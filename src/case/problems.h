@@ -22,6 +22,9 @@ scree_status scree_problems_create(scree_problems **out);
 void scree_problem_add(scree_reader *reader, scree_place place, const char *field, const char *value,
                        const char *accepted, const char *format, ...) SCREE_PRINTF(6, 7);
 
+/// True when the list is full: the problem at `place` is counted, and its message need not be made.
+bool scree_problem_omit(scree_reader *reader, scree_place place);
+
 /// Sorts by position (values of --set last), and says how many more there were.
 void scree_problems_finish(scree_problems *problems);
 

@@ -145,6 +145,9 @@ typedef scree_config_stage stage;
      .meaning = "Kind of the stage."},                                                                                 \
         KEY(stage, name, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),                                      \
             .meaning = "Name in the log and for --set; auto: the kind, numbered from 1 if there are several.")
+#define STAGE_FRICTION                                                                                                 \
+    NUMBER(stage, friction, "1", .standard = "auto", FROM("0"), TO("10"),                                              \
+           .meaning = "Friction in this stage, e.g. less while confining for a denser sample; auto: the material's.")
 
 static const scree_key prepare_keys[] = {
     STAGE_HEAD,
@@ -167,13 +170,15 @@ static const scree_key confine_keys[] = {
            .meaning = "The stage ends when the unbalanced force ratio stays below this."),
     NUMBER(stage, time_limit, "s", .standard = "auto", ABOVE("0 s"), TO("1e9 s"),
            .meaning = "The run stops with a message if equilibrium takes longer."),
-    NUMBER(stage, mobilised_friction, "1", .standard = "auto", FROM("0"), TO("10"),
-           .meaning = "Friction between particles in this stage, less for a denser sample; auto: the material's."),
+    STAGE_FRICTION,
 };
 static const scree_key compress_keys[] = {
     STAGE_HEAD,
     NUMBER(stage, strain, "1", ABOVE("0 %"), TO("90 %"), .meaning = "Axial strain at which the stage ends."),
     NUMBER(stage, rate, "1/s", ABOVE("0 1/s"), TO("1e6 1/s"), .meaning = "Axial strain rate."),
+    NUMBER(stage, rise_time, "s", .standard = "auto", FROM("0 s"), TO("1e9 s"),
+           .meaning = "Time in which the plates reach their velocity; auto: four wave times of the sample."),
+    STAGE_FRICTION,
 };
 
 typedef scree_config_measure measure;

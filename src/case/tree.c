@@ -1,33 +1,23 @@
-/// Arena and tree of a case file. Lists are linked: a case file has at most a few thousand values (yaml.c).
+/// Arena and tree of a case file. Lists are linked, and each piece of an arena is an allocation of its own, so that a
+/// test can make every one of them fail: a case file has at most a few thousand values (yaml.c).
 #include "case/tree.h"
 
 #include "base/memory.h"
 
 #include <string.h>
 
-enum { BLOCK_BYTES = 8192, GRAIN = 16 };
-
-typedef struct scree_arena_block {
-    struct scree_arena_block *older;
-    size_t used, size;
-    _Alignas(GRAIN) unsigned char bytes[];
-} block;
+typedef struct scree_arena_piece {
+    struct scree_arena_piece *older;
+    _Alignas(16) unsigned char bytes[];
+} piece;
 
 void *scree_arena_take(scree_arena *arena, size_t bytes)
 {
-    size_t wanted = (bytes + GRAIN - 1) / GRAIN * GRAIN;
-    if (wanted < bytes) return NULL;
-    block *top = arena->newest;
-    if (!top || top->size - top->used < wanted) {
-        size_t size = wanted > BLOCK_BYTES ? wanted : BLOCK_BYTES;
-        if (scree_allocate(&top, 1, sizeof *top + size, NULL)) return NULL;
-        top->older = arena->newest;
-        top->size = size;
-        arena->newest = top;
-    }
-    void *taken = top->bytes + top->used;
-    top->used += wanted;
-    return taken;
+    piece *taken;
+    if (scree_allocate(&taken, 1, sizeof *taken + bytes, NULL)) return NULL;
+    taken->older = arena->newest;
+    arena->newest = taken;
+    return taken->bytes;
 }
 
 char *scree_arena_copy(scree_arena *arena, const char *text, size_t length)
@@ -39,10 +29,10 @@ char *scree_arena_copy(scree_arena *arena, const char *text, size_t length)
 
 void scree_arena_release(scree_arena *arena)
 {
-    block *top = arena->newest;
+    piece *top = arena->newest;
     arena->newest = NULL;
     while (top) {
-        block *older = top->older;
+        piece *older = top->older;
         scree_release(&top);
         top = older;
     }

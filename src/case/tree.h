@@ -8,7 +8,7 @@
 
 /// Memory that is given back all at once: the tree, the texts and arrays of the config, and the case itself.
 typedef struct scree_arena {
-    struct scree_arena_block *newest;
+    struct scree_arena_piece *newest;
 } scree_arena;
 
 /// Zeroed bytes for any type, or NULL when memory ran out.

@@ -35,8 +35,9 @@ static void end_line(writer *w, const char *comment)
 static bool is_plain(const char *text)
 {
     size_t length = strlen(text);
-    bool begins = isalnum((unsigned char)text[0]) || (strchr("+-.", text[0]) && isdigit((unsigned char)text[1]));
-    if (length == 0 || !begins || text[length - 1] == ' ') return false;
+    if (length == 0 || text[length - 1] == ' ') return false;
+    bool number = strchr("+-.", text[0]) && isdigit((unsigned char)text[1]);
+    if (!isalnum((unsigned char)text[0]) && !number) return false;
     for (const char *c = text; *c; c++)
         if (!isalnum((unsigned char)*c) && (unsigned char)*c < 0x80 && !strchr(" _%/.*+-^()", *c)) return false;
     return true;

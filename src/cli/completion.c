@@ -10,7 +10,7 @@ static const char *candidates(scree_value_kind kind)
     case SCREE_VALUE_FOLDER:
         return "compgen -d -- \"$word\"";
     case SCREE_VALUE_CASE:
-        return "compgen -f -X '!*.y?(a)ml' -- \"$word\"; compgen -d -S / -- \"$word\"; "
+        return "compgen -f -X '!*.y*ml' -- \"$word\"; compgen -d -S / -- \"$word\"; "
                "compgen -W \"$(scree list | cut -d ' ' -f 1)\" -- \"$word\"";
     case SCREE_VALUE_BUILTIN:
         return "compgen -W \"$(scree list | cut -d ' ' -f 1)\" -- \"$word\"";

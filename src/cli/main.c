@@ -17,13 +17,14 @@ static void keep_standard_streams(void)
         if (fcntl(stream, F_GETFD) < 0) (void)open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
 }
 
-/// What was printed has to arrive. A reader that has gone away (`scree get out | head -1`) knows that itself.
+/// What was printed has to arrive. A verb that failed has said why; a reader that has gone away (`scree get out | head
+/// -1`) knows that itself.
 static scree_status finish_output(scree_status status)
 {
     errno = 0;
-    if (fflush(stdout) == 0 && !ferror(stdout)) return status;
+    if ((fflush(stdout) == 0 && !ferror(stdout)) || status) return status;
     if (errno != EPIPE) fprintf(stderr, "scree: cannot write standard output: %s\n", strerror(errno ? errno : EIO));
-    return status ? status : SCREE_ERROR_IO;
+    return SCREE_ERROR_IO;
 }
 
 static scree_status call_verb(const scree_verb *verb, int count, char *const *words)

@@ -7,8 +7,8 @@
 ///
 /// History row: h [m], and at n - 1 for the ledger: spring force k_t h, normal damping force, tangential viscous force
 /// [N]. Ledger, with middle increments delta and sigma (motion.h) and mean forces <f> = (f(n-1) + f(n))/2:
-///   damping    <f_n - k_n d> delta + <eta s> sigma
-///   friction   <k_t h> (s dt - (h(n) - h(n-1)))           zero while the contact sticks
+///   damping    <f_n - k_n d> delta, and <eta s> sigma while the contact sticks
+///   friction   <k_t h> (s dt - (h(n) - h(n-1)))           zero while the contact sticks; <eta s> sigma while it slides
 ///   stiffness  1/2 (k_t(n) - k_t(n-1)) h(n) h(n-1) - <k_t h> (sigma - s dt)
 /// The work done on the spring, <k_t h> sigma, minus the change of its energy 1/2 k_t h^2 is friction - stiffness,
 /// exactly. Where a contact has opened, forces and h at n are zero: the same lines book what the spring still held as
@@ -41,12 +41,13 @@ SCREE_INLINE law_force hertz_mindlin(const law_constants *constants, const law_s
 
     *after = (law_memory){{stretch, spring, normal - elastic, viscous}};
     lanes mean_spring = 0.5 * (spring + before->value[1]);
-    lanes mean_damping = 0.5 * (after->value[2] + before->value[2]), mean_viscous = 0.5 * (viscous + before->value[3]);
+    lanes mean_damping = 0.5 * (after->value[2] + before->value[2]);
+    lanes dashpot = 0.5 * (viscous + before->value[3]) * m->slipped;
     return (law_force){
         .normal = normal,
         .tangential = -resistance,
-        .damping = mean_damping * m->approached + mean_viscous * m->slipped,
-        .friction = mean_spring * (slip_step - (stretch - before->value[0])),
+        .damping = mean_damping * m->approached + lanes_keep(~slides, dashpot),
+        .friction = mean_spring * (slip_step - (stretch - before->value[0])) + lanes_keep(slides, dashpot),
         .stiffness =
             0.5 * (spring * before->value[0] - before->value[1] * stretch) - mean_spring * (m->slipped - slip_step),
         .elastic_normal = 0.4 * (elastic * d),

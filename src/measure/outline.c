@@ -23,16 +23,16 @@ static double distance_to(const scree_wall *wall, const double x[2])
     return wall->normal[0] * x[0] + wall->normal[1] * x[1] - wall->position;
 }
 
-/// The plate that two discs face; NULL when neither bottom nor top is active.
-static const scree_wall *facing_plate(const scree_state *state, const double a[2], const double b[2])
+/// The plate that two discs face; -1 when neither bottom nor top is active.
+static int facing_plate(const scree_state *state, const double a[2], const double b[2])
 {
-    const scree_wall *nearest = NULL;
+    int nearest = -1;
     double least = INFINITY;
     for (int w = SCREE_WALL_BOTTOM; w <= SCREE_WALL_TOP; w++) {
         const scree_wall *wall = &state->wall[w];
         double distance = distance_to(wall, a) + distance_to(wall, b);
         if (!wall->active || !(distance < least)) continue;
-        nearest = wall;
+        nearest = w;
         least = distance;
     }
     return nearest;
@@ -47,11 +47,11 @@ static void foot_on(const scree_wall *wall, const double x[2], double foot[2])
     foot[1] = wall->position * wall->normal[1] + along * wall->normal[0];
 }
 
-static void emit(visitor *visit, void *user, scree_outline_kind kind, const double from[2], const double to[2],
-                 size_t first, size_t second)
+static void emit(visitor *visit, void *user, scree_outline_kind kind, int wall, const double from[2],
+                 const double to[2], size_t first, size_t second)
 {
     scree_outline_segment segment = {
-        .kind = kind, .from = {from[0], from[1]}, .to = {to[0], to[1]}, .first = first, .second = second};
+        .kind = kind, .from = {from[0], from[1]}, .to = {to[0], to[1]}, .first = first, .second = second, .wall = wall};
     visit(user, &segment);
 }
 
@@ -64,16 +64,16 @@ static void emit_run(const scree_state *state, visitor *visit, void *user, size_
     double a[2], b[2], foot_a[2], foot_b[2];
     scree_loop_position(state, k, a);
     scree_loop_position(state, end, b);
-    const scree_wall *wall = facing_plate(state, a, b);
-    if (!wall) {
-        emit(visit, user, SCREE_OUTLINE_BARE, a, b, k, end);
+    int wall = facing_plate(state, a, b);
+    if (wall < 0) {
+        emit(visit, user, SCREE_OUTLINE_BARE, wall, a, b, k, end);
         return;
     }
-    foot_on(wall, a, foot_a);
-    foot_on(wall, b, foot_b);
-    emit(visit, user, SCREE_OUTLINE_END, a, foot_a, k, k);
-    emit(visit, user, SCREE_OUTLINE_BARE, foot_a, foot_b, k, end);
-    emit(visit, user, SCREE_OUTLINE_END, foot_b, b, end, end);
+    foot_on(&state->wall[wall], a, foot_a);
+    foot_on(&state->wall[wall], b, foot_b);
+    emit(visit, user, SCREE_OUTLINE_END, wall, a, foot_a, k, k);
+    emit(visit, user, SCREE_OUTLINE_BARE, wall, foot_a, foot_b, k, end);
+    emit(visit, user, SCREE_OUTLINE_END, wall, foot_b, b, end, end);
 }
 
 void scree_outline_visit(const scree_state *state, visitor *visit, void *user)
@@ -87,7 +87,7 @@ void scree_outline_visit(const scree_state *state, visitor *visit, void *user)
             double a[2], b[2];
             scree_loop_position(state, k, a);
             scree_loop_position(state, next, b);
-            emit(visit, user, any ? SCREE_OUTLINE_EDGE : SCREE_OUTLINE_BARE, a, b, k, next);
+            emit(visit, user, any ? SCREE_OUTLINE_EDGE : SCREE_OUTLINE_BARE, -1, a, b, k, next);
         } else if (loop->loaded[previous]) {
             emit_run(state, visit, user, k);
         }
@@ -121,4 +121,23 @@ double scree_outline_area(const scree_state *state, double centre[2])
     scree_outline_visit(state, add_area, &sum);
     for (int i = 0; i < 2; i++) centre[i] = sum.area > 0 ? sum.origin[i] + sum.moment[i] / sum.area : 0;
     return sum.area;
+}
+
+typedef struct plate_length {
+    int wall;
+    double length;
+} plate_length;
+
+static void add_plate_length(void *user, const scree_outline_segment *segment)
+{
+    plate_length *sum = user;
+    if (segment->kind != SCREE_OUTLINE_BARE || segment->wall != sum->wall) return;
+    sum->length += hypot(segment->to[0] - segment->from[0], segment->to[1] - segment->from[1]);
+}
+
+double scree_outline_plate_length(const scree_state *state, int wall)
+{
+    plate_length sum = {.wall = wall};
+    scree_outline_visit(state, add_plate_length, &sum);
+    return sum.length;
 }

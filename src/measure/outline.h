@@ -24,6 +24,7 @@ typedef struct scree_outline_segment {
     scree_outline_kind kind;
     double from[2], to[2]; ///< m
     size_t first, second;  ///< places in the loop of the discs at both ends; equal for SCREE_OUTLINE_END
+    int wall;              ///< the plate that SCREE_OUTLINE_END and _BARE belong to; -1: none
 } scree_outline_segment;
 
 /// Calls `visit` for every segment, at the present positions of the bodies. Nothing when there is no loop.
@@ -33,6 +34,11 @@ void scree_outline_visit(const scree_state *state, void (*visit)(void *user, con
 
 /// Present position [m] of the body at place k of the loop.
 void scree_loop_position(const scree_state *state, size_t k, double position[2]);
+
+/// Length [m] of the bottom or top plate that the outline runs along, from corner to corner: what the plate has to
+/// carry under an all-round pressure p is p x this length x thickness, and with that the sample is in equilibrium. 0
+/// when the outline does not touch the plate in two corners.
+double scree_outline_plate_length(const scree_state *state, int wall);
 
 /// Area [m2] and centre of area [m] of the outline; zeros when there is no loop.
 double scree_outline_area(const scree_state *state, double centre[2]);

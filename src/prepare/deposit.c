@@ -23,7 +23,8 @@
 
 #include <math.h>
 
-enum { NOTHING = UINT32_MAX, MOST_EVENTS = 100000 };
+#define NOTHING UINT32_MAX
+enum { MOST_EVENTS = 100000 };
 static const double TOUCH = 1e-9; // of the radius: contacts met this little behind the present point count as met here
 
 typedef struct point {
@@ -98,7 +99,8 @@ static scree_status insert(scree_deposit *deposit, size_t index, point at, scree
     return SCREE_OK;
 }
 
-/// Height at which a point falling from `from` at its abscissa meets circle k; -1 if it passes.
+/// Height at which a point falling from `from` at its abscissa meets circle k; -1 if it passes. A support that is left
+/// at the height of its centre is passed.
 static double hit(const scree_deposit *deposit, const mover *disc, point from, uint32_t k)
 {
     double reach = deposit->radius[k] + disc->radius, dx = from.x - deposit->x[k];
@@ -125,7 +127,6 @@ static uint32_t look_down(const scree_deposit *deposit, const mover *disc, point
     for (size_t row = top < below ? top : below; row-- > 0 && *y < (double)(row + 1) * deposit->cell + reach;)
         for (size_t column = first; column <= last; column++)
             for (uint32_t k = deposit->head[row * deposit->columns + column]; k > 0; k = deposit->next[k - 1]) {
-                if (k - 1 == disc->support) continue;
                 double height = hit(deposit, disc, from, k - 1);
                 if (height <= *y) continue;
                 *y = height;

@@ -69,7 +69,7 @@ static bool snapshot_due(const scree_simulation *s)
 {
     uint64_t done = s->state.step - s->state.stage.first_step;
     if (s->stage_ended) return true;
-    if (!s->stage->loading) return false;
+    if (!s->sampled || !s->stage->loading) return false;
     if (done == 0) return true;
     uint64_t wanted = (uint64_t)s->model.config->output.snapshots;
     uint64_t before = done > s->plan.interval ? done - s->plan.interval : 0;
@@ -133,8 +133,8 @@ scree_status scree_recorder_follow(scree_recorder *recorder, scree_simulation *s
     if (s->sampled) {
         if ((status = scree_series_append(&recorder->series, s->sample.value, error))) return status;
         s->state.stage.samples++;
-        if (snapshot_due(s) && (status = write_snapshot(recorder, s, error))) return status;
     }
+    if (snapshot_due(s) && (status = write_snapshot(recorder, s, error))) return status;
     if (s->stage_ended)
         scree_log_write(&recorder->log, SCREE_LOG_INFO, "stage %s ended at step %llu, time %.6g s: %s", s->stage->name,
                         (unsigned long long)s->state.step, scree_state_time(&s->state), s->reason);

@@ -1,7 +1,6 @@
 /// Table of stages and what several of them share.
 #include "run/stage.h"
 
-#include "boundary/plates.h"
 #include "run/simulation.h"
 
 #include <math.h>
@@ -43,5 +42,5 @@ double scree_smooth_ramp(double fraction)
 void scree_servo_sides(scree_simulation *s, double pressure)
 {
     for (int w = SCREE_WALL_LEFT; w <= SCREE_WALL_RIGHT; w++)
-        if (s->state.wall[w].active) scree_plate_servo(&s->stage_model, &s->state, w, s->plan.side_impedance, pressure);
+        if (s->state.wall[w].active) scree_plate_servo(&s->stage_model, &s->state, w, s->plan.sides, pressure);
 }

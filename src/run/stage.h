@@ -2,18 +2,19 @@
 #ifndef SCREE_RUN_STAGE_H
 #define SCREE_RUN_STAGE_H
 
+#include "boundary/plates.h"
 #include "state/work.h"
 
 typedef struct scree_simulation scree_simulation;
 
 /// What a stage needs at every step and can be derived from the state at its begin (so it is not stored).
 typedef struct scree_stage_plan {
-    uint64_t interval;     ///< steps between two samples
-    uint64_t expected;     ///< steps of the whole stage, 0: not known in advance
-    double ramp_time;      ///< s
-    double impedance;      ///< N s/m, of the bottom and top plates
-    double side_impedance; ///< N s/m, of the side plates
-    double time_limit;     ///< s
+    uint64_t interval;  ///< steps between two samples
+    uint64_t expected;  ///< steps of the whole stage, 0: not known in advance
+    double ramp_time;   ///< s
+    scree_servo plates; ///< bottom and top
+    scree_servo sides;  ///< left and right
+    double time_limit;  ///< s
 } scree_stage_plan;
 
 typedef struct scree_stage {

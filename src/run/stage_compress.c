@@ -2,7 +2,6 @@
 /// begin), reached smoothly within `rise_time`; the sides keep the pressure of the stage before. Stop rule: the axial
 /// strain (engineering, from the plates) has reached `strain`. reference: [0] height at the begin, [1] wave time,
 /// [2..5] accumulated boundary strain at the begin (xx, xy, yx, yy), [6] impedance of the side plates.
-#include "boundary/plates.h"
 #include "measure/measure.h"
 #include "run/simulation.h"
 
@@ -19,7 +18,9 @@ static scree_status begin(scree_simulation *s, scree_error *error)
     reference[0] = scree_sample_height(state);
     reference[1] = scree_sample_wave_time(&s->model, state, state->pressure);
     scree_strain_measure(state, &reference[2]);
-    reference[6] = scree_sample_impedance(&s->model, state, reference[0], state->pressure);
+    scree_servo sides = scree_servo_for(&s->model, state, SCREE_WALL_LEFT, state->pressure);
+    reference[6] = sides.impedance;
+    reference[7] = sides.mass;
     for (size_t row = 0; row < state->count; row++) {
         state->reference_x[row] = state->row[row].x;
         state->reference_y[row] = state->row[row].y;
@@ -32,14 +33,17 @@ static void plan(scree_simulation *s)
 {
     const scree_config_stage *stage = scree_stage_config(s);
     double dt = s->state.step_size;
-    double rise = isnan(stage->rise_time) ? RISE_WAVES * s->state.stage.reference[1] : stage->rise_time;
+    // Without a confining pressure there is no wave time; a tenth of the loading is slow enough for anything.
+    double rise = fmin(RISE_WAVES * s->state.stage.reference[1], 0.1 * stage->strain / stage->rate);
+    if (!isnan(stage->rise_time)) rise = stage->rise_time;
     // The smooth start costs half the rise time.
     uint64_t expected = (uint64_t)ceil((stage->strain / stage->rate + 0.5 * rise) / dt);
     uint64_t interval = expected / (uint64_t)s->model.config->measure.samples;
-    s->plan = (scree_stage_plan){.interval = interval > 0 ? interval : 1,
-                                 .expected = expected,
-                                 .ramp_time = rise,
-                                 .side_impedance = s->state.stage.reference[6]};
+    s->plan =
+        (scree_stage_plan){.interval = interval > 0 ? interval : 1,
+                           .expected = expected,
+                           .ramp_time = rise,
+                           .sides = {.impedance = s->state.stage.reference[6], .mass = s->state.stage.reference[7]}};
 }
 
 static void control(scree_simulation *s)

@@ -2,7 +2,7 @@
 ///
 /// A triangle with an edge a-b on the loop and its third point c inside is cut (a-b is replaced by a-c, c-b) when
 ///   - it is a sliver: the angle at c is above 150 degrees, so c lies all but on the edge; or
-///   - its edge is open: the free gap |x_a - x_b| - R_a - R_b is above the limit.
+///   - its edge is open: the free gap |x_a - x_b| - R_a - R_b is above the limit (and it is not flat to round-off).
 /// Slivers go first, flattest first; then open edges, widest gap first; ties by the indices of the points. Only the
 /// third point matters for what is allowed: if c is already on the loop, the cut would pinch the loop in c or drop a
 /// point out of it, so the triangle stays. Hence after every cut the loop is still one simple polygon made of whole
@@ -20,6 +20,10 @@
 #define OUTSIDE UINT32_MAX
 /// cos 150 degrees.
 #define SLIVER_COSINE (-0.86602540378443864676)
+/// Twice the area over the square of the outer edge, below which a triangle is flat: only round-off says on which side
+/// of the edge its third point lies, and cutting one that does not lie between the ends would fold the loop onto
+/// itself.
+#define FLAT 1e-9
 
 typedef struct peel_edge {
     double key;        ///< slivers: - cosine of the angle at the third point; open edges: gap [m]. Largest first
@@ -85,14 +89,13 @@ static scree_status consider(peeling *peel, uint32_t triangle, int corner, scree
         .a = vertex[(corner + 1) % 3], .b = vertex[(corner + 2) % 3], .third = vertex[corner], .triangle = triangle};
     const double *a = peel->points + 2 * (size_t)edge.a, *b = peel->points + 2 * (size_t)edge.b;
     const double *c = peel->points + 2 * (size_t)edge.third;
-    double ca[2] = {a[0] - c[0], a[1] - c[1]}, cb[2] = {b[0] - c[0], b[1] - c[1]};
-    double cosine =
-        (ca[0] * cb[0] + ca[1] * cb[1]) / (sqrt(ca[0] * ca[0] + ca[1] * ca[1]) * sqrt(cb[0] * cb[0] + cb[1] * cb[1]));
-    double ab[2] = {b[0] - a[0], b[1] - a[1]};
-    double gap = sqrt(ab[0] * ab[0] + ab[1] * ab[1]) - peel->radius[edge.a] - peel->radius[edge.b];
+    double ca[2] = {a[0] - c[0], a[1] - c[1]}, cb[2] = {b[0] - c[0], b[1] - c[1]}, ab[2] = {b[0] - a[0], b[1] - a[1]};
+    double cosine = (ca[0] * cb[0] + ca[1] * cb[1]) / (hypot(ca[0], ca[1]) * hypot(cb[0], cb[1]));
+    double length = hypot(ab[0], ab[1]), gap = length - peel->radius[edge.a] - peel->radius[edge.b];
+    bool flat = ca[0] * cb[1] - ca[1] * cb[0] < FLAT * length * length;
     edge.sliver = cosine < SLIVER_COSINE;
     edge.key = edge.sliver ? -cosine : gap;
-    return edge.sliver || gap > peel->gap_limit ? heap_push(peel, edge, error) : SCREE_OK;
+    return edge.sliver || (!flat && gap > peel->gap_limit) ? heap_push(peel, edge, error) : SCREE_OK;
 }
 
 /// Links the edges without a neighbour into the loop to start from. Errors: they are not one simple loop.

@@ -60,7 +60,7 @@ static scree_status copy_triangles(qhT *qh, size_t count, scree_triangulation *o
                 return scree_error_set(error, SCREE_ERROR_GUARD, "Qhull returned a triangle of unknown points");
             corner[corners++] = (uint32_t)point;
         }
-        int flip = facet->toporient ? 1 : 0;
+        int flip = facet->toporient ? 0 : 1;
         uint32_t *triangle = out->vertex[out->count++];
         triangle[0] = corner[0];
         triangle[1] = corner[1 + flip];

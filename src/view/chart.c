@@ -172,7 +172,8 @@ static void write_style(FILE *file, const scree_chart *chart)
           "set tics nomirror out scale 0.6 textcolor rgb '#222222'\nset mxtics 2\n"
           "set grid back xtics ytics linetype 1 linecolor rgb '#e4e4e4' linewidth 0.8\n"
           "set xzeroaxis linetype 1 linecolor rgb '#999999' linewidth 1\n"
-          "set autoscale xfix\nset lmargin at screen 0.125\nset bmargin at screen 0.15\nset tmargin at screen 0.89\n",
+          "set offsets graph 0, graph 0, graph 0.03, graph 0.03\nset autoscale xfix\nset lmargin at screen 0.125\nset "
+          "bmargin at screen 0.15\nset tmargin at screen 0.89\n",
           file);
     bool legend = false;
     for (size_t k = 0; k < chart->line_count; k++) legend |= chart->line[k].label != NULL;
@@ -181,7 +182,7 @@ static void write_style(FILE *file, const scree_chart *chart)
                  : "set rmargin at screen 0.965\nunset key\n",
           file);
     if (chart->log_x) fputs("set logscale x\nset format x '10^{%L}'\n", file);
-    if (chart->log_y) fputs("set logscale y\nset format y '10^{%L}'\n", file);
+    if (chart->log_y) fputs("unset offsets\nset logscale y\nset format y '10^{%L}'\n", file);
 }
 
 static void write_script(FILE *file, const scree_chart *chart, const char *name)

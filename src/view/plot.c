@@ -3,6 +3,7 @@
 #include "view/plot_parts.h"
 
 #include "base/memory.h"
+#include "case/case.h"
 #include "io/run_directory.h"
 
 #include <scree/scree.h>
@@ -74,6 +75,45 @@ static scree_status read_strains(scree_plot_run *run, scree_error *error)
     return status;
 }
 
+/// Windows of the case, when case.yaml can be read and has some.
+static scree_status read_case_windows(scree_plot_run *run, scree_error *error)
+{
+    char path[PATH_MAX];
+    scree_case *c = NULL;
+    scree_problems *problems = NULL;
+    scree_status status = scree_path_join(path, sizeof path, run->directory, SCREE_FILE_CASE, error);
+    if (status) return status;
+    if (scree_case_read(path, NULL, &c, &problems)) {
+        scree_problems_free(problems);
+        return SCREE_OK;
+    }
+    size_t count = (size_t)c->config.measure.window_count;
+    status = scree_allocate(&run->window, count, sizeof *run->window, error);
+    if (!status) run->window_count = count;
+    for (size_t k = 0; k < run->window_count; k++) run->window[k] = c->config.measure.windows[k];
+    scree_case_free(c);
+    return status;
+}
+
+/// Without a case: the first and the last quarter of the loading.
+static scree_status find_windows(scree_plot_run *run, scree_error *error)
+{
+    scree_status status = read_case_windows(run, error);
+    if (status || run->window_count > 0) return status;
+    double low = INFINITY, high = -INFINITY;
+    for (size_t k = 0; k < run->snapshot_count; k++) {
+        low = fmin(low, run->strain[k]);
+        high = fmax(high, run->strain[k]);
+    }
+    scree_release(&run->window);
+    status = scree_allocate(&run->window, 2, sizeof *run->window, error);
+    if (status) return status;
+    run->window[0] = (scree_config_window){low, low + (high - low) / 4};
+    run->window[1] = (scree_config_window){high - (high - low) / 4, high};
+    run->window_count = 2;
+    return SCREE_OK;
+}
+
 scree_status scree_plot(const char *directory, void (*message)(void *user, const char *path), void *user,
                         scree_error *error)
 {
@@ -88,6 +128,7 @@ scree_status scree_plot(const char *directory, void (*message)(void *user, const
         status = scree_path_join(run.figures, sizeof run.figures, directory, SCREE_FOLDER_FIGURES, error);
         if (!status && mkdir(run.figures, 0777) != 0 && errno != EEXIST)
             status = scree_error_set_errno(error, SCREE_ERROR_IO, "cannot create the folder '%s'", run.figures);
+        if (!status) status = find_windows(&run, error);
     }
     if (!status) {
         if (series)
@@ -102,5 +143,6 @@ scree_status scree_plot(const char *directory, void (*message)(void *user, const
     scree_series_destroy(&run.series);
     scree_release(&run.row);
     scree_release(&run.strain);
+    scree_release(&run.window);
     return status;
 }

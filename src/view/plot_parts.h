@@ -2,6 +2,7 @@
 #ifndef SCREE_VIEW_PLOT_PARTS_H
 #define SCREE_VIEW_PLOT_PARTS_H
 
+#include "case/config.h"
 #include "io/series.h"
 #include "io/snapshot.h"
 
@@ -18,6 +19,8 @@ typedef struct scree_plot_run {
     size_t row_count;
     double *strain; ///< axial strain of each snapshot, NAN outside loading
     size_t snapshot_count;
+    scree_config_window *window; ///< axial strains of the displacement fluctuations
+    size_t window_count;
     scree_status status; ///< of the first figure that failed; the others are drawn all the same
     scree_error error;
 } scree_plot_run;

@@ -35,9 +35,6 @@ static const struct scene_entry {
     {"spin-end", "Spin at the end", WHEN_END, FIELD_SPIN, false, false},
 };
 
-/// Strain windows of the displacement fluctuations, as parts of the loaded strain.
-static const double windows[][2] = {{0, 0.25}, {0.75, 1}};
-
 /// First, or last, snapshot of the loading stage; of all when nothing was loaded.
 static size_t end_snapshot(const scree_plot_run *run, bool last)
 {
@@ -139,7 +136,7 @@ static scree_status draw_fluctuations(const scree_plot_run *run, const scree_sna
     (void)snprintf(name, 64, "fluctuations-%s-%s", first, second);
     percent_text(first, sizeof first, from->axial_strain, false);
     percent_text(second, sizeof second, to->axial_strain, false);
-    (void)snprintf(title, sizeof title, "Displacements relative to the affine field, axial strain %s to %s %%", first,
+    (void)snprintf(title, sizeof title, "Displacements relative to the affine field, axial strain %s to %s %%", first,
                    second);
     scree_status status = scree_path_join(path, sizeof path, run->figures, name, error);
     if (!status) status = scree_allocate(&arrow, 2 * from->count, sizeof *arrow, error);
@@ -160,8 +157,7 @@ static void plot_window(scree_plot_run *run, double from, double to)
     size_t first = nearest_snapshot(run, from), second = nearest_snapshot(run, to);
     scree_status status;
     if (first == second || !isfinite(run->strain[first]) || !isfinite(run->strain[second])) {
-        status =
-            scree_error_set(&error, SCREE_ERROR_INPUT, "too few snapshots between axial strains %g and %g", from, to);
+        status = scree_error_set(&error, SCREE_ERROR_INPUT, "too few snapshots of loading for this strain window");
     } else {
         status = read_two(run, first, second, &a, &b, &error);
         if (!status) {
@@ -176,7 +172,7 @@ static void plot_window(scree_plot_run *run, double from, double to)
 void scree_plot_scenes(scree_plot_run *run)
 {
     if (run->snapshot_count == 0) return;
-    size_t start = end_snapshot(run, false), end = end_snapshot(run, true);
+    size_t start = end_snapshot(run, false);
     for (size_t k = 0; k < sizeof scenes / sizeof scenes[0]; k++) {
         scree_snapshot first, now;
         scree_error error = {0};
@@ -190,7 +186,5 @@ void scree_plot_scenes(scree_plot_run *run)
         }
         scree_plot_report(run, scenes[k].name, status, &error);
     }
-    double low = run->strain[start], high = run->strain[end];
-    for (size_t k = 0; k < sizeof windows / sizeof windows[0]; k++)
-        plot_window(run, low + windows[k][0] * (high - low), low + windows[k][1] * (high - low));
+    for (size_t k = 0; k < run->window_count; k++) plot_window(run, run->window[k].from, run->window[k].to);
 }

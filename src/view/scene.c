@@ -108,7 +108,23 @@ static void measure_forces(scree_scene_view *view)
     }
 }
 
-/// Chosen so that the 95th percentile is drawn about three diameters long, as a round number times the true length.
+/// Room for the tips of the arrows; an arrow far longer than most is cut off at the edge instead.
+static void measure_overhang(scree_scene_view *view, double longest)
+{
+    const scree_scene *scene = view->scene;
+    const scree_snapshot *s = view->snapshot;
+    for (size_t k = 0; k < s->count; k++) {
+        if (!scree_scene_drawn(s, k) || !(hypot(scene->arrow_x[k], scene->arrow_y[k]) <= longest)) continue;
+        double tip[2] = {s->x[k] + view->arrow_scale * scene->arrow_x[k],
+                         s->y[k] + view->arrow_scale * scene->arrow_y[k]};
+        for (int axis = 0; axis < 2; axis++) {
+            view->overhang_low[axis] = fmax(view->overhang_low[axis], view->low[axis] - tip[axis]);
+            view->overhang_high[axis] = fmax(view->overhang_high[axis], tip[axis] - view->high[axis]);
+        }
+    }
+}
+
+/// Chosen so that the 95th percentile is drawn two to three diameters long, as a round number times the true length.
 static scree_status measure_arrows(scree_scene_view *view, scree_error *error)
 {
     const scree_scene *scene = view->scene;
@@ -126,9 +142,10 @@ static scree_status measure_arrows(scree_scene_view *view, scree_error *error)
     double typical = scree_quantile(length, count, 0.95);
     if (!(typical > 0)) typical = count > 0 ? length[count - 1] : 0;
     scree_release(&length);
-    if (!(typical > 0)) return SCREE_OK;
-    view->arrow_scale =
-        scene->arrow_scale > 0 ? scene->arrow_scale : scree_round_below(6 * view->mean_radius / typical * 1.2);
+    double chosen = typical > 0 ? scree_round_below(6 * view->mean_radius / typical) : 0;
+    if (!(chosen > 0) || !isfinite(chosen)) return SCREE_OK;
+    view->arrow_scale = scene->arrow_scale > 0 ? scene->arrow_scale : chosen;
+    measure_overhang(view, 3 * typical);
     return SCREE_OK;
 }
 
@@ -137,9 +154,9 @@ static void write_caption(scree_scene_view *view)
     const scree_snapshot *s = view->snapshot;
     char strain[48] = "", time[48] = "", left_out[64] = "", number[32];
     if (isfinite(s->axial_strain))
-        (void)snprintf(strain, sizeof strain, ", axial strain %.2f %%", 100 * s->axial_strain);
+        (void)snprintf(strain, sizeof strain, ", axial strain %.2f %%", 100 * s->axial_strain);
     scree_number_text(number, sizeof number, s->time, 4);
-    if (isfinite(s->time)) (void)snprintf(time, sizeof time, ", t = %s s", number);
+    if (isfinite(s->time)) (void)snprintf(time, sizeof time, ", t = %s s", number);
     if (view->disc_count < s->count)
         (void)snprintf(left_out, sizeof left_out, ", %zu without a position", s->count - view->disc_count);
     (void)snprintf(view->caption, sizeof view->caption, "%zu disc%s%s%s%s", view->disc_count,
@@ -159,7 +176,8 @@ static double draw_heading(const scree_scene_view *view, cairo_t *cairo)
 /// Heading and legend are drawn once on paper that is thrown away, to learn their heights.
 static void lay_out(scree_scene_view *view)
 {
-    double width = view->high[0] - view->low[0], height = view->high[1] - view->low[1];
+    double width = view->high[0] - view->low[0] + view->overhang_low[0] + view->overhang_high[0];
+    double height = view->high[1] - view->low[1] + view->overhang_low[1] + view->overhang_high[1];
     view->scale = fmin(fmin(SAMPLE_WIDTH / width, SAMPLE_HEIGHT / height), LARGEST_DISC / view->mean_radius);
     view->width = width * view->scale;
     view->height = height * view->scale;

@@ -147,13 +147,18 @@ static void draw_arrows(const scree_scene_view *view, cairo_t *cairo)
 {
     const scree_scene *scene = view->scene;
     const scree_snapshot *s = view->snapshot;
+    if (view->arrow_scale <= 0) return;
     double stretch = view->arrow_scale * view->scale;
-    for (size_t k = 0; view->arrow_scale > 0 && k < s->count; k++)
+    cairo_save(cairo);
+    cairo_rectangle(cairo, view->left - 2, view->top - 2, view->width + 4, view->height + 4);
+    cairo_clip(cairo);
+    for (size_t k = 0; k < s->count; k++)
         if (scree_scene_drawn(s, k) && isfinite(scene->arrow_x[k]) && isfinite(scene->arrow_y[k]))
             scree_scene_arrow(view, cairo, scree_scene_x(view, s->x[k]), scree_scene_y(view, s->y[k]),
                               scene->arrow_x[k] * stretch, -scene->arrow_y[k] * stretch);
     scree_page_colour(cairo, scree_scene_strong);
     cairo_fill(cairo);
+    cairo_restore(cairo);
 }
 
 void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo)

@@ -10,27 +10,27 @@
 /// colours of a diverging map.
 #define SCREE_SCENE_LEVELS       97
 #define SCREE_SCENE_FORCE_LIMIT  6.0  ///< times the mean normal force: lines grow no wider beyond it
-#define SCREE_SCENE_FORCE_WIDTH  0.13 ///< width of the line of the mean force over the mean diameter
+#define SCREE_SCENE_FORCE_WIDTH  0.11 ///< width of the line of the mean force over the mean diameter
 #define SCREE_SCENE_LEGEND_WIDTH 106  ///< pt
 
 typedef struct scree_scene_view {
     const scree_snapshot *snapshot;
     const scree_scene *scene;
     // what is drawn
-    size_t disc_count;                    ///< discs with a place on the page
-    double low[2], high[2];               ///< m, corners of what is drawn
-    double mean_radius;                   ///< m
-    scree_limits limits;                  ///< of the field
-    uint32_t *order;                      ///< drawn discs by colour level
-    size_t start[SCREE_SCENE_LEVELS + 2]; ///< of each level in `order`; the last level is "undefined"
-    double mean_force;                    ///< N, over touching contacts between discs; 0: none
-    double arrow_scale;                   ///< drawn over true length; 0: no arrows
-    double arrow_typical;                 ///< m, 95th percentile of their true length
+    size_t disc_count;                        ///< discs with a place on the page
+    double low[2], high[2];                   ///< m, corners of what is drawn
+    double mean_radius;                       ///< m
+    scree_limits limits;                      ///< of the field
+    uint32_t *order;                          ///< drawn discs by colour level
+    size_t start[SCREE_SCENE_LEVELS + 2];     ///< of each level in `order`; the last level is "undefined"
+    double mean_force;                        ///< N, over touching contacts between discs; 0: none
+    double arrow_scale;                       ///< drawn over true length; 0: no arrows
+    double overhang_low[2], overhang_high[2]; ///< m, how far arrows reach beyond the corners
     // where, pt
     double scale;                    ///< pt per m
-    double left, top, width, height; ///< of the sample
+    double left, top, width, height; ///< of the sample and its overhang
     double page_width, page_height;
-    char title[512], caption[160], field_name[160];
+    char title[512], caption[256], field_name[160];
 } scree_scene_view;
 
 /// Line colours and text styles of all scenes.
@@ -40,11 +40,11 @@ scree_text_style scree_scene_text(double size);
 
 static inline double scree_scene_x(const scree_scene_view *view, double x)
 {
-    return view->left + (x - view->low[0]) * view->scale;
+    return view->left + (x - view->low[0] + view->overhang_low[0]) * view->scale;
 }
 static inline double scree_scene_y(const scree_scene_view *view, double y)
 {
-    return view->top + (view->high[1] - y) * view->scale;
+    return view->top + (view->high[1] + view->overhang_high[1] - y) * view->scale;
 }
 /// Whether disc `k` has a place on the page.
 bool scree_scene_drawn(const scree_snapshot *snapshot, size_t k);

@@ -63,7 +63,7 @@ fi
 # --- the man page, with whatever can draw it
 page=$prefix/share/man/man1/scree.1
 if command -v mandoc >/dev/null; then
-    expect 0 'SYNOPSIS' mandoc -T ascii "$page"
+    expect 0 'for granular matter' mandoc -T ascii "$page"
     checks=$((checks + 1))
     errors=$(mandoc -T lint -W error "$page" 2>&1)
     [ -z "$errors" ] || complain "mandoc: $errors"

@@ -14,7 +14,7 @@
 static uint64_t hand_made_seed;
 
 /// Uniform in 0 to 1 (SplitMix64).
-static double hand_made_random(void)
+static inline double hand_made_random(void)
 {
     uint64_t z = hand_made_seed += UINT64_C(0x9e3779b97f4a7c15);
     z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
@@ -22,14 +22,14 @@ static double hand_made_random(void)
     return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
 }
 
-static void *hand_made_array(size_t count, size_t size)
+static inline void *hand_made_array(size_t count, size_t size)
 {
     void *array = NULL;
     if (scree_allocate(&array, count, size, NULL)) abort();
     return array;
 }
 
-static void hand_made_create(scree_snapshot *s, size_t count, size_t contacts, size_t loop)
+static inline void hand_made_create(scree_snapshot *s, size_t count, size_t contacts, size_t loop)
 {
     *s = (scree_snapshot){.count = count, .contact_count = contacts, .loop_count = loop, .axial_strain = NAN};
     (void)snprintf(s->stage, sizeof s->stage, "compress");
@@ -43,7 +43,7 @@ static void hand_made_create(scree_snapshot *s, size_t count, size_t contacts, s
     s->loop = hand_made_array(loop, sizeof(uint32_t));
 }
 
-static void hand_made_destroy(scree_snapshot *s)
+static inline void hand_made_destroy(scree_snapshot *s)
 {
     double **array[] = {&s->x,
                         &s->y,
@@ -62,7 +62,7 @@ static void hand_made_destroy(scree_snapshot *s)
     scree_release(&s->loop);
 }
 
-static void hand_made_contact(scree_snapshot *s, uint32_t first, uint32_t second)
+static inline void hand_made_contact(scree_snapshot *s, uint32_t first, uint32_t second)
 {
     size_t k = s->contact_count++;
     double dx = s->x[first] - s->x[second], dy = s->y[first] - s->y[second], length = hypot(dx, dy);
@@ -75,7 +75,7 @@ static void hand_made_contact(scree_snapshot *s, uint32_t first, uint32_t second
 }
 
 /// `columns` x `rows` discs of 0.5 to 1 mm radius, axial strain `strain`; plates below and above.
-static void hand_made_packing(scree_snapshot *s, uint32_t columns, uint32_t rows, double strain)
+static inline void hand_made_packing(scree_snapshot *s, uint32_t columns, uint32_t rows, double strain)
 {
     const double spacing = 1.55e-3, height = spacing * sqrt(3) / 2;
     uint32_t count = columns * rows;

@@ -18,7 +18,7 @@ typedef struct sample {
 static void sample_set(sample *s, scree_prepare_method method, int64_t count)
 {
     biaxial_config_set(&s->c, count);
-    s->c.stage[0].method = method;
+    s->c.stage[0].method = (int)method;
     if (method == SCREE_PREPARE_HEXAGONAL || method == SCREE_PREPARE_SQUARE)
         s->c.config.particles.distribution = SCREE_SIZE_EQUAL;
 }

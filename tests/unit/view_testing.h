@@ -31,7 +31,7 @@ static int leave_scratch(void **state)
     return chdir("/") == 0 ? system(command) : -1;
 }
 
-static char *read_whole(const char *path)
+static inline char *read_whole(const char *path)
 {
     FILE *file = fopen(path, "rb");
     assert_non_null(file);
@@ -51,7 +51,7 @@ typedef struct picture {
     int width, height;
 } picture;
 
-static picture picture_read(const char *path)
+static inline picture picture_read(const char *path)
 {
     picture p = {.surface = cairo_image_surface_create_from_png(path)};
     assert_int_equal(cairo_surface_status(p.surface), CAIRO_STATUS_SUCCESS);
@@ -61,7 +61,7 @@ static picture picture_read(const char *path)
 }
 
 /// 0xRRGGBB.
-static uint32_t picture_pixel(const picture *p, int x, int y)
+static inline uint32_t picture_pixel(const picture *p, int x, int y)
 {
     const unsigned char *row =
         cairo_image_surface_get_data(p->surface) + y * cairo_image_surface_get_stride(p->surface);
@@ -70,24 +70,24 @@ static uint32_t picture_pixel(const picture *p, int x, int y)
     return pixel & 0xffffff;
 }
 
-/// Part of the pixels that are not white.
-static double picture_ink(const picture *p)
+/// Part of the pixels that are not white, from every third in each direction.
+static inline double picture_ink(const picture *p)
 {
-    size_t dark = 0;
-    for (int y = 0; y < p->height; y++)
-        for (int x = 0; x < p->width; x++) dark += picture_pixel(p, x, y) != 0xffffff;
-    return (double)dark / ((double)p->width * p->height);
+    size_t dark = 0, all = 0;
+    for (int y = 0; y < p->height; y += 3)
+        for (int x = 0; x < p->width; x += 3, all++) dark += picture_pixel(p, x, y) != 0xffffff;
+    return (double)dark / (double)all;
 }
 
 /// Colours are stored in 8 bits, and rounding is up to the library.
-static bool is_colour(uint32_t pixel, scree_colour colour)
+static inline bool is_colour(uint32_t pixel, scree_colour colour)
 {
     return fabs((pixel >> 16) - 255 * colour.red) <= 1 && fabs((pixel >> 8 & 255) - 255 * colour.green) <= 1 &&
            fabs((pixel & 255) - 255 * colour.blue) <= 1;
 }
 
 /// Width and height of the box around all pixels of this colour in the left `part` of the picture.
-static void picture_extent(const picture *p, scree_colour colour, double part, int *width, int *height)
+static inline void picture_extent(const picture *p, scree_colour colour, double part, int *width, int *height)
 {
     int low_x = p->width, high_x = -1, low_y = p->height, high_y = -1;
     for (int y = 0; y < p->height; y++)
@@ -103,7 +103,7 @@ static void picture_extent(const picture *p, scree_colour colour, double part, i
 }
 
 /// What a non-validating XML reader demands of elements, attributes and entities. NULL, or what is wrong.
-static const char *xml_fault(const char *text)
+static inline const char *xml_fault(const char *text)
 {
     const char *open[64];
     size_t depth = 0, elements = 0;
@@ -142,7 +142,7 @@ static const char *xml_fault(const char *text)
     return depth > 0 ? "element without end" : elements == 0 ? "no element" : NULL;
 }
 
-static void assert_well_formed(const char *path)
+static inline void assert_well_formed(const char *path)
 {
     char *text = read_whole(path);
     const char *fault = xml_fault(text);
@@ -152,7 +152,7 @@ static void assert_well_formed(const char *path)
 }
 
 /// NAME.svg and NAME.png are there, the one well-formed, the other large enough and neither blank nor full.
-static void assert_figure(const char *name)
+static inline void assert_figure(const char *name)
 {
     char path[300];
     (void)snprintf(path, sizeof path, "%s.svg", name);

@@ -1,0 +1,310 @@
+/// All figures of a run directory, from a hand-made series.csv and hand-made snapshots.
+#include "view_testing.h"
+
+#include "hand_made_snapshot.h"
+
+#include "io/run_directory.h"
+#include "io/series.h"
+#include "measure/measure.h"
+
+#include <scree/scree.h>
+
+#include <math.h>
+
+static const char *const names[] = {"step",
+                                    "time",
+                                    "stage",
+                                    "axial_strain",
+                                    "volumetric_strain",
+                                    "stress_ratio",
+                                    "stress_ratio_contacts",
+                                    "stress_axial_plates",
+                                    "stress_lateral_applied",
+                                    "stress_axial_contacts",
+                                    "stress_lateral_contacts",
+                                    "slip_ratio",
+                                    "coordination",
+                                    "coordination_without_rattlers",
+                                    "solid_fraction",
+                                    "unbalanced_ratio",
+                                    "kinetic",
+                                    "elastic_normal",
+                                    "elastic_tangential",
+                                    "dissipated_damping",
+                                    "dissipated_friction",
+                                    "stiffness_work",
+                                    "work_plates",
+                                    "work_pressure",
+                                    "work_gravity",
+                                    "energy_residual"};
+enum { COLUMNS = sizeof names / sizeof names[0], SNAPSHOTS = 5 };
+
+/// 20 rows of confinement and 200 of loading to 15 %; the stress ratio is highest at 3.75 %.
+static void write_row(scree_series_writer *writer, int k)
+{
+    double e = k < 20 ? 0 : 0.15 * (k - 20) / 199, sigma = 1 + 1.5 * e / 0.0375 * exp(1 - e / 0.0375);
+    double value[COLUMNS] = {k, 0.1 * k, k < 20 ? 1 : 2, k < 20 ? NAN : e};
+    double loaded[] = {-0.4 * e * e / (0.02 + e) + 0.3 * e * exp(-e / 0.005),
+                       sigma,
+                       sigma * 1.01 - 0.01 * e,
+                       1e5 * sigma,
+                       1e5,
+                       1.005e5 * sigma,
+                       1.002e5,
+                       2 + 8 * e,
+                       3.6 - e,
+                       4.1 - e,
+                       0.84 - 0.1 * e,
+                       1e-3 * (1 + 0.5 * sin(k)),
+                       1e-5,
+                       2e-3 * sigma,
+                       1e-3,
+                       0.05 * e,
+                       0.6 * e,
+                       1e-3 * e,
+                       0.9 * e,
+                       -0.2 * e,
+                       0,
+                       1e-9};
+    for (size_t c = 4; c < COLUMNS; c++) value[c] = loaded[c - 4];
+    assert_int_equal(scree_series_append(writer, value, NULL), SCREE_OK);
+}
+
+static void make_series(const char *directory, size_t columns, int rows)
+{
+    char path[200];
+    scree_series_column column[COLUMNS];
+    scree_series_writer writer;
+    (void)snprintf(path, sizeof path, "%s/%s", directory, SCREE_FILE_SERIES);
+    for (size_t c = 0; c < columns; c++) column[c] = (scree_series_column){names[c], "1", ""};
+    assert_int_equal(scree_series_open(&writer, path, column, columns, -1, NULL), SCREE_OK);
+    for (int k = 0; k < rows; k++) write_row(&writer, k);
+    assert_int_equal(scree_series_close(&writer, NULL), SCREE_OK);
+}
+
+/// Writes `s` as snapshot `index` of the run.
+static void put_snapshot(const char *directory, const scree_snapshot *s, int64_t index)
+{
+    scree_state state;
+    scree_error error = {0};
+    scree_contact_table table = {.count = s->contact_count,
+                                 .contact = hand_made_array(s->contact_count, sizeof(scree_contact))};
+    scree_model model = {.dimension = 2, .thickness = 1e-3, .scheme = SCREE_SCHEME_POSITION_VERLET};
+    assert_int_equal(scree_state_create(&state, s->count, NULL), SCREE_OK);
+    for (size_t k = 0; k < s->count; k++) {
+        state.row[k] = (scree_row){.x = s->x[k],
+                                   .y = s->y[k],
+                                   .radius = s->radius[k],
+                                   .vx = s->vx[k],
+                                   .vy = s->vy[k],
+                                   .spin = s->spin[k],
+                                   .mass = 1};
+        state.angle[k] = s->angle[k];
+    }
+    for (size_t k = 0; k < s->contact_count; k++)
+        table.contact[k] = (scree_contact){.first = s->first[k],
+                                           .second = s->second[k],
+                                           .point = {s->contact_x[k], s->contact_y[k]},
+                                           .normal_force = s->normal_force[k],
+                                           .tangential_force = s->tangential_force[k]};
+    memcpy(state.wall, s->wall, sizeof state.wall);
+    state.loop.count = state.loop.capacity = s->loop_count;
+    state.loop.id = hand_made_array(s->loop_count, sizeof *state.loop.id);
+    state.loop.loaded = hand_made_array(s->loop_count, sizeof *state.loop.loaded);
+    double **place[] = {&state.loop.x, &state.loop.y, &state.loop.fx, &state.loop.fy};
+    for (size_t k = 0; k < sizeof place / sizeof place[0]; k++)
+        *place[k] = hand_made_array(s->loop_count, sizeof(double));
+    memcpy(state.loop.id, s->loop, s->loop_count * sizeof *s->loop);
+    scree_snapshot_info info = {.index = index, .time = s->time, .axial_strain = s->axial_strain, .stage = s->stage};
+    scree_status status = scree_snapshot_write(directory, &model, &state, &table, &info, &error);
+    if (status) fail_msg("%s", error.message);
+    scree_release(&table.contact);
+    scree_state_destroy(&state);
+}
+
+static void make_snapshots(const char *directory, int count)
+{
+    for (int k = 0; k < count; k++) {
+        scree_snapshot s;
+        hand_made_packing(&s, 17, 35, k == 0 ? 0 : 0.15 * (k - 1) / (SNAPSHOTS - 2));
+        // The first one is of the confinement.
+        if (k == 0) s.axial_strain = NAN;
+        put_snapshot(directory, &s, k);
+        hand_made_destroy(&s);
+    }
+}
+
+typedef struct report {
+    size_t drawn, left_out, failed;
+    char text[8192];
+} report;
+
+static void take(void *user, const char *line)
+{
+    report *r = user;
+    r->left_out += strstr(line, " left out: ") != NULL;
+    r->failed += strstr(line, " failed: ") != NULL;
+    r->drawn += strstr(line, ".svg") != NULL;
+    (void)snprintf(r->text + strlen(r->text), sizeof r->text - strlen(r->text), "%s\n", line);
+}
+
+static scree_status plot(const char *directory, report *r, scree_error *error)
+{
+    *r = (report){0};
+    *error = (scree_error){0};
+    return scree_plot(directory, take, r, error);
+}
+
+static void new_directory(const char *directory)
+{
+    assert_int_equal(scree_run_directory_create(directory, true, NULL), SCREE_OK);
+}
+
+static void every_figure_of_a_run_is_drawn(void **state)
+{
+    (void)state;
+    static const char *const figures[] = {
+        "volumetric-strain",  "stress-ratio",      "slip",           "stress",           "energy",
+        "energy-stored",      "coordination",      "solid-fraction", "unbalanced-force", "packing-start",
+        "packing-end",        "forces-peak",       "forces-end",     "speed-end",        "spin-end",
+        "fluctuations-00-05", "fluctuations-10-15"};
+    report r;
+    scree_error error;
+    new_directory("run");
+    make_series("run", COLUMNS, 220);
+    make_snapshots("run", SNAPSHOTS);
+    scree_status status = plot("run", &r, &error);
+    if (status) fail_msg("%s\n%s", error.message, r.text);
+    for (size_t k = 0; k < sizeof figures / sizeof figures[0]; k++) {
+        char name[200], path[300];
+        (void)snprintf(name, sizeof name, "run/figures/%s", figures[k]);
+        assert_figure(name);
+        (void)snprintf(path, sizeof path, "%s.svg\n", name);
+        assert_non_null(strstr(r.text, path));
+    }
+    assert_int_equal(r.drawn, sizeof figures / sizeof figures[0]);
+    assert_int_equal(r.left_out + r.failed, 0);
+}
+
+/// Strain in percent, dilation positive, confinement left out: the first line of the data is the first row of loading,
+/// the last but one line of 200 has 0.15 * 198 / 199 of strain.
+static void charts_hold_the_loading_stage_only(void **state)
+{
+    (void)state;
+    char *text = read_whole("run/figures/volumetric-strain.csv"), *line = strchr(text, '\n') + 1;
+    double strain, dilation, last = -1;
+    int rows = 0;
+    for (; sscanf(line, "%lf,%lf", &strain, &dilation) == 2; line = strchr(line, '\n') + 1, rows++) {
+        assert_true(strain > last);
+        last = strain;
+    }
+    assert_int_equal(rows, 200);
+    assert_true(fabs(strain - 15) < 1e-7 && dilation > 5);
+    free(text);
+}
+
+static void missing_columns_leave_out_their_charts(void **state)
+{
+    (void)state;
+    report r;
+    scree_error error;
+    new_directory("short");
+    make_series("short", 7, 220);
+    assert_int_equal(plot("short", &r, &error), SCREE_ERROR_IO); // no snapshots: run.h5 is not there
+    assert_int_equal(r.drawn, 2);
+    assert_int_equal(r.left_out, 7);
+    assert_non_null(strstr(r.text, "slip left out: series.csv has no column 'slip_ratio'"));
+    assert_figure("short/figures/stress-ratio");
+}
+
+static void empty_series_is_told(void **state)
+{
+    (void)state;
+    report r;
+    scree_error error;
+    new_directory("empty");
+    make_series("empty", COLUMNS, 0);
+    assert_int_equal(plot("empty", &r, &error), SCREE_ERROR_IO); // no run.h5
+    assert_int_equal(r.left_out, 9);
+    assert_int_equal(r.drawn, 0);
+}
+
+/// One snapshot, before any loading: nine charts, the peak and two windows are left out; start and end are that
+/// snapshot.
+static void run_without_loading_has_its_packing_drawn(void **state)
+{
+    (void)state;
+    report r;
+    scree_error error;
+    new_directory("few");
+    make_series("few", COLUMNS, 15);
+    make_snapshots("few", 1);
+    scree_status status = plot("few", &r, &error);
+    if (status) fail_msg("%s\n%s", error.message, r.text);
+    assert_int_equal(r.left_out, 12);
+    assert_int_equal(r.drawn, 5);
+}
+
+/// Two snapshots of loading, at 0 and 5 %: the windows that are the default without a case need more of them.
+static void strain_windows_come_from_the_case(void **state)
+{
+    (void)state;
+    report r;
+    scree_error error;
+    const char *text = scree_template_text("biaxial"), *key = "windows: ", *windows = strstr(text, key);
+    assert_non_null(windows);
+    new_directory("windows");
+    make_snapshots("windows", 3);
+    FILE *file = fopen("windows/case.yaml", "w");
+    assert_non_null(file);
+    fprintf(file, "%.*s%s[[0 %%, 5 %%]]%s", (int)(windows - text), text, key, strchr(windows, '\n'));
+    fclose(file);
+    assert_int_equal(plot("windows", &r, &error), SCREE_ERROR_IO); // no series.csv
+    assert_int_equal(r.drawn, 6);
+    assert_non_null(strstr(r.text, "fluctuations-00-05.svg"));
+    assert_int_equal(unlink("windows/case.yaml"), 0);
+    assert_int_equal(plot("windows", &r, &error), SCREE_ERROR_IO);
+    assert_int_equal(r.drawn, 5);
+}
+
+static void no_run_is_an_error(void **state)
+{
+    (void)state;
+    report r;
+    scree_error error;
+    assert_int_equal(plot("nowhere", &r, &error), SCREE_ERROR_IO);
+    assert_non_null(strstr(error.message, "nowhere"));
+    assert_int_not_equal(access("nowhere", F_OK), 0);
+    assert_int_equal(scree_plot("nowhere", NULL, NULL, NULL), SCREE_ERROR_IO);
+}
+
+static void scenes_are_drawn_without_gnuplot(void **state)
+{
+    (void)state;
+    report r;
+    scree_error error;
+    char *path = strdup(getenv("PATH"));
+    assert_int_equal(setenv("PATH", scratch, 1), 0);
+    make_series("few", COLUMNS, 220);
+    assert_int_equal(plot("few", &r, &error), SCREE_ERROR_IO);
+    assert_int_equal(setenv("PATH", path, 1), 0);
+    free(path);
+    assert_non_null(strstr(error.message, "gnuplot"));
+    assert_int_equal(r.failed, 9);
+    assert_int_equal(r.drawn, 6);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_figure_of_a_run_is_drawn),
+        cmocka_unit_test(charts_hold_the_loading_stage_only),
+        cmocka_unit_test(missing_columns_leave_out_their_charts),
+        cmocka_unit_test(empty_series_is_told),
+        cmocka_unit_test(run_without_loading_has_its_packing_drawn),
+        cmocka_unit_test(strain_windows_come_from_the_case),
+        cmocka_unit_test(no_run_is_an_error),
+        cmocka_unit_test(scenes_are_drawn_without_gnuplot),
+    };
+    return cmocka_run_group_tests(tests, enter_scratch, leave_scratch);
+}
