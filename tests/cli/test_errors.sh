@@ -35,9 +35,9 @@ timed expect 2 'no such verb.*accepted: run' "$scree" help rum
 
 # --- keys and values: file:line:column: key: message (accepted: ...)
 case_with 's/^seed: 1/sed: 1/'
-refused '^bad\.yaml:6:[0-9]+: sed: .*\(accepted: .*seed'
+refused "^bad\\.yaml:7:[0-9]+: sed: .*did you mean 'seed'"
 case_with 's/^seed: 1/seed: 1\nseed: 2/'
-refused '^bad\.yaml:7:[0-9]+: seed: '
+refused '^bad\.yaml:8:[0-9]+: seed: '
 case_with 's/radius_min: .*/radius_min: 3 kPa/'
 refused '^bad\.yaml:[0-9]+:[0-9]+: particles\.radius_min: '
 case_with 's/radius_min: .*/radius_min: -0.5 mm/'
