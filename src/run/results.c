@@ -4,7 +4,8 @@
 /// strain; mean stress ratio over the last fifth of the strain; largest compaction and dilation relative to the begin
 /// of loading (dilation positive); disagreement of the axial stress of plates and contacts, of the means over the stage
 /// (`stress_disagreement`) and as the mean of the instantaneous differences, which holds the inertia of the waves
-/// (`stress_disagreement_instant`). Over the whole run: largest relative residual of the energy balance.
+/// (`stress_disagreement_instant`). Over the whole run: largest residual of the energy
+/// balance over the work turned over by the end (`energy_residual`).
 #include "run/results.h"
 
 #include "io/run_directory.h"
@@ -89,14 +90,14 @@ static void summarise_loading(const loading *l, scree_summary *summary)
     scree_summary_set_number(summary, "coordination_at_start", l->coordination[l->first]);
 }
 
-static void summarise_series(const scree_series *series, scree_summary *summary)
+static void summarise_series(const scree_series *series, double turnover, scree_summary *summary)
 {
     loading l;
     if (find_loading(series, &l)) summarise_loading(&l, summary);
-    const double *residual = scree_series_get(series, "energy_residual_relative");
+    const double *residual = scree_series_get(series, "energy_residual");
     double largest = 0;
-    for (size_t k = 0; k < series->row_count; k++) largest = fmax(largest, residual[k]);
-    scree_summary_set_number(summary, "energy_residual", largest);
+    for (size_t k = 0; k < series->row_count; k++) largest = fmax(largest, fabs(residual[k]));
+    scree_summary_set_number(summary, "energy_residual", largest / turnover);
     if (series->row_count == 0) return;
     static const char *const finals[] = {"coordination", "coordination_without_rattlers", "rattler_fraction",
                                          "solid_fraction", "unbalanced_ratio"};
@@ -145,7 +146,7 @@ scree_status scree_results_write(const scree_recorder *recorder, scree_simulatio
     if (!result) result = scree_summary_create(&summary, error);
     if (!result) {
         summarise_run(recorder, s, status, summary);
-        summarise_series(&series, summary);
+        summarise_series(&series, s->state.ledger.turnover, summary);
         result = scree_path_join(path, sizeof path, recorder->directory, SCREE_FILE_SUMMARY, error);
     }
     if (!result) result = scree_summary_write(summary, path, error);
