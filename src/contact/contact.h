@@ -11,17 +11,18 @@
 
 #include "state/work.h"
 
-/// Clears and refills state->sum with all contact forces at the present positions, with velocities v(n - 1/2) for the
-/// position of `shift`, and advances histories by one step. Reads: rows, walls, pair list, force quantum. Writes: sums,
-/// wall force and shear, histories, ledger increments (damping, friction, stiffness, plates), largest_overlap,
-/// work->flags. Valid after: everything about step n.
+/// Clears and refills state->sum with all contact forces at the present positions, and advances histories by one step.
+/// Rows must hold v(n - 1/2), the velocity that brought the bodies here. Reads: rows, walls, pair list, quanta (set
+/// right before by scree_contact_set_quanta). Writes: sums, wall force and shear, histories, ledger increments
+/// (damping, friction, stiffness, plates, turnover), largest_overlap, work->flags. Valid after: everything about step
+/// n. A caller that changes histories by hand counts up work->rebuilds.
 void scree_contact_forces(const scree_model *model, scree_state *state, scree_work *work);
 
-/// Instruction set of the kernels that a work with `instruction_set` = wanted uses on this machine: 2, 3, 4 for
-/// x86-64-v2, v3, v4; never above `wanted` unless that is 0, never above what the machine has; 0 when there is none.
+/// Instruction set of the kernels on this machine when `wanted` is asked for in work->instruction_set: 2, 3, 4 for
+/// x86-64-v2, v3, v4, at most what the machine has, which is also what 0 asks for; 0 on machines of another kind.
 int scree_contact_instruction_set(int wanted);
 
-/// Frees what scree_contact_forces keeps in work->contact_scratch.
+/// Frees what scree_contact_forces keeps in work->contact_scratch. Call before scree_work_destroy.
 void scree_contact_scratch_destroy(scree_work *work);
 
 /// One touching contact, everything a measure needs. Second is a wall index when `wall` is set.
@@ -54,8 +55,9 @@ void scree_contact_table_destroy(scree_contact_table *table);
 /// Copies the histories of touching pairs into state->contact, sorted by (first id, second id).
 scree_status scree_contacts_save(scree_state *state, const scree_work *work, scree_error *error) SCREE_MUST_USE;
 
-/// Upper bound of any single contact or boundary force in the next evaluation, from the largest overlap and speed:
-/// K (d + 2 v dt)^1.5 + damping. Sets the quanta (powers of two) for it. `extra` is a bound of boundary forces [N].
+/// Sets the quanta of forces and torques (powers of two, base/fixed.h) from a bound of any single contact force in the
+/// next evaluation, K (d + 2 v dt)^1.5 + damping with the largest overlap and speed (bounds.c), and from `extra`, a
+/// bound of boundary forces [N]. Call after the drift and before scree_contact_forces.
 void scree_contact_set_quanta(const scree_model *model, scree_state *state, double extra);
 
 #endif

@@ -3,6 +3,7 @@
 /// Each thread runs the kernel on its part of the pair list (contact/partition.h), then, after a barrier, merges a
 /// range of rows and evaluates the wall contacts of these rows. Without memory for the partition, or when asked to
 /// (work->reference_kernel), the scalar reference does all the work: same bits, slower.
+#include "base/processor.h"
 #include "contact/bounds.h"
 #include "contact/contact.h"
 #include "contact/faults.h"
@@ -12,28 +13,19 @@
 
 int scree_contact_instruction_set(int wanted)
 {
-    int best = 0;
-#if defined(__x86_64__)
-    if (__builtin_cpu_supports("sse4.2")) best = 2;
-    if (best == 2 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2")) best = 3;
-    if (best == 3 && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-        __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd"))
-        best = 4;
-#endif
+    int best = scree_processor_level();
     return wanted > 0 && wanted < best ? wanted : best;
 }
 
-/// NULL: there is no kernel for this machine.
 static contact_kernel *choose_kernel(int wanted)
 {
 #if defined(__x86_64__)
     static contact_kernel *const table[] = {
         [2] = scree_pairs_batch_v2, [3] = scree_pairs_batch_v3, [4] = scree_pairs_batch_v4};
-    return table[scree_contact_instruction_set(wanted)];
 #else
-    (void)wanted;
-    return scree_pairs_batch_v0;
+    static contact_kernel *const table[] = {scree_pairs_batch_v0};
 #endif
+    return table[scree_contact_instruction_set(wanted)];
 }
 
 /// What all parts of an evaluation share.

@@ -144,7 +144,7 @@ SCREE_INLINE unsigned near_renew(const contact_job *job, size_t p)
 }
 
 /// Queues near pairs from p on, until the queue is full or the job's near pairs have ended; returns the next p.
-static size_t queue_near(queue *q, const contact_job *job, size_t p)
+SCREE_INLINE size_t queue_near(queue *q, const contact_job *job, size_t p)
 {
     for (; p + SCREE_LANES <= job->near_end && q->count + SCREE_LANES <= QUEUE_SIZE; p += SCREE_LANES) {
         if (p + PREFETCH_AHEAD + SCREE_LANES <= job->near_end) prefetch_bodies(job, p + PREFETCH_AHEAD);
@@ -195,8 +195,10 @@ static void totals_reduce(const totals *t, contact_totals *out)
     }
 }
 
-SCREE_INLINE void run(contact_job *job, variant v)
+/// The job is copied, so that the compiler knows that sums and histories do not overlap it.
+SCREE_INLINE void run(contact_job *given, variant v)
 {
+    const contact_job copy = *given, *job = &copy;
     totals t = {.in_range = ~(lanes_int){0}};
     queue q = {.count = 0};
     for (size_t p = evaluate_touching(job, v, &t); p < job->touching_end; p++) q.pair[q.count++] = (uint32_t)p;
@@ -206,7 +208,7 @@ SCREE_INLINE void run(contact_job *job, variant v)
         queue_evaluate(&q, job, v, &t);
         q.count = 0;
     } while (p < job->near_end);
-    totals_reduce(&t, &job->totals);
+    totals_reduce(&t, &given->totals);
 }
 
 #define PASTE(a, b)      a##b

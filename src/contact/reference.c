@@ -33,12 +33,12 @@ static contact_quanta evaluate(contact_job *job, const scree_pair_constants *con
         contact_evaluate(law, job->ledger, &c, &job->settings, &job->scale, m, -(lanes_int)touching, &before, &after);
     if (!job->ledger) after.value[1] = after.value[2] = after.value[3] = 0;
     if (law_remembers(law, job->ledger)) memcpy(history->value, after.value, sizeof after.value);
-    contact_totals one = {.damping = q.damping,
-                          .friction = q.friction,
-                          .stiffness = q.stiffness,
-                          .largest_overlap = touching ? m->indentation : 0,
-                          .in_range = q.in_range != 0};
-    contact_totals_add(&job->totals, &one);
+    contact_totals *totals = &job->totals;
+    totals->damping += q.damping;
+    totals->friction += q.friction;
+    totals->stiffness += q.stiffness;
+    totals->in_range &= q.in_range != 0;
+    if (touching) totals->largest_overlap = lanes_at_least(totals->largest_overlap, m->indentation);
     return q;
 }
 

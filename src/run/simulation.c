@@ -33,6 +33,7 @@ scree_status scree_simulation_open(const scree_case *c, int threads, scree_simul
 void scree_simulation_close(scree_simulation *s)
 {
     scree_contact_table_destroy(&s->table);
+    scree_contact_scratch_destroy(&s->work);
     scree_work_destroy(&s->work);
     scree_state_destroy(&s->state);
 }

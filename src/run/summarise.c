@@ -54,6 +54,7 @@ static scree_status measure_rate(const scree_model *model, double *rate, scree_e
         if (integrator->second) integrator->second(model, &state, &work);
     }
     *rate = (double)state.count * PROBE_STEPS / (scree_clock() - begin);
+    scree_contact_scratch_destroy(&work);
     scree_work_destroy(&work);
     scree_state_destroy(&state);
     return status;

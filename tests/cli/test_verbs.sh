@@ -3,8 +3,8 @@
 # shellcheck source=tests/cli/check.sh
 . "$(dirname "$0")/check.sh"
 
-# A biaxial test that runs in about a second.
-small=(--quick --set particles.count=120 --set 'stages.compress.strain=1 %' --set 'stages.compress.rate=5e-2 1/s'
+# A biaxial test that runs in a few seconds.
+small=(--quick --set particles.count=200 --set 'stages.compress.strain=1 %' --set 'stages.compress.rate=5e-2 1/s'
     --set 'measure.windows=[]' --no-figures)
 
 # --- help, all from one table
@@ -60,6 +60,9 @@ expect 0 '' "$scree" run biaxial -q --output=mine --threads=1 "${small[@]}"
 same "$("$scree" get mine case)" mine
 same "$("$scree" get mine state_checksum)" "$("$scree" get out state_checksum)" "checksum with one thread and with two"
 expect 0 '' "$scree" run biaxial -q -omine -f -t1 "${small[@]}"
+# Nothing that is meant for a closed stream ends up in a file of the run.
+"$scree" run biaxial -o closed -t1 "${small[@]}" <&- >&- 2>&- || complain "a run without standard streams"
+for file in case.yaml series.csv; do cmp -s mine/$file closed/$file || complain "$file differs without standard streams"; done
 
 # --- get
 expect 0 '^[-0-9.e]+$' "$scree" get out phi
@@ -73,10 +76,11 @@ expect 0 '\.svg$' "$scree" plot out
 while read -r path; do [ -s "$path" ] || complain "plot names $path, which is not there"; done <<<"$output"
 
 # --- an interrupt leaves a checkpoint, and the restart ends where an uninterrupted run does
-long=(--quick --set particles.count=300 --no-figures --threads 1)
+long=("${small[@]}" --threads 1 --set 'stages.compress.strain=2 %')
 "$scree" run biaxial -o whole -q "${long[@]}" || complain "the uninterrupted run"
 for signal in INT TERM; do
-    "$scree" run biaxial -o cut "${long[@]}" --force 2>cut.txt &
+    rm -rf cut
+    "$scree" run biaxial -o cut "${long[@]}" 2>cut.txt &
     pid=$!
     for ((i = 0; i < 600; i++)); do
         [ -s cut/series.csv ] && [ "$(wc -l <cut/series.csv)" -gt 3 ] && break

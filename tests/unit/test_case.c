@@ -251,6 +251,10 @@ static void overrides_change_the_case(void **state)
     assert_int_equal(c->config.particles.count, 77);
     assert_true(c->config.stages[2].rate == 3e-2);
     scree_case_free(c);
+    scree_problems *problems;
+    assert_int_equal(parse(minimal, NULL, true, &c, &problems), SCREE_ERROR_INPUT);
+    assert_non_null(strstr(scree_problems_get(problems, 0)->message, "the case does not say what it changes"));
+    scree_problems_free(problems);
     // What the file lacks may come from --set, sections too.
     c = right("materials: [{name: a, young_modulus: 1 GPa, density: 1000, friction: 0}]\nstages: [{stage: prepare}]\n",
               SET("particles.material=a", "particles.count=3", "particles.radius_min=1", "particles.radius_max=2"),

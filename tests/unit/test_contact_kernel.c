@@ -1,6 +1,8 @@
 /// The machinery around the laws: every kernel, partition and order of the list gives the same bits; sums are exact.
 #include "contact_fixture.h"
 
+#include <stdlib.h>
+
 enum { SIDE = 21, STEPS = 300 }; // 441 bodies: no multiple of any number of lanes or threads
 
 /// Everything an evaluation writes, as bits.
@@ -194,6 +196,192 @@ static void sums_are_exact_to_half_a_quantum_a_contact(void **unused)
     fixture_destroy(&f);
 }
 
+/// velocity_verlet stores v(n): the table goes back to v(n - 1/2), to round-off of the velocities.
+static void table_finds_the_forces_of_the_last_evaluation(void **unused)
+{
+    (void)unused;
+    fixture f;
+    scree_error error;
+    scree_contact_table leapfrog = {0}, verlet = {0};
+    create(&f, SCREE_LAW_HERTZ_MINDLIN, 2);
+    run(&f, 50);
+    assert_int_equal(scree_contact_table_build(&f.model, &f.state, &f.work, &leapfrog, &error), SCREE_OK);
+    for (size_t k = 0; k < f.state.count; k++) {
+        scree_row *row = &f.state.row[k];
+        double force[3], half = 0.5 * f.state.step_size;
+        fixture_force(&f, k, force);
+        row->vx += half * force[0] / row->mass;
+        row->vy += half * force[1] / row->mass;
+        row->spin += half * force[2] / (0.5 * row->mass * row->radius * row->radius);
+    }
+    f.model.scheme = SCREE_SCHEME_VELOCITY_VERLET;
+    assert_int_equal(scree_contact_table_build(&f.model, &f.state, &f.work, &verlet, &error), SCREE_OK);
+    assert_int_equal(verlet.count, leapfrog.count);
+    for (size_t k = 0; k < verlet.count; k++) {
+        const scree_contact *a = &leapfrog.contact[k], *b = &verlet.contact[k];
+        assert_true(a->first == b->first && a->second == b->second && a->wall == b->wall);
+        // velocities of 1 m/s lose 1e-16 of it; damping forces here are below 1e3 N s/m
+        assert_true(fabs(a->normal_force - b->normal_force) < 1e-12 && fabs(a->slip - b->slip) < 1e-14);
+        assert_true(fabs(a->tangential_force - b->tangential_force) < 1e-12);
+    }
+    scree_contact_table_destroy(&verlet);
+    scree_contact_table_destroy(&leapfrog);
+    fixture_destroy(&f);
+}
+
+/// Order, geometry and kinds of the entries, with ids that are not rows.
+static void table_is_ordered_by_ids(void **unused)
+{
+    (void)unused;
+    fixture f;
+    scree_error error;
+    scree_contact_table table = {0};
+    create(&f, SCREE_LAW_HERTZ_MINDLIN, 1);
+    for (size_t k = 0; k < f.state.count; k++) f.state.id[k] = (uint32_t)((k * 100) % f.state.count);
+    for (size_t k = 0; k < f.state.count; k++) f.state.row_of_id[f.state.id[k]] = (uint32_t)k;
+    f.work.pairs.count = 0;
+    fixture_find_pairs(&f, 3e-4);
+    run(&f, 20);
+    assert_int_equal(scree_contact_table_build(&f.model, &f.state, &f.work, &table, &error), SCREE_OK);
+    int64_t touching = 0;
+    size_t walls = 0, sliding = 0;
+    for (size_t k = 0; k < f.state.count; k++) touching += f.state.sum[k].contacts;
+    uint64_t previous = 0;
+    for (size_t k = 0; k < table.count; k++) {
+        const scree_contact *c = &table.contact[k];
+        const scree_row *first = &f.state.row[c->first];
+        uint64_t second = c->wall ? SCREE_WALL_ID + c->second : f.state.id[c->second];
+        uint64_t key = (uint64_t)f.state.id[c->first] << 32 | second;
+        assert_true(k == 0 || key > previous);
+        assert_true(f.state.id[c->first] < second);
+        previous = key;
+        walls += c->wall;
+        sliding += c->sliding;
+        // the contact point lies R - d/2 from the centre, against the normal
+        double arm = first->radius - c->indentation / 2;
+        assert_true(fabs(first->x - c->point[0] - arm * c->normal[0]) < 1e-17);
+        assert_true(fabs(first->y - c->point[1] - arm * c->normal[1]) < 1e-17);
+        double length = hypot(c->branch[0], c->branch[1]);
+        double expected = c->wall ? arm : arm + f.state.row[c->second].radius - c->indentation / 2;
+        assert_true(fabs(length - expected) < 1e-15);
+        assert_true(fabs(c->tangential_force) <= 0.5 * c->normal_force * (1 + 1e-12));
+    }
+    assert_int_equal(touching, 2 * table.count - walls);
+    assert_true(walls > 10 && sliding > 10 && sliding < table.count);
+    scree_contact_table_destroy(&table);
+    fixture_destroy(&f);
+}
+
+static void saved_contacts_are_the_histories_in_order(void **unused)
+{
+    (void)unused;
+    fixture f;
+    scree_error error;
+    create(&f, SCREE_LAW_HERTZ_MINDLIN, 1);
+    run(&f, 20);
+    assert_int_equal(scree_contacts_save(&f.state, &f.work, &error), SCREE_OK);
+    size_t remembered = 0;
+    for (size_t p = 0; p < f.work.pairs.count; p++) remembered += f.work.pairs.history[p].value[0] != 0;
+    for (size_t p = 0; p < f.work.wall_pairs.count; p++) remembered += f.work.wall_pairs.history[p].value[0] != 0;
+    assert_int_equal(f.state.contact_count, remembered);
+    for (size_t k = 1; k < f.state.contact_count; k++) {
+        const scree_contact_memory *a = &f.state.contact[k - 1], *b = &f.state.contact[k];
+        assert_true(a->first < b->first || (a->first == b->first && a->second < b->second));
+    }
+    for (size_t p = 0; p < f.work.pairs.count; p++)
+        for (size_t k = 0; k < f.state.contact_count; k++) {
+            const scree_contact_memory *m = &f.state.contact[k];
+            if (m->first != f.work.pairs.first[p] || m->second != f.work.pairs.second[p]) continue;
+            assert_memory_equal(&m->history, &f.work.pairs.history[p], sizeof m->history);
+            remembered--;
+        }
+    for (size_t k = 0; k < f.state.contact_count; k++) remembered -= f.state.contact[k].second >= SCREE_WALL_ID;
+    assert_int_equal(remembered, 0);
+    fixture_destroy(&f);
+}
+
+/// The smallest id is blamed, by every kernel.
+static void faults_are_flagged(void **unused)
+{
+    (void)unused;
+    for (int reference = 0; reference <= 1; reference++) {
+        fixture f;
+        create(&f, SCREE_LAW_HERTZ_MINDLIN, 1);
+        f.work.reference_kernel = reference;
+        run(&f, 3);
+        assert_int_equal(f.work.flags, 0);
+
+        // bodies 200 and 201 pressed into each other
+        scree_row kept = f.state.row[201];
+        f.state.row[201].x = f.state.row[200].x + 0.2e-3;
+        f.state.row[201].y = f.state.row[200].y;
+        f.state.largest_overlap = 2e-3;
+        fixture_forces(&f);
+        assert_int_equal(f.work.flags, SCREE_FLAG_OVERLAP);
+        assert_int_equal(f.work.flagged_id, 200);
+
+        // quanta for much smaller forces
+        f.state.row[201] = kept;
+        f.work.flags = 0;
+        scree_contact_set_quanta(&f.model, &f.state, 0);
+        f.state.force_quantum = ldexp(f.state.force_quantum, -30);
+        scree_contact_forces(&f.model, &f.state, &f.work);
+        assert_int_equal(f.work.flags, SCREE_FLAG_FORCE_RANGE);
+        assert_int_equal(f.work.flagged_id, 0);
+
+        f.work.flags = 0;
+        f.state.row[300].x = NAN;
+        f.state.row[301].vy = NAN;
+        fixture_forces(&f);
+        assert_true(f.work.flags & SCREE_FLAG_NAN);
+        assert_int_equal(f.work.flagged_id, 300);
+        fixture_destroy(&f);
+    }
+}
+
+/// Without memory for the partition the reference does the work.
+static void no_memory_changes_no_bit(void **unused)
+{
+    (void)unused;
+    fixture plenty, short_of;
+    create(&plenty, SCREE_LAW_HERTZ_MINDLIN, 1);
+    create(&short_of, SCREE_LAW_HERTZ_MINDLIN, 1);
+    short_of.work.threads = 2;
+    run(&plenty, 10);
+    fixture_forces(&short_of);
+    for (int k = 0; k < 10; k++) {
+        short_of.work.rebuilds++; // each evaluation cuts the list anew, and fails at another allocation
+        (void)scree_allocation_fail_after(1 + (uint64_t)k % 4);
+        if (k % 2) scree_contact_scratch_destroy(&short_of.work);
+        fixture_step(&short_of);
+        (void)scree_allocation_fail_after(0);
+    }
+    assert_same(&plenty, &short_of);
+    fixture_destroy(&short_of);
+    fixture_destroy(&plenty);
+}
+
+/// The bound of the quanta holds from the first evaluation on, whatever the overlap: no force leaves the range, and the
+/// quantum is not needlessly coarse.
+static void quanta_fit_the_forces(void **unused)
+{
+    (void)unused;
+    fixture f;
+    create(&f, SCREE_LAW_HERTZ_BRILLIANTOV, 2);
+    f.state.largest_overlap = 0; // as at the start of a run
+    fixture_forces(&f);
+    assert_int_equal(f.work.flags, 0);
+    for (int k = 0; k < 20; k++) fixture_step(&f);
+    int64_t largest = 0;
+    for (size_t k = 0; k < f.state.count; k++)
+        largest = llabs(f.state.sum[k].fx) > largest ? llabs(f.state.sum[k].fx) : largest;
+    assert_true(largest > INT64_C(1) << 42);
+    scree_contact_set_quanta(&f.model, &f.state, 1e12);
+    assert_true(f.state.force_quantum >= 1e12 / 0x1p50);
+    assert_true(f.state.torque_quantum >= f.state.force_quantum * f.model.radius_max);
+    fixture_destroy(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -203,6 +391,12 @@ int main(void)
         cmocka_unit_test(rebuild_does_not_change_a_bit),
         cmocka_unit_test(momentum_is_conserved_exactly),
         cmocka_unit_test(sums_are_exact_to_half_a_quantum_a_contact),
+        cmocka_unit_test(table_finds_the_forces_of_the_last_evaluation),
+        cmocka_unit_test(table_is_ordered_by_ids),
+        cmocka_unit_test(saved_contacts_are_the_histories_in_order),
+        cmocka_unit_test(faults_are_flagged),
+        cmocka_unit_test(no_memory_changes_no_bit),
+        cmocka_unit_test(quanta_fit_the_forces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
