@@ -51,7 +51,8 @@ scree_status scree_case_parse(const char *text, size_t length, const char *name,
                               scree_case **out, scree_problems **problems);
 void scree_case_free(scree_case *c);
 
-/// Writes the resolved case: every default written out, units kept. Reading it gives the same case.
+/// Writes the resolved case: every default written out, units kept, without its `quick` section. Reading it gives the
+/// same case.
 scree_status scree_case_write(const scree_case *c, FILE *file, scree_error *error);
 
 /// What a case amounts to before it is run (`scree check`).

@@ -12,6 +12,7 @@
 #include "boundary/plates.h"
 
 #include "measure/measure.h"
+#include "measure/outline.h"
 
 #include <math.h>
 
@@ -35,7 +36,7 @@ double scree_plate_length(const scree_state *state, int index)
     if (!horizontal) return height;
     if (state->wall[SCREE_WALL_LEFT].active && state->wall[SCREE_WALL_RIGHT].active)
         return distance(state, SCREE_WALL_LEFT, SCREE_WALL_RIGHT);
-    return scree_sample_area(state) / height;
+    return state->loop.count > 0 ? scree_outline_plate_length(state, index) : scree_sample_area(state) / height;
 }
 
 double scree_plate_stress(const scree_model *model, const scree_state *state, int index)

@@ -26,8 +26,10 @@ void scree_plate_servo(const scree_model *model, scree_state *state, int index, 
 /// Normal stress on a wall [Pa, compression positive] = force / (length * thickness).
 double scree_plate_stress(const scree_model *model, const scree_state *state, int index);
 
-/// Extent of the sample along the wall [m]: between the side plates when they are active, else the mean width of the
-/// Delaunay boundary (area / height).
+/// Extent of the sample along the wall [m]: between the side plates when they are active, else between the corners of
+/// the plate on the outline of the sample (measure/outline.h). Under the pressure p on the sides, forces p x this
+/// length x thickness on both plates hold the sample in equilibrium, also when it is wider at one end than at the
+/// other; any other forces would drive it away as a whole. Without a loop: the mean width.
 double scree_plate_length(const scree_state *state, int index);
 
 #endif

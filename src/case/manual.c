@@ -24,7 +24,7 @@ static const char introduction[] =
     "- **--set path=value** overrules the file, also where it does not have the key. A value that begins with `[` or "
     "`{` is\n"
     "  read as YAML: `--set 'measure.windows=[[1 %, 3 %]]'`.\n"
-    "- **quick** holds key paths and values that count with `--quick`; `--set` overrules them.\n"
+    "- **quick** holds key paths and values that count with `--quick` and are checked always; `--set` overrules them.\n"
     "- A key that is unknown, given twice, or **not used** with the choices made is an error. Only where `quick` or\n"
     "  `--set` makes a choice, the keys that the file had for its own choice are left out silently.\n"
     "- Anchors, aliases, tags, several documents and files above 1 MiB are not accepted.\n";

@@ -15,6 +15,10 @@ static void mark_quick(scree_node *node)
 void scree_quick_apply(scree_reader *reader)
 {
     const scree_node *quick = scree_node_find(reader->root, "quick");
+    if (!quick && reader->root->kind == SCREE_NODE_MAPPING)
+        scree_problem_add(reader, reader->root->place, "quick", NULL, NULL,
+                          "--quick was asked for, but the case does not say what it changes; add e.g. 'quick: "
+                          "{particles.count: 600}'");
     if (!quick || (quick->kind == SCREE_NODE_SCALAR && !quick->text[0])) return;
     if (quick->kind != SCREE_NODE_MAPPING) {
         scree_place place = quick->place;

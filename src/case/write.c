@@ -1,5 +1,6 @@
 /// The resolved case as YAML: every key that is used, the user's text where there is one, else the default, and the
-/// schema's line as comment. Reading it gives the same config, bit for bit, because each number is the same text.
+/// schema's line as comment. Reading it gives the same config, bit for bit, because each number is the same text. The
+/// quick section is left out: it has been applied or not, and its paths need not fit what --set made of the case.
 #include "case/check.h"
 
 #include <ctype.h>
@@ -104,29 +105,10 @@ static void write_values(writer *w, const scree_section *section, const scree_no
     }
 }
 
-static void write_quick(writer *w, const scree_key *key, const scree_node *quick)
-{
-    if (!quick || quick->kind != SCREE_NODE_MAPPING || quick->count == 0) return;
-    end_line(w, NULL);
-    put(w, "quick:");
-    end_line(w, key->meaning);
-    for (const scree_node *entry = quick->first; entry; entry = entry->next) {
-        put(w, "  ");
-        put_text(w, entry->key);
-        put(w, ": ");
-        put_value(w, entry);
-        end_line(w, NULL);
-    }
-}
-
 static void write_key(writer *w, const scree_key *key)
 {
-    const scree_node *node = scree_node_find(w->root, key->name);
-    if (key->type == SCREE_KEY_PATHS) {
-        write_quick(w, key, node);
-        return;
-    }
     if (key->type != SCREE_KEY_SECTION && key->type != SCREE_KEY_LIST) return;
+    const scree_node *node = scree_node_find(w->root, key->name);
     end_line(w, NULL);
     put(w, key->name);
     put(w, ":");

@@ -38,9 +38,8 @@ static scree_status read_threads(const scree_command *command, int *threads, scr
     *threads = 0;
     if (!text) return SCREE_OK;
     char *end;
-    errno = 0;
     long value = strtol(text, &end, 10);
-    if (end == text || *end || errno || value < 1 || value > MOST_THREADS)
+    if (end == text || *end || value < 1 || value > MOST_THREADS)
         return scree_command_refuse(error, "--threads", "a number from 1 to 4096", "'%s' is not a number of threads",
                                     text);
     *threads = (int)value;

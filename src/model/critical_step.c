@@ -21,8 +21,9 @@
 /// stiffness goes as f^(1/3): a factor of two in f_s is 12 % in the step, 26 % in strong damping. Measured on 300 discs
 /// of 1:2, compressed to 100 kPa between four plates: the limit of the linearised sample (eigenvalue with the stiffness
 /// of each of its contacts) is 2.1 times the estimate for hertz_mindlin at restitution 0.2, 1.8 times at 0.9, 2.4 times
-/// for hertz_brilliantov at P's parameters; runs explode between 1.2 and 2 times that limit. The shear of a compression
-/// test raises forces two- to threefold, which takes another 10 to 30 %.
+/// for hertz_brilliantov at P's parameters (these two rescaled from a run with STRONG = 6). Past the limit of its
+/// linearised sample hertz_mindlin at 0.2 still ran at twice of it, at 0.9 it did not, nor hertz_brilliantov at 1.4
+/// times. Not measured under shear, whose higher forces, two- to threefold, would scale to another 10 to 30 %.
 ///
 /// Tangents at a force f:  f = A sqrt(R_eff) d^1.5,  k_n = 1.5 A sqrt(R_eff d),  k_t = 8 Gbar sqrt(R_eff d);
 ///     hertz_brilliantov:  c_n = T A sqrt(R_eff d), no tangential spring

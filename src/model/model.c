@@ -177,14 +177,13 @@ static scree_status resolve_step(scree_model *model, scree_error *error)
 {
     const scree_config_integrator *integrator = &model->config->integrator;
     model->critical_step = scree_critical_step_estimate(model);
-    double offered = integrator->step_fraction * model->critical_step;
-    model->step = isnan(integrator->step) ? offered : integrator->step;
+    model->step = isnan(integrator->step) ? integrator->step_fraction * model->critical_step : integrator->step;
     if (model->step <= model->critical_step) return SCREE_OK;
     scree_status status =
         FIELD_ERROR(error, "integrator.step",
-                    "a step of %.3g s is above the critical step of this case, %.3g s, and would be unstable; "
+                    "a step of %.3g s is above the critical step of this case, %.3g s, and may be unstable; "
                     "give %.2g s, or auto",
-                    model->step, model->critical_step, two_digits_below(offered));
+                    model->step, model->critical_step, two_digits_below(0.5 * model->critical_step));
     if (error) {
         (void)snprintf(error->value, sizeof error->value, "%.6g s", model->step);
         (void)snprintf(error->accepted, sizeof error->accepted, "up to %.3g s", two_digits_below(model->critical_step));

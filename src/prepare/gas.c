@@ -76,9 +76,12 @@ static scree_status does_not_fit(const scree_model *model, const scree_config_st
                                count, stage->solid_fraction, reached, 0.95 * reached);
 }
 
-static scree_status place(const scree_model *model, const scree_config_stage *stage, const double *radius, size_t count,
-                          double *x, double *y, scree_box *box, scree_error *error)
+static scree_status place(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
+                          scree_error *error)
 {
+    const double *radius = packing->radius;
+    size_t count = packing->count;
+    scree_box *box = &packing->box;
     double area = 0, largest = 0;
     for (size_t i = 0; i < count; i++) {
         area += M_PI * radius[i] * radius[i];
@@ -91,7 +94,7 @@ static scree_status place(const scree_model *model, const scree_config_stage *st
                                    "a disc of radius %g m does not fit into a box of %g m by %g m", largest, box->width,
                                    box->height);
 
-    gas_grid grid = {.radius = radius, .x = x, .y = y, .cell = 2 * largest};
+    gas_grid grid = {.radius = radius, .x = packing->x, .y = packing->y, .cell = 2 * largest};
     grid.columns = (size_t)(box->width / grid.cell) + 1;
     grid.rows = (size_t)(box->height / grid.cell) + 1;
     uint32_t *order = NULL;
@@ -101,7 +104,7 @@ static scree_status place(const scree_model *model, const scree_config_stage *st
     if (!status) {
         for (size_t i = 0; i < count; i++) order[i] = (uint32_t)i;
         qsort_r(order, count, sizeof *order, larger_first, (void *)(uintptr_t)radius);
-        size_t placed = add_discs(&grid, (uint64_t)model->config->seed, order, count, box, x, y);
+        size_t placed = add_discs(&grid, (uint64_t)model->config->seed, order, count, box, packing->x, packing->y);
         double room = 0;
         for (size_t k = 0; k < placed; k++) room += M_PI * radius[order[k]] * radius[order[k]];
         if (placed < count) status = does_not_fit(model, stage, count, room / (box->width * box->height), error);

@@ -28,12 +28,13 @@ static size_t columns_for(size_t count, size_t missing, double rise, double aspe
 }
 
 /// missing: by how many discs every second row is shorter; rise: distance of rows in radii.
-static scree_status place_lattice(const scree_model *model, const scree_config_stage *stage, const double *radius,
-                                  size_t count, double *x, double *y, scree_box *box, size_t missing, double rise,
-                                  scree_error *error)
+static scree_status place_lattice(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
+                                  size_t missing, double rise, scree_error *error)
 {
+    size_t count = packing->count;
+    scree_box *box = &packing->box;
     if (count == 0) return SCREE_OK;
-    double r = radius[0];
+    double r = packing->radius[0];
     size_t n = isnan(box->width) ? columns_for(count, missing, rise, stage->aspect_ratio)
                                  : (size_t)floor(box->width / (2 * r) * (1 + 1e-12));
     if (n < 1 + missing && count > 1)
@@ -43,24 +44,24 @@ static scree_status place_lattice(const scree_model *model, const scree_config_s
     for (size_t i = 0; i < count; i++) {
         size_t within = i % pair, row = 2 * (i / pair) + (within >= n);
         bool shorter = within >= n;
-        x[i] = r * (1 + 2 * (double)(shorter ? within - n : within) + (shorter && missing ? 1 : 0));
-        y[i] = r * (1 + rise * (double)row);
+        packing->x[i] = r * (1 + 2 * (double)(shorter ? within - n : within) + (shorter && missing ? 1 : 0));
+        packing->y[i] = r * (1 + rise * (double)row);
     }
     box->width = 2 * (double)n * r;
     box->height = r * (2 + rise * (double)(rows_needed(count, n, missing) - 1));
     return SCREE_OK;
 }
 
-static scree_status place_hexagonal(const scree_model *model, const scree_config_stage *stage, const double *radius,
-                                    size_t count, double *x, double *y, scree_box *box, scree_error *error)
+static scree_status place_hexagonal(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
+                                    scree_error *error)
 {
-    return place_lattice(model, stage, radius, count, x, y, box, 1, sqrt(3.0), error);
+    return place_lattice(model, stage, packing, 1, sqrt(3.0), error);
 }
 
-static scree_status place_square(const scree_model *model, const scree_config_stage *stage, const double *radius,
-                                 size_t count, double *x, double *y, scree_box *box, scree_error *error)
+static scree_status place_square(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
+                                 scree_error *error)
 {
-    return place_lattice(model, stage, radius, count, x, y, box, 0, 2, error);
+    return place_lattice(model, stage, packing, 0, 2, error);
 }
 
 const scree_preparation scree_prepare_hexagonal = {

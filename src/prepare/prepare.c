@@ -51,20 +51,20 @@ void scree_draw_radii(const scree_model *model, double *radius, size_t count)
     }
 }
 
-static void fill_rows(const scree_model *model, const double *radius, const double *x, const double *y,
-                      scree_state *state)
+static void fill_rows(const scree_model *model, const scree_packing *packing, scree_state *state)
 {
     int material = scree_model_particle_material(model);
     for (size_t i = 0; i < state->count; i++) {
+        double radius = packing->radius[i];
         state->row[i] = (scree_row){
-            .x = x[i],
-            .y = y[i],
+            .x = packing->x[i],
+            .y = packing->y[i],
             .material = material,
-            .radius = radius[i],
-            .mass = model->density[material] * M_PI * radius[i] * radius[i] * model->thickness,
+            .radius = radius,
+            .mass = model->density[material] * M_PI * radius * radius * model->thickness,
         };
-        state->reference_x[i] = x[i];
-        state->reference_y[i] = y[i];
+        state->reference_x[i] = packing->x[i];
+        state->reference_y[i] = packing->y[i];
     }
 }
 
@@ -88,24 +88,23 @@ scree_status scree_prepare(const scree_model *model, const scree_config_stage *s
     size_t count = (size_t)model->config->particles.count;
     scree_status status = scree_state_create(state, count, error);
     if (status) return status;
-    double *radius = NULL, *x = NULL, *y = NULL;
-    scree_box box = {.width = stage->width};
-    status = scree_allocate(&radius, count, sizeof *radius, error);
-    if (!status) status = scree_allocate(&x, count, sizeof *x, error);
-    if (!status) status = scree_allocate(&y, count, sizeof *y, error);
+    scree_packing packing = {.count = count, .box.width = stage->width};
+    status = scree_allocate(&packing.radius, count, sizeof(double), error);
+    if (!status) status = scree_allocate(&packing.x, count, sizeof(double), error);
+    if (!status) status = scree_allocate(&packing.y, count, sizeof(double), error);
     if (!status) {
-        scree_draw_radii(model, radius, count);
-        status = method->place(model, stage, radius, count, x, y, &box, error);
+        scree_draw_radii(model, packing.radius, count);
+        status = method->place(model, stage, &packing, error);
     }
     if (!status) {
-        fill_rows(model, radius, x, y, state);
-        stand_walls(model, &box, state);
+        fill_rows(model, &packing, state);
+        stand_walls(model, &packing.box, state);
         state->step_size = model->step;
         if (method->set_moving) method->set_moving(model, stage, state);
     }
-    scree_release(&radius);
-    scree_release(&x);
-    scree_release(&y);
+    scree_release(&packing.radius);
+    scree_release(&packing.x);
+    scree_release(&packing.y);
     if (status) scree_state_destroy(state);
     return status;
 }

@@ -9,13 +9,20 @@ typedef struct scree_box {
     double width, height;
 } scree_box;
 
+/// A packing in the making: radii, and centres in the box, in the order of placement.
+typedef struct scree_packing {
+    size_t count;
+    double *radius, *x, *y; ///< m
+    scree_box box;
+} scree_packing;
+
 typedef struct scree_preparation {
     const char *name;
     const char *meaning;
-    /// radius: count radii already drawn; x, y: count centres to fill; box in/out, width NAN for auto. Errors: does
-    /// not fit, memory.
-    scree_status (*place)(const scree_model *model, const scree_config_stage *stage, const double *radius, size_t count,
-                          double *x, double *y, scree_box *box, scree_error *error);
+    /// Places the discs of `packing` (radii drawn, width of the box given or NAN for auto) and sets its height. A
+    /// method may draw other radii from the same distribution. Errors: does not fit, memory.
+    scree_status (*place)(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
+                          scree_error *error);
     /// Velocities at the start, when the rows are filled. NULL: at rest.
     void (*set_moving)(const scree_model *model, const scree_config_stage *stage, scree_state *state);
 } scree_preparation;

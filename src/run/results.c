@@ -1,9 +1,11 @@
 /// The named scalars of summary.json, computed from the whole series.
 ///
-/// Over the loading stages: peak of the stress ratio and its strain; mean stress ratio over the last tenth of the
-/// strain (the critical state, if it was reached); largest compaction and dilation relative to the begin of loading
-/// (dilation positive); mean disagreement of axial stress between plates and contacts; largest relative residual of the
-/// energy balance.
+/// Over the last loading stage: peak of the stress ratio, as a running mean over SMOOTHING of axial strain, and its
+/// strain; mean stress ratio over the last fifth of the strain; largest compaction and dilation relative to the begin
+/// of loading (dilation positive); disagreement of the axial stress of plates and contacts, of the means over the stage
+/// (`stress_disagreement`) and as the mean of the instantaneous differences, which holds the inertia of the waves
+/// (`stress_disagreement_instant`). Over the whole run: largest residual of the energy
+/// balance over the work turned over by the end (`energy_residual`).
 #include "run/results.h"
 
 #include "io/run_directory.h"
@@ -13,6 +15,8 @@
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>
+
+#define SMOOTHING 0.01
 
 /// The rows of the last loading stage.
 typedef struct loading {
@@ -36,41 +40,64 @@ static bool find_loading(const scree_series *series, loading *l)
     return l->last - l->first > 1;
 }
 
-static void summarise_loading(const loading *l, scree_summary *summary)
+/// Mean of the stress ratio over the rows whose strain lies within half of SMOOTHING of row k.
+static double smoothed_ratio(const loading *l, size_t k)
 {
-    size_t peak = l->first;
-    double compaction = 0, dilation = 0, disagreement = 0, final_ratio = 0, slip = 0;
-    size_t final_count = 0, rows = l->last - l->first;
-    double end = l->strain[l->last - 1];
+    double sum = l->ratio[k], count = 1, half = 0.5 * SMOOTHING;
+    for (size_t j = k; j > l->first && l->strain[k] - l->strain[j - 1] <= half; j--, count++) sum += l->ratio[j - 1];
+    for (size_t j = k + 1; j < l->last && l->strain[j] - l->strain[k] <= half; j++, count++) sum += l->ratio[j];
+    return sum / count;
+}
+
+static void summarise_peak(const loading *l, scree_summary *summary)
+{
+    double peak = -INFINITY, strain_at_peak = NAN, final_ratio = 0, end = l->strain[l->last - 1];
+    size_t final_count = 0;
     for (size_t k = l->first; k < l->last; k++) {
-        if (l->ratio[k] > l->ratio[peak]) peak = k;
-        compaction = fmax(compaction, l->volumetric[k]);
-        dilation = fmax(dilation, -l->volumetric[k]);
-        disagreement += fabs(l->contacts[k] / l->plates[k] - 1) / (double)rows;
-        slip += l->slip[k] / (double)rows;
-        if (l->strain[k] < 0.9 * end) continue;
+        double ratio = smoothed_ratio(l, k);
+        if (ratio > peak) {
+            peak = ratio;
+            strain_at_peak = l->strain[k];
+        }
+        if (l->strain[k] < 0.8 * end) continue;
         final_ratio += l->ratio[k];
         final_count++;
     }
-    scree_summary_set_number(summary, "axial_strain", end);
-    scree_summary_set_number(summary, "peak_stress_ratio", l->ratio[peak]);
-    scree_summary_set_number(summary, "strain_at_peak", l->strain[peak]);
+    scree_summary_set_number(summary, "peak_stress_ratio", peak);
+    scree_summary_set_number(summary, "strain_at_peak", strain_at_peak);
     scree_summary_set_number(summary, "final_stress_ratio", final_ratio / (double)final_count);
+}
+
+static void summarise_loading(const loading *l, scree_summary *summary)
+{
+    double compaction = 0, dilation = 0, slip = 0, plates = 0, contacts = 0, apart = 0;
+    double rows = (double)(l->last - l->first);
+    for (size_t k = l->first; k < l->last; k++) {
+        compaction = fmax(compaction, l->volumetric[k]);
+        dilation = fmax(dilation, -l->volumetric[k]);
+        slip += l->slip[k] / rows;
+        plates += l->plates[k];
+        contacts += l->contacts[k];
+        apart += fabs(l->contacts[k] - l->plates[k]);
+    }
+    scree_summary_set_number(summary, "axial_strain", l->strain[l->last - 1]);
+    summarise_peak(l, summary);
     scree_summary_set_number(summary, "max_volumetric_compaction", compaction);
     scree_summary_set_number(summary, "max_volumetric_dilation", dilation);
-    scree_summary_set_number(summary, "stress_disagreement", disagreement);
+    scree_summary_set_number(summary, "stress_disagreement", fabs(contacts / plates - 1));
+    scree_summary_set_number(summary, "stress_disagreement_instant", apart / plates);
     scree_summary_set_number(summary, "mean_slip_ratio", slip);
     scree_summary_set_number(summary, "coordination_at_start", l->coordination[l->first]);
 }
 
-static void summarise_series(const scree_series *series, scree_summary *summary)
+static void summarise_series(const scree_series *series, double turnover, scree_summary *summary)
 {
     loading l;
     if (find_loading(series, &l)) summarise_loading(&l, summary);
-    const double *residual = scree_series_get(series, "energy_residual_relative");
+    const double *residual = scree_series_get(series, "energy_residual");
     double largest = 0;
-    for (size_t k = 0; k < series->row_count; k++) largest = fmax(largest, residual[k]);
-    scree_summary_set_number(summary, "energy_residual", largest);
+    for (size_t k = 0; k < series->row_count; k++) largest = fmax(largest, fabs(residual[k]));
+    scree_summary_set_number(summary, "energy_residual", largest / turnover);
     if (series->row_count == 0) return;
     static const char *const finals[] = {"coordination", "coordination_without_rattlers", "rattler_fraction",
                                          "solid_fraction", "unbalanced_ratio"};
@@ -119,7 +146,7 @@ scree_status scree_results_write(const scree_recorder *recorder, scree_simulatio
     if (!result) result = scree_summary_create(&summary, error);
     if (!result) {
         summarise_run(recorder, s, status, summary);
-        summarise_series(&series, summary);
+        summarise_series(&series, s->state.ledger.turnover, summary);
         result = scree_path_join(path, sizeof path, recorder->directory, SCREE_FILE_SUMMARY, error);
     }
     if (!result) result = scree_summary_write(summary, path, error);

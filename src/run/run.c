@@ -3,6 +3,7 @@
 #include "io/snapshot.h"
 #include "run/recorder.h"
 #include "run/results.h"
+#include "search/neighbours.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -151,6 +152,8 @@ scree_status scree_restart(const char *directory, const scree_run_options *optio
     status = scree_simulation_open(c, options->threads, &s, error);
     if (!status) status = case_text(c, &text, &length, &checksum, error);
     if (!status) status = scree_checkpoint_read(directory, &s.state, checksum, error);
+    // Samples, checkpoints and the checksum may read the contacts before the first step.
+    if (!status && s.state.count > 0) status = scree_neighbours_refresh(&s.model, &s.state, &s.work, error);
     if (!status && s.state.stage.counter >= 0) status = scree_stage_enter(&s, true, error);
     if (!status) status = scree_snapshots_truncate(directory, s.state.stage.snapshots, error);
     if (!status) status = record(&s, options, directory, checksum, true, error);

@@ -21,10 +21,10 @@ void scree_cell_grid_fit(scree_cell_grid *grid, const scree_state *state, double
 {
     double smallest = INFINITY, largest = 0, x = INFINITY, y = INFINITY;
     uint64_t odd = UINT64_MAX;
-#pragma omp parallel for num_threads(threads) schedule(static) reduction(min                                           \
-                                                                         : smallest, x, y, odd)                        \
-    reduction(max                                                                                                      \
-              : largest) if (threads > 1)
+// clang-format off
+#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1) \
+    reduction(min : smallest, x, y, odd) reduction(max : largest)
+    // clang-format on
     for (size_t k = 0; k < state->count; k++) {
         const scree_row *row = &state->row[k];
         smallest = row->radius < smallest ? row->radius : smallest;

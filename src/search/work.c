@@ -1,11 +1,11 @@
 /// Life of `work`.
 ///
 /// The skin. Let a step move the fastest body by u mean radii. A list with a skin of s mean radii lasts s / (2 u)
-/// steps, so a rebuild costs 2 u r / s a body and step, r nanoseconds being the cost of a rebuild a body; the skin
-/// makes the list longer by n s pairs a body, which are tested at a cost of t each. The sum is least at s = sqrt(2 u r
-/// / (n t)). Measured with bench/bench_neighbours: see docs/performance.md; with r = 80 ns, n = 3.1 and t = 2.5 ns, s =
-/// 0.14 for u = 1e-3 (a rapid flow), 0.05 for u = 1e-4. The curve is flat to the right of its minimum where rebuilds
-/// are rare: 0.15 costs a quasistatic run 1 ns a body and step and spares a flow its rebuilds.
+/// steps, so rebuilds cost 2 u r / s a body and step, r being the cost of a rebuild a body; the skin makes the list
+/// longer by n s pairs a body, each tested in every step at a cost of t. The sum is least at s = sqrt(2 u r / (n t)).
+/// In a dense packing of discs (bench/bench_neighbours: 2.09, 2.18, 2.25, 2.31, 2.42 pairs a disc for s = 0.05, 0.1,
+/// 0.15, 0.2, 0.3, of which 1.96 touch) n = 1.3; with r = 95 ns and t = 2.5 ns, s = 0.24 for u = 1e-3, a rapid flow,
+/// and 0.08 for u = 1e-4, as in a slow one. At 0.15 either costs below 0.5 ns a body and step more than at its best.
 #include "search/neighbours.h"
 #include "search/search.h"
 

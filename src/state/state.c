@@ -60,6 +60,7 @@ static void permute_array(void *array, size_t size, const uint32_t *order, size_
 scree_status scree_state_permute(scree_state *state, const uint32_t *order, scree_error *error)
 {
     unsigned char *scratch;
+    if (state->count == 0) return SCREE_OK;
     scree_status status = scree_allocate(&scratch, state->count, sizeof(scree_row), error);
     if (status) return status;
     permute_array(state->row, sizeof *state->row, order, state->count, scratch);

@@ -57,7 +57,7 @@ typedef struct scree_wall {
 enum { SCREE_WALL_BOTTOM, SCREE_WALL_TOP, SCREE_WALL_LEFT, SCREE_WALL_RIGHT, SCREE_WALL_COUNT };
 
 /// Energy ledger, J. Work is done ON the bodies; dissipation is positive. Residual of the balance:
-/// kinetic + elastic - initial - (plates + pressure + gravity) + damping + friction - stiffness, see measure/energy.h.
+/// kinetic + elastic - initial - (plates + pressure + gravity) + damping + friction - stiffness, see measure/energy.c.
 typedef struct scree_ledger {
     double damping;   ///< dissipated by contact damping, normal and tangential
     double friction;  ///< dissipated by sliding

@@ -132,6 +132,29 @@ static const char *const tokens[] = {
     "1 000",
 };
 
+static const char *const settings[] = {
+    "contact.law=hertz_brilliantov",
+    "particles.distribution=equal",
+    "particles.radius=1 mm",
+    "stages.2.name=load",
+    "stages.1.stage=prepare",
+    "stages.compress.rate=5 1/s",
+    "measure.windows=[]",
+    "measure.windows=[[1 %, 2 %]]",
+    "integrator.step=auto",
+    "boundary.lateral=plates",
+    "stages=[{stage: prepare, method: gas}]",
+    "quick={}",
+    "title=a: \"b\" #",
+    "stages.0.method=gas",
+    "gravity=[0, -9.81]",
+    "materials.0.name=glass",
+    "particles.count=nan",
+    "a.b.c=1",
+    "[=]",
+    "=",
+};
+
 static void mutate(sample *f, source *s)
 {
     size_t at = below(s, f->length + 1);
@@ -203,8 +226,9 @@ static bool is_written_well(const scree_case *c)
 /// 1 accepted, 0 rejected, -1 something is wrong with Scree.
 static int try_sample(const sample *f, source *s)
 {
-    const char *overrides[] = {tokens[below(s, sizeof tokens / sizeof *tokens)], "particles.count=10"};
-    scree_case_options options = {.overrides = overrides, .override_count = below(s, 8) == 0 ? 2 : 0};
+    const char *overrides[2];
+    for (size_t i = 0; i < 2; i++) overrides[i] = settings[below(s, sizeof settings / sizeof *settings)];
+    scree_case_options options = {.overrides = overrides, .override_count = below(s, 4) == 0 ? 1 + below(s, 2) : 0};
     options.quick = below(s, 4) == 0;
     scree_case *c;
     scree_problems *problems;

@@ -103,11 +103,11 @@ static void biaxial_means_what_it_says(void **state)
     assert_true(config->materials[0].density == 2.675e8);
     assert_true(config->particles.radius_max == 1e-3);
     assert_true(config->stages[1].pressure == 1e5);
-    assert_true(config->stages[2].strain == 0.15);
-    assert_true(config->stages[2].rate == 1e-2);
+    assert_true(config->stages[2].strain == 0.12);
+    assert_true(config->stages[2].rate == 1.5e-2);
     assert_string_equal(config->stages[2].name, "compress");
     assert_int_equal(config->measure.window_count, 2);
-    assert_true(config->measure.windows[1].from == 0.1 && config->measure.windows[1].to == 0.15);
+    assert_true(config->measure.windows[1].from == 0.08 && config->measure.windows[1].to == 0.12);
     scree_case_free(c);
     c = right(scree_template_text("biaxial"), NULL, true);
     assert_int_equal(c->config.particles.count, 600);
@@ -251,6 +251,10 @@ static void overrides_change_the_case(void **state)
     assert_int_equal(c->config.particles.count, 77);
     assert_true(c->config.stages[2].rate == 3e-2);
     scree_case_free(c);
+    scree_problems *problems;
+    assert_int_equal(parse(minimal, NULL, true, &c, &problems), SCREE_ERROR_INPUT);
+    assert_non_null(strstr(scree_problems_get(problems, 0)->message, "the case does not say what it changes"));
+    scree_problems_free(problems);
     // What the file lacks may come from --set, sections too.
     c = right("materials: [{name: a, young_modulus: 1 GPa, density: 1000, friction: 0}]\nstages: [{stage: prepare}]\n",
               SET("particles.material=a", "particles.count=3", "particles.radius_min=1", "particles.radius_max=2"),

@@ -114,6 +114,23 @@ static void check_file(const char *name, long points, long verts, long lines)
     free(text);
 }
 
+/// The last point that a cell of a file joins.
+static int64_t last_joined(const char *name)
+{
+    size_t size;
+    int64_t point;
+    uint64_t length;
+    char *text = read_file(name, &size);
+    const char *raw = strstr(text, "<AppendedData encoding=\"raw\">\n_") + strlen("<AppendedData encoding=\"raw\">\n_");
+    const char *connectivity = strstr(text, "Name=\"connectivity\"");
+    assert_non_null(connectivity);
+    const char *block = raw + number_after(connectivity, "offset=\"");
+    memcpy(&length, block, sizeof length);
+    memcpy(&point, block + length, sizeof point);
+    free(text);
+    return point;
+}
+
 static void every_array_lies_where_the_head_says(void **unused)
 {
     (void)unused;
@@ -122,6 +139,10 @@ static void every_array_lies_where_the_head_says(void **unused)
     check_file("contacts-000000.vtp", 2 * BODIES, 0, BODIES);
     check_file("boundary-000000.vtp", LOOP, 0, LOOP);
     check_file("plates-000000.vtp", 2 * 3, 0, 3);
+    assert_int_equal(last_joined("discs-000000.vtp"), BODIES - 1);
+    assert_int_equal(last_joined("contacts-000000.vtp"), 2 * BODIES - 1);
+    // The boundary is closed.
+    assert_int_equal(last_joined("boundary-000000.vtp"), 0);
 }
 
 static void empty_scenes_are_files_too(void **unused)
