@@ -9,9 +9,6 @@ scratch=$(realpath "$scratch")
 cd "$scratch" || exit 1
 # Threads that wait do not take the cores from other tests.
 export OMP_WAIT_POLICY=passive
-# fontconfig keeps a cache of fonts until the process ends; the leak sanitizer is not to report that.
-echo 'leak:libfontconfig' >leaks.txt
-export LSAN_OPTIONS="suppressions=$scratch/leaks.txt:print_suppressions=0"
 checks=0
 failures=0
 
