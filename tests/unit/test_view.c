@@ -214,6 +214,11 @@ static void extreme_snapshots_are_drawn(void **state)
     assert_draws("one", &s, &scene);
     scene = whole_scene(&none, &none);
     assert_draws("one-undefined", &s, &scene);
+    picture p = picture_read("one-undefined.png");
+    int width, height;
+    picture_extent(&p, scree_colour_at(SCREE_COLOUR_DIVERGING, NAN), 0.4, &width, &height);
+    assert_true(width > 100 && abs(width - height) <= 2);
+    cairo_surface_destroy(p.surface);
     scene = whole_scene(&huge, &huge);
     assert_draws("one-huge", &s, &scene);
     s.x[0] = 1e12;
@@ -237,7 +242,7 @@ static void damaged_snapshots_are_drawn(void **state)
     s.radius[4] = -1;
     s.y[5] = INFINITY;
     s.first[0] = UINT32_MAX;
-    s.second[1] = (uint32_t)s.count;
+    s.second[1] = UINT32_C(0x70000000);
     s.second[2] = SCREE_WALL_ID + 1;
     s.normal_force[3] = NAN;
     s.normal_force[4] = -5;
@@ -373,6 +378,10 @@ static void charts_of_odd_values(void **state)
     ratio[3] = NAN;
     ratio[4] = -INFINITY;
     assert_charts("gaps", &chart);
+    char *script = read_whole("gaps.gp");
+    assert_non_null(strstr(script, "values"));
+    assert_null(strstr(script, "empty"));
+    free(script);
     for (int k = 0; k < ROWS; k++) ratio[k] = 7;
     assert_charts("constant", &chart);
     for (int k = 0; k < ROWS; k++) ratio[k] = k % 2 ? 0 : 1e-5;
