@@ -164,10 +164,10 @@ static void every_figure_of_a_run_is_drawn(void **state)
 {
     (void)state;
     static const char *const figures[] = {
-        "volumetric-strain",  "stress-ratio",      "slip",           "stress",           "energy",
-        "energy-stored",      "coordination",      "solid-fraction", "unbalanced-force", "packing-start",
-        "packing-end",        "forces-peak",       "forces-end",     "speed-end",        "spin-end",
-        "fluctuations-00-05", "fluctuations-10-15"};
+        "volumetric-strain",  "stress-ratio",        "slip",           "stress",           "energy",
+        "energy-stored",      "coordination",        "solid-fraction", "unbalanced-force", "packing-start",
+        "packing-end",        "forces-peak",         "forces-end",     "speed-end",        "spin-end",
+        "fluctuations-00-05", "fluctuations-11.2-15"};
     report r;
     scree_error error;
     new_directory("run");
@@ -227,6 +227,7 @@ static void empty_series_is_told(void **state)
     assert_int_equal(plot("empty", &r, &error), SCREE_ERROR_IO); // no run.h5
     assert_int_equal(r.left_out, 9);
     assert_int_equal(r.drawn, 0);
+    assert_non_null(strstr(r.text, "slip left out: series.csv has no rows of a loading stage"));
 }
 
 /// One snapshot, before any loading: nine charts, the peak and two windows are left out; start and end are that
