@@ -39,7 +39,6 @@ static scree_status find_loop(const scree_model *model, const scree_state *state
                               scree_error *error)
 {
     double *points = NULL, *radius = NULL;
-    scree_triangulation triangulation = {0};
     scree_status status = scree_allocate(&points, 2 * state->count, sizeof *points, error);
     if (!status) status = scree_allocate(&radius, state->count, sizeof *radius, error);
     if (!status) {
@@ -49,12 +48,9 @@ static scree_status find_loop(const scree_model *model, const scree_state *state
             points[2 * id + 1] = row->y;
             radius[id] = row->radius;
         }
-        status = scree_triangulation_build(points, state->count, &triangulation, error);
+        double diameter = 2 * model->mean_radius, gap_limit = model->config->boundary.gap_limit * diameter;
+        status = scree_outer_loop(points, radius, state->count, diameter, gap_limit, ids, count, error);
     }
-    double gap_limit = model->config->boundary.gap_limit * 2 * model->mean_radius;
-    if (!status)
-        status = scree_boundary_loop(&triangulation, points, radius, state->count, gap_limit, ids, count, NULL, error);
-    scree_triangulation_destroy(&triangulation);
     scree_release(&points);
     scree_release(&radius);
     return status;

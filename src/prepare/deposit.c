@@ -50,9 +50,9 @@ typedef struct meeting {
 } meeting;
 
 scree_status scree_deposit_create(scree_deposit *deposit, const double *radius, size_t count, double width, double *x,
-                                  double *y, scree_error *error)
+                                  double *y, double *level, scree_error *error)
 {
-    *deposit = (scree_deposit){.radius = radius, .x = x, .y = y, .width = width};
+    *deposit = (scree_deposit){.radius = radius, .x = x, .y = y, .level = level, .width = width};
     for (size_t i = 0; i < count; i++) deposit->largest = fmax(deposit->largest, radius[i]);
     deposit->cell = 2 * deposit->largest;
     deposit->columns = (size_t)(width / deposit->cell) + 1;
@@ -214,12 +214,22 @@ static void fall(const scree_deposit *deposit, mover *disc)
     if (disc->support != NOTHING) disc->side = disc->at.x < deposit->x[disc->support] ? -1 : 1;
 }
 
+/// Rests disc `index` at its place on one or two supports (NOTHING: floor or wall).
+static scree_status rest(scree_deposit *deposit, size_t index, const mover *disc, uint32_t other, scree_error *error)
+{
+    double level = disc->at.y;
+    if (disc->support != NOTHING) level = fmax(level, deposit->level[disc->support]);
+    if (other != NOTHING) level = fmax(level, deposit->level[other]);
+    deposit->level[index] = level;
+    return insert(deposit, index, disc->at, error);
+}
+
 scree_status scree_deposit_drop(scree_deposit *deposit, size_t index, double x, scree_error *error)
 {
     mover disc = {.radius = deposit->radius[index], .at = {x, INFINITY}, .support = NOTHING};
     fall(deposit, &disc);
     for (int events = 0; events < MOST_EVENTS; events++) {
-        if (disc.support == NOTHING) return insert(deposit, index, disc.at, error);
+        if (disc.support == NOTHING) return rest(deposit, index, &disc, NOTHING, error);
         meeting next = look_ahead(deposit, &disc);
         disc.at = next.at;
         if (next.kind == MEET_EQUATOR) {
@@ -227,7 +237,7 @@ scree_status scree_deposit_drop(scree_deposit *deposit, size_t index, double x, 
             continue;
         }
         bool straddled = next.kind == MEET_DISC && disc.side * (deposit->x[next.disc] - disc.at.x) >= 0;
-        if (next.kind == MEET_REST || straddled) return insert(deposit, index, disc.at, error);
+        if (next.kind == MEET_REST || straddled) return rest(deposit, index, &disc, next.disc, error);
         disc.support = next.disc;
     }
     return scree_error_set(error, SCREE_ERROR_INPUT, "disc %zu of radius %g m finds no place of rest", index,

@@ -9,6 +9,7 @@
 typedef struct scree_deposit {
     const double *radius; ///< m, of all discs, owned by the caller
     double *x, *y;        ///< m, centres of the discs placed so far, owned by the caller
+    double *level;        ///< m, highest centre among a disc and all that it rests on, owned by the caller
     double width;         ///< m, walls at x = 0 and x = width; the floor is y = 0
     double largest;       ///< m, largest radius
     double cell;          ///< m, side of a grid cell
@@ -18,8 +19,9 @@ typedef struct scree_deposit {
     size_t *filled;       ///< of each column: rows up to the highest disc in it
 } scree_deposit;
 
+/// An empty box of `width`; the arrays have room for `count` discs.
 scree_status scree_deposit_create(scree_deposit *deposit, const double *radius, size_t count, double width, double *x,
-                                  double *y, scree_error *error) SCREE_MUST_USE;
+                                  double *y, double *level, scree_error *error) SCREE_MUST_USE;
 void scree_deposit_destroy(scree_deposit *deposit);
 
 /// Would disc `index`, let fall at abscissa `x`, reach the floor without touching another disc?

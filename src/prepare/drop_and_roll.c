@@ -18,6 +18,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { ATTEMPTS = 100 };
 #define SURPLUS_LAYERS 4.0
@@ -49,10 +50,10 @@ static scree_status lay_bed(scree_deposit *deposit, uint64_t seed, size_t count,
 
 /// Drops `count` discs into a box of `width`.
 static scree_status drop_all(uint64_t seed, const double *radius, size_t count, double width, double *x, double *y,
-                             scree_error *error)
+                             double *height, scree_error *error)
 {
     scree_deposit deposit;
-    scree_status status = scree_deposit_create(&deposit, radius, count, width, x, y, error);
+    scree_status status = scree_deposit_create(&deposit, radius, count, width, x, y, height, error);
     if (status) return status;
     size_t bed = 0;
     status = lay_bed(&deposit, seed, count, &bed, error);
@@ -71,29 +72,24 @@ static size_t surplus_discs(const scree_model *model, double width)
     return (size_t)ceil((SURPLUS_LAYERS + sqrt(across)) * across);
 }
 
-/// Orders places by height, ties by the order of placement.
 static int compare_heights(const void *a, const void *b)
 {
-    const double *one = a, *other = b;
-    if (one[0] != other[0]) return one[0] < other[0] ? -1 : 1;
-    return one[1] < other[1] ? -1 : one[1] > other[1];
+    double one = *(const double *)a, other = *(const double *)b;
+    return (one > other) - (one < other);
 }
 
-/// Keeps the `count` lowest of `dropped` discs, in the order in which they were placed. heights: scratch, 2 x dropped.
-static void level(size_t dropped, size_t count, const double *r, const double *x, const double *y, double *heights,
-                  scree_packing *packing)
+/// Keeps the `count` lowest of `dropped` discs, in the order in which they were placed; of equally high ones the first.
+static void keep_lowest(size_t dropped, const double *r, const double *x, const double *y, const double *height,
+                        double *sorted, scree_packing *packing)
 {
-    for (size_t i = 0; i < dropped; i++) {
-        heights[2 * i] = y[i];
-        heights[2 * i + 1] = (double)i;
-    }
-    qsort(heights, dropped, 2 * sizeof *heights, compare_heights);
-    const double *last = &heights[2 * (count - 1)];
-    size_t kept = 0;
+    memcpy(sorted, height, dropped * sizeof *sorted);
+    qsort(sorted, dropped, sizeof *sorted, compare_heights);
+    double last = packing->count > 0 ? sorted[packing->count - 1] : -1;
+    size_t equal = 0, kept = 0;
+    for (size_t k = 0; k < packing->count; k++) equal += sorted[k] == last;
     packing->box.height = 0;
     for (size_t i = 0; i < dropped; i++) {
-        double place[2] = {y[i], (double)i};
-        if (compare_heights(place, last) > 0) continue;
+        if (height[i] > last || (height[i] == last && equal-- == 0)) continue;
         packing->radius[kept] = r[i];
         packing->x[kept] = x[i];
         packing->y[kept] = y[i];
@@ -109,10 +105,11 @@ static scree_status fill(const scree_model *model, scree_packing *packing, scree
     double *room = NULL;
     scree_status status = scree_allocate(&room, 5 * dropped, sizeof *room, error);
     if (status) return status;
-    double *r = room, *x = room + dropped, *y = room + 2 * dropped, *heights = room + 3 * dropped;
+    double *r = room, *x = room + dropped, *y = room + 2 * dropped;
+    double *height = room + 3 * dropped, *sorted = room + 4 * dropped;
     scree_draw_radii(model, r, dropped);
-    status = drop_all((uint64_t)model->config->seed, r, dropped, packing->box.width, x, y, error);
-    if (!status) level(dropped, packing->count, r, x, y, heights, packing);
+    status = drop_all((uint64_t)model->config->seed, r, dropped, packing->box.width, x, y, height, error);
+    if (!status) keep_lowest(dropped, r, x, y, height, sorted, packing);
     scree_release(&room);
     return status;
 }

@@ -37,6 +37,7 @@ typedef struct peeling {
     const scree_triangulation *triangulation;
     const double *points, *radius;
     double gap_limit;
+    uint8_t *marks; ///< scree_triangle_mark by triangle, or NULL
     uint32_t *next; ///< next point along the loop, OUTSIDE for points that are not on it
     peel_edge *heap;
     size_t heap_count, heap_capacity;
@@ -85,6 +86,7 @@ static peel_edge heap_pop(peeling *peel)
 static scree_status consider(peeling *peel, uint32_t triangle, int corner, scree_error *error)
 {
     const uint32_t *vertex = peel->triangulation->vertex[triangle];
+    if (peel->marks) peel->marks[triangle] = SCREE_TRIANGLE_OUTER;
     peel_edge edge = {
         .a = vertex[(corner + 1) % 3], .b = vertex[(corner + 2) % 3], .third = vertex[corner], .triangle = triangle};
     const double *a = peel->points + 2 * (size_t)edge.a, *b = peel->points + 2 * (size_t)edge.b;
@@ -126,8 +128,7 @@ static scree_status link_hull(peeling *peel, size_t count, size_t *loop_count, u
 }
 
 /// Cuts what has to be cut.
-static scree_status cut_triangles(peeling *peel, size_t *loop_count, uint32_t *lowest, uint8_t *removed,
-                                  scree_error *error)
+static scree_status cut_triangles(peeling *peel, size_t *loop_count, uint32_t *lowest, scree_error *error)
 {
     while (peel->heap_count > 0) {
         peel_edge edge = heap_pop(peel);
@@ -136,7 +137,7 @@ static scree_status cut_triangles(peeling *peel, size_t *loop_count, uint32_t *l
         peel->next[edge.third] = edge.b;
         (*loop_count)++;
         if (edge.third < *lowest) *lowest = edge.third;
-        if (removed) removed[edge.triangle] = 1;
+        if (peel->marks) peel->marks[edge.triangle] = SCREE_TRIANGLE_CUT;
         // The triangles behind the other two edges now have an edge on the loop.
         for (int corner = 0; corner < 3; corner++) {
             int32_t behind = peel->triangulation->neighbour[edge.triangle][corner];
@@ -151,18 +152,19 @@ static scree_status cut_triangles(peeling *peel, size_t *loop_count, uint32_t *l
 }
 
 scree_status scree_boundary_loop(const scree_triangulation *triangulation, const double *points, const double *radius,
-                                 size_t count, double gap_limit, uint32_t **loop, size_t *loop_count, uint8_t *removed,
+                                 size_t count, double gap_limit, uint32_t **loop, size_t *loop_count, uint8_t *marks,
                                  scree_error *error)
 {
-    peeling peel = {.triangulation = triangulation, .points = points, .radius = radius, .gap_limit = gap_limit};
+    peeling peel = {
+        .triangulation = triangulation, .points = points, .radius = radius, .gap_limit = gap_limit, .marks = marks};
     uint32_t lowest = OUTSIDE;
     *loop = NULL;
     *loop_count = 0;
-    if (removed)
-        for (size_t t = 0; t < triangulation->count; t++) removed[t] = 0;
+    if (marks)
+        for (size_t t = 0; t < triangulation->count; t++) marks[t] = SCREE_TRIANGLE_INSIDE;
     scree_status status = scree_allocate(&peel.next, count, sizeof *peel.next, error);
     if (!status) status = link_hull(&peel, count, loop_count, &lowest, error);
-    if (!status) status = cut_triangles(&peel, loop_count, &lowest, removed, error);
+    if (!status) status = cut_triangles(&peel, loop_count, &lowest, error);
     if (!status) status = scree_allocate(loop, *loop_count, sizeof **loop, error);
     if (!status) {
         uint32_t v = lowest;

@@ -19,14 +19,27 @@ scree_status scree_triangulation_build(const double *points, size_t count, scree
                                        scree_error *error) SCREE_MUST_USE;
 void scree_triangulation_destroy(scree_triangulation *triangulation);
 
+/// What scree_boundary_loop did with a triangle.
+typedef enum scree_triangle_mark {
+    SCREE_TRIANGLE_INSIDE, ///< never had an edge on the loop
+    SCREE_TRIANGLE_OUTER,  ///< kept, with an edge on the loop
+    SCREE_TRIANGLE_CUT,    ///< outside the loop
+} scree_triangle_mark;
+
 /// Outer boundary of the triangulation after cleaning: boundary triangles whose outer edge leaves a free gap
 /// |x_a - x_b| - R_a - R_b > gap_limit (m), or which are slivers (an angle above 150 degrees opposite to the outer
 /// edge), are cut, slivers first, then the widest gap first, unless their third point is on the loop already: so the
-/// loop stays ONE simple closed polygon with all points inside or on it. `removed[t]` (may be NULL) marks the cut
-/// triangles. loop: point indices counter-clockwise from the lowest, caller frees with scree_release. Cost: O(n + h log
-/// h).
+/// loop stays ONE simple closed polygon with all points inside or on it.
+/// marks[t]: scree_triangle_mark of triangle t, may be NULL. loop: point indices counter-clockwise from the lowest,
+/// caller frees with scree_release. Cost: O(n + h log h).
 scree_status scree_boundary_loop(const scree_triangulation *triangulation, const double *points, const double *radius,
-                                 size_t count, double gap_limit, uint32_t **loop, size_t *loop_count, uint8_t *removed,
+                                 size_t count, double gap_limit, uint32_t **loop, size_t *loop_count, uint8_t *marks,
                                  scree_error *error) SCREE_MUST_USE;
+
+/// The loop of scree_boundary_loop on the Delaunay triangulation of all points, found from those near the outside alone
+/// where that provably gives the same (outer_loop.c). spacing: m, mean distance of neighbours; it steers the cost, not
+/// the result. Errors: as scree_triangulation_build. Cost: O(n) plus a triangulation of the band.
+scree_status scree_outer_loop(const double *points, const double *radius, size_t count, double spacing,
+                              double gap_limit, uint32_t **loop, size_t *loop_count, scree_error *error) SCREE_MUST_USE;
 
 #endif

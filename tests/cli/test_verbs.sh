@@ -4,7 +4,7 @@
 . "$(dirname "$0")/check.sh"
 
 # A biaxial test that runs in a few seconds.
-small=(--quick --set particles.count=200 --set 'stages.compress.strain=1 %' --set 'stages.compress.rate=5e-2 1/s'
+small=(--quick --set particles.count=100 --set 'stages.compress.strain=1 %' --set 'stages.compress.rate=5e-2 1/s'
     --set 'measure.windows=[]' --no-figures)
 
 # --- help, all from one table
@@ -59,10 +59,10 @@ sed 's/^name: .*/name: mine/' my.yaml >biaxial
 expect 0 '' "$scree" run biaxial -q --output=mine --threads=1 "${small[@]}"
 same "$("$scree" get mine case)" mine
 same "$("$scree" get mine state_checksum)" "$("$scree" get out state_checksum)" "checksum with one thread and with two"
-expect 0 '' "$scree" run biaxial -q -omine -f -t1 "${small[@]}"
 # Nothing that is meant for a closed stream ends up in a file of the run.
-"$scree" run biaxial -o closed -t1 "${small[@]}" <&- >&- 2>&- || complain "a run without standard streams"
-for file in case.yaml series.csv; do cmp -s mine/$file closed/$file || complain "$file differs without standard streams"; done
+cp mine/case.yaml mine/series.csv .
+"$scree" run biaxial -omine -f -t1 "${small[@]}" <&- >&- 2>&- || complain "a run without standard streams"
+for file in case.yaml series.csv; do cmp -s mine/$file $file || complain "$file differs without standard streams"; done
 
 # --- get
 expect 0 '^[-0-9.e]+$' "$scree" get out phi
@@ -75,24 +75,39 @@ same "$(wc -l <<<"$output")" "$(python3 -c 'import json; print(len(json.load(ope
 expect 0 '\.svg$' "$scree" plot out
 while read -r path; do [ -s "$path" ] || complain "plot names $path, which is not there"; done <<<"$output"
 
-# --- an interrupt leaves a checkpoint, and the restart ends where an uninterrupted run does
+# --- a run that is interrupted or killed and continued ends where an uninterrupted one does
 long=("${small[@]}" --threads 1 --set 'stages.compress.strain=2 %')
 "$scree" run biaxial -o whole -q "${long[@]}" || complain "the uninterrupted run"
-for signal in INT TERM; do
+
+# wait_for PATTERN FILE: until a line of the file matches, at most a minute.
+wait_for() {
+    for ((i = 0; i < 1200; i++)); do
+        grep -qs "$1" "$2" && return
+        sleep 0.05
+    done
+    complain "nothing like '$1' in $2"
+}
+
+# stop_and_continue SIGNAL STATUS PATTERN FILE: sends the signal when the pattern shows in the file.
+stop_and_continue() {
+    local pid status
     rm -rf cut
     "$scree" run biaxial -o cut "${long[@]}" 2>cut.txt &
     pid=$!
-    for ((i = 0; i < 600; i++)); do
-        [ -s cut/series.csv ] && [ "$(wc -l <cut/series.csv)" -gt 3 ] && break
-        sleep 0.05
-    done
-    kill -$signal $pid
-    wait $pid
+    wait_for "$3" "$4"
+    kill "-$1" $pid
+    wait $pid 2>/dev/null
     status=$?
-    checks=$((checks + 1))
-    [ $status -eq 130 ] || complain "after SIG$signal the run ended with $status: $(cat cut.txt)"
-    grep -q 'scree run --restart cut' cut.txt || complain "the interrupted run does not say how to continue: $(cat cut.txt)"
+    same "$status" "$2" "exit status after SIG$1"
     expect 0 'results in cut' "$scree" run --restart cut --no-figures --threads 2
-    same "$("$scree" get cut state_checksum)" "$("$scree" get whole state_checksum)" "restart after SIG$signal"
-done
+    same "$("$scree" get cut state_checksum)" "$("$scree" get whole state_checksum)" "restart after SIG$1"
+    cmp -s cut/series.csv whole/series.csv || complain "series.csv differs after SIG$1 and a restart"
+}
+stop_and_continue INT 130 '^[0-9]*,0\.2' cut/series.csv
+grep -q 'scree run --restart cut' cut.txt || complain "the interrupted run does not say how to continue: $(cat cut.txt)"
+stop_and_continue TERM 130 'confine ended' cut/log.txt
+stop_and_continue KILL 137 'confine ended' cut/log.txt
+# A run that has ended stays as it is.
+expect 0 'results in whole' "$scree" run --restart whole --no-figures --threads 1
+same "$("$scree" get cut state_checksum)" "$("$scree" get whole state_checksum)" "restart of a finished run"
 finish ""

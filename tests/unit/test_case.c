@@ -103,11 +103,11 @@ static void biaxial_means_what_it_says(void **state)
     assert_true(config->materials[0].density == 2.675e8);
     assert_true(config->particles.radius_max == 1e-3);
     assert_true(config->stages[1].pressure == 1e5);
-    assert_true(config->stages[2].strain == 0.15);
-    assert_true(config->stages[2].rate == 1e-2);
+    assert_true(config->stages[2].strain == 0.12);
+    assert_true(config->stages[2].rate == 1.5e-2);
     assert_string_equal(config->stages[2].name, "compress");
     assert_int_equal(config->measure.window_count, 2);
-    assert_true(config->measure.windows[1].from == 0.1 && config->measure.windows[1].to == 0.15);
+    assert_true(config->measure.windows[1].from == 0.08 && config->measure.windows[1].to == 0.12);
     scree_case_free(c);
     c = right(scree_template_text("biaxial"), NULL, true);
     assert_int_equal(c->config.particles.count, 600);

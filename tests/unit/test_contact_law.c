@@ -127,13 +127,13 @@ static void friction_is_capped(void **unused)
     f.state.row[0].vy = 1e-1;
     fixture_measure_speed(&f);
     double d = indentation(&f), radius = sqrt(0.5e-3 * d);
-    double eta = 0.3 * sqrt(0.5 * f.state.row[0].mass * 4e9 * radius);
     for (int n = 0; n < 200; n++) fixture_forces(&f);
     fixture_force(&f, 0, force);
     assert_close(force[1], -0.5 * force[0], ROUND_OFF);
-    assert_close(5e9 * radius * f.work.pairs.history[0].value[0] + eta * 0.1, 0.5 * force[0], ROUND_OFF);
+    // The spring alone reaches the cap, not the spring with the dashpot.
+    assert_close(5e9 * radius * f.work.pairs.history[0].value[0], 0.5 * force[0], ROUND_OFF);
     // Turning round, the force leaves the cap at once.
-    f.state.row[0].vy = -1e-3;
+    f.state.row[0].vy = -1e-2;
     fixture_forces(&f);
     fixture_force(&f, 0, force);
     assert_true(fabs(force[1]) < 0.499 * force[0]);

@@ -88,7 +88,7 @@ static int winding(const cloud *c, const uint32_t *loop, size_t count, const dou
 /// Single, closed, simple, counter-clockwise, with all points inside or on it, from its lowest index, and as tight as
 /// the rules allow: an open edge is left only where its triangle's third point is on the loop.
 static void check_loop(const cloud *c, const scree_triangulation *t, const uint32_t *loop, size_t count,
-                       const uint8_t *removed, double gap_limit)
+                       const uint8_t *marks, double gap_limit)
 {
     assert_true(count >= 3);
     uint8_t *on = NULL;
@@ -114,12 +114,13 @@ static void check_loop(const cloud *c, const scree_triangulation *t, const uint3
     // What remains of the triangulation fills the loop; its open outer edges could not be cut.
     double remaining = 0;
     for (size_t n = 0; n < t->count; n++) {
-        if (removed[n]) continue;
+        if (marks[n] == SCREE_TRIANGLE_CUT) continue;
         remaining += cross(c->points + 2 * (size_t)t->vertex[n][0], c->points + 2 * (size_t)t->vertex[n][1],
                            c->points + 2 * (size_t)t->vertex[n][2]);
         for (int k = 0; k < 3; k++) {
             int32_t behind = t->neighbour[n][k];
-            if (behind >= 0 && !removed[behind]) continue;
+            if (behind >= 0 && marks[behind] != SCREE_TRIANGLE_CUT) continue;
+            assert_int_equal(marks[n], SCREE_TRIANGLE_OUTER);
             uint32_t a = t->vertex[n][(k + 1) % 3], b = t->vertex[n][(k + 2) % 3];
             double gap = hypot(c->points[2 * b] - c->points[2 * a], c->points[2 * b + 1] - c->points[2 * a + 1]) -
                          c->radius[a] - c->radius[b];
@@ -136,16 +137,16 @@ static void check_cloud(const cloud *c, double gap_limit, size_t *loop_count)
     scree_error error;
     scree_triangulation t;
     uint32_t *loop;
-    uint8_t *removed;
+    uint8_t *marks;
     size_t count;
     assert_int_equal(scree_triangulation_build(c->points, c->count, &t, &error), SCREE_OK);
-    assert_int_equal(scree_allocate(&removed, t.count, 1, &error), SCREE_OK);
-    assert_int_equal(scree_boundary_loop(&t, c->points, c->radius, c->count, gap_limit, &loop, &count, removed, &error),
+    assert_int_equal(scree_allocate(&marks, t.count, 1, &error), SCREE_OK);
+    assert_int_equal(scree_boundary_loop(&t, c->points, c->radius, c->count, gap_limit, &loop, &count, marks, &error),
                      SCREE_OK);
-    check_loop(c, &t, loop, count, removed, gap_limit);
+    check_loop(c, &t, loop, count, marks, gap_limit);
     if (loop_count) *loop_count = count;
     scree_release(&loop);
-    scree_release(&removed);
+    scree_release(&marks);
     scree_triangulation_destroy(&t);
 }
 
@@ -255,6 +256,47 @@ static void loose_clouds_have_one_loop(void **user)
     }
 }
 
+/// The loop from the band near the outside against that of all points, where no four points are cocircular.
+static void the_band_gives_the_loop_of_all(void **user)
+{
+    (void)user;
+    for (uint64_t variant = 0; variant < 24; variant++) {
+        cloud c = packing(26, variant % 2, 0.15, 500 + variant);
+        for (size_t i = 0; i < c.count; i++) {
+            double *p = c.points + 2 * i, x = p[0];
+            if (variant % 4 == 1 && p[1] > x + 10) {
+                p[0] += 6;
+                p[1] += 6;
+            }
+            // Two lobes; a deep notch; a body far away.
+            if (variant % 4 == 2) p[0] = 13 + (x - 13) * (1 - 0.85 * exp(-pow((p[1] - 25) / 7, 2)));
+            if (variant % 4 == 3 && p[1] > 20) p[0] += (x > 12 ? 1 : -1) * 0.3 * (p[1] - 20);
+            if (variant == 20 && i == 700) p[0] = 400;
+        }
+        const double spacing[] = {1, 0.6, 2, 1e-6, 100};
+        scree_triangulation t;
+        uint32_t *whole, *banded;
+        size_t whole_count, banded_count;
+        for (int limit = 0; limit < 2; limit++) {
+            assert_int_equal(scree_triangulation_build(c.points, c.count, &t, NULL), SCREE_OK);
+            assert_int_equal(scree_boundary_loop(&t, c.points, c.radius, c.count, 0.1 + 0.5 * limit, &whole,
+                                                 &whole_count, NULL, NULL),
+                             SCREE_OK);
+            for (size_t k = 0; k < sizeof spacing / sizeof *spacing; k++) {
+                assert_int_equal(scree_outer_loop(c.points, c.radius, c.count, spacing[k], 0.1 + 0.5 * limit, &banded,
+                                                  &banded_count, NULL),
+                                 SCREE_OK);
+                assert_int_equal(banded_count, whole_count);
+                assert_memory_equal(banded, whole, whole_count * sizeof *whole);
+                scree_release(&banded);
+            }
+            scree_release(&whole);
+            scree_triangulation_destroy(&t);
+        }
+        cloud_destroy(&c);
+    }
+}
+
 static void a_lone_disc_stays_on_the_loop(void **user)
 {
     (void)user;
@@ -334,7 +376,7 @@ static void bad_points_give_errors(void **user)
 static void failed_allocations_are_reported(void **user)
 {
     (void)user;
-    cloud c = packing(6, true, 0.05, 1);
+    cloud c = packing(16, true, 0.05, 1);
     size_t before, after;
     scree_allocation_statistics(&before, NULL);
     bool failed = true;
@@ -346,6 +388,8 @@ static void failed_allocations_are_reported(void **user)
         scree_allocation_fail_after(n);
         scree_status status = scree_triangulation_build(c.points, c.count, &t, &error);
         if (!status) status = scree_boundary_loop(&t, c.points, c.radius, c.count, 0.2, &loop, &count, NULL, &error);
+        scree_release(&loop);
+        if (!status) status = scree_outer_loop(c.points, c.radius, c.count, 1, 0.2, &loop, &count, &error);
         scree_allocation_fail_after(0);
         failed = status != SCREE_OK;
         if (failed) assert_int_equal(status, SCREE_ERROR_IO);
@@ -361,10 +405,15 @@ static void failed_allocations_are_reported(void **user)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(triangles_are_delaunay),         cmocka_unit_test(lattices_keep_their_outline),
-        cmocka_unit_test(deformed_samples_have_one_loop), cmocka_unit_test(loose_clouds_have_one_loop),
-        cmocka_unit_test(a_lone_disc_stays_on_the_loop),  cmocka_unit_test(the_same_points_give_the_same_loop),
-        cmocka_unit_test(bad_points_give_errors),         cmocka_unit_test(failed_allocations_are_reported),
+        cmocka_unit_test(triangles_are_delaunay),
+        cmocka_unit_test(lattices_keep_their_outline),
+        cmocka_unit_test(deformed_samples_have_one_loop),
+        cmocka_unit_test(loose_clouds_have_one_loop),
+        cmocka_unit_test(the_band_gives_the_loop_of_all),
+        cmocka_unit_test(a_lone_disc_stays_on_the_loop),
+        cmocka_unit_test(the_same_points_give_the_same_loop),
+        cmocka_unit_test(bad_points_give_errors),
+        cmocka_unit_test(failed_allocations_are_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

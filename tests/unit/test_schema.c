@@ -220,10 +220,10 @@ static void units_are_kept_in_written_cases(void **state)
     scree_case *c = parsed(scree_template_text("biaxial"), NULL, 0);
     char *text = written(c);
     assert_non_null(strstr(text, "    pressure: 100 kPa                   # Confining pressure.\n"));
-    assert_non_null(strstr(text, "    rate: 1e-2 1/s "));
+    assert_non_null(strstr(text, "    rate: 1.5e-2 1/s "));
     assert_non_null(strstr(text, "    wall_friction: auto "));
     assert_non_null(strstr(text, "  overlap: 20 % ")); // a default
-    assert_non_null(strstr(text, "windows: [[1 %, 3 %], [10 %, 15 %]] "));
+    assert_non_null(strstr(text, "windows: [[0.5 %, 2.5 %], [8 %, 12 %]] "));
     assert_null(strstr(text, "quick:"));
     assert_null(strstr(text, "damping_time")); // not used with this law
     free(text);
