@@ -274,7 +274,7 @@ static void no_run_is_an_error(void **state)
     report r;
     scree_error error;
     assert_int_equal(plot("nowhere", &r, &error), SCREE_ERROR_IO);
-    assert_non_null(strstr(error.message, "nowhere"));
+    assert_non_null(strstr(error.message, "no run to draw in 'nowhere'"));
     assert_int_not_equal(access("nowhere", F_OK), 0);
     assert_int_equal(scree_plot("nowhere", NULL, NULL, NULL), SCREE_ERROR_IO);
 }
