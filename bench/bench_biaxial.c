@@ -24,10 +24,11 @@
 #include <string.h>
 #include <time.h>
 
-enum { RUNS = 5, CLOSING_STEPS = 40000, RESTING_STEPS = 6000 };
+enum { RUNS = 5, CLOSING_STEPS = 40000, RESTING_STEPS = 6000, LATTICE_STEPS = 40 };
 static const double run_seconds = 0.4;
-static const double closing = 1e-6; // strain a step
-static const double dense = 2.0;    // contacts a body
+static const double closing = 1e-6;                                  // strain a step
+static const double dense = 2.0;                                     // contacts a body
+static const double lattice_spacing = 1.997, lattice_spread = 0.002; // mean radii
 
 typedef struct options {
     const char *peer, *folder;
@@ -134,7 +135,7 @@ static void make_cell(sample *s, const char *law, long count)
     settle(s);
 }
 
-/// A square of discs of 0.96 to 1 mean radius on a hexagonal lattice, spaced so that about two contacts a disc close.
+/// Slightly unequal discs on a hexagonal lattice in a box of four plates that presses them together.
 static void make_lattice(sample *s, const char *law, long count)
 {
     scree_error error;
@@ -143,16 +144,21 @@ static void make_lattice(sample *s, const char *law, long count)
     require(scree_state_create(&s->state, side * side, &error), &error);
     require(scree_work_create(&s->work, &s->model, 1, &error), &error);
     s->state.step_size = s->model.step;
-    double spacing = 1.96 * s->model.mean_radius;
+    double spacing = lattice_spacing * s->model.mean_radius, half = 0.5 * spacing;
     for (size_t k = 0; k < s->state.count; k++) {
         scree_row *row = &s->state.row[k];
         double i = (double)(k % side), j = (double)(k / side);
-        row->radius = s->model.mean_radius * (0.975 + 0.02 * sin(12.9898 * i + 78.233 * j));
+        row->radius = s->model.mean_radius * (1 + lattice_spread * sin(12.9898 * i + 78.233 * j));
         row->mass = s->model.density[0] * M_PI * row->radius * row->radius * s->model.thickness;
-        row->x = spacing * (i + 0.5 * fmod(j, 2));
-        row->y = spacing * sqrt(0.75) * j;
+        row->x = half + spacing * (i + 0.5 * fmod(j, 2));
+        row->y = half + spacing * sqrt(0.75) * j;
     }
-    for (int k = 0; k < 20; k++) step(s);
+    double width = spacing * ((double)side + 0.5), height = spacing * (sqrt(0.75) * (double)(side - 1) + 1);
+    const double normal[SCREE_WALL_COUNT][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
+    const double position[SCREE_WALL_COUNT] = {0, -height, 0, -width};
+    for (int w = 0; w < SCREE_WALL_COUNT; w++)
+        s->state.wall[w] = (scree_wall){.position = position[w], .normal = {normal[w][0], normal[w][1]}, .active = 1};
+    for (int k = 0; k < LATTICE_STEPS; k++) step(s);
 }
 
 /// Best particle-steps per second of several runs.

@@ -15,9 +15,13 @@
 const char *scree_version(void)
 {
     switch (scree_processor_level()) {
-    case 4: return TEXT("x86-64-v4");
-    case 3: return TEXT("x86-64-v3");
-    case 2: return TEXT("x86-64-v2");
-    default: return TEXT("any processor");
+    case 4:
+        return TEXT("x86-64-v4");
+    case 3:
+        return TEXT("x86-64-v3");
+    case 2:
+        return TEXT("x86-64-v2");
+    default:
+        return TEXT("any processor");
     }
 }

@@ -2,8 +2,8 @@
 /// the slip speed (P 2.A1-2.A7, 3.A1-3.A3, corrected as in docs/theory.md).
 ///   f_n = max(K d^1.5 + T K d^0.5 d', 0), K = normal_stiffness sqrt(R_eff)
 ///   f_t = -sign(s) mu f_n (|s| / v_R)^(1/c), zero at s = 0
-/// The power is exp(log(|s| / v_R) / c) with SLEEF's functions: the error of the logarithm is divided by c, and the
-/// slip is a signed number in two dimensions, so no root is needed.
+/// The power is 2^(log(|s| / v_R) / (c log 2)) with SLEEF's functions: the error of the logarithm is divided by c, and
+/// the slip is a signed number in two dimensions, so no root is needed.
 ///
 /// History row, only for the ledger: tangential force and normal damping force [N] at n - 1; unused without a ledger.
 /// Ledger: damping <f_n - K d^1.5> delta, friction -<f_t> sigma (mean forces and middle increments: motion.h).
@@ -22,7 +22,7 @@ SCREE_INLINE law_force hertz_brilliantov(const law_constants *constants, const l
     lanes normal = lanes_at_least(elastic + stiffness * (settings->damping_time * m->approach), lanes_all(0));
 
     lanes speed = lanes_abs(m->slip) * settings->inverse_reference_velocity;
-    lanes mobilised = lanes_exp(lanes_log(speed) * settings->inverse_exponent);
+    lanes mobilised = lanes_exp2(lanes_log(speed) * settings->binary_exponent);
     lanes tangential = -lanes_with_sign(constants->friction * normal * mobilised, m->slip);
 
     lanes damping = normal - elastic, none = lanes_all(0);

@@ -65,9 +65,9 @@ SCREE_INLINE lanes lanes_log(lanes a)
 {
     return Sleef_cinz_logd1_u35purec(a);
 }
-SCREE_INLINE lanes lanes_exp(lanes a)
+SCREE_INLINE lanes lanes_exp2(lanes a)
 {
-    return Sleef_cinz_expd1_u10purec(a);
+    return Sleef_cinz_exp2d1_u35purec(a);
 }
 
 SCREE_INLINE lanes_int lanes_as_int(lanes a)
@@ -164,9 +164,9 @@ SCREE_INLINE lanes lanes_log(lanes a)
 {
     return (lanes)LANES_SLEEF(log, u35)(a);
 }
-SCREE_INLINE lanes lanes_exp(lanes a)
+SCREE_INLINE lanes lanes_exp2(lanes a)
 {
-    return (lanes)LANES_SLEEF(exp, u10)(a);
+    return (lanes)LANES_SLEEF(exp2, u35)(a);
 }
 #else // a machine without these instructions: lane by lane
 #define LANES_ONE_BY_ONE(name, expression)                                                                             \
@@ -177,7 +177,7 @@ SCREE_INLINE lanes lanes_exp(lanes a)
     }
 LANES_ONE_BY_ONE(root, sqrt)
 LANES_ONE_BY_ONE(log, Sleef_cinz_logd1_u35purec)
-LANES_ONE_BY_ONE(exp, Sleef_cinz_expd1_u10purec)
+LANES_ONE_BY_ONE(exp2, Sleef_cinz_exp2d1_u35purec)
 
 SCREE_INLINE unsigned lanes_bits(lanes_int mask)
 {

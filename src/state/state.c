@@ -17,6 +17,8 @@ scree_status scree_state_create(scree_state *state, size_t count, scree_error *e
         {&state->angle, sizeof *state->angle},
         {&state->reference_x, sizeof *state->reference_x},
         {&state->reference_y, sizeof *state->reference_y},
+        {&state->sampled_vx, sizeof *state->sampled_vx},
+        {&state->sampled_vy, sizeof *state->sampled_vy},
         {&state->rebuild_x, sizeof *state->rebuild_x},
         {&state->rebuild_y, sizeof *state->rebuild_y},
         {&state->row_of_id, sizeof *state->row_of_id},
@@ -39,7 +41,8 @@ void scree_state_destroy(scree_state *state)
     void *const arrays[] = {&state->row,         &state->sum,         &state->id,        &state->angle,
                             &state->reference_x, &state->reference_y, &state->rebuild_x, &state->rebuild_y,
                             &state->row_of_id,   &state->contact,     &state->loop.id,   &state->loop.loaded,
-                            &state->loop.x,      &state->loop.y,      &state->loop.fx,   &state->loop.fy};
+                            &state->loop.x,      &state->loop.y,      &state->loop.fx,   &state->loop.fy,
+                            &state->sampled_vx,  &state->sampled_vy};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
     memset(state, 0, sizeof *state);
 }
@@ -69,6 +72,8 @@ scree_status scree_state_permute(scree_state *state, const uint32_t *order, scre
     permute_array(state->angle, sizeof *state->angle, order, state->count, scratch);
     permute_array(state->reference_x, sizeof *state->reference_x, order, state->count, scratch);
     permute_array(state->reference_y, sizeof *state->reference_y, order, state->count, scratch);
+    permute_array(state->sampled_vx, sizeof *state->sampled_vx, order, state->count, scratch);
+    permute_array(state->sampled_vy, sizeof *state->sampled_vy, order, state->count, scratch);
     permute_array(state->rebuild_x, sizeof *state->rebuild_x, order, state->count, scratch);
     permute_array(state->rebuild_y, sizeof *state->rebuild_y, order, state->count, scratch);
     scree_release(&scratch);
@@ -125,6 +130,8 @@ uint64_t scree_state_checksum(const scree_state *state)
         c = mix_bytes(c, &state->angle[row], sizeof(double));
         c = mix_bytes(c, &state->reference_x[row], sizeof(double));
         c = mix_bytes(c, &state->reference_y[row], sizeof(double));
+        c = mix_bytes(c, &state->sampled_vx[row], sizeof(double));
+        c = mix_bytes(c, &state->sampled_vy[row], sizeof(double));
     }
     const double scalars[] = {state->step_size,       state->force_quantum, state->torque_quantum,
                               state->largest_overlap, state->largest_speed, state->pressure};
@@ -144,7 +151,7 @@ uint64_t scree_state_checksum(const scree_state *state)
         c = mix_bytes(c, &state->loop.fx[k], sizeof(double));
         c = mix_bytes(c, &state->loop.fy[k], sizeof(double));
     }
-    c = mix(c, state->loop.updated);
+    c = mix(mix(c, state->loop.updated), state->sampled_step);
     c = mix_bytes(c, &state->strain, sizeof state->strain);
     c = mix_bytes(c, &state->ledger, sizeof state->ledger);
     return mix_bytes(c, &state->stage, sizeof state->stage);
