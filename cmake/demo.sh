@@ -13,7 +13,7 @@ printf '%-52s %s\n' \
     'quasistatic coefficient phi' "$(value phi)" \
     'size coefficient psi' "$(value psi)" \
     'peak of axial over lateral stress' "$(value peak_stress_ratio)" \
-    'the same over the last tenth of the strain' "$(value final_stress_ratio)" \
+    'the same over the last fifth of the strain' "$(value final_stress_ratio)" \
     'largest dilation of the volume' "$(value max_volumetric_dilation)" \
     'energy that is unaccounted for, over the work done' "$(value energy_residual)" \
     'stress of plates against stress of contacts' "$(value stress_disagreement)" \
