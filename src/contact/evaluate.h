@@ -8,16 +8,16 @@
 
 /// Contributions of one contact a lane, in quanta. The force on second is the opposite of that on first.
 typedef struct contact_quanta {
-    lanes_int fx, fy, torque_first, torque_second;
-    lanes_int count;                        ///< 1 where touching
-    lanes_int damping, friction, stiffness; ///< zero without a ledger
-    lanes_int in_range;                     ///< mask: the force is a number below the limit
-    lanes_int normal, tangential;           ///< the same force along n and t
+    lanes_bits fx, fy, torque_first, torque_second;
+    lanes_bits count;                        ///< 1 where touching
+    lanes_bits damping, friction, stiffness; ///< zero without a ledger
+    lanes_bits in_range;                     ///< mask: the force is a number below the limit
+    lanes_bits normal, tangential;           ///< the same force along n and t
 } contact_quanta;
 
 SCREE_INLINE contact_quanta contact_evaluate(scree_law law, bool ledger, const law_constants *constants,
                                              const law_settings *settings, const contact_scale *scale, const motion *m,
-                                             lanes_int touching, const law_memory *before, law_memory *after)
+                                             lanes_bits touching, const law_memory *before, law_memory *after)
 {
     law_force f = law_evaluate(law, constants, settings, m, touching, before, after);
     contact_quanta q = {

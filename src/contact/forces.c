@@ -105,8 +105,8 @@ static double settle_walls(scree_state *state, const contact_totals *totals)
     double work = 0;
     for (int k = 0; k < SCREE_WALL_COUNT; k++) {
         scree_wall *wall = &state->wall[k];
-        double force = scree_fixed_to(totals->wall_force[k], state->force_quantum);
-        double shear = scree_fixed_to(totals->wall_shear[k], state->force_quantum);
+        double force = scree_fixed_to((int64_t)totals->wall_force[k], state->force_quantum);
+        double shear = scree_fixed_to((int64_t)totals->wall_shear[k], state->force_quantum);
         work += 0.5 * state->step_size * (force + wall->force) * wall->velocity;
         work -= 0.5 * state->step_size * (shear + wall->shear) * wall->tangential_velocity;
         wall->force = force;
@@ -117,11 +117,11 @@ static double settle_walls(scree_state *state, const contact_totals *totals)
 
 static void settle_ledger(scree_ledger *ledger, const contact_totals *totals, const contact_scale *scale, double plates)
 {
-    double damping = (double)totals->damping / scale->inverse_damping;
-    double friction = (double)totals->friction / scale->inverse_friction;
+    double damping = (double)(int64_t)totals->damping / scale->inverse_damping;
+    double friction = (double)(int64_t)totals->friction / scale->inverse_friction;
     ledger->damping += damping;
     ledger->friction += friction;
-    ledger->stiffness += (double)totals->stiffness / scale->inverse_friction;
+    ledger->stiffness += (double)(int64_t)totals->stiffness / scale->inverse_friction;
     ledger->plates += plates;
     ledger->turnover += fabs(damping) + fabs(friction) + fabs(plates);
 }

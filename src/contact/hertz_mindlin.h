@@ -25,7 +25,7 @@
 #include "contact/law.h"
 
 SCREE_INLINE law_force hertz_mindlin(const law_constants *constants, const law_settings *settings, const motion *m,
-                                     lanes_int touching, const law_memory *before, law_memory *after)
+                                     lanes_bits touching, const law_memory *before, law_memory *after)
 {
     lanes d = lanes_keep(touching, m->indentation);
     lanes contact_radius = lanes_root(m->reduced_radius * d);

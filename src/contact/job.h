@@ -14,10 +14,10 @@ typedef struct contact_scale {
 } contact_scale;
 
 typedef struct contact_totals {
-    int64_t damping, friction, stiffness; ///< energy quanta
-    double largest_overlap;               ///< m
-    bool in_range;                        ///< no force is NaN or above the limit of the quanta
-    int64_t wall_force[SCREE_WALL_COUNT], wall_shear[SCREE_WALL_COUNT]; ///< force quanta, by the bodies on the wall
+    uint64_t damping, friction, stiffness; ///< energy quanta, two's complement
+    double largest_overlap;                ///< m
+    bool in_range;                         ///< no force is NaN or above the limit of the quanta
+    uint64_t wall_force[SCREE_WALL_COUNT], wall_shear[SCREE_WALL_COUNT]; ///< the same in force quanta, by the bodies
 } contact_totals;
 
 typedef struct contact_job {

@@ -23,7 +23,7 @@ SCREE_INLINE bool law_remembers(scree_law law, bool ledger)
 }
 
 SCREE_INLINE law_force law_evaluate(scree_law law, const law_constants *constants, const law_settings *settings,
-                                    const motion *m, lanes_int touching, const law_memory *before, law_memory *after)
+                                    const motion *m, lanes_bits touching, const law_memory *before, law_memory *after)
 {
     if (law == SCREE_LAW_HERTZ_MINDLIN) return hertz_mindlin(constants, settings, m, touching, before, after);
     return hertz_brilliantov(constants, settings, m, touching, before, after);

@@ -34,7 +34,7 @@ typedef struct motion {
 } motion;
 
 /// Set where the bodies are in contact; also where a coordinate is NaN, so that the kernels notice.
-SCREE_INLINE lanes_int bodies_touch(lanes x, lanes y, lanes radii)
+SCREE_INLINE lanes_bits bodies_touch(lanes x, lanes y, lanes radii)
 {
     return ~lanes_at_or_below(radii * radii, x * x + y * y);
 }

@@ -24,12 +24,12 @@ typedef struct variant {
 /// Pairs of one group. Where there are fewer than lanes, the first is repeated with `present` clear.
 typedef struct group {
     size_t pair[SCREE_LANES];
-    lanes_int present;
+    lanes_bits present;
 } group;
 
 /// Running totals in lanes.
 typedef struct totals {
-    lanes_int damping, friction, stiffness, in_range;
+    lanes_bits damping, friction, stiffness, in_range;
     lanes largest_overlap;
 } totals;
 
@@ -70,13 +70,13 @@ SCREE_INLINE void store_history(const contact_job *job, const group *g, const la
     LANE_LOOP *(row4 *)job->history[g->pair[SCREE_LANES - 1 - k]].value = row[SCREE_LANES - 1 - k];
 }
 
-SCREE_INLINE void add_to_sums(const contact_job *job, const uint32_t *body, const group *g, lanes_int fx, lanes_int fy,
-                              lanes_int torque, lanes_int count)
+SCREE_INLINE void add_to_sums(const contact_job *job, const uint32_t *body, const group *g, lanes_bits fx,
+                              lanes_bits fy, lanes_bits torque, lanes_bits count)
 {
     row4 row[SCREE_LANES];
     columns_to_rows(
         (columns){lanes_as_double(fx), lanes_as_double(fy), lanes_as_double(torque), lanes_as_double(count)}, row);
-    LANE_LOOP *(row4_int *)&job->sum[body[g->pair[k]]] += (row4_int)row[k];
+    LANE_LOOP *(row4_bits *)&job->sum[body[g->pair[k]]] += (row4_bits)row[k];
 }
 
 SCREE_INLINE void evaluate_group(const contact_job *job, variant v, const group *g, totals *t)
@@ -85,7 +85,7 @@ SCREE_INLINE void evaluate_group(const contact_job *job, variant v, const group 
     columns move1 = load_bodies(job, job->first, g, 4), move2 = load_bodies(job, job->second, g, 4);
     bodies first = {place1.c0, place1.c1, place1.c2, place1.c3, move1.c0, move1.c1, move1.c2, move1.c3};
     bodies second = {place2.c0, place2.c1, place2.c2, place2.c3, move2.c0, move2.c1, move2.c2, move2.c3};
-    lanes_int touching =
+    lanes_bits touching =
         g->present & bodies_touch(first.x - second.x, first.y - second.y, first.radius + second.radius);
     motion m = motion_of_pair(&first, &second, job->settings.step);
     law_constants constants = load_constants(job, v.many_materials, first.material, second.material);
@@ -129,7 +129,7 @@ SCREE_INLINE unsigned near_contacts(const contact_job *job, size_t p)
     group g;
     LANE_LOOP g.pair[k] = p + (size_t)k;
     columns first = load_bodies(job, job->first, &g, 0), second = load_bodies(job, job->second, &g, 0);
-    return lanes_bits(bodies_touch(first.c0 - second.c0, first.c1 - second.c1, first.c3 + second.c3));
+    return lanes_ones(bodies_touch(first.c0 - second.c0, first.c1 - second.c1, first.c3 + second.c3));
 }
 
 /// Renews the bits of the near pairs p .. p + lanes - 1; returns those of pairs that touch or did so in the last step.
@@ -159,11 +159,11 @@ SCREE_INLINE size_t queue_near(queue *q, const contact_job *job, size_t p)
 /// Evaluates the queued pairs; a last group that is not full repeats its first pair.
 SCREE_INLINE void queue_evaluate(const queue *q, const contact_job *job, variant v, totals *t)
 {
-    lanes_int number;
-    LANE_LOOP number[k] = k;
+    lanes_bits number;
+    LANE_LOOP number[k] = (uint64_t)k;
     for (size_t begin = 0; begin < q->count; begin += SCREE_LANES) {
         size_t left = q->count - begin;
-        group g = {.present = (lanes_int)(number < (int64_t)left)};
+        group g = {.present = (lanes_bits)(number < (uint64_t)left)};
         LANE_LOOP g.pair[k] = q->pair[begin + ((size_t)k < left ? (size_t)k : 0)];
         evaluate_group(job, v, &g, t);
     }
@@ -175,7 +175,7 @@ SCREE_INLINE size_t evaluate_touching(const contact_job *job, variant v, totals 
     size_t p = job->touching_begin;
     for (; p + SCREE_LANES <= job->touching_end; p += SCREE_LANES) {
         if (p + PREFETCH_AHEAD + SCREE_LANES <= job->touching_end) prefetch_bodies(job, p + PREFETCH_AHEAD);
-        group g = {.present = ~(lanes_int){0}};
+        group g = {.present = ~(lanes_bits){0}};
         LANE_LOOP g.pair[k] = p + (size_t)k;
         evaluate_group(job, v, &g, t);
     }
@@ -185,7 +185,7 @@ SCREE_INLINE size_t evaluate_touching(const contact_job *job, variant v, totals 
 static void totals_reduce(const totals *t, contact_totals *out)
 {
     unsigned all = (1U << SCREE_LANES) - 1;
-    *out = (contact_totals){.in_range = lanes_bits(t->in_range) == all};
+    *out = (contact_totals){.in_range = lanes_ones(t->in_range) == all};
     LANE_LOOP
     {
         out->damping += t->damping[k];
@@ -199,7 +199,7 @@ static void totals_reduce(const totals *t, contact_totals *out)
 SCREE_INLINE void run(contact_job *given, variant v)
 {
     const contact_job copy = *given, *job = &copy;
-    totals t = {.in_range = ~(lanes_int){0}};
+    totals t = {.in_range = ~(lanes_bits){0}};
     queue q = {.count = 0};
     for (size_t p = evaluate_touching(job, v, &t); p < job->touching_end; p++) q.pair[q.count++] = (uint32_t)p;
     size_t p = job->near_begin;

@@ -156,10 +156,8 @@ void contact_merge(const contact_scratch *scratch, scree_state *state, size_t be
         size_t from = begin > part->low ? begin : part->low, to = end < part->high ? end : part->high;
         for (size_t row = from; row < to; row++) {
             const scree_sum_row *more = &part->buffer[row - part->low];
-            state->sum[row].fx += more->fx;
-            state->sum[row].fy += more->fy;
-            state->sum[row].torque += more->torque;
-            state->sum[row].contacts += more->contacts;
+            sum_row_add(&state->sum[row], (uint64_t)more->fx, (uint64_t)more->fy, (uint64_t)more->torque,
+                        (uint64_t)more->contacts);
         }
     }
 }

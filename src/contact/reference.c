@@ -30,7 +30,7 @@ static contact_quanta evaluate(contact_job *job, const scree_pair_constants *con
     law_constants c = constants_get(constants);
     law_memory before = memory_get(history), after;
     contact_quanta q =
-        contact_evaluate(law, job->ledger, &c, &job->settings, &job->scale, m, -(lanes_int)touching, &before, &after);
+        contact_evaluate(law, job->ledger, &c, &job->settings, &job->scale, m, -(lanes_bits)touching, &before, &after);
     if (!job->ledger) after.value[1] = after.value[2] = after.value[3] = 0;
     if (law_remembers(law, job->ledger)) memcpy(history->value, after.value, sizeof after.value);
     contact_totals *totals = &job->totals;
@@ -40,14 +40,6 @@ static contact_quanta evaluate(contact_job *job, const scree_pair_constants *con
     totals->in_range &= q.in_range != 0;
     if (touching) totals->largest_overlap = lanes_at_least(totals->largest_overlap, m->indentation);
     return q;
-}
-
-static void add_to_sum(scree_sum_row *sum, int64_t fx, int64_t fy, int64_t torque, int64_t contacts)
-{
-    sum->fx += fx;
-    sum->fy += fy;
-    sum->torque += torque;
-    sum->contacts += contacts;
 }
 
 static void evaluate_pair(contact_job *job, size_t p)
@@ -60,8 +52,8 @@ static void evaluate_pair(contact_job *job, size_t p)
     motion m = motion_of_pair(&one, &other, job->settings.step);
     const scree_pair_constants *constants = &job->model->pairs[(int)first->material][(int)second->material];
     contact_quanta q = evaluate(job, constants, &m, touching, history);
-    add_to_sum(&job->sum[job->first[p]], q.fx, q.fy, q.torque_first, q.count);
-    add_to_sum(&job->sum[job->second[p]], -q.fx, -q.fy, q.torque_second, q.count);
+    sum_row_add(&job->sum[job->first[p]], q.fx, q.fy, q.torque_first, q.count);
+    sum_row_add(&job->sum[job->second[p]], -q.fx, -q.fy, q.torque_second, q.count);
 }
 
 void contact_pairs_reference(contact_job *job)
@@ -85,7 +77,7 @@ void contact_walls(contact_job *job, scree_sum_row *sum, const scree_wall *wall,
         motion m = motion_of_wall(&one, &wall[w], job->settings.step);
         const scree_pair_constants *constants = &job->model->walls[(int)body->material];
         contact_quanta q = evaluate(job, constants, &m, touching, &pairs->history[p]);
-        add_to_sum(&sum[row], q.fx, q.fy, q.torque_first, q.count);
+        sum_row_add(&sum[row], q.fx, q.fy, q.torque_first, q.count);
         job->totals.wall_force[w] += q.normal;
         job->totals.wall_shear[w] -= q.tangential;
     }

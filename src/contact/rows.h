@@ -7,7 +7,7 @@
 #include "contact/lanes.h"
 
 typedef double row4 __attribute__((vector_size(32), aligned(8), may_alias));
-typedef int64_t row4_int __attribute__((vector_size(32), aligned(8), may_alias));
+typedef uint64_t row4_bits __attribute__((vector_size(32), aligned(8), may_alias));
 
 /// The four columns of `SCREE_LANES` rows: lane k of column c is row[k][c].
 typedef struct columns {

@@ -14,6 +14,15 @@ static inline law_constants constants_get(const scree_pair_constants *c)
     return (law_constants){c->normal_stiffness, c->tangential_stiffness, c->friction, c->damping};
 }
 
+/// Adds to a sum, modulo 2^64.
+static inline void sum_row_add(scree_sum_row *sum, uint64_t fx, uint64_t fy, uint64_t torque, uint64_t contacts)
+{
+    sum->fx = (int64_t)((uint64_t)sum->fx + fx);
+    sum->fy = (int64_t)((uint64_t)sum->fy + fy);
+    sum->torque = (int64_t)((uint64_t)sum->torque + torque);
+    sum->contacts = (int64_t)((uint64_t)sum->contacts + contacts);
+}
+
 static inline law_memory memory_get(const scree_history *history)
 {
     law_memory memory;

@@ -13,7 +13,7 @@ static void describe(const scree_model *model, const scree_pair_constants *const
     law_constants c = constants_get(constants);
     law_settings settings = law_settings_get(model, 0);
     law_memory before = memory_get(history), after;
-    law_force f = law_evaluate(model->law, &c, &settings, m, -1, &before, &after);
+    law_force f = law_evaluate(model->law, &c, &settings, m, ~UINT64_C(0), &before, &after);
     double cap = constants->friction * f.normal;
     contact->sliding = f.normal > 0 && fabs(f.tangential) >= (1 - SLIDING_TOLERANCE) * cap;
     contact->normal[0] = m->normal_x;
