@@ -7,7 +7,7 @@
 
 #include <stdarg.h>
 
-#define SCREE_MUST_USE __attribute__((warn_unused_result))
+#define SCREE_MUST_USE            __attribute__((warn_unused_result))
 #define SCREE_PRINTF(text, first) __attribute__((format(printf, text, first)))
 
 /// Fills `error` (which may be NULL) with a formatted message and returns `status`, so that a caller can write

@@ -4,7 +4,9 @@
 #include <scree/scree.h>
 
 #if defined __clang__
-#define COMPILER "clang " __clang_version__
+#define QUOTE(number) #number
+#define DOTTED(a, b, c) QUOTE(a) "." QUOTE(b) "." QUOTE(c)
+#define COMPILER "clang " DOTTED(__clang_major__, __clang_minor__, __clang_patchlevel__)
 #else
 #define COMPILER "gcc " __VERSION__
 #endif
@@ -13,9 +15,13 @@
 const char *scree_version(void)
 {
     switch (scree_processor_level()) {
-    case 4: return TEXT("x86-64-v4");
-    case 3: return TEXT("x86-64-v3");
-    case 2: return TEXT("x86-64-v2");
-    default: return TEXT("any processor");
+    case 4:
+        return TEXT("x86-64-v4");
+    case 3:
+        return TEXT("x86-64-v3");
+    case 2:
+        return TEXT("x86-64-v2");
+    default:
+        return TEXT("any processor");
     }
 }

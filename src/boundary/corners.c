@@ -28,7 +28,7 @@ static bool belongs_to(const scree_state *state, int wall, size_t k)
     return !opposite->active || gap_to(state, &state->wall[wall], k) <= gap_to(state, opposite, k);
 }
 
-/// Gap up to which bodies face the wall; INFINITY-free: the smallest gap when that is above the mean radius.
+/// Gap up to which bodies face the wall: the mean radius, or the smallest gap when that is larger.
 static double facing_limit(const scree_model *model, const scree_state *state, int wall)
 {
     double nearest = INFINITY;

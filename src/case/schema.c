@@ -126,9 +126,9 @@ static const scree_key integrator_keys[] = {
 typedef scree_config_boundary boundary;
 static const scree_key boundary_keys[] = {
     CHOICE(boundary, lateral, laterals, .standard = "pressure", .meaning = "What holds the sides."),
-    INTEGER(boundary, every, .standard = "250", FROM("1"), TO("1e9"), .when = "lateral=pressure",
+    INTEGER(boundary, every, .standard = "250", FROM("1"), TO("1e9"),
             .meaning = "Steps between two updates of the Delaunay boundary."),
-    NUMBER(boundary, gap_limit, "1", .standard = "0.5", FROM("0"), TO("100"), .when = "lateral=pressure",
+    NUMBER(boundary, gap_limit, "1", .standard = "0.5", FROM("0"), TO("100"),
            .meaning = "Boundary edges with a free gap above this many mean diameters are cut."),
     NUMBER(boundary, servo_gain, "1", .standard = "1", ABOVE("0"), TO("10"),
            .meaning = "Admittance of a plate under servo over that of the sample; 1 absorbs waves."),

@@ -35,7 +35,8 @@ scree_status scree_terminal_error(const char *verb, const scree_error *error)
         (void)snprintf(place, sizeof place, "scree%s%s: ", verb ? " " : "", verb ? verb : "");
     const char *rest = error->file[0] ? text + strlen(place) : text;
     if (scree_terminal_is_rich(stderr))
-        fprintf(stderr, BOLD "%s" BOLD_RED "error: " PLAIN "%s\n", place, rest);
+        fprintf(stderr, BOLD "%s" BOLD_RED "%s" PLAIN "%s\n", place,
+                error->status == SCREE_INTERRUPTED ? "" : "error: ", rest);
     else
         fprintf(stderr, "%s%s\n", place, rest);
     return error->status ? error->status : SCREE_ERROR_IO;

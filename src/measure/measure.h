@@ -60,6 +60,10 @@ void scree_slip_measure(const scree_contact_table *table, double *mean_slip, dou
 /// Mean resultant force on the bodies that touch something, over the mean contact force. NAN without contact forces.
 double scree_unbalanced_ratio(const scree_model *model, const scree_state *state, const scree_contact_table *table);
 
+/// The same with the mean resultants since state->sampled_step; the instantaneous ratio at that step itself.
+double scree_mean_unbalanced_ratio(const scree_model *model, const scree_state *state,
+                                   const scree_contact_table *table);
+
 /// Solid fraction inside the Delaunay boundary: disc areas (partial ones at the boundary by angle) over loop area. NAN
 /// without a loop.
 double scree_solid_fraction(const scree_state *state);

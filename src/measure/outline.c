@@ -3,6 +3,7 @@
 #include "measure/outline.h"
 
 #include <math.h>
+#include <string.h>
 
 typedef void visitor(void *user, const scree_outline_segment *segment);
 
@@ -79,18 +80,19 @@ static void emit_run(const scree_state *state, visitor *visit, void *user, size_
 void scree_outline_visit(const scree_state *state, visitor *visit, void *user)
 {
     const scree_loop *loop = &state->loop;
-    bool any = false;
-    for (size_t k = 0; k < loop->count; k++) any = any || loop->loaded[k];
+    if (loop->count == 0) return;
+    bool any = memchr(loop->loaded, 1, loop->count) != NULL;
+    double a[2], b[2];
+    scree_loop_position(state, 0, a);
     for (size_t k = 0; k < loop->count; k++) {
         size_t next = next_place(loop, k), previous = k > 0 ? k - 1 : loop->count - 1;
-        if (!any || loop->loaded[k]) {
-            double a[2], b[2];
-            scree_loop_position(state, k, a);
-            scree_loop_position(state, next, b);
+        scree_loop_position(state, next, b);
+        if (!any || loop->loaded[k])
             emit(visit, user, any ? SCREE_OUTLINE_EDGE : SCREE_OUTLINE_BARE, -1, a, b, k, next);
-        } else if (loop->loaded[previous]) {
+        else if (loop->loaded[previous])
             emit_run(state, visit, user, k);
-        }
+        a[0] = b[0];
+        a[1] = b[1];
     }
 }
 

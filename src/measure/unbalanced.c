@@ -1,20 +1,26 @@
 /// How far the assembly is from equilibrium: the mean resultant force (contacts, boundary and gravity) on the bodies
 /// that touch something, over the mean contact force. Bodies without contact are left out: they are not part of the
-/// assembly, and many of them at rest would make it look calmer than it is. Cost: O(bodies + contacts).
+/// assembly, and many of them at rest would make it look calmer than it is.
+///
+/// The mean ratio takes the resultant as the change of momentum since the last sample over its time: friction that
+/// depends on the sign of a velocity (hertz_brilliantov) turns round at every step in a sample at rest, and its
+/// instantaneous resultant says nothing. Cost: O(bodies + contacts).
 #include "measure/measure.h"
 
 #include "integrate/integrate.h"
 
 #include <math.h>
 
-double scree_unbalanced_ratio(const scree_model *model, const scree_state *state, const scree_contact_table *table)
+/// Mean over the bodies that touch something of the force that `resultant_on` gives, over the mean contact force.
+static double ratio(const scree_model *model, const scree_state *state, const scree_contact_table *table,
+                    void (*resultant_on)(const scree_model *, const scree_state *, size_t row, double force[3]))
 {
     double resultant = 0, contact_force = 0, force[3];
     size_t bodies = 0;
     for (size_t id = 0; id < state->count; id++) {
         size_t row = state->row_of_id[id];
         if (state->sum[row].contacts == 0) continue;
-        scree_body_force(model, state, row, force);
+        resultant_on(model, state, row, force);
         resultant += hypot(force[0], force[1]);
         bodies++;
     }
@@ -22,4 +28,22 @@ double scree_unbalanced_ratio(const scree_model *model, const scree_state *state
         contact_force += hypot(table->contact[c].normal_force, table->contact[c].tangential_force);
     if (bodies == 0 || !(contact_force > 0)) return NAN;
     return (resultant / (double)bodies) / (contact_force / (double)table->count);
+}
+
+double scree_unbalanced_ratio(const scree_model *model, const scree_state *state, const scree_contact_table *table)
+{
+    return ratio(model, state, table, scree_body_force);
+}
+
+static void mean_force(const scree_model *model, const scree_state *state, size_t row, double force[3])
+{
+    double time = (double)(state->step - state->sampled_step) * state->step_size, mass = state->row[row].mass;
+    scree_body_velocity(model, state, row, force);
+    force[0] = mass * (force[0] - state->sampled_vx[row]) / time;
+    force[1] = mass * (force[1] - state->sampled_vy[row]) / time;
+}
+
+double scree_mean_unbalanced_ratio(const scree_model *model, const scree_state *state, const scree_contact_table *table)
+{
+    return ratio(model, state, table, state->step > state->sampled_step ? mean_force : scree_body_force);
 }

@@ -80,7 +80,7 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
 {
     scree_snapshot_info info = {.index = s->state.stage.snapshots,
                                 .time = scree_state_time(&s->state),
-                                .axial_strain = s->sample.value[SCREE_SAMPLE_AXIAL_STRAIN],
+                                .axial_strain = scree_axial_strain(s),
                                 .stage = s->stage->name};
     const scree_model *model = &s->stage_model;
     scree_status status = scree_snapshot_write(recorder->directory, model, &s->state, &s->table, &info, error);

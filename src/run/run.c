@@ -89,16 +89,18 @@ static void draw_figures(const scree_recorder *recorder, const scree_simulation 
         scree_log_write(&log, SCREE_LOG_WARNING, "figures: %s", error.message);
 }
 
-/// Common part of a new and a restarted run: `s` is open and at the point where stepping begins.
+/// Common part of a new and a restarted run: `s` is open and at the point where stepping begins. `restarted` is NULL
+/// for a new run, else a warning for the log, empty when there is none.
 static scree_status record(scree_simulation *s, const scree_run_options *options, const char *directory,
-                           uint64_t checksum, bool restart, scree_error *error)
+                           uint64_t checksum, const char *restarted, scree_error *error)
 {
     scree_recorder recorder;
-    scree_status status = scree_recorder_open(&recorder, s, options, directory, restart, error);
+    scree_status status = scree_recorder_open(&recorder, s, options, directory, restarted, error);
     recorder.case_checksum = checksum;
     if (!status) {
         scree_log_write(&recorder.log, SCREE_LOG_INFO, "%s; case %s, %d threads%s", scree_version(),
-                        s->model.config->name, s->work.threads, restart ? ", restarted" : "");
+                        s->model.config->name, s->work.threads, restarted ? ", restarted" : "");
+        if (restarted && restarted[0]) scree_log_write(&recorder.log, SCREE_LOG_WARNING, "%s", restarted);
         scree_log_write(&recorder.log, SCREE_LOG_INFO, "step %.4g s (critical %.4g s), phi %.4g, psi %.4g",
                         s->model.step, s->model.critical_step, s->model.phi, s->model.psi);
         status = drive(&recorder, s, error);
@@ -120,7 +122,7 @@ scree_status scree_run(const scree_case *c, const scree_run_options *options, sc
     if (!status) status = case_text(c, &text, &length, &checksum, error);
     if (!status) status = scree_run_directory_create(options->output, options->force, error);
     if (!status) status = save_case(options->output, text, length, error);
-    if (!status) status = record(&s, options, options->output, checksum, false, error);
+    if (!status) status = record(&s, options, options->output, checksum, NULL, error);
     scree_simulation_close(&s);
     free(text);
     return status;
@@ -151,12 +153,14 @@ scree_status scree_restart(const char *directory, const scree_run_options *optio
     if (status) return status;
     status = scree_simulation_open(c, options->threads, &s, error);
     if (!status) status = case_text(c, &text, &length, &checksum, error);
-    if (!status) status = scree_checkpoint_read(directory, &s.state, checksum, error);
+    // A message without a failure tells that an older checkpoint had to serve.
+    scree_error note = {0};
+    if (!status && (status = scree_checkpoint_read(directory, &s.state, checksum, &note))) *error = note;
     // Samples, checkpoints and the checksum may read the contacts before the first step.
     if (!status && s.state.count > 0) status = scree_neighbours_refresh(&s.model, &s.state, &s.work, error);
     if (!status && s.state.stage.counter >= 0) status = scree_stage_enter(&s, true, error);
     if (!status) status = scree_snapshots_truncate(directory, s.state.stage.snapshots, error);
-    if (!status) status = record(&s, options, directory, checksum, true, error);
+    if (!status) status = record(&s, options, directory, checksum, note.message, error);
     scree_simulation_close(&s);
     scree_case_free(c);
     free(text);

@@ -36,7 +36,8 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
                                                     "contacts a load-bearing particle"},
     [SCREE_SAMPLE_RATTLER_FRACTION] = {"rattler_fraction", "1", "fraction of particles that bear no load"},
     [SCREE_SAMPLE_SOLID_FRACTION] = {"solid_fraction", "1", "disc area over sample area, inside the Delaunay boundary"},
-    [SCREE_SAMPLE_UNBALANCED_RATIO] = {"unbalanced_ratio", "1", "mean unbalanced force over mean contact force"},
+    [SCREE_SAMPLE_UNBALANCED_RATIO] = {"unbalanced_ratio", "1",
+                                       "mean unbalanced force since the last sample over mean contact force"},
     [SCREE_SAMPLE_KINETIC] = {"kinetic", "J", "kinetic energy, translation and rotation"},
     [SCREE_SAMPLE_ELASTIC_NORMAL] = {"elastic_normal", "J", "stored in normal contact springs"},
     [SCREE_SAMPLE_ELASTIC_TANGENTIAL] = {"elastic_tangential", "J", "stored in tangential contact springs"},
@@ -95,7 +96,7 @@ static scree_status sample_structure(const scree_simulation *s, double *value, s
     value[SCREE_SAMPLE_COORDINATION_WITHOUT_RATTLERS] = coordination.mean_without_rattlers;
     value[SCREE_SAMPLE_RATTLER_FRACTION] = coordination.rattler_fraction;
     value[SCREE_SAMPLE_SOLID_FRACTION] = scree_solid_fraction(&s->state);
-    value[SCREE_SAMPLE_UNBALANCED_RATIO] = scree_unbalanced_ratio(&s->stage_model, &s->state, &s->table);
+    value[SCREE_SAMPLE_UNBALANCED_RATIO] = scree_mean_unbalanced_ratio(&s->stage_model, &s->state, &s->table);
     value[SCREE_SAMPLE_BOUNDARY_COUNT] = (double)s->state.loop.count;
     value[SCREE_SAMPLE_HEIGHT] = scree_sample_height(&s->state);
     return SCREE_OK;
@@ -119,6 +120,19 @@ static void sample_energy(const scree_simulation *s, double *value)
     value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE] = energy.relative;
 }
 
+/// From here on the mean unbalanced force of the next sample counts.
+static void remember_velocities(scree_simulation *s)
+{
+    scree_state *state = &s->state;
+    double velocity[3];
+    for (size_t row = 0; row < state->count; row++) {
+        scree_body_velocity(&s->stage_model, state, row, velocity);
+        state->sampled_vx[row] = velocity[0];
+        state->sampled_vy[row] = velocity[1];
+    }
+    state->sampled_step = state->step;
+}
+
 scree_status scree_sample_take(scree_simulation *s, scree_error *error)
 {
     scree_status status = scree_contact_table_build(&s->stage_model, &s->state, &s->work, &s->table, error);
@@ -131,5 +145,6 @@ scree_status scree_sample_take(scree_simulation *s, scree_error *error)
     sample_stress(s, value);
     if ((status = sample_structure(s, value, error))) return status;
     sample_energy(s, value);
+    remember_velocities(s);
     return scree_guard_sample(s, value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE], error);
 }

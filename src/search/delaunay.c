@@ -6,8 +6,8 @@
 /// to a fixed buffer in memory. Cocircular sets (lattices) are triangulated in the way that Qhull chooses for the given
 /// order of the points: give them in the order of ids. Triangles are oriented by Qhull's topology, not by the sign of
 /// their area, which round-off decides for a flat triangle on a straight side; neighbours are found from the directed
-/// edges, and a triangulation in which one edge occurs twice is refused. Cost: O(n log n); about 2 microseconds a
-/// point.
+/// edges, and a triangulation in which one edge occurs twice is refused.
+/// Cost: O(n log n); 4 microseconds a point for thousands, 15 for a million.
 #include "search/delaunay.h"
 
 #include <libqhull_r/libqhull_r.h>

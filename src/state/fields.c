@@ -33,6 +33,10 @@ const scree_field scree_fields[] = {
      PLAIN_ARRAY(reference_x, double), .rows = SCREE_ROWS_BODIES},
     {"reference_y", SCREE_FIELD_DOUBLE, 1, "m", SCREE_FIELD_STATE, false, "y at the start of the loading stage",
      PLAIN_ARRAY(reference_y, double), .rows = SCREE_ROWS_BODIES},
+    {"sampled_vx", SCREE_FIELD_DOUBLE, 1, "m/s", SCREE_FIELD_STATE, false, "x velocity at the last sample",
+     PLAIN_ARRAY(sampled_vx, double), .rows = SCREE_ROWS_BODIES},
+    {"sampled_vy", SCREE_FIELD_DOUBLE, 1, "m/s", SCREE_FIELD_STATE, false, "y velocity at the last sample",
+     PLAIN_ARRAY(sampled_vy, double), .rows = SCREE_ROWS_BODIES},
     {"force_sum", SCREE_FIELD_INT64, 2, "1", SCREE_FIELD_STATE, false,
      "sum of the contact and boundary forces, in units of scalars/force_quantum", IN_ARRAY(sum, scree_sum_row, fx),
      .rows = SCREE_ROWS_BODIES},
@@ -96,6 +100,7 @@ const scree_field scree_members[] = {
     WALL("material", SCREE_FIELD_INT32, 1, "1", material, "index of the material in the case"),
 
     ONE("scalars/step", SCREE_FIELD_UINT64, 1, "1", step, "steps since the start of the run"),
+    ONE("scalars/sampled_step", SCREE_FIELD_UINT64, 1, "1", sampled_step, "step of the last sample"),
     ONE("scalars/step_size", SCREE_FIELD_DOUBLE, 1, "s", step_size, "time step"),
     ONE("scalars/force_quantum", SCREE_FIELD_DOUBLE, 1, "N", force_quantum, "unit of force_sum"),
     ONE("scalars/torque_quantum", SCREE_FIELD_DOUBLE, 1, "N m", torque_quantum, "unit of torque_sum"),

@@ -1,6 +1,8 @@
 /// Life, order and checksum of the state.
 #include "state/state.h"
 
+#include "base/checksum.h"
+
 #include <string.h>
 
 scree_status scree_state_create(scree_state *state, size_t count, scree_error *error)
@@ -17,6 +19,8 @@ scree_status scree_state_create(scree_state *state, size_t count, scree_error *e
         {&state->angle, sizeof *state->angle},
         {&state->reference_x, sizeof *state->reference_x},
         {&state->reference_y, sizeof *state->reference_y},
+        {&state->sampled_vx, sizeof *state->sampled_vx},
+        {&state->sampled_vy, sizeof *state->sampled_vy},
         {&state->rebuild_x, sizeof *state->rebuild_x},
         {&state->rebuild_y, sizeof *state->rebuild_y},
         {&state->row_of_id, sizeof *state->row_of_id},
@@ -39,7 +43,8 @@ void scree_state_destroy(scree_state *state)
     void *const arrays[] = {&state->row,         &state->sum,         &state->id,        &state->angle,
                             &state->reference_x, &state->reference_y, &state->rebuild_x, &state->rebuild_y,
                             &state->row_of_id,   &state->contact,     &state->loop.id,   &state->loop.loaded,
-                            &state->loop.x,      &state->loop.y,      &state->loop.fx,   &state->loop.fy};
+                            &state->loop.x,      &state->loop.y,      &state->loop.fx,   &state->loop.fy,
+                            &state->sampled_vx,  &state->sampled_vy};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
     memset(state, 0, sizeof *state);
 }
@@ -69,6 +74,8 @@ scree_status scree_state_permute(scree_state *state, const uint32_t *order, scre
     permute_array(state->angle, sizeof *state->angle, order, state->count, scratch);
     permute_array(state->reference_x, sizeof *state->reference_x, order, state->count, scratch);
     permute_array(state->reference_y, sizeof *state->reference_y, order, state->count, scratch);
+    permute_array(state->sampled_vx, sizeof *state->sampled_vx, order, state->count, scratch);
+    permute_array(state->sampled_vy, sizeof *state->sampled_vy, order, state->count, scratch);
     permute_array(state->rebuild_x, sizeof *state->rebuild_x, order, state->count, scratch);
     permute_array(state->rebuild_y, sizeof *state->rebuild_y, order, state->count, scratch);
     scree_release(&scratch);
@@ -86,66 +93,42 @@ scree_status scree_state_reserve_contacts(scree_state *state, size_t count, scre
     return status;
 }
 
-/// One 64-bit word into the checksum (multiply-xorshift; Steele, Lea and Flood 2014, the finaliser of SplitMix).
-static uint64_t mix(uint64_t checksum, uint64_t word)
-{
-    uint64_t z = (checksum ^ word) + UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return z ^ (z >> 31);
-}
-
-/// `size` is a multiple of 4; structures hashed here have no padding.
-static uint64_t mix_bytes(uint64_t checksum, const void *bytes, size_t size)
-{
-    const unsigned char *at = bytes;
-    for (; size >= 8; size -= 8, at += 8) {
-        uint64_t word;
-        memcpy(&word, at, 8);
-        checksum = mix(checksum, word);
-    }
-    if (size) {
-        uint32_t half;
-        memcpy(&half, at, 4);
-        checksum = mix(checksum, half);
-    }
-    return checksum;
-}
-
 _Static_assert(sizeof(scree_row) == 64 && sizeof(scree_sum_row) == 32, "hot rows have fixed sizes");
 _Static_assert(sizeof(scree_contact_memory) == 8 + sizeof(scree_history), "no padding in contact memory");
 
 uint64_t scree_state_checksum(const scree_state *state)
 {
-    uint64_t c = mix(state->step, state->count);
+    uint64_t c = scree_checksum_word(state->step, state->count);
     for (size_t id = 0; id < state->count; id++) {
         size_t row = state->row_of_id[id];
-        c = mix_bytes(c, &state->row[row], sizeof state->row[row]);
-        c = mix_bytes(c, &state->sum[row], sizeof state->sum[row]);
-        c = mix_bytes(c, &state->angle[row], sizeof(double));
-        c = mix_bytes(c, &state->reference_x[row], sizeof(double));
-        c = mix_bytes(c, &state->reference_y[row], sizeof(double));
+        c = scree_checksum_bytes(c, &state->row[row], sizeof state->row[row]);
+        c = scree_checksum_bytes(c, &state->sum[row], sizeof state->sum[row]);
+        c = scree_checksum_bytes(c, &state->angle[row], sizeof(double));
+        c = scree_checksum_bytes(c, &state->reference_x[row], sizeof(double));
+        c = scree_checksum_bytes(c, &state->reference_y[row], sizeof(double));
+        c = scree_checksum_bytes(c, &state->sampled_vx[row], sizeof(double));
+        c = scree_checksum_bytes(c, &state->sampled_vy[row], sizeof(double));
     }
     const double scalars[] = {state->step_size,       state->force_quantum, state->torque_quantum,
                               state->largest_overlap, state->largest_speed, state->pressure};
-    c = mix_bytes(c, scalars, sizeof scalars);
-    c = mix_bytes(c, state->contact, state->contact_count * sizeof *state->contact);
+    c = scree_checksum_bytes(c, scalars, sizeof scalars);
+    c = scree_checksum_bytes(c, state->contact, state->contact_count * sizeof *state->contact);
     for (int w = 0; w < SCREE_WALL_COUNT; w++) {
         const scree_wall *wall = &state->wall[w];
         const double values[] = {wall->position, wall->normal[0], wall->normal[1],          wall->velocity,
                                  wall->force,    wall->shear,     wall->tangential_velocity};
-        c = mix_bytes(c, values, sizeof values);
-        c = mix(c, (uint64_t)(uint32_t)wall->active << 32 | (uint32_t)wall->material);
+        c = scree_checksum_bytes(c, values, sizeof values);
+        c = scree_checksum_word(c, (uint64_t)(uint32_t)wall->active << 32 | (uint32_t)wall->material);
     }
     for (size_t k = 0; k < state->loop.count; k++) {
-        c = mix(c, (uint64_t)state->loop.id[k] << 8 | state->loop.loaded[k]);
-        c = mix_bytes(c, &state->loop.x[k], sizeof(double));
-        c = mix_bytes(c, &state->loop.y[k], sizeof(double));
-        c = mix_bytes(c, &state->loop.fx[k], sizeof(double));
-        c = mix_bytes(c, &state->loop.fy[k], sizeof(double));
+        c = scree_checksum_word(c, (uint64_t)state->loop.id[k] << 8 | state->loop.loaded[k]);
+        c = scree_checksum_bytes(c, &state->loop.x[k], sizeof(double));
+        c = scree_checksum_bytes(c, &state->loop.y[k], sizeof(double));
+        c = scree_checksum_bytes(c, &state->loop.fx[k], sizeof(double));
+        c = scree_checksum_bytes(c, &state->loop.fy[k], sizeof(double));
     }
-    c = mix(c, state->loop.updated);
-    c = mix_bytes(c, &state->strain, sizeof state->strain);
-    c = mix_bytes(c, &state->ledger, sizeof state->ledger);
-    return mix_bytes(c, &state->stage, sizeof state->stage);
+    c = scree_checksum_word(scree_checksum_word(c, state->loop.updated), state->sampled_step);
+    c = scree_checksum_bytes(c, &state->strain, sizeof state->strain);
+    c = scree_checksum_bytes(c, &state->ledger, sizeof state->ledger);
+    return scree_checksum_bytes(c, &state->stage, sizeof state->stage);
 }

@@ -109,6 +109,8 @@ typedef struct scree_state {
     uint32_t *id;                      ///< count
     double *angle;                     ///< rad, orientation
     double *reference_x, *reference_y; ///< m, positions at the start of the loading stage
+    double *sampled_vx, *sampled_vy;   ///< m/s, velocities at `sampled_step`: the mean unbalanced force is from them
+    uint64_t sampled_step;             ///< step of the last sample
     double *rebuild_x, *rebuild_y;     ///< m, positions at the last neighbour rebuild (derived, kept sorted with rows)
     uint32_t *row_of_id;               ///< derived
     // contacts: filled from `work` by scree_contacts_save, consumed by scree_contacts_load (contact/contact.h)

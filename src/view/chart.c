@@ -154,6 +154,19 @@ static void write_output(FILE *file, const char *name, const char *extension, co
     fprintf(file, ".'.%s'\n", extension);
 }
 
+/// Values that are all positive, and not far from zero, are shown from zero.
+static bool begins_at_zero(const scree_chart *chart)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (size_t k = 0; k < chart->line_count; k++)
+        for (size_t row = 0; row < chart->line[k].count; row++) {
+            if (!drawable(chart, chart->line[k].x[row], chart->line[k].y[row])) continue;
+            low = fmin(low, chart->line[k].y[row]);
+            high = fmax(high, chart->line[k].y[row]);
+        }
+    return low >= 0 && low < 0.25 * high;
+}
+
 /// Everything but the data: the look of all charts.
 static void write_style(FILE *file, const scree_chart *chart)
 {
@@ -172,7 +185,7 @@ static void write_style(FILE *file, const scree_chart *chart)
           "set tics nomirror out scale 0.6 textcolor rgb '#222222'\nset mxtics 2\n"
           "set grid back xtics ytics linetype 1 linecolor rgb '#e4e4e4' linewidth 0.8\n"
           "set xzeroaxis linetype 1 linecolor rgb '#999999' linewidth 1\n"
-          "set offsets graph 0, graph 0, graph 0.03, graph 0.03\nset autoscale xfix\nset lmargin at screen 0.125\nset "
+          "set offsets 0, 0, graph 0.03, graph 0.03\nset autoscale xfix\nset "
           "bmargin at screen 0.15\nset tmargin at screen 0.89\n",
           file);
     bool legend = false;
@@ -181,6 +194,7 @@ static void write_style(FILE *file, const scree_chart *chart)
                    "set key at screen 0.715,0.90 left top vertical Left reverse samplen 2.2 spacing 1.35\n"
                  : "set rmargin at screen 0.965\nunset key\n",
           file);
+    if (!chart->log_y && begins_at_zero(chart)) fputs("set offsets 0, 0, graph 0.03, 0\nset yrange [0:]\n", file);
     if (chart->log_x) fputs("set logscale x\nset format x '10^{%L}'\n", file);
     if (chart->log_y) fputs("unset offsets\nset logscale y\nset format y '10^{%L}'\n", file);
 }

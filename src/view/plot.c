@@ -11,6 +11,7 @@
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 #include <sys/stat.h>
 
 static void tell(const scree_plot_run *run, const char *line)
@@ -59,19 +60,38 @@ static scree_status read_series(scree_plot_run *run, scree_error *error)
     return status;
 }
 
+typedef struct stage_name {
+    char text[sizeof((scree_snapshot *)0)->stage];
+} stage_name;
+
+/// Leaves only the strains of the stage that the largest one belongs to.
+static void keep_loading_stage(scree_plot_run *run, const stage_name *stage)
+{
+    size_t loading = 0;
+    for (size_t k = 0; k < run->snapshot_count; k++)
+        if (isfinite(run->strain[k]) && !(fabs(run->strain[k]) <= fabs(run->strain[loading]))) loading = k;
+    for (size_t k = 0; k < run->snapshot_count; k++)
+        if (strcmp(stage[k].text, stage[loading].text) != 0) run->strain[k] = NAN;
+}
+
 /// Only the strain of each snapshot is kept: a scene reads the snapshots that it needs again.
 static scree_status read_strains(scree_plot_run *run, scree_error *error)
 {
     scree_snapshot snapshot;
+    stage_name *stage = NULL;
     size_t count = 0;
     scree_status status = scree_snapshot_count(run->directory, &count, error);
     if (!status) status = scree_allocate(&run->strain, count, sizeof *run->strain, error);
+    if (!status) status = scree_allocate(&stage, count, sizeof *stage, error);
     for (size_t k = 0; !status && k < count; k++) {
         status = scree_snapshot_read(run->directory, k, &snapshot, error);
         if (status) break;
+        memcpy(stage[k].text, snapshot.stage, sizeof snapshot.stage);
         run->strain[run->snapshot_count++] = snapshot.axial_strain;
         scree_snapshot_destroy(&snapshot);
     }
+    if (run->snapshot_count > 0) keep_loading_stage(run, stage);
+    scree_release(&stage);
     return status;
 }
 

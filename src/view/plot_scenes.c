@@ -127,13 +127,10 @@ static void percent_text(char *text, size_t size, double strain, bool name)
 }
 
 static scree_status draw_fluctuations(const scree_plot_run *run, const scree_snapshot *from, const scree_snapshot *to,
-                                      char name[64], scree_error *error)
+                                      const char *name, scree_error *error)
 {
     char path[PATH_MAX], first[16], second[16], title[160];
     double *arrow = NULL, gradient[4];
-    percent_text(first, sizeof first, from->axial_strain, true);
-    percent_text(second, sizeof second, to->axial_strain, true);
-    (void)snprintf(name, 64, "fluctuations-%s-%s", first, second);
     percent_text(first, sizeof first, from->axial_strain, false);
     percent_text(second, sizeof second, to->axial_strain, false);
     (void)snprintf(title, sizeof title, "Displacements relative to the affine field, axial strain %s to %s %%", first,
@@ -149,11 +146,15 @@ static scree_status draw_fluctuations(const scree_plot_run *run, const scree_sna
     return status;
 }
 
+/// The file is named after the window that was asked for; the title tells the strains of the snapshots next to it.
 static void plot_window(scree_plot_run *run, double from, double to)
 {
     scree_snapshot a, b;
     scree_error error = {0};
-    char name[64] = "fluctuations";
+    char name[64], begin[16], end[16];
+    percent_text(begin, sizeof begin, from, true);
+    percent_text(end, sizeof end, to, true);
+    (void)snprintf(name, sizeof name, "fluctuations-%s-%s", begin, end);
     size_t first = nearest_snapshot(run, from), second = nearest_snapshot(run, to);
     scree_status status;
     if (first == second || !isfinite(run->strain[first]) || !isfinite(run->strain[second])) {

@@ -33,6 +33,8 @@ static inline scree_status sample_state(scree_state *state, size_t count, uint64
         state->angle[row] = 0.1 * u;
         state->reference_x[row] = state->row[row].x - 1e-4;
         state->reference_y[row] = state->row[row].y + 2e-4 * u;
+        state->sampled_vx[row] = 1e-3 * u;
+        state->sampled_vy[row] = -2e-3 * u;
     }
     state->step = 1234 + seed;
     state->step_size = 1e-6;

@@ -1,6 +1,7 @@
 /// Reading cases: what is accepted, every kind of mistake with its message and place, --set, quick, lost memory.
 #include "base/memory.h"
 #include "case/case.h"
+#include "good_case.h"
 
 #include <dirent.h>
 #include <math.h>
@@ -95,21 +96,21 @@ static void built_in_cases_are_right(void **state)
     }
 }
 
-static void biaxial_means_what_it_says(void **state)
+static void values_mean_what_they_say(void **state)
 {
     (void)state;
-    scree_case *c = right(scree_template_text("biaxial"), NULL, false);
+    scree_case *c = right(good_case(), NULL, false);
     const scree_config *config = &c->config;
     assert_true(config->materials[0].density == 2.675e8);
     assert_true(config->particles.radius_max == 1e-3);
     assert_true(config->stages[1].pressure == 1e5);
-    assert_true(config->stages[2].strain == 0.12);
-    assert_true(config->stages[2].rate == 1.5e-2);
+    assert_true(config->stages[2].strain == 0.15);
+    assert_true(config->stages[2].rate == 1e-2);
     assert_string_equal(config->stages[2].name, "compress");
     assert_int_equal(config->measure.window_count, 2);
-    assert_true(config->measure.windows[1].from == 0.08 && config->measure.windows[1].to == 0.12);
+    assert_true(config->measure.windows[1].from == 0.1 && config->measure.windows[1].to == 0.15);
     scree_case_free(c);
-    c = right(scree_template_text("biaxial"), NULL, true);
+    c = right(good_case(), NULL, true);
     assert_int_equal(c->config.particles.count, 600);
     assert_true(c->config.stages[2].rate == 3e-2);
     scree_case_free(c);
@@ -227,7 +228,7 @@ static void unreadable_files_are_io_errors(void **state)
 static void overrides_change_the_case(void **state)
 {
     (void)state;
-    const char *text = scree_template_text("biaxial");
+    const char *text = good_case();
     scree_case *c = right(text,
                           SET("stages.2.rate=2e-2 1/s", "stages.confine.pressure=0.5 MPa",
                               "materials.quartz.friction=0.3", "measure.windows=[[0, 5 %]]", "guard.overlap=10 %",
@@ -267,7 +268,7 @@ static void overrides_change_the_case(void **state)
 static void overrides_may_choose(void **state)
 {
     (void)state;
-    const char *text = scree_template_text("biaxial");
+    const char *text = good_case();
     scree_case *c = right(text, SET("contact.law=hertz_brilliantov"), false);
     assert_int_equal(c->config.contact.law, SCREE_LAW_HERTZ_BRILLIANTOV);
     assert_true(c->config.contact.damping_time == 2e-3);
@@ -288,7 +289,7 @@ static void overrides_may_choose(void **state)
 static void wrong_overrides_are_explained(void **state)
 {
     (void)state;
-    const char *text = scree_template_text("biaxial");
+    const char *text = good_case();
     wrong(text, SET("stages.5.rate=1e-2"),
           "--set stages.5.rate=1e-2: stages.5.rate: there is no stages.5: the case has "
           "3, numbered from 0; did you mean 'stages.2.rate'?");
@@ -423,7 +424,7 @@ static void nearest_names(void **state)
 static void lost_memory_is_survived(void **state)
 {
     (void)state;
-    const char *texts[] = {scree_template_text("biaxial"), "a: 1\nb: 2\nc: 3\nd: 4\ne: 5\nf: 6\ng: 7\nh: 8\n"};
+    const char *texts[] = {good_case(), "a: 1\nb: 2\nc: 3\nd: 4\ne: 5\nf: 6\ng: 7\nh: 8\n"};
     for (size_t t = 0; t < 2; t++) {
         size_t before, after;
         scree_allocation_statistics(&before, NULL);
@@ -454,7 +455,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(defaults_are_filled_in),
         cmocka_unit_test(built_in_cases_are_right),
-        cmocka_unit_test(biaxial_means_what_it_says),
+        cmocka_unit_test(values_mean_what_they_say),
         cmocka_unit_test(bad_files_are_explained),
         cmocka_unit_test(files_that_are_no_cases_are_refused),
         cmocka_unit_test(unreadable_files_are_io_errors),

@@ -37,8 +37,8 @@ static void make_state(scree_state *state, size_t count, double dt)
     scree_error error;
     assert_int_equal(scree_state_create(state, count, &error), SCREE_OK);
     state->step_size = dt;
-    state->force_quantum = scree_fixed_quantum(100);
-    state->torque_quantum = scree_fixed_quantum(100);
+    state->force_quantum = scree_fixed_quantum(1000);
+    state->torque_quantum = scree_fixed_quantum(1000);
     for (size_t k = 0; k < count; k++) {
         state->row[k] = (scree_row){.x = 1 + (double)k, .y = -0.5, .radius = RADIUS, .mass = MASS};
         state->angle[k] = 0.3;

@@ -9,14 +9,11 @@
 #include <math.h>
 #include <string.h>
 
-#define RADIUS    0.75e-3
-#define THICKNESS 1.5e-3
-#define PRESSURE  1e5
+#define RADIUS           0.75e-3
+#define THICKNESS        1.5e-3
+#define PRESSURE         1e5
 
-static double uniform(uint64_t counter)
-{
-    return scree_random_uniform(11, SCREE_RANDOM_TEST, counter);
-}
+#define uniform(counter) scree_random_uniform(11, SCREE_RANDOM_TEST, counter)
 
 /// Equal to a fraction of `scale`; NAN is equal to nothing.
 static bool near(double value, double expected, double fraction, double scale)
@@ -48,11 +45,6 @@ static void bench_create(bench *b, size_t count)
         b->state.row[i].mass = 1e-3;
     }
     b->table.contact = b->contact;
-}
-
-static void bench_destroy(bench *b)
-{
-    scree_state_destroy(&b->state);
 }
 
 static void place(bench *b, size_t i, double x, double y)
@@ -175,7 +167,7 @@ static void stress_between_plates_under_pressure(void **user)
         assert_true(near(boundary[i], expected[i], 1e-13, PRESSURE));
         assert_true(near(plates[i], expected[i], 1e-13, PRESSURE));
     }
-    bench_destroy(&b);
+    scree_state_destroy(&b.state);
 }
 
 static void stress_without_pressure_is_not_a_number_where_nothing_acts(void **user)
@@ -188,7 +180,7 @@ static void stress_without_pressure_is_not_a_number_where_nothing_acts(void **us
     scree_stress_from_plates(&b.model, &b.state, plates);
     assert_true(isnan(plates[0]));
     assert_true(near(plates[3], -3 * 0.7 / (4 * RADIUS * THICKNESS), 1e-13, PRESSURE));
-    bench_destroy(&b);
+    scree_state_destroy(&b.state);
 }
 
 /// Three discs in a scalene triangle under pressure on all sides: by hand, the bars carry an isotropic stress.
@@ -234,7 +226,7 @@ static void stress_of_a_free_triangle(void **user)
         assert_true(near(boundary[i], expected, 1e-12, PRESSURE));
         assert_true(near(plates[i], expected, 1e-12, PRESSURE));
     }
-    bench_destroy(&b);
+    scree_state_destroy(&b.state);
 }
 
 /// Any forces at all, out of equilibrium: contact stress = boundary stress - residual, an identity.
@@ -285,7 +277,7 @@ static void stress_differs_by_the_residual(void **user)
     assert_true(near(plates[3], boundary[3], 1e-12, scale));
     assert_true(near(plates[1], boundary[1], 1e-12, scale));
     assert_true(plates[0] == -PRESSURE || near(plates[0], -PRESSURE, 1e-13, PRESSURE));
-    bench_destroy(&b);
+    scree_state_destroy(&b.state);
 }
 
 /// Largest difference of two 2 x 2 matrices; NAN if any.
@@ -367,7 +359,7 @@ static void strain_of_rotations_and_sequences(void **user)
     assert_true(fabs(2 * g_once[0] - 2 * log(1 + step)) < 2.1 * pow(step, 3) / 12);
     assert_true(fabs(2 * g_once[3] - 2 * log(1 - step)) < 2.1 * pow(step, 3) / 12);
 
-    // The gradient is linear in the displacement up to the mid configuration: small ones superpose.
+    // Small ones superpose.
     double a[4] = {1 + 1e-6, 2e-6, -1e-6, 1 + 3e-6}, b[4] = {1 - 2e-6, 1e-6, 4e-6, 1 + 1e-6}, ga[4], gb[4], gab[4],
            sum[4];
     double ab[4] = {a[0] + b[0] - 1, a[1] + b[1], a[2] + b[2], a[3] + b[3] - 1};
@@ -421,7 +413,7 @@ static void coordination_and_rattlers(void **user)
     }
     scree_allocation_fail_after(0);
     b.state.loop = (scree_loop){0};
-    bench_destroy(&b);
+    scree_state_destroy(&b.state);
 }
 
 static void slip_and_unbalanced_force(void **user)
@@ -447,7 +439,7 @@ static void slip_and_unbalanced_force(void **user)
     b.state.sum[1].fy = llrint(-4 / b.state.force_quantum);
     b.state.sum[3].fy = llrint(-50 / b.state.force_quantum);
     assert_true(near(scree_unbalanced_ratio(&b.model, &b.state, &b.table), (7.0 / 3) / (20.0 / 3), 1e-14, 1));
-    bench_destroy(&b);
+    scree_state_destroy(&b.state);
 }
 
 static void solid_fraction_of_lattices(void **user)
@@ -459,13 +451,13 @@ static void solid_fraction_of_lattices(void **user)
     for (size_t i = 0; i < 30; i++) place(&b, i, 2.0 * (double)(i % 5), 2.0 * (double)(i / 5));
     assert_int_equal(scree_boundary_refresh(&b.model, &b.state, NULL), SCREE_OK);
     assert_true(near(scree_solid_fraction(&b.state), M_PI / 4, 1e-14, 1));
-    bench_destroy(&b);
+    scree_state_destroy(&b.state);
     bench_create(&b, 30);
     b.config.boundary.gap_limit = 2; // straight sides would do as well: partial discs only at the vertices
     for (size_t i = 0; i < 30; i++) place(&b, i, 2.0 * (double)(i % 5) + (double)(i / 5), sqrt(3.0) * (double)(i / 5));
     assert_int_equal(scree_boundary_refresh(&b.model, &b.state, NULL), SCREE_OK);
     assert_true(near(scree_solid_fraction(&b.state), M_PI / sqrt(12.0), 1e-14, 1));
-    bench_destroy(&b);
+    scree_state_destroy(&b.state);
 }
 
 static void areas_and_boxes(void **user)
@@ -490,7 +482,7 @@ static void areas_and_boxes(void **user)
     b.state.loop.count = 0;
     assert_int_equal(scree_boundary_refresh(&b.model, &b.state, NULL), SCREE_OK);
     assert_true(near(scree_sample_area(&b.state), 4 * 7 * unit, 1e-14, unit * 56));
-    bench_destroy(&b);
+    scree_state_destroy(&b.state);
 }
 
 /// An oscillator: two discs on a linear spring of the test's own. The discrete energy is that of the trapezoid.
@@ -515,7 +507,7 @@ static void kinetic_energy_is_the_discrete_one(void **user)
         assert_true(near(energy.kinetic, u * (u + 0.25) + v * (v - 0.981), 1e-13, 10));
         assert_true(near(energy.kinetic_rotation, 0.5 * 0.25 * w * (w + 0.2), 1e-13, 10));
         assert_true(near(energy.gravity, -2 * 9.81 * 10, 1e-14, 200));
-        bench_destroy(&b);
+        scree_state_destroy(&b.state);
     }
 }
 
@@ -546,7 +538,7 @@ static void every_term_of_the_balance_has_its_sign(void **user)
     // Stored 4.5 - 1 = 3.5; put in 5 + 1 + 2 = 8; lost 6; given by the stiffness 0.5: 3.5 - 8 + 6 - 0.5 = 1.
     assert_true(near(energy.residual, 1e-3, 1e-12, 1e-3));
     assert_true(near(energy.relative, 1e-2, 1e-12, 1e-2));
-    bench_destroy(&b);
+    scree_state_destroy(&b.state);
 }
 
 static void fluctuations_about_an_affine_field(void **user)

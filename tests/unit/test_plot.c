@@ -122,13 +122,13 @@ static void put_snapshot(const char *directory, const scree_snapshot *s, int64_t
     scree_state_destroy(&state);
 }
 
+/// The first one is of the preparation, with fewer particles, so that nothing can be compared with it.
 static void make_snapshots(const char *directory, int count)
 {
     for (int k = 0; k < count; k++) {
         scree_snapshot s;
-        hand_made_packing(&s, 17, 35, k == 0 ? 0 : 0.15 * (k - 1) / (SNAPSHOTS - 2));
-        // The first one is of the confinement.
-        if (k == 0) s.axial_strain = NAN;
+        hand_made_packing(&s, k == 0 ? 5 : 17, k == 0 ? 10 : 35, k == 0 ? 0 : 0.15 * (k - 1) / (SNAPSHOTS - 2));
+        if (k == 0) strcpy(s.stage, "prepare");
         put_snapshot(directory, &s, k);
         hand_made_destroy(&s);
     }
@@ -164,10 +164,10 @@ static void every_figure_of_a_run_is_drawn(void **state)
 {
     (void)state;
     static const char *const figures[] = {
-        "volumetric-strain",  "stress-ratio",      "slip",           "stress",           "energy",
-        "energy-stored",      "coordination",      "solid-fraction", "unbalanced-force", "packing-start",
-        "packing-end",        "forces-peak",       "forces-end",     "speed-end",        "spin-end",
-        "fluctuations-00-05", "fluctuations-10-15"};
+        "volumetric-strain",    "stress-ratio",        "slip",           "stress",           "energy",
+        "energy-stored",        "coordination",        "solid-fraction", "unbalanced-force", "packing-start",
+        "packing-end",          "forces-peak",         "forces-end",     "speed-end",        "spin-end",
+        "fluctuations-00-03.8", "fluctuations-11.2-15"};
     report r;
     scree_error error;
     new_directory("run");
@@ -227,6 +227,7 @@ static void empty_series_is_told(void **state)
     assert_int_equal(plot("empty", &r, &error), SCREE_ERROR_IO); // no run.h5
     assert_int_equal(r.left_out, 9);
     assert_int_equal(r.drawn, 0);
+    assert_non_null(strstr(r.text, "slip left out: series.csv has no rows of a loading stage"));
 }
 
 /// One snapshot, before any loading: nine charts, the peak and two windows are left out; start and end are that
@@ -273,7 +274,7 @@ static void no_run_is_an_error(void **state)
     report r;
     scree_error error;
     assert_int_equal(plot("nowhere", &r, &error), SCREE_ERROR_IO);
-    assert_non_null(strstr(error.message, "nowhere"));
+    assert_non_null(strstr(error.message, "no run to draw in 'nowhere'"));
     assert_int_not_equal(access("nowhere", F_OK), 0);
     assert_int_equal(scree_plot("nowhere", NULL, NULL, NULL), SCREE_ERROR_IO);
 }

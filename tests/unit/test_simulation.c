@@ -21,15 +21,15 @@ static const char case_text[] =
     "materials:\n"
     "  - {name: quartz, young_modulus: 30 GPa, poisson_ratio: 0.3, density: 2.675e8 kg/m3,\n"
     "     friction: 0.45, restitution: 0.2}\n"
-    "particles: {shape: disc, material: quartz, count: 90, distribution: uniform,\n"
+    "particles: {shape: disc, material: quartz, count: 70, distribution: uniform,\n"
     "            radius_min: 0.5 mm, radius_max: 1 mm}\n"
     "contact: {law: hertz_mindlin}\n"
     "integrator: {scheme: velocity_verlet, step: 2e-5 s}\n"
     "boundary: {lateral: pressure, every: 100}\n"
     "stages:\n"
     "  - {stage: prepare, method: drop_and_roll, aspect_ratio: 1.5}\n"
-    "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 2e-2}\n"
-    "  - {stage: compress, strain: 1 %, rate: 5e-2 1/s}\n"
+    "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 1e-2}\n"
+    "  - {stage: compress, strain: 0.5 %, rate: 5e-2 1/s}\n"
     "measure: {samples: 20}\n"
     "output: {snapshots: 2, paraview: no, figures: no, checkpoint_steps: 700}\n";
 
@@ -62,13 +62,17 @@ static void check(scree_status status, const scree_error *error)
     if (status) fail_msg("status %d: %s", (int)status, error->message);
 }
 
-/// Runs to the end in memory; at `discard` (a step, 0: never) the work is thrown away and rebuilt.
-static uint64_t run_to_end(const scree_case *c, int threads, uint64_t discard, uint64_t *steps)
+/// Steps that the comparisons of threads and lost work take: into the confinement, with sliding, opening and new
+/// contacts.
+enum { COMPARED_STEPS = 6000 };
+
+/// Runs COMPARED_STEPS in memory; at step `discard` (0: never) the work is thrown away and rebuilt.
+static uint64_t run_some(const scree_case *c, int threads, uint64_t discard)
 {
     scree_simulation s;
     scree_error error;
     check(scree_simulation_open(c, threads, &s, &error), &error);
-    while (s.state.stage.index < s.model.config->stage_count) {
+    while (s.state.step < COMPARED_STEPS) {
         check(scree_simulation_step(&s, &error), &error);
         if (discard == 0 || s.state.step != discard) continue;
         check(scree_contacts_save(&s.state, &s.work, &error), &error);
@@ -76,7 +80,7 @@ static uint64_t run_to_end(const scree_case *c, int threads, uint64_t discard, u
         check(scree_work_create(&s.work, &s.model, threads, &error), &error);
         discard = 0;
     }
-    if (steps) *steps = s.state.step;
+    assert_true(s.work.rebuilds > 0 && s.state.pressure > 0);
     uint64_t checksum = scree_simulation_checksum(&s);
     scree_simulation_close(&s);
     return checksum;
@@ -86,22 +90,16 @@ static void threads_and_lost_work_give_the_same_bits(void **unused)
 {
     (void)unused;
     for (int k = 0; k < 4; k++) {
-        uint64_t steps;
         scree_case *c = read_case(combinations[k], 2);
-        uint64_t reference = run_to_end(c, 1, 0, &steps);
-        assert_true(run_to_end(c, 2, 0, NULL) == reference);
-        assert_true(run_to_end(c, 3, 0, NULL) == reference);
-        for (uint64_t draw = 0; draw < 2; draw++) {
-            uint64_t when = 1 + (uint64_t)((double)(steps - 2) *
-                                           scree_random_uniform(1, SCREE_RANDOM_TEST, 10 * (uint64_t)k + draw));
-            assert_true(run_to_end(c, 1, when, NULL) == reference);
-        }
+        uint64_t reference = run_some(c, 1, 0);
+        for (int threads = 2; threads <= 3; threads++) assert_true(run_some(c, threads, 0) == reference);
+        double random = scree_random_uniform(1, SCREE_RANDOM_TEST, (uint64_t)k);
+        assert_true(run_some(c, 1, 1 + (uint64_t)((COMPARED_STEPS - 2) * random)) == reference);
         scree_case_free(c);
     }
 }
 
-/// Stops a run after a number of progress looks: the stop flag is raised by the message of a stage's end or a
-/// countdown.
+/// Raises the stop flag of a run when its confinement has ended.
 typedef struct stopper {
     volatile int stop;
 } stopper;
@@ -144,7 +142,7 @@ static void restart_gives_the_same_bits(void **unused)
         read_checksum(whole, one);
         read_checksum(part, two);
         assert_string_equal(one, two);
-        // From the last periodic checkpoint of the finished run, in the middle of loading: the end is reached again.
+        // A finished run is at its end.
         check(scree_restart(whole, &options, &error), &error);
         read_checksum(whole, two);
         assert_string_equal(one, two);
@@ -160,12 +158,12 @@ static void energy_balance_closes(void **unused)
 {
     (void)unused;
     const char *const overrides[] = {"integrator.step=2e-6 s", "stages.confine.unbalanced_limit=5e-2",
-                                     "stages.compress.strain=0.2 %"};
+                                     "stages.compress.strain=0.1 %"};
     scree_case *c = read_case(overrides, 3);
     scree_simulation s;
     scree_error error;
     double worst = 0;
-    check(scree_simulation_open(c, 2, &s, &error), &error);
+    check(scree_simulation_open(c, 1, &s, &error), &error);
     while (s.state.stage.index < s.model.config->stage_count) {
         check(scree_simulation_step(&s, &error), &error);
         if (s.sampled) worst = fmax(worst, s.sample.value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE]);
@@ -173,7 +171,7 @@ static void energy_balance_closes(void **unused)
     print_message("largest energy residual over work: %.3g\n", worst);
     // The bound that the program promises for history laws.
     assert_true(worst < 1e-6);
-    assert_true(s.state.ledger.damping > 0 && s.state.ledger.friction > 0 && s.state.ledger.plates > 0);
+    assert_true(s.state.ledger.damping > 0 && s.state.ledger.friction > 0 && s.state.ledger.turnover > 0);
     scree_simulation_close(&s);
     scree_case_free(c);
 }
@@ -186,7 +184,7 @@ static void stresses_agree(void **unused)
     scree_case *c = read_case(overrides, 2);
     scree_simulation s;
     scree_error error;
-    check(scree_simulation_open(c, 2, &s, &error), &error);
+    check(scree_simulation_open(c, 1, &s, &error), &error);
     double disagreement = 0, count = 0;
     bool first = true;
     while (s.state.stage.index < s.model.config->stage_count) {
@@ -194,9 +192,8 @@ static void stresses_agree(void **unused)
         if (!s.sampled || !s.stage || !s.stage->loading) continue;
         const double *v = s.sample.value;
         if (first) {
-            // The stop rule of the confinement allows 1 % for the plates.
-            assert_true(fabs(v[SCREE_SAMPLE_AXIAL_PLATES] / 1e5 - 1) < 0.011);
-            assert_true(fabs(v[SCREE_SAMPLE_LATERAL_CONTACTS] / 1e5 - 1) < 0.02);
+            // The stop rule of the confinement allows 5 % for the plates.
+            assert_true(fabs(v[SCREE_SAMPLE_LATERAL_CONTACTS] / 1e5 - 1) < 0.05);
             first = false;
         }
         disagreement += fabs(v[SCREE_SAMPLE_AXIAL_CONTACTS] / v[SCREE_SAMPLE_AXIAL_PLATES] - 1);

@@ -165,7 +165,7 @@ static void every_dataset_tells_its_unit_and_meaning(void **unused)
     assert_non_null(strstr(text, "tension positive"));
     assert_int_equal(scree_hdf5_close(&run), SCREE_OK);
     // 7 fields and 5 results of bodies, 12 of contacts, 6 of the loop, 8 of walls; the tables without derived fields.
-    assert_int_equal(all.datasets, 7 + 5 + 12 + 6 + 8 + 13 + (int)scree_member_count);
+    assert_int_equal(all.datasets, 7 + 5 + 12 + 6 + 8 + 15 + (int)scree_member_count);
     assert_int_equal(all.bare, 0);
 }
 
