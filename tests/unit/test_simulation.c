@@ -76,6 +76,7 @@ static uint64_t run_some(const scree_case *c, int threads, uint64_t discard)
         check(scree_simulation_step(&s, &error), &error);
         if (discard == 0 || s.state.step != discard) continue;
         check(scree_contacts_save(&s.state, &s.work, &error), &error);
+        scree_contact_scratch_destroy(&s.work);
         scree_work_destroy(&s.work);
         check(scree_work_create(&s.work, &s.model, threads, &error), &error);
         discard = 0;
