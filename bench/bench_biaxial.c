@@ -1,14 +1,13 @@
 /// Particle-steps per second of the stepping loop (integrator, neighbour list, contact forces), in two settings:
 ///
-/// 1. a settled biaxial cell: drop-and-roll packing of the built-in case (drawn from its own radii) between four
-/// plates,
-///    pressed by their servos and then held, both laws, ledger on and off, one and more threads; beside it, in turn and
-///    when its command is given, LAMMPS on the same configuration (bench/peers/lammps_biaxial.in);
+/// 1. a settled biaxial cell: drop-and-roll packing of the built-in case between four plates that close around it and
+///    are then held; both laws, ledger on and off, one and more threads; beside it, in turn and when its command is
+///    given, LAMMPS on the same configuration (bench/peers/lammps_biaxial.in);
 /// 2. large assemblies, 10,000 to 1,000,000 discs: a hexagonal lattice of slightly unequal discs under pressure.
 ///
-/// A measurement is the best of several short runs, since other processes use the machine too; only ratios measured in
-/// turn mean anything. Arguments: --peer COMMAND (such as "lmp"), --folder FOLDER for its files, --cell and --large
-/// choose one setting, --count N the size of the cell.
+/// A measurement is the best of several short runs, since other processes use the machine too; one thread is timed by
+/// its processor time. Only ratios measured in turn mean anything. Arguments: --peer COMMAND (such as "lmp"), --folder
+/// FOLDER for its files, --cell and --large choose one setting, --count N the size of the cell.
 #include "base/processor.h"
 #include "boundary/plates.h"
 #include "case/case.h"

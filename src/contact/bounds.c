@@ -7,8 +7,9 @@
 ///   f   <= f_n (1 + mu), for hertz_brilliantov (1 + mu max(1, (2 v / v_R)^(1/c)))
 /// With no contact in the last evaluation, which may be the first of the run, d_0 is the guard's limit instead.
 /// Energies of one contact and step: damping 2 (eta 2 v) (2 v dt); friction f (2 v dt) plus what a tangential spring
-/// may hold, S^2 / k_t with S <= mu f_n + eta 2 v. Each bound is doubled, so round-off cannot matter. Cost:
-/// materials^2, a few powers.
+/// may hold, S^2 / k_t with S <= mu f_n + eta 2 v. Each bound is doubled, so round-off cannot matter.
+///
+/// Cost: materials^2, a few powers.
 #include "contact/bounds.h"
 
 #include "base/fixed.h"
