@@ -6,7 +6,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -26,16 +25,6 @@ static scree_status finish_output(scree_status status)
     if ((fflush(stdout) == 0 && !ferror(stdout)) || status) return status;
     if (errno != EPIPE) fprintf(stderr, "scree: cannot write standard output: %s\n", strerror(errno ? errno : EIO));
     return SCREE_ERROR_IO;
-}
-
-/// Threads that wait shall sleep, not spin: on a machine with other work a spinning thread holds the core that the
-/// awaited one needs (docs/performance.md: ten times slower). OpenMP reads its policy before main begins, so the
-/// program starts itself once more. A policy that the user has set stays; where the restart fails the run goes on as it
-/// is.
-static void let_waiting_threads_sleep(char **argv)
-{
-    if (getenv("OMP_WAIT_POLICY") || setenv("OMP_WAIT_POLICY", "passive", 1)) return;
-    (void)execv("/proc/self/exe", argv);
 }
 
 static scree_status call_verb(const scree_verb *verb, int count, char *const *words)
@@ -64,7 +53,6 @@ int main(int argc, char **argv)
     const char *first = argv[1];
     const scree_verb *verb = scree_verb_find(first);
     scree_status status = SCREE_OK;
-    if (verb && strcmp(verb->name, "run") == 0) let_waiting_threads_sleep(argv);
     if (verb)
         status = call_verb(verb, argc - 2, argv + 2);
     else if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0)

@@ -104,7 +104,7 @@ const scree_verb scree_verbs[] = {
                     .letter = 't',
                     .value = "N",
                     .meaning = "number of threads; the results do not depend on it",
-                    .preset = "all cores"},
+                    .preset = "one for every 4000 bodies"},
                    {.name = "force", .letter = 'f', .meaning = "replace the run that DIR holds"},
                    {.name = "no-figures", .meaning = "leave the figures out; `scree plot` draws them later"},
                    {.name = "restart",

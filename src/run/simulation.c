@@ -13,6 +13,7 @@
 
 /// state.stage.counter of a stage that has not begun.
 enum { NOT_BEGUN = -1 };
+#define BODIES_A_THREAD 4000
 
 scree_status scree_simulation_open(const scree_case *c, int threads, scree_simulation *s, scree_error *error)
 {
@@ -26,7 +27,8 @@ scree_status scree_simulation_open(const scree_case *c, int threads, scree_simul
     }
     s->stage_model = s->model;
     s->integrator = scree_integrator_get(s->model.scheme);
-    if (threads <= 0) threads = omp_get_num_procs();
+    // A thread pays from a few thousand bodies on; below, its barriers cost more than it does (docs/performance.md).
+    if (threads <= 0) threads = (int)fmin(omp_get_num_procs(), 1 + (double)c->config.particles.count / BODIES_A_THREAD);
     return scree_work_create(&s->work, &s->model, threads, error);
 }
 
