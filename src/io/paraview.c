@@ -36,7 +36,7 @@ static scree_status build_discs(scree_vtp *vtp, const scene *from, scree_error *
         const scree_row *row = &state->row[state->row_of_id[id]];
         scree_vtp_place(vtp, id, row->x, row->y);
     }
-    for (size_t k = 0; k < scree_body_array_count() && !status; k++) {
+    for (size_t k = 0; k < scree_body_array_count(from->state) && !status; k++) {
         scree_array array;
         status = scree_body_array(from->model, state, k, &array, error);
         if (!status) status = scree_vtp_add(vtp, false, array, error);

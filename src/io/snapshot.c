@@ -13,7 +13,7 @@
 
 static void write_bodies(scree_hdf5 *part, const char *group, const scree_model *model, const scree_state *state)
 {
-    for (size_t k = 0; k < scree_body_array_count() && !part->status; k++) {
+    for (size_t k = 0; k < scree_body_array_count(state) && !part->status; k++) {
         scree_array array;
         part->status = scree_body_array(model, state, k, &array, part->error);
         scree_hdf5_write(part, group, &array);

@@ -103,6 +103,8 @@ static const char *type_name(scree_field_type type)
         return "Int64";
     case SCREE_FIELD_UINT64:
         return "UInt64";
+    case SCREE_FIELD_FLOAT:
+        return "Float32";
     case SCREE_FIELD_INT32:
         return "Int32";
     case SCREE_FIELD_UINT32:

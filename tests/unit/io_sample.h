@@ -14,7 +14,7 @@ enum { SAMPLE_COLUMNS = 8 };
 /// Discs of radius 1 mm and more on a square lattice, rows in the reverse order of ids, four walls, a loop around them.
 static inline scree_status sample_state(scree_state *state, size_t count, uint64_t seed, scree_error *error)
 {
-    scree_status status = scree_state_create(state, count, error);
+    scree_status status = scree_state_create(state, 2, count, error);
     if (status) return status;
     for (size_t row = 0; row < count; row++) {
         size_t id = count - 1 - row;

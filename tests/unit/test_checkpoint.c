@@ -74,7 +74,7 @@ static const char *read_checkpoint(uint64_t seed, scree_status status, uint64_t 
 {
     static scree_error error;
     scree_state state, expected;
-    scree_status found = scree_checkpoint_read(scratch, &state, origin, &error);
+    scree_status found = scree_checkpoint_read(scratch, 2, &state, origin, &error);
     if (found != status) fail_msg("status %d, not %d: %s", found, status, error.message);
     if (seed) {
         create_state(&expected, seed);
@@ -107,7 +107,7 @@ static void a_state_without_contacts_and_boundary_comes_back(void **unused)
     for (size_t count = 0; count < 2; count++) {
         assert_int_equal(sample_state(&state, count, 3, NULL), SCREE_OK);
         assert_int_equal(scree_checkpoint_write(scratch, &state, CASE, NULL), SCREE_OK);
-        assert_int_equal(scree_checkpoint_read(scratch, &copy, CASE, NULL), SCREE_OK);
+        assert_int_equal(scree_checkpoint_read(scratch, 2, &copy, CASE, NULL), SCREE_OK);
         assert_same(&state, &copy);
         scree_state_destroy(&state);
         scree_state_destroy(&copy);
@@ -280,7 +280,7 @@ static void failed_allocations(void **unused)
         scree_error error = {0};
         scree_allocation_statistics(&before, NULL);
         (void)scree_allocation_fail_after(n);
-        scree_status status = scree_checkpoint_read(scratch, &copy, CASE, &error);
+        scree_status status = scree_checkpoint_read(scratch, 2, &copy, CASE, &error);
         uint64_t made = scree_allocation_fail_after(0);
         if (!status) assert_same(&copy, &state);
         if (!status) scree_state_destroy(&copy);

@@ -151,7 +151,7 @@ static void packing_and_unpacking_agree(void **unused)
     (void)unused;
     scree_state state, copy;
     assert_int_equal(sample_state(&state, 7, 1, NULL), SCREE_OK);
-    assert_int_equal(scree_state_create(&copy, 7, NULL), SCREE_OK);
+    assert_int_equal(scree_state_create(&copy, 2, 7, NULL), SCREE_OK);
     for (size_t k = 0; k < scree_field_count; k++) {
         scree_array array;
         assert_int_equal(scree_array_from_field(&state, &scree_fields[k], false, &array, NULL), SCREE_OK);

@@ -35,7 +35,7 @@ static void spring_forces(scree_state *state)
 static void make_state(scree_state *state, size_t count, double dt)
 {
     scree_error error;
-    assert_int_equal(scree_state_create(state, count, &error), SCREE_OK);
+    assert_int_equal(scree_state_create(state, 2, count, &error), SCREE_OK);
     state->step_size = dt;
     state->force_quantum = scree_fixed_quantum(1000);
     state->torque_quantum = scree_fixed_quantum(1000);

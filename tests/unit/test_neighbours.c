@@ -62,7 +62,7 @@ static void rebuild(scree_state *state, scree_work *work)
 static void make_state(scree_state *state, size_t count, double ratio, uint64_t seed)
 {
     scree_error error;
-    assert_int_equal(scree_state_create(state, count, &error), SCREE_OK);
+    assert_int_equal(scree_state_create(state, 2, count, &error), SCREE_OK);
     double area = 0;
     for (size_t k = 0; k < count; k++) {
         double u = uniform(seed, 3 * k), small = 1 / (ratio * ratio);

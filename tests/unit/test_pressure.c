@@ -37,7 +37,7 @@ static void bench_create(bench *b, size_t columns, size_t rows, bool plates)
     b->model.config = &b->config;
     b->model.thickness = THICKNESS;
     b->model.mean_radius = RADIUS;
-    assert_int_equal(scree_state_create(&b->state, columns * rows, NULL), SCREE_OK);
+    assert_int_equal(scree_state_create(&b->state, 2, columns * rows, NULL), SCREE_OK);
     scree_state *state = &b->state;
     state->pressure = PRESSURE;
     state->force_quantum = QUANTUM;

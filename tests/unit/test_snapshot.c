@@ -178,7 +178,7 @@ static void an_empty_scene_is_written_too(void **unused)
     scree_contact_table table = {0};
     scree_snapshot snapshot;
     const scree_snapshot_info info = {.index = 0, .axial_strain = (double)NAN, .stage = "prepare"};
-    assert_int_equal(scree_state_create(&state, 0, NULL), SCREE_OK);
+    assert_int_equal(scree_state_create(&state, 2, 0, NULL), SCREE_OK);
     assert_int_equal(scree_snapshot_write(scratch, &model, &state, &table, &info, NULL), SCREE_OK);
     assert_int_equal(scree_snapshot_read(scratch, 0, &snapshot, NULL), SCREE_OK);
     assert_int_equal(snapshot.count + snapshot.contact_count + snapshot.loop_count, 0);
@@ -352,7 +352,7 @@ static void a_kill_at_any_moment_leaves_a_readable_file(void **unused)
         for (size_t k = 2; k < count; k++) assert_snapshot(k, (int64_t)k, k - 2);
         scree_state state;
         scree_error error = {0};
-        scree_status status = scree_checkpoint_read(scratch, &state, 1, &error);
+        scree_status status = scree_checkpoint_read(scratch, 2, &state, 1, &error);
         if (status == SCREE_OK) assert_string_equal(error.message, "");
         if (status != SCREE_OK) assert_non_null(strstr(error.message, "there is no checkpoint"));
         scree_state_destroy(&state);
