@@ -70,8 +70,7 @@ SCREE_INLINE contact_quanta contact_evaluate(variant v, const law_constants *con
         .count = -touching,
         .normal = lanes_fixed(f.normal, scale->inverse_force),
         .tangential = quanta_of(count, f.tangential, scale->inverse_force),
-        .in_range =
-            lanes_at_or_below(f.normal + vector_extent(count, f.tangential), lanes_all(scale->force_limit)),
+        .in_range = lanes_at_or_below(f.normal + vector_extent(count, f.tangential), lanes_all(scale->force_limit)),
     };
     if (v.rolling) {
         quanta couple = quanta_of(count, f.couple, scale->inverse_torque);

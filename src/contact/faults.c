@@ -43,7 +43,8 @@ void contact_find_faults(const scree_model *model, const scree_state *state, scr
     check_rows(state, &f);
     const scree_pair_list *pairs = &work->pairs;
     for (size_t p = 0; p < pairs->count; p++) {
-        contact_body first = contact_body_get(state, pairs->first[p]), second = contact_body_get(state, pairs->second[p]);
+        contact_body first = contact_body_get(state, pairs->first[p]),
+                     second = contact_body_get(state, pairs->second[p]);
         memory_rows memory = contact_memory_of(work, false, p);
         double radius = fmin(first.row.radius, second.row.radius);
         if (contact_of_pair(model, state->dimension, &first, &second, &memory, &c))

@@ -160,8 +160,7 @@ static void settle_ledger(scree_ledger *ledger, const contact_totals *totals, co
 void scree_contact_forces(const scree_model *model, scree_state *state, scree_work *work)
 {
     contact_job job = describe_job(model, state, work);
-    contact_kernel *kernel =
-        work->reference_kernel ? NULL : choose_kernel(state->dimension, work->instruction_set);
+    contact_kernel *kernel = work->reference_kernel ? NULL : choose_kernel(state->dimension, work->instruction_set);
     contact_scratch *scratch = kernel ? contact_scratch_refresh(work, state) : NULL;
     contact_totals totals =
         scratch ? evaluate_parts(kernel, scratch, &job, state, work) : evaluate_serially(&job, state, work);

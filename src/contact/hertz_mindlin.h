@@ -5,7 +5,8 @@
 ///   k_t = tangential_stiffness a
 ///   slip      stretch h [m], rate s, stiffness k_t, dashpot eta, cap mu f_n:                       force f_t
 ///   rolling   stretch [m], rate R_eff (w_first - w_second) x n, k_t, eta, cap mu_r f_n: F_r, torque R_eff n x F_r
-///   twisting  angle [rad], rate (w_first - w_second) . n, k_t a^2 / 2, eta a^2 / 2, cap mu_tw R_eff f_n: torque along n
+///   twisting  angle [rad], rate (w_first - w_second) . n, k_t a^2 / 2, eta a^2 / 2, cap mu_tw R_eff f_n: torque along
+///   n
 /// each a spring with a slider and a dashpot (slider.h). Twisting is that of two plane surfaces of radius a that stick
 /// (Marshall 2009, whose cap is 2/3 a mu f_n; here its own coefficient, as for rolling). The couples on the two bodies
 /// are opposite.
@@ -72,8 +73,8 @@ SCREE_INLINE void resist_turning(int dimension, const law_constants *constants, 
     const int count = tangential_count(dimension);
     slider_memory rolled = remembered_roll(dimension, m, before);
     slider_motion move = {m->roll, m->rolled, step};
-    slider roll = slider_move(count, &rolled, &move, tangential_stiffness, eta, constants->rolling_friction * normal,
-                              touching);
+    slider roll =
+        slider_move(count, &rolled, &move, tangential_stiffness, eta, constants->rolling_friction * normal, touching);
     f->couple = vector_times(count, moment_of(dimension, m->normal, roll.resistance), -m->reduced_radius);
     book_slider(f, &roll);
     if (dimension == 2) {
@@ -86,9 +87,8 @@ SCREE_INLINE void resist_turning(int dimension, const law_constants *constants, 
     lanes radius = tangential_stiffness / constants->tangential_stiffness, half_square = 0.5 * (radius * radius);
     lanes radius_before = before->value[3] / constants->tangential_stiffness;
     lanes stiffness_before = before->value[3] * (0.5 * (radius_before * radius_before));
-    slider_memory twisted = {{.x = before->rolling[3]},
-                             {.x = stiffness_before * before->rolling[3]},
-                             {.x = before->rolling_booked[3]}};
+    slider_memory twisted = {
+        {.x = before->rolling[3]}, {.x = stiffness_before * before->rolling[3]}, {.x = before->rolling_booked[3]}};
     move = (slider_motion){{.x = m->twist}, {.x = m->twisted}, step};
     slider twist = slider_move(1, &twisted, &move, tangential_stiffness * half_square, eta * half_square,
                                constants->twisting_friction * m->reduced_radius * normal, touching);
@@ -115,7 +115,8 @@ SCREE_INLINE law_force hertz_mindlin(variant v, const law_constants *constants, 
 
     slider_memory slipped = remembered_slip(dimension, m, before);
     slider_motion move = {m->slip, m->slipped, settings->step};
-    slider slip = slider_move(count, &slipped, &move, tangential_stiffness, eta, constants->friction * normal, touching);
+    slider slip =
+        slider_move(count, &slipped, &move, tangential_stiffness, eta, constants->friction * normal, touching);
     vector stretch = slip.now.stretch, dashpot = slip.now.dashpot;
     lanes damping_before = before->value[2];
     *after = (law_memory){.value = {stretch.x, slip.now.spring.x, damping, dashpot.x}};

@@ -43,8 +43,7 @@ SCREE_INLINE void law_forget(variant v, law_memory *after)
 SCREE_INLINE law_force law_evaluate(variant v, const law_constants *constants, const law_settings *settings,
                                     const motion *m, lanes_bits touching, const law_memory *before, law_memory *after)
 {
-    if (v.law == SCREE_LAW_HERTZ_MINDLIN)
-        return hertz_mindlin(v, constants, settings, m, touching, before, after);
+    if (v.law == SCREE_LAW_HERTZ_MINDLIN) return hertz_mindlin(v, constants, settings, m, touching, before, after);
     return hertz_brilliantov(v, constants, settings, m, touching, before, after);
 }
 

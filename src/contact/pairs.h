@@ -6,10 +6,10 @@
 /// that touch, or did in the last step, are queued until a group is full, as are the ends of both ranges. Sums are
 /// integers, so the order does not matter.
 ///
-/// Compiled once for each dimension (plane_pairs_batch.c, solid_pairs_batch.c) and instruction set (SCREE_ISA, two, four
-/// or eight lanes); inside, once for each variant, by always-inline functions that are called with constants. Cost: two
-/// cache lines of bodies, two sum rows and one history row a contact; in 3D two rows of spins, two of torques and, with
-/// the ledger, a booking row more.
+/// Compiled once for each dimension (plane_pairs_batch.c, solid_pairs_batch.c) and instruction set (SCREE_ISA, two,
+/// four or eight lanes); inside, once for each variant, by always-inline functions that are called with constants.
+/// Cost: two cache lines of bodies, two sum rows and one history row a contact; in 3D two rows of spins, two of torques
+/// and, with the ledger, a booking row more.
 #ifndef SCREE_CONTACT_PAIRS_H
 #define SCREE_CONTACT_PAIRS_H
 
@@ -89,7 +89,8 @@ SCREE_INLINE size_t evaluate_touching(const contact_job *job, variant v, totals 
 {
     size_t p = job->touching_begin;
     for (; p + SCREE_LANES <= job->touching_end; p += SCREE_LANES) {
-        if (p + PREFETCH_AHEAD + SCREE_LANES <= job->touching_end) prefetch_bodies(v.dimension, job, p + PREFETCH_AHEAD);
+        if (p + PREFETCH_AHEAD + SCREE_LANES <= job->touching_end)
+            prefetch_bodies(v.dimension, job, p + PREFETCH_AHEAD);
         group g = {.present = ~(lanes_bits){0}};
         LANE_LOOP g.pair[k] = p + (size_t)k;
         evaluate_group(job, v, &g, t);

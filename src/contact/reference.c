@@ -29,8 +29,7 @@ static contact_quanta evaluate(contact_job *job, const scree_pair_constants *con
     variant v = job->variant;
     law_constants c = constants_get(constants);
     law_memory before = memory_get(v, rows), after;
-    contact_quanta q =
-        contact_evaluate(v, &c, &job->settings, &job->scale, m, -(lanes_bits)touching, &before, &after);
+    contact_quanta q = contact_evaluate(v, &c, &job->settings, &job->scale, m, -(lanes_bits)touching, &before, &after);
     memory_set(v, rows, &after);
     contact_totals *totals = &job->totals;
     totals->damping += q.damping;

@@ -30,10 +30,10 @@ typedef struct slider_motion {
 } slider_motion;
 
 typedef struct slider {
-    slider_memory now;                   ///< for the next step
-    vector resistance;                   ///< -f
-    lanes damping, friction, stiffness;  ///< J
-    lanes elastic;                       ///< J
+    slider_memory now;                  ///< for the next step
+    vector resistance;                  ///< -f
+    lanes damping, friction, stiffness; ///< J
+    lanes elastic;                      ///< J
 } slider;
 
 SCREE_INLINE slider slider_move(int count, const slider_memory *before, const slider_motion *move, lanes stiffness,

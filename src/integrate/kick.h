@@ -83,9 +83,8 @@ static inline scree_speeds scree_kick(const scree_model *model, scree_state *sta
                                       int threads)
 {
     const double h = kick * state->step_size, *gravity = model->gravity;
-    const scree_kick_scale scale = {state->force_quantum * h,
-                                    state->torque_quantum * h,
-                                    {gravity[0] * h, gravity[1] * h, gravity[2] * h}};
+    const scree_kick_scale scale = {
+        state->force_quantum * h, state->torque_quantum * h, {gravity[0] * h, gravity[1] * h, gravity[2] * h}};
     return state->dimension == 3 ? scree_kick_loop(3, state, &scale, drift, threads)
                                  : scree_kick_loop(2, state, &scale, drift, threads);
 }
