@@ -162,7 +162,8 @@ static inline void fixture_find_walls(fixture *f)
     assert_int_equal(scree_allocate(&list->body, most, sizeof *list->body, &error), SCREE_OK);
     assert_int_equal(scree_allocate(&list->wall, most, sizeof *list->wall, &error), SCREE_OK);
     assert_int_equal(scree_allocate(&list->history, most, sizeof *list->history, &error), SCREE_OK);
-    assert_int_equal(scree_allocate(&list->booking, most, sizeof *list->booking, &error), SCREE_OK);
+    if (f->state.dimension == 3)
+        assert_int_equal(scree_allocate(&list->booking, most, sizeof *list->booking, &error), SCREE_OK);
     if (f->model.rolling)
         assert_int_equal(scree_allocate(&list->rolling, most, sizeof *list->rolling, &error), SCREE_OK);
     list->capacity = most;
