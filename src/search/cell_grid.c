@@ -231,14 +231,15 @@ static void fill_slots(scree_cell_grid *grid, const scree_state *state, int m, u
     }
 }
 
-/// Gives every cell of level m its ranges of slots. All cursors only move forward.
+/// Gives every cell of level m its ranges of slots. All cursors only move forward. `own`: only bodies of the level
+/// itself look here, each for higher rows; cells that lie before theirs on the curve are then left out at the ends.
 static inline __attribute__((always_inline)) void find_ranges(scree_cell_grid *grid, int m, const uint64_t *step,
-                                                              const int ranges)
+                                                              const int ranges, const bool own)
 {
     const scree_cell_level *level = &grid->level[m];
     scree_slot_range *range = grid->range + level->first_cell * (size_t)ranges;
     const uint64_t *key = grid->sorted.key;
-    const uint32_t *first = grid->sorted.other_index;
+    const uint32_t *first = grid->sorted.other_index, *place = grid->sorted.index;
     size_t begin[9] = {0}, end[9] = {0};
     for (size_t k = 0; k < level->cells; k++) {
         scree_slot_range *cell = &range[grid->sorted.index[k] * (size_t)ranges];
@@ -246,7 +247,10 @@ static inline __attribute__((always_inline)) void find_ranges(scree_cell_grid *g
             uint64_t middle = key[k] + step[d];
             while (begin[d] < level->cells && key[begin[d]] < middle - 1) begin[d]++;
             while (end[d] < level->cells && key[end[d]] <= middle + 1) end[d]++;
-            cell[d] = (scree_slot_range){first[begin[d]], first[end[d]]};
+            size_t from = begin[d], to = end[d];
+            while (own && from < to && place[from] < place[k]) from++;
+            while (own && from < to && place[to - 1] < place[k]) to--;
+            cell[d] = (scree_slot_range){first[from], first[to]};
         }
     }
 }
@@ -263,10 +267,11 @@ static scree_status fill_level(scree_cell_grid *grid, const scree_state *state, 
     find_cells(grid, state->count, m);
     sort_cells(grid, level->cells, step);
     fill_slots(grid, state, m, first_slot);
+    const bool lowest = grid->levels_in_use == 1;
     if (grid->dimension == 3)
-        find_ranges(grid, m, step, SCREE_CELL_ROWS(3));
+        find_ranges(grid, m, step, SCREE_CELL_ROWS(3), lowest);
     else
-        find_ranges(grid, m, step, SCREE_CELL_ROWS(2));
+        find_ranges(grid, m, step, SCREE_CELL_ROWS(2), lowest);
     return SCREE_OK;
 }
 

@@ -54,7 +54,7 @@ typedef struct scree_cell_grid {
     uint32_t *order;
     // cells, level by level, along the curve
     uint32_t *cell_row;      ///< first row in the cell of a body of this level or one below
-    scree_slot_range *range; ///< SCREE_CELL_ROWS of each cell
+    scree_slot_range *range; ///< SCREE_CELL_ROWS of each cell; in the lowest level without cells before it on the curve
     scree_key_list sorted;   ///< scratch: cells of one level by (plane,) row and column
     size_t cell_capacity;
     // slots: bodies by level, (plane,) row and column of cells
