@@ -38,7 +38,7 @@ static void write_contacts(scree_hdf5 *part, const char *group, const scree_stat
 static void write_members(scree_hdf5 *part, const char *group, const scree_state *state)
 {
     for (size_t k = 0; k < scree_member_count && !part->status; k++) {
-        if (!scree_members[k].snapshot) continue;
+        if (!scree_members[k].snapshot || !scree_field_exists(&scree_members[k], state->dimension)) continue;
         scree_array array;
         part->status = scree_array_from_field(state, &scree_members[k], true, &array, part->error);
         scree_hdf5_write(part, group, &array);
