@@ -1,6 +1,7 @@
 /// Pressure applied directly to the Delaunay boundary (P 2.5): traction p times edge length times thickness, shared
 /// equally by the two discs of the edge, along the inward normal of the edge; the gap between a corner disc and its
 /// plate is loaded too, so that the lateral force is exactly p times the distance of the plates times the thickness.
+/// In 3D the same on the triangles of the hull (hull.c), with hull.force and hull.loaded in the place of the loop's.
 #ifndef SCREE_BOUNDARY_PRESSURE_H
 #define SCREE_BOUNDARY_PRESSURE_H
 

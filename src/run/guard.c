@@ -7,9 +7,13 @@
 static size_t first_not_finite(const scree_state *state)
 {
     for (size_t id = 0; id < state->count; id++) {
-        const scree_row *row = &state->row[state->row_of_id[id]];
-        if (!isfinite(row->x) || !isfinite(row->y) || !isfinite(row->vx) || !isfinite(row->vy) || !isfinite(row->spin))
-            return id;
+        scree_vector place, velocity, spin;
+        scree_body_place(state, state->row_of_id[id], place);
+        scree_body_motion(state, state->row_of_id[id], velocity, spin);
+        // The sum of finite numbers of these sizes is finite, and of others it is not.
+        double sum = 0;
+        for (int k = 0; k < 3; k++) sum += place[k] + velocity[k] + spin[k];
+        if (!isfinite(sum)) return id;
     }
     return state->count;
 }
@@ -54,14 +58,17 @@ static scree_status stop_escaped(const scree_simulation *s, scree_error *error)
     const scree_state *state = &s->state;
     const scree_wall *bottom = &state->wall[SCREE_WALL_BOTTOM], *top = &state->wall[SCREE_WALL_TOP];
     for (size_t id = 0; id < state->count; id++) {
-        const scree_row *row = &state->row[state->row_of_id[id]];
-        bool below = bottom->active && row->y < bottom->position;
-        bool above = top->active && -row->y < top->position;
+        scree_vector place;
+        scree_body_place(state, state->row_of_id[id], place);
+        double height = place[state->dimension - 1];
+        bool below = bottom->active && height < bottom->position;
+        bool above = top->active && -height < top->position;
         if (below || above)
-            return scree_error_set(error, SCREE_ERROR_GUARD,
-                                   "step %llu: the centre of particle %zu is behind the %s plate, at (%.4g, %.4g) m: "
-                                   "the plate moves too fast or the step is too large",
-                                   (unsigned long long)state->step, id, below ? "bottom" : "top", row->x, row->y);
+            return scree_error_set(
+                error, SCREE_ERROR_GUARD,
+                "step %llu: the centre of particle %zu is behind the %s plate, at (%.4g, %.4g, %.4g) "
+                "m: the plate moves too fast or the step is too large",
+                (unsigned long long)state->step, id, below ? "bottom" : "top", place[0], place[1], place[2]);
     }
     return SCREE_OK;
 }

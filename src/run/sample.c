@@ -17,7 +17,9 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
     [SCREE_SAMPLE_BOUNDARY_AXIAL] = {"boundary_axial_strain", "1",
                                      "axial strain from the Delaunay boundary, compression positive"},
     [SCREE_SAMPLE_BOUNDARY_LATERAL] = {"boundary_lateral_strain", "1",
-                                       "lateral strain from the Delaunay boundary, compression positive"},
+                                       "lateral strain from the Delaunay boundary, compression positive; in 3D the "
+                                       "mean of both"},
+    [SCREE_SAMPLE_BOUNDARY_LATERAL_Y] = {"boundary_lateral_strain_y", "1", "its y component in 3D, not a number in 2D"},
     [SCREE_SAMPLE_STRESS_RATIO] = {"stress_ratio", "1", "axial stress on the plates over the lateral stress applied"},
     [SCREE_SAMPLE_STRESS_RATIO_CONTACTS] = {"stress_ratio_contacts", "1", "the same from contact forces"},
     [SCREE_SAMPLE_AXIAL_PLATES] = {"stress_axial_plates", "Pa", "mean of bottom and top plate, compression positive"},
@@ -28,14 +30,15 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
     [SCREE_SAMPLE_LATERAL_CONTACTS] = {"stress_lateral_contacts", "Pa",
                                        "average stress from contacts, compression positive"},
     [SCREE_SAMPLE_SHEAR_CONTACTS] = {"stress_shear_contacts", "Pa",
-                                     "symmetric part of the average stress from contacts, tension positive"},
+                                     "symmetric part of the average stress from contacts, of the first and the "
+                                     "last axis, tension positive"},
     [SCREE_SAMPLE_SLIP_RATIO] = {"slip_ratio", "1", "mean slip speed of contacts over the characteristic velocity v_R"},
     [SCREE_SAMPLE_SLIDING_FRACTION] = {"sliding_fraction", "1", "fraction of contacts at the Coulomb limit"},
     [SCREE_SAMPLE_COORDINATION] = {"coordination", "1", "contacts a particle"},
     [SCREE_SAMPLE_COORDINATION_WITHOUT_RATTLERS] = {"coordination_without_rattlers", "1",
                                                     "contacts a load-bearing particle"},
     [SCREE_SAMPLE_RATTLER_FRACTION] = {"rattler_fraction", "1", "fraction of particles that bear no load"},
-    [SCREE_SAMPLE_SOLID_FRACTION] = {"solid_fraction", "1", "disc area over sample area, inside the Delaunay boundary"},
+    [SCREE_SAMPLE_SOLID_FRACTION] = {"solid_fraction", "1", "particles over sample, inside the Delaunay boundary"},
     [SCREE_SAMPLE_UNBALANCED_RATIO] = {"unbalanced_ratio", "1",
                                        "mean unbalanced force since the last sample over mean contact force"},
     [SCREE_SAMPLE_KINETIC] = {"kinetic", "J", "kinetic energy, translation and rotation"},
@@ -51,7 +54,9 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
     [SCREE_SAMPLE_ENERGY_RESIDUAL] = {"energy_residual", "J", "what the energy balance leaves open"},
     [SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE] = {"energy_residual_relative", "1", "the same over the work done"},
     [SCREE_SAMPLE_HEIGHT] = {"height", "m", "distance of bottom and top plate"},
-    [SCREE_SAMPLE_AREA] = {"area", "m2", "area of the sample between plates and Delaunay boundary"},
+    [SCREE_SAMPLE_AREA] = {"area", "m2",
+                           "area of the sample between plates and Delaunay boundary; in 3D its mean section"},
+    [SCREE_SAMPLE_VOLUME] = {"volume", "m3", "volume of the sample between plates and Delaunay boundary"},
     [SCREE_SAMPLE_BOUNDARY_COUNT] = {"boundary_count", "1", "particles on the Delaunay boundary"},
 };
 
@@ -62,25 +67,38 @@ static void sample_strain(const scree_simulation *s, double *value)
     scree_strain_measure(&s->state, gradient);
     bool loading = s->stage->loading;
     value[SCREE_SAMPLE_AXIAL_STRAIN] = scree_axial_strain(s);
-    value[SCREE_SAMPLE_BOUNDARY_AXIAL] = loading ? begin[4] - gradient[4] : NAN;
-    value[SCREE_SAMPLE_BOUNDARY_LATERAL] = loading ? begin[0] - gradient[0] : NAN;
-    value[SCREE_SAMPLE_VOLUMETRIC_STRAIN] = value[SCREE_SAMPLE_BOUNDARY_AXIAL] + value[SCREE_SAMPLE_BOUNDARY_LATERAL];
+    int axial = s->state.dimension - 1;
+    double strain[3] = {0}, volumetric = 0;
+    for (int k = 0; k <= axial; k++) volumetric += strain[k] = loading ? begin[4 * k] - gradient[4 * k] : NAN;
+    value[SCREE_SAMPLE_BOUNDARY_AXIAL] = strain[axial];
+    value[SCREE_SAMPLE_BOUNDARY_LATERAL] = (volumetric - strain[axial]) / axial;
+    value[SCREE_SAMPLE_BOUNDARY_LATERAL_Y] = axial == 2 ? strain[1] : NAN;
+    value[SCREE_SAMPLE_VOLUMETRIC_STRAIN] = volumetric;
+}
+
+/// Normal stress across the sides: in 3D the mean of both directions.
+static double lateral_of(const scree_simulation *s, const double stress[9])
+{
+    return s->state.dimension == 3 ? 0.5 * (stress[0] + stress[4]) : stress[0];
 }
 
 static void sample_stress(const scree_simulation *s, double *value)
 {
     const scree_model *model = &s->stage_model;
-    double area = scree_sample_area(&s->state), plates[9], contacts[9];
+    double volume = scree_sample_volume(model, &s->state), plates[9], contacts[9];
+    int axial = 4 * (s->state.dimension - 1), shear = s->state.dimension - 1;
     scree_stress_from_plates(model, &s->state, plates);
-    scree_stress_from_contacts(&s->table, area * model->thickness, contacts);
-    value[SCREE_SAMPLE_AREA] = area;
-    value[SCREE_SAMPLE_AXIAL_PLATES] = -plates[4];
-    value[SCREE_SAMPLE_LATERAL_APPLIED] = -plates[0];
-    value[SCREE_SAMPLE_STRESS_RATIO] = plates[4] / plates[0];
-    value[SCREE_SAMPLE_AXIAL_CONTACTS] = -contacts[4];
-    value[SCREE_SAMPLE_LATERAL_CONTACTS] = -contacts[0];
-    value[SCREE_SAMPLE_SHEAR_CONTACTS] = 0.5 * (contacts[1] + contacts[3]);
-    value[SCREE_SAMPLE_STRESS_RATIO_CONTACTS] = contacts[4] / contacts[0];
+    scree_stress_from_contacts(&s->table, volume, contacts);
+    value[SCREE_SAMPLE_VOLUME] = volume;
+    value[SCREE_SAMPLE_AREA] =
+        s->state.dimension == 3 ? volume / scree_sample_height(&s->state) : scree_sample_area(&s->state);
+    value[SCREE_SAMPLE_AXIAL_PLATES] = -plates[axial];
+    value[SCREE_SAMPLE_LATERAL_APPLIED] = -lateral_of(s, plates);
+    value[SCREE_SAMPLE_STRESS_RATIO] = plates[axial] / lateral_of(s, plates);
+    value[SCREE_SAMPLE_AXIAL_CONTACTS] = -contacts[axial];
+    value[SCREE_SAMPLE_LATERAL_CONTACTS] = -lateral_of(s, contacts);
+    value[SCREE_SAMPLE_SHEAR_CONTACTS] = 0.5 * (contacts[shear] + contacts[3 * shear]);
+    value[SCREE_SAMPLE_STRESS_RATIO_CONTACTS] = contacts[axial] / lateral_of(s, contacts);
 }
 
 static scree_status sample_structure(const scree_simulation *s, double *value, scree_error *error)
@@ -95,9 +113,10 @@ static scree_status sample_structure(const scree_simulation *s, double *value, s
     value[SCREE_SAMPLE_COORDINATION] = coordination.mean;
     value[SCREE_SAMPLE_COORDINATION_WITHOUT_RATTLERS] = coordination.mean_without_rattlers;
     value[SCREE_SAMPLE_RATTLER_FRACTION] = coordination.rattler_fraction;
-    value[SCREE_SAMPLE_SOLID_FRACTION] = scree_solid_fraction(&s->state);
+    if ((status = scree_solid_fraction(&s->state, &value[SCREE_SAMPLE_SOLID_FRACTION], error))) return status;
     value[SCREE_SAMPLE_UNBALANCED_RATIO] = scree_mean_unbalanced_ratio(&s->stage_model, &s->state, &s->table);
-    value[SCREE_SAMPLE_BOUNDARY_COUNT] = (double)s->state.loop.count;
+    value[SCREE_SAMPLE_BOUNDARY_COUNT] =
+        (double)(s->state.dimension == 3 ? s->state.hull.node_count : s->state.loop.count);
     value[SCREE_SAMPLE_HEIGHT] = scree_sample_height(&s->state);
     return SCREE_OK;
 }

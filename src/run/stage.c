@@ -41,6 +41,6 @@ double scree_smooth_ramp(double fraction)
 
 void scree_servo_sides(scree_simulation *s, double pressure)
 {
-    for (int w = SCREE_WALL_LEFT; w <= SCREE_WALL_RIGHT; w++)
+    for (int w = SCREE_WALL_LEFT; w < SCREE_WALL_COUNT; w++)
         if (s->state.wall[w].active) scree_plate_servo(&s->stage_model, &s->state, w, s->plan.sides, pressure);
 }

@@ -13,7 +13,7 @@ typedef struct scree_stage_plan {
     uint64_t expected;  ///< steps of the whole stage, 0: not known in advance
     double ramp_time;   ///< s
     scree_servo plates; ///< bottom and top
-    scree_servo sides;  ///< left and right
+    scree_servo sides;  ///< left and right, front and back
     double time_limit;  ///< s
 } scree_stage_plan;
 

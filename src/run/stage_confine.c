@@ -37,7 +37,8 @@ static scree_status begin(scree_simulation *s, scree_error *error)
     // Measured while the box of the preparation still stands; then the sides go where the pressure takes their place.
     bool pressed = s->model.config->boundary.lateral == SCREE_LATERAL_PRESSURE;
     state->wall[SCREE_WALL_BOTTOM].active = state->wall[SCREE_WALL_TOP].active = 1;
-    state->wall[SCREE_WALL_LEFT].active = state->wall[SCREE_WALL_RIGHT].active = !pressed;
+    int last = state->dimension == 3 ? SCREE_WALL_BACK : SCREE_WALL_RIGHT;
+    for (int w = SCREE_WALL_LEFT; w <= last; w++) state->wall[w].active = !pressed;
     return SCREE_OK;
 }
 

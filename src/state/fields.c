@@ -103,7 +103,7 @@ const scree_field scree_members[] = {
          SCREE_ROWS_HULL_NODES),
     HULL("triangle", SCREE_FIELD_UINT32, 3, uint32_t[3], "1", triangle,
          "places in hull/id of the corners, counter-clockwise seen from outside", SCREE_ROWS_HULL_TRIANGLES),
-    HULL("loaded", SCREE_FIELD_UINT8, 1, uint8_t, "1", loaded, "1: the triangle carries the pressure",
+    HULL("loaded", SCREE_FIELD_UINT8, 1, uint8_t, "1", loaded, "1: the triangle carries the pressure; 2, 3: it faces the bottom, top plate",
          SCREE_ROWS_HULL_TRIANGLES),
 
     WALL("position", SCREE_FIELD_DOUBLE, 1, "m", position, "position along the normal: normal . x = position"),

@@ -135,6 +135,13 @@ typedef struct scree_loop {
     uint64_t updated; ///< step of the last update
 } scree_loop;
 
+/// What a triangle of the hull carries.
+typedef enum scree_hull_load {
+    SCREE_HULL_BARE = 0,    ///< nothing
+    SCREE_HULL_LOADED = 1,  ///< the lateral pressure
+    SCREE_HULL_ON_WALL = 2, ///< faces a plate: this value plus the index of the wall
+} scree_hull_load;
+
 /// 3D: triangulated hull of the assembly, closed, normals outward; empty when there is none. The counterpart of
 /// scree_loop in 2D.
 typedef struct scree_hull {
@@ -142,7 +149,7 @@ typedef struct scree_hull {
     scree_vector *place;     ///< node_count, m, positions at `updated`
     scree_vector *force;     ///< node_count, N, force of the boundary at the present step
     uint32_t (*triangle)[3]; ///< triangle_count, nodes; counter-clockwise seen from outside
-    uint8_t *loaded;         ///< triangle_count, 1: carries the pressure
+    uint8_t *loaded;         ///< triangle_count, scree_hull_load
     size_t node_count, node_capacity;
     size_t triangle_count, triangle_capacity;
     uint64_t updated; ///< step of the last update
