@@ -28,6 +28,7 @@ static scree_status reserve(scree_contact_table *table, size_t count, scree_erro
     return status;
 }
 
+/// The contact of `reference`, which touches.
 static void fill(const scree_model *model, const scree_state *state, const scree_work *work,
                  const contact_reference *reference, scree_contact *contact)
 {
@@ -44,6 +45,7 @@ static void fill(const scree_model *model, const scree_state *state, const scree
         scree_row second = row_at_half_step(model, state, contact->second);
         contact_of_pair(model, &first, &second, &work->pairs.history[p], contact);
     }
+    contact->membrane = !contact->wall && !scree_body_is_grain(state, contact->second);
 }
 
 scree_status scree_contact_table_build(const scree_model *model, const scree_state *state, const scree_work *work,

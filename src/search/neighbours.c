@@ -77,6 +77,18 @@ static scree_status reserve_pairs(uint32_t **one, uint32_t **other, scree_histor
     return status;
 }
 
+/// Drops the pairs of two bodies of the membrane, which its chain holds together; the order stays.
+static void drop_membrane_pairs(const scree_state *state, scree_pair_buffer *buffer)
+{
+    size_t kept = 0;
+    for (size_t k = 0; k < buffer->count; k++) {
+        scree_row_pair pair = buffer->pair[k];
+        if (scree_body_is_grain(state, pair.first) || scree_body_is_grain(state, pair.second))
+            buffer->pair[kept++] = pair;
+    }
+    buffer->count = kept;
+}
+
 static scree_status search_pairs(const scree_state *state, scree_work *work, scree_error *error)
 {
     scree_search *search = work->search;
@@ -88,6 +100,10 @@ static scree_status search_pairs(const scree_state *state, scree_work *work, scr
         if (find(&search->grid, state, state->count * c / chunks, state->count * (c + 1) / chunks, &search->chunk[c],
                  NULL))
             failed = c < failed ? c : failed;
+    for (size_t c = 0; c < chunks && state->membrane.count > 0; c++) {
+        drop_membrane_pairs(state, &search->chunk[c].touching);
+        drop_membrane_pairs(state, &search->chunk[c].near);
+    }
     if (failed == chunks) return SCREE_OK;
     return scree_error_set_memory(error, search->chunk[failed].touching.capacity * sizeof(scree_row_pair));
 }
