@@ -57,8 +57,7 @@ static double double_product(const double a[9], const double b[9])
 }
 
 /// Velocity gradient that the next kick leads to without the penalty, and B / V.
-static void predict(const scree_state *state, scree_vector *area, double volume, double rate[9],
-                    double mobility[9])
+static void predict(const scree_state *state, scree_vector *area, double volume, double rate[9], double mobility[9])
 {
     memset(rate, 0, 9 * sizeof *rate);
     memset(mobility, 0, 9 * sizeof *mobility);

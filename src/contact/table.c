@@ -45,7 +45,8 @@ static void fill(const scree_model *model, const scree_state *state, const scree
         scree_row second = row_at_half_step(model, state, contact->second);
         contact_of_pair(model, &first, &second, &work->pairs.history[p], contact);
     }
-    contact->membrane = !contact->wall && !scree_body_is_grain(state, contact->second);
+    contact->membrane =
+        !scree_body_is_grain(state, contact->first) || (!contact->wall && !scree_body_is_grain(state, contact->second));
 }
 
 scree_status scree_contact_table_build(const scree_model *model, const scree_state *state, const scree_work *work,

@@ -1,5 +1,5 @@
-/// Distortion of the corners of a sample under minimal kinematic conditions (P fig. 3.13): corners that deform more than
-/// the rest lose their shape.
+/// Distortion of the corners of a sample under minimal kinematic conditions (P fig. 3.13): corners that deform more
+/// than the rest lose their shape.
 ///
 /// The displacements since the begin of loading are compared with the affine field that fits all grains best
 /// (fluctuations.c). A corner is the grains that were within REACH mean diameters of a corner of the box around all

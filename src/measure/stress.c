@@ -101,7 +101,7 @@ void scree_stress_from_boundary(const scree_model *model, const scree_state *sta
     scree_vector force;
     for (size_t c = 0; c < table->count; c++) {
         const scree_contact *contact = &table->contact[c];
-        if (!scree_contact_is_outer(contact)) continue;
+        if (!scree_contact_is_outer(contact) || !scree_body_is_grain(state, contact->first)) continue;
         contact_force(contact, force);
         scree_vector point;
         scree_body_place(state, contact->first, point);

@@ -4,9 +4,9 @@
 /// strain; mean stress ratio over the last fifth of the strain; largest compaction and dilation relative to the begin
 /// of loading (dilation positive); disagreement of the axial stress of plates and contacts, of the means over the stage
 /// (`stress_disagreement`) and as the mean of the instantaneous differences, which holds the inertia of the waves
-/// (`stress_disagreement_instant`); `shear_strain_reached`, the engineering shear strain of the first and the last axis;
-/// with imposed rates, mean, least and largest ratio of actual and imposed rate (`rate_ratio_...`, of the intervals
-/// between two samples) from STARTED of the strain on. Over the loading, from the bodies: `corner_distortion`
+/// (`stress_disagreement_instant`); `shear_strain_reached`, the engineering shear strain of the first and the last
+/// axis; with imposed rates, mean, least and largest ratio of actual and imposed rate (`rate_ratio_...`, of the
+/// intervals between two samples) from STARTED of the strain on. Over the loading, from the bodies: `corner_distortion`
 /// (measure/corner_distortion.c). Over the whole run: largest residual of the energy
 /// balance over the work turned over by the end (`energy_residual`).
 #include "run/results.h"

@@ -13,7 +13,7 @@
 #include <string.h>
 
 /// Target at full rate [1/s]. Returns the largest component.
-static int find_target(const scree_config_stage *stage, double target[9], int32_t prescribed[9])
+static int find_target(const scree_config_stage *stage, double target[9], int64_t prescribed[9])
 {
     int largest = 0;
     for (int c = 0; c < 9; c++) {
@@ -41,7 +41,7 @@ static void plan(scree_simulation *s)
 {
     const scree_config_stage *stage = scree_stage_config(s);
     double target[9];
-    int32_t prescribed[9];
+    int64_t prescribed[9];
     int largest = find_target(stage, target, prescribed);
     s->plan = scree_loading_plan(s, stage->strain / fabs(target[largest]));
 }
@@ -50,7 +50,7 @@ static void control(scree_simulation *s)
 {
     scree_drive *drive = &s->state.drive;
     double loaded, rise = scree_loading_rise(s, &loaded);
-    int32_t prescribed[9];
+    int64_t prescribed[9];
     (void)find_target(scree_stage_config(s), drive->target, prescribed);
     for (int c = 0; c < 9; c++) drive->target[c] *= rise;
 }
@@ -60,7 +60,7 @@ static double strain(const scree_simulation *s)
 {
     int c = (int)s->state.stage.reference[SCREE_LOADING_OTHERS], mirror = 3 * (c % 3) + c / 3;
     double target[9], gradient[9];
-    int32_t prescribed[9];
+    int64_t prescribed[9];
     (void)find_target(scree_stage_config(s), target, prescribed);
     scree_strain_measure(&s->state, gradient);
     for (int i = 0; i < 9; i++) gradient[i] -= s->state.stage.reference[SCREE_LOADING_STRAIN + i];

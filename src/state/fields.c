@@ -117,7 +117,7 @@ const scree_field scree_members[] = {
      "force of the imposed rates on each body of the boundary", PLAIN_ARRAY(drive.force, scree_vector),
      .rows = SCREE_ROWS_DRIVE},
     DRIVE("target", SCREE_FIELD_DOUBLE, 9, "1/s", target, "wanted velocity gradient, 3 x 3 by rows"),
-    DRIVE("prescribed", SCREE_FIELD_INT32, 9, "1", prescribed,
+    DRIVE("prescribed", SCREE_FIELD_INT64, 9, "1", prescribed,
           "of each component of target: 0 free, 1 prescribed, 2 prescribed for the mean of it and its mirror"),
     DRIVE("viscosity", SCREE_FIELD_DOUBLE, 1, "Pa s", viscosity, "stress over the error of the rate"),
     DRIVE("rate", SCREE_FIELD_DOUBLE, 9, "1/s", rate, "velocity gradient of the boundary, 3 x 3 by rows"),

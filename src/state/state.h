@@ -154,7 +154,7 @@ typedef struct scree_hull {
 /// What a boundary imposes through forces on its own bodies (boundary/minimal.c, affine.c).
 typedef struct scree_drive {
     double target[9];      ///< 1/s, wanted velocity gradient (d v_row / d x_column), extension positive
-    int32_t prescribed[9]; ///< of each component: scree_prescription
+    int64_t prescribed[9]; ///< of each component: scree_prescription
     double viscosity;      ///< Pa s, stress over error of the rate (INFINITY: no error is left)
     double rate[9];        ///< 1/s, velocity gradient of the boundary at n - 1/2
     double stress[9];      ///< Pa, uniform stress applied besides the pressure at n, tension positive
