@@ -123,10 +123,15 @@ double scree_model_mass(const scree_model *model, int material, double radius)
 /// Takes the friction of a membrane away.
 static void make_frictionless(scree_model *model)
 {
-    int m = model->membrane_material;
     if (!model->membrane) return;
-    model->walls[m].friction = 0;
-    for (int i = 0; i < SCREE_MAX_MATERIALS; i++) model->pairs[m][i].friction = model->pairs[i][m].friction = 0;
+    int m = model->membrane_material;
+    scree_pair_constants *own = &model->walls[m];
+    own->friction = own->rolling_friction = own->twisting_friction = 0;
+    for (int i = 0; i < SCREE_MAX_MATERIALS; i++) {
+        own = &model->pairs[i][m];
+        own->friction = own->rolling_friction = own->twisting_friction = 0;
+        model->pairs[m][i] = *own;
+    }
 }
 
 /// A membrane is made of the particles' material without friction, as one more material. Its chain must not swing

@@ -41,7 +41,8 @@ static double largest_displacement(const scree_state *state, int threads)
     for (size_t k = 0; k < state->count; k++) {
         const double *then = state->rebuild[k];
         double dx = state->row[k].x - then[0], dy = state->row[k].y - then[1];
-        double square = dx * dx + dy * dy;
+        double dz = state->dimension == 3 ? state->row[k].z - then[2] : 0;
+        double square = dx * dx + dy * dy + dz * dz;
         square = square <= DBL_MAX ? square : (double)INFINITY;
         largest = square > largest ? square : largest;
     }
@@ -54,7 +55,8 @@ static bool walls_need_rebuild(const scree_state *state, const scree_work *work)
     for (int w = 0; w < SCREE_WALL_COUNT; w++) {
         const scree_wall *now = &state->wall[w], *then = &work->search->wall[w];
         if (!now->active) continue;
-        bool same = then->active && now->normal[0] == then->normal[0] && now->normal[1] == then->normal[1];
+        bool same = then->active && now->normal[0] == then->normal[0] && now->normal[1] == then->normal[1] &&
+                    now->normal[2] == then->normal[2];
         if (!same || !(fabs(now->position - then->position) < half_skin(work))) return true;
     }
     return false;

@@ -53,7 +53,9 @@ static void bench_create(bench *b)
                              .material_count = 1,
                              .density = {2.675e8, 2.675e8},
                              .config = &b->config};
-    for (int k = 0; k < 4; k++) b->model.pairs[k / 2][k % 2] = (scree_pair_constants){2e10, 2e10, k == 0 ? 0.45 : 0, 1};
+    for (int k = 0; k < 4; k++)
+        b->model.pairs[k / 2][k % 2] = (scree_pair_constants){
+            .normal_stiffness = 2e10, .tangential_stiffness = 2e10, .friction = k == 0 ? 0.45 : 0, .damping = 1};
     b->model.walls[0] = b->model.pairs[0][0];
     b->model.walls[1] = b->model.pairs[1][1];
     assert_int_equal(scree_state_create(&b->state, 2, COLUMNS * ROWS, NULL), SCREE_OK);
