@@ -47,10 +47,9 @@ static extremes extremes_get(const scree_model *model)
 
 static double largest_mass(const scree_model *model)
 {
-    double density = 0;
-    for (int k = 0; k < model->material_count; k++) density = fmax(density, model->density[k]);
-    double radius = model->radius_max, length = model->dimension == 3 ? 4.0 / 3.0 * radius : model->thickness;
-    return density * M_PI * radius * radius * length;
+    double mass = 0;
+    for (int k = 0; k < model->material_count; k++) mass = fmax(mass, scree_model_mass(model, k, model->radius_max));
+    return mass;
 }
 
 static double largest_speed(const scree_state *state)

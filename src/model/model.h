@@ -6,6 +6,8 @@
 
 #include "case/config.h"
 
+#include <math.h>
+
 #define SCREE_MAX_MATERIALS 16
 
 /// Constants of a contact between two materials (or a grain and a plate). Symmetric in the two materials.
@@ -46,6 +48,13 @@ typedef struct scree_model {
 /// meet: a step above the critical one (names it and offers it), a packing that cannot fit, a material that does not
 /// exist.
 scree_status scree_model_build(const scree_config *config, scree_model *model, scree_error *error) SCREE_MUST_USE;
+
+/// Mass [kg] of a body: a sphere, or a disc of the model's thickness.
+static inline double scree_model_mass(const scree_model *model, int material, double radius)
+{
+    double length = model->dimension == 3 ? 4.0 / 3.0 * radius : model->thickness;
+    return model->density[material] * M_PI * radius * radius * length;
+}
 
 /// Index of the material that the particles are made of.
 int scree_model_particle_material(const scree_model *model);
