@@ -32,16 +32,16 @@ static scree_status find_surface(const scree_model *model, const scree_state *st
 {
     double *points = NULL, *radius = NULL;
     *surface = (scree_surface){0};
-    scree_status status = scree_allocate(&points, 3 * state->count, sizeof *points, error);
-    if (!status) status = scree_allocate(&radius, state->count, sizeof *radius, error);
+    scree_status status = scree_allocate(&points, 3 * state->grains, sizeof *points, error);
+    if (!status) status = scree_allocate(&radius, state->grains, sizeof *radius, error);
     if (!status) {
-        for (size_t id = 0; id < state->count; id++) {
+        for (size_t id = 0; id < state->grains; id++) {
             size_t row = state->row_of_id[id];
             scree_body_place(state, row, points + 3 * id);
             radius[id] = state->row[row].radius;
         }
         double diameter = 2 * model->mean_radius, gap_limit = model->config->boundary.gap_limit * diameter;
-        status = scree_outer_surface(points, radius, state->count, diameter, gap_limit, surface, error);
+        status = scree_outer_surface(points, radius, state->grains, diameter, gap_limit, surface, error);
     }
     scree_release(&points);
     scree_release(&radius);
@@ -74,10 +74,10 @@ static scree_status fill_hull(const scree_state *state, const scree_surface *sur
 {
     size_t nodes = 0;
     for (size_t k = 0; k < 3 * surface->count; k++) node_of[surface->triangle[k / 3][k % 3]] = 1;
-    for (size_t id = 0; id < state->count; id++) nodes += node_of[id];
+    for (size_t id = 0; id < state->grains; id++) nodes += node_of[id];
     scree_status status = hull_create(hull, nodes, surface->count, error);
     if (status) return status;
-    for (size_t id = 0; id < state->count; id++) {
+    for (size_t id = 0; id < state->grains; id++) {
         if (!node_of[id]) continue;
         scree_body_place(state, state->row_of_id[id], hull->place[hull->node_count]);
         hull->id[hull->node_count] = (uint32_t)id;
@@ -96,7 +96,7 @@ scree_status scree_hull_renew(const scree_model *model, scree_state *state, scre
     scree_hull fresh = {0};
     uint32_t *node_of = NULL;
     scree_status status = find_surface(model, state, &surface, error);
-    if (!status) status = scree_allocate(&node_of, state->count, sizeof *node_of, error);
+    if (!status) status = scree_allocate(&node_of, state->grains, sizeof *node_of, error);
     if (!status) status = fill_hull(state, &surface, node_of, &fresh, error);
     if (!status) status = scree_hull_mark_loaded(model, state, &fresh, error);
     if (!status) {
@@ -163,8 +163,8 @@ void scree_hull_press(scree_state *state)
 {
     scree_hull *hull = &state->hull;
     memset(hull->force, 0, hull->node_count * sizeof *hull->force);
-    if (!(state->pressure > 0) || hull->node_count == 0) return;
-    double scale = state->pressure / 6 / state->force_quantum;
+    if (!(scree_direct_pressure(state) > 0) || hull->node_count == 0) return;
+    double scale = scree_direct_pressure(state) / 6 / state->force_quantum;
     scree_vector origin, corner[3];
     scree_hull_position(state, 0, origin);
     for (size_t t = 0; t < hull->triangle_count; t++) {
@@ -186,7 +186,7 @@ void scree_hull_press(scree_state *state)
 double scree_hull_pressure_bound(const scree_model *model, const scree_state *state)
 {
     const scree_hull *hull = &state->hull;
-    if (!(state->pressure > 0) || hull->node_count == 0) return 0;
+    if (!(scree_direct_pressure(state) > 0) || hull->node_count == 0) return 0;
     double square = 0;
     for (int k = 0; k < 3; k++) {
         double low = INFINITY, high = -INFINITY;
@@ -200,7 +200,7 @@ double scree_hull_pressure_bound(const scree_model *model, const scree_state *st
     // to p / 6 x square, and the largest triangle that a lone body can have, p / 2 x square, stay below 2^8 times the
     // bound.
     double cell = 4 * model->mean_radius;
-    return state->pressure * fmax(cell * cell, square / 256);
+    return scree_direct_pressure(state) * fmax(cell * cell, square / 256);
 }
 
 double scree_hull_power(const scree_state *state)

@@ -1,14 +1,14 @@
 /// Coordination number, with and without rattlers.
 ///
-/// A contact of two bodies counts once for each of them, a contact with a wall once. A rattler is a body that cannot be
-/// in equilibrium with the contacts it has: too few, or all on one side. With friction two can hold it (the line
-/// between them in both friction cones), without friction it needs three in 2D and four in 3D. In 3D the forces of the
-/// contacts lie in cones of the friction angle phi about their normals, and can add up to nothing only if no direction
-/// makes less than 90 degrees - phi with all normals: that is, if the convex hull of the unit normals comes within
-/// sin(phi) of the origin. Its nearest point is approached by Gilbert's algorithm (1966), which bounds the distance
-/// from both sides. The pressure on the boundary is one more support, along its force, of the bodies that carry it; in 3D gravity acts on all. A
-/// contact with a rattler bears no load, so rattlers are taken away and the rest is counted again, until nothing
-/// changes. Cost: O(contacts) a pass, a few passes.
+/// A contact of two bodies counts once for each of them, a contact with a wall or a membrane once. A rattler is a body
+/// that cannot be in equilibrium with the contacts it has: too few, or all on one side. With friction two can hold it
+/// (the line between them in both friction cones), without friction it needs three in 2D and four in 3D. In 3D the
+/// forces of the contacts lie in cones of the friction angle phi about their normals, and can add up to nothing only if
+/// no direction makes less than 90 degrees - phi with all normals: that is, if the convex hull of the unit normals
+/// comes within sin(phi) of the origin. Its nearest point is approached by Gilbert's algorithm (1966), which bounds the
+/// distance from both sides. The pressure on the boundary is one more support, along its force, of the bodies that
+/// carry it; in 3D gravity acts on all. A contact with a rattler bears no load, so rattlers are taken away and the rest
+/// is counted again, until nothing changes. Cost: O(contacts) a pass, a few passes.
 #include "measure/measure.h"
 
 #include <math.h>
@@ -43,9 +43,10 @@ static void count_contacts(const scree_contact_table *table, const supports *s, 
     for (size_t row = 0; row < count; row++) s->contacts[row] = 0;
     for (size_t c = 0; c < table->count; c++) {
         const scree_contact *contact = &table->contact[c];
-        if (s->rattler[contact->first] || (!contact->wall && s->rattler[contact->second])) continue;
+        bool outer = scree_contact_is_outer(contact);
+        if (s->rattler[contact->first] || (!outer && s->rattler[contact->second])) continue;
         s->contacts[contact->first]++;
-        if (!contact->wall) s->contacts[contact->second]++;
+        if (!outer) s->contacts[contact->second]++;
     }
 }
 
@@ -116,7 +117,7 @@ static void mark_pressed(const scree_state *state, const supports *s)
 {
     const scree_loop *loop = &state->loop;
     for (size_t k = 0; k < loop->count; k++)
-        if (state->pressure > 0 && (loop->loaded[k] || loop->loaded[k > 0 ? k - 1 : loop->count - 1]))
+        if (scree_direct_pressure(state) > 0 && (loop->loaded[k] || loop->loaded[k > 0 ? k - 1 : loop->count - 1]))
             s->pressed[state->row_of_id[loop->id[k]]] = 1;
     for (size_t k = 0; k < state->hull.node_count; k++)
         if (scree_length(state->hull.force[k]) > 0) s->pressed[state->row_of_id[state->hull.id[k]]] = 1;
@@ -143,13 +144,15 @@ static scree_status collect_normals(const scree_model *model, const scree_state 
     // After this begin[row + 1] is the start of the row; filling advances it to the end.
     for (size_t c = 0; c < table->count; c++) {
         s->begin[table->contact[c].first + 2]++;
-        if (!table->contact[c].wall) s->begin[table->contact[c].second + 2]++;
+        if (!scree_contact_is_outer(&table->contact[c])) s->begin[table->contact[c].second + 2]++;
     }
-    for (size_t row = 0; row < state->count; row++) s->begin[row + 2] += s->begin[row + 1] + s->pressed[row] + (weight > 0);
+    for (size_t row = 0; row < state->count; row++)
+        s->begin[row + 2] += s->begin[row + 1] + s->pressed[row] + (weight > 0);
     for (size_t c = 0; c < table->count; c++) {
         const scree_contact *contact = &table->contact[c];
-        add_normal(s, contact->first, contact->normal, 1, contact->wall ? UINT32_MAX : contact->second);
-        if (!contact->wall) add_normal(s, contact->second, contact->normal, -1, contact->first);
+        add_normal(s, contact->first, contact->normal, 1,
+                   scree_contact_is_outer(contact) ? UINT32_MAX : contact->second);
+        if (!scree_contact_is_outer(contact)) add_normal(s, contact->second, contact->normal, -1, contact->first);
     }
     for (size_t k = 0; k < state->hull.node_count; k++) {
         const double *force = state->hull.force[k], length = scree_length(force);
@@ -173,11 +176,13 @@ scree_status scree_coordination_measure(const scree_model *model, const scree_st
     if (!status && state->dimension == 3) status = collect_normals(model, state, table, &s, error);
     if (!status) {
         size_t bodies;
+        // Bodies of a membrane are no part of the assembly.
+        for (size_t row = 0; row < state->count; row++) s.rattler[row] = !scree_body_is_grain(state, row);
         count_contacts(table, &s, state->count);
         out->mean = mean_contacts(&s, state->count, &bodies);
         while (mark_rattlers(&s, state->count)) count_contacts(table, &s, state->count);
         out->mean_without_rattlers = mean_contacts(&s, state->count, &bodies);
-        out->rattler_fraction = state->count > 0 ? 1 - (double)bodies / (double)state->count : 0;
+        out->rattler_fraction = state->grains > 0 ? 1 - (double)bodies / (double)state->grains : 0;
     }
     scree_release(&s.contacts);
     scree_release(&s.rattler);

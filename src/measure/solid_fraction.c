@@ -78,7 +78,7 @@ static scree_status solid_in_hull(const scree_state *state, double *solid, scree
     if (!status) {
         memset(first, 0xff, hull->node_count * sizeof *first);
         add_solid_angles(state, first, angle);
-        for (size_t id = 0; id < state->count; id++)
+        for (size_t id = 0; id < state->grains; id++)
             *solid += 4 * M_PI / 3 * pow(state->row[state->row_of_id[id]].radius, 3);
         for (size_t k = 0; k < hull->node_count; k++) {
             double inside = angle[k] - 4 * M_PI * floor(angle[k] / (4 * M_PI));
@@ -94,7 +94,7 @@ static scree_status solid_in_hull(const scree_state *state, double *solid, scree
 static double solid_in_loop(const scree_state *state)
 {
     double solid = 0;
-    for (size_t id = 0; id < state->count; id++) {
+    for (size_t id = 0; id < state->grains; id++) {
         double radius = state->row[state->row_of_id[id]].radius;
         solid += M_PI * radius * radius;
     }
