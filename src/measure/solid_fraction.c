@@ -23,13 +23,10 @@ static double interior_angle(const scree_state *state, size_t k)
     return angle < 0 ? angle + 2 * M_PI : angle;
 }
 
-/// Unit vector from x to the body at a node.
-static void direction_to(const scree_state *state, const scree_vector x, size_t node, scree_vector direction)
+static void normalise(scree_vector a)
 {
-    scree_hull_position(state, node, direction);
-    for (int k = 0; k < 3; k++) direction[k] -= x[k];
-    double length = scree_length(direction);
-    for (int k = 0; k < 3; k++) direction[k] /= length;
+    double length = scree_length(a);
+    for (int k = 0; k < 3; k++) a[k] /= length;
 }
 
 static double dot(const scree_vector a, const scree_vector b)
@@ -37,33 +34,51 @@ static double dot(const scree_vector a, const scree_vector b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+static void cross(const scree_vector a, const scree_vector b, scree_vector product)
+{
+    for (int k = 0; k < 3; k++) product[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+}
+
 /// Solid angle of three unit vectors (van Oosterom and Strackee 1983), between -2 pi and 2 pi.
 static double solid_angle(const scree_vector a, const scree_vector b, const scree_vector c)
 {
-    double triple =
-        a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
-    return 2 * atan2(triple, 1 + dot(a, b) + dot(b, c) + dot(c, a));
+    scree_vector product;
+    cross(b, c, product);
+    return 2 * atan2(dot(a, product), 1 + dot(a, b) + dot(b, c) + dot(c, a));
+}
+
+/// The two edges of a triangle at its corner c, as vectors.
+static void edges_at(const scree_state *state, size_t triangle, int c, scree_vector next, scree_vector last)
+{
+    scree_vector origin;
+    scree_vector corner[3];
+    scree_hull_position(state, state->hull.triangle[triangle][c], origin);
+    scree_hull_corners(state, triangle, origin, corner);
+    memcpy(next, corner[(c + 1) % 3], sizeof corner[0]);
+    memcpy(last, corner[(c + 2) % 3], sizeof corner[0]);
 }
 
 /// Interior solid angles of the hull at its nodes, modulo 4 pi. The edges at a node cut the unit sphere round it in a
-/// closed polygon; its solid angle is the sum of those of the triangles of its sides and any fixed direction, that of
-/// the first edge found. `first` marks the node that each node's fixed direction points to.
-static void add_solid_angles(const scree_state *state, uint32_t *first, double *angle)
+/// closed polygon; its solid angle is the sum of those of the triangles of its sides and any fixed direction: here that
+/// against the sum of the normals. `inward` is zero before.
+static void add_solid_angles(const scree_state *state, scree_vector *inward, double *angle)
 {
     const scree_hull *hull = &state->hull;
+    scree_vector next, last, area;
+    for (size_t t = 0; t < hull->triangle_count; t++) {
+        edges_at(state, t, 0, next, last);
+        cross(last, next, area);
+        for (int c = 0; c < 3; c++)
+            for (int k = 0; k < 3; k++) inward[hull->triangle[t][c]][k] += area[k];
+    }
+    for (size_t node = 0; node < hull->node_count; node++) normalise(inward[node]);
     for (size_t t = 0; t < hull->triangle_count; t++)
         for (int c = 0; c < 3; c++) {
-            uint32_t node = hull->triangle[t][c], next = hull->triangle[t][(c + 1) % 3];
-            uint32_t last = hull->triangle[t][(c + 2) % 3];
-            if (first[node] == UINT32_MAX) first[node] = next;
-            if (first[node] == next || first[node] == last) continue;
-            scree_vector x, fixed, one, other;
-            scree_hull_position(state, node, x);
-            direction_to(state, x, first[node], fixed);
-            direction_to(state, x, next, one);
-            direction_to(state, x, last, other);
+            edges_at(state, t, c, next, last);
+            normalise(next);
+            normalise(last);
             // Seen from inside, the corners of an outward triangle turn clockwise.
-            angle[node] -= solid_angle(fixed, one, other);
+            angle[hull->triangle[t][c]] += solid_angle(inward[hull->triangle[t][c]], last, next);
         }
 }
 
@@ -71,13 +86,12 @@ static void add_solid_angles(const scree_state *state, uint32_t *first, double *
 static scree_status solid_in_hull(const scree_state *state, double *solid, scree_error *error)
 {
     const scree_hull *hull = &state->hull;
-    uint32_t *first = NULL;
+    scree_vector *inward = NULL;
     double *angle = NULL;
-    scree_status status = scree_allocate(&first, hull->node_count, sizeof *first, error);
+    scree_status status = scree_allocate(&inward, hull->node_count, sizeof *inward, error);
     if (!status) status = scree_allocate(&angle, hull->node_count, sizeof *angle, error);
     if (!status) {
-        memset(first, 0xff, hull->node_count * sizeof *first);
-        add_solid_angles(state, first, angle);
+        add_solid_angles(state, inward, angle);
         for (size_t id = 0; id < state->grains; id++)
             *solid += 4 * M_PI / 3 * pow(state->row[state->row_of_id[id]].radius, 3);
         for (size_t k = 0; k < hull->node_count; k++) {
@@ -85,7 +99,7 @@ static scree_status solid_in_hull(const scree_state *state, double *solid, scree
             *solid -= (4 * M_PI - inside) / 3 * pow(state->row[state->row_of_id[hull->id[k]]].radius, 3);
         }
     }
-    scree_release(&first);
+    scree_release(&inward);
     scree_release(&angle);
     return status;
 }
