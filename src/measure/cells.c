@@ -260,18 +260,22 @@ double scree_cells_mean(const scree_cells *cells, const double *value)
     return sum / volume;
 }
 
-double scree_cells_circle_pressure(const scree_cells *cells, const double *place, const scree_vector centre,
-                                   double diameter, double *volume)
+void scree_cells_circles(const scree_cells *cells, const double *place, const scree_vector centre, double step,
+                         size_t count, double *pressure, double *volume)
 {
-    double sum = 0;
-    *volume = 0;
+    for (size_t c = 0; c < count; c++) pressure[c] = volume[c] = 0;
     for (size_t k = 0; k < cells->count; k++) {
         scree_vector at;
         scree_cell_centre(cells, k, place, at);
         for (int i = 0; i < 3; i++) at[i] -= centre[i];
-        if (scree_length(at) > diameter / 2) continue;
-        sum += cells->volume[k] * cells->pressure[k];
-        *volume += cells->volume[k];
+        double ring = floor(2 * scree_length(at) / step);
+        if (!(ring < (double)count)) continue;
+        volume[(size_t)ring] += cells->volume[k];
+        pressure[(size_t)ring] += cells->volume[k] * cells->pressure[k];
     }
-    return sum / *volume;
+    for (size_t c = 1; c < count; c++) {
+        volume[c] += volume[c - 1];
+        pressure[c] += pressure[c - 1];
+    }
+    for (size_t c = 0; c < count; c++) pressure[c] /= volume[c];
 }

@@ -93,9 +93,10 @@ scree_status scree_node_cells_build(const scree_cells *cells, scree_node_cells *
                                     scree_error *error) SCREE_MUST_USE;
 void scree_node_cells_destroy(scree_node_cells *list);
 
-/// Mean pressure [Pa] of the cells whose centres lie within a circle (sphere) around `centre`, and their volume [m3];
-/// NAN and zero when there is none (P fig. 3.12).
-double scree_cells_circle_pressure(const scree_cells *cells, const double *place, const scree_vector centre,
-                                   double diameter, double *volume);
+/// Growing circles (spheres in 3D) around `centre`: of diameter step, 2 step, ... count step. pressure out [Pa]: mean
+/// of the cells whose centres lie within, NAN without any; volume out [m3]: theirs (P fig. 3.12). Cost: O(cells +
+/// count).
+void scree_cells_circles(const scree_cells *cells, const double *place, const scree_vector centre, double step,
+                         size_t count, double *pressure, double *volume);
 
 #endif

@@ -87,7 +87,9 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
     scree_status status = SCREE_OK;
     if (s->model.config->measure.cells) {
         status = scree_cells_measure(model, &s->state, &s->table, &cells, error);
-        info.cells = &cells;
+        // A few bodies, or bodies on a line, have no triangulation and so no cells.
+        if (!status) info.cells = &cells;
+        if (status == SCREE_ERROR_GUARD) status = SCREE_OK;
     }
     if (!status) status = scree_snapshot_write(recorder->directory, model, &s->state, &s->table, &info, error);
     if (!status && s->model.config->output.paraview)

@@ -10,6 +10,7 @@
 
 #include "io/run_directory.h"
 #include "io/summary.h"
+#include "run/cell_results.h"
 #include "run/sample.h"
 
 #include <inttypes.h>
@@ -147,8 +148,10 @@ scree_status scree_results_write(const scree_recorder *recorder, scree_simulatio
     if (!result) {
         summarise_run(recorder, s, status, summary);
         summarise_series(&series, s->state.ledger.turnover, summary);
-        result = scree_path_join(path, sizeof path, recorder->directory, SCREE_FILE_SUMMARY, error);
+        if (s->model.config->measure.cells)
+            result = scree_cell_results_write(recorder->directory, s->model.config, summary, error);
     }
+    if (!result) result = scree_path_join(path, sizeof path, recorder->directory, SCREE_FILE_SUMMARY, error);
     if (!result) result = scree_summary_write(summary, path, error);
     scree_summary_destroy(summary);
     scree_series_destroy(&series);

@@ -325,16 +325,18 @@ static void test_circles(void **unused)
         s.cells.pressure[k] = 100 + centre[1];
     }
     const scree_vector middle = {1.4e-3 * 9.5, 1.4e-3 * 9.5, 0};
-    double volume, whole = scree_cells_circle_pressure(&s.cells, s.assembly.place, middle, 1, &volume), all = 0;
+    double volume[200], pressure[200], all = 0, step = 0.5e-3;
+    scree_cells_circles(&s.cells, s.assembly.place, middle, step, 200, pressure, volume);
     for (size_t k = 0; k < s.cells.count; k++) all += s.cells.volume[k];
-    assert_near(volume, all, 1e-12 * all);
-    assert_near(whole, scree_cells_mean(&s.cells, s.cells.pressure), 1e-12 * 100);
-    // A circle of 10 spacings holds its area of cells to within one cell along its rim (31 spacings long).
-    double diameter = 10 * 1.4e-3, circle = M_PI / 4 * diameter * diameter * s.assembly.thickness;
-    double inside = scree_cells_circle_pressure(&s.cells, s.assembly.place, middle, diameter, &volume);
-    assert_near(volume / circle, 1, 0.1);
-    assert_near(inside, 100 + middle[1], 1e-3);
-    assert_true(isnan(scree_cells_circle_pressure(&s.cells, s.assembly.place, middle, 0, &volume)));
+    // The largest circle holds every cell; one of 10 spacings its area to within a cell along its rim.
+    assert_near(volume[199], all, 1e-12 * all);
+    assert_near(pressure[199], scree_cells_mean(&s.cells, s.cells.pressure), 1e-12 * 100);
+    double circle = M_PI / 4 * 14e-3 * 14e-3 * s.assembly.thickness;
+    assert_near(volume[27] / circle, 1, 0.1);
+    assert_near(pressure[27], 100 + middle[1], 1e-3);
+    for (int c = 1; c < 200; c++) assert_true(volume[c] >= volume[c - 1]);
+    scree_cells_circles(&s.cells, s.assembly.place, (const scree_vector){1, 1, 0}, step, 1, pressure, volume);
+    assert_true(isnan(pressure[0]) && !(volume[0] > 0));
     sample_destroy(&s);
 }
 
