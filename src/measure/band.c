@@ -16,7 +16,9 @@
 #define COARSE 10.0
 /// A slab holds at least this part of the volume, so that a corner of the sample is no band.
 #define LEAST_VOLUME 0.02
-#define RADIAN       (M_PI / 180)
+/// The thickest slab, as a part of the extent of the sample along its normal: 1 / THICKEST.
+#define THICKEST 3
+#define RADIAN   (M_PI / 180)
 
 typedef struct fit {
     const scree_cells *cells;
@@ -46,7 +48,7 @@ static void use_direction(fit *f, const scree_vector n)
         f->bin_volume[b + 1] += f->bin_volume[b];
         f->bin_sum[b + 1] += f->bin_sum[b];
     }
-    size_t thinnest = (size_t)ceil(f->thinnest / f->step), thickest = (last - first) / 2;
+    size_t thinnest = (size_t)ceil(f->thinnest / f->step), thickest = (last - first) / THICKEST;
     for (size_t from = first; from < last; from++)
         for (size_t to = from + thinnest; to <= last && to - from <= thickest; to++) {
             double v = f->bin_volume[to] - f->bin_volume[from], q = f->bin_sum[to] - f->bin_sum[from];

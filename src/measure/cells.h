@@ -66,6 +66,11 @@ double scree_distortion(const double tensor[9], int dimension);
 /// R U, so that rotations of any size before or after do not show. In 2D it is scree_distortion(G), exactly.
 double scree_finite_distortion(const double gradient[9], int dimension);
 
+/// Distortion of each cell on the way of its bodies from `first` to `second` (bodies x 3, m); *distortion is allocated.
+/// Errors: memory.
+scree_status scree_cells_window_distortion(const scree_cells *cells, const double *first, const double *second,
+                                           double **distortion, scree_error *error) SCREE_MUST_USE;
+
 /// Stress of each cell from the contacts between bodies; wall contacts lie outside all cells. A contact contributes
 /// force (x) branch: that of an edge spread evenly over the cells around it (shares as their volumes), that of any
 /// other contact to the cells that its branch crosses, in proportion to the lengths in them. Then exactly

@@ -64,3 +64,22 @@ double scree_finite_distortion(const double gradient[9], int dimension)
     for (int i = 0; i < 3; i++) sum += (stretch[i] - mean) * (stretch[i] - mean);
     return sqrt(sum / 2);
 }
+
+scree_status scree_cells_window_distortion(const scree_cells *cells, const double *first, const double *second,
+                                           double **distortion, scree_error *error)
+{
+    double *displacement = NULL, (*gradient)[9] = NULL;
+    *distortion = NULL;
+    scree_status status = scree_allocate(&displacement, 3 * cells->bodies, sizeof *displacement, error);
+    if (!status) status = scree_allocate(&gradient, cells->count, sizeof *gradient, error);
+    if (!status) status = scree_allocate(distortion, cells->count, sizeof **distortion, error);
+    if (!status) {
+        for (size_t k = 0; k < 3 * cells->bodies; k++) displacement[k] = second[k] - first[k];
+        scree_cells_gradient(cells, first, displacement, gradient);
+        for (size_t k = 0; k < cells->count; k++)
+            (*distortion)[k] = scree_finite_distortion(gradient[k], cells->dimension);
+    }
+    scree_release(&displacement);
+    scree_release(&gradient);
+    return status;
+}

@@ -5,8 +5,9 @@
 /// fields that have the same values at random cells, smoothed in the same way: a field without any spatial order. The
 /// index is significant when it exceeds theirs by SIGNIFICANT standard deviations.
 ///
-/// A band is found when the slab that explains most of the variance (band.c) does so better than in every random field,
-/// and well (EXPLAINED), and its mean distortion is at least CONTRAST times that outside. Its active cells are those
+/// A band is found when the distortion is localised, the slab that explains most of its variance (band.c) does so well
+/// (EXPLAINED) and much better than in any random field (CLEARLY), and holds at least CONTRAST times the distortion
+/// outside, as means over the volume. Its active cells are those
 /// above the mean of the two means; it percolates when a connected set of them spans PERCOLATES of the length of the
 /// slab, in 3D in both directions.
 ///
@@ -23,6 +24,7 @@ enum { PASSES = 8, RANDOM = 19 };
 #define LOCALISED   0.2
 #define CONTRAST    2.0
 #define EXPLAINED   0.2
+#define CLEARLY     1.5
 /// In mean diameters: the thinnest band that is looked for, and the bins of the search.
 #define THINNEST 3.0
 #define BIN      0.5
@@ -252,8 +254,8 @@ scree_status scree_localisation_measure(const scree_cells *cells, const double *
     if (!status) status = measure_percolation(cells, place, field, band, error);
     if (!status) {
         out->localised = out->index >= LOCALISED && out->significance >= SIGNIFICANT;
-        band->found =
-            band->explained >= EXPLAINED && band->explained > 1.5 * out->explained_random && band->contrast >= CONTRAST;
+        band->found = band->explained >= EXPLAINED && band->explained > CLEARLY * out->explained_random &&
+                      band->contrast >= CONTRAST;
         mark_bodies(cells, place, band, in_band);
     }
     scree_node_cells_destroy(&list);

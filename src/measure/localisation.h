@@ -50,8 +50,8 @@ scree_status scree_localisation_measure(const scree_cells *cells, const double *
                                         scree_error *error) SCREE_MUST_USE;
 
 /// The slab that explains most of the variance of `value`, by least squares over all directions, places and
-/// thicknesses from `thinnest` to half the extent; fills all of `band` but percolation and found. `step`: m, width of
-/// the bins. fine: refine the direction to a quarter of a degree. Errors: memory.
+/// thicknesses from `thinnest` to a third of the extent; fills all of `band` but percolation and found. `step`: m,
+/// width of the bins. fine: refine the direction to a quarter of a degree. Errors: memory.
 scree_status scree_band_fit(const scree_cells *cells, const double *place, const double *value, double thinnest,
                             double step, bool fine, scree_band *band, scree_error *error) SCREE_MUST_USE;
 

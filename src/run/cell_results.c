@@ -121,28 +121,6 @@ static scree_status write_circles(walk *w, const scree_cell_snapshot *snapshot, 
 
 // ---- bands -------------------------------------------------------------------------------------------------------
 
-/// Distortion of the cells of the first instant on the way to the second.
-static scree_status find_distortion(const scree_cell_snapshot *first, const scree_cell_snapshot *second,
-                                    double **distortion, scree_error *error)
-{
-    size_t count = 3 * first->assembly.count;
-    const scree_cells *cells = &first->cells;
-    double *displacement = NULL, (*gradient)[9] = NULL;
-    *distortion = NULL;
-    scree_status status = scree_allocate(&displacement, count, sizeof *displacement, error);
-    if (!status) status = scree_allocate(&gradient, cells->count, sizeof *gradient, error);
-    if (!status) status = scree_allocate(distortion, cells->count, sizeof **distortion, error);
-    if (!status) {
-        for (size_t k = 0; k < count; k++) displacement[k] = second->assembly.place[k] - first->assembly.place[k];
-        scree_cells_gradient(cells, first->assembly.place, displacement, gradient);
-        for (size_t k = 0; k < cells->count; k++)
-            (*distortion)[k] = scree_finite_distortion(gradient[k], cells->dimension);
-    }
-    scree_release(&displacement);
-    scree_release(&gradient);
-    return status;
-}
-
 static scree_status append_band(walk *w, const scree_cell_snapshot *second, scree_error *error)
 {
     const scree_band_window *window = &w->window[w->window_count - 1];
@@ -194,7 +172,9 @@ static scree_status close_window(walk *w, const scree_cell_snapshot *second, scr
         if (!w->field[k]) status = scree_allocate(&w->field[k], bodies, sizeof *w->field[k], error);
         if (!status && !w->inside[k]) status = scree_allocate(&w->inside[k], bodies, 1, error);
     }
-    if (!status) status = find_distortion(&w->first, second, &distortion, error);
+    if (!status)
+        status = scree_cells_window_distortion(&w->first.cells, w->first.assembly.place, second->assembly.place,
+                                               &distortion, error);
     if (!status) {
         scree_band_window *window = &w->window[w->window_count++];
         w->diameter = mean_diameter(&w->first.assembly);

@@ -164,7 +164,10 @@ static void draw_arrows(const scree_scene_view *view, cairo_t *cairo)
 void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo)
 {
     draw_plates(view, cairo);
-    draw_discs(view, cairo);
+    if (view->scene->cells)
+        scree_scene_cells(view, cairo);
+    else
+        draw_discs(view, cairo);
     draw_boundary(view, cairo);
     draw_network(view, cairo);
     draw_arrows(view, cairo);
