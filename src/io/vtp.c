@@ -14,6 +14,9 @@
 #define BYTE_ORDER_NAME "BigEndian"
 #endif
 
+/// VTK's numbers of the kinds of cells.
+enum { VTK_TRIANGLE = 5, VTK_TETRA = 10 };
+
 // ---- building ----------------------------------------------------------------------------------------------------
 
 static void number_cells(scree_vtp *vtp, size_t cells, bool chain)
@@ -45,8 +48,33 @@ scree_status scree_vtp_create(scree_vtp *vtp, size_t points, scree_vtp_cells cel
     return status;
 }
 
+scree_status scree_vtu_create(scree_vtp *vtp, size_t points, size_t cells, scree_vtp_cells kind, scree_error *error)
+{
+    const bool solid = kind == SCREE_VTP_TETRAHEDRA;
+    const size_t per_cell = solid ? 4 : 3;
+    *vtp = (scree_vtp){.cells = kind};
+    vtp->points = (scree_array){.name = "Points", .components = 3, .rows = points, .unit = "m"};
+    vtp->connectivity =
+        (scree_array){.name = "connectivity", .type = SCREE_FIELD_INT64, .components = 1, .rows = per_cell * cells};
+    vtp->ends = (scree_array){.name = "offsets", .type = SCREE_FIELD_INT64, .components = 1, .rows = cells};
+    vtp->types = (scree_array){.name = "types", .type = SCREE_FIELD_UINT8, .components = 1, .rows = cells};
+    scree_status status = scree_array_allocate(&vtp->points, error);
+    if (!status) status = scree_array_allocate(&vtp->connectivity, error);
+    if (!status) status = scree_array_allocate(&vtp->ends, error);
+    if (!status) status = scree_array_allocate(&vtp->types, error);
+    if (status) {
+        scree_vtp_destroy(vtp);
+        return status;
+    }
+    int64_t *ends = vtp->ends.data;
+    for (size_t k = 0; k < cells; k++) ends[k] = (int64_t)(per_cell * (k + 1));
+    if (cells > 0) memset(vtp->types.data, solid ? VTK_TETRA : VTK_TRIANGLE, cells);
+    return SCREE_OK;
+}
+
 void scree_vtp_destroy(scree_vtp *vtp)
 {
+    scree_array_destroy(&vtp->types);
     scree_array_destroy(&vtp->points);
     scree_array_destroy(&vtp->connectivity);
     scree_array_destroy(&vtp->ends);
@@ -143,27 +171,43 @@ static void announce_section(FILE *file, const char *section, const scree_array 
     fprintf(file, "      </%s>\n", section);
 }
 
+/// The elements that tell what the cells are: one section of PolyData, or the cells of an unstructured grid.
+static void announce_cells(FILE *file, const scree_vtp *vtp, uint64_t *offset)
+{
+    const bool grid = vtp->types.data != NULL;
+    const scree_array cells[] = {vtp->connectivity, vtp->ends, vtp->types};
+    announce_section(file,
+                     grid                            ? "Cells"
+                     : vtp->cells == SCREE_VTP_LINES ? "Lines"
+                                                     : "Verts",
+                     cells, grid ? 3 : 2, offset);
+}
+
 static void write_head(FILE *file, const scree_vtp *vtp, double time)
 {
-    const bool lines = vtp->cells == SCREE_VTP_LINES;
-    const scree_array cells[] = {vtp->connectivity, vtp->ends};
+    const bool grid = vtp->types.data != NULL, lines = vtp->cells == SCREE_VTP_LINES;
+    const char *kind = grid ? "UnstructuredGrid" : "PolyData";
     uint64_t offset = 0;
     fprintf(
         file,
         "<?xml version=\"1.0\"?>\n"
-        "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"" BYTE_ORDER_NAME "\" header_type=\"UInt64\">\n"
-        "  <PolyData>\n"
+        "<VTKFile type=\"%s\" version=\"1.0\" byte_order=\"" BYTE_ORDER_NAME "\" header_type=\"UInt64\">\n"
+        "  <%s>\n"
         "    <FieldData>\n"
         "      <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">%.17g</DataArray>\n"
         "    </FieldData>\n"
-        "    <Piece NumberOfPoints=\"%zu\" NumberOfVerts=\"%zu\" NumberOfLines=\"%zu\" NumberOfStrips=\"0\" "
-        "NumberOfPolys=\"0\">\n",
-        time, vtp->points.rows, lines ? (size_t)0 : vtp->ends.rows, lines ? vtp->ends.rows : (size_t)0);
+        "    <Piece NumberOfPoints=\"%zu\"",
+        kind, kind, time, vtp->points.rows);
+    if (grid)
+        fprintf(file, " NumberOfCells=\"%zu\">\n", vtp->ends.rows);
+    else
+        fprintf(file, " NumberOfVerts=\"%zu\" NumberOfLines=\"%zu\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n",
+                lines ? (size_t)0 : vtp->ends.rows, lines ? vtp->ends.rows : (size_t)0);
     announce_section(file, "Points", &vtp->points, 1, &offset);
-    announce_section(file, lines ? "Lines" : "Verts", cells, 2, &offset);
+    announce_cells(file, vtp, &offset);
     announce_section(file, "PointData", vtp->point_data, vtp->point_data_count, &offset);
     announce_section(file, "CellData", vtp->cell_data, vtp->cell_data_count, &offset);
-    fputs("    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_", file);
+    fprintf(file, "    </Piece>\n  </%s>\n  <AppendedData encoding=\"raw\">\n_", kind);
 }
 
 static bool append(FILE *file, const scree_array *array)
@@ -180,6 +224,7 @@ scree_status scree_vtp_write(const scree_vtp *vtp, const char *path, double time
     if (status) return status;
     write_head(file, vtp, time);
     bool whole = append(file, &vtp->points) && append(file, &vtp->connectivity) && append(file, &vtp->ends);
+    if (vtp->types.data) whole = whole && append(file, &vtp->types);
     for (size_t k = 0; k < vtp->point_data_count && whole; k++) whole = append(file, &vtp->point_data[k]);
     for (size_t k = 0; k < vtp->cell_data_count && whole; k++) whole = append(file, &vtp->cell_data[k]);
     if (!whole) status = scree_error_set_errno(error, SCREE_ERROR_IO, "cannot write '%s'", path);

@@ -1,6 +1,7 @@
-/// VTK's XML format for points and lines in space (.vtp), written without VTK: an XML head that says which arrays there
-/// are and at which byte they begin, and the arrays behind it as raw bytes, each after its length (UInt64) in bytes.
-/// Source: the VTK file formats, https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
+/// VTK's XML format for points and lines in space (.vtp), triangles and tetrahedra (.vtu), written without VTK: an XML
+/// head that says which arrays there are and at which byte they begin, and the arrays behind it as raw bytes, each
+/// after its length (UInt64) in bytes. Source: the VTK file formats,
+/// https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
 #ifndef SCREE_IO_VTP_H
 #define SCREE_IO_VTP_H
 
@@ -8,12 +9,18 @@
 
 enum { SCREE_VTP_ARRAYS = 24 };
 
-typedef enum scree_vtp_cells { SCREE_VTP_POINTS, SCREE_VTP_LINES } scree_vtp_cells;
+typedef enum scree_vtp_cells {
+    SCREE_VTP_POINTS,
+    SCREE_VTP_LINES,
+    SCREE_VTP_TRIANGLES,  ///< an unstructured grid (.vtu), connectivity filled by the caller
+    SCREE_VTP_TETRAHEDRA, ///< the same
+} scree_vtp_cells;
 
 typedef struct scree_vtp {
     scree_array points;             ///< x, y, z [m]
-    scree_vtp_cells cells;          ///< each point is a cell, or each line between two points
+    scree_vtp_cells cells;          ///< what the cells are
     scree_array connectivity, ends; ///< points of all cells; index behind the last point of each cell
+    scree_array types;              ///< VTK's number of the kind of each cell, in .vtu
     scree_array point_data[SCREE_VTP_ARRAYS], cell_data[SCREE_VTP_ARRAYS];
     size_t point_data_count, cell_data_count;
 } scree_vtp;
@@ -21,6 +28,9 @@ typedef struct scree_vtp {
 /// Points at the origin and cells; lines join points 2 k and 2 k + 1, or (`chain`) each point with the next and the
 /// last with the first. Errors: memory.
 scree_status scree_vtp_create(scree_vtp *vtp, size_t points, scree_vtp_cells cells, bool chain,
+                              scree_error *error) SCREE_MUST_USE;
+/// An unstructured grid of `cells` triangles or tetrahedra. Errors: memory.
+scree_status scree_vtu_create(scree_vtp *vtp, size_t points, size_t cells, scree_vtp_cells kind,
                               scree_error *error) SCREE_MUST_USE;
 void scree_vtp_destroy(scree_vtp *vtp);
 

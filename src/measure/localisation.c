@@ -8,8 +8,8 @@
 /// A band is found when the distortion is localised, the slab that explains most of its variance (band.c) does so well
 /// (EXPLAINED) and much better than in any random field (CLEARLY), and holds at least CONTRAST times the distortion
 /// outside, as means over the volume. Its active cells are those
-/// above the mean of the two means; it percolates when a connected set of them spans PERCOLATES of the length of the
-/// slab, in 3D in both directions.
+/// above the mean of the two means; its percolation is the part of the length of the slab that a connected set of them
+/// spans, in 3D in the worse of two directions.
 ///
 /// These limits are decisions; tests/unit/test_localisation.c says what they do to planted bands and to noise.
 #include "measure/localisation.h"

@@ -69,10 +69,11 @@ typedef struct scree_band_window {
     double correlation, overlap; ///< with the window before; NAN for the first
 } scree_band_window;
 
-/// Kind of the localisation over the second half of the windows (at least the last two): persistent when at least two
-/// thirds of its pairs of consecutive windows have bands that percolate and overlap by half or more; else intermittent
-/// when any of its windows is localised or has a band; else none. *persistence: mean overlap over its pairs, counting 0
-/// where a window has no percolating band; NAN with fewer than two windows.
+/// Kind of the localisation over the second half of the windows (at least the last two): persistent when in at least
+/// two thirds of its pairs of consecutive windows both have bands that percolate and they overlap, or the fields are
+/// correlated, by half or more; else intermittent when any of its windows is localised or has a band; else none.
+/// *persistence: mean over its pairs of the larger of overlap and correlation, counting 0 where a window has no
+/// percolating band; NAN with fewer than two windows.
 scree_band_kind scree_bands_classify(const scree_band_window *window, size_t count, double *persistence);
 
 #endif

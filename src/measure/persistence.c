@@ -1,15 +1,18 @@
 /// What consecutive strain windows have in common, and what kind of localisation that makes.
 ///
-/// PERCOLATES, OVERLAPS and PERSISTENT are decisions: a band counts as spanning the sample when a connected part of it
-/// reaches over 90 % of its length; as the same band when half of the bodies in either are in both; as persistent when
-/// that holds for two thirds of the pairs of windows. P calls bands persistent that stay where they are and intensify
-/// (figs. 3.7, 3.8), and intermittent those that do not propagate through the subsequent window (fig. 3.9).
+/// PERCOLATES, OVERLAPS, CORRELATED and PERSISTENT are decisions: a band counts as spanning the sample when a connected
+/// part of it reaches over 80 % of its length; as there still when half of the bodies in either band are in both, or
+/// the distortions at the bodies are correlated by half or more: of two bands that cross, now one and now the other is
+/// the stronger, though neither moves. Persistent is what holds for two thirds of the pairs of windows. P calls bands
+/// persistent that stay where they are and intensify (figs. 3.7, 3.8), and intermittent those that do not propagate
+/// through the subsequent window (fig. 3.9).
 #include "measure/localisation.h"
 
 #include <math.h>
 
-#define PERCOLATES 0.9
+#define PERCOLATES 0.8
 #define OVERLAPS   0.5
+#define CORRELATED 0.5
 #define PERSISTENT (2.0 / 3)
 
 double scree_field_correlation(const double *first, const double *second, size_t count)
@@ -59,8 +62,8 @@ scree_band_kind scree_bands_classify(const scree_band_window *window, size_t cou
         if (k == first) continue;
         pairs++;
         if (!spans(&window[k]) || !spans(&window[k - 1])) continue;
-        sum += window[k].overlap;
-        kept += window[k].overlap >= OVERLAPS;
+        sum += fmax(window[k].overlap, window[k].correlation);
+        kept += window[k].overlap >= OVERLAPS || window[k].correlation >= CORRELATED;
     }
     if (pairs > 0) *persistence = sum / (double)pairs;
     if (pairs > 0 && (double)kept >= PERSISTENT * (double)pairs) return SCREE_BANDS_PERSISTENT;
