@@ -133,13 +133,15 @@ static void read_bodies(scree_hdf5 *run, const char *group, scree_assembly *asse
     scree_array radius = {.name = "radius", .type = SCREE_FIELD_DOUBLE, .components = 1};
     scree_hdf5_read(run, group, &place);
     scree_hdf5_read(run, group, &radius);
-    if (!run->status && place.rows != radius.rows)
+    uint64_t grains = 0;
+    scree_hdf5_get_integer(run, group, "grains", &grains);
+    if (!run->status && (place.rows != radius.rows || grains > place.rows))
         scree_hdf5_damaged(run, "arrays of one group have different lengths");
     if (!run->status) run->status = scree_allocate(&assembly->place, 3 * place.rows, sizeof(double), run->error);
     if (!run->status) {
         const double *source = place.data;
-        for (size_t i = 0; i < place.rows; i++) memcpy(assembly->place + 3 * i, source + d * i, d * sizeof *source);
-        assembly->count = place.rows;
+        for (size_t i = 0; i < grains; i++) memcpy(assembly->place + 3 * i, source + d * i, d * sizeof *source);
+        assembly->count = (size_t)grains;
         assembly->radius = radius.data;
         radius.data = NULL;
     }

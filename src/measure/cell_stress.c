@@ -147,8 +147,8 @@ static void add_contact(const scree_contact *contact, const sharing *s, double (
 
 static scree_status places_by_id(const scree_state *state, double **place, scree_error *error)
 {
-    scree_status status = scree_allocate(place, 3 * state->count, sizeof **place, error);
-    for (size_t id = 0; id < state->count && !status; id++)
+    scree_status status = scree_allocate(place, 3 * state->grains, sizeof **place, error);
+    for (size_t id = 0; id < state->grains && !status; id++)
         scree_body_place(state, state->row_of_id[id], *place + 3 * id);
     return status;
 }
@@ -166,7 +166,7 @@ scree_status scree_cells_stress(scree_cells *cells, const scree_state *state, co
         for (int i = 0; i < 9; i++) stress[k][i] = 0;
     for (size_t c = 0; c < table->count && !status; c++) {
         const scree_contact *contact = &table->contact[c];
-        if (contact->wall) continue;
+        if (contact->wall || !scree_body_is_grain(state, contact->first) || !scree_body_is_grain(state, contact->second)) continue;
         uint32_t a = state->id[contact->first], b = state->id[contact->second];
         sharing s = {.count = 0};
         share_edge(cells, &list, a, b, &s);

@@ -21,14 +21,14 @@ scree_status scree_assembly_of_state(const scree_model *model, const scree_state
 {
     bool solid = state->dimension == 3;
     *assembly = (scree_assembly){
-        .dimension = state->dimension, .thickness = solid ? 1 : model->thickness, .count = state->count};
-    scree_status status = scree_allocate(&assembly->place, 3 * state->count, sizeof *assembly->place, error);
-    if (!status) status = scree_allocate(&assembly->radius, state->count, sizeof *assembly->radius, error);
+        .dimension = state->dimension, .thickness = solid ? 1 : model->thickness, .count = state->grains};
+    scree_status status = scree_allocate(&assembly->place, 3 * state->grains, sizeof *assembly->place, error);
+    if (!status) status = scree_allocate(&assembly->radius, state->grains, sizeof *assembly->radius, error);
     if (status) {
         scree_assembly_destroy(assembly);
         return status;
     }
-    for (size_t id = 0; id < state->count; id++) {
+    for (size_t id = 0; id < state->grains; id++) {
         scree_body_place(state, state->row_of_id[id], assembly->place + 3 * id);
         assembly->radius[id] = state->row[state->row_of_id[id]].radius;
     }
@@ -216,9 +216,9 @@ static scree_status measure_motion(const scree_model *model, const scree_state *
 {
     double *velocity = NULL;
     scree_vector spin;
-    scree_status status = scree_allocate(&velocity, 3 * state->count, sizeof *velocity, error);
+    scree_status status = scree_allocate(&velocity, 3 * state->grains, sizeof *velocity, error);
     if (status) return status;
-    for (size_t id = 0; id < state->count; id++)
+    for (size_t id = 0; id < state->grains; id++)
         scree_body_velocity(model, state, state->row_of_id[id], velocity + 3 * id, spin);
     scree_cells_gradient(cells, assembly->place, velocity, cells->gradient);
     scree_release(&velocity);

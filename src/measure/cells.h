@@ -13,7 +13,7 @@
 
 #include "contact/contact.h"
 
-/// Bodies in the order of their ids.
+/// Grains in the order of their ids (the bodies of a membrane are left out).
 typedef struct scree_assembly {
     int dimension;
     double thickness; ///< m, of discs; 1 in 3D
@@ -22,7 +22,7 @@ typedef struct scree_assembly {
     double *radius; ///< m
 } scree_assembly;
 
-/// Positions and radii of a state; free with scree_assembly_destroy. Errors: memory.
+/// Positions and radii of the grains of a state; free with scree_assembly_destroy. Errors: memory.
 scree_status scree_assembly_of_state(const scree_model *model, const scree_state *state, scree_assembly *assembly,
                                      scree_error *error) SCREE_MUST_USE;
 void scree_assembly_destroy(scree_assembly *assembly);
@@ -71,7 +71,8 @@ double scree_finite_distortion(const double gradient[9], int dimension);
 scree_status scree_cells_window_distortion(const scree_cells *cells, const double *first, const double *second,
                                            double **distortion, scree_error *error) SCREE_MUST_USE;
 
-/// Stress of each cell from the contacts between bodies; wall contacts lie outside all cells. A contact contributes
+/// Stress of each cell from the contacts between grains; those with walls and with a membrane lie outside all cells. A
+/// contact contributes
 /// force (x) branch: that of an edge spread evenly over the cells around it (shares as their volumes), that of any
 /// other contact to the cells that its branch crosses, in proportion to the lengths in them. Then exactly
 ///     sum_cells V stress = - sum_contacts f (x) branch,

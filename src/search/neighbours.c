@@ -41,7 +41,8 @@ static double largest_displacement(const scree_state *state, int threads)
     for (size_t k = 0; k < state->count; k++) {
         const double *then = state->rebuild[k];
         double dx = state->row[k].x - then[0], dy = state->row[k].y - then[1];
-        double square = dx * dx + dy * dy;
+        double dz = state->dimension == 3 ? state->row[k].z - then[2] : 0;
+        double square = dx * dx + dy * dy + dz * dz;
         square = square <= DBL_MAX ? square : (double)INFINITY;
         largest = square > largest ? square : largest;
     }
@@ -54,7 +55,8 @@ static bool walls_need_rebuild(const scree_state *state, const scree_work *work)
     for (int w = 0; w < SCREE_WALL_COUNT; w++) {
         const scree_wall *now = &state->wall[w], *then = &work->search->wall[w];
         if (!now->active) continue;
-        bool same = then->active && now->normal[0] == then->normal[0] && now->normal[1] == then->normal[1];
+        bool same = then->active && now->normal[0] == then->normal[0] && now->normal[1] == then->normal[1] &&
+                    now->normal[2] == then->normal[2];
         if (!same || !(fabs(now->position - then->position) < half_skin(work))) return true;
     }
     return false;
@@ -77,6 +79,18 @@ static scree_status reserve_pairs(uint32_t **one, uint32_t **other, scree_histor
     return status;
 }
 
+/// Drops the pairs of two bodies of the membrane, which its chain holds together; the order stays.
+static void drop_membrane_pairs(const scree_state *state, scree_pair_buffer *buffer)
+{
+    size_t kept = 0;
+    for (size_t k = 0; k < buffer->count; k++) {
+        scree_row_pair pair = buffer->pair[k];
+        if (scree_body_is_grain(state, pair.first) || scree_body_is_grain(state, pair.second))
+            buffer->pair[kept++] = pair;
+    }
+    buffer->count = kept;
+}
+
 static scree_status search_pairs(const scree_state *state, scree_work *work, scree_error *error)
 {
     scree_search *search = work->search;
@@ -88,6 +102,10 @@ static scree_status search_pairs(const scree_state *state, scree_work *work, scr
         if (find(&search->grid, state, state->count * c / chunks, state->count * (c + 1) / chunks, &search->chunk[c],
                  NULL))
             failed = c < failed ? c : failed;
+    for (size_t c = 0; c < chunks && state->membrane.count > 0; c++) {
+        drop_membrane_pairs(state, &search->chunk[c].touching);
+        drop_membrane_pairs(state, &search->chunk[c].near);
+    }
     if (failed == chunks) return SCREE_OK;
     return scree_error_set_memory(error, search->chunk[failed].touching.capacity * sizeof(scree_row_pair));
 }

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "io/run_directory.h"
 #include "measure/measure.h"
+#include "view/projection.h"
 #include "view/scene.h"
 
 #include <math.h>
@@ -13,7 +14,8 @@
 #define PEAK_WINDOW 0.01
 
 enum { WHEN_START, WHEN_PEAK, WHEN_END };
-enum { FIELD_NONE, FIELD_ROTATION, FIELD_SPIN, FIELD_SPEED };
+enum { FIELD_NONE, FIELD_ROTATION, FIELD_SPIN, FIELD_SPIN_MAGNITUDE, FIELD_SPEED, FIELD_DISPLACEMENT };
+enum { VIEW_PLANE, VIEW_SPACE, VIEW_SECTION }; // VIEW_PLANE is for discs, the others for spheres
 
 static const struct field_entry {
     const char *label;
@@ -22,13 +24,16 @@ static const struct field_entry {
     [FIELD_ROTATION] = {"rotation since the start of loading (degrees), counter-clockwise positive",
                         SCREE_COLOUR_DIVERGING},
     [FIELD_SPIN] = {"spin (rad/s), counter-clockwise positive", SCREE_COLOUR_DIVERGING},
+    [FIELD_SPIN_MAGNITUDE] = {"spin, magnitude (rad/s)", SCREE_COLOUR_SEQUENTIAL},
     [FIELD_SPEED] = {"speed (mm/s)", SCREE_COLOUR_SEQUENTIAL},
+    [FIELD_DISPLACEMENT] = {"displacement since the start of loading (mm)", SCREE_COLOUR_SEQUENTIAL},
 };
 
 static const struct scene_entry {
     const char *name, *title;
     int when, field;
     bool force_network, boundary;
+    int view;
     scree_cell_field cells;
     double threshold; ///< cells are shaded above so many times the mean; 0: coloured
 } scenes[] = {
@@ -47,6 +52,11 @@ static const struct scene_entry {
      .threshold = 1.75},
     {"pressure-end", "Pressure at the end", WHEN_END, .cells = SCREE_CELL_PRESSURE, .threshold = 1.75},
     {"pressure-colour-end", "Pressure at the end", WHEN_END, .cells = SCREE_CELL_PRESSURE},
+    {"packing-start", "Packing at the start of loading", WHEN_START, .view = VIEW_SPACE},
+    {"packing-end", "Packing at the end: displacements", WHEN_END, .field = FIELD_DISPLACEMENT, .view = VIEW_SPACE},
+    {"section-end", "Section at the end: displacements", WHEN_END, .field = FIELD_DISPLACEMENT, .view = VIEW_SECTION},
+    {"spin-section-end", "Section at the end: spin", WHEN_END, .field = FIELD_SPIN_MAGNITUDE, .view = VIEW_SECTION},
+    {"forces-end", "Force network at the end", WHEN_END, .force_network = true, .view = VIEW_SPACE},
 };
 
 /// First, or last, snapshot of the loading stage; of all when nothing was loaded.
@@ -87,16 +97,48 @@ static scree_status find_snapshot(const scree_plot_run *run, int when, size_t *w
     return scree_error_set(error, SCREE_ERROR_INPUT, "%s has no stress ratio to find the peak of", SCREE_FILE_SERIES);
 }
 
+static double displacement(const scree_snapshot *start, const scree_snapshot *now, size_t k)
+{
+    double z = now->z ? now->z[k] - start->z[k] : 0;
+    return sqrt(pow(now->x[k] - start->x[k], 2) + pow(now->y[k] - start->y[k], 2) + z * z);
+}
+
 static double field_value(int field, const scree_snapshot *start, const scree_snapshot *now, size_t k)
 {
     switch (field) {
     case FIELD_ROTATION:
         return (now->angle[k] - start->angle[k]) * 180 / M_PI;
     case FIELD_SPIN:
+    case FIELD_SPIN_MAGNITUDE:
         return now->spin[k];
+    case FIELD_DISPLACEMENT:
+        return 1e3 * displacement(start, now, k);
     default:
-        return 1e3 * hypot(now->vx[k], now->vy[k]);
+        return 1e3 * sqrt(now->vx[k] * now->vx[k] + now->vy[k] * now->vy[k] + (now->vz ? now->vz[k] * now->vz[k] : 0));
     }
+}
+
+/// Draws what the entry says of spheres: from outside, or cut.
+static scree_status draw_in_space(const char *path, const scree_snapshot *now, int view, scree_scene *scene,
+                                  scree_error *error)
+{
+    if (view == VIEW_SECTION) {
+        scree_snapshot plane;
+        scree_status status = scree_section_create(now, &plane, error);
+        if (status) return status;
+        scene->section = true;
+        status = scree_scene_draw(path, &plane, scene, error);
+        scree_snapshot_destroy(&plane);
+        return status;
+    }
+    scree_projection projection;
+    scree_status status = scree_projection_create(now, &projection, error);
+    if (status) return status;
+    scene->depth = projection.depth;
+    scene->projection = &projection;
+    status = scree_scene_draw(path, &projection.plane, scene, error);
+    scree_projection_destroy(&projection);
+    return status;
 }
 
 static scree_status draw_scene(const scree_plot_run *run, const struct scene_entry *entry, const scree_snapshot *start,
@@ -114,7 +156,9 @@ static scree_status draw_scene(const scree_plot_run *run, const struct scene_ent
                          .force_network = entry->force_network,
                          .boundary = entry->boundary,
                          .plates = true};
-    if (!status) status = scree_scene_draw(path, now, &scene, error);
+    if (!status)
+        status = entry->view == VIEW_PLANE ? scree_scene_draw(path, now, &scene, error)
+                                           : draw_in_space(path, now, entry->view, &scene, error);
     scree_release(&field);
     return status;
 }
@@ -156,7 +200,7 @@ static scree_status draw_fluctuations(const scree_plot_run *run, const scree_sna
     scree_status status = scree_path_join(path, sizeof path, run->figures, name, error);
     if (!status) status = scree_allocate(&arrow, 2 * from->count, sizeof *arrow, error);
     if (!status) {
-        (void)scree_fluctuations(from->x, from->y, to->x, to->y, from->count, arrow, arrow + from->count, gradient);
+        (void)scree_fluctuations(from->x, from->y, to->x, to->y, from->grains, arrow, arrow + from->count, gradient);
         scree_scene scene = {.title = title, .arrow_x = arrow, .arrow_y = arrow + from->count, .plates = true};
         status = scree_scene_draw(path, from, &scene, error);
     }
@@ -195,7 +239,7 @@ static void plot_window(scree_plot_run *run, double from, double to)
         status = read_two(run, first, second, &a, &b, &error);
         if (!status) {
             status = draw_fluctuations(run, &a, &b, name, &error);
-            plot_distortion(run, &a, &b, first, second, window);
+            if (a.dimension == 2) plot_distortion(run, &a, &b, first, second, window);
             scree_snapshot_destroy(&a);
             scree_snapshot_destroy(&b);
         }
@@ -214,11 +258,14 @@ void scree_plot_scenes(scree_plot_run *run)
         scree_status status = find_snapshot(run, scenes[k].when, &which, &error);
         if (!status) status = read_two(run, start, which, &first, &now, &error);
         if (!status) {
+            bool meant = (scenes[k].view == VIEW_PLANE) == (now.dimension == 2);
             const scree_cell_map map = {scenes[k].name, scenes[k].title, scenes[k].cells, scenes[k].threshold};
-            status = scenes[k].cells ? scree_plot_cell_map(run, &now, which, &map, &error)
-                                     : draw_scene(run, &scenes[k], &first, &now, &error);
+            if (meant)
+                status = map.field ? scree_plot_cell_map(run, &now, which, &map, &error)
+                                   : draw_scene(run, &scenes[k], &first, &now, &error);
             scree_snapshot_destroy(&first);
             scree_snapshot_destroy(&now);
+            if (!meant) continue;
         }
         scree_plot_report(run, scenes[k].name, status, &error);
     }

@@ -116,7 +116,7 @@ static void test_errors_name_their_field(void **unused)
     expect_input_error(&c, "particles.radius_min", "above radius_max");
     biaxial_config_set(&c, 983);
     c.config.stage_count = 2;
-    expect_input_error(&c, "contact.reference_velocity", "compress");
+    expect_input_error(&c, "contact.reference_velocity", "loading stage");
     biaxial_config_set(&c, 983);
     c.stage[0].method = SCREE_PREPARE_HEXAGONAL;
     expect_input_error(&c, "stages.0.method", "equal");
