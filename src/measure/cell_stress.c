@@ -166,7 +166,9 @@ scree_status scree_cells_stress(scree_cells *cells, const scree_state *state, co
         for (int i = 0; i < 9; i++) stress[k][i] = 0;
     for (size_t c = 0; c < table->count && !status; c++) {
         const scree_contact *contact = &table->contact[c];
-        if (contact->wall || !scree_body_is_grain(state, contact->first) || !scree_body_is_grain(state, contact->second)) continue;
+        if (contact->wall || !scree_body_is_grain(state, contact->first) ||
+            !scree_body_is_grain(state, contact->second))
+            continue;
         uint32_t a = state->id[contact->first], b = state->id[contact->second];
         sharing s = {.count = 0};
         share_edge(cells, &list, a, b, &s);

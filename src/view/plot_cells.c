@@ -11,6 +11,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <unistd.h>
 
 scree_status scree_plot_cell_map(const scree_plot_run *run, const scree_snapshot *snapshot, size_t which,
                                  const scree_cell_map *map, scree_error *error)
@@ -140,7 +141,9 @@ scree_status scree_plot_circles(const scree_plot_run *run, size_t which, const c
     if (!status) status = scree_path_join(path, sizeof path, run->figures, name, error);
     if (!status) status = scree_cell_snapshot_read(run->directory, which, &snapshot, error);
     if (status) return status;
-    status = scree_series_read(&circles, source, error);
+    if (access(source, F_OK) != 0)
+        status = scree_error_set(error, SCREE_ERROR_INPUT, "there is no %s", SCREE_FILE_CELLS);
+    if (!status) status = scree_series_read(&circles, source, error);
     if (!status) status = scree_allocate(&value, 2 * circles.row_count, sizeof *value, error);
     if (!status)
         status = draw_circles(path, &circles, (double)snapshot.index, snapshot.axial_strain, value,

@@ -144,6 +144,7 @@ static double shading_legend(const scree_scene_view *view, cairo_t *cairo, doubl
     scree_number_text(number, sizeof number, mean, 3);
     (void)snprintf(text, sizeof text, "%s; mean over the area: %s", view->field_name, number);
     y = scree_text_paragraph(cairo, x, y + 15, SCREE_SCENE_LEGEND_WIDTH, text, scree_scene_text(8.5));
+    if (!(mean > 0)) return y;
     (void)snprintf(text, sizeof text, "shaded: %.0f %% of the area with %.0f %% of the total", 100 * shaded / area,
                    100 * held / (area * mean));
     scree_text_style note = scree_scene_text(7);

@@ -354,6 +354,11 @@ static void test_bad_points(void **unused)
     assert_int_equal(scree_cells_build(&assembly, 1, &cells, &error), SCREE_ERROR_GUARD);
 }
 
+static double milliseconds(struct timespec from, struct timespec to)
+{
+    return 1e3 * (double)(to.tv_sec - from.tv_sec) + 1e-6 * (double)(to.tv_nsec - from.tv_nsec);
+}
+
 /// Printed, never judged: what the cells of 4000 discs and 8000 spheres cost.
 static void test_cost(void **unused)
 {
@@ -369,8 +374,7 @@ static void test_cost(void **unused)
             clock_gettime(CLOCK_MONOTONIC, &begin);
             assert_int_equal(scree_cells_build(&s.assembly, 1e-3, &s.cells, NULL), SCREE_OK);
             clock_gettime(CLOCK_MONOTONIC, &end);
-            build =
-                fmin(build, (double)(end.tv_sec - begin.tv_sec) * 1e3 + (double)(end.tv_nsec - begin.tv_nsec) * 1e-6);
+            build = fmin(build, milliseconds(begin, end));
         }
         touch(&s);
         double *v = random_field(s.assembly.count, dimension);
@@ -385,7 +389,7 @@ static void test_cost(void **unused)
             "%zu bodies in %dD: %zu cells, %zu contacts (%zu no edge, %zu outside); cells %.1f ms, gradients %.1f ms, "
             "stresses %.1f ms\n",
             s.assembly.count, dimension, s.cells.count, s.table.count, s.cells.crossing, s.cells.unassigned, build,
-            (double)(middle.tv_nsec - begin.tv_nsec) * 1e-6, (double)(end.tv_nsec - middle.tv_nsec) * 1e-6);
+            milliseconds(begin, middle), milliseconds(middle, end));
         scree_release(&v);
         sample_destroy(&s);
     }
