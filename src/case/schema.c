@@ -109,6 +109,10 @@ static const scree_key material_keys[] = {
            .meaning = "Coefficient of friction on plates; auto: `friction`."),
     NUMBER(material, restitution, "1", .standard = "0.2", ABOVE("0"), TO("1"), .when = "contact.law=hertz_mindlin",
            .meaning = "Coefficient of restitution of a normal impact; sets the damping."),
+    NUMBER(material, rolling_friction, "1", .standard = "0", FROM("0"), TO("10"), .when = "contact.law=hertz_mindlin",
+           .meaning = "Limit of the rolling resistance over the normal force; its torque is that times R_eff."),
+    NUMBER(material, twisting_friction, "1", .standard = "0", FROM("0"), TO("10"), .when = "contact.law=hertz_mindlin",
+           .meaning = "Limit of the torque about the normal over R_eff times the normal force; spheres only."),
 };
 
 typedef scree_config_particles particles;
