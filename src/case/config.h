@@ -11,12 +11,14 @@
 
 typedef struct scree_config_material {
     char *name;
-    double young_modulus; ///< Pa
-    double poisson_ratio; ///< 1
-    double density;       ///< kg/m3
-    double friction;      ///< 1, grain on grain
-    double wall_friction; ///< 1, grain on plate; auto: friction
-    double restitution;   ///< 1, used by laws that damp by restitution
+    double young_modulus;     ///< Pa
+    double poisson_ratio;     ///< 1
+    double density;           ///< kg/m3
+    double friction;          ///< 1, grain on grain
+    double wall_friction;     ///< 1, grain on plate; auto: friction
+    double restitution;       ///< 1, used by laws that damp by restitution
+    double rolling_friction;  ///< 1, hertz_mindlin: limit of the rolling resistance over the normal force
+    double twisting_friction; ///< 1, hertz_mindlin in 3D: limit of the twisting torque over R_eff times that force
 } scree_config_material;
 
 typedef enum scree_shape_kind { SCREE_SHAPE_DISC } scree_shape_kind;
@@ -123,6 +125,8 @@ typedef struct scree_config_measure {
     int64_t samples;              ///< rows of series.csv per loading stage
     scree_config_window *windows; ///< strain windows of the displacement fluctuations
     int64_t window_count;
+    bool cells;         ///< Delaunay cells in snapshots, their averages and shear bands
+    double band_window; ///< least axial strain over which shear bands are looked for
 } scree_config_measure;
 
 typedef struct scree_config_output {

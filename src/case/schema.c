@@ -109,6 +109,10 @@ static const scree_key material_keys[] = {
            .meaning = "Coefficient of friction on plates; auto: `friction`."),
     NUMBER(material, restitution, "1", .standard = "0.2", ABOVE("0"), TO("1"), .when = "contact.law=hertz_mindlin",
            .meaning = "Coefficient of restitution of a normal impact; sets the damping."),
+    NUMBER(material, rolling_friction, "1", .standard = "0", FROM("0"), TO("10"), .when = "contact.law=hertz_mindlin",
+           .meaning = "Limit of the rolling resistance over the normal force; its torque is that times R_eff."),
+    NUMBER(material, twisting_friction, "1", .standard = "0", FROM("0"), TO("10"), .when = "contact.law=hertz_mindlin",
+           .meaning = "Limit of the torque about the normal over R_eff times the normal force; spheres only."),
 };
 
 typedef scree_config_particles particles;
@@ -247,6 +251,10 @@ static const scree_key measure_keys[] = {
     KEY(measure, windows, SCREE_KEY_PAIRS, .unit = "1", .standard = "[]", FROM("0 %"), TO("90 %"),
         .count_offset = offsetof(measure, window_count), .element_size = sizeof(scree_config_window),
         .meaning = "Windows [from, to] of axial strain over which displacement fluctuations are taken."),
+    FLAG(measure, cells, .standard = "yes",
+         .meaning = "Fields of the Delaunay cells in snapshots; shear bands between them."),
+    NUMBER(measure, band_window, "1", .standard = "1 %", ABOVE("0 %"), TO("90 %"), .when = "cells=yes",
+           .meaning = "Shear bands are looked for between snapshots at least this far apart in axial strain."),
 };
 
 typedef scree_config_output output;

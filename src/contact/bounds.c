@@ -47,10 +47,9 @@ static extremes extremes_get(const scree_model *model)
 
 static double largest_mass(const scree_model *model)
 {
-    double density = 0, radius = scree_model_largest_radius(model);
-    for (int k = 0; k < model->material_count; k++) density = fmax(density, model->density[k]);
-    double length = model->dimension == 3 ? 4.0 / 3.0 * radius : model->thickness;
-    return density * M_PI * radius * radius * length;
+    double mass = 0, radius = scree_model_largest_radius(model);
+    for (int k = 0; k < model->material_count; k++) mass = fmax(mass, scree_model_mass(model, k, radius));
+    return mass;
 }
 
 static double largest_speed(const scree_state *state)

@@ -3,7 +3,7 @@
 /// Contacts of two materials (Hertz 1882, Mindlin 1949; unlike bodies as in Johnson 1985, eqs. 4.3-4.6 and 7.40):
 ///     1/Ebar = (1 - nu1^2)/E1 + (1 - nu2^2)/E2,     normal stiffness      (4/3) Ebar
 ///     1/Gbar = (2 - nu1)/G1 + (2 - nu2)/G2,         tangential stiffness  8 Gbar,      G = E / (2 (1 + nu))
-/// The weaker rules where materials have no theory of the pair: the smaller friction, the smaller restitution.
+/// The weaker rules where materials have no theory of the pair: the smaller friction (of any kind) and restitution.
 /// Everything here is O(materials^2 + stages).
 #include "model/model.h"
 
@@ -57,6 +57,8 @@ static scree_pair_constants pair_constants(const scree_config_material *a, const
         .tangential_stiffness = 8 / shear_compliance,
         .friction = fmin(a->friction, b->friction),
         .damping = law == SCREE_LAW_HERTZ_MINDLIN ? scree_damping_from_restitution(restitution) : 0,
+        .rolling_friction = fmin(a->rolling_friction, b->rolling_friction),
+        .twisting_friction = fmin(a->twisting_friction, b->twisting_friction),
     };
 }
 
@@ -81,6 +83,8 @@ static scree_status resolve_materials(scree_model *model, scree_error *error)
         model->walls[i] = model->pairs[i][i];
         if (!isnan(material->wall_friction)) model->walls[i].friction = material->wall_friction;
         model->density[i] = material->density;
+        bool rolls = material->rolling_friction > 0 || material->twisting_friction > 0;
+        model->rolling = model->rolling || (rolls && model->law == SCREE_LAW_HERTZ_MINDLIN);
     }
     return SCREE_OK;
 }
@@ -106,18 +110,13 @@ static scree_status resolve_particles(scree_model *model, scree_error *error)
     model->radius_min = equal ? model->mean_radius : particles->radius_min;
     model->radius_max = equal ? model->mean_radius : particles->radius_max;
     model->thickness = isnan(particles->thickness) ? 2 * model->mean_radius : particles->thickness;
+    if (model->dimension == 3) model->thickness = 1;
     return SCREE_OK;
 }
 
 double scree_model_largest_radius(const scree_model *model)
 {
     return fmax(model->radius_max, model->membrane_radius);
-}
-
-double scree_model_mass(const scree_model *model, int material, double radius)
-{
-    double disc = model->density[material] * M_PI * radius * radius;
-    return model->dimension == 3 ? disc * radius * 4 / 3 : disc * model->thickness;
 }
 
 /// Takes the friction of a membrane away.
@@ -180,12 +179,14 @@ static scree_status check_prepare(const scree_model *model, int64_t index, scree
     return SCREE_OK;
 }
 
-/// Mean square of the radius, of the distribution. Two sizes are equally frequent.
-static double mean_square_radius(const scree_model *model)
+/// Mean mass of the distribution of radii. Two sizes are equally frequent.
+static double mean_mass(const scree_model *model, int material)
 {
     double a = model->radius_min, b = model->radius_max;
-    return model->config->particles.distribution == SCREE_SIZE_UNIFORM ? (a * a + a * b + b * b) / 3
-                                                                       : (a * a + b * b) / 2;
+    double at_ends = (scree_model_mass(model, material, a) + scree_model_mass(model, material, b)) / 2;
+    if (model->config->particles.distribution != SCREE_SIZE_UNIFORM) return at_ends;
+    // Simpson's rule is exact for the square and the cube.
+    return at_ends / 3 + scree_model_mass(model, material, (a + b) / 2) * 2 / 3;
 }
 
 double scree_model_loading_rate(const scree_config_stage *stage)
@@ -223,8 +224,7 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
                            "give contact.reference_velocity");
     model->phi = model->psi = NAN;
     if (isnan(rate)) return SCREE_OK;
-    double mass =
-        model->density[scree_model_particle_material(model)] * M_PI * mean_square_radius(model) * model->thickness;
+    double mass = mean_mass(model, scree_model_particle_material(model));
     scree_quasistatic_numbers(model->dimension, (double)config->particles.count, mass, model->mean_radius,
                               model->thickness, rate, pressure, &model->phi, &model->psi);
     return SCREE_OK;

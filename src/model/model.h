@@ -6,6 +6,8 @@
 
 #include "case/config.h"
 
+#include <math.h>
+
 #define SCREE_MAX_MATERIALS 16
 
 /// Constants of a contact between two materials (or a grain and a plate). Symmetric in the two materials.
@@ -54,8 +56,12 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
 /// Largest radius of all bodies [m], those of a membrane included.
 double scree_model_largest_radius(const scree_model *model);
 
-/// Mass [kg] of a disc or sphere of a material.
-double scree_model_mass(const scree_model *model, int material, double radius);
+/// Mass [kg] of a body: a sphere, or a disc of the model's thickness.
+static inline double scree_model_mass(const scree_model *model, int material, double radius)
+{
+    double length = model->dimension == 3 ? 4.0 / 3.0 * radius : model->thickness;
+    return model->density[material] * M_PI * radius * radius * length;
+}
 
 /// Strain rate that a stage imposes [1/s]; of a deform stage the largest component. NAN: it loads nothing.
 double scree_model_loading_rate(const scree_config_stage *stage);

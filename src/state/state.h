@@ -72,7 +72,7 @@ typedef struct scree_history {
     double value[SCREE_HISTORY]; ///< meaning depends on the law: see the head of its file in src/contact/
 } scree_history;
 
-/// 3D only, with the ledger: damping forces at n - 1 that the ledger needs again. Single precision is enough: each
+/// hertz_mindlin in 3D, for the ledger: damping forces at n - 1 that the ledger needs again. Single precision is enough: each
 /// enters a mean with the present force, and the rounding errors have no preferred sign.
 typedef struct scree_booking {
     float value[4]; ///< N: normal, tangential x, y, z
@@ -226,7 +226,7 @@ typedef struct scree_state {
     uint32_t *row_of_id;            ///< derived
     // contacts: filled from `work` by scree_contacts_save, consumed by scree_contacts_load (contact/contact.h)
     scree_contact_memory *contact;
-    scree_booking *booking; ///< beside `contact` in 3D; NULL in 2D
+    scree_booking *booking; ///< beside `contact` where the law has booking rows; else NULL
     scree_rolling *rolling; ///< beside `contact` with rolling resistance; else NULL
     size_t contact_count, contact_capacity;
     scree_wall wall[SCREE_WALL_COUNT];

@@ -336,7 +336,7 @@ static void test_critical_step_of_the_lattice(void **unused)
     prepare_assembly(SCREE_PREPARE_HEXAGONAL, 200, &state);
     for (size_t k = 0; k < sizeof TANGENTS / sizeof *TANGENTS; k++) {
         assembly a = assemble(&state, TANGENTS[k]);
-        double ratio = true_critical_step(&a) / scree_critical_step_lattice(&TANGENTS[k], 1);
+        double ratio = true_critical_step(&a) / scree_critical_step_lattice(2, &TANGENTS[k], 1);
         assert_true(ratio > 0.999 && ratio < 1.015);
         disassemble(&a);
     }
@@ -352,7 +352,7 @@ static void test_lattice_is_faster_than_a_random_packing(void **unused)
     prepare_assembly(SCREE_PREPARE_DROP_AND_ROLL, 300, &state);
     for (size_t k = 0; k < sizeof TANGENTS / sizeof *TANGENTS; k++) {
         assembly a = assemble(&state, TANGENTS[k]);
-        double ratio = true_critical_step(&a) / scree_critical_step_lattice(&TANGENTS[k], 1);
+        double ratio = true_critical_step(&a) / scree_critical_step_lattice(2, &TANGENTS[k], 1);
         assert_true(ratio > 1 && ratio < 2.5);
         disassemble(&a);
     }
