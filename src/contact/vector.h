@@ -96,11 +96,12 @@ SCREE_INLINE vector moment_of(int dimension, vector n, vector f)
 }
 
 /// Factor that shortens `a` in space to the length `limit` where it is longer, else 1. NaN for a vector with NaN.
+/// limit |a| / a^2: root and division do not wait for each other.
 SCREE_INLINE lanes vector_limit_factor(vector a, lanes limit)
 {
     lanes square = vector_dot(3, a, a);
     lanes_bits within = lanes_at_or_below(square, limit * limit);
-    return lanes_select(within, lanes_all(1), limit / lanes_root(square));
+    return lanes_select(within, lanes_all(1), limit * (lanes_root(square) * (1.0 / square)));
 }
 
 /// `a`, shortened to the length `limit` where it is longer.
