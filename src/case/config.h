@@ -45,12 +45,19 @@ typedef struct scree_config_contact {
     double reference_velocity; ///< m/s, v_R; auto: 2 * rate * mean radius of the first compress stage
 } scree_config_contact;
 
-typedef enum scree_scheme { SCREE_SCHEME_POSITION_VERLET, SCREE_SCHEME_VELOCITY_VERLET } scree_scheme;
+typedef enum scree_scheme {
+    SCREE_SCHEME_POSITION_VERLET,
+    SCREE_SCHEME_VELOCITY_VERLET,
+    SCREE_SCHEME_TWO_TIMESCALES
+} scree_scheme;
 
 typedef struct scree_config_integrator {
-    int scheme;           ///< scree_scheme
-    double step;          ///< s; auto: step_fraction * critical step
-    double step_fraction; ///< 1, of the critical step, when step is auto
+    int scheme;             ///< scree_scheme
+    double step;            ///< s, the small one of two_timescales; auto: step_fraction * critical step, over N_S
+    double step_fraction;   ///< 1, of the critical step, when step is auto
+    int64_t repeats;        ///< two_timescales: m of m(n+q) = N_S
+    int64_t large_multiple; ///< n
+    int64_t small_steps;    ///< q
 } scree_config_integrator;
 
 typedef enum scree_lateral { SCREE_LATERAL_PRESSURE, SCREE_LATERAL_PLATES } scree_lateral;

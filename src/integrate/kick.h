@@ -1,4 +1,4 @@
-/// The one loop that both schemes are made of: v += h dt a, optionally x += dt v and angle += dt spin.
+/// The one loop that all schemes are made of: v += h a, optionally x += dt v and angle += dt spin. h: s.
 /// Mass and inertia of a disc: m, m R^2 / 2. Cost: two divisions and about 30 flops a body; streams one row and one
 /// sum.
 #ifndef SCREE_INTEGRATE_KICK_H
@@ -15,10 +15,9 @@ typedef struct scree_speeds {
     double surface, centre;
 } scree_speeds;
 
-static inline scree_speeds scree_kick(const scree_model *model, scree_state *state, double kick, bool drift,
-                                      int threads)
+static inline scree_speeds scree_kick(const scree_model *model, scree_state *state, double h, bool drift, int threads)
 {
-    const double dt = state->step_size, h = kick * dt;
+    const double dt = state->step_size;
     const double force_quantum = state->force_quantum * h, torque_quantum = state->torque_quantum * h;
     const double gx = model->gravity[0] * h, gy = model->gravity[1] * h;
     double surface = 0, centre = 0;

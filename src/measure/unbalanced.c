@@ -37,7 +37,7 @@ double scree_unbalanced_ratio(const scree_model *model, const scree_state *state
 
 static void mean_force(const scree_model *model, const scree_state *state, size_t row, double force[3])
 {
-    double time = (double)(state->step - state->sampled_step) * state->step_size, mass = state->row[row].mass;
+    double time = (double)(state->step - state->sampled_step) * state->tick, mass = state->row[row].mass;
     scree_body_velocity(model, state, row, force);
     force[0] = mass * (force[0] - state->sampled_vx[row]) / time;
     force[1] = mass * (force[1] - state->sampled_vy[row]) / time;

@@ -177,8 +177,22 @@ static scree_status resolve_step(scree_model *model, scree_error *error)
 {
     const scree_config_integrator *integrator = &model->config->integrator;
     model->critical_step = scree_critical_step_estimate(model);
-    model->step = isnan(integrator->step) ? integrator->step_fraction * model->critical_step : integrator->step;
-    if (model->step <= model->critical_step) return SCREE_OK;
+    model->largest_step = model->large_multiple = 1;
+    model->small_steps = 0;
+    if (model->scheme == SCREE_SCHEME_TWO_TIMESCALES) {
+        model->large_multiple = (uint64_t)integrator->large_multiple;
+        model->small_steps = (uint64_t)integrator->small_steps;
+        model->largest_step = (uint64_t)integrator->repeats * (model->large_multiple + model->small_steps);
+    }
+    double ticks = (double)model->largest_step;
+    model->step = isnan(integrator->step) ? integrator->step_fraction * model->critical_step / ticks : integrator->step;
+    if (ticks * model->step <= model->critical_step) return SCREE_OK;
+    if (model->largest_step > 1)
+        return FIELD_ERROR(
+            error, "integrator.step",
+            "the large step, %g steps of %.3g s, is above the critical step of this case, %.3g s, and may "
+            "be unstable; give %.2g s, or auto",
+            ticks, model->step, model->critical_step, two_digits_below(0.5 * model->critical_step / ticks));
     scree_status status =
         FIELD_ERROR(error, "integrator.step",
                     "a step of %.3g s is above the critical step of this case, %.3g s, and may be unstable; "

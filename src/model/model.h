@@ -25,7 +25,10 @@ typedef struct scree_model {
     double inverse_exponent;   ///< 1/c of hertz_brilliantov
     double reference_velocity; ///< m/s, v_R
     scree_scheme scheme;
-    double step;                   ///< s
+    double step;                   ///< s, the tick: the small step of two_timescales, the step of all other schemes
+    uint64_t largest_step;         ///< ticks, N_S of two_timescales (the step before loading), else 1
+    uint64_t large_multiple;       ///< ticks, n of two_timescales, else 1
+    uint64_t small_steps;          ///< q of two_timescales, else 0
     double critical_step;          ///< s, estimate at the confining pressure (see model.c)
     double gravity[3];             ///< m/s2
     double mean_radius;            ///< m, of the distribution

@@ -8,7 +8,7 @@
 #include <math.h>
 
 const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
-    [SCREE_SAMPLE_STEP] = {"step", "1", "number of the step"},
+    [SCREE_SAMPLE_STEP] = {"step", "1", "simulated time in ticks: steps, small ones with two_timescales"},
     [SCREE_SAMPLE_TIME] = {"time", "s", "simulated time"},
     [SCREE_SAMPLE_STAGE] = {"stage", "1", "index of the stage in the case, from 0"},
     [SCREE_SAMPLE_AXIAL_STRAIN] = {"axial_strain", "1", "from the plates, engineering, compression positive"},
@@ -48,6 +48,7 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
     [SCREE_SAMPLE_WORK_PLATES] = {"work_plates", "J", "work of the plates on the particles"},
     [SCREE_SAMPLE_WORK_PRESSURE] = {"work_pressure", "J", "work of the pressure on the Delaunay boundary"},
     [SCREE_SAMPLE_WORK_GRAVITY] = {"work_gravity", "J", "work of gravity"},
+    [SCREE_SAMPLE_SCHEME_WORK] = {"scheme_work", "J", "put into the kinetic energy by changes of the step"},
     [SCREE_SAMPLE_ENERGY_RESIDUAL] = {"energy_residual", "J", "what the energy balance leaves open"},
     [SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE] = {"energy_residual_relative", "1", "the same over the work done"},
     [SCREE_SAMPLE_HEIGHT] = {"height", "m", "distance of bottom and top plate"},
@@ -116,6 +117,7 @@ static void sample_energy(const scree_simulation *s, double *value)
     value[SCREE_SAMPLE_WORK_PLATES] = ledger->plates;
     value[SCREE_SAMPLE_WORK_PRESSURE] = ledger->pressure;
     value[SCREE_SAMPLE_WORK_GRAVITY] = energy.gravity;
+    value[SCREE_SAMPLE_SCHEME_WORK] = ledger->scheme;
     value[SCREE_SAMPLE_ENERGY_RESIDUAL] = energy.residual;
     value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE] = energy.relative;
 }

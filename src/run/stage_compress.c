@@ -32,15 +32,14 @@ static scree_status begin(scree_simulation *s, scree_error *error)
 static void plan(scree_simulation *s)
 {
     const scree_config_stage *stage = scree_stage_config(s);
-    double dt = s->state.step_size;
     // Without a confining pressure there is no wave time; a tenth of the loading is slow enough for anything.
     double rise = fmin(RISE_WAVES * s->state.stage.reference[1], 0.1 * stage->strain / stage->rate);
     if (!isnan(stage->rise_time)) rise = stage->rise_time;
     // The smooth start costs half the rise time.
-    uint64_t expected = (uint64_t)ceil((stage->strain / stage->rate + 0.5 * rise) / dt);
-    uint64_t interval = expected / (uint64_t)s->model.config->measure.samples;
+    uint64_t expected = scree_stage_ticks(s, stage->strain / stage->rate + 0.5 * rise), largest = s->model.largest_step;
+    uint64_t interval = expected / largest / (uint64_t)s->model.config->measure.samples * largest;
     s->plan =
-        (scree_stage_plan){.interval = interval > 0 ? interval : 1,
+        (scree_stage_plan){.interval = interval > 0 ? interval : largest,
                            .expected = expected,
                            .ramp_time = rise,
                            .sides = {.impedance = s->state.stage.reference[6], .mass = s->state.stage.reference[7]}};
@@ -49,8 +48,7 @@ static void plan(scree_simulation *s)
 static void control(scree_simulation *s)
 {
     const scree_config_stage *stage = scree_stage_config(s);
-    double elapsed = (double)(s->state.step - s->state.stage.first_step) * s->state.step_size;
-    double rise = s->plan.ramp_time > 0 ? scree_smooth_ramp(elapsed / s->plan.ramp_time) : 1;
+    double rise = s->plan.ramp_time > 0 ? scree_smooth_ramp(scree_stage_elapsed(s) / s->plan.ramp_time) : 1;
     double velocity = 0.5 * stage->rate * s->state.stage.reference[0] * rise;
     s->state.wall[SCREE_WALL_BOTTOM].velocity = s->state.wall[SCREE_WALL_TOP].velocity = velocity;
     scree_servo_sides(s, s->state.pressure);
@@ -60,8 +58,8 @@ static scree_status finished(scree_simulation *s, bool *done, scree_error *error
 {
     (void)error;
     double strain = scree_axial_strain(s);
-    // The last sample lies on the planned last step; half a step of strain covers round-off.
-    double step = scree_stage_config(s)->rate * s->state.step_size;
+    // The last sample lies on the planned last step; half a tick of strain covers round-off.
+    double step = scree_stage_config(s)->rate * s->state.tick;
     *done = strain >= scree_stage_config(s)->strain - 0.5 * step;
     (void)snprintf(s->reason, sizeof s->reason, "axial strain %.4g reached", strain);
     return SCREE_OK;

@@ -51,7 +51,7 @@ void scree_state_destroy(scree_state *state)
 
 double scree_state_time(const scree_state *state)
 {
-    return state->stage.first_time + (double)(state->step - state->stage.first_step) * state->step_size;
+    return state->stage.first_time + (double)(state->step - state->stage.first_step) * state->tick;
 }
 
 /// array[k] <- array[order[k]] for elements of `size` bytes, through `scratch`.
@@ -109,8 +109,8 @@ uint64_t scree_state_checksum(const scree_state *state)
         c = scree_checksum_bytes(c, &state->sampled_vx[row], sizeof(double));
         c = scree_checksum_bytes(c, &state->sampled_vy[row], sizeof(double));
     }
-    const double scalars[] = {state->step_size,       state->force_quantum, state->torque_quantum,
-                              state->largest_overlap, state->largest_speed, state->pressure};
+    const double scalars[] = {state->tick,           state->step_size,       state->kick_size,     state->force_quantum,
+                              state->torque_quantum, state->largest_overlap, state->largest_speed, state->pressure};
     c = scree_checksum_bytes(c, scalars, sizeof scalars);
     c = scree_checksum_bytes(c, state->contact, state->contact_count * sizeof *state->contact);
     for (int w = 0; w < SCREE_WALL_COUNT; w++) {
@@ -128,6 +128,7 @@ uint64_t scree_state_checksum(const scree_state *state)
         c = scree_checksum_bytes(c, &state->loop.fy[k], sizeof(double));
     }
     c = scree_checksum_word(scree_checksum_word(c, state->loop.updated), state->sampled_step);
+    c = scree_checksum_word(c, state->evaluations);
     c = scree_checksum_bytes(c, &state->strain, sizeof state->strain);
     c = scree_checksum_bytes(c, &state->ledger, sizeof state->ledger);
     return scree_checksum_bytes(c, &state->stage, sizeof state->stage);

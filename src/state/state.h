@@ -57,7 +57,8 @@ typedef struct scree_wall {
 enum { SCREE_WALL_BOTTOM, SCREE_WALL_TOP, SCREE_WALL_LEFT, SCREE_WALL_RIGHT, SCREE_WALL_COUNT };
 
 /// Energy ledger, J. Work is done ON the bodies; dissipation is positive. Residual of the balance:
-/// kinetic + elastic - initial - (plates + pressure + gravity) + damping + friction - stiffness, see measure/energy.c.
+/// kinetic + elastic - initial - (plates + pressure + gravity) + damping + friction - stiffness - scheme:
+/// measure/energy.c.
 typedef struct scree_ledger {
     double damping;   ///< dissipated by contact damping, normal and tangential
     double friction;  ///< dissipated by sliding
@@ -66,6 +67,7 @@ typedef struct scree_ledger {
     double pressure;  ///< work of the pressure on the Delaunay boundary
     double gravity;   ///< sum of m g . x when the ledger was opened
     double initial;   ///< kinetic + elastic energy when the ledger was opened
+    double scheme;    ///< put into the kinetic energy of the scheme by changes of its step (measure/energy.c)
     double turnover;  ///< sum of |work| increments, the scale of the residual
 } scree_ledger;
 
@@ -97,8 +99,11 @@ typedef struct scree_stage_state {
 
 typedef struct scree_state {
     size_t count;
-    uint64_t step;          ///< of the whole run; time = stage.first_time + (step - stage.first_step) * dt
-    double step_size;       ///< s, dt now
+    uint64_t step;          ///< time of the run in ticks; time = stage.first_time + (step - stage.first_step) * tick
+    uint64_t evaluations;   ///< steps taken since the start of the run, one force evaluation each
+    double tick;            ///< s, the small step of two_timescales, the step of all other schemes
+    double step_size;       ///< s, the last step, from n - 1 to n
+    double kick_size;       ///< s, what leapfrog velocities were advanced by in it: the mean of it and the one before
     scree_row *row;         ///< count
     scree_sum_row *sum;     ///< count, forces at `step`
     double force_quantum;   ///< N
