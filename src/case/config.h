@@ -36,12 +36,20 @@ typedef struct scree_config_particles {
     double thickness;  ///< m, length of a disc (a cylinder); auto: twice the mean radius
 } scree_config_particles;
 
-typedef enum scree_law { SCREE_LAW_HERTZ_BRILLIANTOV, SCREE_LAW_HERTZ_MINDLIN } scree_law;
+/// The third is hertz_brilliantov with friction_update implicit: model_build resolves the two keys into one law.
+typedef enum scree_law {
+    SCREE_LAW_HERTZ_BRILLIANTOV,
+    SCREE_LAW_HERTZ_MINDLIN,
+    SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT
+} scree_law;
+
+typedef enum scree_friction_update { SCREE_FRICTION_EXPLICIT, SCREE_FRICTION_IMPLICIT } scree_friction_update;
 
 typedef struct scree_config_contact {
     int law;                   ///< scree_law
     double damping_time;       ///< s, T of hertz_brilliantov
     double friction_exponent;  ///< 1, c of hertz_brilliantov
+    int friction_update;       ///< scree_friction_update of hertz_brilliantov
     double reference_velocity; ///< m/s, v_R; auto: 2 * rate * mean radius of the first compress stage
 } scree_config_contact;
 

@@ -40,6 +40,12 @@ static const scree_choice laws[] = {
      "Hertz with the tangential spring of Mindlin (with history), Coulomb limit, damping from the restitution"},
     {0},
 };
+static const scree_choice friction_updates[] = {
+    {"explicit", SCREE_FRICTION_EXPLICIT, "from the slip of the step before; needs small steps"},
+    {"implicit", SCREE_FRICTION_IMPLICIT,
+     "from the slip that the coming step will have, solved contact by contact; stable at the large step"},
+    {0},
+};
 static const scree_choice schemes[] = {
     {"position_verlet", SCREE_SCHEME_POSITION_VERLET, "leapfrog with velocities half a step behind"},
     {"velocity_verlet", SCREE_SCHEME_VELOCITY_VERLET, "velocities and positions at the same time"},
@@ -112,6 +118,8 @@ static const scree_key contact_keys[] = {
            .meaning = "Time T of the viscous part T K d^0.5 d'."),
     NUMBER(contact, friction_exponent, "1", .standard = "50", FROM("1"), TO("1e6"), .when = "law=hertz_brilliantov",
            .meaning = "Exponent c of the regularised friction mu f_n (s/v_R)^(1/c)."),
+    CHOICE(contact, friction_update, friction_updates, .standard = "explicit", .when = "law=hertz_brilliantov",
+           .meaning = "How the stiff friction law is integrated."),
     NUMBER(contact, reference_velocity, "m/s", .standard = "auto", ABOVE("0 m/s"), TO("1000 m/s"),
            .meaning = "v_R, to which slip speeds are referred; auto: 2 x strain rate x mean radius."),
 };

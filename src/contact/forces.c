@@ -36,6 +36,7 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
     return (contact_job){
         .model = model,
         .row = state->row,
+        .foreseen = state->foreseen,
         .sum = state->sum,
         .first = work->pairs.first,
         .second = work->pairs.second,

@@ -23,6 +23,7 @@ typedef struct contact_totals {
 typedef struct contact_job {
     const scree_model *model;
     const scree_row *row;
+    const scree_foreseen *foreseen; ///< one a row; NULL unless the law looks ahead
     scree_sum_row *sum;             ///< the sum of row r is sum[r]; this thread's own
     const uint32_t *first, *second; ///< the whole pair list
     scree_history *history;

@@ -12,6 +12,7 @@ SCREE_INLINE law_settings law_settings_get(const scree_model *model, double step
         .step = step,
         .damping_time = model->damping_time,
         .binary_exponent = model->inverse_exponent * M_LOG2E,
+        .exponent = 1.0 / model->inverse_exponent,
         .inverse_reference_velocity = 1.0 / model->reference_velocity,
     };
 }
@@ -19,14 +20,20 @@ SCREE_INLINE law_settings law_settings_get(const scree_model *model, double step
 /// Whether the law reads and writes history rows.
 SCREE_INLINE bool law_remembers(scree_law law, bool ledger)
 {
-    return ledger || law == SCREE_LAW_HERTZ_MINDLIN;
+    return ledger || law != SCREE_LAW_HERTZ_BRILLIANTOV;
+}
+
+/// Whether the law needs motion_foresee.
+SCREE_INLINE bool law_foresees(scree_law law)
+{
+    return law == SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT;
 }
 
 SCREE_INLINE law_force law_evaluate(scree_law law, const law_constants *constants, const law_settings *settings,
                                     const motion *m, lanes_bits touching, const law_memory *before, law_memory *after)
 {
     if (law == SCREE_LAW_HERTZ_MINDLIN) return hertz_mindlin(constants, settings, m, touching, before, after);
-    return hertz_brilliantov(constants, settings, m, touching, before, after);
+    return hertz_brilliantov(law_foresees(law), constants, settings, m, touching, before, after);
 }
 
 #endif

@@ -31,7 +31,14 @@ typedef struct motion {
     lanes reduced_radius;        ///< m, R_eff
     lanes reduced_mass;          ///< kg, m_eff
     lanes approached, slipped;   ///< m, middle increments over the step, for the ledger
+    lanes foreseen_slip;         ///< m/s, slip after the coming kick if all forces stay as they are
+    lanes mobility;              ///< 1/kg, slip per tangential impulse of the contact's share of the bodies
 } motion;
+
+/// scree_foreseen in lanes.
+typedef struct foresight {
+    lanes vx, vy, spin, contacts;
+} foresight;
 
 /// Set where the bodies are in contact; also where a coordinate is NaN, so that the kernels notice.
 SCREE_INLINE lanes_bits bodies_touch(lanes x, lanes y, lanes radii)
@@ -45,6 +52,25 @@ SCREE_INLINE void motion_advance(motion *m, lanes shift, lanes inverse_distance,
     lanes angle = shift * inverse_distance;
     m->approached = m->approach * step + 0.5 * (shift * angle);
     m->slipped = m->slip * step - 0.5 * (m->approached * (angle + 0.5 * turn));
+}
+
+/// 1 / m + a^2 / J times the number of contacts that pull at the body: each may move its share of the mass alone.
+SCREE_INLINE lanes body_mobility(const bodies *body, const foresight *ahead, lanes arm)
+{
+    lanes lever = arm / body->radius;
+    return lanes_at_least(ahead->contacts, lanes_all(1)) * (1.0 + 2.0 * (lever * lever)) / body->mass;
+}
+
+/// For laws that look ahead. Against a wall, `second` is NULL.
+SCREE_INLINE void motion_foresee(motion *m, const bodies *first, const foresight *ahead, const bodies *second,
+                                 const foresight *ahead_second)
+{
+    m->foreseen_slip = m->slip + (ahead->vy * m->normal_x - ahead->vx * m->normal_y - m->arm_first * ahead->spin);
+    m->mobility = body_mobility(first, ahead, m->arm_first);
+    if (!second) return;
+    m->foreseen_slip -=
+        ahead_second->vy * m->normal_x - ahead_second->vx * m->normal_y + m->arm_second * ahead_second->spin;
+    m->mobility += body_mobility(second, ahead_second, m->arm_second);
 }
 
 SCREE_INLINE motion motion_of_pair(const bodies *first, const bodies *second, double step)

@@ -70,6 +70,14 @@ SCREE_INLINE void store_history(const contact_job *job, const group *g, const la
     LANE_LOOP *(row4 *)job->history[g->pair[SCREE_LANES - 1 - k]].value = row[SCREE_LANES - 1 - k];
 }
 
+SCREE_INLINE foresight load_foreseen(const contact_job *job, const uint32_t *body, const group *g)
+{
+    const double *row[SCREE_LANES];
+    LANE_LOOP row[k] = &job->foreseen[body[g->pair[k]]].vx;
+    columns c = columns_load(row);
+    return (foresight){c.c0, c.c1, c.c2, c.c3};
+}
+
 SCREE_INLINE void add_to_sums(const contact_job *job, const uint32_t *body, const group *g, lanes_bits fx,
                               lanes_bits fy, lanes_bits torque, lanes_bits count)
 {
@@ -88,6 +96,10 @@ SCREE_INLINE void evaluate_group(const contact_job *job, variant v, const group 
     lanes_bits touching =
         g->present & bodies_touch(first.x - second.x, first.y - second.y, first.radius + second.radius);
     motion m = motion_of_pair(&first, &second, job->settings.step);
+    if (law_foresees(v.law)) {
+        foresight ahead1 = load_foreseen(job, job->first, g), ahead2 = load_foreseen(job, job->second, g);
+        motion_foresee(&m, &first, &ahead1, &second, &ahead2);
+    }
     law_constants constants = load_constants(job, v.many_materials, first.material, second.material);
 
     law_memory before = {0}, after;
@@ -214,27 +226,30 @@ SCREE_INLINE void run(contact_job *given, variant v)
 #define PASTE(a, b)      a##b
 #define KERNEL_NAME(isa) PASTE(scree_pairs_batch_v, isa)
 
+#define RUN_ONE_OF(law, many, ledger)                                                                                  \
+    do {                                                                                                               \
+        if ((many) && (ledger))                                                                                        \
+            run(job, (variant){law, true, true});                                                                      \
+        else if (many)                                                                                                 \
+            run(job, (variant){law, true, false});                                                                     \
+        else if (ledger)                                                                                               \
+            run(job, (variant){law, false, true});                                                                     \
+        else                                                                                                           \
+            run(job, (variant){law, false, false});                                                                    \
+    } while (0)
+
 void KERNEL_NAME(SCREE_ISA)(contact_job *job)
 {
-    scree_law law = job->model->law;
     bool many = job->model->material_count > 1;
-    if (law == SCREE_LAW_HERTZ_MINDLIN) {
-        if (many && job->ledger)
-            run(job, (variant){SCREE_LAW_HERTZ_MINDLIN, true, true});
-        else if (many)
-            run(job, (variant){SCREE_LAW_HERTZ_MINDLIN, true, false});
-        else if (job->ledger)
-            run(job, (variant){SCREE_LAW_HERTZ_MINDLIN, false, true});
-        else
-            run(job, (variant){SCREE_LAW_HERTZ_MINDLIN, false, false});
-    } else {
-        if (many && job->ledger)
-            run(job, (variant){SCREE_LAW_HERTZ_BRILLIANTOV, true, true});
-        else if (many)
-            run(job, (variant){SCREE_LAW_HERTZ_BRILLIANTOV, true, false});
-        else if (job->ledger)
-            run(job, (variant){SCREE_LAW_HERTZ_BRILLIANTOV, false, true});
-        else
-            run(job, (variant){SCREE_LAW_HERTZ_BRILLIANTOV, false, false});
+    switch (job->model->law) {
+    case SCREE_LAW_HERTZ_MINDLIN:
+        RUN_ONE_OF(SCREE_LAW_HERTZ_MINDLIN, many, job->ledger);
+        break;
+    case SCREE_LAW_HERTZ_BRILLIANTOV:
+        RUN_ONE_OF(SCREE_LAW_HERTZ_BRILLIANTOV, many, job->ledger);
+        break;
+    case SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT:
+        RUN_ONE_OF(SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT, many, job->ledger);
+        break;
     }
 }

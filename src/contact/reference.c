@@ -50,6 +50,11 @@ static void evaluate_pair(contact_job *job, size_t p)
     if (!touching && history_is_clear(history)) return;
     bodies one = body_get(first), other = body_get(second);
     motion m = motion_of_pair(&one, &other, job->settings.step);
+    if (law_foresees(job->model->law)) {
+        foresight ahead1 = foresight_get(&job->foreseen[job->first[p]]);
+        foresight ahead2 = foresight_get(&job->foreseen[job->second[p]]);
+        motion_foresee(&m, &one, &ahead1, &other, &ahead2);
+    }
     const scree_pair_constants *constants = &job->model->pairs[(int)first->material][(int)second->material];
     contact_quanta q = evaluate(job, constants, &m, touching, history);
     sum_row_add(&job->sum[job->first[p]], q.fx, q.fy, q.torque_first, q.count);
@@ -75,6 +80,10 @@ void contact_walls(contact_job *job, scree_sum_row *sum, const scree_wall *wall,
         if (!touching && history_is_clear(&pairs->history[p])) continue;
         bodies one = body_get(body);
         motion m = motion_of_wall(&one, &wall[w], job->settings.step);
+        if (law_foresees(job->model->law)) {
+            foresight ahead = foresight_get(&job->foreseen[row]);
+            motion_foresee(&m, &one, &ahead, NULL, NULL);
+        }
         const scree_pair_constants *constants = &job->model->walls[(int)body->material];
         contact_quanta q = evaluate(job, constants, &m, touching, &pairs->history[p]);
         sum_row_add(&sum[row], q.fx, q.fy, q.torque_first, q.count);

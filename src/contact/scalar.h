@@ -9,6 +9,11 @@ static inline bodies body_get(const scree_row *row)
     return (bodies){row->x, row->y, row->material, row->radius, row->vx, row->vy, row->spin, row->mass};
 }
 
+static inline foresight foresight_get(const scree_foreseen *f)
+{
+    return (foresight){f->vx, f->vy, f->spin, f->contacts};
+}
+
 static inline law_constants constants_get(const scree_pair_constants *c)
 {
     return (law_constants){c->normal_stiffness, c->tangential_stiffness, c->friction, c->damping};

@@ -20,16 +20,22 @@ static inline scree_speeds scree_kick(const scree_model *model, scree_state *sta
     const double dt = state->step_size;
     const double force_quantum = state->force_quantum * h, torque_quantum = state->torque_quantum * h;
     const double gx = model->gravity[0] * h, gy = model->gravity[1] * h;
+    const double whole = dt / h; // the part of a kick before a drift, to all of it
     double surface = 0, centre = 0;
 #pragma omp parallel for num_threads(threads) schedule(static) reduction(max : surface, centre) if (threads > 1)
     for (size_t i = 0; i < state->count; i++) {
         scree_row *row = &state->row[i];
         const scree_sum_row *sum = &state->sum[i];
         double inverse_mass = 1.0 / row->mass;
-        row->vx += (double)sum->fx * force_quantum * inverse_mass + gx;
-        row->vy += (double)sum->fy * force_quantum * inverse_mass + gy;
-        row->spin += (double)sum->torque * torque_quantum * 2.0 * inverse_mass / (row->radius * row->radius);
+        double vx = (double)sum->fx * force_quantum * inverse_mass + gx;
+        double vy = (double)sum->fy * force_quantum * inverse_mass + gy;
+        double spin = (double)sum->torque * torque_quantum * 2.0 * inverse_mass / (row->radius * row->radius);
+        row->vx += vx;
+        row->vy += vy;
+        row->spin += spin;
         if (!drift) continue;
+        if (state->foreseen)
+            state->foreseen[i] = (scree_foreseen){vx * whole, vy * whole, spin * whole, (double)sum->contacts};
         row->x += dt * row->vx;
         row->y += dt * row->vy;
         state->angle[i] += dt * row->spin;

@@ -153,7 +153,7 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
     model->reference_velocity = config->contact.reference_velocity;
     if (isnan(model->reference_velocity) && compress)
         model->reference_velocity = 2 * fabs(compress->rate) * model->mean_radius;
-    if (model->law == SCREE_LAW_HERTZ_BRILLIANTOV && !(model->reference_velocity > 0))
+    if (model->law != SCREE_LAW_HERTZ_MINDLIN && !(model->reference_velocity > 0))
         return FIELD_ERROR(error, "contact.reference_velocity",
                            "hertz_brilliantov needs a reference slip velocity: without a compress stage (2 rate <R>) "
                            "give contact.reference_velocity");
@@ -205,11 +205,17 @@ static scree_status resolve_step(scree_model *model, scree_error *error)
     return status;
 }
 
+static scree_law resolve_law(const scree_config_contact *contact)
+{
+    bool implicit = contact->law == SCREE_LAW_HERTZ_BRILLIANTOV && contact->friction_update == SCREE_FRICTION_IMPLICIT;
+    return implicit ? SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT : (scree_law)contact->law;
+}
+
 scree_status scree_model_build(const scree_config *config, scree_model *model, scree_error *error)
 {
     *model = (scree_model){
         .dimension = (int)config->dimension,
-        .law = (scree_law)config->contact.law,
+        .law = resolve_law(&config->contact),
         .damping_time = config->contact.damping_time,
         .inverse_exponent = 1 / config->contact.friction_exponent,
         .scheme = (scree_scheme)config->integrator.scheme,

@@ -46,6 +46,12 @@ typedef struct scree_model {
 /// exist.
 scree_status scree_model_build(const scree_config *config, scree_model *model, scree_error *error) SCREE_MUST_USE;
 
+/// Whether the law looks ahead by a step and needs scree_state_foresee.
+static inline bool scree_model_foresees(const scree_model *model)
+{
+    return model->law == SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT;
+}
+
 /// Index of the material that the particles are made of.
 int scree_model_particle_material(const scree_model *model);
 

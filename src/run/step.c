@@ -25,6 +25,8 @@ scree_status scree_step(scree_simulation *s, scree_error *error)
     scree_work *work = &s->work;
     scree_status status;
 
+    if (scree_model_foresees(model) && (status = scree_state_foresee(state, error)))
+        return status;
     uint64_t ticks = choose_step(s);
     // Boundaries decide their velocities from the stresses at n, then everything moves to n + 1.
     if (s->stage->control) s->stage->control(s);

@@ -23,6 +23,7 @@ static scree_status make_probe(const scree_model *model, scree_state *state, scr
 {
     double radius = model->mean_radius, spacing = 2 * radius * (1 - 1e-4);
     scree_status status = scree_state_create(state, PROBE_SIDE * PROBE_SIDE, error);
+    if (!status && scree_model_foresees(model)) status = scree_state_foresee(state, error);
     if (status) return status;
     state->tick = model->step;
     state->step_size = state->kick_size = (double)model->largest_step * model->step;

@@ -44,9 +44,15 @@ void scree_state_destroy(scree_state *state)
                             &state->reference_x, &state->reference_y, &state->rebuild_x, &state->rebuild_y,
                             &state->row_of_id,   &state->contact,     &state->loop.id,   &state->loop.loaded,
                             &state->loop.x,      &state->loop.y,      &state->loop.fx,   &state->loop.fy,
-                            &state->sampled_vx,  &state->sampled_vy};
+                            &state->sampled_vx,  &state->sampled_vy,  &state->foreseen};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
     memset(state, 0, sizeof *state);
+}
+
+scree_status scree_state_foresee(scree_state *state, scree_error *error)
+{
+    if (state->foreseen) return SCREE_OK;
+    return scree_allocate(&state->foreseen, state->count + 1, sizeof *state->foreseen, error);
 }
 
 double scree_state_time(const scree_state *state)
@@ -78,6 +84,7 @@ scree_status scree_state_permute(scree_state *state, const uint32_t *order, scre
     permute_array(state->sampled_vy, sizeof *state->sampled_vy, order, state->count, scratch);
     permute_array(state->rebuild_x, sizeof *state->rebuild_x, order, state->count, scratch);
     permute_array(state->rebuild_y, sizeof *state->rebuild_y, order, state->count, scratch);
+    if (state->foreseen) permute_array(state->foreseen, sizeof *state->foreseen, order, state->count, scratch);
     scree_release(&scratch);
     for (size_t row = 0; row < state->count; row++) state->row_of_id[state->id[row]] = (uint32_t)row;
     return SCREE_OK;

@@ -29,6 +29,14 @@ typedef struct scree_sum_row {
     int64_t contacts; ///< number of touching neighbours and walls
 } scree_sum_row;
 
+/// What the next step will do to a body if its forces stay as they are, for laws that look ahead (contact/laws.h): the
+/// increments of its velocity and spin, and the number of its contacts. Derived; valid from the drift to the forces.
+typedef struct scree_foreseen {
+    double vx, vy; ///< m/s
+    double spin;   ///< rad/s
+    double contacts;
+} scree_foreseen;
+
 /// Memory of one contact between the bodies (or body and wall) with ids first < second. Signs are those of the contact
 /// seen from `first` (n from second to first); a wall is always `second`, with id SCREE_WALL_ID + wall index.
 #define SCREE_WALL_ID UINT32_C(0xfffffff0)
@@ -118,6 +126,7 @@ typedef struct scree_state {
     uint64_t sampled_step;             ///< step of the last sample
     double *rebuild_x, *rebuild_y;     ///< m, positions at the last neighbour rebuild (derived, kept sorted with rows)
     uint32_t *row_of_id;               ///< derived
+    scree_foreseen *foreseen;          ///< derived, sorted with rows; NULL unless the law looks ahead
     // contacts: filled from `work` by scree_contacts_save, consumed by scree_contacts_load (contact/contact.h)
     scree_contact_memory *contact;
     size_t contact_count, contact_capacity;
@@ -132,6 +141,9 @@ typedef struct scree_state {
 /// Allocates arrays for `count` bodies, ids 0 .. count-1, everything else zero.
 scree_status scree_state_create(scree_state *state, size_t count, scree_error *error) SCREE_MUST_USE;
 void scree_state_destroy(scree_state *state);
+
+/// Makes room for what laws that look ahead need, if there is none yet.
+scree_status scree_state_foresee(scree_state *state, scree_error *error) SCREE_MUST_USE;
 
 /// s; never accumulated.
 double scree_state_time(const scree_state *state);
