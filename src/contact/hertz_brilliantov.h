@@ -2,8 +2,7 @@
 /// the slip speed (P 2.A1-2.A7, 3.A1-3.A3, corrected as in docs/theory.md).
 ///   f_n = max(K d^1.5 + T K d^0.5 d', 0), K = normal_stiffness sqrt(R_eff)
 ///   f_t = -sign(s) mu f_n (|s| / v_R)^(1/c), zero at s = 0
-/// The power is 2^(log(|s| / v_R) / (c log 2)) with SLEEF's functions: the error of the logarithm is divided by c, and
-/// the slip is a signed number in two dimensions, so no root is needed.
+/// The power is that of contact/power.h; the slip is a signed number in two dimensions, so no root is needed.
 ///
 /// Two updates of friction. Explicit: s is the slip of the velocities that brought the bodies here; a slip slower than
 /// about mu f_n dt / m turns its sign in every step. Implicit (docs/friction-update.md): s = s* is the slip after the
@@ -24,20 +23,15 @@
 #define SCREE_CONTACT_HERTZ_BRILLIANTOV_H
 
 #include "contact/law.h"
-
-/// a^exponent, binary: exponent / log 2.
-SCREE_INLINE lanes hertz_brilliantov_power(lanes a, double binary)
-{
-    return lanes_exp2(lanes_log(a) * binary);
-}
+#include "contact/power.h"
 
 /// y of y^c + g y = b.
 SCREE_INLINE lanes hertz_brilliantov_mobilised(lanes b, lanes g, const law_settings *settings)
 {
     const double c = settings->exponent, tiny = 1e-300; // against 0 / 0 where nothing slips
-    lanes y = lanes_at_most(hertz_brilliantov_power(b, settings->binary_exponent), b / (g + tiny));
+    lanes y = lanes_at_most(lanes_power(b, settings->inverse_exponent), b / (g + tiny));
     for (int k = 0; k < 2; k++) {
-        lanes power = hertz_brilliantov_power(y, c * M_LOG2E);
+        lanes power = lanes_power(y, c);
         lanes excess = power + g * y - b, slope = c * power + g * y, bend = (c * (c - 1.0)) * power;
         y = y - y * (2.0 * (excess * slope) / (2.0 * (slope * slope) - excess * bend + tiny));
     }
@@ -49,7 +43,7 @@ SCREE_INLINE lanes hertz_brilliantov_friction(bool implicit, lanes cap, const la
 {
     if (!implicit) {
         lanes speed = lanes_abs(m->slip) * settings->inverse_reference_velocity;
-        return -lanes_with_sign(cap * hertz_brilliantov_power(speed, settings->binary_exponent), m->slip);
+        return -lanes_with_sign(cap * lanes_power(speed, settings->inverse_exponent), m->slip);
     }
     // Nothing advances: the force that the last step ended with.
     if (settings->step == 0) return before->value[0];

@@ -11,7 +11,7 @@ SCREE_INLINE law_settings law_settings_get(const scree_model *model, double step
     return (law_settings){
         .step = step,
         .damping_time = model->damping_time,
-        .binary_exponent = model->inverse_exponent * M_LOG2E,
+        .inverse_exponent = model->inverse_exponent,
         .exponent = 1.0 / model->inverse_exponent,
         .inverse_reference_velocity = 1.0 / model->reference_velocity,
     };
