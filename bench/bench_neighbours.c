@@ -124,7 +124,7 @@ static void measure(size_t count, int threads)
     scree_state state;
     scree_work work;
     scree_error error;
-    require(scree_state_create(&state, count, &error), &error);
+    require(scree_state_create(&state, 2, count, &error), &error);
     require(scree_work_create(&work, &model, threads, &error), &error);
     fill_box(&state);
     for (int k = 0; k < RELAXATIONS; k++) {

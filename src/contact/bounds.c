@@ -54,7 +54,7 @@ static double largest_speed(const scree_state *state)
     double speed = state->largest_speed;
     for (int k = 0; k < SCREE_WALL_COUNT; k++) {
         const scree_wall *wall = &state->wall[k];
-        if (wall->active) speed = fmax(speed, fabs(wall->velocity) + fabs(wall->tangential_velocity));
+        if (wall->active) speed = fmax(speed, fabs(wall->velocity) + scree_length(wall->tangential_velocity));
     }
     return speed;
 }

@@ -108,10 +108,14 @@ static double settle_walls(scree_state *state, const contact_totals *totals)
         scree_wall *wall = &state->wall[k];
         double force = scree_fixed_to((int64_t)totals->wall_force[k], state->force_quantum);
         double shear = scree_fixed_to((int64_t)totals->wall_shear[k], state->force_quantum);
+        const double tangent[2] = {-wall->normal[1], wall->normal[0]};
         work += 0.5 * state->step_size * (force + wall->force) * wall->velocity;
-        work -= 0.5 * state->step_size * (shear + wall->shear) * wall->tangential_velocity;
+        for (int i = 0; i < 2; i++) {
+            double now = shear * tangent[i];
+            work -= 0.5 * state->step_size * (now + wall->shear[i]) * wall->tangential_velocity[i];
+            wall->shear[i] = now;
+        }
         wall->force = force;
-        wall->shear = shear;
     }
     return work;
 }

@@ -52,8 +52,8 @@ static inline motion motion_of_wall(const bodies *body, const scree_wall *wall, 
 {
     motion m = {.normal_x = wall->normal[0], .normal_y = wall->normal[1]};
     m.indentation = body->radius - (m.normal_x * body->x + m.normal_y * body->y - wall->position);
-    double u = body->vx - (wall->velocity * m.normal_x - wall->tangential_velocity * m.normal_y);
-    double v = body->vy - (wall->velocity * m.normal_y + wall->tangential_velocity * m.normal_x);
+    double u = body->vx - (wall->velocity * m.normal_x + wall->tangential_velocity[0]);
+    double v = body->vy - (wall->velocity * m.normal_y + wall->tangential_velocity[1]);
     double along_tangent = v * m.normal_x - u * m.normal_y;
     m.approach = -(u * m.normal_x + v * m.normal_y);
     m.arm_first = body->radius - 0.5 * m.indentation;

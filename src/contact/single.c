@@ -18,6 +18,10 @@ static void describe(const scree_model *model, const scree_pair_constants *const
     contact->sliding = f.normal > 0 && fabs(f.tangential) >= (1 - SLIDING_TOLERANCE) * cap;
     contact->normal[0] = m->normal_x;
     contact->normal[1] = m->normal_y;
+    contact->normal[2] = 0;
+    contact->tangent[0] = -m->normal_y;
+    contact->tangent[1] = m->normal_x;
+    contact->tangent[2] = 0;
     contact->indentation = m->indentation;
     contact->normal_force = f.normal;
     contact->tangential_force = f.tangential;
@@ -31,6 +35,7 @@ static void place(const scree_row *first, const motion *m, scree_contact *contac
 {
     contact->point[0] = first->x - m->arm_first * m->normal_x;
     contact->point[1] = first->y - m->arm_first * m->normal_y;
+    contact->point[2] = contact->branch[2] = 0;
 }
 
 bool contact_of_pair(const scree_model *model, const scree_row *first, const scree_row *second,

@@ -11,8 +11,8 @@
 /// stiffness puts into (positive) or takes out of the tangential springs.
 /// Where the step changes from h to h', T(n) is taken with h by the step that ends and with h' by the one that begins
 /// (two_timescales.c): with v(n) = v(n-1/2) + h/2 a(n), T = sum 1/2 m (v(n)^2 - h^2/4 a(n)^2), and likewise for spins.
-/// The difference, sum m a^2 (h^2 - h'^2) / 8, is booked as `scheme`; it goes to zero with the square of the step. J =
-/// m R^2 / 2 (disc). Cost: O(bodies + contacts).
+/// The difference, sum m a^2 (h^2 - h'^2) / 8, is booked as `scheme`; it goes to zero with the square of the step.
+/// J = m R^2 / 2 (disc), 2 m R^2 / 5 (sphere). Cost: O(bodies + contacts).
 #include "measure/measure.h"
 
 #include "integrate/integrate.h"
@@ -22,15 +22,14 @@
 /// v(n-1/2) . v(n+1/2) of a body, translation and rotation.
 static void add_kinetic(const scree_model *model, const scree_state *state, size_t index, scree_energy *energy)
 {
-    const scree_row *row = &state->row[index];
-    double inertia = 0.5 * row->mass * row->radius * row->radius;
-    double before[3], force[3], dt = state->step_size;
-    scree_body_half_velocity(model, state, index, before);
-    scree_body_force(model, state, index, force);
-    double after[3] = {before[0] + dt * force[0] / row->mass, before[1] + dt * force[1] / row->mass,
-                       before[2] + dt * force[2] / inertia};
-    energy->kinetic += 0.5 * row->mass * (before[0] * after[0] + before[1] * after[1]);
-    energy->kinetic_rotation += 0.5 * inertia * before[2] * after[2];
+    double mass = state->row[index].mass, inertia = scree_body_inertia(state, index), dt = state->step_size;
+    scree_vector velocity, spin, force, torque;
+    scree_body_half_velocity(model, state, index, velocity, spin);
+    scree_body_force(model, state, index, force, torque);
+    for (int k = 0; k < 3; k++) {
+        energy->kinetic += 0.5 * mass * velocity[k] * (velocity[k] + dt * force[k] / mass);
+        energy->kinetic_rotation += 0.5 * inertia * spin[k] * (spin[k] + dt * torque[k] / inertia);
+    }
 }
 
 void scree_energy_change_step(const scree_model *model, scree_state *state, double before, double after)
@@ -39,9 +38,10 @@ void scree_energy_change_step(const scree_model *model, scree_state *state, doub
     // In the order of ids, so that neither threads nor the order of rows show.
     for (size_t id = 0; id < state->count; id++) {
         size_t row = state->row_of_id[id];
-        double force[3], mass = state->row[row].mass, radius = state->row[row].radius;
-        scree_body_force(model, state, row, force);
-        sum += (force[0] * force[0] + force[1] * force[1] + force[2] * force[2] * 2 / (radius * radius)) / mass;
+        scree_vector force, torque;
+        scree_body_force(model, state, row, force, torque);
+        double mass = state->row[row].mass, inertia = scree_body_inertia(state, row);
+        for (int k = 0; k < 3; k++) sum += force[k] * force[k] / mass + torque[k] * torque[k] / inertia;
     }
     double change = 0.125 * (before * before - after * after) * sum;
     state->ledger.scheme += change;
@@ -56,8 +56,9 @@ void scree_energy_measure(const scree_model *model, const scree_state *state, co
     for (size_t id = 0; id < state->count; id++) {
         size_t row = state->row_of_id[id];
         add_kinetic(model, state, row, energy);
-        potential +=
-            state->row[row].mass * (model->gravity[0] * state->row[row].x + model->gravity[1] * state->row[row].y);
+        scree_vector place;
+        scree_body_place(state, row, place);
+        for (int k = 0; k < state->dimension; k++) potential += state->row[row].mass * model->gravity[k] * place[k];
     }
     for (size_t c = 0; c < table->count; c++) {
         energy->elastic_normal += table->contact[c].elastic_normal;

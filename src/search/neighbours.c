@@ -39,7 +39,8 @@ static double largest_displacement(const scree_state *state, int threads)
     double largest = 0;
 #pragma omp parallel for num_threads(threads) schedule(static) reduction(max : largest) if (threads > 1)
     for (size_t k = 0; k < state->count; k++) {
-        double dx = state->row[k].x - state->rebuild_x[k], dy = state->row[k].y - state->rebuild_y[k];
+        const double *then = state->rebuild[k];
+        double dx = state->row[k].x - then[0], dy = state->row[k].y - then[1];
         double square = dx * dx + dy * dy;
         square = square <= DBL_MAX ? square : (double)INFINITY;
         largest = square > largest ? square : largest;
@@ -217,10 +218,7 @@ static scree_status rebuild(scree_state *state, scree_work *work, scree_error *e
     if (status) return status;
 
 #pragma omp parallel for num_threads(work->threads) schedule(static) if (work->threads > 1)
-    for (size_t k = 0; k < state->count; k++) {
-        state->rebuild_x[k] = state->row[k].x;
-        state->rebuild_y[k] = state->row[k].y;
-    }
+    for (size_t k = 0; k < state->count; k++) scree_body_place(state, k, state->rebuild[k]);
     memcpy(search->wall, state->wall, sizeof search->wall);
     search->listed = work->valid = true;
     work->budget = half_skin(work);

@@ -70,7 +70,7 @@ static inline void fixture_create(fixture *f, scree_law law, size_t count, doubl
     f->model = fixture_model(law);
     f->config.guard.overlap = 0.5;
     f->model.config = &f->config;
-    assert_int_equal(scree_state_create(&f->state, count, &error), SCREE_OK);
+    assert_int_equal(scree_state_create(&f->state, 2, count, &error), SCREE_OK);
     f->state.step_size = step;
     f->model.step = step;
     f->work.threads = 1;

@@ -62,7 +62,7 @@ static void rebuild(scree_state *state, scree_work *work)
 static void make_state(scree_state *state, size_t count, double ratio, uint64_t seed)
 {
     scree_error error;
-    assert_int_equal(scree_state_create(state, count, &error), SCREE_OK);
+    assert_int_equal(scree_state_create(state, 2, count, &error), SCREE_OK);
     double area = 0;
     for (size_t k = 0; k < count; k++) {
         double u = uniform(seed, 3 * k), small = 1 / (ratio * ratio);
@@ -75,8 +75,8 @@ static void make_state(scree_state *state, size_t count, double ratio, uint64_t 
         state->row[k].x = side * uniform(seed, 3 * k + 1);
         state->row[k].y = side * uniform(seed, 3 * k + 2);
     }
-    const double normal[SCREE_WALL_COUNT][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
-    for (int w = 0; w < SCREE_WALL_COUNT; w++)
+    const double normal[][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
+    for (int w = 0; w <= SCREE_WALL_RIGHT; w++)
         state->wall[w] = (scree_wall){
             .position = w % 2 ? -side : 0, .normal = {normal[w][0], normal[w][1]}, .active = w != SCREE_WALL_TOP};
 }
