@@ -71,7 +71,8 @@ static inline void fixture_create(fixture *f, scree_law law, size_t count, doubl
     f->config.guard.overlap = 0.5;
     f->model.config = &f->config;
     assert_int_equal(scree_state_create(&f->state, 2, count, &error), SCREE_OK);
-    f->state.step_size = step;
+    f->state.tick = f->state.step_size = f->state.kick_size = step;
+    if (scree_model_foresees(&f->model)) assert_int_equal(scree_state_foresee(&f->state, &error), SCREE_OK);
     f->model.step = step;
     f->work.threads = 1;
     f->work.ledger = true;
@@ -169,6 +170,10 @@ static inline void fixture_step(fixture *f)
         scree_row *row = &f->state.row[k];
         double force[3];
         fixture_force(f, k, force);
+        if (f->state.foreseen)
+            f->state.foreseen[k] = (scree_foreseen){
+                dt * (force[0] / row->mass + f->model.gravity[0]), dt * (force[1] / row->mass + f->model.gravity[1]),
+                dt * force[2] / (0.5 * row->mass * row->radius * row->radius), (double)f->state.sum[k].contacts};
         row->vx += dt * (force[0] / row->mass + f->model.gravity[0]);
         row->vy += dt * (force[1] / row->mass + f->model.gravity[1]);
         row->spin += dt * force[2] / (0.5 * row->mass * row->radius * row->radius);
