@@ -76,27 +76,42 @@ static void prepare_part(contact_part *part, const contact_job *common, uint8_t 
     part->job = job;
 }
 
-static contact_totals evaluate_parts(contact_kernel *kernel, const contact_scratch *scratch, const contact_job *common,
-                                     scree_state *state, const scree_work *work)
+/// What the members of the team share.
+typedef struct parts_task {
+    contact_kernel *kernel;
+    contact_scratch *scratch;
+    const contact_job *common;
+    scree_state *state;
+    const scree_work *work;
+} parts_task;
+
+static void evaluate_share(void *argument, int index, int count)
 {
-    int parts = scratch->part_count;
-#pragma omp parallel num_threads(parts) if (parts > 1)
-    {
-#pragma omp for schedule(static, 1)
-        for (int k = 0; k < parts; k++) {
-            prepare_part(&scratch->part[k], common, scratch->near_touched, state);
-            kernel(&scratch->part[k].job);
-        }
-#pragma omp for schedule(static, 1)
-        for (int k = 0; k < parts; k++) {
-            size_t begin, end;
-            contact_merge_range(scratch, state->count, k, &begin, &end);
-            contact_merge(scratch, state, begin, end);
-            contact_walls(&scratch->part[k].job, state->sum, state->wall, &work->wall_pairs, begin, end);
-        }
-    }
+    const parts_task *task = argument;
+    (void)count;
+    prepare_part(&task->scratch->part[index], task->common, task->scratch->near_touched, task->state);
+    task->kernel(&task->scratch->part[index].job);
+}
+
+static void merge_share(void *argument, int index, int count)
+{
+    const parts_task *task = argument;
+    scree_state *state = task->state;
+    size_t begin, end;
+    (void)count;
+    contact_merge_range(task->scratch, state->count, index, &begin, &end);
+    contact_merge(task->scratch, state, begin, end);
+    contact_walls(&task->scratch->part[index].job, state->sum, state->wall, &task->work->wall_pairs, begin, end);
+}
+
+static contact_totals evaluate_parts(contact_kernel *kernel, contact_scratch *scratch, const contact_job *common,
+                                     scree_state *state, scree_work *work)
+{
+    parts_task task = {kernel, scratch, common, state, work};
+    scree_team_run(&work->team, scratch->part_count, evaluate_share, &task);
+    scree_team_run(&work->team, scratch->part_count, merge_share, &task);
     contact_totals totals = contact_totals_none();
-    for (int k = 0; k < parts; k++) contact_totals_add(&totals, &scratch->part[k].job.totals);
+    for (int k = 0; k < scratch->part_count; k++) contact_totals_add(&totals, &scratch->part[k].job.totals);
     return totals;
 }
 

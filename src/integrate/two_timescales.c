@@ -26,7 +26,7 @@ static uint64_t ticks(const scree_model *model, const scree_state *state)
 
 static void first(const scree_model *model, scree_state *state, scree_work *work)
 {
-    scree_kick_book(state, work, scree_kick(model, state, state->kick_size, true, work->threads));
+    scree_kick_book(state, work, scree_kick(model, state, work, state->kick_size, true));
 }
 
 const scree_integrator scree_two_timescales = {
