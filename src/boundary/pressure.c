@@ -144,7 +144,7 @@ void scree_pressure_forces(const scree_model *model, scree_state *state)
     if (!(state->pressure > 0)) return;
     pressure_forces forces = {.state = state, .scale = 0.5 * state->pressure * model->thickness / state->force_quantum};
     scree_loop_position(state, 0, forces.origin);
-    scree_outline_visit(state, press_segment, &forces);
+    scree_outline_walk(state, press_segment, &forces);
     book_half_work(state);
 }
 
@@ -164,7 +164,7 @@ double scree_pressure_bound(const scree_model *model, const scree_state *state)
 {
     double longest = 0;
     if (!(state->pressure > 0)) return 0;
-    scree_outline_visit(state, longest_segment, &longest);
+    scree_outline_walk(state, longest_segment, &longest);
     // At most two segments meet in a body.
     return 2 * state->pressure * model->thickness * sqrt(longest);
 }

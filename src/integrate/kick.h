@@ -37,10 +37,12 @@ static void scree_kick_share(void *argument, int index, int count)
     for (size_t i = state->count * (size_t)index / (size_t)count; i < end; i++) {
         scree_row *row = &state->row[i];
         const scree_sum_row *sum = &state->sum[i];
-        double inverse_mass = 1.0 / row->mass;
+        // One division for mass and inertia.
+        double square = row->radius * row->radius, inverse = 1.0 / (row->mass * square),
+               inverse_mass = inverse * square;
         double vx = (double)sum->fx * force_quantum * inverse_mass + gx;
         double vy = (double)sum->fy * force_quantum * inverse_mass + gy;
-        double spin = (double)sum->torque * torque_quantum * 2.0 * inverse_mass / (row->radius * row->radius);
+        double spin = (double)sum->torque * (torque_quantum * 2.0) * inverse;
         row->vx += vx;
         row->vy += vy;
         row->spin += spin;
