@@ -1,75 +1,108 @@
 /// Law hertz_brilliantov: Hertz's normal force with the damping of Brilliantov et al. 1996, and friction regularised by
 /// the slip speed (P 2.A1-2.A7, 3.A1-3.A3, corrected as in docs/theory.md).
 ///   f_n = max(K d^1.5 + T K d^0.5 d', 0), K = normal_stiffness sqrt(R_eff)
-///   f_t = -sign(s) mu f_n (|s| / v_R)^(1/c), zero at s = 0
-/// The power is that of contact/power.h; the slip is a signed number in two dimensions, so no root is needed.
+///   f_t = -mu f_n (|s| / v_R)^(1/c) s / |s|, zero at s = 0
+/// The power is 2^(log(|s| / v_R) / (c log 2)) with SLEEF's functions: the error of the logarithm is divided by c. In
+/// two dimensions the slip is a signed number, so no root is needed.
 ///
 /// Two updates of friction. Explicit: s is the slip of the velocities that brought the bodies here; a slip slower than
 /// about mu f_n dt / m turns its sign in every step. Implicit (docs/friction-update.md): s = s* is the slip after the
 /// coming kick. With s~ that slip if all forces stayed as they are, r the resistance -f_t and r' the one before,
-///   s* = s~ - A (r - r'),  A = dt mobility,    r = sign(s*) mu f_n (|s*| / v_R)^(1/c),
+///   s* = s~ - A (r - r'),  A = dt mobility,    r = mu f_n (|s*| / v_R)^(1/c) s* / |s*|,
 /// the mobility for the share of mass that a body's contacts have each (motion.h; mass splitting after Tonge,
 /// Benevolenski and Voroshilov 2012): a sweep of Jacobi's iteration in every step, from the forces of the last one,
-/// that converges for any step. With y = (|s*| / v_R)^(1/c), b = |s~ + A r'| / v_R and g = A mu f_n / v_R, this is
+/// that converges for any step. r has the direction of s~ + A r'. With y = (|s*| / v_R)^(1/c), b = |s~ + A r'| / v_R
+/// and g = A mu f_n / v_R its magnitude mu f_n y follows from
 ///   y^c + g y = b,
 /// which increases and is convex in y: min(b / g, b^(1/c)) is above the root, and two of Halley's steps are within 0.1
 /// % of it for c = 50 (0.2 % for c = 200) where it is worst, at the corner between sticking and sliding.
 ///
-/// History row: tangential force and normal damping force [N] at n - 1; the second only for the ledger, the first for
-/// it and the implicit update. Ledger: damping <f_n - K d^1.5> delta, friction -<f_t> sigma (mean forces and middle
-/// increments: motion.h). Cost: 2 roots, 2 divisions, one logarithm, one exponential a contact; implicit: 5 divisions
-/// and 2 of these pairs more.
+/// History row, at n - 1: in 2D tangential force and normal damping force [N], in 3D x, y, z of the tangential force
+/// and the normal damping force; the tangential force for the ledger and the implicit update, the other for the ledger.
+/// Ledger: damping <f_n - K d^1.5> delta, friction -<f_t> . sigma (mean forces and middle increments: motion.h).
+/// Cost: 2 roots, 2 divisions (3D: 3 and 3), one logarithm, one exponential a contact; implicit: 7 divisions and two
+/// logarithms and exponentials more.
 #ifndef SCREE_CONTACT_HERTZ_BRILLIANTOV_H
 #define SCREE_CONTACT_HERTZ_BRILLIANTOV_H
 
 #include "contact/law.h"
-#include "contact/power.h"
+
+/// -magnitude along the slip.
+SCREE_INLINE vector against_slip(int dimension, lanes magnitude, vector slip, lanes speed)
+{
+    if (dimension == 2) return (vector){.x = -lanes_with_sign(magnitude, slip.x)};
+    lanes_bits slips = ~lanes_at_or_below(speed, lanes_all(0));
+    return vector_times(3, slip, -lanes_keep(slips, magnitude / speed));
+}
+
+/// a^exponent, binary: exponent / log 2.
+SCREE_INLINE lanes power_of(lanes a, double binary)
+{
+    return lanes_exp2(lanes_log(a) * binary);
+}
 
 /// y of y^c + g y = b.
-SCREE_INLINE lanes hertz_brilliantov_mobilised(lanes b, lanes g, const law_settings *settings)
+SCREE_INLINE lanes mobilised_friction(lanes b, lanes g, const law_settings *settings)
 {
     const double c = settings->exponent, tiny = 1e-300; // against 0 / 0 where nothing slips
-    lanes y = lanes_at_most(lanes_power(b, settings->inverse_exponent), b / (g + tiny));
+    lanes y = lanes_at_most(power_of(b, settings->binary_exponent), b / (g + tiny));
     for (int k = 0; k < 2; k++) {
-        lanes power = lanes_power(y, c);
+        lanes power = power_of(y, c * M_LOG2E);
         lanes excess = power + g * y - b, slope = c * power + g * y, bend = (c * (c - 1.0)) * power;
         y = y - y * (2.0 * (excess * slope) / (2.0 * (slope * slope) - excess * bend + tiny));
     }
     return y;
 }
 
-SCREE_INLINE lanes hertz_brilliantov_friction(bool implicit, lanes cap, const law_settings *settings, const motion *m,
-                                              const law_memory *before)
+/// Tangential force on first. cap: mu f_n; before: the force at n - 1, carried along.
+SCREE_INLINE vector regularised_friction(variant v, lanes cap, const law_settings *settings, const motion *m,
+                                         vector before)
 {
-    if (!implicit) {
-        lanes speed = lanes_abs(m->slip) * settings->inverse_reference_velocity;
-        return -lanes_with_sign(cap * lanes_power(speed, settings->inverse_exponent), m->slip);
-    }
+    const int count = tangential_count(v.dimension);
+    const lanes scale = lanes_all(settings->inverse_reference_velocity);
+    const bool implicit = v.law == SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT;
     // Nothing advances: the force that the last step ended with.
-    if (settings->step == 0) return before->value[0];
-    lanes mobility = settings->step * m->mobility * settings->inverse_reference_velocity;
-    lanes goal = m->foreseen_slip * settings->inverse_reference_velocity - mobility * before->value[0];
-    return -lanes_with_sign(cap * hertz_brilliantov_mobilised(lanes_abs(goal), mobility * cap, settings), goal);
+    if (implicit && settings->step == 0) return before;
+    vector slip = m->slip;
+    lanes mobility = lanes_all(0);
+    if (implicit) {
+        mobility = settings->step * m->mobility;
+        slip = vector_minus(count, m->foreseen_slip, vector_times(count, before, mobility));
+    }
+    lanes speed = v.dimension == 2 ? lanes_abs(slip.x) : lanes_root(vector_dot(3, slip, slip)),
+          relative = speed * scale;
+    lanes mobilised = implicit ? mobilised_friction(relative, mobility * cap * scale, settings)
+                               : power_of(relative, settings->binary_exponent);
+    return against_slip(v.dimension, cap * mobilised, slip, speed);
 }
 
-SCREE_INLINE law_force hertz_brilliantov(bool implicit, const law_constants *constants, const law_settings *settings,
+SCREE_INLINE law_force hertz_brilliantov(variant v, const law_constants *constants, const law_settings *settings,
                                          const motion *m, lanes_bits touching, const law_memory *before,
                                          law_memory *after)
 {
+    const int dimension = v.dimension, count = tangential_count(dimension);
     lanes d = lanes_keep(touching, m->indentation);
     lanes stiffness = constants->normal_stiffness * lanes_root(m->reduced_radius * d);
     lanes elastic = stiffness * d;
     lanes normal = lanes_at_least(elastic + stiffness * (settings->damping_time * m->approach), lanes_all(0));
 
-    lanes tangential = hertz_brilliantov_friction(implicit, constants->friction * normal, settings, m, before);
-
-    lanes damping = normal - elastic, none = lanes_all(0);
-    *after = (law_memory){{tangential, damping, none, none}};
+    lanes damping = normal - elastic, none = lanes_all(0), damping_before = before->value[1];
+    vector tangential_before = {.x = before->value[0]};
+    if (dimension == 3) {
+        vector kept = {before->value[0], before->value[1], before->value[2]};
+        tangential_before = motion_carry(3, m, kept);
+        damping_before = before->value[3];
+    }
+    vector tangential = regularised_friction(v, constants->friction * normal, settings, m, tangential_before);
+    *after = (law_memory){.value = {tangential.x, damping, none, none}};
+    if (dimension == 3) *after = (law_memory){.value = {tangential.x, tangential.y, tangential.z, damping}};
+    vector both = vector_plus(count, tangential, tangential_before);
     return (law_force){
         .normal = normal,
         .tangential = tangential,
-        .damping = 0.5 * (damping + before->value[1]) * m->approached,
-        .friction = -0.5 * (tangential + before->value[0]) * m->slipped,
+        .couple = vector_none(),
+        .damping = 0.5 * (damping + damping_before) * m->approached,
+        .friction = vector_dot(count, vector_times(count, both, lanes_all(-0.5)), m->slipped),
         .stiffness = none,
         .elastic_normal = 0.4 * (elastic * d),
         .elastic_tangential = none,

@@ -82,7 +82,7 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
 {
     scree_snapshot_info info = {.index = s->state.stage.snapshots,
                                 .time = scree_state_time(&s->state),
-                                .axial_strain = scree_axial_strain(s),
+                                .axial_strain = scree_loading_strain(s),
                                 .stage = s->stage->name};
     const scree_model *model = &s->stage_model;
     scree_status status = scree_snapshot_write(recorder->directory, model, &s->state, &s->table, &info, error);
@@ -99,8 +99,7 @@ static double ticks_left(const scree_simulation *s)
     double left = (double)s->plan.expected - (double)(s->state.step - s->state.stage.first_step);
     for (int64_t k = s->state.stage.index + 1; k < s->model.config->stage_count; k++) {
         const scree_config_stage *stage = &s->model.config->stages[k];
-        if (stage->kind != SCREE_STAGE_COMPRESS) return NAN;
-        left += stage->strain / stage->rate / s->state.tick;
+        left += stage->strain / scree_model_loading_rate(stage) / s->state.tick;
     }
     return left;
 }
@@ -117,7 +116,7 @@ static void report_progress(scree_recorder *recorder, const scree_simulation *s,
     scree_progress progress = {.stage = s->stage->name,
                                .fraction = s->stage->fraction ? s->stage->fraction(s) : NAN,
                                .time = scree_state_time(&s->state),
-                               .strain = scree_axial_strain(s),
+                               .strain = scree_loading_strain(s),
                                .particle_steps_per_second = (double)s->state.count * steps / passed,
                                .seconds_left = ticks_left(s) * passed / ticks};
     recorder->options->progress(recorder->options->user, &progress);

@@ -16,7 +16,7 @@ typedef struct scree_recorder {
     double last_progress, last_checkpoint;
     uint64_t progress_step, progress_evaluations, checkpoint_evaluations;
     uint64_t first_evaluations; ///< at `started`
-    double stepping;     ///< s of wall time in the stepping loop
+    double stepping;            ///< s of wall time in the stepping loop
 } scree_recorder;
 
 /// Opens log and series in a run directory that exists; rows > 0 or restart: continues the series after `rows` rows.

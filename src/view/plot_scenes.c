@@ -182,7 +182,7 @@ static scree_status draw_fluctuations(const scree_plot_run *run, const scree_sna
     scree_status status = scree_path_join(path, sizeof path, run->figures, name, error);
     if (!status) status = scree_allocate(&arrow, 2 * from->count, sizeof *arrow, error);
     if (!status) {
-        (void)scree_fluctuations(from->x, from->y, to->x, to->y, from->count, arrow, arrow + from->count, gradient);
+        (void)scree_fluctuations(from->x, from->y, to->x, to->y, from->grains, arrow, arrow + from->count, gradient);
         scree_scene scene = {.title = title, .arrow_x = arrow, .arrow_y = arrow + from->count, .plates = true};
         status = scree_scene_draw(path, from, &scene, error);
     }

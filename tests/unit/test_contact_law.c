@@ -125,7 +125,8 @@ static void implicit_friction_belongs_to_the_slip_that_it_leaves(void **unused)
             assert_true(-force[1] <= fmin(most, stop) * (1 + 1e-11));
             // Two steps of Halley from the corner: 0.1 % of the force (hertz_brilliantov.h). Below, forces are lost in
             // their quanta.
-            if (slip[k] > 1e-9 && left > 1e-6 * slip[k]) assert_close(force[1], -cap * pow(left / 1e-2, 1.0 / 50), 1e-3);
+            if (slip[k] > 1e-9 && left > 1e-6 * slip[k])
+                assert_close(force[1], -cap * pow(left / 1e-2, 1.0 / 50), 1e-3);
             assert_int_equal(f.work.flags, 0);
             fixture_destroy(&f);
         }

@@ -245,6 +245,7 @@ static void threads_give_the_same_bits(void **unused)
             integrator->second(&model, &state, &work);
         }
         checksum[threads - 1] = scree_state_checksum(&state);
+        scree_team_destroy(&work.team);
         scree_state_destroy(&state);
     }
     assert_true(checksum[0] == checksum[1] && checksum[0] == checksum[2]);

@@ -41,8 +41,10 @@ static const char *const combinations[COMBINATIONS][OVERRIDES] = {
     {"contact.law=hertz_mindlin", "integrator.scheme=position_verlet", "stages.confine.friction=0.1", "dimension=2"},
     {BRILLIANTOV, "integrator.scheme=velocity_verlet", "stages.confine.friction=0.1", "dimension=2"},
     {BRILLIANTOV, "integrator.scheme=position_verlet", "stages.confine.friction=0.1", "dimension=2"},
-    {BRILLIANTOV, "integrator.scheme=velocity_verlet", "contact.friction_update=implicit", "stages.confine.friction=0.1"},
-    {BRILLIANTOV, "integrator.scheme=position_verlet", "contact.friction_update=implicit", "stages.confine.friction=0.1"},
+    {BRILLIANTOV, "integrator.scheme=velocity_verlet", "contact.friction_update=implicit",
+     "stages.confine.friction=0.1"},
+    {BRILLIANTOV, "integrator.scheme=position_verlet", "contact.friction_update=implicit",
+     "stages.confine.friction=0.1"},
     {BRILLIANTOV, "integrator.scheme=two_timescales", "integrator.step=1e-6 s", "integrator.repeats=2"},
 };
 
