@@ -59,11 +59,12 @@ scree_status scree_case_write(const scree_case *c, FILE *file, scree_error *erro
 typedef struct scree_case_summary {
     char name[64];
     uint64_t particles;
-    double step, critical_step;    ///< s
+    double step, critical_step;    ///< s; step: the small one of two_timescales
+    uint64_t largest_step;         ///< in steps: N_S of two_timescales, else 1
     double phi, psi;               ///< quasistatic and size coefficients, NAN without a loading stage
     double mean_radius, thickness; ///< m
     double reference_velocity;     ///< m/s
-    double steps;                  ///< expected number of steps of all stages
+    double steps;                  ///< expected number of steps (force evaluations) of all stages
     double seconds;                ///< expected wall time at `rate` particle-steps per second
     double rate;   ///< particle-steps per second assumed (measured on this machine in a few milliseconds)
     double memory; ///< bytes
@@ -111,7 +112,7 @@ scree_status scree_restart(const char *directory, const scree_run_options *optio
 /// A simulation in memory, without files (tests, bindings). Stages are run one after the other by `advance`.
 typedef struct scree_simulation scree_simulation;
 scree_status scree_simulation_create(const scree_case *c, int threads, scree_simulation **out, scree_error *error);
-/// At most `steps` steps; *done tells whether the case has ended.
+/// At most `steps` steps (force evaluations); *done tells whether the case has ended.
 scree_status scree_simulation_advance(scree_simulation *s, uint64_t steps, bool *done, scree_error *error);
 uint64_t scree_simulation_checksum(scree_simulation *s);
 void scree_simulation_free(scree_simulation *s);

@@ -86,11 +86,11 @@ double scree_sample_wave_time(const scree_model *model, const scree_state *state
 void scree_plate_servo(const scree_model *model, scree_state *state, int index, scree_servo servo, double pressure)
 {
     scree_wall *wall = &state->wall[index];
-    double target = pressure * scree_plate_area(model, state, index), dt = state->step_size;
+    double target = pressure * scree_plate_area(model, state, index), kick = state->kick_size;
     double velocity =
-        (wall->velocity + dt / servo.mass * (target - wall->force)) / (1 + dt / servo.mass * servo.impedance);
+        (wall->velocity + kick / servo.mass * (target - wall->force)) / (1 + kick / servo.mass * servo.impedance);
     double limit = model->config->boundary.servo_velocity;
     // Auto: a plate may not cross a hundredth of the smallest radius in a step.
-    if (isnan(limit)) limit = 0.01 * model->radius_min / dt;
+    if (isnan(limit)) limit = 0.01 * model->radius_min / state->step_size;
     wall->velocity = fmax(-limit, fmin(limit, velocity));
 }

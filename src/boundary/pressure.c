@@ -96,7 +96,7 @@ static bool is_fresh(const scree_model *model, const scree_state *state)
     bool solid = state->dimension == 3;
     size_t count = solid ? state->hull.node_count : state->loop.count;
     uint64_t updated = solid ? state->hull.updated : state->loop.updated;
-    return count > 0 && state->step - updated < (uint64_t)model->config->boundary.every;
+    return count > 0 && state->step - updated < (uint64_t)model->config->boundary.every * model->largest_step;
 }
 
 scree_status scree_boundary_refresh(const scree_model *model, scree_state *state, scree_error *error)
@@ -168,7 +168,7 @@ void scree_pressure_forces(const scree_model *model, scree_state *state)
     if (!(pressure > 0)) return;
     pressure_forces forces = {.state = state, .scale = 0.5 * pressure * model->thickness / state->force_quantum};
     scree_loop_position(state, 0, forces.origin);
-    scree_outline_visit(state, press_segment, &forces);
+    scree_outline_walk(state, press_segment, &forces);
     book_half_work(state);
 }
 
@@ -189,7 +189,7 @@ double scree_pressure_bound(const scree_model *model, const scree_state *state)
     double longest = 0;
     if (state->dimension == 3) return scree_hull_pressure_bound(model, state);
     if (!(state->pressure > 0)) return 0;
-    scree_outline_visit(state, longest_segment, &longest);
+    scree_outline_walk(state, longest_segment, &longest);
     // At most two segments meet in a body.
     return 2 * state->pressure * model->thickness * sqrt(longest);
 }

@@ -38,21 +38,36 @@ typedef struct scree_config_particles {
     double thickness;  ///< m, length of a disc (a cylinder); auto: twice the mean radius
 } scree_config_particles;
 
-typedef enum scree_law { SCREE_LAW_HERTZ_BRILLIANTOV, SCREE_LAW_HERTZ_MINDLIN } scree_law;
+/// The third is hertz_brilliantov with friction_update implicit: model_build resolves the two keys into one law.
+typedef enum scree_law {
+    SCREE_LAW_HERTZ_BRILLIANTOV,
+    SCREE_LAW_HERTZ_MINDLIN,
+    SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT
+} scree_law;
+
+typedef enum scree_friction_update { SCREE_FRICTION_EXPLICIT, SCREE_FRICTION_IMPLICIT } scree_friction_update;
 
 typedef struct scree_config_contact {
     int law;                   ///< scree_law
     double damping_time;       ///< s, T of hertz_brilliantov
     double friction_exponent;  ///< 1, c of hertz_brilliantov
+    int friction_update;       ///< scree_friction_update of hertz_brilliantov
     double reference_velocity; ///< m/s, v_R; auto: 2 * rate * mean radius of the first compress stage
 } scree_config_contact;
 
-typedef enum scree_scheme { SCREE_SCHEME_POSITION_VERLET, SCREE_SCHEME_VELOCITY_VERLET } scree_scheme;
+typedef enum scree_scheme {
+    SCREE_SCHEME_POSITION_VERLET,
+    SCREE_SCHEME_VELOCITY_VERLET,
+    SCREE_SCHEME_TWO_TIMESCALES
+} scree_scheme;
 
 typedef struct scree_config_integrator {
-    int scheme;           ///< scree_scheme
-    double step;          ///< s; auto: step_fraction * critical step
-    double step_fraction; ///< 1, of the critical step, when step is auto
+    int scheme;             ///< scree_scheme
+    double step;            ///< s, the small one of two_timescales; auto: step_fraction * critical step, over N_S
+    double step_fraction;   ///< 1, of the critical step, when step is auto
+    int64_t repeats;        ///< two_timescales: m of m(n+q) = N_S
+    int64_t large_multiple; ///< n
+    int64_t small_steps;    ///< q
 } scree_config_integrator;
 
 /// What holds the sample (boundary/boundary.h).

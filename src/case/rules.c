@@ -157,6 +157,26 @@ static void check_windows(scree_reader *reader, const scree_config *config)
     }
 }
 
+/// What reckons with a kick of the size of the last step cannot stand steps of two sizes.
+static void check_timescales(scree_reader *reader, const scree_config *config)
+{
+    if (config->integrator.scheme != SCREE_SCHEME_TWO_TIMESCALES) return;
+    const char *text;
+    scree_place place = place_of(scree_node_find(reader->root, "integrator"), "scheme", &text);
+    if (config->contact.law == SCREE_LAW_HERTZ_BRILLIANTOV &&
+        config->contact.friction_update == SCREE_FRICTION_IMPLICIT && config->integrator.small_steps > 0)
+        scree_problem_add(reader, place, "integrator.scheme", text, "position_verlet, velocity_verlet",
+                          "an implicit contact.friction_update needs equal steps, and makes small ones needless: "
+                          "choose another scheme, or small_steps: 0");
+    for (int64_t i = 0; i < config->stage_count; i++) {
+        scree_boundary_kind kind = scree_config_boundary_of(config, i);
+        if (kind == SCREE_BOUNDARY_PRESSURE || kind == SCREE_BOUNDARY_PLATES) continue;
+        scree_problem_add(reader, place, "integrator.scheme", text, "position_verlet, velocity_verlet",
+                          "the boundary of stages.%lld imposes velocities and needs equal steps", (long long)i);
+        return;
+    }
+}
+
 void scree_rules_check(scree_reader *reader, scree_config *config)
 {
     check_materials(reader, config);
@@ -165,5 +185,6 @@ void scree_rules_check(scree_reader *reader, scree_config *config)
     name_stages(reader, config);
     check_stage_order(reader, config);
     check_windows(reader, config);
+    check_timescales(reader, config);
     scree_rules_check_boundaries(reader, config);
 }

@@ -40,9 +40,17 @@ static const scree_choice laws[] = {
      "Hertz with the tangential spring of Mindlin (with history), Coulomb limit, damping from the restitution"},
     {0},
 };
+static const scree_choice friction_updates[] = {
+    {"explicit", SCREE_FRICTION_EXPLICIT, "from the slip of the step before; needs small steps"},
+    {"implicit", SCREE_FRICTION_IMPLICIT,
+     "from the slip that the coming step will have, solved contact by contact; stable at the large step"},
+    {0},
+};
 static const scree_choice schemes[] = {
     {"position_verlet", SCREE_SCHEME_POSITION_VERLET, "leapfrog with velocities half a step behind"},
     {"velocity_verlet", SCREE_SCHEME_VELOCITY_VERLET, "velocities and positions at the same time"},
+    {"two_timescales", SCREE_SCHEME_TWO_TIMESCALES,
+     "position_verlet that repeats one large and several small steps while loading (Padbidri 2010, 2.4)"},
     {0},
 };
 static const scree_choice laterals[] = {
@@ -144,6 +152,8 @@ static const scree_key contact_keys[] = {
            .meaning = "Time T of the viscous part T K d^0.5 d'."),
     NUMBER(contact, friction_exponent, "1", .standard = "50", FROM("1"), TO("1e6"), .when = "law=hertz_brilliantov",
            .meaning = "Exponent c of the regularised friction mu f_n (s/v_R)^(1/c)."),
+    CHOICE(contact, friction_update, friction_updates, .standard = "explicit", .when = "law=hertz_brilliantov",
+           .meaning = "How the stiff friction law is integrated."),
     NUMBER(contact, reference_velocity, "m/s", .standard = "auto", ABOVE("0 m/s"), TO("1000 m/s"),
            .meaning = "v_R, to which slip speeds are referred; auto: 2 x strain rate x mean radius."),
 };
@@ -152,9 +162,18 @@ typedef scree_config_integrator integrator;
 static const scree_key integrator_keys[] = {
     CHOICE(integrator, scheme, schemes, .standard = "velocity_verlet", .meaning = "Integration scheme."),
     NUMBER(integrator, step, "s", .standard = "auto", ABOVE("0 s"), TO("10 s"),
-           .meaning = "Time step; auto: `step_fraction` of the critical step."),
+           .meaning =
+               "Time step, the small one of two_timescales; auto: the largest is `step_fraction` of the critical "
+               "step."),
     NUMBER(integrator, step_fraction, "1", .standard = "0.1", ABOVE("0"), TO("1"), .when = "step=auto",
-           .meaning = "Step over critical step."),
+           .meaning = "Largest step over critical step."),
+    INTEGER(integrator, repeats, .standard = "5", FROM("1"), TO("1e6"), .when = "scheme=two_timescales",
+            .meaning = "m of m(n+q): sequences in N_S = m(n+q) small steps. N_S steps are the step before loading, and "
+                       "the unit of boundary.every."),
+    INTEGER(integrator, large_multiple, .standard = "5", FROM("1"), TO("1e6"), .when = "scheme=two_timescales",
+            .meaning = "n of m(n+q): the large step of a sequence, in small steps."),
+    INTEGER(integrator, small_steps, .standard = "5", FROM("0"), TO("1e6"), .when = "scheme=two_timescales",
+            .meaning = "q of m(n+q): small steps after each large one."),
 };
 
 typedef scree_config_boundary boundary;
@@ -162,7 +181,8 @@ static const scree_key boundary_keys[] = {
     CHOICE(boundary, lateral, laterals, .standard = "pressure",
            .meaning = "What holds the sides, beside plates below and above, until a stage chooses its `boundary`."),
     INTEGER(boundary, every, .standard = "250", FROM("1"), TO("1e9"),
-            .meaning = "Steps between two updates of the Delaunay boundary."),
+            .meaning =
+                "Steps between two updates of the Delaunay boundary; with two_timescales steps of N_S small ones."),
     NUMBER(boundary, gap_limit, "1", .standard = "0.5", FROM("0"), TO("100"),
            .meaning = "Boundary edges with a free gap above this many mean diameters are cut."),
     NUMBER(boundary, servo_gain, "1", .standard = "1", ABOVE("0"), TO("10"),

@@ -32,6 +32,20 @@ SCREE_INLINE columns load_turns(const contact_job *job, const uint32_t *body, co
     return columns_load(row);
 }
 
+SCREE_INLINE foresight load_foreseen(int dimension, const contact_job *job, const uint32_t *body, const group *g)
+{
+    const double *row[SCREE_LANES];
+    LANE_LOOP row[k] = &job->foreseen[body[g->pair[k]]].vx;
+    columns c = columns_load(row);
+    foresight ahead = {.velocity = {c.c0, c.c1, c.c2}, .contacts = c.c3};
+    ahead.spin.x = c.c2;
+    if (dimension == 2) return ahead;
+    LANE_LOOP row[k] += 4;
+    c = columns_load(row);
+    ahead.spin = (vector){c.c0, c.c1, c.c2};
+    return ahead;
+}
+
 /// Position and radius.
 SCREE_INLINE bodies load_places(int dimension, const contact_job *job, const uint32_t *body, const group *g)
 {
@@ -165,6 +179,11 @@ SCREE_INLINE void evaluate_group(const contact_job *job, variant v, const group 
     bodies first = load_bodies(dimension, job, job->first, g), second = load_bodies(dimension, job, job->second, g);
     lanes_bits touching = g->present & group_touches(dimension, &first, &second);
     motion m = motion_of_pair(dimension, &first, &second, job->settings.step);
+    if (law_foresees(v)) {
+        foresight ahead = load_foreseen(dimension, job, job->first, g);
+        foresight ahead_second = load_foreseen(dimension, job, job->second, g);
+        motion_foresee(dimension, &m, &first, &ahead, &second, &ahead_second);
+    }
     law_constants constants = load_constants(job, v, first.material, second.material);
 
     law_memory before = load_memory(job, v, g), after;

@@ -50,7 +50,15 @@ typedef struct motion {
     lanes approached;            ///< middle increments over the step, for the ledger
     vector slipped, rolled;
     lanes twisted;
+    vector foreseen_slip; ///< m/s, slip after the coming kick if all forces stay as they are (motion_foresee)
+    lanes mobility;       ///< 1/kg, slip per tangential impulse of the contact's share of the bodies
 } motion;
+
+/// scree_foreseen in lanes.
+typedef struct foresight {
+    vector velocity, spin;
+    lanes contacts;
+} foresight;
 
 /// Set where the bodies are in contact; also where a coordinate is NaN, so that the kernels notice.
 SCREE_INLINE lanes_bits bodies_touch(int dimension, vector apart, lanes radii)
@@ -108,6 +116,31 @@ SCREE_INLINE void motion_advance(int dimension, motion *m, vector velocity, vect
                          vector_times(3, angle, m->reduced_radius * m->twist * step));
     m->rolled = vector_plus(3, m->rolled, vector_times(3, vector_cross(n, screw), lanes_all(0.5)));
     m->twisted = m->twist * step - 0.5 * step * vector_dot(3, relative, angle);
+}
+
+/// 1 / m + a^2 / J times the number of contacts that pull at the body: each may move its share of the mass alone.
+SCREE_INLINE lanes body_mobility(int dimension, const bodies *body, const foresight *ahead, lanes arm)
+{
+    lanes lever = arm / body->radius;
+    lanes one = 1.0 + (dimension == 3 ? 2.5 : 2.0) * (lever * lever);
+    return lanes_at_least(ahead->contacts, lanes_all(1)) * one / body->mass;
+}
+
+/// For laws that look ahead. Against a wall, `second` is NULL.
+SCREE_INLINE void motion_foresee(int dimension, motion *m, const bodies *first, const foresight *ahead,
+                                 const bodies *second, const foresight *ahead_second)
+{
+    const int count = tangential_count(dimension);
+    vector velocity = ahead->velocity, lever = vector_times(count, ahead->spin, m->arm_first);
+    m->mobility = body_mobility(dimension, first, ahead, m->arm_first);
+    if (second) {
+        velocity = vector_minus(dimension, velocity, ahead_second->velocity);
+        lever = vector_plus(count, lever, vector_times(count, ahead_second->spin, m->arm_second));
+        m->mobility += body_mobility(dimension, second, ahead_second, m->arm_second);
+    }
+    vector change =
+        vector_minus(count, vector_across(dimension, velocity, m->normal), spin_across(dimension, lever, m->normal));
+    m->foreseen_slip = vector_plus(count, m->slip, change);
 }
 
 SCREE_INLINE motion motion_of_pair(int dimension, const bodies *first, const bodies *second, double step)

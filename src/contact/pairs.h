@@ -132,8 +132,10 @@ SCREE_INLINE void run(contact_job *given, variant v)
 SCREE_INLINE void run_variant(contact_job *job, const int dimension)
 {
     const scree_law mindlin = SCREE_LAW_HERTZ_MINDLIN, brilliantov = SCREE_LAW_HERTZ_BRILLIANTOV;
+    const scree_law implicit = SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT;
     const variant *v = &job->variant;
-    const int choice = v->rolling ? 8 : 4 * (v->law == mindlin) + 2 * v->many_materials;
+    const int law = v->law == implicit ? 10 : v->law == mindlin ? 4 : 0;
+    const int choice = v->rolling ? 8 : law + 2 * v->many_materials;
     switch (choice + v->ledger) {
     case 0:
         run(job, (variant){dimension, brilliantov, false, false, false});
@@ -162,8 +164,20 @@ SCREE_INLINE void run_variant(contact_job *job, const int dimension)
     case 8:
         run(job, (variant){dimension, mindlin, true, false, true});
         break;
-    default:
+    case 9:
         run(job, (variant){dimension, mindlin, true, true, true});
+        break;
+    case 10:
+        run(job, (variant){dimension, implicit, false, false, false});
+        break;
+    case 11:
+        run(job, (variant){dimension, implicit, false, true, false});
+        break;
+    case 12:
+        run(job, (variant){dimension, implicit, true, false, false});
+        break;
+    default:
+        run(job, (variant){dimension, implicit, true, true, false});
         break;
     }
 }

@@ -64,7 +64,7 @@ scree_contact_tangent scree_contact_linearise(const scree_model *model, const sc
     indentation *= indentation;
     double secant = pair->normal_stiffness * root * sqrt(indentation);
     scree_contact_tangent tangent = {.normal_stiffness = 1.5 * secant};
-    if (model->law == SCREE_LAW_HERTZ_BRILLIANTOV) {
+    if (model->law != SCREE_LAW_HERTZ_MINDLIN) {
         tangent.normal_damping = model->damping_time * secant;
         return tangent;
     }

@@ -31,7 +31,10 @@ typedef struct scree_model {
     double inverse_exponent;   ///< 1/c of hertz_brilliantov
     double reference_velocity; ///< m/s, v_R
     scree_scheme scheme;
-    double step;                   ///< s
+    double step;                   ///< s, the tick: the small step of two_timescales, the step of all other schemes
+    uint64_t largest_step;         ///< ticks, N_S of two_timescales (the step before loading), else 1
+    uint64_t large_multiple;       ///< ticks, n of two_timescales, else 1
+    uint64_t small_steps;          ///< q of two_timescales, else 0
     double critical_step;          ///< s, estimate at the confining pressure (see model.c)
     double gravity[3];             ///< m/s2
     double mean_radius;            ///< m, of the distribution
@@ -52,6 +55,12 @@ typedef struct scree_model {
 /// meet: a step above the critical one (names it and offers it), a packing that cannot fit, a material that does not
 /// exist.
 scree_status scree_model_build(const scree_config *config, scree_model *model, scree_error *error) SCREE_MUST_USE;
+
+/// Whether the law looks ahead by a step and needs scree_state_foresee.
+static inline bool scree_model_foresees(const scree_model *model)
+{
+    return model->law == SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT;
+}
 
 /// Largest radius of all bodies [m], those of a membrane included.
 double scree_model_largest_radius(const scree_model *model);

@@ -98,7 +98,8 @@ scree_status scree_prepare(const scree_model *model, const scree_config_stage *s
     if (!status) {
         fill_rows(model, &packing, state);
         stand_walls(model, &packing.box, state);
-        state->step_size = model->step;
+        state->tick = model->step;
+        state->step_size = state->kick_size = (double)model->largest_step * model->step;
         if (method->set_moving) method->set_moving(model, stage, state);
     }
     scree_release(&packing.radius);

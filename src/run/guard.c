@@ -24,7 +24,7 @@ static scree_status stop_not_finite(const scree_simulation *s, scree_error *erro
     return scree_error_set(error, SCREE_ERROR_GUARD,
                            "step %llu: position or velocity of particle %zu is not a number; "
                            "the step is probably too large: try integrator.step=%.2g s (now %.2g s, critical %.2g s)",
-                           (unsigned long long)s->state.step, id, 0.2 * s->state.step_size, s->state.step_size,
+                           (unsigned long long)s->state.step, id, 0.2 * s->state.tick, s->state.tick,
                            s->model.critical_step);
 }
 
@@ -82,5 +82,5 @@ scree_status scree_guard_sample(const scree_simulation *s, double relative_resid
     return scree_error_set(error, SCREE_ERROR_GUARD,
                            "step %llu: the energy balance is open by %.2g of the work done (guard.energy_growth %.2g); "
                            "energy appears from nowhere: try integrator.step=%.2g s",
-                           (unsigned long long)s->state.step, relative_residual, limit, 0.25 * s->state.step_size);
+                           (unsigned long long)s->state.step, relative_residual, limit, 0.25 * s->state.tick);
 }

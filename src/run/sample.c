@@ -10,7 +10,7 @@
 #include <math.h>
 
 const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
-    [SCREE_SAMPLE_STEP] = {"step", "1", "number of the step"},
+    [SCREE_SAMPLE_STEP] = {"step", "1", "simulated time in ticks: steps, small ones with two_timescales"},
     [SCREE_SAMPLE_TIME] = {"time", "s", "simulated time"},
     [SCREE_SAMPLE_STAGE] = {"stage", "1", "index of the stage in the case, from 0"},
     [SCREE_SAMPLE_AXIAL_STRAIN] = {"axial_strain", "1",
@@ -65,6 +65,7 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
                                     "work of imposed rates, or of the chain of a membrane and its ends"},
     [SCREE_SAMPLE_ELASTIC_MEMBRANE] = {"elastic_membrane", "J", "stored in the chain of a membrane"},
     [SCREE_SAMPLE_WORK_GRAVITY] = {"work_gravity", "J", "work of gravity"},
+    [SCREE_SAMPLE_SCHEME_WORK] = {"scheme_work", "J", "put into the kinetic energy by changes of the step"},
     [SCREE_SAMPLE_ENERGY_RESIDUAL] = {"energy_residual", "J", "what the energy balance leaves open"},
     [SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE] = {"energy_residual_relative", "1", "the same over the work done"},
     [SCREE_SAMPLE_HEIGHT] = {"height", "m",
@@ -152,6 +153,7 @@ static void sample_energy(const scree_simulation *s, double *value)
     value[SCREE_SAMPLE_WORK_BOUNDARY] = ledger->boundary;
     value[SCREE_SAMPLE_ELASTIC_MEMBRANE] = scree_membrane_energy(&s->stage_model, &s->state);
     value[SCREE_SAMPLE_WORK_GRAVITY] = energy.gravity;
+    value[SCREE_SAMPLE_SCHEME_WORK] = ledger->scheme;
     value[SCREE_SAMPLE_ENERGY_RESIDUAL] = energy.residual;
     value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE] = energy.relative;
 }

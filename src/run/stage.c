@@ -22,6 +22,17 @@ const scree_config_stage *scree_stage_config(const scree_simulation *s)
     return &s->model.config->stages[s->state.stage.index];
 }
 
+double scree_stage_elapsed(const scree_simulation *s)
+{
+    return (double)(s->state.step - s->state.stage.first_step) * s->state.tick;
+}
+
+uint64_t scree_stage_ticks(const scree_simulation *s, double time)
+{
+    uint64_t largest = s->model.largest_step;
+    return (uint64_t)fmax(1, ceil(time / ((double)largest * s->state.tick))) * largest;
+}
+
 /// Logarithmic axial strain of the Delaunay boundary since the begin of the loading stage, extension positive.
 static double axial_stretch(const scree_simulation *s)
 {

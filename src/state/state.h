@@ -50,6 +50,19 @@ typedef struct scree_sum_row {
     int64_t contacts; ///< number of touching neighbours and walls
 } scree_sum_row;
 
+/// What the next step will do to a body if its forces stay as they are, for laws that look ahead (contact/laws.h): the
+/// increments of its velocity and spin, and the number of its contacts. Derived; valid from the drift to the forces.
+typedef struct scree_foreseen {
+    double vx, vy; ///< m/s
+    union {
+        double spin; ///< 2D: rad/s
+        double vz;   ///< 3D: m/s
+    };
+    double contacts;
+    double wx, wy, wz; ///< 3D: rad/s
+    double unused;     ///< zero
+} scree_foreseen;
+
 /// 3D only: sum of the torques, in torque quanta.
 typedef struct scree_torque_row {
     int64_t x, y, z;
@@ -113,7 +126,7 @@ enum {
 };
 
 /// Energy ledger, J. Work is done ON the bodies; dissipation is positive. Residual of the balance:
-/// kinetic + elastic - initial - (plates + pressure + boundary + gravity) + damping + friction - stiffness, see
+/// kinetic + elastic - initial - (plates + pressure + boundary + gravity) + damping + friction - stiffness - scheme:
 /// measure/energy.c.
 typedef struct scree_ledger {
     double damping;   ///< dissipated by contact damping, normal and tangential
@@ -124,6 +137,7 @@ typedef struct scree_ledger {
     double boundary;  ///< work of the other forces of the boundary: imposed rates, chain and ends of a membrane
     double gravity;   ///< sum of m g . x when the ledger was opened
     double initial;   ///< kinetic + elastic energy when the ledger was opened
+    double scheme;    ///< put into the kinetic energy of the scheme by changes of its step (measure/energy.c)
     double turnover;  ///< sum of |work| increments, the scale of the residual
 } scree_ledger;
 
@@ -213,8 +227,11 @@ typedef struct scree_state {
     int dimension; ///< 2 or 3
     size_t count;
     size_t grains;            ///< bodies with ids below it are the assembly, those from it on belong to a membrane
-    uint64_t step;            ///< of the whole run; time = stage.first_time + (step - stage.first_step) * dt
-    double step_size;         ///< s, dt now
+    uint64_t step;            ///< time of the run in ticks; time = stage.first_time + (step - stage.first_step) * tick
+    uint64_t evaluations;     ///< steps taken since the start of the run, one force evaluation each
+    double tick;              ///< s, the small step of two_timescales, the step of all other schemes
+    double step_size;         ///< s, the last step, from n - 1 to n
+    double kick_size;         ///< s, what leapfrog velocities were advanced by in it: the mean of it and the one before
     scree_row *row;           ///< count
     scree_turn_row *turn;     ///< 3D: count; NULL in 2D
     scree_sum_row *sum;       ///< count, forces at `step`
@@ -231,6 +248,7 @@ typedef struct scree_state {
     uint64_t sampled_step;          ///< step of the last sample
     scree_vector *rebuild;          ///< m, positions at the last neighbour rebuild (derived, kept sorted with rows)
     uint32_t *row_of_id;            ///< derived
+    scree_foreseen *foreseen;       ///< derived, sorted with rows; NULL unless the law looks ahead
     // contacts: filled from `work` by scree_contacts_save, consumed by scree_contacts_load (contact/contact.h)
     scree_contact_memory *contact;
     scree_booking *booking; ///< beside `contact` where the law has booking rows; else NULL
@@ -285,6 +303,9 @@ static inline double scree_body_inertia(const scree_state *state, size_t row)
     const scree_row *body = &state->row[row];
     return (state->dimension == 3 ? 0.4 : 0.5) * body->mass * body->radius * body->radius;
 }
+
+/// Makes room for what laws that look ahead need, if there is none yet.
+scree_status scree_state_foresee(scree_state *state, scree_error *error) SCREE_MUST_USE;
 
 /// The body in `row` is of the assembly, not of a membrane.
 static inline bool scree_body_is_grain(const scree_state *state, size_t row)

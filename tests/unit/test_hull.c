@@ -35,6 +35,7 @@ static void bench_create(bench *b, size_t side, size_t levels, bool plates)
 {
     memset(b, 0, sizeof *b);
     b->config.boundary.every = 250;
+    b->model.largest_step = 1;
     b->config.boundary.gap_limit = 0.5;
     b->config.boundary.servo_gain = 1;
     b->model.config = &b->config;
