@@ -57,12 +57,12 @@ static void compare(const fixture *plane, const fixture *solid)
     // Round-off of 1e-16 of the sample's 3 cm a step and contact, which collisions of a few time units enlarge by less
     // than a thousand; speeds are of 1 m/s, spins of 1000 rad/s.
     for (size_t k = 0; k < plane->state.count; k++) {
-        const scree_row *disc = &plane->state.row[k], *sphere = &solid->state.row[k];
+        const scree_row *disc = &plane->state.row[k], *ball = &solid->state.row[k];
         const scree_turn_row *turn = &solid->state.turn[k];
-        assert_true(fabs(disc->x - sphere->x) < 1e-14 && fabs(disc->y - sphere->y) < 1e-14);
-        assert_true(fabs(disc->vx - sphere->vx) < 1e-9 && fabs(disc->vy - sphere->vy) < 1e-9);
+        assert_true(fabs(disc->x - ball->x) < 1e-14 && fabs(disc->y - ball->y) < 1e-14);
+        assert_true(fabs(disc->vx - ball->vx) < 1e-9 && fabs(disc->vy - ball->vy) < 1e-9);
         assert_true(fabs(disc->spin - turn->wz) < 1e-6);
-        assert_true(sphere->z == 0 && sphere->vz == 0 && turn->wx == 0 && turn->wy == 0);
+        assert_true(ball->z == 0 && ball->vz == 0 && turn->wx == 0 && turn->wy == 0);
         assert_int_equal(plane->state.sum[k].contacts, solid->state.sum[k].contacts);
     }
     const scree_ledger *a = &plane->state.ledger, *b = &solid->state.ledger;
