@@ -19,7 +19,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { RUNS = 3, STEPS = 1000, TURNS = 3, COPIES = 32 };
+enum { RUNS = 3, SETTLING_STEPS = 5000, STEPS = 1000, TURNS = 3, COPIES = 32 };
 static const double run_seconds = 1.0;
 static const double side = 0.05728; // m, of the periodic box
 static const double gravity = 9.81, step_size = 1e-5;
@@ -151,13 +151,10 @@ static void step(sample *s)
     s->integrator->second(&s->model, &s->state, &s->work);
 }
 
-static void open_sample(sample *s, const options *o, size_t copies)
+/// Pairs and forces of a sample that has bodies and walls.
+static void start(sample *s, const options *o)
 {
     scree_error error;
-    open_model(s);
-    read_bed(s, copies);
-    put_walls(&s->state);
-    s->state.step_size = step_size;
     s->state.largest_speed = 1;
     require(scree_work_create(&s->work, &s->model, 1, &error), &error);
     if (o->skin > 0) s->work.skin = o->skin;
@@ -165,6 +162,26 @@ static void open_sample(sample *s, const options *o, size_t copies)
     s->state.step_size = 0;
     forces(s);
     s->state.step_size = step_size;
+}
+
+static void open_bed(sample *s, const options *o, size_t copies)
+{
+    open_model(s);
+    read_bed(s, copies);
+    put_walls(&s->state);
+    start(s, o);
+}
+
+/// The bodies and walls of `from`, springs clear.
+static void open_copy(sample *s, const options *o, const sample *from)
+{
+    scree_error error;
+    open_model(s);
+    require(scree_state_create(&s->state, 3, from->state.count, &error), &error);
+    memcpy(s->state.row, from->state.row, s->state.count * sizeof *s->state.row);
+    memcpy(s->state.turn, from->state.turn, s->state.count * sizeof *s->state.turn);
+    memcpy(s->state.wall, from->state.wall, sizeof s->state.wall);
+    start(s, o);
 }
 
 static void close_sample(sample *s)
@@ -289,23 +306,16 @@ static double run_peer(const sample *s, const options *o, energies *last)
 }
 
 /// The same 1000 steps in both codes, in turn; the best of each.
-static void compare_with_peer(const options *o)
+static void compare_with_peer(const options *o, const sample *bed)
 {
     double ours = 0, theirs = 0;
     energies e = {0}, other = {0};
+    char path[1024];
+    (void)snprintf(path, sizeof path, "%s/spheres.data", o->folder);
+    export_data(bed, path);
     for (int turn = 0; turn < TURNS; turn++) {
         sample s = {0};
-        open_sample(&s, o, 1);
-        if (turn == 0) {
-            char path[1024];
-            (void)snprintf(path, sizeof path, "%s/spheres.data", o->folder);
-            sample start = {0};
-            open_model(&start);
-            read_bed(&start, 1);
-            put_walls(&start.state);
-            export_data(&start, path);
-            scree_state_destroy(&start.state);
-        }
+        open_copy(&s, o, bed);
         double begin = seconds();
         for (int k = 0; k < STEPS; k++) step(&s);
         ours = fmax(ours, (double)s.state.count * STEPS / (seconds() - begin));
@@ -326,11 +336,21 @@ static void compare_with_peer(const options *o)
     printf("  m g z                   %.8e  %.8e  %.1e\n", e.height, other.height, e.height / other.height - 1);
 }
 
-static void bench_size(const options *o, size_t copies)
+static void bench_bed(const options *o)
 {
     sample s = {0};
-    open_sample(&s, o, copies);
-    for (int k = 0; k < 20; k++) step(&s);
+    open_bed(&s, o, 1);
+    for (int k = 0; k < SETTLING_STEPS; k++) step(&s);
+    print_line(&s, measure(&s));
+    if (o->peer) compare_with_peer(o, &s);
+    close_sample(&s);
+}
+
+static void bench_large(const options *o)
+{
+    sample s = {0};
+    open_bed(&s, o, COPIES);
+    for (int k = 0; k < 10; k++) step(&s);
     print_line(&s, measure(&s));
     close_sample(&s);
 }
@@ -353,8 +373,7 @@ int main(int argc, char **argv)
             return (void)fprintf(stderr, "bench_spheres: what is '%s'?\n", argv[k]), EXIT_FAILURE;
     }
     printf("kernels: x86-64-v%d\n", scree_processor_level());
-    if (o.bed || !o.large) bench_size(&o, 1);
-    if (o.peer && (o.bed || !o.large)) compare_with_peer(&o);
-    if (o.large || !o.bed) bench_size(&o, COPIES);
+    if (o.bed || !o.large) bench_bed(&o);
+    if (o.large || !o.bed) bench_large(&o);
     return EXIT_SUCCESS;
 }

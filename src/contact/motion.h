@@ -46,7 +46,7 @@ typedef struct motion {
     lanes arm_first, arm_second; ///< m
     lanes reduced_radius;        ///< m, R_eff
     lanes reduced_mass;          ///< kg, m_eff
-    lanes turned;                ///< rad, psi
+    vector turned;               ///< rad, psi n, in space
     lanes approached;            ///< middle increments over the step, for the ledger
     vector slipped, rolled;
     lanes twisted;
@@ -70,7 +70,7 @@ SCREE_INLINE lanes_bits bodies_touch(int dimension, vector apart, lanes radii)
 SCREE_INLINE vector motion_carry(int dimension, const motion *m, vector a)
 {
     if (dimension == 2) return a;
-    vector turned = vector_plus(3, a, vector_times(3, vector_cross(m->normal, a), m->turned));
+    vector turned = vector_plus(3, a, vector_cross(m->turned, a));
     return vector_minus(3, turned, vector_times(3, m->normal, vector_dot(3, a, m->normal)));
 }
 
@@ -100,19 +100,20 @@ SCREE_INLINE void motion_advance(int dimension, motion *m, vector velocity, vect
     m->roll = vector_times(count, spin_across(dimension, relative, n), m->reduced_radius);
 
     vector shift = vector_times(count, along, dt), angle = vector_times(count, shift, inverse_distance);
-    vector turn = spin_across(dimension, vector_times(count, spins, dt), n);
+    vector half_turn = spin_across(dimension, vector_times(count, spins, 0.5 * dt), n);
     m->approached = m->approach * step + 0.5 * vector_dot(count, shift, angle);
-    vector bent = vector_plus(count, angle, vector_times(count, turn, lanes_all(0.5)));
+    vector bent = vector_plus(count, angle, half_turn);
     m->slipped = vector_minus(count, vector_times(count, m->slip, dt), vector_times(count, bent, m->approached * 0.5));
     m->rolled = vector_times(count, m->roll, dt);
     if (dimension == 2) return;
 
     lanes lever_normal = vector_dot(3, lever, n) * step;
     m->twist = vector_dot(3, relative, n);
-    m->turned = 0.5 * step * vector_dot(3, spins, n);
-    vector screw = vector_plus(3, vector_times(3, angle, lever_normal), vector_times(3, m->slip, m->turned * step));
+    lanes turned = 0.5 * step * vector_dot(3, spins, n);
+    m->turned = vector_times(3, n, turned);
+    vector screw = vector_plus(3, vector_times(3, angle, lever_normal), vector_times(3, m->slip, turned * step));
     m->slipped = vector_plus(3, m->slipped, vector_times(3, vector_cross(n, screw), lanes_all(0.5)));
-    screw = vector_minus(3, vector_times(3, m->roll, m->turned * step),
+    screw = vector_minus(3, vector_times(3, m->roll, turned * step),
                          vector_times(3, angle, m->reduced_radius * m->twist * step));
     m->rolled = vector_plus(3, m->rolled, vector_times(3, vector_cross(n, screw), lanes_all(0.5)));
     m->twisted = m->twist * step - 0.5 * step * vector_dot(3, relative, angle);

@@ -53,6 +53,14 @@ SCREE_INLINE vector vector_times(int count, vector a, lanes factor)
     return a;
 }
 
+SCREE_INLINE vector vector_opposite(int count, vector a)
+{
+    a.x = -a.x;
+    if (count > 1) a.y = -a.y;
+    if (count > 2) a.z = -a.z;
+    return a;
+}
+
 SCREE_INLINE vector vector_keep(int count, lanes_bits mask, vector a)
 {
     a.x = lanes_keep(mask, a.x);
