@@ -106,6 +106,7 @@ static scree_status resolve_particles(scree_model *model, scree_error *error)
     model->radius_min = equal ? model->mean_radius : particles->radius_min;
     model->radius_max = equal ? model->mean_radius : particles->radius_max;
     model->thickness = isnan(particles->thickness) ? 2 * model->mean_radius : particles->thickness;
+    if (model->dimension == 3) model->thickness = 1;
     return SCREE_OK;
 }
 
@@ -113,25 +114,31 @@ static scree_status resolve_particles(scree_model *model, scree_error *error)
 static scree_status check_prepare(const scree_model *model, int64_t index, scree_error *error)
 {
     const scree_config_stage *stage = &model->config->stages[index];
-    bool lattice = stage->method == SCREE_PREPARE_HEXAGONAL || stage->method == SCREE_PREPARE_SQUARE;
+    bool lattice = stage->method == SCREE_PREPARE_HEXAGONAL || stage->method == SCREE_PREPARE_SQUARE ||
+                   stage->method == SCREE_PREPARE_FACE_CENTRED || stage->method == SCREE_PREPARE_CUBIC;
+    bool solid = model->dimension == 3;
     if (lattice && model->radius_min < model->radius_max)
         return indexed_error(error, "stages", index, "method",
                              "a lattice needs particles of one radius: set particles.distribution to equal");
-    if (!isnan(stage->width) && stage->width < 2 * model->radius_max) {
+    bool shallow = solid && !isnan(stage->depth) && stage->depth < 2 * model->radius_max;
+    if (shallow || (!isnan(stage->width) && stage->width < 2 * model->radius_max)) {
         char text[160];
-        (void)snprintf(text, sizeof text, "a disc of radius %g m does not fit into a box %g m wide", model->radius_max,
-                       stage->width);
-        return indexed_error(error, "stages", index, "width", text);
+        (void)snprintf(text, sizeof text, "a %s of radius %g m does not fit into a box %g m %s",
+                       solid ? "sphere" : "disc", model->radius_max, shallow ? stage->depth : stage->width,
+                       shallow ? "deep" : "wide");
+        return indexed_error(error, "stages", index, shallow ? "depth" : "width", text);
     }
     return SCREE_OK;
 }
 
-/// Mean square of the radius, of the distribution. Two sizes are equally frequent.
-static double mean_square_radius(const scree_model *model)
+/// Mean mass of a body, of the distribution. Two sizes are equally frequent.
+static double mean_mass(const scree_model *model)
 {
-    double a = model->radius_min, b = model->radius_max;
-    return model->config->particles.distribution == SCREE_SIZE_UNIFORM ? (a * a + a * b + b * b) / 3
-                                                                       : (a * a + b * b) / 2;
+    double a = model->radius_min, b = model->radius_max, density = model->density[scree_model_particle_material(model)];
+    bool uniform = model->config->particles.distribution == SCREE_SIZE_UNIFORM;
+    double square = uniform ? (a * a + a * b + b * b) / 3 : (a * a + b * b) / 2;
+    double cube = uniform ? (a + b) * (a * a + b * b) / 4 : (a * a * a + b * b * b) / 2;
+    return model->dimension == 3 ? density * (4 * M_PI / 3) * cube : density * M_PI * square * model->thickness;
 }
 
 /// Reference velocity, phi and psi: those of the first compress stage under the pressure of the last confine stage
@@ -159,9 +166,7 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
                            "give contact.reference_velocity");
     model->phi = model->psi = NAN;
     if (!compress) return SCREE_OK;
-    double mass =
-        model->density[scree_model_particle_material(model)] * M_PI * mean_square_radius(model) * model->thickness;
-    scree_quasistatic_numbers(model->dimension, (double)config->particles.count, mass, model->mean_radius,
+    scree_quasistatic_numbers(model->dimension, (double)config->particles.count, mean_mass(model), model->mean_radius,
                               model->thickness, compress->rate, pressure, &model->phi, &model->psi);
     return SCREE_OK;
 }
@@ -199,7 +204,7 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
         .damping_time = config->contact.damping_time,
         .inverse_exponent = 1 / config->contact.friction_exponent,
         .scheme = (scree_scheme)config->integrator.scheme,
-        .gravity = {config->gravity_x, config->gravity_y, 0},
+        .gravity = {config->gravity[0], config->gravity[1], config->gravity[2]},
         .config = config,
     };
     scree_status status = resolve_materials(model, error);
@@ -207,6 +212,12 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
     if (!status) status = resolve_loading(model, error);
     if (!status) status = resolve_step(model, error);
     return status;
+}
+
+double scree_model_mass(const scree_model *model, int material, double radius)
+{
+    if (model->dimension == 3) return model->density[material] * (4 * M_PI / 3) * radius * radius * radius;
+    return model->density[material] * M_PI * radius * radius * model->thickness;
 }
 
 scree_model scree_model_with_friction(const scree_model *model, double friction)

@@ -46,6 +46,9 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
 /// Index of the material that the particles are made of.
 int scree_model_particle_material(const scree_model *model);
 
+/// Mass [kg] of a body of `radius` [m]: a cylinder in 2D, a sphere in 3D.
+double scree_model_mass(const scree_model *model, int material, double radius);
+
 /// A copy with every friction coefficient replaced by `friction` (used while preparing dense samples). NAN copies only.
 scree_model scree_model_with_friction(const scree_model *model, double friction);
 
