@@ -87,7 +87,7 @@ typedef struct scree_config_stage {
     int outline;           ///< scree_sample_outline
     double width;          ///< m; auto: from count, sizes and aspect ratio
     double depth;          ///< m, 3D only; auto: the width
-    double solid_fraction; ///< 1, gas and growth only; auto: scree_prepare_standard_fraction
+    double solid_fraction; ///< 1, gas and growth only; auto: see the schema
     double velocity;       ///< m/s, gas only: root-mean-square velocity component
     // confine
     double pressure;         ///< Pa, compression positive

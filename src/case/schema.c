@@ -173,7 +173,7 @@ static const scree_key prepare_keys[] = {
            .meaning = "Depth of the sample, along y in three dimensions; auto: its width."),
     NUMBER(stage, solid_fraction, "1", .standard = "auto", ABOVE("0"), TO("90 %"), .when = "method=gas|growth",
            .meaning = "Area (volume) of the particles over that of the box; auto: 30 % of discs and 15 % of spheres in "
-                      "a gas, 80 % and 60 % with growth."),
+                      "a gas; with growth 80 % and 60 %, less what the walls take."),
     NUMBER(stage, velocity, "m/s", .standard = "0 m/s", FROM("0 m/s"), TO("1000 m/s"), .when = "method=gas",
            .meaning = "Root-mean-square velocity component."),
 };

@@ -95,7 +95,7 @@ static double sample_height(const scree_model *model, const scree_config_stage *
     const scree_config *config = model->config;
     bool gas = stage && stage->method == SCREE_PREPARE_GAS;
     double disc = M_PI * model->mean_radius * model->mean_radius;
-    double area = (double)config->particles.count * disc / (gas ? stage->solid_fraction : SOLID_FRACTION);
+    double area = (double)config->particles.count * disc / (gas ? scree_model_gas_fraction(model, stage) : SOLID_FRACTION);
     if (stage && !isnan(stage->width)) return area / stage->width;
     return sqrt(area * (stage ? stage->aspect_ratio : 1));
 }

@@ -220,6 +220,12 @@ double scree_model_mass(const scree_model *model, int material, double radius)
     return model->density[material] * M_PI * radius * radius * model->thickness;
 }
 
+double scree_model_gas_fraction(const scree_model *model, const scree_config_stage *stage)
+{
+    if (!isnan(stage->solid_fraction)) return stage->solid_fraction;
+    return model->dimension == 3 ? 0.15 : 0.3;
+}
+
 scree_model scree_model_with_friction(const scree_model *model, double friction)
 {
     scree_model copy = *model;

@@ -49,6 +49,9 @@ int scree_model_particle_material(const scree_model *model);
 /// Mass [kg] of a body of `radius` [m]: a cylinder in 2D, a sphere in 3D.
 double scree_model_mass(const scree_model *model, int material, double radius);
 
+/// Solid fraction of a gas that `stage` prepares: what it says, 30 % of discs or 15 % of spheres where that is auto.
+double scree_model_gas_fraction(const scree_model *model, const scree_config_stage *stage);
+
 /// A copy with every friction coefficient replaced by `friction` (used while preparing dense samples). NAN copies only.
 scree_model scree_model_with_friction(const scree_model *model, double friction);
 

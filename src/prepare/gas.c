@@ -136,8 +136,7 @@ static scree_status place(const scree_model *model, const scree_config_stage *st
                           scree_error *error)
 {
     scree_box *box = &packing->box;
-    double largest = scree_packing_largest(packing), fraction = stage->solid_fraction;
-    if (isnan(fraction)) fraction = scree_prepare_standard_fraction(packing->dimension, SCREE_PREPARE_GAS);
+    double largest = scree_packing_largest(packing), fraction = scree_model_gas_fraction(model, stage);
     scree_packing_fit_box(packing, scree_packing_solid(packing), fraction, 0);
     if (packing->dimension == 2 && fmin(box->width, box->height) < 2 * largest)
         return scree_prepare_error(error, model, stage, "solid_fraction",

@@ -30,12 +30,6 @@ const scree_preparation *scree_preparation_get(scree_prepare_method method)
     return NULL;
 }
 
-double scree_prepare_standard_fraction(int dimension, scree_prepare_method method)
-{
-    if (method == SCREE_PREPARE_GROWTH) return dimension == 3 ? 0.6 : 0.8;
-    return dimension == 3 ? 0.15 : 0.3;
-}
-
 scree_status scree_prepare_error(scree_error *error, const scree_model *model, const scree_config_stage *stage,
                                  const char *key, const char *format, ...)
 {

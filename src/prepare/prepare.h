@@ -57,9 +57,6 @@ scree_status scree_packing_cut_round(const scree_model *model, const scree_confi
                                      const scree_preparation *method, scree_packing *packing,
                                      scree_error *error) SCREE_MUST_USE;
 
-/// Default of stage->solid_fraction.
-double scree_prepare_standard_fraction(int dimension, scree_prepare_method method);
-
 /// Creates the state: radii, positions, masses (density * pi R^2 * thickness, density * 4/3 pi R^3), walls of the box,
 /// ids in order of placement. A round sample (stage->outline) is the middle of a larger packing; its walls bound it but
 /// are not active.
