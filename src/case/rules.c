@@ -52,6 +52,19 @@ static void check_materials(scree_reader *reader, const scree_config *config)
                       nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
 }
 
+/// Discs turn about one axis, which no contact twists.
+static void check_twisting(scree_reader *reader, const scree_config *config)
+{
+    for (int64_t i = 0; i < config->material_count && config->dimension == 2; i++) {
+        if (!(config->materials[i].twisting_friction > 0)) continue;
+        const char *text;
+        char path[SCREE_PATH_BYTES];
+        (void)snprintf(path, sizeof path, "materials.%lld.twisting_friction", (long long)i);
+        scree_place place = place_of(element(reader, "materials", i), "twisting_friction", &text);
+        scree_problem_add(reader, place, path, text, "0", "discs do not twist: twisting_friction is for spheres");
+    }
+}
+
 static void check_radii(scree_reader *reader, scree_config *config)
 {
     scree_config_particles *particles = &config->particles;
@@ -104,6 +117,8 @@ static void check_stage_order(scree_reader *reader, const scree_config *config)
             wrong = "only the first stage can be prepare";
         else if (kind == SCREE_STAGE_COMPRESS && !confined)
             wrong = "a confine stage must come before: compress keeps its pressure";
+        else if (kind == SCREE_STAGE_DEFORM && !confined)
+            wrong = "a confine stage must come before: deform keeps its pressure";
         confined = confined || kind == SCREE_STAGE_CONFINE;
         if (!wrong) continue;
         char path[SCREE_PATH_BYTES];
@@ -157,26 +172,18 @@ static void check_preparation(scree_reader *reader, const scree_config *config)
     static const twin lattices[] = {{SCREE_PREPARE_HEXAGONAL, SCREE_PREPARE_FACE_CENTRED, "hexagonal", "face_centred"},
                                     {SCREE_PREPARE_SQUARE, SCREE_PREPARE_CUBIC, "square", "cubic"}};
     static const twin outlines = {SCREE_SAMPLE_CIRCLE, SCREE_SAMPLE_BALL, "circle", "ball"};
-    bool round = false;
     for (int64_t i = 0; i < config->stage_count; i++) {
         const scree_config_stage *stage = &config->stages[i];
-        const scree_node *node = element(reader, "stages", i);
+        if (stage->kind != SCREE_STAGE_PREPARE) continue;
+        for (size_t k = 0; k < sizeof lattices / sizeof *lattices; k++)
+            check_twin(reader, config, i, "method", stage->method, &lattices[k]);
+        check_twin(reader, config, i, "outline", stage->outline, &outlines);
         char path[SCREE_PATH_BYTES];
         const char *text;
-        if (stage->kind == SCREE_STAGE_PREPARE) {
-            for (size_t k = 0; k < sizeof lattices / sizeof *lattices; k++)
-                check_twin(reader, config, i, "method", stage->method, &lattices[k]);
-            check_twin(reader, config, i, "outline", stage->outline, &outlines);
-            round = stage->outline != SCREE_SAMPLE_BOX;
-            (void)snprintf(path, sizeof path, "stages.%lld.depth", (long long)i);
-            scree_place place = place_of(node, "depth", &text);
-            if (round && text && !isnan(stage->depth))
-                scree_problem_add(reader, place, path, text, "auto", "a round sample has no depth of its own");
-        } else if (round && (stage->kind == SCREE_STAGE_CONFINE || stage->kind == SCREE_STAGE_COMPRESS)) {
-            (void)snprintf(path, sizeof path, "stages.%lld.stage", (long long)i);
-            scree_place place = place_of(node, "stage", &text);
-            scree_problem_add(reader, place, path, text, NULL, "plates need a sample with outline: box");
-        }
+        (void)snprintf(path, sizeof path, "stages.%lld.depth", (long long)i);
+        scree_place place = place_of(element(reader, "stages", i), "depth", &text);
+        if (stage->outline != SCREE_SAMPLE_BOX && text && !isnan(stage->depth))
+            scree_problem_add(reader, place, path, text, "auto", "a round sample has no depth of its own");
     }
 }
 
@@ -186,8 +193,9 @@ static void check_windows(scree_reader *reader, const scree_config *config)
     const char *largest_text = "0 %";
     for (int64_t i = 0; i < config->stage_count; i++) {
         const scree_config_stage *stage = &config->stages[i];
-        if (stage->kind < 0 || (stage->kind == SCREE_STAGE_COMPRESS && !(stage->strain > 0))) return; // noted
-        if (stage->kind != SCREE_STAGE_COMPRESS || stage->strain <= largest) continue;
+        bool loads = stage->kind == SCREE_STAGE_COMPRESS || stage->kind == SCREE_STAGE_DEFORM;
+        if (stage->kind < 0 || (loads && !(stage->strain > 0))) return; // noted
+        if (!loads || stage->strain <= largest) continue;
         largest = stage->strain;
         (void)place_of(element(reader, "stages", i), "strain", &largest_text);
     }
@@ -200,7 +208,8 @@ static void check_windows(scree_reader *reader, const scree_config *config)
         if (window->from >= window->to)
             scree_problem_add(reader, pair->place, path, NULL, NULL, "a window must begin before it ends");
         else if (largest == 0 && config->stage_count > 0 && !isnan(window->to))
-            scree_problem_add(reader, pair->place, path, NULL, NULL, "no stage compresses, so there is no strain");
+            scree_problem_add(reader, pair->place, path, NULL, NULL,
+                              "no stage loads the sample, so there is no strain");
         else if (largest > 0 && window->to > largest)
             scree_problem_add(reader, pair->place, path, NULL, NULL, "ends at '%s', beyond the largest strain, '%s'",
                               pair->last->text, largest_text);
@@ -210,10 +219,12 @@ static void check_windows(scree_reader *reader, const scree_config *config)
 void scree_rules_check(scree_reader *reader, scree_config *config)
 {
     check_materials(reader, config);
+    check_twisting(reader, config);
     check_radii(reader, config);
     name_stages(reader, config);
     check_stage_order(reader, config);
     check_dimension(reader, config);
     check_preparation(reader, config);
     check_windows(reader, config);
+    scree_rules_check_boundaries(reader, config);
 }

@@ -6,6 +6,8 @@
 
 #include "case/config.h"
 
+#include <math.h>
+
 #define SCREE_MAX_MATERIALS 16
 
 /// Constants of a contact between two materials (or a grain and a plate). Symmetric in the two materials.
@@ -14,13 +16,17 @@ typedef struct scree_pair_constants {
     double normal_stiffness;     ///< Pa, (4/3) Ebar;  f_n = normal_stiffness sqrt(R_eff) d^1.5
     double tangential_stiffness; ///< Pa, 8 Gbar;      k_t = tangential_stiffness sqrt(R_eff d)
     double friction;             ///< 1
-    double damping; ///< 1, hertz_mindlin: eta = damping sqrt(m_eff k_n), k_n = normal_stiffness sqrt(R_eff d)
+    double damping;           ///< 1, hertz_mindlin: eta = damping sqrt(m_eff k_n), k_n = normal_stiffness sqrt(R_eff d)
+    double rolling_friction;  ///< 1, hertz_mindlin: cap of the rolling resistance over f_n
+    double twisting_friction; ///< 1, hertz_mindlin in 3D: cap of the twisting torque over R_eff f_n
+    double unused[2];         ///< zero; keeps the row at 64 bytes, which kernels load in halves
 } scree_pair_constants;
 
 typedef struct scree_model {
     int dimension;
     double thickness; ///< m, length of the discs; 1 in 3D
     scree_law law;
+    bool rolling;              ///< some material resists rolling or twisting (hertz_mindlin)
     double damping_time;       ///< s, T of hertz_brilliantov
     double inverse_exponent;   ///< 1/c of hertz_brilliantov
     double reference_velocity; ///< m/s, v_R
@@ -30,7 +36,11 @@ typedef struct scree_model {
     double gravity[3];             ///< m/s2
     double mean_radius;            ///< m, of the distribution
     double radius_min, radius_max; ///< m
-    double phi, psi; ///< quasistatic and size coefficients (P 2.13, 2.14, B1), NAN without a loading stage
+    double phi, psi;           ///< quasistatic and size coefficients (P 2.13, 2.14, B1), NAN without a loading stage
+    bool membrane;             ///< some stage has one
+    int membrane_material;     ///< index of its constants below, frictionless, else those of the particles
+    double membrane_radius;    ///< m; 0 without a membrane
+    double membrane_stiffness; ///< N/m
     int material_count;
     scree_pair_constants pairs[SCREE_MAX_MATERIALS][SCREE_MAX_MATERIALS]; ///< grain on grain
     scree_pair_constants walls[SCREE_MAX_MATERIALS];                      ///< grain on a plate of the same material
@@ -43,16 +53,27 @@ typedef struct scree_model {
 /// exist.
 scree_status scree_model_build(const scree_config *config, scree_model *model, scree_error *error) SCREE_MUST_USE;
 
+/// Largest radius of all bodies [m], those of a membrane included.
+double scree_model_largest_radius(const scree_model *model);
+
+/// Mass [kg] of a body: a sphere, or a disc of the model's thickness.
+static inline double scree_model_mass(const scree_model *model, int material, double radius)
+{
+    double length = model->dimension == 3 ? 4.0 / 3.0 * radius : model->thickness;
+    return model->density[material] * M_PI * radius * radius * length;
+}
+
+/// Strain rate that a stage imposes [1/s]; of a deform stage the largest component. NAN: it loads nothing.
+double scree_model_loading_rate(const scree_config_stage *stage);
+
 /// Index of the material that the particles are made of.
 int scree_model_particle_material(const scree_model *model);
-
-/// Mass [kg] of a body of `radius` [m]: a cylinder in 2D, a sphere in 3D.
-double scree_model_mass(const scree_model *model, int material, double radius);
 
 /// Solid fraction of a gas that `stage` prepares: what it says, 30 % of discs or 15 % of spheres where that is auto.
 double scree_model_gas_fraction(const scree_model *model, const scree_config_stage *stage);
 
-/// A copy with every friction coefficient replaced by `friction` (used while preparing dense samples). NAN copies only.
+/// A copy with every friction coefficient replaced by `friction` (used while preparing dense samples), but a membrane's
+/// zero. NAN copies only.
 scree_model scree_model_with_friction(const scree_model *model, double friction);
 
 #endif

@@ -104,6 +104,7 @@ static inline scree_status sample_table(const scree_state *state, scree_contact_
                                             .wall = wall,
                                             .sliding = k % 2 == 1,
                                             .normal = {0.6, 0.8},
+                                            .tangent = {-0.8, 0.6},
                                             .point = {1e-3 * (double)k, 2e-3},
                                             .branch = {1.2e-3, 1.6e-3},
                                             .indentation = 1e-7 * (double)(k + 1),
