@@ -26,7 +26,7 @@ static void read_document(scree_reader *reader, const scree_document *document, 
         reader->root = scree_yaml_read(reader, document->text, document->length, place);
     if (!reader->root || reader->failure.status) return;
     bool keys = scree_root_read(reader, document->section, base);
-    if (keys && document->rules && !reader->failure.status) document->rules(reader, base);
+    if (keys && document->rules && !reader->failure.status) document->rules(reader, document->user);
 }
 
 scree_status scree_document_read(const scree_document *document, scree_arena *arena, void *base, size_t size,

@@ -7,7 +7,8 @@
 
 typedef struct scree_document {
     const scree_section *section;                     ///< schema of the whole file
-    void (*rules)(scree_reader *reader, void *base);  ///< ties several keys together; may note problems; may be NULL
+    void (*rules)(scree_reader *reader, void *user);  ///< ties several keys together; may note problems; may be NULL
+    void *user;
     const char *name;                                 ///< stands for the file in messages
     const char *text;
     size_t length;

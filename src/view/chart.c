@@ -106,6 +106,7 @@ static void write_data(FILE *file, const scree_chart *chart)
         }
         fputc(',', file);
         write_csv_text(file, line->label ? line->label : chart->y_label);
+        if (line->low) fputs(",low,high", file);
     }
     fputc('\n', file);
     for (size_t row = 0; row < rows; row++) {
@@ -117,8 +118,52 @@ static void write_data(FILE *file, const scree_chart *chart)
             }
             fputc(',', file);
             write_value(file, line, line->y, row);
+            for (int side = 0; line->low && side < 2; side++) {
+                fputc(',', file);
+                write_value(file, line, side == 0 ? line->low : line->high, row);
+            }
         }
         fputc('\n', file);
+    }
+}
+
+/// One line of the plot command: the columns of the data file, then how they are drawn.
+static void begin_plot(FILE *file, const char *name, bool first)
+{
+    fputs(first ? "plot " : ", \\\n     ", file);
+    write_quoted(file, name);
+    fputs(".'.csv' skip 1 using ", file);
+}
+
+/// The band or the error bars of the line whose y is in column y; they are drawn first, under the line.
+static void write_range(FILE *file, const scree_chart_line *line, size_t x, size_t y, const char *colour)
+{
+    if (line->points)
+        fprintf(file, "%zu:%zu:%zu:%zu with yerrorbars linecolor rgb '%s' linewidth 1.4 pointtype 7 pointsize 0", x, y,
+                y + 1, y + 2, colour);
+    else
+        fprintf(file, "%zu:%zu:%zu with filledcurves fillcolor rgb '%s' fillstyle transparent solid 0.18 noborder", x,
+                y + 1, y + 2, colour);
+    fputs(" notitle", file);
+}
+
+static void write_line(FILE *file, const scree_chart_line *line, size_t x, size_t y, const char *colour)
+{
+    fprintf(file, "%zu:%zu with %s linecolor rgb '%s'", x, y,
+            line->bare     ? "points"
+            : line->points ? "linespoints"
+                           : "lines",
+            colour);
+    fprintf(file, " linewidth 2%s%s", line->bare ? "" : " dashtype ",
+            line->bare     ? ""
+            : line->dashed ? "(7,4)"
+                           : "solid");
+    if (line->points) fprintf(file, " pointtype 7 pointsize %s", line->low ? "0.8" : "0.5");
+    if (line->label) {
+        fputs(" title ", file);
+        write_quoted(file, line->label);
+    } else {
+        fputs(" notitle", file);
     }
 }
 
@@ -128,23 +173,32 @@ static void write_plot(FILE *file, const scree_chart *chart, const char *name)
     for (size_t k = 0; k < chart->line_count; k++) {
         const scree_chart_line *line = &chart->line[k];
         if (!shares_x(chart, k)) x_column = ++column;
-        column++;
+        size_t y_column = ++column;
+        if (line->low) column += 2;
         if (!line_drawable(chart, line)) continue;
-        fputs(written == 0 ? "plot " : ", \\\n     ", file);
-        write_quoted(file, name);
-        fprintf(file, ".'.csv' skip 1 using %zu:%zu with %s", x_column, column, line->points ? "linespoints" : "lines");
-        int colour = line->colour > 0 ? (line->colour - 1) % COLOURS : (int)(written % COLOURS);
-        fprintf(file, " linecolor rgb '%s' linewidth 2 dashtype %s", palette[colour], line->dashed ? "(7,4)" : "solid");
-        if (line->points) fputs(" pointtype 7 pointsize 0.5", file);
-        if (line->label) {
-            fputs(" title ", file);
-            write_quoted(file, line->label);
-        } else {
-            fputs(" notitle", file);
+        const char *colour = palette[line->colour > 0 ? (size_t)(line->colour - 1) % COLOURS : written % COLOURS];
+        begin_plot(file, name, written == 0);
+        if (line->low) {
+            write_range(file, line, x_column, y_column, colour);
+            begin_plot(file, name, false);
         }
+        write_line(file, line, x_column, y_column, colour);
         written++;
     }
     fputc('\n', file);
+}
+
+/// Names in place of numbers along the x axis, with half a place free at both ends.
+static void write_x_names(FILE *file, const scree_chart *chart)
+{
+    if (!chart->x_name) return;
+    fputs("unset mxtics\nset xtics (", file);
+    for (size_t k = 0; k < chart->x_name_count; k++) {
+        fputs(k > 0 ? ", " : "", file);
+        write_quoted(file, chart->x_name[k]);
+        fprintf(file, " %zu", k + 1);
+    }
+    fprintf(file, ") noenhanced\nset xrange [0.5:%zu.5]\n", chart->x_name_count);
 }
 
 static void write_output(FILE *file, const char *name, const char *extension, const char *terminal)
@@ -160,9 +214,10 @@ static bool begins_at_zero(const scree_chart *chart)
     double low = INFINITY, high = -INFINITY;
     for (size_t k = 0; k < chart->line_count; k++)
         for (size_t row = 0; row < chart->line[k].count; row++) {
-            if (!drawable(chart, chart->line[k].x[row], chart->line[k].y[row])) continue;
-            low = fmin(low, chart->line[k].y[row]);
-            high = fmax(high, chart->line[k].y[row]);
+            const scree_chart_line *line = &chart->line[k];
+            if (!drawable(chart, line->x[row], line->y[row])) continue;
+            low = fmin(low, line->low && isfinite(line->low[row]) ? line->low[row] : line->y[row]);
+            high = fmax(high, line->y[row]);
         }
     return low >= 0 && low < 0.25 * high;
 }
@@ -195,6 +250,7 @@ static void write_style(FILE *file, const scree_chart *chart)
                  : "set rmargin at screen 0.965\nunset key\n",
           file);
     if (!chart->log_y && begins_at_zero(chart)) fputs("set offsets 0, 0, graph 0.03, 0\nset yrange [0:]\n", file);
+    write_x_names(file, chart);
     if (chart->log_x) fputs("set logscale x\nset format x '10^{%L}'\n", file);
     if (chart->log_y) fputs("unset offsets\nset logscale y\nset format y '10^{%L}'\n", file);
 }
