@@ -6,10 +6,10 @@
 #include "case/check.h"
 
 typedef struct scree_document {
-    const scree_section *section;                     ///< schema of the whole file
-    void (*rules)(scree_reader *reader, void *user);  ///< ties several keys together; may note problems; may be NULL
+    const scree_section *section;                    ///< schema of the whole file
+    void (*rules)(scree_reader *reader, void *user); ///< ties several keys together; may note problems; may be NULL
     void *user;
-    const char *name;                                 ///< stands for the file in messages
+    const char *name; ///< stands for the file in messages
     const char *text;
     size_t length;
 } scree_document;

@@ -149,10 +149,10 @@ static void add_parameter(scree_reader *reader, scree_sweep *sweep, size_t dimen
         text[i] = d->setting[i].assignment[k].value;
         number[i] = NAN;
         if (scree_member_case(sweep, point, &c, NULL)) continue;
-        bool found = scree_path_follow(scree_case_root(c), parameter->name, NULL, d->setting[i].assignment[k].place,
-                                       &target);
-        bool numeric = found && !target.element &&
-                       (target.key->type == SCREE_KEY_NUMBER || target.key->type == SCREE_KEY_INTEGER);
+        bool found =
+            scree_path_follow(scree_case_root(c), parameter->name, NULL, d->setting[i].assignment[k].place, &target);
+        bool numeric =
+            found && !target.element && (target.key->type == SCREE_KEY_NUMBER || target.key->type == SCREE_KEY_INTEGER);
         const char *unit = numeric && target.key->unit ? target.key->unit : "1";
         if (numeric && scree_units_parse(text[i], unit, &number[i], NULL)) number[i] = NAN;
         if (numeric) parameter->unit = unit;

@@ -60,9 +60,9 @@ static scree_status average_point(const scree_sweep_results *results, size_t poi
     }
     if (!status && count > 0) {
         scree_error none;
-        mean->there[point] =
-            !scree_curves_average(curve, count, sweep->config.confidence, SCREE_CURVE_PLACES,
-                                  mean->x + point * SCREE_CURVE_PLACES, mean->estimate + point * SCREE_CURVE_PLACES, &none);
+        mean->there[point] = !scree_curves_average(curve, count, sweep->config.confidence, SCREE_CURVE_PLACES,
+                                                   mean->x + point * SCREE_CURVE_PLACES,
+                                                   mean->estimate + point * SCREE_CURVE_PLACES, &none);
     }
     for (size_t i = 0; i < count; i++) scree_curve_destroy(&curve[i]);
     return status;

@@ -332,8 +332,8 @@ scree_status scree_sweep_run_member(const scree_sweep *sweep, size_t member, con
         if (!status && d.state[member] == SCREE_MEMBER_INTERRUPTED)
             status = scree_error_set(error, SCREE_INTERRUPTED, "%s was interrupted", sweep->folder[member]);
         if (!status && d.state[member] == SCREE_MEMBER_FAILED)
-            status = scree_error_set(error, SCREE_ERROR_GUARD, "%s has failed; --retry runs it anew",
-                                     sweep->folder[member]);
+            status =
+                scree_error_set(error, SCREE_ERROR_GUARD, "%s has failed; --retry runs it anew", sweep->folder[member]);
     }
     close_drive(&d);
     return status;

@@ -24,9 +24,9 @@ static double axis_label(char label[LABEL], const char *name, const char *unit)
     const char *tail = strstr(name, "strain");
     bool percent = unit && strcmp(unit, "1") == 0 && tail && strcmp(tail, "strain") == 0;
     (void)snprintf(label, LABEL, "%s%s%s%s", name, unit && (percent || strcmp(unit, "1") != 0) ? " (" : "",
-                   percent                             ? "%"
+                   percent                          ? "%"
                    : unit && strcmp(unit, "1") != 0 ? unit
-                                                       : "",
+                                                    : "",
                    unit && (percent || strcmp(unit, "1") != 0) ? ")" : "");
     for (char *c = label; *c; c++)
         if (*c == '_') *c = ' ';
@@ -51,7 +51,8 @@ static void draw(const scree_sweep_results *results, const char *name, const scr
     (void)snprintf(file, sizeof file, "figures/%s", name);
     scree_status status = scree_path_join(path, sizeof path, results->options->output, file, &error);
     if (!status) status = scree_chart_draw(path, chart, &error);
-    if (status && status != SCREE_ERROR_INPUT) scree_sweep_tell(results->options, 1, "figure %s: %s", name, error.message);
+    if (status && status != SCREE_ERROR_INPUT)
+        scree_sweep_tell(results->options, 1, "figure %s: %s", name, error.message);
 }
 
 /// Arrays of one line: x, y, low, high.

@@ -214,7 +214,7 @@ static void expand_dimensions(scree_reader *reader, scree_sweep *sweep)
     for (int64_t i = 0; sweep->dimension && i < config->vary_count; i++) {
         const scree_sweep_vary *vary = &config->vary[i];
         const scree_node *element = scree_node_at(list, (size_t)i);
-        char path[24];
+        char path[48];
         (void)snprintf(path, sizeof path, "vary.%lld", (long long)i);
         if (element->kind != SCREE_NODE_MAPPING || !is_consistent(reader, vary, element, path)) continue;
         scree_sweep_together single = {vary->key, vary->values};

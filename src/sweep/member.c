@@ -2,6 +2,7 @@
 #include "sweep/member.h"
 
 #include "base/memory.h"
+#include "case/case.h"
 #include "io/run_directory.h"
 #include "io/run_file.h"
 

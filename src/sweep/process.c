@@ -27,7 +27,8 @@ static void become(const char *const *arguments, int output, int null, int repor
     // The parent may have died before the request.
     if (getppid() != parent) _exit(127);
     default_signals();
-    good = good && dup2(null, STDIN_FILENO) >= 0 && dup2(output, STDOUT_FILENO) >= 0 && dup2(output, STDERR_FILENO) >= 0;
+    good =
+        good && dup2(null, STDIN_FILENO) >= 0 && dup2(output, STDOUT_FILENO) >= 0 && dup2(output, STDERR_FILENO) >= 0;
     if (good) (void)execv(arguments[0], (char *const *)(uintptr_t)arguments);
     int number = errno;
     ssize_t ignored = write(report, &number, sizeof number);

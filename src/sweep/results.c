@@ -129,8 +129,7 @@ static void warn_of_strangers(const scree_sweep *sweep, const scree_sweep_option
     for (struct dirent *entry; folder && (entry = readdir(folder));) {
         if (entry->d_name[0] == '.' || entry->d_type != DT_DIR) continue;
         bool known = false;
-        for (size_t i = 0; i < sweep->member_count && !known; i++)
-            known = strcmp(entry->d_name, sweep->folder[i]) == 0;
+        for (size_t i = 0; i < sweep->member_count && !known; i++) known = strcmp(entry->d_name, sweep->folder[i]) == 0;
         count += !known;
     }
     if (folder) closedir(folder);

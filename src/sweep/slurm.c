@@ -100,7 +100,7 @@ scree_status scree_sweep_write_slurm(const scree_sweep *sweep, const scree_sweep
                   "#SBATCH --ntasks=1\n"
                   "#SBATCH --cpus-per-task=%d\n"
                   "#SBATCH --time=24:00:00\n"
-                  "#SBATCH --signal=TERM@120\n"
+                  "#SBATCH --signal=B:TERM@120\n"
                   "exec ",
                   sweep->config.name, sweep->member_count - 1, options->threads > 0 ? options->threads : 1);
     put_command(file, sweep, read, options);

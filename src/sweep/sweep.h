@@ -87,7 +87,7 @@ typedef struct scree_sweep_parameter {
 struct scree_sweep {
     scree_arena arena; ///< holds everything below
     scree_sweep_config config;
-    const char *source;             ///< file name, or name of the built-in sweep
+    const char *source;                ///< file name, or name of the built-in sweep
     const char *case_text, *case_name; ///< text of the case, and its path or built-in name
     size_t case_length;
     bool quick;

@@ -79,10 +79,12 @@ static bool put_members(FILE *file, const scree_sweep_results *results)
 static bool put_points(FILE *file, const scree_sweep_results *results)
 {
     const scree_sweep *sweep = results->sweep;
+    static const char *const tails[] = {"", ".deviation", ".low", ".high", ".n"};
     (void)fputs("point,name", file);
     put_parameter_heads(file, sweep);
     for (size_t k = 0; k < sweep->measure_count; k++)
-        (void)fprintf(file, ",%1$s,%1$s.deviation,%1$s.low,%1$s.high,%1$s.n", sweep->measure[k]);
+        for (size_t j = 0; j < sizeof tails / sizeof *tails; j++)
+            (void)fprintf(file, ",%s%s", sweep->measure[k], tails[j]);
     for (size_t point = 0; point < sweep->point_count; point++) {
         (void)fprintf(file, "\n%zu,%s", point, sweep->point[point]);
         put_parameters(file, sweep, point);
@@ -144,11 +146,11 @@ static json_t *describe_members(const scree_sweep_results *results)
     const scree_sweep *sweep = results->sweep;
     json_t *members = json_array();
     for (size_t i = 0; i < sweep->member_count; i++)
-        (void)json_array_append_new(
-            members, json_pack("{s:s, s:I, s:I, s:I, s:s}", "folder", sweep->folder[i], "point",
-                               (json_int_t)scree_member_point(sweep, i), "realisation",
-                               (json_int_t)(i / sweep->point_count), "seed", (json_int_t)scree_member_seed(sweep, i),
-                               "status", scree_member_state_name(results->state[i])));
+        (void)json_array_append_new(members, json_pack("{s:s, s:I, s:I, s:I, s:s}", "folder", sweep->folder[i], "point",
+                                                       (json_int_t)scree_member_point(sweep, i), "realisation",
+                                                       (json_int_t)(i / sweep->point_count), "seed",
+                                                       (json_int_t)scree_member_seed(sweep, i), "status",
+                                                       scree_member_state_name(results->state[i])));
     return members;
 }
 

@@ -14,7 +14,7 @@ typedef struct scree_chart_line {
     size_t count;
     const char *label; ///< NULL: no legend entry
     bool dashed, points;
-    bool bare; ///< points without a line
+    bool bare;  ///< points without a line
     int colour; ///< 1 to 7: of the palette, e.g. the same for two lines that belong together; 0: the next one
 } scree_chart_line;
 
