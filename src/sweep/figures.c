@@ -161,15 +161,16 @@ static bool is_wide(const scree_sweep_parameter *axis, size_t count)
     return least > 0 && most / least > 30;
 }
 
-/// The line of measure `k` through all settings of `dimension`, beginning at `point` (where its setting is 0).
-static void trace(const scree_sweep_results *results, size_t k, size_t dimension, size_t point, sheet *s)
+/// The line of measure `k` through all settings of `dimension`, beginning at `point` (where its setting is 0). Settings
+/// that only have names stand at 1, 2, ...; several lines stand beside one another there, `shift` apart.
+static void trace(const scree_sweep_results *results, size_t k, size_t dimension, size_t point, double shift, sheet *s)
 {
     const scree_sweep *sweep = results->sweep;
     const scree_sweep_parameter *axis = axis_of(sweep, dimension);
     size_t stride = 1;
     for (size_t j = dimension + 1; j < sweep->dimension_count; j++) stride *= sweep->dimension[j].count;
     for (size_t i = 0; i < sweep->dimension[dimension].count; i++)
-        put_estimate(s, i, axis ? axis->number[i] : (double)i + 1,
+        put_estimate(s, i, axis ? axis->number[i] : (double)i + 1 + shift,
                      &results->estimate[(point + i * stride) * sweep->measure_count + k], 1);
 }
 
@@ -183,10 +184,11 @@ static void draw_measure(const scree_sweep_results *results, size_t k, size_t di
     const char *names[1000];
     sheet s[MOST_LINES] = {0};
     scree_error error;
-    size_t count = 0;
+    size_t count = 0, lines = sweep->point_count / d->count;
+    if (lines > MOST_LINES) lines = MOST_LINES;
     for (size_t point = 0; point < sweep->point_count && count < MOST_LINES; point++) {
         if (scree_point_setting(sweep, point, dimension) != 0 || take_sheet(&s[count], d->count, &error)) continue;
-        trace(results, k, dimension, point, &s[count]);
+        trace(results, k, dimension, point, 0.08 * ((double)count - 0.5 * (double)(lines - 1)), &s[count]);
         scree_point_label(sweep, point, dimension, text, sizeof text);
         plain(label[count], text);
         line[count] = (scree_chart_line){.x = s[count].x,

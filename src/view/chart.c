@@ -139,10 +139,10 @@ static void begin_plot(FILE *file, const char *name, bool first)
 static void write_range(FILE *file, const scree_chart_line *line, size_t x, size_t y, const char *colour)
 {
     if (line->points)
-        fprintf(file, "%zu:%zu:%zu:%zu with yerrorbars linecolor rgb '%s' linewidth 1.4 pointtype 7 pointsize 0", x, y,
-                y + 1, y + 2, colour);
+        fprintf(file, "%zu:%zu:%zu:%zu with yerrorbars linecolor rgb '%s' linewidth 1.4 pointtype 0", x, y, y + 1,
+                y + 2, colour);
     else
-        fprintf(file, "%zu:%zu:%zu with filledcurves fillcolor rgb '%s' fillstyle transparent solid 0.18 noborder", x,
+        fprintf(file, "%zu:%zu:%zu with filledcurves fillcolor rgb '%s' fillstyle transparent solid 0.15 noborder", x,
                 y + 1, y + 2, colour);
     fputs(" notitle", file);
 }
@@ -158,7 +158,7 @@ static void write_line(FILE *file, const scree_chart_line *line, size_t x, size_
             line->bare     ? ""
             : line->dashed ? "(7,4)"
                            : "solid");
-    if (line->points) fprintf(file, " pointtype 7 pointsize %s", line->low ? "0.8" : "0.5");
+    if (line->points) fprintf(file, " pointtype 7 pointsize %s", line->low ? "1" : "0.5");
     if (line->label) {
         fputs(" title ", file);
         write_quoted(file, line->label);
@@ -167,23 +167,30 @@ static void write_line(FILE *file, const scree_chart_line *line, size_t x, size_
     }
 }
 
+/// Bands come before all lines, so that none is dulled by the band of another; error bars belong to their points.
 static void write_plot(FILE *file, const scree_chart *chart, const char *name)
 {
-    size_t column = 0, x_column = 0, written = 0;
-    for (size_t k = 0; k < chart->line_count; k++) {
-        const scree_chart_line *line = &chart->line[k];
-        if (!shares_x(chart, k)) x_column = ++column;
-        size_t y_column = ++column;
-        if (line->low) column += 2;
-        if (!line_drawable(chart, line)) continue;
-        const char *colour = palette[line->colour > 0 ? (size_t)(line->colour - 1) % COLOURS : written % COLOURS];
-        begin_plot(file, name, written == 0);
-        if (line->low) {
-            write_range(file, line, x_column, y_column, colour);
-            begin_plot(file, name, false);
+    bool first = true;
+    for (int bands = 1; bands >= 0; bands--) {
+        size_t column = 0, x_column = 0, written = 0;
+        for (size_t k = 0; k < chart->line_count; k++) {
+            const scree_chart_line *line = &chart->line[k];
+            if (!shares_x(chart, k)) x_column = ++column;
+            size_t y_column = ++column;
+            if (line->low) column += 2;
+            if (!line_drawable(chart, line)) continue;
+            const char *colour = palette[line->colour > 0 ? (size_t)(line->colour - 1) % COLOURS : written % COLOURS];
+            written++;
+            if (line->low && bands != line->points) {
+                begin_plot(file, name, first);
+                write_range(file, line, x_column, y_column, colour);
+                first = false;
+            }
+            if (bands) continue;
+            begin_plot(file, name, first);
+            write_line(file, line, x_column, y_column, colour);
+            first = false;
         }
-        write_line(file, line, x_column, y_column, colour);
-        written++;
     }
     fputc('\n', file);
 }
@@ -206,6 +213,14 @@ static void write_output(FILE *file, const char *name, const char *extension, co
     fprintf(file, "\nset terminal %s\nset output ", terminal);
     write_quoted(file, name);
     fprintf(file, ".'.%s'\n", extension);
+}
+
+/// Points with error bars keep clear of the sides.
+static bool has_bars(const scree_chart *chart)
+{
+    bool bars = false;
+    for (size_t k = 0; k < chart->line_count; k++) bars |= chart->line[k].points && chart->line[k].low;
+    return bars && !chart->x_name;
 }
 
 /// Values that are all positive, and not far from zero, are shown from zero.
@@ -236,12 +251,11 @@ static void write_style(FILE *file, const scree_chart *chart)
     write_quoted(file, chart->x_label);
     fputs("\nset ylabel ", file);
     write_quoted(file, chart->y_label);
-    fputs(" offset 0.5,0\nset border 3 linecolor rgb '#333333' linewidth 1\n"
+    fputs("\nset border 3 linecolor rgb '#333333' linewidth 1\n"
           "set tics nomirror out scale 0.6 textcolor rgb '#222222'\nset mxtics 2\n"
           "set grid back xtics ytics linetype 1 linecolor rgb '#e4e4e4' linewidth 0.8\n"
           "set xzeroaxis linetype 1 linecolor rgb '#999999' linewidth 1\n"
-          "set offsets 0, 0, graph 0.03, graph 0.03\nset autoscale xfix\nset "
-          "bmargin at screen 0.15\nset tmargin at screen 0.89\n",
+          "set autoscale xfix\nset bmargin at screen 0.15\nset tmargin at screen 0.89\n",
           file);
     bool legend = false;
     for (size_t k = 0; k < chart->line_count; k++) legend |= chart->line[k].label != NULL;
@@ -249,7 +263,10 @@ static void write_style(FILE *file, const scree_chart *chart)
                    "set key at screen 0.715,0.90 left top vertical Left reverse samplen 2.2 spacing 1.35\n"
                  : "set rmargin at screen 0.965\nunset key\n",
           file);
-    if (!chart->log_y && begins_at_zero(chart)) fputs("set offsets 0, 0, graph 0.03, 0\nset yrange [0:]\n", file);
+    bool zero = !chart->log_y && begins_at_zero(chart);
+    const char *side = has_bars(chart) && !chart->log_x ? "graph 0.04" : "0";
+    fprintf(file, "set offsets %s, %s, graph 0.03, %s\n%s", side, side, zero ? "0" : "graph 0.03",
+            zero ? "set yrange [0:]\n" : "");
     write_x_names(file, chart);
     if (chart->log_x) fputs("set logscale x\nset format x '10^{%L}'\n", file);
     if (chart->log_y) fputs("unset offsets\nset logscale y\nset format y '10^{%L}'\n", file);
