@@ -180,6 +180,51 @@ const scree_verb scree_verbs[] = {
         .function = scree_verb_sweep,
     },
     {
+        .name = "reproduce",
+        .meaning = "repeat the published experiments, and compare with their sources",
+        .text = "Runs every built-in sweep into a folder of its own below DIR, continuing what is missing as `scree "
+                "sweep` does, and writes `DIR/reproduction.md`. Without `--full` the quick forms are run: smaller "
+                "samples, and a larger but still small quasistatic number.",
+        .option = {{.name = "output",
+                    .letter = 'o',
+                    .value = "DIR",
+                    .meaning = "folder of the sweeps",
+                    .preset = "out-reproduce/quick or out-reproduce/full",
+                    .kind = SCREE_VALUE_FOLDER},
+                   {.name = "full", .meaning = "the sources' own numbers: hours"},
+                   {.name = "only", .value = "NAME", .meaning = "run one built-in sweep", .kind = SCREE_VALUE_SWEEP},
+                   OPTION_REALISATIONS,
+                   OPTION_JOBS,
+                   OPTION_MEMBER_THREADS,
+                   {.name = "retry", .meaning = "run failed members anew"},
+                   {.name = "force", .letter = 'f', .meaning = "run members anew whose folder holds another case"},
+                   {.name = "no-figures", .meaning = "leave all figures out"},
+                   OPTION_QUIET},
+        .example = {{"scree reproduce", "all quick forms"},
+                    {"scree reproduce --full --only triaxial", "one experiment with the source's numbers"}},
+        .status = {SCREE_ERROR_INPUT, SCREE_ERROR_GUARD, SCREE_ERROR_IO, SCREE_INTERRUPTED},
+        .function = scree_verb_reproduce,
+    },
+    {
+        .name = "report",
+        .meaning = "compare results with what the published sources state",
+        .text = "Writes the reproduction page as Markdown: every statement of the sources with its value, the value "
+                "found with its confidence interval, and whether they agree. The runs are looked for in the folders "
+                "given: folders of runs, of sweeps, or folders that hold such. A statement whose runs are not there is "
+                "`not run`.",
+        .argument = {{"DIR", "folder of runs or sweeps", SCREE_VALUE_FOLDER, false, true}},
+        .option = {{.name = "output",
+                    .letter = 'o',
+                    .value = "FILE",
+                    .meaning = "write to FILE",
+                    .preset = "standard output",
+                    .kind = SCREE_VALUE_FILE}},
+        .example = {{"scree report out-reproduce/quick out-reproduce/full -o docs/reproduction.md", "the page of both "
+                                                                                                   "forms"}},
+        .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO},
+        .function = scree_verb_report,
+    },
+    {
         .name = "get",
         .meaning = "print results of a run",
         .text =

@@ -83,6 +83,8 @@ scree_status scree_verb_new(const struct scree_command *command);
 scree_status scree_verb_check(const struct scree_command *command);
 scree_status scree_verb_run(const struct scree_command *command);
 scree_status scree_verb_sweep(const struct scree_command *command);
+scree_status scree_verb_reproduce(const struct scree_command *command);
+scree_status scree_verb_report(const struct scree_command *command);
 scree_status scree_verb_get(const struct scree_command *command);
 scree_status scree_verb_plot(const struct scree_command *command);
 scree_status scree_verb_help(const struct scree_command *command);

@@ -82,19 +82,26 @@ static void assign(scree_reader *reader, scree_sweep_assignment *assignment, con
     *assignment = (scree_sweep_assignment){path, text, shown, value->place};
 }
 
-/// The assignments of a mapping of key paths.
-static size_t assign_all(scree_reader *reader, scree_sweep_assignment **list, const scree_node *mapping)
+static size_t assign_mapping(scree_reader *reader, scree_sweep_assignment *list, const scree_node *mapping)
 {
-    size_t count = mapping ? mapping->count : 0, index = 0;
-    *list = take(reader, count, sizeof **list);
-    if (!*list) return 0;
+    size_t index = 0;
     for (const scree_node *entry = mapping ? mapping->first : NULL; entry; entry = entry->next) {
         if (strcmp(entry->key, "seed") == 0)
             scree_problem_add(reader, entry->key_place, "seed", entry->text, NULL,
                               "is set by `seed` and `realisations` of the sweep");
-        assign(reader, &(*list)[index++], entry->key, entry);
+        assign(reader, &list[index++], entry->key, entry);
     }
     return index;
+}
+
+/// The assignments of two mappings of key paths, one after the other; each may be NULL.
+static size_t assign_all(scree_reader *reader, scree_sweep_assignment **list, const scree_node *first,
+                         const scree_node *second)
+{
+    *list = take(reader, (first ? first->count : 0) + (second ? second->count : 0), sizeof **list);
+    if (!*list) return 0;
+    size_t count = assign_mapping(reader, *list, first);
+    return count + assign_mapping(reader, *list + count, second);
 }
 
 static void refuse_key(scree_reader *reader, scree_place place, const char *path)
@@ -139,7 +146,7 @@ static void expand_alternatives(scree_reader *reader, const scree_sweep_vary *va
     for (size_t i = 0; dimension->setting && i < dimension->count; i++) {
         scree_sweep_setting *setting = &dimension->setting[i];
         name_setting(reader, setting, vary->alternatives[i].name);
-        setting->assignment_count = assign_all(reader, &setting->assignment, vary->alternatives[i].set);
+        setting->assignment_count = assign_all(reader, &setting->assignment, vary->alternatives[i].set, NULL);
     }
 }
 
@@ -279,7 +286,7 @@ bool scree_sweep_expand(scree_reader *reader, scree_sweep *sweep)
     int64_t realisations = sweep->config.realisations;
     if (sweep->quick && sweep->config.quick_realisations > 0) realisations = sweep->config.quick_realisations;
     if (sweep->realisations == 0) sweep->realisations = (size_t)realisations;
-    sweep->fixed_count = assign_all(reader, &sweep->fixed, sweep->config.set);
+    sweep->fixed_count = assign_all(reader, &sweep->fixed, sweep->config.set, sweep->quick ? sweep->config.quick_set : NULL);
     list_measures(reader, sweep);
     expand_dimensions(reader, sweep);
     sweep->point_count = 1;

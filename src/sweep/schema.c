@@ -80,6 +80,7 @@ static const scree_key root_keys[] = {
     KEY(config, seed, SCREE_KEY_INTEGER, .standard = "1", FROM("0"), TO("9007199254000000"),
         .meaning = "Seed of the first realisation; the others follow."),
     PATHS(config, set, .meaning = "Key path and value of everything that all members change."),
+    PATHS(config, quick_set, .meaning = "The same with `quick`, after `set`."),
     LIST(config, vary, vary_table, vary_count, .meaning = "The grid: every combination of these."),
     VALUES(config, measures, .standard = "[]", .meaning = "Names in summary.json that are averaged and compared."),
     LIST(config, curves, curve_table, curve_count, .meaning = "Curves that are averaged and drawn."),
