@@ -13,8 +13,8 @@ enum { SCREE_EXPRESSION_NAME = 192 }; ///< bytes of a name at most, with its end
 /// Value of a name; NAN when it is not known.
 typedef double scree_expression_lookup(void *user, const char *name);
 
-/// Evaluates `text`. Errors (SCREE_ERROR_INPUT): what is wrong and where; nested more than 32 deep. Every name is looked
-/// up exactly once for each time it occurs.
+/// Evaluates `text`. Errors (SCREE_ERROR_INPUT): what is wrong and where; nested more than 32 deep. Every name is
+/// looked up exactly once for each time it occurs.
 scree_status scree_expression_evaluate(const char *text, scree_expression_lookup *lookup, void *user, double *value,
                                        scree_error *error) SCREE_MUST_USE;
 

@@ -135,11 +135,11 @@ void scree_sweep_draw_curve(const scree_sweep_results *results, const scree_mean
 
 // ---- measures ----------------------------------------------------------------------------------------------------
 
-/// The parameter that says where settings of a dimension stand on an axis: the first with a number for each; NULL when
-/// they only have names.
+/// The parameter that says where settings of a dimension stand on an axis: its one key, with a number for each; NULL
+/// when several keys vary or when they only have names.
 static const scree_sweep_parameter *axis_of(const scree_sweep *sweep, size_t dimension)
 {
-    if (sweep->dimension[dimension].named) return NULL;
+    if (!sweep->config.vary[dimension].key[0]) return NULL;
     for (size_t k = 0; k < sweep->parameter_count; k++) {
         const scree_sweep_parameter *parameter = &sweep->parameter[k];
         if (parameter->dimension != dimension || !parameter->unit) continue;

@@ -53,8 +53,8 @@ static scree_status add_member(scree_findings *findings, const char *directory, 
                              .confidence = json_number_value(json_object_get(sweep, "confidence")),
                              .realisation = (size_t)json_integer_value(json_object_get(member, "realisation"))};
     char path[500];
-    json_t *point = json_array_get(json_object_get(sweep, "points"),
-                                   (size_t)json_integer_value(json_object_get(member, "point")));
+    json_t *point =
+        json_array_get(json_object_get(sweep, "points"), (size_t)json_integer_value(json_object_get(member, "point")));
     const char *name = json_string_value(json_object_get(sweep, "sweep"));
     const char *label = json_string_value(json_object_get(point, "name"));
     const char *folder = json_string_value(json_object_get(member, "folder"));

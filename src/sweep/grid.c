@@ -286,7 +286,8 @@ bool scree_sweep_expand(scree_reader *reader, scree_sweep *sweep)
     int64_t realisations = sweep->config.realisations;
     if (sweep->quick && sweep->config.quick_realisations > 0) realisations = sweep->config.quick_realisations;
     if (sweep->realisations == 0) sweep->realisations = (size_t)realisations;
-    sweep->fixed_count = assign_all(reader, &sweep->fixed, sweep->config.set, sweep->quick ? sweep->config.quick_set : NULL);
+    sweep->fixed_count =
+        assign_all(reader, &sweep->fixed, sweep->config.set, sweep->quick ? sweep->config.quick_set : NULL);
     list_measures(reader, sweep);
     expand_dimensions(reader, sweep);
     sweep->point_count = 1;

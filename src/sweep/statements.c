@@ -93,7 +93,7 @@ static bool read_criterion(scree_statement *s)
         s->kind = forms_of[i].kind;
         if (s->kind != SCREE_CRITERION_BETWEEN) return read_bound(rest, NULL, &s->bound[0]);
         const char *and = strstr(rest, " and ");
-        return and && read_bound(rest, and, &s->bound[0]) && read_bound(and+5, NULL, &s->bound[1]) &&
+        return and&&read_bound(rest, and, &s->bound[0]) && read_bound(and+5, NULL, &s->bound[1]) &&
                s->bound[0] < s->bound[1];
     }
     return false;
@@ -121,7 +121,8 @@ static void check_statement(scree_reader *reader, scree_statement *s, const scre
     if (scree_expression_evaluate(s->value, check_name, &good, &value, &error))
         scree_problem_add(reader, expression->place, s->id, s->value, NULL, "%s", error.message);
     else if (!good)
-        scree_problem_add(reader, expression->place, s->id, s->value, "CASE/LABEL.RESULT", "names are not of this form");
+        scree_problem_add(reader, expression->place, s->id, s->value, "CASE/LABEL.RESULT",
+                          "names are not of this form");
     if (s->kind == SCREE_CRITERION_WITHIN && scree_units_parse(s->given, "1", &s->bound[1], NULL))
         scree_problem_add(reader, node->place, s->id, s->given, "a number", "'within' needs a number in 'given'");
 }
