@@ -256,6 +256,29 @@ static void curves_are_averaged_where_all_of_them_are(void **state)
     assert_int_equal(scree_curves_average(apart, 2, 0.95, 5, x, e, &error), SCREE_ERROR_INPUT);
 }
 
+/// docs/sweeps.md names every key of a sweep file.
+static void check_documented(const scree_section *section, const char *page)
+{
+    for (size_t i = 0; i < section->count; i++) {
+        const scree_key *key = &section->keys[i];
+        const char *found = strstr(page, key->name);
+        if (!found) fail_msg("docs/sweeps.md does not have '%s'", key->name);
+        for (size_t k = 0; k < key->section_count; k++) check_documented(&key->sections[k], page);
+    }
+}
+
+static void every_key_is_documented(void **state)
+{
+    (void)state;
+    char *page = calloc(1, 1 << 16);
+    FILE *file = fopen(SCREE_SOURCE_DIR "/docs/sweeps.md", "r");
+    assert_non_null(file);
+    assert_true(fread(page, 1, (1 << 16) - 1, file) > 1000);
+    assert_int_equal(fclose(file), 0);
+    check_documented(&scree_sweep_schema, page);
+    free(page);
+}
+
 /// The built-in tables can be read, and each group is about a built-in sweep that can be read as soon as its case
 /// exists.
 static void built_in_statements_are_sound(void **state)
@@ -354,6 +377,7 @@ int main(void)
         cmocka_unit_test(what_is_not_there_is_left_out),
         cmocka_unit_test(curves_follow_the_last_ascent),
         cmocka_unit_test(curves_are_averaged_where_all_of_them_are),
+        cmocka_unit_test(every_key_is_documented),
         cmocka_unit_test(built_in_statements_are_sound),
         cmocka_unit_test(criteria_judge_as_they_say),
     };
