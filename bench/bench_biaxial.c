@@ -140,7 +140,7 @@ static void make_lattice(sample *s, const char *law, long count)
     scree_error error;
     open_case(s, law, count);
     size_t side = (size_t)sqrt((double)count);
-    require(scree_state_create(&s->state, side * side, &error), &error);
+    require(scree_state_create(&s->state, 2, side * side, &error), &error);
     require(scree_work_create(&s->work, &s->model, 1, &error), &error);
     s->state.step_size = s->model.step;
     double spacing = lattice_spacing * s->model.mean_radius, half = 0.5 * spacing;

@@ -30,13 +30,14 @@ typedef struct scree_contact {
     uint32_t first, second; ///< rows (not ids)
     bool wall;
     bool sliding;
-    double normal[2];          ///< from second to first
-    double point[2];           ///< m
-    double branch[2];          ///< m, x_first - x_second; for a wall x_first - contact point
+    scree_vector normal;       ///< from second to first
+    scree_vector tangent;      ///< 2D: (-n_y, n_x); 3D: direction of the tangential force on first, zero without one
+    scree_vector point;        ///< m
+    scree_vector branch;       ///< m, x_first - x_second; for a wall x_first - contact point
     double indentation;        ///< m
     double normal_force;       ///< N, >= 0
-    double tangential_force;   ///< N, along t = (-n_y, n_x), on first
-    double slip;               ///< m/s along t
+    double tangential_force;   ///< N, along t, on first; in 3D >= 0
+    double slip;               ///< m/s along t in 2D, magnitude in 3D
     double elastic_normal;     ///< J
     double elastic_tangential; ///< J
 } scree_contact;

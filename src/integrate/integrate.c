@@ -12,34 +12,43 @@ const scree_integrator *scree_integrator_get(scree_scheme scheme)
     return table[scheme];
 }
 
-void scree_body_force(const scree_model *model, const scree_state *state, size_t row, double force[3])
+void scree_body_force(const scree_model *model, const scree_state *state, size_t row, scree_vector force,
+                      scree_vector torque)
 {
     const scree_sum_row *sum = &state->sum[row];
+    const scree_torque_row *turning = state->dimension == 3 ? &state->torque[row] : NULL;
     double mass = state->row[row].mass;
     force[0] = scree_fixed_to(sum->fx, state->force_quantum) + mass * model->gravity[0];
     force[1] = scree_fixed_to(sum->fy, state->force_quantum) + mass * model->gravity[1];
-    force[2] = scree_fixed_to(sum->torque, state->torque_quantum);
+    force[2] = turning ? scree_fixed_to(sum->fz, state->force_quantum) + mass * model->gravity[2] : 0;
+    torque[0] = turning ? scree_fixed_to(turning->x, state->torque_quantum) : 0;
+    torque[1] = turning ? scree_fixed_to(turning->y, state->torque_quantum) : 0;
+    torque[2] = scree_fixed_to(turning ? turning->z : sum->torque, state->torque_quantum);
 }
 
 /// Stored velocity + shift * dt * acceleration.
-static void shifted_velocity(const scree_model *model, const scree_state *state, size_t index, double shift,
-                             double velocity[3])
+static void shifted_velocity(const scree_model *model, const scree_state *state, size_t row, double shift,
+                             scree_vector velocity, scree_vector spin)
 {
-    const scree_row *row = &state->row[index];
-    double force[3];
-    scree_body_force(model, state, index, force);
-    double inertia = 0.5 * row->mass * row->radius * row->radius;
-    velocity[0] = row->vx + shift * state->step_size * force[0] / row->mass;
-    velocity[1] = row->vy + shift * state->step_size * force[1] / row->mass;
-    velocity[2] = row->spin + shift * state->step_size * force[2] / inertia;
+    scree_vector force, torque;
+    scree_body_motion(state, row, velocity, spin);
+    scree_body_force(model, state, row, force, torque);
+    double mass = state->row[row].mass, inertia = scree_body_inertia(state, row);
+    for (int k = 0; k < 3; k++) {
+        velocity[k] += shift * state->step_size * force[k] / mass;
+        spin[k] += shift * state->step_size * torque[k] / inertia;
+    }
 }
 
-void scree_body_velocity(const scree_model *model, const scree_state *state, size_t row, double velocity[3])
+void scree_body_velocity(const scree_model *model, const scree_state *state, size_t row, scree_vector velocity,
+                         scree_vector spin)
 {
-    shifted_velocity(model, state, row, 0.5 - scree_integrator_get(model->scheme)->velocity_lead, velocity);
+    double shift = 0.5 - scree_integrator_get(model->scheme)->velocity_lead;
+    shifted_velocity(model, state, row, shift, velocity, spin);
 }
 
-void scree_body_half_velocity(const scree_model *model, const scree_state *state, size_t row, double velocity[3])
+void scree_body_half_velocity(const scree_model *model, const scree_state *state, size_t row, scree_vector velocity,
+                              scree_vector spin)
 {
-    shifted_velocity(model, state, row, -scree_integrator_get(model->scheme)->velocity_lead, velocity);
+    shifted_velocity(model, state, row, -scree_integrator_get(model->scheme)->velocity_lead, velocity, spin);
 }

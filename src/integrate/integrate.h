@@ -17,13 +17,16 @@ typedef struct scree_integrator {
 /// Descriptor of a scheme.
 const scree_integrator *scree_integrator_get(scree_scheme scheme);
 
-/// Force and torque on the body in `row` at the present step: sums, gravity. force[3] = fx, fy, torque.
-void scree_body_force(const scree_model *model, const scree_state *state, size_t row, double force[3]);
+/// Force [N] and torque [N m] on the body in `row` at the present step: sums, gravity.
+void scree_body_force(const scree_model *model, const scree_state *state, size_t row, scree_vector force,
+                      scree_vector torque);
 
-/// Physical velocity at step n: vx, vy, spin.
-void scree_body_velocity(const scree_model *model, const scree_state *state, size_t row, double velocity[3]);
+/// Physical velocity [m/s] and spin [rad/s] at step n.
+void scree_body_velocity(const scree_model *model, const scree_state *state, size_t row, scree_vector velocity,
+                         scree_vector spin);
 
-/// Velocity v(n - 1/2) with which the contact forces at n were evaluated: vx, vy, spin.
-void scree_body_half_velocity(const scree_model *model, const scree_state *state, size_t row, double velocity[3]);
+/// Velocity v(n - 1/2) and spin with which the contact forces at n were evaluated.
+void scree_body_half_velocity(const scree_model *model, const scree_state *state, size_t row, scree_vector velocity,
+                              scree_vector spin);
 
 #endif

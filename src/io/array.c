@@ -19,7 +19,7 @@ scree_array scree_array_of_field(const scree_state *state, const scree_field *fi
     return (scree_array){.name = field->name,
                          .type = field->type,
                          .rows = scree_field_rows_count(state, field),
-                         .components = field->components,
+                         .components = scree_components(field->components, state->dimension),
                          .single = field->rows == SCREE_ROWS_ONE,
                          .unit = field->unit,
                          .meaning = field->meaning};
@@ -58,86 +58,97 @@ typedef struct body_result {
     void (*evaluate)(const scree_model *model, const scree_state *state, size_t row, double *value);
 } body_result;
 
+/// A spin or torque: about z in 2D.
+static void copy_axial(const scree_state *state, const scree_vector whole, double *value)
+{
+    if (state->dimension == 3)
+        memcpy(value, whole, sizeof(scree_vector));
+    else
+        *value = whole[2];
+}
+
 static void velocity(const scree_model *model, const scree_state *state, size_t row, double *value)
 {
-    double whole[3];
-    scree_body_velocity(model, state, row, whole);
-    memcpy(value, whole, 2 * sizeof *value);
+    scree_vector whole, turning;
+    scree_body_velocity(model, state, row, whole, turning);
+    memcpy(value, whole, (size_t)state->dimension * sizeof *value);
 }
 
 static void spin(const scree_model *model, const scree_state *state, size_t row, double *value)
 {
-    double whole[3];
-    scree_body_velocity(model, state, row, whole);
-    *value = whole[2];
+    scree_vector whole, turning;
+    scree_body_velocity(model, state, row, whole, turning);
+    copy_axial(state, turning, value);
 }
 
 static void force(const scree_model *model, const scree_state *state, size_t row, double *value)
 {
-    double whole[3];
-    scree_body_force(model, state, row, whole);
-    memcpy(value, whole, 2 * sizeof *value);
+    scree_vector whole, turning;
+    scree_body_force(model, state, row, whole, turning);
+    memcpy(value, whole, (size_t)state->dimension * sizeof *value);
 }
 
 static void torque(const scree_model *model, const scree_state *state, size_t row, double *value)
 {
-    double whole[3];
-    scree_body_force(model, state, row, whole);
-    *value = whole[2];
+    scree_vector whole, turning;
+    scree_body_force(model, state, row, whole, turning);
+    copy_axial(state, turning, value);
 }
 
 static void displacement(const scree_model *model, const scree_state *state, size_t row, double *value)
 {
     (void)model;
-    value[0] = state->row[row].x - state->reference_x[row];
-    value[1] = state->row[row].y - state->reference_y[row];
+    scree_vector place;
+    scree_body_place(state, row, place);
+    for (int k = 0; k < state->dimension; k++) value[k] = place[k] - state->reference[row][k];
 }
 
 static const body_result body_results[] = {
-    {"velocity", 2, "m/s", "velocity of the centre", velocity},
-    {"spin", 1, "rad/s", "angular velocity, counter-clockwise", spin},
-    {"force", 2, "N", "sum of all forces, with boundary forces and gravity", force},
-    {"torque", 1, "N m", "sum of all torques, counter-clockwise", torque},
-    {"displacement", 2, "m", "displacement since the start of the loading stage", displacement},
+    {"velocity", SCREE_VECTOR, "m/s", "velocity of the centre", velocity},
+    {"spin", SCREE_AXIAL_VECTOR, "rad/s", "angular velocity, counter-clockwise", spin},
+    {"force", SCREE_VECTOR, "N", "sum of all forces, with boundary forces and gravity", force},
+    {"torque", SCREE_AXIAL_VECTOR, "N m", "sum of all torques, counter-clockwise", torque},
+    {"displacement", SCREE_VECTOR, "m", "displacement since the start of the loading stage", displacement},
 };
 enum { BODY_RESULT_COUNT = sizeof body_results / sizeof *body_results };
 
-/// The index-th field with snapshot = true, NULL when there are fewer.
-static const scree_field *snapshot_field(size_t index)
+/// The index-th field of this dimension with snapshot = true, NULL when there are fewer.
+static const scree_field *snapshot_field(int dimension, size_t index)
 {
     for (size_t k = 0; k < scree_field_count; k++)
-        if (scree_fields[k].snapshot && index-- == 0) return &scree_fields[k];
+        if (scree_fields[k].snapshot && scree_field_exists(&scree_fields[k], dimension) && index-- == 0)
+            return &scree_fields[k];
     return NULL;
 }
 
-static size_t snapshot_field_count(void)
+static size_t snapshot_field_count(int dimension)
 {
     size_t count = 0;
-    while (snapshot_field(count)) count++;
+    while (snapshot_field(dimension, count)) count++;
     return count;
 }
 
-size_t scree_body_array_count(void)
+size_t scree_body_array_count(const scree_state *state)
 {
-    return snapshot_field_count() + BODY_RESULT_COUNT;
+    return snapshot_field_count(state->dimension) + BODY_RESULT_COUNT;
 }
 
 scree_status scree_body_array(const scree_model *model, const scree_state *state, size_t index, scree_array *array,
                               scree_error *error)
 {
-    const scree_field *field = snapshot_field(index);
+    const scree_field *field = snapshot_field(state->dimension, index);
     if (field) return scree_array_from_field(state, field, true, array, error);
-    const body_result *result = &body_results[index - snapshot_field_count()];
+    const body_result *result = &body_results[index - snapshot_field_count(state->dimension)];
     *array = (scree_array){.name = result->name,
                            .type = SCREE_FIELD_DOUBLE,
                            .rows = state->count,
-                           .components = result->components,
+                           .components = scree_components(result->components, state->dimension),
                            .unit = result->unit,
                            .meaning = result->meaning};
     scree_status status = scree_array_allocate(array, error);
     if (status) return status;
     double *value = array->data;
-    for (size_t id = 0; id < state->count; id++, value += result->components)
+    for (size_t id = 0; id < state->count; id++, value += array->components)
         result->evaluate(model, state, state->row_of_id[id], value);
     return SCREE_OK;
 }
@@ -158,18 +169,20 @@ static const contact_member contact_members[] = {
     {"first", SCREE_FIELD_UINT32, 1, "1", "id of the first body", offsetof(scree_contact, first)},
     {"second", SCREE_FIELD_UINT32, 1, "1", "id of the second body; 4294967280 + index for a wall",
      offsetof(scree_contact, second)},
-    {"normal", SCREE_FIELD_DOUBLE, 2, "1", "unit normal n, from the second to the first",
+    {"normal", SCREE_FIELD_DOUBLE, SCREE_VECTOR, "1", "unit normal n, from the second to the first",
      offsetof(scree_contact, normal)},
-    {"point", SCREE_FIELD_DOUBLE, 2, "m", "contact point", offsetof(scree_contact, point)},
-    {"branch", SCREE_FIELD_DOUBLE, 2, "m",
+    {"point", SCREE_FIELD_DOUBLE, SCREE_VECTOR, "m", "contact point", offsetof(scree_contact, point)},
+    {"branch", SCREE_FIELD_DOUBLE, SCREE_VECTOR, "m",
      "from the centre of the second (a wall: the contact point) to that of the first", offsetof(scree_contact, branch)},
+    {"tangent", SCREE_FIELD_DOUBLE, SCREE_VECTOR, "1",
+     "unit tangent t: (-n_y, n_x) in 2D, direction of the tangential force in 3D", offsetof(scree_contact, tangent)},
     {"indentation", SCREE_FIELD_DOUBLE, 1, "m", "overlap of the undeformed bodies",
      offsetof(scree_contact, indentation)},
     {"normal_force", SCREE_FIELD_DOUBLE, 1, "N", "force on the first along n, pushing apart: positive",
      offsetof(scree_contact, normal_force)},
-    {"tangential_force", SCREE_FIELD_DOUBLE, 1, "N", "force on the first along t = (-n_y, n_x)",
+    {"tangential_force", SCREE_FIELD_DOUBLE, 1, "N", "force on the first along t",
      offsetof(scree_contact, tangential_force)},
-    {"slip", SCREE_FIELD_DOUBLE, 1, "m/s", "slip velocity of the first past the second, along t",
+    {"slip", SCREE_FIELD_DOUBLE, 1, "m/s", "slip velocity of the first past the second, along t in 2D, magnitude in 3D",
      offsetof(scree_contact, slip)},
     {"sliding", SCREE_FIELD_UINT8, 1, "1", "1: friction is fully mobilised", offsetof(scree_contact, sliding)},
     {"elastic_normal", SCREE_FIELD_DOUBLE, 1, "J", "elastic energy of the indentation",
@@ -191,12 +204,12 @@ scree_status scree_contact_array(const scree_state *state, const scree_contact_t
     *array = (scree_array){.name = member->name,
                            .type = member->type,
                            .rows = table->count,
-                           .components = member->components,
+                           .components = scree_components(member->components, state->dimension),
                            .unit = member->unit,
                            .meaning = member->meaning};
     scree_status status = scree_array_allocate(array, error);
     if (status) return status;
-    const size_t size = (size_t)member->components * scree_field_size(member->type);
+    const size_t size = (size_t)array->components * scree_field_size(array->type);
     unsigned char *target = array->data;
     for (size_t k = 0; k < table->count; k++, target += size) {
         const scree_contact *contact = &table->contact[k];

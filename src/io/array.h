@@ -36,7 +36,7 @@ void scree_array_to_field(const scree_array *array, const scree_field *field, sc
 /// What snapshots and ParaView files show of each body, in id order: the fields with snapshot = true, then what follows
 /// from them (velocity and spin at the step itself, force, torque, displacement since the start of the loading stage).
 /// index < scree_body_array_count(). Errors: memory.
-size_t scree_body_array_count(void);
+size_t scree_body_array_count(const scree_state *state);
 scree_status scree_body_array(const scree_model *model, const scree_state *state, size_t index, scree_array *array,
                               scree_error *error) SCREE_MUST_USE;
 

@@ -23,19 +23,19 @@ static size_t stored_count(void)
     return scree_field_count + scree_member_count;
 }
 
-/// The index-th of all fields and members; NULL when it is derived and therefore not stored.
-static const scree_field *stored_field(size_t index)
+/// The index-th of all fields and members; NULL when it is derived and therefore not stored, or of the other dimension.
+static const scree_field *stored_field(int dimension, size_t index)
 {
     const scree_field *field =
         index < scree_field_count ? &scree_fields[index] : &scree_members[index - scree_field_count];
-    return field->role == SCREE_FIELD_STATE ? field : NULL;
+    return field->role == SCREE_FIELD_STATE && scree_field_exists(field, dimension) ? field : NULL;
 }
 
-static uint64_t layout_checksum(void)
+static uint64_t layout_checksum(int dimension)
 {
-    uint64_t checksum = 0;
+    uint64_t checksum = (uint64_t)dimension;
     for (size_t k = 0; k < stored_count(); k++) {
-        const scree_field *field = stored_field(k);
+        const scree_field *field = stored_field(dimension, k);
         if (!field) continue;
         checksum = scree_checksum_bytes(checksum, field->name, strlen(field->name));
         checksum = scree_checksum_word(checksum, (uint64_t)field->type << 32 | (uint32_t)field->components);
@@ -53,10 +53,10 @@ static scree_status write_part(const char *path, const char *group, const scree_
     scree_hdf5_create(&part, path, error);
     scree_hdf5_group(&part, group);
     scree_hdf5_set_text(&part, group, "program", "Scree " SCREE_VERSION);
-    scree_hdf5_set_integer(&part, group, "layout", layout_checksum());
+    scree_hdf5_set_integer(&part, group, "layout", layout_checksum(state->dimension));
     scree_hdf5_set_integer(&part, group, "case_checksum", case_checksum);
     for (size_t k = 0; k < stored_count() && !part.status; k++) {
-        const scree_field *field = stored_field(k);
+        const scree_field *field = stored_field(state->dimension, k);
         if (!field) continue;
         scree_array array;
         part.status = scree_array_from_field(state, field, false, &array, error);
@@ -135,7 +135,7 @@ scree_status scree_checkpoint_write(const char *directory, const scree_state *st
 // ---- reading -----------------------------------------------------------------------------------------------------
 
 /// Refuses what is whole but not ours: another version of the tables, another case.
-static void check_origin(scree_hdf5 *file, const char *group, uint64_t case_checksum)
+static void check_origin(scree_hdf5 *file, const char *group, int dimension, uint64_t case_checksum)
 {
     char program[64];
     uint64_t layout = 0, origin = 0;
@@ -143,7 +143,7 @@ static void check_origin(scree_hdf5 *file, const char *group, uint64_t case_chec
     scree_hdf5_get_integer(file, group, "layout", &layout);
     scree_hdf5_get_integer(file, group, "case_checksum", &origin);
     if (file->status) return;
-    if (layout != layout_checksum())
+    if (layout != layout_checksum(dimension))
         file->status = scree_error_set(file->error, SCREE_ERROR_INPUT,
                                        "'%s' is a checkpoint of another version of the state: it was written by %s, "
                                        "this is Scree %s",
@@ -166,11 +166,39 @@ static scree_status make_loop(scree_loop *loop, size_t rows, scree_error *error)
     return status;
 }
 
+/// Makes bodies in a state that has only its dimension.
+static scree_status make_bodies(scree_state *state, size_t rows, scree_error *error)
+{
+    return scree_state_create(state, state->dimension, rows, error);
+}
+
+/// Makes an empty hull of `rows` nodes, or of as many triangles.
+static scree_status make_hull_nodes(scree_hull *hull, size_t rows, scree_error *error)
+{
+    scree_status status = scree_allocate(&hull->id, rows, sizeof *hull->id, error);
+    if (!status) status = scree_allocate(&hull->place, rows, sizeof *hull->place, error);
+    if (!status) status = scree_allocate(&hull->force, rows, sizeof *hull->force, error);
+    if (!status) hull->node_count = hull->node_capacity = rows;
+    return status;
+}
+
+static scree_status make_hull_triangles(scree_hull *hull, size_t rows, scree_error *error)
+{
+    scree_status status = scree_allocate(&hull->triangle, rows, sizeof *hull->triangle, error);
+    if (!status) status = scree_allocate(&hull->loaded, rows, sizeof *hull->loaded, error);
+    if (!status) hull->triangle_count = hull->triangle_capacity = rows;
+    return status;
+}
+
 /// Makes the part of `state` that `field` describes have `rows` rows, when it has none yet.
 static scree_status make_room(scree_state *state, const scree_field *field, size_t rows, scree_error *error)
 {
-    if (field->rows == SCREE_ROWS_BODIES && !state->row) return scree_state_create(state, rows, error);
+    if (field->rows == SCREE_ROWS_BODIES && !state->row) return make_bodies(state, rows, error);
     if (field->rows == SCREE_ROWS_LOOP && state->loop.count == 0) return make_loop(&state->loop, rows, error);
+    scree_hull *hull = &state->hull;
+    if (field->rows == SCREE_ROWS_HULL_NODES && hull->node_count == 0) return make_hull_nodes(hull, rows, error);
+    if (field->rows == SCREE_ROWS_HULL_TRIANGLES && hull->triangle_count == 0)
+        return make_hull_triangles(hull, rows, error);
     if (field->rows != SCREE_ROWS_CONTACTS || state->contact_count > 0) return SCREE_OK;
     scree_status status = scree_state_reserve_contacts(state, rows, error);
     if (!status) state->contact_count = rows;
@@ -204,13 +232,19 @@ static scree_status read_one(const char *path, const char *group, scree_state *s
 {
     scree_hdf5 file;
     scree_hdf5_open_sealed(&file, path, error);
-    check_origin(&file, group, case_checksum);
-    for (size_t k = 0; k < stored_count() && !file.status; k++)
-        if (stored_field(k)) read_field(&file, group, stored_field(k), state);
+    check_origin(&file, group, state->dimension, case_checksum);
+    for (size_t k = 0; k < stored_count() && !file.status; k++) {
+        const scree_field *field = stored_field(state->dimension, k);
+        if (field) read_field(&file, group, field, state);
+    }
     find_rows(&file, state);
     *damaged = file.damaged;
     scree_status status = scree_hdf5_close(&file);
-    if (status) scree_state_destroy(state);
+    if (status) {
+        int dimension = state->dimension;
+        scree_state_destroy(state);
+        state->dimension = dimension;
+    }
     return status;
 }
 
@@ -227,7 +261,7 @@ static bool take_newest(found *all, const char *directory, char path[PATH_MAX], 
     return !*status;
 }
 
-scree_status scree_checkpoint_read(const char *directory, scree_state *state, uint64_t case_checksum,
+scree_status scree_checkpoint_read(const char *directory, int dimension, scree_state *state, uint64_t case_checksum,
                                    scree_error *error)
 {
     found all;
@@ -235,7 +269,7 @@ scree_status scree_checkpoint_read(const char *directory, scree_state *state, ui
     int64_t index = -1;
     scree_error reason = {0}, first = {0};
     bool damaged = true;
-    *state = (scree_state){0};
+    *state = (scree_state){.dimension = dimension};
     scree_status status = find_all(directory, &all, error);
     if (status) return status;
     if (all.parts.count + all.groups.count == 0) {

@@ -146,6 +146,8 @@ static hid_t memory_type(scree_field_type type)
         return H5T_NATIVE_INT64;
     case SCREE_FIELD_UINT64:
         return H5T_NATIVE_UINT64;
+    case SCREE_FIELD_FLOAT:
+        return H5T_NATIVE_FLOAT;
     case SCREE_FIELD_INT32:
         return H5T_NATIVE_INT32;
     case SCREE_FIELD_UINT32:

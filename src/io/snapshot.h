@@ -2,7 +2,7 @@
 /// renamed), and run.h5 is a small file of external links, replaced after each: a kill at any moment leaves a readable
 /// run.h5. `scree_run_file_finish` gathers everything into one self-contained run.h5 and removes the parts.
 ///
-///   /snapshots/000012/            attributes: step, time [s], stage, axial_strain, pressure [Pa]
+///   /snapshots/000012/            attributes: step, dimension, time [s], stage, axial_strain, pressure [Pa]
 ///       position (n x 2), radius, velocity, spin, ... from the field table and io/array.h, in id order
 ///       contacts/ first, second (ids), normal, point, branch, normal_force, tangential_force, ...
 ///       boundary/ id (the loop), loaded, ...; walls/ position, normal, force, ...
@@ -29,12 +29,12 @@ scree_status scree_snapshot_write(const char *directory, const scree_model *mode
 /// Writes a checkpoint (contacts must have been saved into the state); keeps the newest two.
 scree_status scree_checkpoint_write(const char *directory, const scree_state *state, uint64_t case_checksum,
                                     scree_error *error) SCREE_MUST_USE;
-/// Reads the newest checkpoint that is whole into *state, which must own nothing and stays empty on failure; rows are
-/// in the order in which they were written, derived arrays but row_of_id are zero. When the newest is damaged and an
-/// older one is used, the status is SCREE_OK and error->message says so; else the message is empty. Errors:
-/// SCREE_ERROR_INPUT: none there, of another case (checksum), of another version of the state (field tables);
-/// SCREE_ERROR_IO: none is whole, memory.
-scree_status scree_checkpoint_read(const char *directory, scree_state *state, uint64_t case_checksum,
+/// Reads the newest checkpoint of a state of this dimension that is whole into *state, which must own nothing and stays
+/// empty on failure; rows are in the order in which they were written, derived arrays but row_of_id are zero. When the
+/// newest is damaged and an older one is used, the status is SCREE_OK and error->message says so; else the message is
+/// empty. Errors: SCREE_ERROR_INPUT: none there, of another case (checksum), of another version of the state (field
+/// tables); SCREE_ERROR_IO: none is whole, memory.
+scree_status scree_checkpoint_read(const char *directory, int dimension, scree_state *state, uint64_t case_checksum,
                                    scree_error *error) SCREE_MUST_USE;
 
 /// Drops the snapshots with numbers from `from_index` on: a run that continues from an older step writes them anew. A
@@ -50,12 +50,15 @@ typedef struct scree_snapshot {
     int64_t index;
     double time, axial_strain;
     char stage[32];
+    int dimension;
     size_t count;
-    double *x, *y, *radius, *angle, *vx, *vy, *spin;
+    double *x, *y, *radius, *angle, *vx, *vy, *spin; ///< in 3D no angle (NULL), and spin is the magnitude
+    double *z, *vz;                                  ///< 3D only, else NULL
     size_t contact_count;
     uint32_t *first, *second;                ///< ids; second >= SCREE_WALL_ID is a wall
     double *normal_force, *tangential_force; ///< N
     double *contact_x, *contact_y;           ///< m
+    double *contact_z;                       ///< m, 3D only, else NULL
     size_t loop_count;
     uint32_t *loop;
     scree_wall wall[SCREE_WALL_COUNT];

@@ -9,7 +9,7 @@
 /// holds no error of the integrator, only that of the trapezoidal rule along the elastic force laws: third order in the
 /// step. Work done on the bodies is positive, dissipation is positive; `stiffness` is what the change of the tangential
 /// stiffness puts into (positive) or takes out of the tangential springs.
-/// J = m R^2 / 2 (disc). Cost: O(bodies + contacts).
+/// J = m R^2 / 2 (disc), 2 m R^2 / 5 (sphere). Cost: O(bodies + contacts).
 #include "measure/measure.h"
 
 #include "integrate/integrate.h"
@@ -19,15 +19,14 @@
 /// v(n-1/2) . v(n+1/2) of a body, translation and rotation.
 static void add_kinetic(const scree_model *model, const scree_state *state, size_t index, scree_energy *energy)
 {
-    const scree_row *row = &state->row[index];
-    double inertia = 0.5 * row->mass * row->radius * row->radius;
-    double before[3], force[3], dt = state->step_size;
-    scree_body_half_velocity(model, state, index, before);
-    scree_body_force(model, state, index, force);
-    double after[3] = {before[0] + dt * force[0] / row->mass, before[1] + dt * force[1] / row->mass,
-                       before[2] + dt * force[2] / inertia};
-    energy->kinetic += 0.5 * row->mass * (before[0] * after[0] + before[1] * after[1]);
-    energy->kinetic_rotation += 0.5 * inertia * before[2] * after[2];
+    double mass = state->row[index].mass, inertia = scree_body_inertia(state, index), dt = state->step_size;
+    scree_vector velocity, spin, force, torque;
+    scree_body_half_velocity(model, state, index, velocity, spin);
+    scree_body_force(model, state, index, force, torque);
+    for (int k = 0; k < 3; k++) {
+        energy->kinetic += 0.5 * mass * velocity[k] * (velocity[k] + dt * force[k] / mass);
+        energy->kinetic_rotation += 0.5 * inertia * spin[k] * (spin[k] + dt * torque[k] / inertia);
+    }
 }
 
 void scree_energy_measure(const scree_model *model, const scree_state *state, const scree_contact_table *table,
@@ -39,8 +38,9 @@ void scree_energy_measure(const scree_model *model, const scree_state *state, co
     for (size_t id = 0; id < state->count; id++) {
         size_t row = state->row_of_id[id];
         add_kinetic(model, state, row, energy);
-        potential +=
-            state->row[row].mass * (model->gravity[0] * state->row[row].x + model->gravity[1] * state->row[row].y);
+        scree_vector place;
+        scree_body_place(state, row, place);
+        for (int k = 0; k < state->dimension; k++) potential += state->row[row].mass * model->gravity[k] * place[k];
     }
     for (size_t c = 0; c < table->count; c++) {
         energy->elastic_normal += table->contact[c].elastic_normal;

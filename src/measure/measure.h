@@ -1,6 +1,6 @@
 /// From contacts to continuum: everything here reads a state and a contact table and changes nothing.
-/// Tensors are row-major 2 x 2 (xx, xy, yx, yy), tension POSITIVE; what a user sees of loading tests is compression
-/// positive and is converted where it is written (run/sample.c).
+/// Tensors are row-major 3 x 3 (in 2D all but xx = 0, xy = 1, yx = 3, yy = 4 are zero), tension POSITIVE; what a user
+/// sees of loading tests is compression positive and is converted where it is written (run/sample.c).
 #ifndef SCREE_MEASURE_MEASURE_H
 #define SCREE_MEASURE_MEASURE_H
 
@@ -17,20 +17,20 @@ double scree_sample_area(const scree_state *state);
 /// Average stress from contacts (Christoffersen, Mehrabadi and Nemat-Nasser 1981), walls included:
 /// sigma = -(1/V) sum_c f (x) branch, f the force on `first`; volume V [m3] = scree_sample_area * thickness. In
 /// equilibrium equal to the stress that the boundary applies; in motion less by (1/V) sum m a (x) x: see stress.c.
-/// stress [Pa] out 4: row the direction of the force, column that of the branch.
-void scree_stress_from_contacts(const scree_contact_table *table, double volume, double stress[4]);
+/// stress [Pa] out 9: row the direction of the force, column that of the branch.
+void scree_stress_from_contacts(const scree_contact_table *table, double volume, double stress[9]);
 
 /// Average stress from the boundary alone: wall contacts at their points, pressure at the bodies that carry it. The
-/// exact counterpart of scree_stress_from_contacts. stress [Pa] out 4.
+/// exact counterpart of scree_stress_from_contacts. stress [Pa] out 9.
 void scree_stress_from_boundary(const scree_model *model, const scree_state *state, const scree_contact_table *table,
-                                double stress[4]);
+                                double stress[9]);
 
 /// The same as far as an experimenter knows it, from the resultant forces on the plates and the pressure. Along the
 /// normal of a plate it is exact (the vertical part of the pressure on inclined edges included); what needs to know
 /// WHERE on a plate its forces act is missing: the plates' friction in the lateral stress, which so is exactly -p with
 /// pressed sides. [Pa], tension positive; normal components NAN where nothing is applied in that direction, shear
 /// components NAN with plates on all sides and otherwise taken to be symmetric.
-void scree_stress_from_plates(const scree_model *model, const scree_state *state, double stress[4]);
+void scree_stress_from_plates(const scree_model *model, const scree_state *state, double stress[9]);
 
 /// Displacement gradient of the interior of a loop from the displacements of its vertices (Bagi 1996; P 3.1-3.3):
 /// (1/A) sum_edges (u_a + u_b)/2 (x) n L on the mid configuration x + u/2. Exact: trace = (A_new - A_old) / A_mid for
@@ -41,7 +41,7 @@ void scree_loop_gradient(const double *x, const double *y, const double *ux, con
 
 /// Displacement gradient accumulated up to now (sum of increments over the current configuration, so its trace is the
 /// logarithmic volume change): the closed increments in state->strain plus that of the present loop. Tension positive.
-void scree_strain_measure(const scree_state *state, double gradient[4]);
+void scree_strain_measure(const scree_state *state, double gradient[9]);
 
 typedef struct scree_coordination {
     double mean;                  ///< contacts per body, all bodies, walls counted

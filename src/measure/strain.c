@@ -20,7 +20,7 @@ void scree_loop_gradient(const double *x, const double *y, const double *ux, con
     scree_polygon_finish(&sum, gradient);
 }
 
-void scree_strain_measure(const scree_state *state, double gradient[4])
+void scree_strain_measure(const scree_state *state, double gradient[9])
 {
     const scree_loop *loop = &state->loop;
     scree_polygon_sum sum = {0};
@@ -39,5 +39,7 @@ void scree_strain_measure(const scree_state *state, double gradient[4])
     }
     double increment[4];
     scree_polygon_finish(&sum, increment);
-    for (int i = 0; i < 4; i++) gradient[i] = state->strain.gradient[i] + increment[i];
+    for (int i = 0; i < 9; i++) gradient[i] = state->strain.gradient[i];
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 2; j++) gradient[3 * i + j] += increment[2 * i + j];
 }

@@ -25,35 +25,35 @@
 #include <math.h>
 
 /// sum_ij += f_i x_j
-static void add_product(double sum[4], const double f[2], const double x[2])
+static void add_product(double sum[9], const scree_vector f, const scree_vector x)
 {
-    for (int i = 0; i < 2; i++)
-        for (int j = 0; j < 2; j++) sum[2 * i + j] += f[i] * x[j];
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) sum[3 * i + j] += f[i] * x[j];
 }
 
 /// Force on `first` [N].
-static void contact_force(const scree_contact *contact, double force[2])
+static void contact_force(const scree_contact *contact, scree_vector force)
 {
-    const double *n = contact->normal;
-    force[0] = contact->normal_force * n[0] - contact->tangential_force * n[1];
-    force[1] = contact->normal_force * n[1] + contact->tangential_force * n[0];
+    for (int i = 0; i < 3; i++)
+        force[i] = contact->normal_force * contact->normal[i] + contact->tangential_force * contact->tangent[i];
 }
 
-void scree_stress_from_contacts(const scree_contact_table *table, double volume, double stress[4])
+void scree_stress_from_contacts(const scree_contact_table *table, double volume, double stress[9])
 {
-    double sum[4] = {0}, force[2];
+    double sum[9] = {0};
+    scree_vector force;
     for (size_t c = 0; c < table->count; c++) {
         contact_force(&table->contact[c], force);
         add_product(sum, force, table->contact[c].branch);
     }
-    for (int i = 0; i < 4; i++) stress[i] = -sum[i] / volume;
+    for (int i = 0; i < 9; i++) stress[i] = -sum[i] / volume;
 }
 
 typedef struct pressure_sum {
     const scree_state *state;
     double traction; ///< N/m, pressure times thickness
-    double centre[2];
-    double sum[4];
+    scree_vector centre;
+    double sum[9];
 } pressure_sum;
 
 /// Pressure on a segment: half at each end of an edge is the same as all of it in the middle.
@@ -61,12 +61,12 @@ static void add_pressure(void *user, const scree_outline_segment *segment)
 {
     pressure_sum *pressure = user;
     if (segment->kind == SCREE_OUTLINE_BARE) return;
-    double force[2] = {-pressure->traction * (segment->to[1] - segment->from[1]),
-                       pressure->traction * (segment->to[0] - segment->from[0])};
+    scree_vector force = {-pressure->traction * (segment->to[1] - segment->from[1]),
+                          pressure->traction * (segment->to[0] - segment->from[0])};
     double a[2], b[2];
     scree_loop_position(pressure->state, segment->first, a);
     scree_loop_position(pressure->state, segment->second, b);
-    double middle[2] = {(a[0] + b[0]) / 2 - pressure->centre[0], (a[1] + b[1]) / 2 - pressure->centre[1]};
+    scree_vector middle = {(a[0] + b[0]) / 2 - pressure->centre[0], (a[1] + b[1]) / 2 - pressure->centre[1]};
     add_product(pressure->sum, force, middle);
 }
 
@@ -80,45 +80,50 @@ static pressure_sum sum_pressure(const scree_model *model, const scree_state *st
 }
 
 void scree_stress_from_boundary(const scree_model *model, const scree_state *state, const scree_contact_table *table,
-                                double stress[4])
+                                double stress[9])
 {
     pressure_sum pressure = sum_pressure(model, state);
-    double volume = scree_sample_area(state) * model->thickness, force[2];
+    double volume = scree_sample_area(state) * model->thickness;
+    scree_vector force;
     for (size_t c = 0; c < table->count; c++) {
         const scree_contact *contact = &table->contact[c];
         if (!contact->wall) continue;
         contact_force(contact, force);
-        double point[2] = {contact->point[0] - pressure.centre[0], contact->point[1] - pressure.centre[1]};
+        scree_vector point;
+        for (int i = 0; i < 3; i++) point[i] = contact->point[i] - pressure.centre[i];
         add_product(pressure.sum, force, point);
     }
-    for (int i = 0; i < 4; i++) stress[i] = pressure.sum[i] / volume;
+    for (int i = 0; i < 9; i++) stress[i] = pressure.sum[i] / volume;
 }
 
 /// Forces of a wall on the bodies, as far as their place is known: all of them at the distance of the wall.
-static void add_wall(const scree_wall *wall, const double centre[2], double sum[4])
+static void add_wall(const scree_wall *wall, const scree_vector centre, double sum[9])
 {
     const double *n = wall->normal;
-    double distance = wall->position - (n[0] * centre[0] + n[1] * centre[1]);
-    double force[2] = {wall->force * n[0] + wall->shear * n[1], wall->force * n[1] - wall->shear * n[0]};
-    double point[2] = {distance * n[0], distance * n[1]};
+    double distance = wall->position - (n[0] * centre[0] + n[1] * centre[1] + n[2] * centre[2]);
+    scree_vector force, point;
+    for (int i = 0; i < 3; i++) {
+        force[i] = wall->force * n[i] - wall->shear[i];
+        point[i] = distance * n[i];
+    }
     add_product(sum, force, point);
 }
 
-void scree_stress_from_plates(const scree_model *model, const scree_state *state, double stress[4])
+void scree_stress_from_plates(const scree_model *model, const scree_state *state, double stress[9])
 {
     pressure_sum pressure = sum_pressure(model, state);
     const scree_wall *wall = state->wall;
     for (int w = 0; w < SCREE_WALL_COUNT; w++)
         if (wall[w].active) add_wall(&wall[w], pressure.centre, pressure.sum);
     double volume = scree_sample_area(state) * model->thickness;
-    for (int i = 0; i < 4; i++) stress[i] = pressure.sum[i] / volume;
+    for (int i = 0; i < 9; i++) stress[i] = pressure.sum[i] / volume;
 
     // What cannot be known from the resultants of the walls: see measure.h.
     bool pressed = state->pressure > 0 && state->loop.count > 0;
     bool axial = wall[SCREE_WALL_BOTTOM].active || wall[SCREE_WALL_TOP].active;
     bool lateral = wall[SCREE_WALL_LEFT].active || wall[SCREE_WALL_RIGHT].active;
     if (!lateral && !pressed) stress[0] = NAN;
-    if (!axial && !pressed) stress[3] = NAN;
-    if (axial) stress[2] = lateral ? NAN : stress[1];
-    if (lateral) stress[1] = axial ? NAN : stress[2];
+    if (!axial && !pressed) stress[4] = NAN;
+    if (axial) stress[3] = lateral ? NAN : stress[1];
+    if (lateral) stress[1] = axial ? NAN : stress[3];
 }

@@ -13,15 +13,16 @@
 
 /// Mean over the bodies that touch something of the force that `resultant_on` gives, over the mean contact force.
 static double ratio(const scree_model *model, const scree_state *state, const scree_contact_table *table,
-                    void (*resultant_on)(const scree_model *, const scree_state *, size_t row, double force[3]))
+                    void (*resultant_on)(const scree_model *, const scree_state *, size_t row, scree_vector force))
 {
-    double resultant = 0, contact_force = 0, force[3];
+    double resultant = 0, contact_force = 0;
+    scree_vector force;
     size_t bodies = 0;
     for (size_t id = 0; id < state->count; id++) {
         size_t row = state->row_of_id[id];
         if (state->sum[row].contacts == 0) continue;
         resultant_on(model, state, row, force);
-        resultant += hypot(force[0], force[1]);
+        resultant += sqrt(force[0] * force[0] + force[1] * force[1] + force[2] * force[2]);
         bodies++;
     }
     for (size_t c = 0; c < table->count; c++)
@@ -30,20 +31,26 @@ static double ratio(const scree_model *model, const scree_state *state, const sc
     return (resultant / (double)bodies) / (contact_force / (double)table->count);
 }
 
-double scree_unbalanced_ratio(const scree_model *model, const scree_state *state, const scree_contact_table *table)
+static void present_force(const scree_model *model, const scree_state *state, size_t row, scree_vector force)
 {
-    return ratio(model, state, table, scree_body_force);
+    scree_vector torque;
+    scree_body_force(model, state, row, force, torque);
 }
 
-static void mean_force(const scree_model *model, const scree_state *state, size_t row, double force[3])
+double scree_unbalanced_ratio(const scree_model *model, const scree_state *state, const scree_contact_table *table)
+{
+    return ratio(model, state, table, present_force);
+}
+
+static void mean_force(const scree_model *model, const scree_state *state, size_t row, scree_vector force)
 {
     double time = (double)(state->step - state->sampled_step) * state->step_size, mass = state->row[row].mass;
-    scree_body_velocity(model, state, row, force);
-    force[0] = mass * (force[0] - state->sampled_vx[row]) / time;
-    force[1] = mass * (force[1] - state->sampled_vy[row]) / time;
+    scree_vector velocity, spin;
+    scree_body_velocity(model, state, row, velocity, spin);
+    for (int k = 0; k < 3; k++) force[k] = mass * (velocity[k] - state->sampled_velocity[row][k]) / time;
 }
 
 double scree_mean_unbalanced_ratio(const scree_model *model, const scree_state *state, const scree_contact_table *table)
 {
-    return ratio(model, state, table, state->step > state->sampled_step ? mean_force : scree_body_force);
+    return ratio(model, state, table, state->step > state->sampled_step ? mean_force : present_force);
 }

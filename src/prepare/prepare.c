@@ -63,8 +63,7 @@ static void fill_rows(const scree_model *model, const scree_packing *packing, sc
             .radius = radius,
             .mass = model->density[material] * M_PI * radius * radius * model->thickness,
         };
-        state->reference_x[i] = packing->x[i];
-        state->reference_y[i] = packing->y[i];
+        scree_body_place(state, i, state->reference[i]);
     }
 }
 
@@ -75,7 +74,7 @@ static void stand_walls(const scree_model *model, const scree_box *box, scree_st
     state->wall[SCREE_WALL_TOP] = (scree_wall){.normal = {0, -1}, .position = -box->height};
     state->wall[SCREE_WALL_LEFT] = (scree_wall){.normal = {1, 0}, .position = 0};
     state->wall[SCREE_WALL_RIGHT] = (scree_wall){.normal = {-1, 0}, .position = -box->width};
-    for (int w = 0; w < SCREE_WALL_COUNT; w++) {
+    for (int w = 0; w <= SCREE_WALL_RIGHT; w++) {
         state->wall[w].active = 1;
         state->wall[w].material = material;
     }
@@ -86,7 +85,7 @@ scree_status scree_prepare(const scree_model *model, const scree_config_stage *s
 {
     const scree_preparation *method = scree_preparation_get((scree_prepare_method)stage->method);
     size_t count = (size_t)model->config->particles.count;
-    scree_status status = scree_state_create(state, count, error);
+    scree_status status = scree_state_create(state, model->dimension, count, error);
     if (status) return status;
     scree_packing packing = {.count = count, .box.width = stage->width};
     status = scree_allocate(&packing.radius, count, sizeof(double), error);

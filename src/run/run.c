@@ -155,7 +155,8 @@ scree_status scree_restart(const char *directory, const scree_run_options *optio
     if (!status) status = case_text(c, &text, &length, &checksum, error);
     // A message without a failure tells that an older checkpoint had to serve.
     scree_error note = {0};
-    if (!status && (status = scree_checkpoint_read(directory, &s.state, checksum, &note))) *error = note;
+    if (!status && (status = scree_checkpoint_read(directory, s.model.dimension, &s.state, checksum, &note)))
+        *error = note;
     // Samples, checkpoints and the checksum may read the contacts before the first step.
     if (!status && s.state.count > 0) status = scree_neighbours_refresh(&s.model, &s.state, &s.work, error);
     if (!status && s.state.stage.counter >= 0) status = scree_stage_enter(&s, true, error);

@@ -57,30 +57,30 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
 
 static void sample_strain(const scree_simulation *s, double *value)
 {
-    const double *begin = s->state.stage.reference;
-    double gradient[4];
+    const double *begin = &s->state.stage.reference[4];
+    double gradient[9];
     scree_strain_measure(&s->state, gradient);
     bool loading = s->stage->loading;
     value[SCREE_SAMPLE_AXIAL_STRAIN] = scree_axial_strain(s);
-    value[SCREE_SAMPLE_BOUNDARY_AXIAL] = loading ? begin[5] - gradient[3] : NAN;
-    value[SCREE_SAMPLE_BOUNDARY_LATERAL] = loading ? begin[2] - gradient[0] : NAN;
+    value[SCREE_SAMPLE_BOUNDARY_AXIAL] = loading ? begin[4] - gradient[4] : NAN;
+    value[SCREE_SAMPLE_BOUNDARY_LATERAL] = loading ? begin[0] - gradient[0] : NAN;
     value[SCREE_SAMPLE_VOLUMETRIC_STRAIN] = value[SCREE_SAMPLE_BOUNDARY_AXIAL] + value[SCREE_SAMPLE_BOUNDARY_LATERAL];
 }
 
 static void sample_stress(const scree_simulation *s, double *value)
 {
     const scree_model *model = &s->stage_model;
-    double area = scree_sample_area(&s->state), plates[4], contacts[4];
+    double area = scree_sample_area(&s->state), plates[9], contacts[9];
     scree_stress_from_plates(model, &s->state, plates);
     scree_stress_from_contacts(&s->table, area * model->thickness, contacts);
     value[SCREE_SAMPLE_AREA] = area;
-    value[SCREE_SAMPLE_AXIAL_PLATES] = -plates[3];
+    value[SCREE_SAMPLE_AXIAL_PLATES] = -plates[4];
     value[SCREE_SAMPLE_LATERAL_APPLIED] = -plates[0];
-    value[SCREE_SAMPLE_STRESS_RATIO] = plates[3] / plates[0];
-    value[SCREE_SAMPLE_AXIAL_CONTACTS] = -contacts[3];
+    value[SCREE_SAMPLE_STRESS_RATIO] = plates[4] / plates[0];
+    value[SCREE_SAMPLE_AXIAL_CONTACTS] = -contacts[4];
     value[SCREE_SAMPLE_LATERAL_CONTACTS] = -contacts[0];
-    value[SCREE_SAMPLE_SHEAR_CONTACTS] = 0.5 * (contacts[1] + contacts[2]);
-    value[SCREE_SAMPLE_STRESS_RATIO_CONTACTS] = contacts[3] / contacts[0];
+    value[SCREE_SAMPLE_SHEAR_CONTACTS] = 0.5 * (contacts[1] + contacts[3]);
+    value[SCREE_SAMPLE_STRESS_RATIO_CONTACTS] = contacts[4] / contacts[0];
 }
 
 static scree_status sample_structure(const scree_simulation *s, double *value, scree_error *error)
@@ -124,12 +124,9 @@ static void sample_energy(const scree_simulation *s, double *value)
 static void remember_velocities(scree_simulation *s)
 {
     scree_state *state = &s->state;
-    double velocity[3];
-    for (size_t row = 0; row < state->count; row++) {
-        scree_body_velocity(&s->stage_model, state, row, velocity);
-        state->sampled_vx[row] = velocity[0];
-        state->sampled_vy[row] = velocity[1];
-    }
+    scree_vector spin;
+    for (size_t row = 0; row < state->count; row++)
+        scree_body_velocity(&s->stage_model, state, row, state->sampled_velocity[row], spin);
     state->sampled_step = state->step;
 }
 

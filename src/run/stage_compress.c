@@ -1,7 +1,7 @@
 /// Stage `compress`: the bottom and top plates approach each other at a constant rate (referred to the height at the
 /// begin), reached smoothly within `rise_time`; the sides keep the pressure of the stage before. Stop rule: the axial
 /// strain (engineering, from the plates) has reached `strain`. reference: [0] height at the begin, [1] wave time,
-/// [2..5] accumulated boundary strain at the begin (xx, xy, yx, yy), [6] impedance of the side plates.
+/// [2, 3] impedance and mass of the side plates, [4..12] accumulated boundary strain at the begin (3 x 3).
 #include "measure/measure.h"
 #include "run/simulation.h"
 
@@ -17,15 +17,12 @@ static scree_status begin(scree_simulation *s, scree_error *error)
     double *reference = state->stage.reference;
     reference[0] = scree_sample_height(state);
     reference[1] = scree_sample_wave_time(&s->model, state, state->pressure);
-    scree_strain_measure(state, &reference[2]);
+    scree_strain_measure(state, &reference[4]);
     scree_servo sides = scree_servo_for(&s->model, state, SCREE_WALL_LEFT, state->pressure);
-    reference[6] = sides.impedance;
-    reference[7] = sides.mass;
-    for (size_t row = 0; row < state->count; row++) {
-        state->reference_x[row] = state->row[row].x;
-        state->reference_y[row] = state->row[row].y;
-    }
-    memset(state->angle, 0, state->count * sizeof *state->angle);
+    reference[2] = sides.impedance;
+    reference[3] = sides.mass;
+    for (size_t row = 0; row < state->count; row++) scree_body_place(state, row, state->reference[row]);
+    if (state->angle) memset(state->angle, 0, state->count * sizeof *state->angle);
     return SCREE_OK;
 }
 
@@ -43,7 +40,7 @@ static void plan(scree_simulation *s)
         (scree_stage_plan){.interval = interval > 0 ? interval : 1,
                            .expected = expected,
                            .ramp_time = rise,
-                           .sides = {.impedance = s->state.stage.reference[6], .mass = s->state.stage.reference[7]}};
+                           .sides = {.impedance = s->state.stage.reference[2], .mass = s->state.stage.reference[3]}};
 }
 
 static void control(scree_simulation *s)

@@ -22,7 +22,7 @@ enum { PROBE_SIDE = 32, PROBE_STEPS = 60, BYTES_A_DISC = 330 };
 static scree_status make_probe(const scree_model *model, scree_state *state, scree_error *error)
 {
     double radius = model->mean_radius, spacing = 2 * radius * (1 - 1e-4);
-    scree_status status = scree_state_create(state, PROBE_SIDE * PROBE_SIDE, error);
+    scree_status status = scree_state_create(state, 2, PROBE_SIDE * PROBE_SIDE, error);
     if (status) return status;
     state->step_size = model->step;
     for (size_t k = 0; k < state->count; k++) {

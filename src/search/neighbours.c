@@ -39,8 +39,10 @@ static double largest_displacement(const scree_state *state, int threads)
     double largest = 0;
 #pragma omp parallel for num_threads(threads) schedule(static) reduction(max : largest) if (threads > 1)
     for (size_t k = 0; k < state->count; k++) {
-        double dx = state->row[k].x - state->rebuild_x[k], dy = state->row[k].y - state->rebuild_y[k];
-        double square = dx * dx + dy * dy;
+        const double *then = state->rebuild[k];
+        double dx = state->row[k].x - then[0], dy = state->row[k].y - then[1];
+        double dz = state->dimension == 3 ? state->row[k].z - then[2] : 0;
+        double square = dx * dx + dy * dy + dz * dz;
         square = square <= DBL_MAX ? square : (double)INFINITY;
         largest = square > largest ? square : largest;
     }
@@ -53,7 +55,8 @@ static bool walls_need_rebuild(const scree_state *state, const scree_work *work)
     for (int w = 0; w < SCREE_WALL_COUNT; w++) {
         const scree_wall *now = &state->wall[w], *then = &work->search->wall[w];
         if (!now->active) continue;
-        bool same = then->active && now->normal[0] == then->normal[0] && now->normal[1] == then->normal[1];
+        bool same = then->active && now->normal[0] == then->normal[0] && now->normal[1] == then->normal[1] &&
+                    now->normal[2] == then->normal[2];
         if (!same || !(fabs(now->position - then->position) < half_skin(work))) return true;
     }
     return false;
@@ -217,10 +220,7 @@ static scree_status rebuild(scree_state *state, scree_work *work, scree_error *e
     if (status) return status;
 
 #pragma omp parallel for num_threads(work->threads) schedule(static) if (work->threads > 1)
-    for (size_t k = 0; k < state->count; k++) {
-        state->rebuild_x[k] = state->row[k].x;
-        state->rebuild_y[k] = state->row[k].y;
-    }
+    for (size_t k = 0; k < state->count; k++) scree_body_place(state, k, state->rebuild[k]);
     memcpy(search->wall, state->wall, sizeof search->wall);
     search->listed = work->valid = true;
     work->budget = half_skin(work);

@@ -13,42 +13,44 @@
 const scree_field scree_fields[] = {
     {"id", SCREE_FIELD_UINT32, 1, "1", SCREE_FIELD_STATE, true, "number of the body, never changes",
      PLAIN_ARRAY(id, uint32_t), .rows = SCREE_ROWS_BODIES},
-    {"position", SCREE_FIELD_DOUBLE, 2, "m", SCREE_FIELD_STATE, true, "centre", IN_ARRAY(row, scree_row, x),
+    {"position", SCREE_FIELD_DOUBLE, SCREE_VECTOR, "m", SCREE_FIELD_STATE, true, "centre", IN_ARRAY(row, scree_row, x),
      .rows = SCREE_ROWS_BODIES},
     {"radius", SCREE_FIELD_DOUBLE, 1, "m", SCREE_FIELD_STATE, true, "radius", IN_ARRAY(row, scree_row, radius),
      .rows = SCREE_ROWS_BODIES},
     {"mass", SCREE_FIELD_DOUBLE, 1, "kg", SCREE_FIELD_STATE, true, "mass", IN_ARRAY(row, scree_row, mass),
      .rows = SCREE_ROWS_BODIES},
     {"material", SCREE_FIELD_DOUBLE, 1, "1", SCREE_FIELD_STATE, true, "index of the material in the case",
-     IN_ARRAY(row, scree_row, material), .rows = SCREE_ROWS_BODIES},
+     IN_ARRAY(row, scree_row, material), .rows = SCREE_ROWS_BODIES, .only_dimension = 2},
+    {"material", SCREE_FIELD_DOUBLE, 1, "1", SCREE_FIELD_STATE, true, "index of the material in the case",
+     IN_ARRAY(turn, scree_turn_row, material), .rows = SCREE_ROWS_BODIES, .only_dimension = 3},
     {"angle", SCREE_FIELD_DOUBLE, 1, "rad", SCREE_FIELD_STATE, true, "rotation since the start, counter-clockwise",
-     PLAIN_ARRAY(angle, double), .rows = SCREE_ROWS_BODIES},
-    {"scheme_velocity", SCREE_FIELD_DOUBLE, 2, "m/s", SCREE_FIELD_STATE, false,
+     PLAIN_ARRAY(angle, double), .rows = SCREE_ROWS_BODIES, .only_dimension = 2},
+    {"scheme_velocity", SCREE_FIELD_DOUBLE, SCREE_VECTOR, "m/s", SCREE_FIELD_STATE, false,
      "velocity that the integrator keeps: half a step behind the position in position_verlet",
      IN_ARRAY(row, scree_row, vx), .rows = SCREE_ROWS_BODIES},
     {"scheme_spin", SCREE_FIELD_DOUBLE, 1, "rad/s", SCREE_FIELD_STATE, false,
      "angular velocity that the integrator keeps, counter-clockwise", IN_ARRAY(row, scree_row, spin),
-     .rows = SCREE_ROWS_BODIES},
-    {"reference_x", SCREE_FIELD_DOUBLE, 1, "m", SCREE_FIELD_STATE, false, "x at the start of the loading stage",
-     PLAIN_ARRAY(reference_x, double), .rows = SCREE_ROWS_BODIES},
-    {"reference_y", SCREE_FIELD_DOUBLE, 1, "m", SCREE_FIELD_STATE, false, "y at the start of the loading stage",
-     PLAIN_ARRAY(reference_y, double), .rows = SCREE_ROWS_BODIES},
-    {"sampled_vx", SCREE_FIELD_DOUBLE, 1, "m/s", SCREE_FIELD_STATE, false, "x velocity at the last sample",
-     PLAIN_ARRAY(sampled_vx, double), .rows = SCREE_ROWS_BODIES},
-    {"sampled_vy", SCREE_FIELD_DOUBLE, 1, "m/s", SCREE_FIELD_STATE, false, "y velocity at the last sample",
-     PLAIN_ARRAY(sampled_vy, double), .rows = SCREE_ROWS_BODIES},
-    {"force_sum", SCREE_FIELD_INT64, 2, "1", SCREE_FIELD_STATE, false,
+     .rows = SCREE_ROWS_BODIES, .only_dimension = 2},
+    {"scheme_spin", SCREE_FIELD_DOUBLE, 3, "rad/s", SCREE_FIELD_STATE, false,
+     "angular velocity that the integrator keeps", IN_ARRAY(turn, scree_turn_row, wx), .rows = SCREE_ROWS_BODIES,
+     .only_dimension = 3},
+    {"reference", SCREE_FIELD_DOUBLE, SCREE_VECTOR, "m", SCREE_FIELD_STATE, false,
+     "centre at the start of the loading stage", PLAIN_ARRAY(reference, scree_vector), .rows = SCREE_ROWS_BODIES},
+    {"sampled_velocity", SCREE_FIELD_DOUBLE, SCREE_VECTOR, "m/s", SCREE_FIELD_STATE, false,
+     "velocity at the last sample", PLAIN_ARRAY(sampled_velocity, scree_vector), .rows = SCREE_ROWS_BODIES},
+    {"force_sum", SCREE_FIELD_INT64, SCREE_VECTOR, "1", SCREE_FIELD_STATE, false,
      "sum of the contact and boundary forces, in units of scalars/force_quantum", IN_ARRAY(sum, scree_sum_row, fx),
      .rows = SCREE_ROWS_BODIES},
     {"torque_sum", SCREE_FIELD_INT64, 1, "1", SCREE_FIELD_STATE, false,
      "sum of the contact torques, in units of scalars/torque_quantum", IN_ARRAY(sum, scree_sum_row, torque),
-     .rows = SCREE_ROWS_BODIES},
+     .rows = SCREE_ROWS_BODIES, .only_dimension = 2},
+    {"torque_sum", SCREE_FIELD_INT64, 3, "1", SCREE_FIELD_STATE, false,
+     "sum of the contact torques, in units of scalars/torque_quantum", IN_ARRAY(torque, scree_torque_row, x),
+     .rows = SCREE_ROWS_BODIES, .only_dimension = 3},
     {"coordination", SCREE_FIELD_INT64, 1, "1", SCREE_FIELD_STATE, true, "number of touching neighbours and walls",
      IN_ARRAY(sum, scree_sum_row, contacts), .rows = SCREE_ROWS_BODIES},
-    {"rebuild_x", SCREE_FIELD_DOUBLE, 1, "m", SCREE_FIELD_DERIVED, false, "x at the last rebuild of the neighbour list",
-     PLAIN_ARRAY(rebuild_x, double), .rows = SCREE_ROWS_BODIES},
-    {"rebuild_y", SCREE_FIELD_DOUBLE, 1, "m", SCREE_FIELD_DERIVED, false, "y at the last rebuild of the neighbour list",
-     PLAIN_ARRAY(rebuild_y, double), .rows = SCREE_ROWS_BODIES},
+    {"rebuild", SCREE_FIELD_DOUBLE, SCREE_VECTOR, "m", SCREE_FIELD_DERIVED, false,
+     "centre at the last rebuild of the neighbour list", PLAIN_ARRAY(rebuild, scree_vector), .rows = SCREE_ROWS_BODIES},
 };
 const size_t scree_field_count = sizeof scree_fields / sizeof *scree_fields;
 
@@ -60,7 +62,12 @@ const size_t scree_field_count = sizeof scree_fields / sizeof *scree_fields;
 #define LOOP(name_, type_, c_type, unit_, member, meaning_)                                                            \
     {                                                                                                                  \
         "boundary/" name_, type_, 1, unit_, SCREE_FIELD_STATE, true, meaning_, PLAIN_ARRAY(loop.member, c_type),       \
-            .rows = SCREE_ROWS_LOOP                                                                                    \
+            .rows = SCREE_ROWS_LOOP, .only_dimension = 2                                                               \
+    }
+#define HULL(name_, type_, components_, c_type, unit_, member, meaning_, rows_)                                        \
+    {                                                                                                                  \
+        "hull/" name_, type_, components_, unit_, SCREE_FIELD_STATE, true, meaning_, PLAIN_ARRAY(hull.member, c_type), \
+            .rows = rows_, .only_dimension = 3                                                                         \
     }
 #define WALL(name_, type_, components_, unit_, member, meaning_)                                                       \
     {                                                                                                                  \
@@ -89,13 +96,22 @@ const scree_field scree_members[] = {
     LOOP("force_x", SCREE_FIELD_DOUBLE, double, "N", fx, "x component of the force of the pressure on this body"),
     LOOP("force_y", SCREE_FIELD_DOUBLE, double, "N", fy, "y component of the force of the pressure on this body"),
 
+    HULL("id", SCREE_FIELD_UINT32, 1, uint32_t, "1", id, "bodies on the hull, by id, ascending", SCREE_ROWS_HULL_NODES),
+    HULL("place", SCREE_FIELD_DOUBLE, 3, scree_vector, "m", place, "centre when the hull was last found",
+         SCREE_ROWS_HULL_NODES),
+    HULL("force", SCREE_FIELD_DOUBLE, 3, scree_vector, "N", force, "force of the boundary on this body",
+         SCREE_ROWS_HULL_NODES),
+    HULL("triangle", SCREE_FIELD_UINT32, 3, uint32_t[3], "1", triangle,
+         "places in hull/id of the corners, counter-clockwise seen from outside", SCREE_ROWS_HULL_TRIANGLES),
+    HULL("loaded", SCREE_FIELD_UINT8, 1, uint8_t, "1", loaded, "1: the triangle carries the pressure",
+         SCREE_ROWS_HULL_TRIANGLES),
+
     WALL("position", SCREE_FIELD_DOUBLE, 1, "m", position, "position along the normal: normal . x = position"),
-    WALL("normal", SCREE_FIELD_DOUBLE, 2, "1", normal, "unit normal, towards the bodies"),
+    WALL("normal", SCREE_FIELD_DOUBLE, 3, "1", normal, "unit normal, towards the bodies"),
     WALL("velocity", SCREE_FIELD_DOUBLE, 1, "m/s", velocity, "velocity along the normal"),
-    WALL("tangential_velocity", SCREE_FIELD_DOUBLE, 1, "m/s", tangential_velocity,
-         "velocity along (-normal y, normal x)"),
+    WALL("tangential_velocity", SCREE_FIELD_DOUBLE, 3, "m/s", tangential_velocity, "velocity in its own plane"),
     WALL("force", SCREE_FIELD_DOUBLE, 1, "N", force, "normal force of the bodies on the wall, compression positive"),
-    WALL("shear", SCREE_FIELD_DOUBLE, 1, "N", shear, "force of the bodies on the wall along (-normal y, normal x)"),
+    WALL("shear", SCREE_FIELD_DOUBLE, 3, "N", shear, "tangential force of the bodies on the wall"),
     WALL("active", SCREE_FIELD_INT32, 1, "1", active, "1: the wall exists in this stage"),
     WALL("material", SCREE_FIELD_INT32, 1, "1", material, "index of the material in the case"),
 
@@ -111,8 +127,10 @@ const scree_field scree_members[] = {
     ONE("scalars/boundary_updated", SCREE_FIELD_UINT64, 1, "1", loop.updated,
         "step at which the boundary was last found"),
 
-    ONE("strain/gradient", SCREE_FIELD_DOUBLE, 4, "1", strain.gradient,
-        "displacement gradient accumulated from the boundary: xx, xy, yx, yy, extension positive"),
+    ONE("scalars/hull_updated", SCREE_FIELD_UINT64, 1, "1", hull.updated, "step at which the hull was last found"),
+
+    ONE("strain/gradient", SCREE_FIELD_DOUBLE, 9, "1", strain.gradient,
+        "displacement gradient accumulated from the boundary, 3 x 3 by rows, extension positive"),
 
     ONE("ledger/damping", SCREE_FIELD_DOUBLE, 1, "J", ledger.damping, "energy dissipated by contact damping"),
     ONE("ledger/friction", SCREE_FIELD_DOUBLE, 1, "J", ledger.friction, "energy dissipated by sliding"),
@@ -127,12 +145,25 @@ const scree_field scree_members[] = {
     ONE("stage/index", SCREE_FIELD_INT64, 1, "1", stage.index, "number of the stage in the case"),
     ONE("stage/first_step", SCREE_FIELD_UINT64, 1, "1", stage.first_step, "step at which the stage began"),
     ONE("stage/first_time", SCREE_FIELD_DOUBLE, 1, "s", stage.first_time, "time at which the stage began"),
-    ONE("stage/reference", SCREE_FIELD_DOUBLE, 8, "1", stage.reference, "numbers of the stage, in its own SI units"),
+    ONE("stage/reference", SCREE_FIELD_DOUBLE, SCREE_STAGE_REFERENCES, "1", stage.reference,
+        "numbers of the stage, in its own SI units"),
     ONE("stage/samples", SCREE_FIELD_INT64, 1, "1", stage.samples, "rows of series.csv written in this run"),
     ONE("stage/snapshots", SCREE_FIELD_INT64, 1, "1", stage.snapshots, "snapshots written in this run"),
     ONE("stage/counter", SCREE_FIELD_INT64, 1, "1", stage.counter, "counter of the stage"),
 };
 const size_t scree_member_count = sizeof scree_members / sizeof *scree_members;
+
+bool scree_field_exists(const scree_field *field, int dimension)
+{
+    return field->only_dimension == 0 || field->only_dimension == dimension;
+}
+
+int scree_components(int components, int dimension)
+{
+    if (components == SCREE_VECTOR) return dimension;
+    if (components == SCREE_AXIAL_VECTOR) return dimension == 3 ? 3 : 1;
+    return components;
+}
 
 size_t scree_field_size(scree_field_type type)
 {
@@ -141,6 +172,7 @@ size_t scree_field_size(scree_field_type type)
     case SCREE_FIELD_INT64:
     case SCREE_FIELD_UINT64:
         return 8;
+    case SCREE_FIELD_FLOAT:
     case SCREE_FIELD_INT32:
     case SCREE_FIELD_UINT32:
         return 4;
@@ -159,6 +191,10 @@ size_t scree_field_rows_count(const scree_state *state, const scree_field *field
         return state->contact_count;
     case SCREE_ROWS_LOOP:
         return state->loop.count;
+    case SCREE_ROWS_HULL_NODES:
+        return state->hull.node_count;
+    case SCREE_ROWS_HULL_TRIANGLES:
+        return state->hull.triangle_count;
     case SCREE_ROWS_WALLS:
         return SCREE_WALL_COUNT;
     case SCREE_ROWS_ONE:
@@ -170,8 +206,8 @@ size_t scree_field_rows_count(const scree_state *state, const scree_field *field
 const void *scree_field_get(const scree_state *state, const scree_field *field, size_t row)
 {
     const unsigned char *place = (const unsigned char *)state + field->array_offset, *first = place;
-    // Bodies, contacts and loop are behind a pointer; walls and single values are in the state itself.
-    if (field->rows <= SCREE_ROWS_LOOP) memcpy(&first, place, sizeof(void *));
+    // Arrays are behind a pointer; walls and single values are in the state itself.
+    if (field->rows <= SCREE_ROWS_HULL_TRIANGLES) memcpy(&first, place, sizeof(void *));
     return first + row * field->stride + field->offset;
 }
 

@@ -2,8 +2,7 @@
 /// A new per-body quantity is one row here and one member of `scree_state`. A second table of the same form,
 /// `scree_members`, names everything else that a checkpoint holds: contacts, boundary loop, walls, single values.
 ///
-/// Reference positions and rebuild positions are two arrays each in the state, so they are two fields of one component;
-/// all other vectors have their components side by side.
+/// Some fields exist in one dimension only (scree_field_exists), and vectors have as many components as the dimension.
 #ifndef SCREE_STATE_FIELDS_H
 #define SCREE_STATE_FIELDS_H
 
@@ -13,6 +12,7 @@ typedef enum scree_field_type {
     SCREE_FIELD_DOUBLE,
     SCREE_FIELD_INT64,
     SCREE_FIELD_UINT64,
+    SCREE_FIELD_FLOAT,
     SCREE_FIELD_INT32,
     SCREE_FIELD_UINT32,
     SCREE_FIELD_UINT8
@@ -20,20 +20,25 @@ typedef enum scree_field_type {
 
 typedef enum scree_field_role { SCREE_FIELD_STATE, SCREE_FIELD_DERIVED } scree_field_role;
 
-/// What a field has one element of. Bodies, contacts and loop are arrays that the state points to; walls and the single
-/// values lie inside the state itself.
+/// What a field has one element of. Bodies, contacts, loop and hull are arrays that the state points to; walls and the
+/// single values lie inside the state itself.
 typedef enum scree_field_rows {
     SCREE_ROWS_BODIES,
     SCREE_ROWS_CONTACTS,
     SCREE_ROWS_LOOP,
+    SCREE_ROWS_HULL_NODES,
+    SCREE_ROWS_HULL_TRIANGLES,
     SCREE_ROWS_WALLS,
     SCREE_ROWS_ONE
 } scree_field_rows;
 
+/// Numbers of components that depend on the dimension: d of a vector; 1 in 2D and 3 in 3D of a spin or torque.
+enum { SCREE_VECTOR = -1, SCREE_AXIAL_VECTOR = -2 };
+
 typedef struct scree_field {
     const char *name; ///< in scree_members with its group: "walls/position"
     scree_field_type type;
-    int components;
+    int components;   ///< or SCREE_VECTOR, SCREE_AXIAL_VECTOR
     const char *unit; ///< udunits text, "1" for none
     scree_field_role role;
     bool snapshot; ///< written as it is into snapshots and ParaView files
@@ -42,6 +47,7 @@ typedef struct scree_field {
     size_t stride;       ///< bytes from one element to the next
     size_t offset;       ///< bytes from the start of an element to the first component
     scree_field_rows rows;
+    int only_dimension; ///< 2 or 3: exists in this dimension only; 0: in both
 } scree_field;
 
 /// Per body.
@@ -55,6 +61,12 @@ extern const size_t scree_member_count;
 /// Address of component 0 of `field` of the body (or contact, vertex of the loop, wall) in `row`.
 const void *scree_field_get(const scree_state *state, const scree_field *field, size_t row);
 void *scree_field_get_mutable(scree_state *state, const scree_field *field, size_t row);
+
+/// Whether states of this dimension have it.
+bool scree_field_exists(const scree_field *field, int dimension);
+
+/// Number of components in a dimension: resolves SCREE_VECTOR and SCREE_AXIAL_VECTOR.
+int scree_components(int components, int dimension);
 
 /// Bytes of one component.
 size_t scree_field_size(scree_field_type type);

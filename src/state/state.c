@@ -3,31 +3,50 @@
 
 #include "base/checksum.h"
 
+#include <stddef.h>
 #include <string.h>
 
-scree_status scree_state_create(scree_state *state, size_t count, scree_error *error)
+/// An array with one element a body.
+typedef struct body_array {
+    void *array; ///< address of the pointer
+    size_t size; ///< bytes of an element
+} body_array;
+
+enum { BODY_ARRAYS = 9 };
+
+/// The arrays that bodies of the state's dimension have; those that move with the rows.
+static size_t body_arrays(scree_state *state, body_array arrays[BODY_ARRAYS])
 {
-    memset(state, 0, sizeof *state);
-    scree_status status = SCREE_OK;
-    struct {
-        void *array;
-        size_t size;
-    } const arrays[] = {
+    const body_array both[] = {
         {&state->row, sizeof *state->row},
         {&state->sum, sizeof *state->sum},
         {&state->id, sizeof *state->id},
-        {&state->angle, sizeof *state->angle},
-        {&state->reference_x, sizeof *state->reference_x},
-        {&state->reference_y, sizeof *state->reference_y},
-        {&state->sampled_vx, sizeof *state->sampled_vx},
-        {&state->sampled_vy, sizeof *state->sampled_vy},
-        {&state->rebuild_x, sizeof *state->rebuild_x},
-        {&state->rebuild_y, sizeof *state->rebuild_y},
-        {&state->row_of_id, sizeof *state->row_of_id},
+        {&state->reference, sizeof *state->reference},
+        {&state->sampled_velocity, sizeof *state->sampled_velocity},
+        {&state->rebuild, sizeof *state->rebuild},
     };
+    size_t count = sizeof both / sizeof *both;
+    memcpy(arrays, both, sizeof both);
+    if (state->dimension == 3) {
+        arrays[count++] = (body_array){&state->turn, sizeof *state->turn};
+        arrays[count++] = (body_array){&state->torque, sizeof *state->torque};
+    } else {
+        arrays[count++] = (body_array){&state->angle, sizeof *state->angle};
+    }
+    return count;
+}
+
+scree_status scree_state_create(scree_state *state, int dimension, size_t count, scree_error *error)
+{
+    memset(state, 0, sizeof *state);
+    state->dimension = dimension;
+    scree_status status = SCREE_OK;
+    body_array arrays[BODY_ARRAYS];
+    size_t array_count = body_arrays(state, arrays);
     // One element more than there are bodies, so that an empty state has arrays too.
-    for (size_t k = 0; k < sizeof arrays / sizeof *arrays && !status; k++)
+    for (size_t k = 0; k < array_count && !status; k++)
         status = scree_allocate(arrays[k].array, count + 1, arrays[k].size, error);
+    if (!status) status = scree_allocate(&state->row_of_id, count + 1, sizeof *state->row_of_id, error);
     if (status) {
         scree_state_destroy(state);
         return status;
@@ -40,12 +59,15 @@ scree_status scree_state_create(scree_state *state, size_t count, scree_error *e
 
 void scree_state_destroy(scree_state *state)
 {
-    void *const arrays[] = {&state->row,         &state->sum,         &state->id,        &state->angle,
-                            &state->reference_x, &state->reference_y, &state->rebuild_x, &state->rebuild_y,
-                            &state->row_of_id,   &state->contact,     &state->loop.id,   &state->loop.loaded,
-                            &state->loop.x,      &state->loop.y,      &state->loop.fx,   &state->loop.fy,
-                            &state->sampled_vx,  &state->sampled_vy};
-    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
+    scree_loop *loop = &state->loop;
+    scree_hull *hull = &state->hull;
+    void *const others[] = {&state->row_of_id, &state->contact, &state->booking, &state->rolling, &loop->id,
+                            &loop->loaded,     &loop->x,        &loop->y,        &loop->fx,       &loop->fy,
+                            &hull->id,         &hull->place,    &hull->force,    &hull->triangle, &hull->loaded};
+    body_array arrays[BODY_ARRAYS];
+    size_t array_count = body_arrays(state, arrays);
+    for (size_t k = 0; k < array_count; k++) scree_release(arrays[k].array);
+    for (size_t k = 0; k < sizeof others / sizeof *others; k++) scree_release(others[k]);
     memset(state, 0, sizeof *state);
 }
 
@@ -68,16 +90,10 @@ scree_status scree_state_permute(scree_state *state, const uint32_t *order, scre
     if (state->count == 0) return SCREE_OK;
     scree_status status = scree_allocate(&scratch, state->count, sizeof(scree_row), error);
     if (status) return status;
-    permute_array(state->row, sizeof *state->row, order, state->count, scratch);
-    permute_array(state->sum, sizeof *state->sum, order, state->count, scratch);
-    permute_array(state->id, sizeof *state->id, order, state->count, scratch);
-    permute_array(state->angle, sizeof *state->angle, order, state->count, scratch);
-    permute_array(state->reference_x, sizeof *state->reference_x, order, state->count, scratch);
-    permute_array(state->reference_y, sizeof *state->reference_y, order, state->count, scratch);
-    permute_array(state->sampled_vx, sizeof *state->sampled_vx, order, state->count, scratch);
-    permute_array(state->sampled_vy, sizeof *state->sampled_vy, order, state->count, scratch);
-    permute_array(state->rebuild_x, sizeof *state->rebuild_x, order, state->count, scratch);
-    permute_array(state->rebuild_y, sizeof *state->rebuild_y, order, state->count, scratch);
+    body_array arrays[BODY_ARRAYS];
+    size_t array_count = body_arrays(state, arrays);
+    for (size_t k = 0; k < array_count; k++)
+        permute_array(*(void **)arrays[k].array, arrays[k].size, order, state->count, scratch);
     scree_release(&scratch);
     for (size_t row = 0; row < state->count; row++) state->row_of_id[state->id[row]] = (uint32_t)row;
     return SCREE_OK;
@@ -86,48 +102,84 @@ scree_status scree_state_permute(scree_state *state, const uint32_t *order, scre
 scree_status scree_state_reserve_contacts(scree_state *state, size_t count, scree_error *error)
 {
     if (count <= state->contact_capacity) return SCREE_OK;
-    size_t capacity = count + count / 8 + 16;
-    scree_status status =
-        scree_reallocate(&state->contact, state->contact_count, capacity, sizeof *state->contact, error);
+    size_t old = state->contact_count, capacity = count + count / 8 + 16;
+    scree_status status = scree_reallocate(&state->contact, old, capacity, sizeof *state->contact, error);
+    if (!status && state->booking)
+        status = scree_reallocate(&state->booking, old, capacity, sizeof *state->booking, error);
+    if (!status && state->rolling)
+        status = scree_reallocate(&state->rolling, old, capacity, sizeof *state->rolling, error);
     if (!status) state->contact_capacity = capacity;
     return status;
+}
+
+scree_status scree_state_add_booking(scree_state *state, scree_error *error)
+{
+    if (state->booking) return SCREE_OK;
+    return scree_allocate(&state->booking, state->contact_capacity, sizeof *state->booking, error);
+}
+
+scree_status scree_state_add_rolling(scree_state *state, scree_error *error)
+{
+    if (state->rolling) return SCREE_OK;
+    return scree_allocate(&state->rolling, state->contact_capacity, sizeof *state->rolling, error);
 }
 
 _Static_assert(sizeof(scree_row) == 64 && sizeof(scree_sum_row) == 32, "hot rows have fixed sizes");
 _Static_assert(sizeof(scree_contact_memory) == 8 + sizeof(scree_history), "no padding in contact memory");
 
+/// Every array of the bodies but the derived `rebuild`, body by body.
+static uint64_t checksum_bodies(const scree_state *state, uint64_t c)
+{
+    scree_state view = *state;
+    body_array arrays[BODY_ARRAYS];
+    size_t array_count = body_arrays(&view, arrays);
+    for (size_t id = 0; id < state->count; id++)
+        for (size_t k = 0; k < array_count; k++) {
+            if (arrays[k].array == &view.rebuild) continue;
+            const unsigned char *bytes = *(unsigned char **)arrays[k].array;
+            c = scree_checksum_bytes(c, bytes + state->row_of_id[id] * arrays[k].size, arrays[k].size);
+        }
+    return c;
+}
+
+static uint64_t checksum_walls(const scree_state *state, uint64_t c)
+{
+    for (int w = 0; w < SCREE_WALL_COUNT; w++) {
+        const scree_wall *wall = &state->wall[w];
+        c = scree_checksum_bytes(c, &wall->position, offsetof(scree_wall, active) - offsetof(scree_wall, position));
+        c = scree_checksum_word(c, (uint64_t)(uint32_t)wall->active << 32 | (uint32_t)wall->material);
+    }
+    return c;
+}
+
+static uint64_t checksum_boundary(const scree_state *state, uint64_t c)
+{
+    const scree_loop *loop = &state->loop;
+    for (size_t k = 0; k < loop->count; k++) {
+        const double values[] = {loop->x[k], loop->y[k], loop->fx[k], loop->fy[k]};
+        c = scree_checksum_word(c, (uint64_t)loop->id[k] << 8 | loop->loaded[k]);
+        c = scree_checksum_bytes(c, values, sizeof values);
+    }
+    const scree_hull *hull = &state->hull;
+    c = scree_checksum_bytes(c, hull->id, hull->node_count * sizeof *hull->id);
+    c = scree_checksum_bytes(c, hull->place, hull->node_count * sizeof *hull->place);
+    c = scree_checksum_bytes(c, hull->force, hull->node_count * sizeof *hull->force);
+    c = scree_checksum_bytes(c, hull->triangle, hull->triangle_count * sizeof *hull->triangle);
+    c = scree_checksum_bytes(c, hull->loaded, hull->triangle_count * sizeof *hull->loaded);
+    return scree_checksum_word(scree_checksum_word(c, loop->updated), hull->updated);
+}
+
 uint64_t scree_state_checksum(const scree_state *state)
 {
-    uint64_t c = scree_checksum_word(state->step, state->count);
-    for (size_t id = 0; id < state->count; id++) {
-        size_t row = state->row_of_id[id];
-        c = scree_checksum_bytes(c, &state->row[row], sizeof state->row[row]);
-        c = scree_checksum_bytes(c, &state->sum[row], sizeof state->sum[row]);
-        c = scree_checksum_bytes(c, &state->angle[row], sizeof(double));
-        c = scree_checksum_bytes(c, &state->reference_x[row], sizeof(double));
-        c = scree_checksum_bytes(c, &state->reference_y[row], sizeof(double));
-        c = scree_checksum_bytes(c, &state->sampled_vx[row], sizeof(double));
-        c = scree_checksum_bytes(c, &state->sampled_vy[row], sizeof(double));
-    }
+    uint64_t c = checksum_bodies(state, scree_checksum_word(state->step, state->count));
     const double scalars[] = {state->step_size,       state->force_quantum, state->torque_quantum,
                               state->largest_overlap, state->largest_speed, state->pressure};
     c = scree_checksum_bytes(c, scalars, sizeof scalars);
     c = scree_checksum_bytes(c, state->contact, state->contact_count * sizeof *state->contact);
-    for (int w = 0; w < SCREE_WALL_COUNT; w++) {
-        const scree_wall *wall = &state->wall[w];
-        const double values[] = {wall->position, wall->normal[0], wall->normal[1],          wall->velocity,
-                                 wall->force,    wall->shear,     wall->tangential_velocity};
-        c = scree_checksum_bytes(c, values, sizeof values);
-        c = scree_checksum_word(c, (uint64_t)(uint32_t)wall->active << 32 | (uint32_t)wall->material);
-    }
-    for (size_t k = 0; k < state->loop.count; k++) {
-        c = scree_checksum_word(c, (uint64_t)state->loop.id[k] << 8 | state->loop.loaded[k]);
-        c = scree_checksum_bytes(c, &state->loop.x[k], sizeof(double));
-        c = scree_checksum_bytes(c, &state->loop.y[k], sizeof(double));
-        c = scree_checksum_bytes(c, &state->loop.fx[k], sizeof(double));
-        c = scree_checksum_bytes(c, &state->loop.fy[k], sizeof(double));
-    }
-    c = scree_checksum_word(scree_checksum_word(c, state->loop.updated), state->sampled_step);
+    if (state->booking) c = scree_checksum_bytes(c, state->booking, state->contact_count * sizeof *state->booking);
+    if (state->rolling) c = scree_checksum_bytes(c, state->rolling, state->contact_count * sizeof *state->rolling);
+    c = checksum_boundary(state, checksum_walls(state, c));
+    c = scree_checksum_word(c, state->sampled_step);
     c = scree_checksum_bytes(c, &state->strain, sizeof state->strain);
     c = scree_checksum_bytes(c, &state->ledger, sizeof state->ledger);
     return scree_checksum_bytes(c, &state->stage, sizeof state->stage);

@@ -11,23 +11,57 @@
 #include "base/memory.h"
 #include "model/model.h"
 
-/// Velocities are those of the scheme: position_verlet keeps v(n - 1/2), velocity_verlet v(n). `state_velocity` in
+#include <math.h>
+
+/// Velocities are those of the scheme: position_verlet keeps v(n - 1/2), velocity_verlet v(n). `scree_body_velocity` in
 /// integrate.h gives the physical velocity at n.
+///
+/// A row serves both dimensions. In 2D the material lies in the slot of z and the spin in the slot of vz; in 3D both
+/// lie in `scree_turn_row`. Outside the kernels use scree_body_place, scree_body_motion, scree_body_material.
 typedef struct scree_row {
-    double x, y;     ///< m
-    double material; ///< index as a double: rows are moved as vectors of doubles
-    double radius;   ///< m
-    double vx, vy;   ///< m/s
-    double spin;     ///< rad/s, counter-clockwise
-    double mass;     ///< kg
+    double x, y; ///< m
+    union {
+        double material; ///< 2D: index as a double, since rows are moved as vectors of doubles
+        double z;        ///< 3D: m
+    };
+    double radius; ///< m
+    double vx, vy; ///< m/s
+    union {
+        double spin; ///< 2D: rad/s, counter-clockwise
+        double vz;   ///< 3D: m/s
+    };
+    double mass; ///< kg
 } scree_row;
+
+/// 3D only: angular velocity and material.
+typedef struct scree_turn_row {
+    double wx, wy, wz; ///< rad/s
+    double material;   ///< index as a double
+} scree_turn_row;
 
 /// Sum of the contact and boundary forces on a body at step n, in quanta (base/fixed.h).
 typedef struct scree_sum_row {
-    int64_t fx, fy;   ///< force quanta
-    int64_t torque;   ///< torque quanta
+    int64_t fx, fy; ///< force quanta
+    union {
+        int64_t torque; ///< 2D: torque quanta
+        int64_t fz;     ///< 3D: force quanta
+    };
     int64_t contacts; ///< number of touching neighbours and walls
 } scree_sum_row;
+
+/// 3D only: sum of the torques, in torque quanta.
+typedef struct scree_torque_row {
+    int64_t x, y, z;
+    int64_t unused; ///< zero; keeps the row at 32 bytes, which kernels move at once
+} scree_torque_row;
+
+/// A vector of cold data; z is zero in 2D.
+typedef double scree_vector[3];
+
+static inline double scree_length(const scree_vector a)
+{
+    return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+}
 
 /// Memory of one contact between the bodies (or body and wall) with ids first < second. Signs are those of the contact
 /// seen from `first` (n from second to first); a wall is always `second`, with id SCREE_WALL_ID + wall index.
@@ -37,6 +71,18 @@ typedef struct scree_history {
     double value[SCREE_HISTORY]; ///< meaning depends on the law: see the head of its file in src/contact/
 } scree_history;
 
+/// 3D only, with the ledger: damping forces at n - 1 that the ledger needs again. Single precision is enough: each
+/// enters a mean with the present force, and the rounding errors have no preferred sign.
+typedef struct scree_booking {
+    float value[4]; ///< N: normal, tangential x, y, z
+} scree_booking;
+
+/// Memory of rolling and twisting resistance (only with materials that have it), and its booking.
+typedef struct scree_rolling {
+    double value[4]; ///< 2D: rolling stretch; 3D: rolling stretch x, y, z [m], twist [rad]
+    float booked[4]; ///< dashpots at n - 1, in the same order
+} scree_rolling;
+
 typedef struct scree_contact_memory {
     uint32_t first, second; ///< ids
     scree_history history;
@@ -44,17 +90,26 @@ typedef struct scree_contact_memory {
 
 /// A rigid plane wall: all bodies lie on the side that its unit normal points to. Plates move along their normal.
 typedef struct scree_wall {
-    double position;            ///< m, along the normal: points x with normal . x = position
-    double normal[2];           ///< 1
-    double velocity;            ///< m/s along the normal, v(n - 1/2): position(n) = position(n-1) + velocity dt
-    double force;               ///< N, normal force by the bodies on the wall at n, compression positive
-    double shear;               ///< N, tangential force by the bodies on the wall at n
-    double tangential_velocity; ///< m/s along (-normal y, normal x)
-    int32_t active;             ///< 0: does not exist in this stage
-    int32_t material;           ///< material index of the plate
+    double position;                  ///< m, along the normal: points x with normal . x = position
+    scree_vector normal;              ///< 1
+    double velocity;                  ///< m/s along the normal, v(n - 1/2): position(n) = position(n-1) + velocity dt
+    double force;                     ///< N, normal force by the bodies on the wall at n, compression positive
+    scree_vector shear;               ///< N, tangential force by the bodies on the wall at n
+    scree_vector tangential_velocity; ///< m/s, in the plane of the wall
+    int32_t active;                   ///< 0: does not exist in this stage
+    int32_t material;                 ///< material index of the plate
 } scree_wall;
 
-enum { SCREE_WALL_BOTTOM, SCREE_WALL_TOP, SCREE_WALL_LEFT, SCREE_WALL_RIGHT, SCREE_WALL_COUNT };
+/// Bottom and top bound the last axis (y in 2D, z in 3D), left and right x, front and back y in 3D.
+enum {
+    SCREE_WALL_BOTTOM,
+    SCREE_WALL_TOP,
+    SCREE_WALL_LEFT,
+    SCREE_WALL_RIGHT,
+    SCREE_WALL_FRONT,
+    SCREE_WALL_BACK,
+    SCREE_WALL_COUNT
+};
 
 /// Energy ledger, J. Work is done ON the bodies; dissipation is positive. Residual of the balance:
 /// kinetic + elastic - initial - (plates + pressure + gravity) + damping + friction - stiffness, see measure/energy.c.
@@ -80,53 +135,109 @@ typedef struct scree_loop {
     uint64_t updated; ///< step of the last update
 } scree_loop;
 
+/// 3D: triangulated hull of the assembly, closed, normals outward; empty when there is none. The counterpart of
+/// scree_loop in 2D.
+typedef struct scree_hull {
+    uint32_t *id;            ///< node_count, ids of the bodies on it, ascending
+    scree_vector *place;     ///< node_count, m, positions at `updated`
+    scree_vector *force;     ///< node_count, N, force of the boundary at the present step
+    uint32_t (*triangle)[3]; ///< triangle_count, nodes; counter-clockwise seen from outside
+    uint8_t *loaded;         ///< triangle_count, 1: carries the pressure
+    size_t node_count, node_capacity;
+    size_t triangle_count, triangle_capacity;
+    uint64_t updated; ///< step of the last update
+} scree_hull;
+
 /// Strain accumulated from the Delaunay boundary (Bagi), see measure/strain.h; compression is NEGATIVE here (tensor).
 typedef struct scree_strain {
-    double gradient[4]; ///< accumulated displacement gradient: xx, xy, yx, yy (d u_row / d x_column)
+    double gradient[9]; ///< accumulated displacement gradient, row-major (d u_row / d x_column)
 } scree_strain;
 
+enum { SCREE_STAGE_REFERENCES = 24 };
 typedef struct scree_stage_state {
-    int64_t index;       ///< which stage of the case
-    uint64_t first_step; ///< step at which it began
-    double first_time;   ///< s
-    double reference[8]; ///< stage-specific numbers (height at start, pressure at start, ...): see the stage's file
-    int64_t samples;     ///< rows written in this stage
+    int64_t index;                            ///< which stage of the case
+    uint64_t first_step;                      ///< step at which it began
+    double first_time;                        ///< s
+    double reference[SCREE_STAGE_REFERENCES]; ///< stage-specific numbers (height at start, pressure at start, ...): see
+                                              ///< the stage's file
+    int64_t samples;                          ///< rows written in this stage
     int64_t snapshots;
     int64_t counter; ///< stage-specific
 } scree_stage_state;
 
 typedef struct scree_state {
+    int dimension; ///< 2 or 3
     size_t count;
-    uint64_t step;          ///< of the whole run; time = stage.first_time + (step - stage.first_step) * dt
-    double step_size;       ///< s, dt now
-    scree_row *row;         ///< count
-    scree_sum_row *sum;     ///< count, forces at `step`
-    double force_quantum;   ///< N
-    double torque_quantum;  ///< N m
-    double largest_overlap; ///< m, over all contacts at `step`
-    double largest_speed;   ///< m/s, bound of |v| + radius |spin| over all bodies
+    uint64_t step;            ///< of the whole run; time = stage.first_time + (step - stage.first_step) * dt
+    double step_size;         ///< s, dt now
+    scree_row *row;           ///< count
+    scree_turn_row *turn;     ///< 3D: count; NULL in 2D
+    scree_sum_row *sum;       ///< count, forces at `step`
+    scree_torque_row *torque; ///< 3D: count; NULL in 2D
+    double force_quantum;     ///< N
+    double torque_quantum;    ///< N m
+    double largest_overlap;   ///< m, over all contacts at `step`
+    double largest_speed;     ///< m/s, bound of |v| + radius |spin| over all bodies
     // cold
-    uint32_t *id;                      ///< count
-    double *angle;                     ///< rad, orientation
-    double *reference_x, *reference_y; ///< m, positions at the start of the loading stage
-    double *sampled_vx, *sampled_vy;   ///< m/s, velocities at `sampled_step`: the mean unbalanced force is from them
-    uint64_t sampled_step;             ///< step of the last sample
-    double *rebuild_x, *rebuild_y;     ///< m, positions at the last neighbour rebuild (derived, kept sorted with rows)
-    uint32_t *row_of_id;               ///< derived
+    uint32_t *id;                   ///< count
+    double *angle;                  ///< 2D: rad, orientation; NULL in 3D
+    scree_vector *reference;        ///< m, positions at the start of the loading stage
+    scree_vector *sampled_velocity; ///< m/s, at `sampled_step`: the mean unbalanced force is from them
+    uint64_t sampled_step;          ///< step of the last sample
+    scree_vector *rebuild;          ///< m, positions at the last neighbour rebuild (derived, kept sorted with rows)
+    uint32_t *row_of_id;            ///< derived
     // contacts: filled from `work` by scree_contacts_save, consumed by scree_contacts_load (contact/contact.h)
     scree_contact_memory *contact;
+    scree_booking *booking; ///< beside `contact` in 3D; NULL in 2D
+    scree_rolling *rolling; ///< beside `contact` with rolling resistance; else NULL
     size_t contact_count, contact_capacity;
     scree_wall wall[SCREE_WALL_COUNT];
     double pressure; ///< Pa, lateral pressure applied now
-    scree_loop loop;
+    scree_loop loop; ///< 2D
+    scree_hull hull; ///< 3D
     scree_strain strain;
     scree_ledger ledger;
     scree_stage_state stage;
 } scree_state;
 
-/// Allocates arrays for `count` bodies, ids 0 .. count-1, everything else zero.
-scree_status scree_state_create(scree_state *state, size_t count, scree_error *error) SCREE_MUST_USE;
+/// Allocates arrays for `count` bodies of dimension 2 or 3, ids 0 .. count-1, everything else zero.
+scree_status scree_state_create(scree_state *state, int dimension, size_t count, scree_error *error) SCREE_MUST_USE;
 void scree_state_destroy(scree_state *state);
+
+/// Position of the body in `row` [m]; z = 0 in 2D.
+static inline void scree_body_place(const scree_state *state, size_t row, scree_vector place)
+{
+    const scree_row *body = &state->row[row];
+    place[0] = body->x;
+    place[1] = body->y;
+    place[2] = state->dimension == 3 ? body->z : 0;
+}
+
+/// Velocity [m/s] and spin [rad/s] that the scheme keeps; in 2D vz = 0 and the spin is about z.
+static inline void scree_body_motion(const scree_state *state, size_t row, scree_vector velocity, scree_vector spin)
+{
+    const scree_row *body = &state->row[row];
+    bool solid = state->dimension == 3;
+    velocity[0] = body->vx;
+    velocity[1] = body->vy;
+    velocity[2] = solid ? body->vz : 0;
+    spin[0] = solid ? state->turn[row].wx : 0;
+    spin[1] = solid ? state->turn[row].wy : 0;
+    spin[2] = solid ? state->turn[row].wz : body->spin;
+}
+
+/// Index of the material of the body in `row`.
+static inline int scree_body_material(const scree_state *state, size_t row)
+{
+    return (int)(state->dimension == 3 ? state->turn[row].material : state->row[row].material);
+}
+
+/// Moment of inertia [kg m2] of the body in `row`: m R^2 / 2 of a disc (a cylinder), 2 m R^2 / 5 of a sphere.
+static inline double scree_body_inertia(const scree_state *state, size_t row)
+{
+    const scree_row *body = &state->row[row];
+    return (state->dimension == 3 ? 0.4 : 0.5) * body->mass * body->radius * body->radius;
+}
 
 /// s; never accumulated.
 double scree_state_time(const scree_state *state);
@@ -138,7 +249,11 @@ scree_status scree_state_permute(scree_state *state, const uint32_t *order, scre
 /// Contacts must have been saved. Equal states in different row orders give the same number.
 uint64_t scree_state_checksum(const scree_state *state);
 
-/// Grows the contact memory to hold `count`.
+/// Grows the contact memory to hold `count`, and the booking and rolling rows beside it where there are any.
 scree_status scree_state_reserve_contacts(scree_state *state, size_t count, scree_error *error) SCREE_MUST_USE;
+
+/// Puts booking rows, and rolling rows, beside the contact memory; nothing happens where there are some.
+scree_status scree_state_add_booking(scree_state *state, scree_error *error) SCREE_MUST_USE;
+scree_status scree_state_add_rolling(scree_state *state, scree_error *error) SCREE_MUST_USE;
 
 #endif

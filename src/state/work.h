@@ -17,6 +17,8 @@ enum {
 typedef struct scree_pair_list {
     uint32_t *first, *second; ///< rows; id[first] < id[second]
     scree_history *history;   ///< one a pair, seen from `first`
+    scree_booking *booking;   ///< 3D with ledger: one a pair; else NULL
+    scree_rolling *rolling;   ///< with rolling resistance: one a pair; else NULL
     size_t count, capacity;
     size_t touching_count;
 } scree_pair_list;
@@ -25,6 +27,8 @@ typedef struct scree_wall_pair_list {
     uint32_t *body; ///< rows
     uint32_t *wall; ///< wall index
     scree_history *history;
+    scree_booking *booking; ///< as in scree_pair_list
+    scree_rolling *rolling;
     size_t count, capacity;
 } scree_wall_pair_list;
 

@@ -90,7 +90,7 @@ static void put_snapshot(const char *directory, const scree_snapshot *s, int64_t
     scree_contact_table table = {.count = s->contact_count,
                                  .contact = hand_made_array(s->contact_count, sizeof(scree_contact))};
     scree_model model = {.dimension = 2, .thickness = 1e-3, .scheme = SCREE_SCHEME_POSITION_VERLET};
-    assert_int_equal(scree_state_create(&state, s->count, NULL), SCREE_OK);
+    assert_int_equal(scree_state_create(&state, 2, s->count, NULL), SCREE_OK);
     for (size_t k = 0; k < s->count; k++) {
         state.row[k] = (scree_row){.x = s->x[k],
                                    .y = s->y[k],
