@@ -179,7 +179,8 @@ typedef struct scree_sweep_options {
 } scree_sweep_options;
 
 /// Runs what is missing of a sweep, each member as a process of its own, then collects. A finished member whose case is
-/// the same is left as it is; an interrupted one is continued; a failed one stays so unless `retry`. Errors:
+/// the same is left as it is; an interrupted one is continued; a failed one stays so unless `retry`. The processes are
+/// asked to stop when the thread that called this ends. Errors:
 /// SCREE_ERROR_GUARD when members failed (the others are there), SCREE_ERROR_INPUT (another case in a directory),
 /// SCREE_ERROR_IO, SCREE_INTERRUPTED.
 scree_status scree_sweep_run(const scree_sweep *sweep, const scree_sweep_options *options, scree_error *error);
