@@ -115,14 +115,15 @@ wait_for() {
     done
     complain "nothing like '$1' in $2"
 }
-"$scree" sweep tiny.yaml -o cut --jobs 2 "${long[@]}" 2>cut.txt &
+# Ctrl-C goes to all processes of the terminal's group, here that of a session of its own.
+setsid "$scree" sweep tiny.yaml -o cut --jobs 2 "${long[@]}" 2>cut.txt &
 pid=$!
 wait_for 'confine ended' cut/members/001-friction=0.5-seed=1/log.txt
-kill -INT $pid
+kill -INT -- -$pid
 wait $pid 2>/dev/null
 same $? 130 "status of an interrupted sweep"
 grep -q 'interrupted with [0-3] of 4 members done; the same command goes on' cut.txt || complain "after the interrupt: $(cat cut.txt)"
-grep -q 'interrupted after' cut/members/*.txt || complain "no member was told to stop"
+grep -q 'interrupted at step' cut/members/*.txt || complain "no member stopped after a checkpoint"
 pgrep -f "$scratch/cut/members" >/dev/null && complain "a member goes on after the interrupt"
 expect 0 'means in' "$scree" sweep tiny.yaml -o cut "${long[@]}"
 grep -q 'restarted' cut/members/*/log.txt || complain "the interrupted member was not continued"
