@@ -52,6 +52,19 @@ static void check_materials(scree_reader *reader, const scree_config *config)
                       nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
 }
 
+/// Discs turn about one axis, which no contact twists.
+static void check_twisting(scree_reader *reader, const scree_config *config)
+{
+    for (int64_t i = 0; i < config->material_count && config->dimension == 2; i++) {
+        if (!(config->materials[i].twisting_friction > 0)) continue;
+        const char *text;
+        char path[SCREE_PATH_BYTES];
+        (void)snprintf(path, sizeof path, "materials.%lld.twisting_friction", (long long)i);
+        scree_place place = place_of(element(reader, "materials", i), "twisting_friction", &text);
+        scree_problem_add(reader, place, path, text, "0", "discs do not twist: twisting_friction is for spheres");
+    }
+}
+
 static void check_radii(scree_reader *reader, scree_config *config)
 {
     scree_config_particles *particles = &config->particles;
@@ -104,6 +117,8 @@ static void check_stage_order(scree_reader *reader, const scree_config *config)
             wrong = "only the first stage can be prepare";
         else if (kind == SCREE_STAGE_COMPRESS && !confined)
             wrong = "a confine stage must come before: compress keeps its pressure";
+        else if (kind == SCREE_STAGE_DEFORM && !confined)
+            wrong = "a confine stage must come before: deform keeps its pressure";
         confined = confined || kind == SCREE_STAGE_CONFINE;
         if (!wrong) continue;
         char path[SCREE_PATH_BYTES];
@@ -119,8 +134,9 @@ static void check_windows(scree_reader *reader, const scree_config *config)
     const char *largest_text = "0 %";
     for (int64_t i = 0; i < config->stage_count; i++) {
         const scree_config_stage *stage = &config->stages[i];
-        if (stage->kind < 0 || (stage->kind == SCREE_STAGE_COMPRESS && !(stage->strain > 0))) return; // noted
-        if (stage->kind != SCREE_STAGE_COMPRESS || stage->strain <= largest) continue;
+        bool loads = stage->kind == SCREE_STAGE_COMPRESS || stage->kind == SCREE_STAGE_DEFORM;
+        if (stage->kind < 0 || (loads && !(stage->strain > 0))) return; // noted
+        if (!loads || stage->strain <= largest) continue;
         largest = stage->strain;
         (void)place_of(element(reader, "stages", i), "strain", &largest_text);
     }
@@ -133,7 +149,8 @@ static void check_windows(scree_reader *reader, const scree_config *config)
         if (window->from >= window->to)
             scree_problem_add(reader, pair->place, path, NULL, NULL, "a window must begin before it ends");
         else if (largest == 0 && config->stage_count > 0 && !isnan(window->to))
-            scree_problem_add(reader, pair->place, path, NULL, NULL, "no stage compresses, so there is no strain");
+            scree_problem_add(reader, pair->place, path, NULL, NULL,
+                              "no stage loads the sample, so there is no strain");
         else if (largest > 0 && window->to > largest)
             scree_problem_add(reader, pair->place, path, NULL, NULL, "ends at '%s', beyond the largest strain, '%s'",
                               pair->last->text, largest_text);
@@ -143,8 +160,10 @@ static void check_windows(scree_reader *reader, const scree_config *config)
 void scree_rules_check(scree_reader *reader, scree_config *config)
 {
     check_materials(reader, config);
+    check_twisting(reader, config);
     check_radii(reader, config);
     name_stages(reader, config);
     check_stage_order(reader, config);
     check_windows(reader, config);
+    scree_rules_check_boundaries(reader, config);
 }

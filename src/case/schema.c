@@ -46,8 +46,37 @@ static const scree_choice schemes[] = {
     {0},
 };
 static const scree_choice laterals[] = {
-    {"pressure", SCREE_LATERAL_PRESSURE, "traction on the Delaunay boundary of the assembly"},
-    {"plates", SCREE_LATERAL_PLATES, "rigid side plates that a servo holds at the pressure"},
+    {"pressure", SCREE_BOUNDARY_PRESSURE, "traction on the Delaunay boundary of the assembly"},
+    {"plates", SCREE_BOUNDARY_PLATES, "rigid side plates that a servo holds at the pressure"},
+    {"membrane", SCREE_BOUNDARY_MEMBRANE, "pressure on a chain of discs around the assembly (2D)"},
+    {0},
+};
+static const scree_choice boundaries[] = {
+    {"auto", SCREE_BOUNDARY_AUTO, "that of the stage before, at first as `boundary.lateral` says"},
+    {"pressure", SCREE_BOUNDARY_PRESSURE, "plates below and above, pressure on the Delaunay boundary of the sides"},
+    {"plates", SCREE_BOUNDARY_PLATES, "rigid plates on all sides, those beside the sample under servo"},
+    {"membrane", SCREE_BOUNDARY_MEMBRANE,
+     "plates below and above; at the sides a chain of frictionless discs carries the pressure (2D)"},
+    {"minimal", SCREE_BOUNDARY_MINIMAL,
+     "no plates: pressure on all sides, and minimal kinematic conditions impose the strain rate"},
+    {"affine", SCREE_BOUNDARY_AFFINE, "no plates: every body of the boundary moves with the velocity gradient"},
+    {0},
+};
+// Component ij is the derivative of velocity i by coordinate j; its value is its place in a 3 x 3 tensor by rows.
+static const scree_choice components[] = {
+    {"xx", 0, "d v_x / d x"}, {"xy", 1, "d v_x / d y"},
+    {"xz", 2, "d v_x / d z"}, {"yx", 3, "d v_y / d x"},
+    {"yy", 4, "d v_y / d y"}, {"yz", 5, "d v_y / d z"},
+    {"zx", 6, "d v_z / d x"}, {"zy", 7, "d v_z / d y"},
+    {"zz", 8, "d v_z / d z"}, {0},
+};
+static const scree_choice symmetric_components[] = {
+    {"xx", 0, "strain rate along x"},
+    {"yy", 4, "strain rate along y"},
+    {"zz", 8, "strain rate along z"},
+    {"xy", 1, "shear rate, mean of xy and yx"},
+    {"xz", 2, "shear rate, mean of xz and zx"},
+    {"yz", 5, "shear rate, mean of yz and zy"},
     {0},
 };
 static const scree_choice methods[] = {
@@ -61,7 +90,8 @@ static const scree_choice methods[] = {
 static const scree_choice stage_kinds[] = {
     {"prepare", SCREE_STAGE_PREPARE, "places the particles"},
     {"confine", SCREE_STAGE_CONFINE, "raises the pressure and waits for equilibrium"},
-    {"compress", SCREE_STAGE_COMPRESS, "moves the plates together to a strain"},
+    {"compress", SCREE_STAGE_COMPRESS, "shortens the sample along its axis to a strain"},
+    {"deform", SCREE_STAGE_DEFORM, "imposes any components of the velocity gradient, to a strain"},
     {0},
 };
 
@@ -79,6 +109,10 @@ static const scree_key material_keys[] = {
            .meaning = "Coefficient of friction on plates; auto: `friction`."),
     NUMBER(material, restitution, "1", .standard = "0.2", ABOVE("0"), TO("1"), .when = "contact.law=hertz_mindlin",
            .meaning = "Coefficient of restitution of a normal impact; sets the damping."),
+    NUMBER(material, rolling_friction, "1", .standard = "0", FROM("0"), TO("10"), .when = "contact.law=hertz_mindlin",
+           .meaning = "Limit of the rolling resistance over the normal force; its torque is that times R_eff."),
+    NUMBER(material, twisting_friction, "1", .standard = "0", FROM("0"), TO("10"), .when = "contact.law=hertz_mindlin",
+           .meaning = "Limit of the torque about the normal over R_eff times the normal force; spheres only."),
 };
 
 typedef scree_config_particles particles;
@@ -125,7 +159,8 @@ static const scree_key integrator_keys[] = {
 
 typedef scree_config_boundary boundary;
 static const scree_key boundary_keys[] = {
-    CHOICE(boundary, lateral, laterals, .standard = "pressure", .meaning = "What holds the sides."),
+    CHOICE(boundary, lateral, laterals, .standard = "pressure",
+           .meaning = "What holds the sides, beside plates below and above, until a stage chooses its `boundary`."),
     INTEGER(boundary, every, .standard = "250", FROM("1"), TO("1e9"),
             .meaning = "Steps between two updates of the Delaunay boundary."),
     NUMBER(boundary, gap_limit, "1", .standard = "0.5", FROM("0"), TO("100"),
@@ -134,6 +169,13 @@ static const scree_key boundary_keys[] = {
            .meaning = "Admittance of a plate under servo over that of the sample; 1 absorbs waves."),
     NUMBER(boundary, servo_velocity, "m/s", .standard = "auto", ABOVE("0 m/s"), TO("1000 m/s"),
            .meaning = "Largest velocity of a plate under servo."),
+    NUMBER(boundary, penalty, "Pa s", .standard = "auto", ABOVE("0 Pa s"), TO("1e30 Pa s"),
+           .meaning = "Minimal conditions: stress over the error of the rate; auto: the pressure answers an error of "
+                      "1 %."),
+    NUMBER(boundary, membrane_stiffness, "N/m", .standard = "10 N/mm", FROM("0 N/m"), TO("1e12 N/m"),
+           .meaning = "Membrane: axial stiffness between two neighbours; a slack chain bears nothing."),
+    NUMBER(boundary, membrane_radius, "m", .standard = "auto", FROM("1 nm"), TO("100 m"),
+           .meaning = "Membrane: radius of its discs; auto: 1.25 times the mean radius of the particles."),
 };
 
 typedef scree_config_stage stage;
@@ -148,6 +190,10 @@ typedef scree_config_stage stage;
 #define STAGE_FRICTION                                                                                                 \
     NUMBER(stage, friction, "1", .standard = "auto", FROM("0"), TO("10"),                                              \
            .meaning = "Friction in this stage, e.g. less while confining for a denser sample; auto: the material's.")
+#define STAGE_BOUNDARY                                                                                                 \
+    CHOICE(stage, boundary, boundaries, .standard = "auto", .meaning = "What holds the sample in this stage.")
+#define TENSOR(owner, member, list, si, ...)                                                                           \
+    KEY(owner, member, SCREE_KEY_TENSOR, .choices = list, .unit = si, .standard = "{}", __VA_ARGS__)
 
 static const scree_key prepare_keys[] = {
     STAGE_HEAD,
@@ -170,6 +216,7 @@ static const scree_key confine_keys[] = {
            .meaning = "The stage ends when the unbalanced force ratio stays below this."),
     NUMBER(stage, time_limit, "s", .standard = "auto", ABOVE("0 s"), TO("1e9 s"),
            .meaning = "The run stops with a message if equilibrium takes longer."),
+    STAGE_BOUNDARY,
     STAGE_FRICTION,
 };
 static const scree_key compress_keys[] = {
@@ -177,7 +224,23 @@ static const scree_key compress_keys[] = {
     NUMBER(stage, strain, "1", ABOVE("0 %"), TO("90 %"), .meaning = "Axial strain at which the stage ends."),
     NUMBER(stage, rate, "1/s", ABOVE("0 1/s"), TO("1e6 1/s"), .meaning = "Axial strain rate."),
     NUMBER(stage, rise_time, "s", .standard = "auto", FROM("0 s"), TO("1e9 s"),
-           .meaning = "Time in which the plates reach their velocity; auto: four wave times of the sample."),
+           .meaning = "Time in which the rate is reached; auto: four wave times of the sample."),
+    STAGE_BOUNDARY,
+    STAGE_FRICTION,
+};
+static const scree_key deform_keys[] = {
+    STAGE_HEAD,
+    TENSOR(stage, velocity_gradient, components, "1/s", FROM("-1e6 1/s"), TO("1e6 1/s"),
+           .meaning = "Prescribed components of the velocity gradient, e.g. {xy: 5e-3 1/s, yx: 0}; extension positive; "
+                      "the others are free."),
+    TENSOR(stage, strain_rate, symmetric_components, "1/s", FROM("-1e6 1/s"), TO("1e6 1/s"),
+           .meaning = "Prescribed components of its symmetric part, e.g. {xy: 5e-3 1/s}; rotations stay free."),
+    NUMBER(stage, strain, "1", ABOVE("0 %"), TO("1000 %"),
+           .meaning =
+               "The stage ends when the largest prescribed component has reached this, measured on the boundary."),
+    NUMBER(stage, rise_time, "s", .standard = "auto", FROM("0 s"), TO("1e9 s"),
+           .meaning = "Time in which the rates are reached; auto: four wave times of the sample."),
+    STAGE_BOUNDARY,
     STAGE_FRICTION,
 };
 
@@ -188,6 +251,10 @@ static const scree_key measure_keys[] = {
     KEY(measure, windows, SCREE_KEY_PAIRS, .unit = "1", .standard = "[]", FROM("0 %"), TO("90 %"),
         .count_offset = offsetof(measure, window_count), .element_size = sizeof(scree_config_window),
         .meaning = "Windows [from, to] of axial strain over which displacement fluctuations are taken."),
+    FLAG(measure, cells, .standard = "yes",
+         .meaning = "Fields of the Delaunay cells in snapshots; shear bands between them."),
+    NUMBER(measure, band_window, "1", .standard = "1 %", ABOVE("0 %"), TO("90 %"), .when = "cells=yes",
+           .meaning = "Shear bands are looked for between snapshots at least this far apart in axial strain."),
 };
 
 typedef scree_config_output output;
@@ -223,7 +290,13 @@ static const scree_section boundary_table[] = {TABLE("boundary", "What surrounds
 static const scree_section stage_tables[] = {
     TABLE("prepare", "Places the particles; the first stage of every case.", prepare_keys),
     TABLE("confine", "Raises the pressure on all sides and waits for equilibrium.", confine_keys),
-    TABLE("compress", "Moves the plates together at a constant rate under the pressure reached before.", compress_keys),
+    TABLE(
+        "compress",
+        "Shortens the sample along its axis at a constant rate under the pressure reached before: plates approach each "
+        "other, or minimal conditions impose the rate.",
+        compress_keys),
+    TABLE("deform", "Imposes components of the velocity gradient on the boundary; needs `minimal` or `affine`.",
+          deform_keys),
 };
 static const scree_section measure_table[] = {TABLE("measure", "What is recorded.", measure_keys)};
 static const scree_section output_table[] = {TABLE("output", "What is written, and how often.", output_keys)};

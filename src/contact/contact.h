@@ -29,6 +29,7 @@ void scree_contact_scratch_destroy(scree_work *work);
 typedef struct scree_contact {
     uint32_t first, second; ///< rows (not ids)
     bool wall;
+    bool membrane; ///< one of the two is a body of a membrane
     bool sliding;
     scree_vector normal;       ///< from second to first
     scree_vector tangent;      ///< 2D: (-n_y, n_x); 3D: direction of the tangential force on first, zero without one
@@ -41,6 +42,12 @@ typedef struct scree_contact {
     double elastic_normal;     ///< J
     double elastic_tangential; ///< J
 } scree_contact;
+
+/// The second of a contact is no grain, but a wall or a body of a membrane: a force from outside on the assembly.
+static inline bool scree_contact_is_outer(const scree_contact *contact)
+{
+    return contact->wall || contact->membrane;
+}
 
 typedef struct scree_contact_table {
     scree_contact *contact; ///< ordered by (id of first, id of second), walls last for each first

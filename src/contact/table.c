@@ -36,6 +36,7 @@ static scree_status reserve(scree_contact_table *table, size_t count, scree_erro
     return status;
 }
 
+/// The contact of `reference`, which touches.
 static void fill(const scree_model *model, const scree_state *state, const scree_work *work,
                  const contact_reference *reference, scree_contact *contact)
 {
@@ -44,6 +45,7 @@ static void fill(const scree_model *model, const scree_state *state, const scree
     memory_rows memory = contact_memory_of(work, wall, p);
     contact->first = wall ? work->wall_pairs.body[p] : work->pairs.first[p];
     contact->second = wall ? work->wall_pairs.wall[p] : work->pairs.second[p];
+    contact->membrane = !scree_body_is_grain(state, contact->first);
     contact_body first = body_at_half_step(model, state, contact->first);
     if (wall) {
         contact_of_wall(model, state->dimension, &first, &state->wall[contact->second], &memory, contact);
@@ -51,6 +53,7 @@ static void fill(const scree_model *model, const scree_state *state, const scree
     }
     contact_body second = body_at_half_step(model, state, contact->second);
     contact_of_pair(model, state->dimension, &first, &second, &memory, contact);
+    contact->membrane = contact->membrane || !scree_body_is_grain(state, contact->second);
 }
 
 scree_status scree_contact_table_build(const scree_model *model, const scree_state *state, const scree_work *work,

@@ -3,6 +3,7 @@
 /// body and 100 a contact on disk; a few milliseconds for 5000 discs.
 #include "io/snapshot.h"
 
+#include "io/cell_file.h"
 #include "io/run_file.h"
 
 #include <limits.h>
@@ -62,11 +63,14 @@ scree_status scree_snapshot_write(const char *directory, const scree_model *mode
     scree_hdf5_set_number(&part, group, "time", info->time);
     scree_hdf5_set_text(&part, group, "stage", info->stage);
     scree_hdf5_set_number(&part, group, "axial_strain", info->axial_strain);
+    scree_hdf5_set_integer(&part, group, "grains", state->grains);
     scree_hdf5_set_number(&part, group, "pressure", state->pressure);
-    scree_hdf5_set_text(&part, group, "attribute_units", "step 1, dimension 1, time s, axial_strain 1, pressure Pa");
+    scree_hdf5_set_text(&part, group, "attribute_units",
+                        "step 1, dimension 1, grains 1, time s, axial_strain 1, pressure Pa");
     write_bodies(&part, group, model, state);
     write_contacts(&part, group, state, table);
     write_members(&part, group, state);
+    if (info->cells) scree_cells_write(&part, group, info->cells);
     status = scree_hdf5_save(&part);
     const char *case_name = model->config && model->config->name ? model->config->name : "";
     return status ? status : scree_run_file_renew(directory, case_name, INT64_MAX, error);
@@ -206,6 +210,7 @@ scree_status scree_snapshot_read(const char *directory, size_t which, scree_snap
     scree_part_list_destroy(&list);
     scree_part_group(SCREE_PART_SNAPSHOT, snapshot->index, group, sizeof group);
     scree_hdf5_get_number(&run, group, "time", &snapshot->time);
+    scree_hdf5_get_integer(&run, group, "grains", &snapshot->grains);
     scree_hdf5_get_number(&run, group, "axial_strain", &snapshot->axial_strain);
     scree_hdf5_get_text(&run, group, "stage", snapshot->stage, sizeof snapshot->stage);
     read_bodies(&run, group, snapshot);

@@ -80,13 +80,22 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
 {
     scree_snapshot_info info = {.index = s->state.stage.snapshots,
                                 .time = scree_state_time(&s->state),
-                                .axial_strain = scree_axial_strain(s),
+                                .axial_strain = scree_loading_strain(s),
                                 .stage = s->stage->name};
     const scree_model *model = &s->stage_model;
-    scree_status status = scree_snapshot_write(recorder->directory, model, &s->state, &s->table, &info, error);
+    scree_cells cells = {0};
+    scree_status status = SCREE_OK;
+    if (s->model.config->measure.cells) {
+        status = scree_cells_measure(model, &s->state, &s->table, &cells, error);
+        // A few bodies, or bodies on a line, have no triangulation and so no cells.
+        if (!status) info.cells = &cells;
+        if (status == SCREE_ERROR_GUARD) status = SCREE_OK;
+    }
+    if (!status) status = scree_snapshot_write(recorder->directory, model, &s->state, &s->table, &info, error);
     if (!status && s->model.config->output.paraview)
         status = scree_paraview_write(recorder->directory, model, &s->state, &s->table, &info, error);
     if (!status) s->state.stage.snapshots++;
+    scree_cells_destroy(&cells);
     return status;
 }
 
@@ -97,8 +106,7 @@ static double steps_left(const scree_simulation *s)
     double left = (double)s->plan.expected - (double)(s->state.step - s->state.stage.first_step);
     for (int64_t k = s->state.stage.index + 1; k < s->model.config->stage_count; k++) {
         const scree_config_stage *stage = &s->model.config->stages[k];
-        if (stage->kind != SCREE_STAGE_COMPRESS) return NAN;
-        left += stage->strain / stage->rate / s->state.step_size;
+        left += stage->strain / scree_model_loading_rate(stage) / s->state.step_size;
     }
     return left;
 }
@@ -113,7 +121,7 @@ static void report_progress(scree_recorder *recorder, const scree_simulation *s,
     scree_progress progress = {.stage = s->stage->name,
                                .fraction = s->stage->fraction ? s->stage->fraction(s) : NAN,
                                .time = scree_state_time(&s->state),
-                               .strain = scree_axial_strain(s),
+                               .strain = scree_loading_strain(s),
                                .particle_steps_per_second = recorder->rate,
                                .seconds_left = steps_left(s) * (double)s->state.count / recorder->rate};
     recorder->options->progress(recorder->options->user, &progress);

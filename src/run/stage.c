@@ -1,6 +1,7 @@
 /// Table of stages and what several of them share.
 #include "run/stage.h"
 
+#include "measure/measure.h"
 #include "run/simulation.h"
 
 #include <math.h>
@@ -11,6 +12,7 @@ const scree_stage *scree_stage_get(scree_stage_kind kind)
         [SCREE_STAGE_PREPARE] = &scree_stage_prepare,
         [SCREE_STAGE_CONFINE] = &scree_stage_confine,
         [SCREE_STAGE_COMPRESS] = &scree_stage_compress,
+        [SCREE_STAGE_DEFORM] = &scree_stage_deform,
     };
     return table[kind];
 }
@@ -20,16 +22,32 @@ const scree_config_stage *scree_stage_config(const scree_simulation *s)
     return &s->model.config->stages[s->state.stage.index];
 }
 
-double scree_sample_height(const scree_state *state)
+/// Logarithmic axial strain of the Delaunay boundary since the begin of the loading stage, extension positive.
+static double axial_stretch(const scree_simulation *s)
 {
-    return -(state->wall[SCREE_WALL_BOTTOM].position + state->wall[SCREE_WALL_TOP].position);
+    double gradient[9];
+    int axial = s->state.dimension == 3 ? 8 : 4;
+    scree_strain_measure(&s->state, gradient);
+    return gradient[axial] - s->state.stage.reference[SCREE_LOADING_STRAIN + axial];
+}
+
+double scree_sample_height(const scree_simulation *s)
+{
+    const scree_wall *wall = s->state.wall;
+    if (s->boundary && !scree_boundary_has_plates(s->boundary) && s->stage && s->stage->loading)
+        return s->state.stage.reference[SCREE_LOADING_HEIGHT] * exp(axial_stretch(s));
+    return -(wall[SCREE_WALL_BOTTOM].position + wall[SCREE_WALL_TOP].position);
 }
 
 double scree_axial_strain(const scree_simulation *s)
 {
-    if (!s->stage || !s->stage->loading) return NAN;
-    double height = s->state.stage.reference[0];
-    return (height - scree_sample_height(&s->state)) / height;
+    double height = s->state.stage.reference[SCREE_LOADING_HEIGHT];
+    return (height - scree_sample_height(s)) / height;
+}
+
+double scree_loading_strain(const scree_simulation *s)
+{
+    return s->stage && s->stage->strain ? s->stage->strain(s) : NAN;
 }
 
 double scree_smooth_ramp(double fraction)

@@ -82,7 +82,8 @@ static double expected_steps(const scree_model *model)
             double wave = expected_wave_time(model, (double)config->particles.count, aspect_ratio, stage->pressure);
             steps += CONFINE_WAVES * wave / model->step;
         }
-        if (stage->kind == SCREE_STAGE_COMPRESS) steps += stage->strain / stage->rate / model->step;
+        double rate = scree_model_loading_rate(stage);
+        if (!isnan(rate)) steps += stage->strain / rate / model->step;
     }
     return steps;
 }

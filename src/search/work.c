@@ -41,11 +41,6 @@ void scree_work_destroy(scree_work *work)
         scree_release(&search->entry);
     }
     scree_release(&work->search);
-    scree_release(&work->pairs.first);
-    scree_release(&work->pairs.second);
-    scree_release(&work->pairs.history);
-    scree_release(&work->wall_pairs.body);
-    scree_release(&work->wall_pairs.wall);
-    scree_release(&work->wall_pairs.history);
+    scree_pair_lists_destroy(work);
     memset(work, 0, sizeof *work);
 }
