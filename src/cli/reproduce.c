@@ -6,6 +6,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /// --only names a built-in sweep.
 static scree_status check_only(const char *only, scree_error *error)
@@ -62,11 +63,23 @@ static scree_status run_all(const scree_command *command, scree_sweep_command *c
     return result;
 }
 
+/// Where no sweep was available there is no folder yet; what cannot be made shows when the page is written.
+static void make_folders(const char *path)
+{
+    char part[PATH_MAX];
+    for (const char *end = strchr(path + 1, '/'); end; end = strchr(end + 1, '/')) {
+        (void)snprintf(part, sizeof part, "%.*s", (int)(end - path), path);
+        (void)mkdir(part, 0777);
+    }
+    (void)mkdir(path, 0777);
+}
+
 /// The page on everything that lies in the folder, also of earlier calls.
 static scree_status write_page(const char *output, bool quiet)
 {
     char path[PATH_MAX];
     scree_error error = {0};
+    make_folders(output);
     (void)snprintf(path, sizeof path, "%s/reproduction.md", output);
     scree_status status = scree_report_to_file(&output, 1, path, &error);
     if (status) return scree_terminal_error("reproduce", &error);
