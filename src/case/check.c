@@ -126,6 +126,7 @@ static void read_element(const scope *s, const scree_key *list, scree_node *elem
 
 static void read_list(const scope *s, const scree_key *key, scree_node *node, const char *path)
 {
+    if (!node) return; // a list that may be left out is then empty
     char limits[200];
     scree_limits_text(key, limits, sizeof limits);
     if (node->kind != SCREE_NODE_LIST) {
@@ -179,7 +180,8 @@ static void read_key(const scope *s, const scree_key *key)
     scree_usage usage = scree_key_usage(s->reader->root, s->section, s->mapping, key);
     if (child && usage.use == SCREE_UNUSED) refuse_unused(s, child, &usage, path);
     bool silent = usage.use == SCREE_UNUSED || (usage.use == SCREE_USE_UNKNOWN && !child);
-    if (key->type == SCREE_KEY_PATHS || silent) return;
+    bool stored = key->type != SCREE_KEY_PATHS || key->element_size > 0;
+    if (!stored || silent) return;
     if (key->type == SCREE_KEY_SECTION)
         read_inner_section(s, key, child, path);
     else if (!child && !key->standard)
@@ -202,15 +204,20 @@ static void read_section(const scope *s)
     }
 }
 
-void scree_config_read(scree_reader *reader, scree_config *config)
+bool scree_root_read(scree_reader *reader, const scree_section *section, void *base)
 {
     if (reader->root->kind != SCREE_NODE_MAPPING) {
         scree_problem_add(reader, reader->root->place, NULL, NULL, NULL,
                           "expected keys with values, e.g. 'name: sample'");
-        return;
+        return false;
     }
-    scope whole = {reader, &scree_schema, NULL, reader->root, reader->root->place, "", config};
+    scope whole = {reader, section, NULL, reader->root, reader->root->place, "", base};
     whole.place.line = whole.place.column = 1;
     read_section(&whole);
-    scree_rules_check(reader, config);
+    return true;
+}
+
+void scree_config_read(scree_reader *reader, scree_config *config)
+{
+    if (scree_root_read(reader, &scree_schema, config)) scree_rules_check(reader, config);
 }

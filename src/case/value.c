@@ -233,6 +233,27 @@ static void store_scalar(const value *v, char *member)
     }
 }
 
+/// A list of values, or the mapping of key paths, as it stands in the file.
+static void store_node(const value *v, const scree_node *node, char *member)
+{
+    if (!node || (node->kind == SCREE_NODE_SCALAR && !node->text[0] && v->key->type == SCREE_KEY_PATHS)) return;
+    bool list = v->key->type == SCREE_KEY_VALUES;
+    if (node->kind != (list ? SCREE_NODE_LIST : SCREE_NODE_MAPPING)) {
+        reject_kind(v, node);
+        return;
+    }
+    double count = (double)node->count;
+    char limits[200];
+    scree_limits_text(v->key, limits, sizeof limits);
+    if (count < limit_value(v->key, &v->key->least) || count > limit_value(v->key, &v->key->most))
+        scree_problem_add(v->reader, v->place, v->path, NULL, limits, "%zu values are too %s", node->count,
+                          node->count == 0 ? "few" : "many");
+    for (const scree_node *each = node->first; each; each = each->next)
+        if (each->kind == SCREE_NODE_MAPPING || (each->kind == SCREE_NODE_SCALAR && !each->text[0]))
+            scree_problem_add(v->reader, each->place, v->path, NULL, NULL, "expected a value here");
+    memcpy(member, &node, sizeof node);
+}
+
 void scree_value_store(scree_reader *reader, const scree_key *key, const scree_node *node, const char *path, void *base)
 {
     static const scree_place nowhere = {0};
@@ -240,7 +261,9 @@ void scree_value_store(scree_reader *reader, const scree_key *key, const scree_n
     value v = {reader, key, node ? node->place : nowhere, path, node ? node->text : key->standard};
     bool list = key->type == SCREE_KEY_VECTOR || key->type == SCREE_KEY_PAIRS;
     if (list && !node) return; // the defaults of lists are zeros, or empty
-    if (key->type == SCREE_KEY_TENSOR) {
+    if (key->type == SCREE_KEY_VALUES || key->type == SCREE_KEY_PATHS) {
+        store_node(&v, node, member);
+    } else if (key->type == SCREE_KEY_TENSOR) {
         double nine[9];
         store_tensor(&v, node, nine);
         memcpy(member, nine, sizeof nine);
