@@ -40,6 +40,7 @@ extern const scree_stage scree_stage_prepare;
 extern const scree_stage scree_stage_confine;
 extern const scree_stage scree_stage_compress;
 extern const scree_stage scree_stage_deform;
+extern const scree_stage scree_stage_rotate;
 
 /// The config of the stage that runs now.
 const scree_config_stage *scree_stage_config(const scree_simulation *s);

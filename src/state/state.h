@@ -72,8 +72,8 @@ typedef struct scree_history {
     double value[SCREE_HISTORY]; ///< meaning depends on the law: see the head of its file in src/contact/
 } scree_history;
 
-/// hertz_mindlin in 3D, for the ledger: damping forces at n - 1 that the ledger needs again. Single precision is enough: each
-/// enters a mean with the present force, and the rounding errors have no preferred sign.
+/// hertz_mindlin in 3D, for the ledger: damping forces at n - 1 that the ledger needs again. Single precision is
+/// enough: each enters a mean with the present force, and the rounding errors have no preferred sign.
 typedef struct scree_booking {
     float value[4]; ///< N: normal, tangential x, y, z
 } scree_booking;
@@ -122,10 +122,19 @@ typedef struct scree_ledger {
     double plates;    ///< work of the walls
     double pressure;  ///< work of the pressure on the Delaunay boundary or the membrane
     double boundary;  ///< work of the other forces of the boundary: imposed rates, chain and ends of a membrane
+    double forced;    ///< work of the torque that keeps a body at a prescribed spin
     double gravity;   ///< sum of m g . x when the ledger was opened
     double initial;   ///< kinetic + elastic energy when the ledger was opened
     double turnover;  ///< sum of |work| increments, the scale of the residual
 } scree_ledger;
+
+/// A body whose spin is prescribed (boundary/forced_spin.h).
+typedef struct scree_forced_spin {
+    int64_t active;      ///< 0: there is none
+    int64_t id;
+    scree_vector spin;   ///< rad/s, at n - 1/2
+    scree_vector torque; ///< N m, by its contacts at n
+} scree_forced_spin;
 
 /// Closed loop of bodies on the outer Delaunay boundary, counter-clockwise, by id; empty when there is none.
 typedef struct scree_loop {
@@ -236,6 +245,7 @@ typedef struct scree_state {
     scree_drive drive;
     scree_membrane membrane;
     scree_strain strain;
+    scree_forced_spin forced;
     scree_ledger ledger;
     scree_stage_state stage;
 } scree_state;
