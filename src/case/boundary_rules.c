@@ -95,6 +95,10 @@ void scree_rules_check_boundaries(scree_reader *reader, const scree_config *conf
         if (!wrong && before != SCREE_BOUNDARY_AUTO) wrong = wrong_order(kind, before);
         if (!wrong && stage->kind == SCREE_STAGE_DEFORM)
             wrong = wrong_components(stage, (int)config->dimension, kind, &key);
+        if (!wrong && stage->kind == SCREE_STAGE_ROTATE && stage->axis != SCREE_AXIS_Z && config->dimension == 2) {
+            wrong = "in two dimensions a particle turns about z only";
+            key = "axis";
+        }
         if (wrong) refuse(reader, i, key, wrong);
         before = kind;
     }

@@ -95,8 +95,10 @@ typedef enum scree_stage_kind {
     SCREE_STAGE_PREPARE,
     SCREE_STAGE_CONFINE,
     SCREE_STAGE_COMPRESS,
-    SCREE_STAGE_DEFORM
+    SCREE_STAGE_DEFORM,
+    SCREE_STAGE_ROTATE
 } scree_stage_kind;
+typedef enum scree_axis { SCREE_AXIS_X, SCREE_AXIS_Y, SCREE_AXIS_Z } scree_axis;
 typedef enum scree_prepare_method {
     SCREE_PREPARE_DROP_AND_ROLL,
     SCREE_PREPARE_HEXAGONAL,
@@ -134,7 +136,12 @@ typedef struct scree_config_stage {
     // deform; extension positive, row the direction of the velocity, NAN where free
     double velocity_gradient[9]; ///< 1/s
     double strain_rate[9];       ///< 1/s, symmetric: only components on and above the diagonal are given
-    // confine, compress and deform
+    // rotate_particle
+    double spin;      ///< rad/s, that the particle is brought to
+    int axis;         ///< scree_axis, about which it turns
+    double hold_time; ///< s, at that spin
+    double cutoff;    ///< mean diameters, of the force network around it
+    // confine, compress, deform and rotate_particle
     int boundary;    ///< scree_boundary_kind
     double friction; ///< 1, friction during this stage; auto: the material's
 } scree_config_stage;

@@ -119,6 +119,8 @@ static void check_stage_order(scree_reader *reader, const scree_config *config)
             wrong = "a confine stage must come before: compress keeps its pressure";
         else if (kind == SCREE_STAGE_DEFORM && !confined)
             wrong = "a confine stage must come before: deform keeps its pressure";
+        else if (kind == SCREE_STAGE_ROTATE && !confined)
+            wrong = "a confine stage must come before: rotate_particle keeps its pressure";
         confined = confined || kind == SCREE_STAGE_CONFINE;
         if (!wrong) continue;
         char path[SCREE_PATH_BYTES];

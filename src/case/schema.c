@@ -112,6 +112,7 @@ static const scree_choice stage_kinds[] = {
     {"confine", SCREE_STAGE_CONFINE, "raises the pressure and waits for equilibrium"},
     {"compress", SCREE_STAGE_COMPRESS, "shortens the sample along its axis to a strain"},
     {"deform", SCREE_STAGE_DEFORM, "imposes any components of the velocity gradient, to a strain"},
+    {"rotate_particle", SCREE_STAGE_ROTATE, "turns one particle and watches how rotations spread"},
     {0},
 };
 
@@ -280,6 +281,26 @@ static const scree_key deform_keys[] = {
     STAGE_FRICTION,
 };
 
+static const scree_choice axes[] = {
+    {"x", SCREE_AXIS_X, "only in 3D"},
+    {"y", SCREE_AXIS_Y, "only in 3D"},
+    {"z", SCREE_AXIS_Z, "out of the plane in 2D"},
+    {0},
+};
+static const scree_key rotate_keys[] = {
+    STAGE_HEAD,
+    NUMBER(stage, spin, "rad/s", ABOVE("0 rad/s"), TO("1e6 rad/s"),
+           .meaning = "Angular velocity of the forced particle, the one nearest to the centre that is held by others."),
+    CHOICE(stage, axis, axes, .standard = "z", .meaning = "Axis that it turns about."),
+    NUMBER(stage, ramp_time, "s", .standard = "auto", FROM("0 s"), TO("1e9 s"),
+           .meaning = "Time in which the spin is reached, linearly; auto: four wave times of the sample."),
+    NUMBER(stage, hold_time, "s", FROM("0 s"), TO("1e9 s"), .meaning = "Time for which it is held."),
+    NUMBER(stage, cutoff, "1", .standard = "10", ABOVE("0"), TO("1e4"),
+           .meaning = "Radius around the particle, in mean diameters, of the force network that is measured."),
+    STAGE_BOUNDARY,
+    STAGE_FRICTION,
+};
+
 typedef scree_config_measure measure;
 static const scree_key measure_keys[] = {
     INTEGER(measure, samples, .standard = "200", FROM("1"), TO("1e6"),
@@ -333,6 +354,11 @@ static const scree_section stage_tables[] = {
         compress_keys),
     TABLE("deform", "Imposes components of the velocity gradient on the boundary; needs `minimal` or `affine`.",
           deform_keys),
+    TABLE("rotate_particle",
+          "Turns one particle at a prescribed spin under the pressure reached before; with `minimal` the sample as a "
+          "whole is "
+          "kept from turning.",
+          rotate_keys),
 };
 static const scree_section measure_table[] = {TABLE("measure", "What is recorded.", measure_keys)};
 static const scree_section output_table[] = {TABLE("output", "What is written, and how often.", output_keys)};

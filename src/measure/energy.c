@@ -29,7 +29,8 @@ static void add_kinetic(const scree_model *model, const scree_state *state, size
     scree_body_force(model, state, index, force, torque);
     for (int k = 0; k < 3; k++) {
         energy->kinetic += 0.5 * mass * velocity[k] * (velocity[k] + dt * force[k] / mass);
-        energy->kinetic_rotation += 0.5 * inertia * spin[k] * (spin[k] + dt * torque[k] / inertia);
+        if (state->forced.id != state->id[index])
+            energy->kinetic_rotation += 0.5 * inertia * spin[k] * (spin[k] + dt * torque[k] / inertia);
     }
 }
 
@@ -68,7 +69,7 @@ void scree_energy_measure(const scree_model *model, const scree_state *state, co
     energy->gravity = potential - ledger->gravity;
     double stored = energy->kinetic + energy->kinetic_rotation + energy->elastic_normal + energy->elastic_tangential;
     energy->residual = (stored - ledger->initial) -
-                       (ledger->plates + ledger->pressure + ledger->boundary + energy->gravity) + ledger->damping +
-                       ledger->friction - ledger->stiffness - ledger->scheme;
+                       (ledger->plates + ledger->pressure + ledger->boundary + ledger->forced + energy->gravity) +
+                       ledger->damping + ledger->friction - ledger->stiffness - ledger->scheme;
     energy->relative = ledger->turnover > 0 ? fabs(energy->residual) / ledger->turnover : 0;
 }

@@ -11,15 +11,20 @@ enum {
     SCREE_ROTATION_SECTORS = 36 ///< of the rose
 };
 
+/// How far the body in `row` has turned: 2D: |angle| since the begin of the stage [rad], a mean in which the to and fro
+/// of regularised friction at rest cancels; 3D: |spin| now [rad/s].
+double scree_rotation_amount(const scree_state *state, size_t row);
+
 /// Bodies whose distance from the forced one lies in [lower, lower + width).
 typedef struct scree_rotation_bin {
     double lower;          ///< mean diameters
-    double mean;           ///< 1, of |w| / |w_forced|
+    double mean;           ///< 1, of the amount of rotation over that of the forced body
     double standard_error; ///< 1, of the mean; NAN with fewer than two bodies
     size_t count;
 } scree_rotation_bin;
 
-/// |w|/|w_forced| = amplitude exp(-r / length), with a confidence interval of 95 % (Student's t).
+/// Rotation over that of the forced body = amplitude exp(-r / length), with a confidence interval of 95 % (Student's
+/// t).
 typedef struct scree_rotation_decay {
     scree_rotation_bin bin[SCREE_ROTATION_BINS];
     size_t bin_count;
@@ -66,10 +71,10 @@ typedef struct scree_rank_correlation {
 } scree_rank_correlation;
 
 /// Whether rotations follow the force chains: over the bodies within `cutoff` that stand above the floor of the decay,
-/// `along` correlates the rotation excess log(|w| / mean |w| at that distance) with the alignment of the body's chains
-/// sum f (2 (s^ . b^)^2 - 1) / sum f (+1: all forces radial, a chain that leads away from the forced body; -1: all
-/// tangential, a chain across); in 3D with (3 (s^ . b^)^2 - 1) / 2. `sectors` correlates the rose of W with the mean
-/// excess of the sectors, which it writes into network->followed. Errors: memory.
+/// `along` correlates the rotation excess log(amount / mean amount at that distance) with the alignment of the body's
+/// chains sum f (2 (s^ . b^)^2 - 1) / sum f (+1: all forces radial, a chain that leads away from the forced body; -1:
+/// all tangential, a chain across); in 3D with (3 (s^ . b^)^2 - 1) / 2. `sectors` correlates the rose of W with the
+/// mean excess of the sectors, which it writes into network->followed. Errors: memory.
 typedef struct scree_rotation_alignment {
     scree_rank_correlation along, sectors;
 } scree_rotation_alignment;

@@ -8,31 +8,35 @@
 
 #define BIN_WIDTH 0.5
 
-/// Distance from the forced body [mean diameters] and |w| / |w_forced| of the body in `row`.
-static void observe(const scree_model *model, const scree_state *state, size_t forced, size_t row, double *distance,
-                    double *spin)
+double scree_rotation_amount(const scree_state *state, size_t row)
 {
-    scree_vector here, there, velocity, own, driving;
+    if (state->dimension == 2) return fabs(state->angle[row]);
+    scree_vector velocity, spin;
+    scree_body_motion(state, row, velocity, spin);
+    return scree_length(spin);
+}
+
+/// Distance from the forced body [mean diameters].
+static double distance_between(const scree_model *model, const scree_state *state, size_t forced, size_t row)
+{
+    scree_vector here, there;
     scree_body_place(state, row, here);
     scree_body_place(state, forced, there);
-    scree_body_motion(state, row, velocity, own);
-    scree_body_motion(state, forced, velocity, driving);
     for (int i = 0; i < 3; i++) here[i] -= there[i];
-    *distance = scree_length(here) / (2 * model->mean_radius);
-    *spin = scree_length(own) / scree_length(driving);
+    return scree_length(here) / (2 * model->mean_radius);
 }
 
 static void fill_bins(const scree_model *model, const scree_state *state, size_t forced, scree_rotation_decay *decay)
 {
-    double square[SCREE_ROTATION_BINS] = {0}, distance, spin;
+    double square[SCREE_ROTATION_BINS] = {0}, driven = scree_rotation_amount(state, forced);
     for (size_t id = 0; id < state->count; id++) {
         size_t row = state->row_of_id[id];
         if (row == forced) continue;
-        observe(model, state, forced, row, &distance, &spin);
-        size_t b = (size_t)(distance / BIN_WIDTH);
+        double ratio = scree_rotation_amount(state, row) / driven;
+        size_t b = (size_t)(distance_between(model, state, forced, row) / BIN_WIDTH);
         if (b >= SCREE_ROTATION_BINS) continue;
-        decay->bin[b].mean += spin;
-        square[b] += spin * spin;
+        decay->bin[b].mean += ratio;
+        square[b] += ratio * ratio;
         decay->bin[b].count++;
         if (b >= decay->bin_count) decay->bin_count = b + 1;
     }

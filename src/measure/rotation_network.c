@@ -177,10 +177,9 @@ typedef struct columns {
 static size_t gather(const scree_model *model, const scree_state *state, size_t forced, double cutoff,
                      const scree_rotation_decay *decay, const scree_rotation_network *network, columns *c)
 {
-    scree_vector centre, outward, velocity, spin, driving;
+    scree_vector centre, outward;
     scree_body_place(state, forced, centre);
-    scree_body_motion(state, forced, velocity, driving);
-    double driven = scree_length(driving), limit = fmin(cutoff, decay->reach);
+    double driven = scree_rotation_amount(state, forced), limit = fmin(cutoff, decay->reach);
     size_t count = 0;
     for (size_t id = 0; id < state->count; id++) {
         size_t row = state->row_of_id[id];
@@ -189,8 +188,8 @@ static size_t gather(const scree_model *model, const scree_state *state, size_t 
         for (int i = 0; i < 3; i++) outward[i] -= centre[i];
         double distance = normalise(outward) / (2 * model->mean_radius);
         if (!(distance < limit)) continue;
-        scree_body_motion(state, row, velocity, spin);
-        double typical = decay->bin[(size_t)(distance / decay->bin_width)].mean, own = scree_length(spin) / driven;
+        double typical = decay->bin[(size_t)(distance / decay->bin_width)].mean;
+        double own = scree_rotation_amount(state, row) / driven;
         if (!(own > 0)) continue;
         c->alignment[count] = c->aligned[row] / c->weight[row];
         c->excess[count] = log(own / typical);

@@ -1,6 +1,7 @@
 /// Stages one after the other, a step at a time; the public simulation handle.
 #include "run/simulation.h"
 
+#include "boundary/forced_spin.h"
 #include "measure/measure.h"
 #include "run/sample.h"
 #include "run/step.h"
@@ -84,6 +85,7 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
         stage->first_time = scree_state_time(&s->state);
         stage->first_step = s->state.step;
         stage->counter = 0;
+        scree_forced_spin_end(&s->state);
         scree_status status = s->stage->begin(s, error);
         if (status) return status;
         if (s->stage->instant) open_ledger(s);

@@ -2,6 +2,7 @@
 /// here.
 #include "run/step.h"
 
+#include "boundary/forced_spin.h"
 #include "boundary/plates.h"
 #include "measure/measure.h"
 #include "run/guard.h"
@@ -40,6 +41,7 @@ scree_status scree_step(scree_simulation *s, scree_error *error)
     scree_contact_set_quanta(model, state, scree_boundary_bound(s->boundary, model, state));
     scree_contact_forces(model, state, work);
     scree_boundary_forces(s->boundary, model, state, work);
+    scree_forced_spin_settle(state);
 
     if (s->integrator->second) s->integrator->second(model, state, work);
     return scree_guard_step(s, error);

@@ -183,6 +183,11 @@ const scree_field scree_members[] = {
     ONE("strain/gradient", SCREE_FIELD_DOUBLE, 9, "1", strain.gradient,
         "displacement gradient accumulated from the boundary, 3 x 3 by rows, extension positive"),
 
+    ONE("forced/id", SCREE_FIELD_INT64, 1, "1", forced.id, "body whose spin is prescribed"),
+    ONE("forced/active", SCREE_FIELD_INT64, 1, "1", forced.active, "0: there is none"),
+    ONE("forced/spin", SCREE_FIELD_DOUBLE, 3, "rad/s", forced.spin, "its spin"),
+    ONE("forced/torque", SCREE_FIELD_DOUBLE, 3, "N m", forced.torque, "torque of its contacts on it"),
+
     ONE("ledger/damping", SCREE_FIELD_DOUBLE, 1, "J", ledger.damping, "energy dissipated by contact damping"),
     ONE("ledger/friction", SCREE_FIELD_DOUBLE, 1, "J", ledger.friction, "energy dissipated by sliding"),
     ONE("ledger/stiffness", SCREE_FIELD_DOUBLE, 1, "J", ledger.stiffness,
@@ -191,6 +196,8 @@ const scree_field scree_members[] = {
     ONE("ledger/pressure", SCREE_FIELD_DOUBLE, 1, "J", ledger.pressure, "work of the pressure on the bodies"),
     ONE("ledger/boundary", SCREE_FIELD_DOUBLE, 1, "J", ledger.boundary,
         "work of the other forces of the boundary on the bodies"),
+    ONE("ledger/forced", SCREE_FIELD_DOUBLE, 1, "J", ledger.forced,
+        "work of the torque that keeps a body at its prescribed spin"),
     ONE("ledger/gravity", SCREE_FIELD_DOUBLE, 1, "J", ledger.gravity, "work of gravity on the bodies"),
     ONE("ledger/initial", SCREE_FIELD_DOUBLE, 1, "J", ledger.initial, "energy when the ledger was opened"),
     ONE("ledger/scheme", SCREE_FIELD_DOUBLE, 1, "J", ledger.scheme,

@@ -135,11 +135,20 @@ typedef struct scree_ledger {
     double plates;    ///< work of the walls
     double pressure;  ///< work of the pressure on the Delaunay boundary or the membrane
     double boundary;  ///< work of the other forces of the boundary: imposed rates, chain and ends of a membrane
+    double forced;    ///< work of the torque that keeps a body at a prescribed spin
     double gravity;   ///< sum of m g . x when the ledger was opened
     double initial;   ///< kinetic + elastic energy when the ledger was opened
     double scheme;    ///< put into the kinetic energy of the scheme by changes of its step (measure/energy.c)
     double turnover;  ///< sum of |work| increments, the scale of the residual
 } scree_ledger;
+
+/// A body whose spin is prescribed (boundary/forced_spin.h).
+typedef struct scree_forced_spin {
+    int64_t active;      ///< 0: there is none
+    int64_t id;
+    scree_vector spin;   ///< rad/s, at n - 1/2
+    scree_vector torque; ///< N m, by its contacts at n
+} scree_forced_spin;
 
 /// Closed loop of bodies on the outer Delaunay boundary, counter-clockwise, by id; empty when there is none.
 typedef struct scree_loop {
@@ -261,6 +270,7 @@ typedef struct scree_state {
     scree_drive drive;
     scree_membrane membrane;
     scree_strain strain;
+    scree_forced_spin forced;
     scree_ledger ledger;
     scree_stage_state stage;
 } scree_state;

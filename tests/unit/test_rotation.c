@@ -68,7 +68,7 @@ static void create(cluster *c, int dimension)
             c->state.row[k].z = places[k][2];
             c->state.turn[k] = (scree_turn_row){.wx = 0.6 * spin, .wz = -0.8 * spin};
         } else {
-            c->state.row[k].spin = k % 2 ? spin : -spin;
+            c->state.angle[k] = k % 2 ? spin : -spin;
         }
         if (distance < 1e-9) c->forced = k;
         for (size_t j = 0; j < k; j++) {
@@ -127,7 +127,7 @@ static void spins_that_do_not_decay_have_no_reach(void **unused)
     cluster c;
     scree_rotation_decay decay;
     create(&c, 2);
-    for (size_t k = 0; k < c.state.count; k++) c.state.row[k].spin = 0.01 * (0.5 + uniform(k));
+    for (size_t k = 0; k < c.state.count; k++) c.state.angle[k] = 0.01 * (0.5 + uniform(k));
     scree_rotation_decay_measure(&c.model, &c.state, c.forced, &decay);
     assert_true(decay.reach < 2 && decay.fitted < 4);
     destroy(&c);
@@ -201,7 +201,7 @@ static void rotations_that_follow_chains_correlate(void **unused)
         for (size_t k = 0; k < c.state.count; k++) {
             scree_row *row = &c.state.row[k];
             double cosine = row->x / fmax(1e-9, hypot(row->x, row->y));
-            row->spin *= exp(sign * (cosine * cosine - 0.5) + 0.5 * (uniform(5000 + k) - 0.5));
+            c.state.angle[k] *= exp(sign * (cosine * cosine - 0.5) + 0.5 * (uniform(5000 + k) - 0.5));
         }
         scree_rotation_decay_measure(&c.model, &c.state, c.forced, &decay);
         scree_rotation_network_measure(&c.model, &c.state, &c.table, c.forced, 10, &network);

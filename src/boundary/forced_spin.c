@@ -1,0 +1,74 @@
+/// Prescribed spin. The torques of the contacts at n are taken out of the sum of the body and kept, so that the
+/// integrator turns it by nothing but what is prescribed, w(n+1/2). The torque that this needs does on the contacts the
+/// work
+///     - 1/2 (T(n) + T(n+1)) . w(n+1/2) dt
+/// by the trapezoidal rule of all forces (measure/energy.c). The rotation of the body itself is part of what is
+/// prescribed: its energy is not in the balance while it is forced. Cost: none without such a body.
+#include "boundary/forced_spin.h"
+
+#include "base/fixed.h"
+
+static double rotation_energy(const scree_state *state, size_t row)
+{
+    scree_vector velocity, spin;
+    scree_body_motion(state, row, velocity, spin);
+    return 0.5 * scree_body_inertia(state, row) * (spin[0] * spin[0] + spin[1] * spin[1] + spin[2] * spin[2]);
+}
+
+void scree_forced_spin_begin(scree_state *state, uint32_t id)
+{
+    scree_forced_spin_end(state);
+    state->ledger.forced -= rotation_energy(state, state->row_of_id[id]);
+    state->forced = (scree_forced_spin){.active = 1, .id = id};
+    scree_forced_spin_settle(state);
+}
+
+void scree_forced_spin_end(scree_state *state)
+{
+    if (!state->forced.active) return;
+    state->ledger.forced += rotation_energy(state, state->row_of_id[state->forced.id]);
+    state->forced = (scree_forced_spin){0};
+}
+
+void scree_forced_spin_set(scree_state *state, const scree_vector spin)
+{
+    size_t row = state->row_of_id[state->forced.id];
+    for (int i = 0; i < 3; i++) state->forced.spin[i] = spin[i];
+    if (state->dimension == 2) {
+        state->row[row].spin = spin[2];
+        return;
+    }
+    state->turn[row].wx = spin[0];
+    state->turn[row].wy = spin[1];
+    state->turn[row].wz = spin[2];
+}
+
+/// Moves a sum of torques into *torque [N m].
+static double take(int64_t *sum, double quantum)
+{
+    double torque = scree_fixed_to(*sum, quantum);
+    *sum = 0;
+    return torque;
+}
+
+void scree_forced_spin_settle(scree_state *state)
+{
+    scree_forced_spin *forced = &state->forced;
+    if (!forced->active) return;
+    size_t row = state->row_of_id[forced->id];
+    scree_vector torque = {0};
+    if (state->dimension == 2) {
+        torque[2] = take(&state->sum[row].torque, state->torque_quantum);
+    } else {
+        torque[0] = take(&state->torque[row].x, state->torque_quantum);
+        torque[1] = take(&state->torque[row].y, state->torque_quantum);
+        torque[2] = take(&state->torque[row].z, state->torque_quantum);
+    }
+    double work = 0;
+    for (int i = 0; i < 3; i++) {
+        work -= 0.5 * (torque[i] + forced->torque[i]) * forced->spin[i] * state->step_size;
+        forced->torque[i] = torque[i];
+    }
+    state->ledger.forced += work;
+    state->ledger.turnover += fabs(work);
+}
