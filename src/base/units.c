@@ -28,6 +28,7 @@ static const quantity quantities[] = {
     {"Pa", "a pressure", "100 kPa"},
     {"kg/m3", "a density", "2650 kg/m3"},
     {"1/s", "a rate", "1e-2 1/s"},
+    {"rad/s", "an angular velocity", "0.03 rad/s"},
     {"m/s", "a velocity", "5 mm/s"},
     {"m/s2", "an acceleration", "9.81 m/s2"},
     {"rad", "an angle", "30 degrees"},

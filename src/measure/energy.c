@@ -29,7 +29,7 @@ static void add_kinetic(const scree_model *model, const scree_state *state, size
     scree_body_force(model, state, index, force, torque);
     for (int k = 0; k < 3; k++) {
         energy->kinetic += 0.5 * mass * velocity[k] * (velocity[k] + dt * force[k] / mass);
-        if (state->forced.id != state->id[index])
+        if (!state->forced.active || state->forced.id != state->id[index])
             energy->kinetic_rotation += 0.5 * inertia * spin[k] * (spin[k] + dt * torque[k] / inertia);
     }
 }
