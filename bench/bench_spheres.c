@@ -280,10 +280,11 @@ static void write_command(const sample *s, const options *o, char *command, size
         "cd '%s' && OMP_NUM_THREADS=1 %s -in '%s/bench/peers/lammps_spheres.in' -log none -var data spheres.data "
         "-var young %.17g -var poisson %.17g -var restitution %.17g -var friction %.17g -var gravity %.17g "
         "-var step %.17g -var skin %.17g -var steps %d -var left %.17g -var right %.17g -var front %.17g "
-        "-var back %.17g",
+        "-var back %.17g -var wall_normal %.17g -var wall_tangential %.17g",
         o->folder, o->peer, SCREE_SOURCE_DIR, m->young_modulus, m->poisson_ratio, m->restitution, m->friction, gravity,
         step_size, s->work.skin, STEPS, w[SCREE_WALL_LEFT].position, -w[SCREE_WALL_RIGHT].position,
-        w[SCREE_WALL_FRONT].position, -w[SCREE_WALL_BACK].position);
+        w[SCREE_WALL_FRONT].position, -w[SCREE_WALL_BACK].position, s->model.walls[0].normal_stiffness,
+        s->model.walls[0].tangential_stiffness);
 }
 
 /// One run of the peer: particle-steps per second of processor time, out of its own "Loop time of T on ..." and

@@ -23,10 +23,9 @@ void contact_totals_add(contact_totals *into, const contact_totals *more)
 }
 
 /// Evaluates the law, advances the memory and books energies, overlap and range.
-static contact_quanta evaluate(contact_job *job, const scree_pair_constants *constants, const motion *m, bool touching,
-                               const memory_rows *rows)
+SCREE_INLINE contact_quanta evaluate(contact_job *job, variant v, const scree_pair_constants *constants,
+                                     const motion *m, bool touching, const memory_rows *rows)
 {
-    variant v = job->variant;
     law_constants c = constants_get(constants);
     law_memory before = memory_get(v, rows), after;
     contact_quanta q = contact_evaluate(v, &c, &job->settings, &job->scale, m, -(lanes_bits)touching, &before, &after);
@@ -71,7 +70,7 @@ static void evaluate_pair(contact_job *job, size_t p)
         motion_foresee(dimension, &m, &one, &ahead, &other, &ahead_second);
     }
     const scree_pair_constants *constants = &job->model->pairs[(int)one.material][(int)other.material];
-    contact_quanta q = evaluate(job, constants, &m, touching, &rows);
+    contact_quanta q = evaluate(job, job->variant, constants, &m, touching, &rows);
     add_to_sums(job, first, q.force, q.torque_first, q.count);
     add_to_sums(job, second, quanta_opposite(q.force), q.torque_second, q.count);
 }
@@ -83,28 +82,42 @@ void contact_pairs_reference(contact_job *job)
     for (size_t p = job->near_begin; p < job->near_end; p++) evaluate_pair(job, p);
 }
 
-void contact_walls(contact_job *job, const scree_wall *wall, const scree_wall_pair_list *pairs, size_t row_begin,
-                   size_t row_end)
+/// Wall contacts are part of every evaluation: their code knows the dimension and the law.
+SCREE_INLINE void evaluate_walls(contact_job *job, variant v, const scree_wall *wall, const scree_wall_pair_list *pairs,
+                                 size_t row_begin, size_t row_end)
 {
-    const int dimension = job->variant.dimension;
     for (size_t p = 0; p < pairs->count; p++) {
         size_t row = pairs->body[p];
         if (row < row_begin || row >= row_end) continue;
         uint32_t w = pairs->wall[p];
         memory_rows rows = memory_rows_at(pairs->history, pairs->booking, pairs->rolling, p);
-        bool touching = wall_touches(dimension, &job->row[row], &wall[w]);
+        bool touching = wall_touches(v.dimension, &job->row[row], &wall[w]);
         if (!touching && memory_is_clear(&rows)) continue;
-        bodies one = body_at(job, row);
-        motion m = motion_of_wall(dimension, &one, &wall[w], job->settings.step);
-        if (law_foresees(job->variant)) {
-            foresight ahead = foresight_get(dimension, &job->foreseen[row]);
-            motion_foresee(dimension, &m, &one, &ahead, NULL, NULL);
+        bodies one = body_get(v.dimension, &job->row[row], job->turn ? &job->turn[row] : NULL);
+        motion m = motion_of_wall(v.dimension, &one, &wall[w], job->settings.step);
+        if (law_foresees(v)) {
+            foresight ahead = foresight_get(v.dimension, &job->foreseen[row]);
+            motion_foresee(v.dimension, &m, &one, &ahead, NULL, NULL);
         }
-        contact_quanta q = evaluate(job, &job->model->walls[(int)one.material], &m, touching, &rows);
+        contact_quanta q = evaluate(job, v, &job->model->walls[(int)one.material], &m, touching, &rows);
         add_to_sums(job, row, q.force, q.torque_first, q.count);
         job->totals.wall_force[w] += q.normal;
         job->totals.wall_shear[w][0] -= q.tangential.x;
         job->totals.wall_shear[w][1] -= q.tangential.y;
         job->totals.wall_shear[w][2] -= q.tangential.z;
     }
+}
+
+void contact_walls(contact_job *job, const scree_wall *wall, const scree_wall_pair_list *pairs, size_t row_begin,
+                   size_t row_end)
+{
+    const variant v = job->variant;
+    if (v.dimension == 3 && v.law == SCREE_LAW_HERTZ_MINDLIN)
+        evaluate_walls(job, (variant){3, SCREE_LAW_HERTZ_MINDLIN, true, v.ledger, v.rolling}, wall, pairs, row_begin,
+                       row_end);
+    else if (v.dimension == 3)
+        evaluate_walls(job, (variant){3, SCREE_LAW_HERTZ_BRILLIANTOV, true, v.ledger, false}, wall, pairs, row_begin,
+                       row_end);
+    else
+        evaluate_walls(job, (variant){2, v.law, true, v.ledger, v.rolling}, wall, pairs, row_begin, row_end);
 }
