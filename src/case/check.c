@@ -73,18 +73,17 @@ static uint64_t refuse_unknown(const scope *s, scree_node *child)
     return meant;
 }
 
-static void refuse_unused(const scope *s, const scree_key *key, scree_node *child, const scree_usage *usage,
-                          const char *path)
+static void refuse_unused(const scope *s, scree_node *child, const scree_usage *usage, const char *path)
 {
     child->unused = usage->choice && usage->choice->place.origin > child->place.origin;
     if (child->unused) return;
-    size_t equals = strcspn(key->when, "=");
+    size_t equals = strcspn(usage->when, "=");
     char accepted[256];
-    int length = snprintf(accepted, sizeof accepted, "only with %.*s: ", (int)equals, key->when);
-    for (const char *c = key->when + equals + 1; *c && (size_t)length + 5 < sizeof accepted; c++)
+    int length = snprintf(accepted, sizeof accepted, "only with %.*s: ", (int)equals, usage->when);
+    for (const char *c = usage->when + equals + 1; *c && (size_t)length + 5 < sizeof accepted; c++)
         length += snprintf(accepted + length, sizeof accepted - (size_t)length, *c == '|' ? " or " : "%c", *c);
     scree_problem_add(s->reader, child->key_place, path, child->text, accepted, "not used with %.*s: %s", (int)equals,
-                      key->when, scree_show(usage->choice ? usage->choice->text : usage->chooser->standard).text);
+                      usage->when, scree_show(usage->choice ? usage->choice->text : usage->chooser->standard).text);
 }
 
 static void refuse_missing(const scope *s, const scree_key *key, const char *path)
@@ -178,7 +177,7 @@ static void read_key(const scope *s, const scree_key *key)
     scree_key_join(path, s->path, key->name);
     scree_node *child = scree_node_find(s->mapping, key->name);
     scree_usage usage = scree_key_usage(s->reader->root, s->section, s->mapping, key);
-    if (child && usage.use == SCREE_UNUSED) refuse_unused(s, key, child, &usage, path);
+    if (child && usage.use == SCREE_UNUSED) refuse_unused(s, child, &usage, path);
     bool silent = usage.use == SCREE_UNUSED || (usage.use == SCREE_USE_UNKNOWN && !child);
     if (key->type == SCREE_KEY_PATHS || silent) return;
     if (key->type == SCREE_KEY_SECTION)

@@ -22,6 +22,7 @@ typedef struct scree_usage {
     scree_use use;
     const scree_key *chooser; ///< the key that `when` names, or NULL
     const scree_node *choice; ///< its value where it is given
+    const char *when;         ///< the condition that decides: of the key, or of one that its own condition names
 } scree_usage;
 scree_usage scree_key_usage(const scree_node *root, const scree_section *section, const scree_node *mapping,
                             const scree_key *key);

@@ -14,7 +14,7 @@ typedef enum scree_key_type {
     SCREE_KEY_WORD,    ///< char *, a name: letters, digits, '_' and '-', a letter first; NULL for `auto`
     SCREE_KEY_FLAG,    ///< bool
     SCREE_KEY_CHOICE,  ///< int, one of `choices`
-    SCREE_KEY_VECTOR,  ///< two doubles, one beside the other
+    SCREE_KEY_VECTOR,  ///< three doubles, one beside the other; the third may be left out in a case, and is zero then
     SCREE_KEY_PAIRS,   ///< array of pairs of doubles, and its count; the limits hold for each number
     SCREE_KEY_TENSOR, ///< nine doubles, 3 x 3 by rows, given as {component: value}: `choices` names the components that
                       ///< may be given; NAN for all others

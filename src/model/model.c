@@ -166,15 +166,19 @@ static scree_status resolve_membrane(scree_model *model, scree_error *error)
 static scree_status check_prepare(const scree_model *model, int64_t index, scree_error *error)
 {
     const scree_config_stage *stage = &model->config->stages[index];
-    bool lattice = stage->method == SCREE_PREPARE_HEXAGONAL || stage->method == SCREE_PREPARE_SQUARE;
+    bool lattice = stage->method == SCREE_PREPARE_HEXAGONAL || stage->method == SCREE_PREPARE_SQUARE ||
+                   stage->method == SCREE_PREPARE_FACE_CENTRED || stage->method == SCREE_PREPARE_CUBIC;
+    bool solid = model->dimension == 3;
     if (lattice && model->radius_min < model->radius_max)
         return indexed_error(error, "stages", index, "method",
                              "a lattice needs particles of one radius: set particles.distribution to equal");
-    if (!isnan(stage->width) && stage->width < 2 * model->radius_max) {
+    bool shallow = solid && !isnan(stage->depth) && stage->depth < 2 * model->radius_max;
+    if (shallow || (!isnan(stage->width) && stage->width < 2 * model->radius_max)) {
         char text[160];
-        (void)snprintf(text, sizeof text, "a disc of radius %g m does not fit into a box %g m wide", model->radius_max,
-                       stage->width);
-        return indexed_error(error, "stages", index, "width", text);
+        (void)snprintf(text, sizeof text, "a %s of radius %g m does not fit into a box %g m %s",
+                       solid ? "sphere" : "disc", model->radius_max, shallow ? stage->depth : stage->width,
+                       shallow ? "deep" : "wide");
+        return indexed_error(error, "stages", index, shallow ? "depth" : "width", text);
     }
     return SCREE_OK;
 }
@@ -263,7 +267,7 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
         .damping_time = config->contact.damping_time,
         .inverse_exponent = 1 / config->contact.friction_exponent,
         .scheme = (scree_scheme)config->integrator.scheme,
-        .gravity = {config->gravity_x, config->gravity_y, 0},
+        .gravity = {config->gravity[0], config->gravity[1], config->gravity[2]},
         .config = config,
     };
     scree_status status = resolve_materials(model, error);
@@ -272,6 +276,12 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
     if (!status) status = resolve_step(model, error);
     if (!status) status = resolve_membrane(model, error);
     return status;
+}
+
+double scree_model_gas_fraction(const scree_model *model, const scree_config_stage *stage)
+{
+    if (!isnan(stage->solid_fraction)) return stage->solid_fraction;
+    return model->dimension == 3 ? 0.15 : 0.3;
 }
 
 scree_model scree_model_with_friction(const scree_model *model, double friction)

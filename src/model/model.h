@@ -69,6 +69,9 @@ double scree_model_loading_rate(const scree_config_stage *stage);
 /// Index of the material that the particles are made of.
 int scree_model_particle_material(const scree_model *model);
 
+/// Solid fraction of a gas that `stage` prepares: what it says, 30 % of discs or 15 % of spheres where that is auto.
+double scree_model_gas_fraction(const scree_model *model, const scree_config_stage *stage);
+
 /// A copy with every friction coefficient replaced by `friction` (used while preparing dense samples), but a membrane's
 /// zero. NAN copies only.
 scree_model scree_model_with_friction(const scree_model *model, double friction);
