@@ -29,12 +29,12 @@ SCREE_INLINE void prefetch_bodies(int dimension, const contact_job *job, size_t 
 {
     LANE_LOOP
     {
-        size_t second = job->second[p + (size_t)k];
-        __builtin_prefetch(&job->row[second]);
-        __builtin_prefetch(&job->sum[second], 1);
+        size_t offset = (size_t)job->second[p + (size_t)k] * 32;
+        __builtin_prefetch((const char *)job->row + 2 * offset);
+        __builtin_prefetch((const char *)job->sum + offset, 1);
         if (dimension == 2) continue;
-        __builtin_prefetch(&job->turn[second]);
-        __builtin_prefetch(&job->torque[second], 1);
+        __builtin_prefetch((const char *)job->turn + offset);
+        __builtin_prefetch((const char *)job->torque + offset, 1);
     }
 }
 
@@ -43,7 +43,8 @@ SCREE_INLINE unsigned near_contacts(int dimension, const contact_job *job, size_
 {
     group g;
     LANE_LOOP g.pair[k] = p + (size_t)k;
-    bodies first = load_places(dimension, job, job->first, &g), second = load_places(dimension, job, job->second, &g);
+    find_bodies(job, &g);
+    bodies first = load_places(dimension, job, g.first), second = load_places(dimension, job, g.second);
     return lanes_ones(group_touches(dimension, &first, &second));
 }
 

@@ -1,6 +1,6 @@
 /// The one loop that both schemes are made of: v += h dt a, optionally x += dt v and, in 2D, angle += dt spin.
-/// Mass and inertia: m, m R^2 / 2 of a disc, 2 m R^2 / 5 of a sphere. Cost: two divisions and about 30 flops a body (50
-/// in 3D); streams one row and one sum, in 3D a row of spins and one of torques more.
+/// Mass and inertia: m, m R^2 / 2 of a disc, 2 m R^2 / 5 of a sphere. Cost: two divisions and about 30 flops a body (in
+/// 3D one and 50); streams one row and one sum, in 3D a row of spins and one of torques more.
 #ifndef SCREE_INTEGRATE_KICK_H
 #define SCREE_INTEGRATE_KICK_H
 
@@ -27,16 +27,19 @@ KICK_INLINE void scree_kick_velocity(int dimension, scree_state *state, size_t i
 {
     scree_row *row = &state->row[i];
     const scree_sum_row *sum = &state->sum[i];
-    double inverse_mass = 1.0 / row->mass;
+    double square = row->radius * row->radius;
+    // One division in space: 1 / (m R^2) serves mass and inertia.
+    double inverse = dimension == 3 ? 1.0 / (row->mass * square) : 0;
+    double inverse_mass = dimension == 3 ? inverse * square : 1.0 / row->mass;
     row->vx += (double)sum->fx * scale->force * inverse_mass + scale->gravity[0];
     row->vy += (double)sum->fy * scale->force * inverse_mass + scale->gravity[1];
     if (dimension == 2) {
-        row->spin += (double)sum->torque * scale->torque * 2.0 * inverse_mass / (row->radius * row->radius);
+        row->spin += (double)sum->torque * scale->torque * 2.0 * inverse_mass / square;
         return;
     }
     scree_turn_row *turn = &state->turn[i];
     const scree_torque_row *torque = &state->torque[i];
-    double inverse_inertia = scale->torque * 2.5 * inverse_mass / (row->radius * row->radius);
+    double inverse_inertia = scale->torque * 2.5 * inverse;
     row->vz += (double)sum->fz * scale->force * inverse_mass + scale->gravity[2];
     turn->wx += (double)torque->x * inverse_inertia;
     turn->wy += (double)torque->y * inverse_inertia;

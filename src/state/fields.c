@@ -59,6 +59,11 @@ const size_t scree_field_count = sizeof scree_fields / sizeof *scree_fields;
         "contacts/" name_, type_, components_, unit_, SCREE_FIELD_STATE, false, meaning_,                              \
             IN_ARRAY(contact, scree_contact_memory, member), .rows = SCREE_ROWS_CONTACTS                               \
     }
+#define BESIDE_CONTACT(name_, type_, array_, c_type, unit_, member, meaning_, rows_)                                   \
+    {                                                                                                                  \
+        "contacts/" name_, type_, 4, unit_, SCREE_FIELD_STATE, false, meaning_, IN_ARRAY(array_, c_type, member),      \
+            .rows = rows_                                                                                              \
+    }
 #define LOOP(name_, type_, c_type, unit_, member, meaning_)                                                            \
     {                                                                                                                  \
         "boundary/" name_, type_, 1, unit_, SCREE_FIELD_STATE, true, meaning_, PLAIN_ARRAY(loop.member, c_type),       \
@@ -94,6 +99,14 @@ const scree_field scree_members[] = {
     CONTACT("second", SCREE_FIELD_UINT32, 1, "1", second,
             "id of the second body, larger than the first; 4294967280 + index for a wall"),
     CONTACT("history", SCREE_FIELD_DOUBLE, SCREE_HISTORY, "1", history, "memory of the contact law, in its own units"),
+    BESIDE_CONTACT("booking", SCREE_FIELD_FLOAT, booking, scree_booking, "N", value,
+                   "damping force and dashpot x, y, z that the ledger needs again (hertz_mindlin in 3D)",
+                   SCREE_ROWS_BOOKING),
+    BESIDE_CONTACT("rolling", SCREE_FIELD_DOUBLE, rolling, scree_rolling, "1", value,
+                   "stretch of rolling and angle of twist: x, y, z [m] and [rad]; 2D: stretch [m] and spring force [N]",
+                   SCREE_ROWS_ROLLING),
+    BESIDE_CONTACT("rolling_booked", SCREE_FIELD_FLOAT, rolling, scree_rolling, "1", booked,
+                   "dashpots of rolling [N] and twisting [N m] that the ledger needs again", SCREE_ROWS_ROLLING),
 
     LOOP("id", SCREE_FIELD_UINT32, uint32_t, "1", id, "bodies along the closed boundary, counter-clockwise, by id"),
     LOOP("loaded", SCREE_FIELD_UINT8, uint8_t, "1", loaded,
@@ -225,6 +238,10 @@ size_t scree_field_rows_count(const scree_state *state, const scree_field *field
         return state->count;
     case SCREE_ROWS_CONTACTS:
         return state->contact_count;
+    case SCREE_ROWS_BOOKING:
+        return state->booking ? state->contact_count : 0;
+    case SCREE_ROWS_ROLLING:
+        return state->rolling ? state->contact_count : 0;
     case SCREE_ROWS_LOOP:
         return state->loop.count;
     case SCREE_ROWS_HULL_NODES:

@@ -128,6 +128,14 @@ scree_status scree_state_reserve_contacts(scree_state *state, size_t count, scre
     return status;
 }
 
+void scree_state_release_contacts(scree_state *state)
+{
+    scree_release(&state->contact);
+    scree_release(&state->booking);
+    scree_release(&state->rolling);
+    state->contact_count = state->contact_capacity = 0;
+}
+
 scree_status scree_state_add_booking(scree_state *state, scree_error *error)
 {
     if (state->booking) return SCREE_OK;

@@ -72,8 +72,8 @@ typedef struct scree_history {
     double value[SCREE_HISTORY]; ///< meaning depends on the law: see the head of its file in src/contact/
 } scree_history;
 
-/// hertz_mindlin in 3D, for the ledger: damping forces at n - 1 that the ledger needs again. Single precision is enough: each
-/// enters a mean with the present force, and the rounding errors have no preferred sign.
+/// hertz_mindlin in 3D, for the ledger: damping forces at n - 1 that the ledger needs again. Single precision is
+/// enough: each enters a mean with the present force, and the rounding errors have no preferred sign.
 typedef struct scree_booking {
     float value[4]; ///< N: normal, tangential x, y, z
 } scree_booking;
@@ -315,6 +315,9 @@ uint64_t scree_state_checksum(const scree_state *state);
 
 /// Grows the contact memory to hold `count`, and the booking and rolling rows beside it where there are any.
 scree_status scree_state_reserve_contacts(scree_state *state, size_t count, scree_error *error) SCREE_MUST_USE;
+
+/// Frees the contact memory and what lies beside it.
+void scree_state_release_contacts(scree_state *state);
 
 /// Puts booking rows, and rolling rows, beside the contact memory; nothing happens where there are some.
 scree_status scree_state_add_booking(scree_state *state, scree_error *error) SCREE_MUST_USE;

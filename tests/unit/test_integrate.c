@@ -90,6 +90,73 @@ static void both_schemes_are_of_second_order(void **unused)
     }
 }
 
+/// Springs to the origin in space, and a torque that turns the spin as if it were a position's velocity.
+static void spring_forces_in_space(scree_state *state, double time)
+{
+    double inertia = 0.4 * MASS * RADIUS * RADIUS, turning = inertia * OMEGA * cos(OMEGA * time);
+    double force = 1 / state->force_quantum, torque = 1 / state->torque_quantum;
+    for (size_t k = 0; k < state->count; k++) {
+        const scree_row *row = &state->row[k];
+        state->sum[k].fx = scree_fixed_from(-STIFFNESS * row->x, force);
+        state->sum[k].fy = scree_fixed_from(-STIFFNESS * row->y, force);
+        state->sum[k].fz = scree_fixed_from(-STIFFNESS * row->z, force);
+        state->torque[k].x = scree_fixed_from(turning, torque);
+        state->torque[k].y = scree_fixed_from(-2 * turning, torque);
+        state->torque[k].z = scree_fixed_from(3 * turning, torque);
+    }
+}
+
+/// Largest error of positions, velocity and spin of a sphere after `time`.
+static double error_in_space(scree_scheme scheme, double time, int steps)
+{
+    scree_model model = make_model(scheme);
+    scree_state state;
+    scree_error error;
+    scree_work work = {.threads = 1};
+    double dt = time / steps;
+    assert_int_equal(scree_state_create(&state, 3, 1, &error), SCREE_OK);
+    state.step_size = dt;
+    state.force_quantum = state.torque_quantum = scree_fixed_quantum(1000);
+    state.row[0] = (scree_row){.x = 1, .y = -0.5, .radius = RADIUS, .mass = MASS};
+    state.row[0].z = 0.25;
+    if (scheme == SCREE_SCHEME_POSITION_VERLET) {
+        double back = 0.5 * dt * OMEGA;
+        state.row[0].vx = back * OMEGA, state.row[0].vy = -0.5 * back * OMEGA, state.row[0].vz = 0.25 * back * OMEGA;
+        state.turn[0] = (scree_turn_row){-back, 2 * back, -3 * back, 0};
+    }
+    const scree_integrator *integrator = scree_integrator_get(scheme);
+    spring_forces_in_space(&state, 0);
+    for (int k = 0; k < steps; k++) {
+        integrator->first(&model, &state, &work);
+        spring_forces_in_space(&state, dt * (k + 1));
+        if (integrator->second) integrator->second(&model, &state, &work);
+    }
+    double c = cos(OMEGA * time), s = sin(OMEGA * time), worst = 0;
+    scree_vector place, velocity, spin;
+    scree_body_place(&state, 0, place);
+    scree_body_velocity(&model, &state, 0, velocity, spin);
+    const double start[3] = {1, -0.5, 0.25}, rate[3] = {1, -2, 3};
+    for (int k = 0; k < 3; k++) {
+        worst = fmax(worst, fabs(place[k] - start[k] * c));
+        worst = fmax(worst, fabs(velocity[k] + start[k] * OMEGA * s));
+        worst = fmax(worst, fabs(spin[k] - rate[k] * s));
+    }
+    scree_state_destroy(&state);
+    return worst;
+}
+
+static void both_schemes_are_of_second_order_in_space(void **unused)
+{
+    (void)unused;
+    for (int scheme = SCREE_SCHEME_POSITION_VERLET; scheme <= SCREE_SCHEME_VELOCITY_VERLET; scheme++) {
+        double coarse = error_in_space((scree_scheme)scheme, 3.0, 300);
+        double fine = error_in_space((scree_scheme)scheme, 3.0, 600);
+        // As in two dimensions.
+        assert_true(coarse < 2 * pow(OMEGA * 0.01, 2) / 24 * OMEGA * 3.0 * OMEGA);
+        assert_true(fabs(coarse / fine - 4) < 0.1);
+    }
+}
+
 static void schemes_share_their_trajectory(void **unused)
 {
     (void)unused;
@@ -204,6 +271,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(both_schemes_are_of_second_order),
+        cmocka_unit_test(both_schemes_are_of_second_order_in_space),
         cmocka_unit_test(schemes_share_their_trajectory),
         cmocka_unit_test(gravity_is_a_parabola),
         cmocka_unit_test(threads_give_the_same_bits),
