@@ -276,7 +276,7 @@ static void gas_of_spheres(void **unused)
     assert_true(largest_overlap(&s, NULL) <= 0);
     // The box is made for the fraction; sums of 2000 terms.
     assert_true(fabs(solid_fraction(&s) / 0.25 - 1) < 1e-12 && fabs(s.side[2] / s.side[0] - 2) < 1e-12);
-    double square[3] = {0}, momentum[3] = {0}, mass = 0, top = 0;
+    double square[3] = {0}, cross[3] = {0}, momentum[3] = {0}, mass = 0, top = 0;
     for (size_t i = 0; i < s.state.count; i++) {
         scree_vector v, w, p;
         scree_body_motion(&s.state, i, v, w);
@@ -284,6 +284,7 @@ static void gas_of_spheres(void **unused)
         top = fmax(top, p[2]);
         for (int c = 0; c < 3; c++) {
             square[c] += v[c] * v[c];
+            cross[c] += v[c] * v[(c + 1) % 3];
             momentum[c] += s.state.row[i].mass * v[c];
             assert_true(w[c] == 0);
         }
@@ -293,7 +294,7 @@ static void gas_of_spheres(void **unused)
     for (int c = 0; c < 3; c++) {
         assert_true(fabs(momentum[c]) < 1e-12 * mass * 0.1);
         // 2000 normal numbers: standard deviation of their mean square 3 %.
-        assert_true(fabs(square[c] / 2000 / 0.01 - 1) < 0.15);
+        assert_true(fabs(square[c] / 2000 / 0.01 - 1) < 0.15 && fabs(cross[c] / 2000 / 0.01) < 0.15);
     }
     assert_true(top > 0.95 * s.side[2]);
     scree_state_destroy(&s.state);
