@@ -3,7 +3,7 @@ BUILD ?= build
 JOBS  ?= $(shell nproc)
 PREFIX ?= /usr/local
 
-.PHONY: all packages demo test bench install clean help sanitize
+.PHONY: all packages demo test reproduce reproduce-full bench install clean help sanitize
 all: ## build/scree and libscree (static and shared)
 	@mkdir -p $(BUILD)
 	@cmake --preset release -B $(BUILD) >$(BUILD)/configure.log 2>&1 || \
@@ -21,6 +21,14 @@ test: packages ## all tests
 	@$(MAKE) --no-print-directory all
 	@cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
 
+reproduce: all ## the published experiments in their quick forms, compared in docs/reproduction.md
+	@$(BUILD)/scree reproduce -o out-reproduce/quick; status=$$?; \
+	    $(BUILD)/scree report out-reproduce -o docs/reproduction.md || status=$$?; exit $$status
+
+reproduce-full: all ## the same with the sources' own numbers: many hours; interrupt it and call it again
+	@$(BUILD)/scree reproduce --full -o out-reproduce/full; status=$$?; \
+	    $(BUILD)/scree report out-reproduce -o docs/reproduction.md || status=$$?; exit $$status
+
 bench: all ## particle-steps per second, memory, and peers where they are installed
 	@cmake --build $(BUILD) -j $(JOBS) --target benches
 	@bash bench/run.sh $(BUILD)
@@ -35,4 +43,4 @@ clean: ## remove what was built
 	@rm -rf build build-dev build-asan build-tsan build-clang out-demo
 
 help: ## this list
-	@grep -E '^[a-z]+:.*##' Makefile | sed -E 's/:[^#]*## /\t/' | expand -t 12
+	@grep -E '^[a-z-]+:.*##' Makefile | sed -E 's/:[^#]*## /\t/' | expand -t 18

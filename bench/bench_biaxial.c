@@ -114,9 +114,9 @@ static void settle(sample *s)
     double top = 0;
     for (size_t k = 0; k < state->count; k++) top = fmax(top, state->row[k].y + state->row[k].radius);
     state->wall[SCREE_WALL_TOP] = (scree_wall){.position = -top, .normal = {0, -1}};
-    for (int w = 0; w < SCREE_WALL_COUNT; w++) {
+    for (int w = 0; w <= SCREE_WALL_RIGHT; w++) {
         state->wall[w].active = 1;
-        state->wall[w].velocity = closing * scree_plate_length(state, w) / state->step_size;
+        state->wall[w].velocity = closing * scree_plate_area(&model, state, w) / model.thickness / state->step_size;
     }
     s->model = scree_model_with_friction(&model, 0);
     for (int k = 0; k < CLOSING_STEPS && contacts_a_body(s) < dense; k++) step(s);

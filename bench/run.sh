@@ -13,7 +13,7 @@ for bench in "$build"/bench/bench_*; do
   [ -x "$bench" ] && [ -f "$bench" ] || continue
   echo "== $(basename "$bench")"
   case $bench in
-  *bench_biaxial) "$bench" "${peer[@]}" ;;
+  *bench_biaxial | *bench_spheres) "$bench" "${peer[@]}" ;;
   *) "$bench" ;;
   esac
 done

@@ -59,11 +59,12 @@ scree_status scree_case_write(const scree_case *c, FILE *file, scree_error *erro
 typedef struct scree_case_summary {
     char name[64];
     uint64_t particles;
-    double step, critical_step;    ///< s
+    double step, critical_step;    ///< s; step: the small one of two_timescales
+    uint64_t largest_step;         ///< in steps: N_S of two_timescales, else 1
     double phi, psi;               ///< quasistatic and size coefficients, NAN without a loading stage
     double mean_radius, thickness; ///< m
     double reference_velocity;     ///< m/s
-    double steps;                  ///< expected number of steps of all stages
+    double steps;                  ///< expected number of steps (force evaluations) of all stages
     double seconds;                ///< expected wall time at `rate` particle-steps per second
     double rate;   ///< particle-steps per second assumed (measured on this machine in a few milliseconds)
     double memory; ///< bytes
@@ -111,7 +112,7 @@ scree_status scree_restart(const char *directory, const scree_run_options *optio
 /// A simulation in memory, without files (tests, bindings). Stages are run one after the other by `advance`.
 typedef struct scree_simulation scree_simulation;
 scree_status scree_simulation_create(const scree_case *c, int threads, scree_simulation **out, scree_error *error);
-/// At most `steps` steps; *done tells whether the case has ended.
+/// At most `steps` steps (force evaluations); *done tells whether the case has ended.
 scree_status scree_simulation_advance(scree_simulation *s, uint64_t steps, bool *done, scree_error *error);
 uint64_t scree_simulation_checksum(scree_simulation *s);
 void scree_simulation_free(scree_simulation *s);
@@ -130,6 +131,79 @@ scree_status scree_result_visit(const char *directory, void (*visit)(void *user,
 /// Draws all figures of a run into `directory`/figures. `message` tells which; may be NULL.
 scree_status scree_plot(const char *directory, void (*message)(void *user, const char *path), void *user,
                         scree_error *error);
+
+// ---- sweeps ------------------------------------------------------------------------------------------------------
+
+typedef struct scree_sweep scree_sweep; ///< a checked sweep: a grid of parameters and realisations of one case
+
+typedef struct scree_sweep_read_options {
+    const char *const *overrides; ///< "key.path=value" texts that all members get, after everything else
+    size_t override_count;
+    bool quick;          ///< as `quick: yes` in the file
+    size_t realisations; ///< 0: as the file says
+} scree_sweep_read_options;
+
+/// Reads and checks a sweep file, or the built-in sweep of that name, and the case of every point of its grid. On
+/// failure *problems holds every error found (free it). Errors: SCREE_ERROR_INPUT, SCREE_ERROR_IO.
+scree_status scree_sweep_read(const char *name, const scree_sweep_read_options *options, scree_sweep **out,
+                              scree_problems **problems);
+void scree_sweep_free(scree_sweep *sweep);
+
+/// The sweeps that repeat the published experiments. NULL when the index does not exist.
+size_t scree_sweep_builtin_count(void);
+const char *scree_sweep_builtin_name(size_t index);
+const char *scree_sweep_builtin_meaning(size_t index);
+
+/// Members are numbered from 0. Folder of a member below OUTPUT/members, and what it sets as a command line of `scree
+/// run` (cut to `size`).
+size_t scree_sweep_member_count(const scree_sweep *sweep);
+const char *scree_sweep_member_folder(const scree_sweep *sweep, size_t member);
+void scree_sweep_member_command(const scree_sweep *sweep, size_t member, char *text, size_t size);
+
+typedef struct scree_sweep_progress {
+    size_t members, done, failed, running;
+    double seconds_left; ///< wall; NAN when not known
+} scree_sweep_progress;
+
+typedef struct scree_sweep_options {
+    const char *program; ///< that runs a member: `PROGRAM run CASE -o DIR`
+    const char *output;  ///< sweep directory
+    int jobs;            ///< members at the same time; 0: as many as there are cores for their threads
+    int threads;         ///< of each member; 0: one
+    bool retry;          ///< run members anew that failed
+    bool force;          ///< run members anew whose directory holds another case
+    bool figures;        ///< of the members, and comparison figures of the sweep
+    const volatile int *stop; ///< becomes non-zero (signal number): members stop after a checkpoint
+    void (*progress)(void *user, const scree_sweep_progress *progress); ///< when something changes; may be NULL
+    void (*message)(void *user, int level, const char *line); ///< what became of each member; levels as in runs
+    void *user;
+} scree_sweep_options;
+
+/// Runs what is missing of a sweep, each member as a process of its own, then collects. A finished member whose case is
+/// the same is left as it is; an interrupted one is continued; a failed one stays so unless `retry`. The processes are
+/// asked to stop when the thread that called this ends. Errors:
+/// SCREE_ERROR_GUARD when members failed (the others are there), SCREE_ERROR_INPUT (another case in a directory),
+/// SCREE_ERROR_IO, SCREE_INTERRUPTED.
+scree_status scree_sweep_run(const scree_sweep *sweep, const scree_sweep_options *options, scree_error *error);
+
+/// The same for one member, without collecting: for job arrays. Errors: as above.
+scree_status scree_sweep_run_member(const scree_sweep *sweep, size_t member, const scree_sweep_options *options,
+                                    scree_error *error);
+
+/// Tables, averaged curves and figures from the members that are there. Errors: SCREE_ERROR_GUARD when some failed.
+scree_status scree_sweep_collect(const scree_sweep *sweep, const scree_sweep_options *options, scree_error *error);
+
+/// Writes a SLURM script: a job array with a task for each member. `name` and the read options are what `sweep` was
+/// read from. Errors: SCREE_ERROR_IO.
+scree_status scree_sweep_write_slurm(const scree_sweep *sweep, const scree_sweep_read_options *read,
+                                     const scree_sweep_options *options, const char *path, scree_error *error);
+
+// ---- the reproduction report -------------------------------------------------------------------------------------
+
+/// Compares what the published sources state with the results in run and sweep directories (also one or two levels
+/// below the directories given) and writes the page as Markdown. Statements whose runs are not there are `not run`,
+/// those whose results a run does not have `not measured`. Errors: SCREE_ERROR_IO, SCREE_ERROR_INPUT.
+scree_status scree_report_write(const char *const *directories, size_t count, FILE *file, scree_error *error);
 
 #ifdef __cplusplus
 }

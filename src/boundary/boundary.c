@@ -61,8 +61,8 @@ scree_status scree_boundary_begin(const scree_boundary *boundary, const scree_mo
 {
     size_t count = state->count;
     *changed = change_walls(state, boundary->walls, table);
-    if (*changed) scree_boundary_mark_loaded(model, state);
-    scree_status status = boundary->begin ? boundary->begin(model, state, error) : SCREE_OK;
+    scree_status status = *changed ? scree_boundary_mark_loaded(model, state, error) : SCREE_OK;
+    if (!status && boundary->begin) status = boundary->begin(model, state, error);
     *changed = *changed || state->count != count;
     return status;
 }

@@ -5,12 +5,14 @@
 ///     M dv/dt = p L t - F - Z v.
 /// A wave that reaches it is absorbed instead of reflected, so it cannot ring whatever the stiffness of the sample; the
 /// mass keeps the contact dampers (whose sum exceeds Z) out of the feedback within one step. The dashpot is taken
-/// implicitly. Z = L sqrt(k m / A), m / A the mass of the assembly per area, and k = M t its longitudinal stiffness,
-/// estimated by the Hertz stiffness at the mean contact force f = p 2R t: k = 1.5 K^(2/3) f^(1/3) (a triangular net of
-/// springs k has 1.3 k, a loose one about half of it; the gain of the case scales the estimate). Limits: quasistatic
-/// servo; the stress is the one of the last force evaluation. Cost: O(boundary) a step.
+/// implicitly. Z = S sqrt(M m / V), S the area of the plate, m / V the mass of the assembly per volume, and M its
+/// longitudinal stiffness, estimated by the Hertz stiffness of a contact at the mean contact force f = p 2R t (in 3D
+/// p (2R)^2): k = 1.5 K^(2/3) f^(1/3), M = k / t (k / 2R). (A triangular net of springs k has 1.3 k, a loose one about
+/// half of it; the gain of the case scales the estimate.) Limits: quasistatic servo; the stress is the one of the last
+/// force evaluation. Cost: O(boundary) a step.
 #include "boundary/plates.h"
 
+#include "measure/hull.h"
 #include "measure/measure.h"
 #include "measure/outline.h"
 
@@ -29,19 +31,28 @@ static double distance(const scree_state *state, int one, int other)
     return -(state->wall[one].position + state->wall[other].position);
 }
 
-double scree_plate_length(const scree_state *state, int index)
+/// Area of the bottom or top plate that the boundary of the sample covers; 0 without a boundary.
+static double covered_area(const scree_model *model, const scree_state *state, int index)
 {
-    bool horizontal = index == SCREE_WALL_BOTTOM || index == SCREE_WALL_TOP;
+    if (state->dimension == 3) return state->hull.node_count > 0 ? scree_hull_plate_area(state, index) : 0;
+    return state->loop.count > 0 ? model->thickness * scree_outline_plate_length(state, index) : 0;
+}
+
+double scree_plate_area(const scree_model *model, const scree_state *state, int index)
+{
     double height = distance(state, SCREE_WALL_BOTTOM, SCREE_WALL_TOP);
-    if (!horizontal) return height;
-    if (state->wall[SCREE_WALL_LEFT].active && state->wall[SCREE_WALL_RIGHT].active)
-        return distance(state, SCREE_WALL_LEFT, SCREE_WALL_RIGHT);
-    return state->loop.count > 0 ? scree_outline_plate_length(state, index) : scree_sample_area(state) / height;
+    double width = distance(state, SCREE_WALL_LEFT, SCREE_WALL_RIGHT);
+    double depth = state->dimension == 3 ? distance(state, SCREE_WALL_FRONT, SCREE_WALL_BACK) : model->thickness;
+    if (index == SCREE_WALL_LEFT || index == SCREE_WALL_RIGHT) return height * depth;
+    if (index == SCREE_WALL_FRONT || index == SCREE_WALL_BACK) return height * width;
+    if (state->wall[SCREE_WALL_LEFT].active && state->wall[SCREE_WALL_RIGHT].active) return width * depth;
+    double area = covered_area(model, state, index);
+    return area > 0 ? area : scree_sample_volume(model, state) / height;
 }
 
 double scree_plate_stress(const scree_model *model, const scree_state *state, int index)
 {
-    return state->wall[index].force / (scree_plate_length(state, index) * model->thickness);
+    return state->wall[index].force / scree_plate_area(model, state, index);
 }
 
 static double sample_mass(const scree_state *state)
@@ -53,18 +64,20 @@ static double sample_mass(const scree_state *state)
 
 scree_servo scree_servo_for(const scree_model *model, const scree_state *state, int index, double pressure)
 {
-    double length = scree_plate_length(state, index), area = scree_sample_area(state), mass = sample_mass(state);
-    double contact_force = pressure * 2 * model->mean_radius * model->thickness;
+    double area = scree_plate_area(model, state, index),
+           density = sample_mass(state) / scree_sample_volume(model, state);
+    double diameter = 2 * model->mean_radius, depth = state->dimension == 3 ? diameter : model->thickness;
     double k = model->pairs[0][0].normal_stiffness * sqrt(0.5 * model->mean_radius);
-    double stiffness = 1.5 * cbrt(k * k * contact_force);
-    return (scree_servo){.impedance = length * sqrt(stiffness * mass / area) / model->config->boundary.servo_gain,
-                         .mass = mass / area * length * 2 * model->mean_radius};
+    double stiffness = 1.5 * cbrt(k * k * pressure * diameter * depth) / depth;
+    return (scree_servo){.impedance = area * sqrt(stiffness * density) / model->config->boundary.servo_gain,
+                         .mass = density * area * diameter};
 }
 
 double scree_sample_wave_time(const scree_model *model, const scree_state *state, double pressure)
 {
     double height = distance(state, SCREE_WALL_BOTTOM, SCREE_WALL_TOP);
-    double length = scree_plate_length(state, SCREE_WALL_TOP);
+    double area = scree_plate_area(model, state, SCREE_WALL_TOP);
+    double length = state->dimension == 3 ? sqrt(area) : area / model->thickness;
     double impedance =
         scree_servo_for(model, state, SCREE_WALL_TOP, pressure).impedance * model->config->boundary.servo_gain;
     return sample_mass(state) / impedance * (height > length ? 1 : length / height);
@@ -73,11 +86,11 @@ double scree_sample_wave_time(const scree_model *model, const scree_state *state
 void scree_plate_servo(const scree_model *model, scree_state *state, int index, scree_servo servo, double pressure)
 {
     scree_wall *wall = &state->wall[index];
-    double target = pressure * scree_plate_length(state, index) * model->thickness, dt = state->step_size;
+    double target = pressure * scree_plate_area(model, state, index), kick = state->kick_size;
     double velocity =
-        (wall->velocity + dt / servo.mass * (target - wall->force)) / (1 + dt / servo.mass * servo.impedance);
+        (wall->velocity + kick / servo.mass * (target - wall->force)) / (1 + kick / servo.mass * servo.impedance);
     double limit = model->config->boundary.servo_velocity;
     // Auto: a plate may not cross a hundredth of the smallest radius in a step.
-    if (isnan(limit)) limit = 0.01 * model->radius_min / dt;
+    if (isnan(limit)) limit = 0.01 * model->radius_min / state->step_size;
     wall->velocity = fmax(-limit, fmin(limit, velocity));
 }

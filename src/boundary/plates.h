@@ -23,13 +23,14 @@ double scree_sample_wave_time(const scree_model *model, const scree_state *state
 /// positive], within the velocity limit of the case.
 void scree_plate_servo(const scree_model *model, scree_state *state, int index, scree_servo servo, double pressure);
 
-/// Normal stress on a wall [Pa, compression positive] = force / (length * thickness).
+/// Normal stress on a wall [Pa, compression positive] = force / area.
 double scree_plate_stress(const scree_model *model, const scree_state *state, int index);
 
-/// Extent of the sample along the wall [m]: between the side plates when they are active, else between the corners of
-/// the plate on the outline of the sample (measure/outline.h). Under the pressure p on the sides, forces p x this
-/// length x thickness on both plates hold the sample in equilibrium, also when it is wider at one end than at the
-/// other; any other forces would drive it away as a whole. Without a loop: the mean width.
-double scree_plate_length(const scree_state *state, int index);
+/// Area of the sample along the wall [m2]; in 2D a length times the thickness. Between the side plates when they are
+/// active, else what the outline (measure/outline.h) or the hull (measure/hull.h) of the sample covers of the plate.
+/// Under the pressure p on the sides, forces p x this area on both plates hold the sample in equilibrium, also when it
+/// is wider at one end than at the other; any other forces would drive it away as a whole. Without a boundary, or when
+/// it covers nothing of the plate: the mean section.
+double scree_plate_area(const scree_model *model, const scree_state *state, int index);
 
 #endif

@@ -1,4 +1,5 @@
-/// Pressure applied directly to the Delaunay boundary (P 2.5; Bagi 1996), at the present positions every step.
+/// Pressure applied directly to the Delaunay boundary (P 2.5; Bagi 1996), at the present positions every step. Here the
+/// loop of 2D; hull.c has the hull of 3D.
 ///
 /// A segment of the outline (measure/outline.h) from a to b, sample on the left, carries the force p t rot(b - a) with
 /// rot(x, y) = (-y, x): p times length times thickness t along the inward normal. An edge gives half of it to each of
@@ -17,6 +18,8 @@
 #include "boundary/pressure.h"
 
 #include "boundary/corners.h"
+#include "boundary/facing.h"
+#include "boundary/hull.h"
 #include "measure/measure.h"
 #include "measure/outline.h"
 #include "search/delaunay.h"
@@ -80,15 +83,26 @@ static void replace_loop(const scree_model *model, scree_state *state, const uin
     scree_loop_mark_loaded(model, state);
 }
 
-void scree_boundary_mark_loaded(const scree_model *model, scree_state *state)
+scree_status scree_boundary_mark_loaded(const scree_model *model, scree_state *state, scree_error *error)
 {
+    if (state->dimension == 3) return scree_hull_mark_loaded(model, state, &state->hull, error);
     if (state->loop.count > 0) scree_loop_mark_loaded(model, state);
+    return SCREE_OK;
+}
+
+/// The boundary of the last update serves for some steps more.
+static bool is_fresh(const scree_model *model, const scree_state *state)
+{
+    bool solid = state->dimension == 3;
+    size_t count = solid ? state->hull.node_count : state->loop.count;
+    uint64_t updated = solid ? state->hull.updated : state->loop.updated;
+    return count > 0 && state->step - updated < (uint64_t)model->config->boundary.every * model->largest_step;
 }
 
 scree_status scree_boundary_refresh(const scree_model *model, scree_state *state, scree_error *error)
 {
-    const scree_loop *loop = &state->loop;
-    if (loop->count > 0 && state->step - loop->updated < (uint64_t)model->config->boundary.every) return SCREE_OK;
+    if (is_fresh(model, state)) return SCREE_OK;
+    if (state->dimension == 3) return scree_hull_renew(model, state, error);
     uint32_t *ids = NULL;
     size_t count = 0;
     scree_status status = find_loop(model, state, &ids, &count, error);
@@ -130,7 +144,7 @@ static void press_segment(void *user, const scree_outline_segment *segment)
 static void book_half_work(scree_state *state)
 {
     const scree_loop *loop = &state->loop;
-    double work = 0;
+    double work = state->dimension == 3 ? 0.5 * state->step_size * scree_hull_power(state) : 0;
     for (size_t k = 0; k < loop->count; k++) {
         const scree_row *row = &state->row[state->row_of_id[loop->id[k]]];
         work += 0.5 * state->step_size * (loop->fx[k] * row->vx + loop->fy[k] * row->vy);
@@ -142,6 +156,11 @@ static void book_half_work(scree_state *state)
 void scree_pressure_forces(const scree_model *model, scree_state *state)
 {
     scree_loop *loop = &state->loop;
+    if (state->dimension == 3) {
+        scree_hull_press(state);
+        book_half_work(state);
+        return;
+    }
     if (loop->count == 0) return;
     memset(loop->fx, 0, loop->count * sizeof *loop->fx);
     memset(loop->fy, 0, loop->count * sizeof *loop->fy);
@@ -149,7 +168,7 @@ void scree_pressure_forces(const scree_model *model, scree_state *state)
     if (!(pressure > 0)) return;
     pressure_forces forces = {.state = state, .scale = 0.5 * pressure * model->thickness / state->force_quantum};
     scree_loop_position(state, 0, forces.origin);
-    scree_outline_visit(state, press_segment, &forces);
+    scree_outline_walk(state, press_segment, &forces);
     book_half_work(state);
 }
 
@@ -168,8 +187,9 @@ static void longest_segment(void *user, const scree_outline_segment *segment)
 double scree_pressure_bound(const scree_model *model, const scree_state *state)
 {
     double longest = 0;
+    if (state->dimension == 3) return scree_hull_pressure_bound(model, state);
     if (!(state->pressure > 0)) return 0;
-    scree_outline_visit(state, longest_segment, &longest);
+    scree_outline_walk(state, longest_segment, &longest);
     // At most two segments meet in a body.
     return 2 * state->pressure * model->thickness * sqrt(longest);
 }

@@ -1,6 +1,7 @@
 /// Pressure applied directly to the Delaunay boundary (P 2.5): traction p times edge length times thickness, shared
 /// equally by the two discs of the edge, along the inward normal of the edge; the gap between a corner disc and its
 /// plate is loaded too, so that the lateral force is exactly p times the distance of the plates times the thickness.
+/// In 3D the same on the triangles of the hull (hull.c), with hull.force and hull.loaded in the place of the loop's.
 #ifndef SCREE_BOUNDARY_PRESSURE_H
 #define SCREE_BOUNDARY_PRESSURE_H
 
@@ -13,8 +14,10 @@
 /// then.
 scree_status scree_boundary_refresh(const scree_model *model, scree_state *state, scree_error *error) SCREE_MUST_USE;
 
-/// Marks again which edges of the present boundary carry the pressure, after walls have come or gone.
-void scree_boundary_mark_loaded(const scree_model *model, scree_state *state);
+/// Marks again which edges (triangles) of the present boundary carry the pressure, after walls have come or gone.
+/// Errors: memory.
+scree_status scree_boundary_mark_loaded(const scree_model *model, scree_state *state,
+                                        scree_error *error) SCREE_MUST_USE;
 
 /// Adds the pressure forces at the present positions to state->sum, keeps them in loop.fx, loop.fy, and books the half
 /// 1/2 F(n) . v(n-1/2) dt of their work. Call after scree_contact_forces and scree_boundary_refresh, before `second`,

@@ -35,7 +35,8 @@ static const char *wrong_boundary(const scree_config *config, int stage, scree_b
 {
     if (kind == SCREE_BOUNDARY_MEMBRANE && config->dimension == 3)
         return "a membrane is a chain of discs: it needs dimension: 2; in 3D the others can be used";
-    if (is_free_of_plates(kind) && (config->gravity_x != 0 || config->gravity_y != 0))
+    const double *gravity = config->gravity;
+    if (is_free_of_plates(kind) && (gravity[0] != 0 || gravity[1] != 0 || gravity[2] != 0))
         return "without plates nothing holds the sample against gravity";
     if (stage == SCREE_STAGE_DEFORM && !is_free_of_plates(kind))
         return "deform imposes a velocity gradient on the boundary: give boundary: minimal or affine";
@@ -81,11 +82,16 @@ void scree_rules_check_boundaries(scree_reader *reader, const scree_config *conf
     for (int64_t i = 0; i < config->stage_count; i++)
         if (config->stages[i].kind < 0 || config->stages[i].boundary < 0) return; // wrong, and noted
     if (config->boundary.lateral < 0) return;
+    bool round = false;
     for (int64_t i = 0; i < config->stage_count; i++) {
         const scree_config_stage *stage = &config->stages[i];
-        if (stage->kind == SCREE_STAGE_PREPARE) continue;
+        if (stage->kind == SCREE_STAGE_PREPARE) {
+            round = stage->outline != SCREE_SAMPLE_BOX;
+            continue;
+        }
         scree_boundary_kind kind = scree_config_boundary_of(config, i);
         const char *wrong = wrong_boundary(config, stage->kind, kind), *key = "boundary";
+        if (round && !is_free_of_plates(kind)) wrong = "a round sample has no plates: give boundary: minimal or affine";
         if (!wrong && before != SCREE_BOUNDARY_AUTO) wrong = wrong_order(kind, before);
         if (!wrong && stage->kind == SCREE_STAGE_DEFORM)
             wrong = wrong_components(stage, (int)config->dimension, kind, &key);

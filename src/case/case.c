@@ -6,6 +6,7 @@
 #include "case/case.h"
 
 #include "base/memory.h"
+#include "case/document.h"
 #include "case/path.h"
 #include "case/yaml.h"
 
@@ -61,17 +62,6 @@ static void try_quick(scree_reader *main, const input *in)
     scree_arena_release(&arena);
 }
 
-static scree_status conclude(scree_reader *reader)
-{
-    scree_problems *problems = reader->problems;
-    if (reader->failure.status) {
-        scree_problems_replace(problems, &reader->failure);
-        return reader->failure.status;
-    }
-    scree_problems_finish(problems);
-    return scree_problems_count(problems) > 0 ? SCREE_ERROR_INPUT : SCREE_OK;
-}
-
 static scree_status parse(const input *in, scree_problems *problems, scree_case **out)
 {
     scree_arena arena = {0};
@@ -87,7 +77,7 @@ static scree_status parse(const input *in, scree_problems *problems, scree_case 
     }
     if (reader.root && !quick && !reader.failure.status && scree_node_find(reader.root, "quick"))
         try_quick(&reader, in);
-    scree_status status = conclude(&reader);
+    scree_status status = scree_reader_conclude(&reader);
     if (status) {
         scree_arena_release(&arena);
         return status;

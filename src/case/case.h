@@ -13,6 +13,10 @@ struct scree_case {
     struct scree_case_source *source;
 };
 
+/// Text of a file that is a case, or is written like one (at most 1 MiB and not empty); free *bytes with scree_release.
+/// Errors: as scree_case_read, also as the only one of *problems (which may be NULL).
+scree_status scree_case_text(const char *path, char **bytes, size_t *length, scree_problems **problems);
+
 /// Fills file, line, column and value of `error` from its `field` (a key path). A key that the case does not give has
 /// its default as value and the position of its section.
 void scree_case_locate(const scree_case *c, scree_error *error);

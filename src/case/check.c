@@ -73,18 +73,17 @@ static uint64_t refuse_unknown(const scope *s, scree_node *child)
     return meant;
 }
 
-static void refuse_unused(const scope *s, const scree_key *key, scree_node *child, const scree_usage *usage,
-                          const char *path)
+static void refuse_unused(const scope *s, scree_node *child, const scree_usage *usage, const char *path)
 {
     child->unused = usage->choice && usage->choice->place.origin > child->place.origin;
     if (child->unused) return;
-    size_t equals = strcspn(key->when, "=");
+    size_t equals = strcspn(usage->when, "=");
     char accepted[256];
-    int length = snprintf(accepted, sizeof accepted, "only with %.*s: ", (int)equals, key->when);
-    for (const char *c = key->when + equals + 1; *c && (size_t)length + 5 < sizeof accepted; c++)
+    int length = snprintf(accepted, sizeof accepted, "only with %.*s: ", (int)equals, usage->when);
+    for (const char *c = usage->when + equals + 1; *c && (size_t)length + 5 < sizeof accepted; c++)
         length += snprintf(accepted + length, sizeof accepted - (size_t)length, *c == '|' ? " or " : "%c", *c);
     scree_problem_add(s->reader, child->key_place, path, child->text, accepted, "not used with %.*s: %s", (int)equals,
-                      key->when, scree_show(usage->choice ? usage->choice->text : usage->chooser->standard).text);
+                      usage->when, scree_show(usage->choice ? usage->choice->text : usage->chooser->standard).text);
 }
 
 static void refuse_missing(const scope *s, const scree_key *key, const char *path)
@@ -127,6 +126,7 @@ static void read_element(const scope *s, const scree_key *list, scree_node *elem
 
 static void read_list(const scope *s, const scree_key *key, scree_node *node, const char *path)
 {
+    if (!node) return; // a list that may be left out is then empty
     char limits[200];
     scree_limits_text(key, limits, sizeof limits);
     if (node->kind != SCREE_NODE_LIST) {
@@ -178,9 +178,10 @@ static void read_key(const scope *s, const scree_key *key)
     scree_key_join(path, s->path, key->name);
     scree_node *child = scree_node_find(s->mapping, key->name);
     scree_usage usage = scree_key_usage(s->reader->root, s->section, s->mapping, key);
-    if (child && usage.use == SCREE_UNUSED) refuse_unused(s, key, child, &usage, path);
+    if (child && usage.use == SCREE_UNUSED) refuse_unused(s, child, &usage, path);
     bool silent = usage.use == SCREE_UNUSED || (usage.use == SCREE_USE_UNKNOWN && !child);
-    if (key->type == SCREE_KEY_PATHS || silent) return;
+    bool stored = key->type != SCREE_KEY_PATHS || key->element_size > 0;
+    if (!stored || silent) return;
     if (key->type == SCREE_KEY_SECTION)
         read_inner_section(s, key, child, path);
     else if (!child && !key->standard)
@@ -203,15 +204,20 @@ static void read_section(const scope *s)
     }
 }
 
-void scree_config_read(scree_reader *reader, scree_config *config)
+bool scree_root_read(scree_reader *reader, const scree_section *section, void *base)
 {
     if (reader->root->kind != SCREE_NODE_MAPPING) {
         scree_problem_add(reader, reader->root->place, NULL, NULL, NULL,
                           "expected keys with values, e.g. 'name: sample'");
-        return;
+        return false;
     }
-    scope whole = {reader, &scree_schema, NULL, reader->root, reader->root->place, "", config};
+    scope whole = {reader, section, NULL, reader->root, reader->root->place, "", base};
     whole.place.line = whole.place.column = 1;
     read_section(&whole);
-    scree_rules_check(reader, config);
+    return true;
+}
+
+void scree_config_read(scree_reader *reader, scree_config *config)
+{
+    if (scree_root_read(reader, &scree_schema, config)) scree_rules_check(reader, config);
 }

@@ -6,6 +6,8 @@
 #include "case/problems.h"
 #include "case/schema.h"
 
+#include <stdio.h>
+
 enum { SCREE_PATH_BYTES = 160 };
 
 /// path.name into `out`, which may be longer than what fits: then it is cut.
@@ -22,6 +24,7 @@ typedef struct scree_usage {
     scree_use use;
     const scree_key *chooser; ///< the key that `when` names, or NULL
     const scree_node *choice; ///< its value where it is given
+    const char *when;         ///< the condition that decides: of the key, or of one that its own condition names
 } scree_usage;
 scree_usage scree_key_usage(const scree_node *root, const scree_section *section, const scree_node *mapping,
                             const scree_key *key);
@@ -34,12 +37,19 @@ const scree_section *scree_element_section(const scree_key *list, const scree_no
 bool scree_element_name(const scree_key *list, const scree_node *parent, const scree_node *element, char *name,
                         size_t size);
 
+/// Reads the whole tree along `section` into the struct at `base` (zeroed before), and notes all problems. False when
+/// there are no keys at all.
+bool scree_root_read(scree_reader *reader, const scree_section *section, void *base);
+
 /// Reads the whole tree into `config` (zeroed before), applies the rules, notes all problems.
 void scree_config_read(scree_reader *reader, scree_config *config);
 
 /// Stores one value, or notes why not. `node` is the value; NULL stores the default. base: the section's struct.
 void scree_value_store(scree_reader *reader, const scree_key *key, const scree_node *node, const char *path,
                        void *base);
+
+/// A value in one line of YAML, as --set takes it: `5e-3 1/s`, `[[1 %, 3 %]]`.
+void scree_node_write(FILE *file, const scree_node *node);
 
 /// The tree of a case, with everything that overruled the file.
 scree_node *scree_case_root(const scree_case *c);

@@ -21,7 +21,7 @@ typedef struct scree_config_material {
     double twisting_friction; ///< 1, hertz_mindlin in 3D: limit of the twisting torque over R_eff times that force
 } scree_config_material;
 
-typedef enum scree_shape_kind { SCREE_SHAPE_DISC } scree_shape_kind;
+typedef enum scree_shape_kind { SCREE_SHAPE_DISC, SCREE_SHAPE_SPHERE } scree_shape_kind;
 typedef enum scree_size_distribution {
     SCREE_SIZE_UNIFORM,
     SCREE_SIZE_TWO_SIZES,
@@ -35,24 +35,39 @@ typedef struct scree_config_particles {
     int distribution;  ///< scree_size_distribution of radii
     double radius_min; ///< m; equal to radius_max with SCREE_SIZE_EQUAL
     double radius_max; ///< m
-    double thickness;  ///< m, length of a disc (a cylinder); auto: twice the mean radius
+    double thickness;  ///< m, length of a disc (a cylinder), not used by spheres; auto: twice the mean radius
 } scree_config_particles;
 
-typedef enum scree_law { SCREE_LAW_HERTZ_BRILLIANTOV, SCREE_LAW_HERTZ_MINDLIN } scree_law;
+/// The third is hertz_brilliantov with friction_update implicit: model_build resolves the two keys into one law.
+typedef enum scree_law {
+    SCREE_LAW_HERTZ_BRILLIANTOV,
+    SCREE_LAW_HERTZ_MINDLIN,
+    SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT
+} scree_law;
+
+typedef enum scree_friction_update { SCREE_FRICTION_EXPLICIT, SCREE_FRICTION_IMPLICIT } scree_friction_update;
 
 typedef struct scree_config_contact {
     int law;                   ///< scree_law
     double damping_time;       ///< s, T of hertz_brilliantov
     double friction_exponent;  ///< 1, c of hertz_brilliantov
+    int friction_update;       ///< scree_friction_update of hertz_brilliantov
     double reference_velocity; ///< m/s, v_R; auto: 2 * rate * mean radius of the first compress stage
 } scree_config_contact;
 
-typedef enum scree_scheme { SCREE_SCHEME_POSITION_VERLET, SCREE_SCHEME_VELOCITY_VERLET } scree_scheme;
+typedef enum scree_scheme {
+    SCREE_SCHEME_POSITION_VERLET,
+    SCREE_SCHEME_VELOCITY_VERLET,
+    SCREE_SCHEME_TWO_TIMESCALES
+} scree_scheme;
 
 typedef struct scree_config_integrator {
-    int scheme;           ///< scree_scheme
-    double step;          ///< s; auto: step_fraction * critical step
-    double step_fraction; ///< 1, of the critical step, when step is auto
+    int scheme;             ///< scree_scheme
+    double step;            ///< s, the small one of two_timescales; auto: step_fraction * critical step, over N_S
+    double step_fraction;   ///< 1, of the critical step, when step is auto
+    int64_t repeats;        ///< two_timescales: m of m(n+q) = N_S
+    int64_t large_multiple; ///< n
+    int64_t small_steps;    ///< q
 } scree_config_integrator;
 
 /// What holds the sample (boundary/boundary.h).
@@ -86,8 +101,14 @@ typedef enum scree_prepare_method {
     SCREE_PREPARE_DROP_AND_ROLL,
     SCREE_PREPARE_HEXAGONAL,
     SCREE_PREPARE_SQUARE,
-    SCREE_PREPARE_GAS
+    SCREE_PREPARE_FACE_CENTRED,
+    SCREE_PREPARE_CUBIC,
+    SCREE_PREPARE_GAS,
+    SCREE_PREPARE_GROWTH
 } scree_prepare_method;
+
+/// What the sample looks like: it fills its box, or has been cut out of a larger packing.
+typedef enum scree_sample_outline { SCREE_SAMPLE_BOX, SCREE_SAMPLE_CIRCLE, SCREE_SAMPLE_BALL } scree_sample_outline;
 
 /// One stage; the schema lists for each kind which members its keys fill. All stages keep `name` and `kind`.
 typedef struct scree_config_stage {
@@ -96,8 +117,10 @@ typedef struct scree_config_stage {
     // prepare
     int method;            ///< scree_prepare_method
     double aspect_ratio;   ///< 1, height over width of the box
+    int outline;           ///< scree_sample_outline
     double width;          ///< m; auto: from count, sizes and aspect ratio
-    double solid_fraction; ///< 1, gas only
+    double depth;          ///< m, 3D only; auto: the width
+    double solid_fraction; ///< 1, gas and growth only; auto: see the schema
     double velocity;       ///< m/s, gas only: root-mean-square velocity component
     // confine
     double pressure;         ///< Pa, compression positive
@@ -146,9 +169,9 @@ typedef struct scree_config {
     int64_t language; ///< version of the case language
     char *name;
     char *title;
-    int64_t dimension; ///< 2
+    int64_t dimension; ///< 2 or 3
     int64_t seed;
-    double gravity_x, gravity_y; ///< m/s2
+    double gravity[3]; ///< m/s2
     scree_config_material *materials;
     int64_t material_count;
     scree_config_particles particles;

@@ -51,24 +51,29 @@ static scree_status fail(const char *path, scree_error *failure, scree_problems 
     return failure->status;
 }
 
+scree_status scree_case_text(const char *path, char **bytes, size_t *length, scree_problems **problems)
+{
+    int descriptor;
+    scree_error failure;
+    *bytes = NULL;
+    *length = 0;
+    scree_status status = open_case(path, &descriptor, &failure);
+    if (!status) status = scree_allocate(bytes, LARGEST_FILE + 1, 1, &failure);
+    if (!status) status = read_bytes(descriptor, *bytes, length, &failure);
+    if (descriptor >= 0) close(descriptor);
+    if (!status && *length == 0) status = scree_error_set(&failure, SCREE_ERROR_INPUT, "the case file is empty");
+    return status ? fail(path, &failure, problems) : SCREE_OK;
+}
+
 scree_status scree_case_read(const char *path, const scree_case_options *options, scree_case **out,
                              scree_problems **problems)
 {
     *out = NULL;
     if (problems) *problems = NULL;
-    int descriptor;
-    char *bytes = NULL;
-    size_t length = 0;
-    scree_error failure;
-    scree_status status = open_case(path, &descriptor, &failure);
-    if (!status) status = scree_allocate(&bytes, LARGEST_FILE + 1, 1, &failure);
-    if (!status) status = read_bytes(descriptor, bytes, &length, &failure);
-    if (descriptor >= 0) close(descriptor);
-    if (!status && length == 0) status = scree_error_set(&failure, SCREE_ERROR_INPUT, "the case file is empty");
-    if (status)
-        status = fail(path, &failure, problems);
-    else
-        status = scree_case_parse(bytes, length, path, options, out, problems);
+    char *bytes;
+    size_t length;
+    scree_status status = scree_case_text(path, &bytes, &length, problems);
+    if (!status) status = scree_case_parse(bytes, length, path, options, out, problems);
     scree_release(&bytes);
     return status;
 }

@@ -41,10 +41,11 @@ static void write_when(FILE *file, const scree_key *key)
 static const char *type_name(scree_key_type type)
 {
     static const char *const names[] = {
-        [SCREE_KEY_NUMBER] = "number",      [SCREE_KEY_INTEGER] = "integer", [SCREE_KEY_TEXT] = "text",
-        [SCREE_KEY_WORD] = "name",          [SCREE_KEY_FLAG] = "flag",       [SCREE_KEY_CHOICE] = "choice",
-        [SCREE_KEY_VECTOR] = "two numbers", [SCREE_KEY_PAIRS] = "pairs",     [SCREE_KEY_SECTION] = "section",
-        [SCREE_KEY_LIST] = "list",          [SCREE_KEY_PATHS] = "key paths", [SCREE_KEY_TENSOR] = "components",
+        [SCREE_KEY_NUMBER] = "number",     [SCREE_KEY_INTEGER] = "integer", [SCREE_KEY_TEXT] = "text",
+        [SCREE_KEY_WORD] = "name",         [SCREE_KEY_FLAG] = "flag",       [SCREE_KEY_CHOICE] = "choice",
+        [SCREE_KEY_VECTOR] = "vector",     [SCREE_KEY_PAIRS] = "pairs",     [SCREE_KEY_SECTION] = "section",
+        [SCREE_KEY_LIST] = "list",         [SCREE_KEY_VALUES] = "values",   [SCREE_KEY_PATHS] = "key paths",
+        [SCREE_KEY_TENSOR] = "components",
     };
     return names[type];
 }

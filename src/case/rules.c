@@ -128,6 +128,65 @@ static void check_stage_order(scree_reader *reader, const scree_config *config)
     }
 }
 
+/// Choices that exist in one dimension only, and what takes their place in the other.
+typedef struct twin {
+    int plane, solid; ///< values of the choice
+    const char *plane_name, *solid_name;
+} twin;
+
+static void check_twin(scree_reader *reader, const scree_config *config, int64_t stage, const char *key, int value,
+                       const twin *pair)
+{
+    const bool solid = config->dimension == 3;
+    if (value != (solid ? pair->plane : pair->solid)) return;
+    char path[SCREE_PATH_BYTES];
+    const char *text;
+    (void)snprintf(path, sizeof path, "stages.%lld.%s", (long long)stage, key);
+    scree_place place = place_of(element(reader, "stages", stage), key, &text);
+    scree_problem_add(reader, place, path, text, solid ? pair->solid_name : pair->plane_name,
+                      "'%s' exists in %s dimensions only; in %s choose '%s'", text ? text : "", solid ? "two" : "three",
+                      solid ? "three" : "two", solid ? pair->solid_name : pair->plane_name);
+}
+
+/// Discs in two dimensions, spheres in three; as many components of gravity.
+static void check_dimension(scree_reader *reader, const scree_config *config)
+{
+    const bool solid = config->dimension == 3;
+    const char *text;
+    if (config->particles.shape == (solid ? SCREE_SHAPE_DISC : SCREE_SHAPE_SPHERE)) {
+        scree_place place = place_of(scree_node_find(reader->root, "particles"), "shape", &text);
+        scree_problem_add(reader, place, "particles.shape", text, solid ? "sphere" : "disc",
+                          solid ? "in three dimensions particles are spheres: set particles.shape to sphere"
+                                : "spheres need dimension: 3; in two dimensions particles are discs");
+    }
+    const scree_node *gravity = scree_node_find(reader->root, "gravity");
+    bool missing = solid && gravity && gravity->count == 2 && (config->gravity[0] != 0 || config->gravity[1] != 0);
+    if (missing || (!solid && config->gravity[2] != 0))
+        scree_problem_add(reader, gravity->place, "gravity", NULL, solid ? "[x, y, z]" : "[x, y]",
+                          solid ? "in three dimensions gravity has three components, z upwards"
+                                : "in two dimensions gravity has two components, y upwards");
+}
+
+static void check_preparation(scree_reader *reader, const scree_config *config)
+{
+    static const twin lattices[] = {{SCREE_PREPARE_HEXAGONAL, SCREE_PREPARE_FACE_CENTRED, "hexagonal", "face_centred"},
+                                    {SCREE_PREPARE_SQUARE, SCREE_PREPARE_CUBIC, "square", "cubic"}};
+    static const twin outlines = {SCREE_SAMPLE_CIRCLE, SCREE_SAMPLE_BALL, "circle", "ball"};
+    for (int64_t i = 0; i < config->stage_count; i++) {
+        const scree_config_stage *stage = &config->stages[i];
+        if (stage->kind != SCREE_STAGE_PREPARE) continue;
+        for (size_t k = 0; k < sizeof lattices / sizeof *lattices; k++)
+            check_twin(reader, config, i, "method", stage->method, &lattices[k]);
+        check_twin(reader, config, i, "outline", stage->outline, &outlines);
+        char path[SCREE_PATH_BYTES];
+        const char *text;
+        (void)snprintf(path, sizeof path, "stages.%lld.depth", (long long)i);
+        scree_place place = place_of(element(reader, "stages", i), "depth", &text);
+        if (stage->outline != SCREE_SAMPLE_BOX && text && !isnan(stage->depth))
+            scree_problem_add(reader, place, path, text, "auto", "a round sample has no depth of its own");
+    }
+}
+
 static void check_windows(scree_reader *reader, const scree_config *config)
 {
     double largest = 0;
@@ -157,6 +216,26 @@ static void check_windows(scree_reader *reader, const scree_config *config)
     }
 }
 
+/// What reckons with a kick of the size of the last step cannot stand steps of two sizes.
+static void check_timescales(scree_reader *reader, const scree_config *config)
+{
+    if (config->integrator.scheme != SCREE_SCHEME_TWO_TIMESCALES) return;
+    const char *text;
+    scree_place place = place_of(scree_node_find(reader->root, "integrator"), "scheme", &text);
+    if (config->contact.law == SCREE_LAW_HERTZ_BRILLIANTOV &&
+        config->contact.friction_update == SCREE_FRICTION_IMPLICIT && config->integrator.small_steps > 0)
+        scree_problem_add(reader, place, "integrator.scheme", text, "position_verlet, velocity_verlet",
+                          "an implicit contact.friction_update needs equal steps, and makes small ones needless: "
+                          "choose another scheme, or small_steps: 0");
+    for (int64_t i = 0; i < config->stage_count; i++) {
+        scree_boundary_kind kind = scree_config_boundary_of(config, i);
+        if (kind == SCREE_BOUNDARY_PRESSURE || kind == SCREE_BOUNDARY_PLATES) continue;
+        scree_problem_add(reader, place, "integrator.scheme", text, "position_verlet, velocity_verlet",
+                          "the boundary of stages.%lld imposes velocities and needs equal steps", (long long)i);
+        return;
+    }
+}
+
 void scree_rules_check(scree_reader *reader, scree_config *config)
 {
     check_materials(reader, config);
@@ -164,6 +243,9 @@ void scree_rules_check(scree_reader *reader, scree_config *config)
     check_radii(reader, config);
     name_stages(reader, config);
     check_stage_order(reader, config);
+    check_dimension(reader, config);
+    check_preparation(reader, config);
     check_windows(reader, config);
+    check_timescales(reader, config);
     scree_rules_check_boundaries(reader, config);
 }

@@ -23,7 +23,8 @@
 // ---- choices -----------------------------------------------------------------------------------------------------
 
 static const scree_choice shapes[] = {
-    {"disc", SCREE_SHAPE_DISC, "a cylinder whose axis is normal to the plane"},
+    {"disc", SCREE_SHAPE_DISC, "a cylinder whose axis is normal to the plane, in two dimensions"},
+    {"sphere", SCREE_SHAPE_SPHERE, "in three dimensions"},
     {0},
 };
 static const scree_choice distributions[] = {
@@ -40,9 +41,17 @@ static const scree_choice laws[] = {
      "Hertz with the tangential spring of Mindlin (with history), Coulomb limit, damping from the restitution"},
     {0},
 };
+static const scree_choice friction_updates[] = {
+    {"explicit", SCREE_FRICTION_EXPLICIT, "from the slip of the step before; needs small steps"},
+    {"implicit", SCREE_FRICTION_IMPLICIT,
+     "from the slip that the coming step will have, solved contact by contact; stable at the large step"},
+    {0},
+};
 static const scree_choice schemes[] = {
     {"position_verlet", SCREE_SCHEME_POSITION_VERLET, "leapfrog with velocities half a step behind"},
     {"velocity_verlet", SCREE_SCHEME_VELOCITY_VERLET, "velocities and positions at the same time"},
+    {"two_timescales", SCREE_SCHEME_TWO_TIMESCALES,
+     "position_verlet that repeats one large and several small steps while loading (Padbidri 2010, 2.4)"},
     {0},
 };
 static const scree_choice laterals[] = {
@@ -81,10 +90,21 @@ static const scree_choice symmetric_components[] = {
 };
 static const scree_choice methods[] = {
     {"drop_and_roll", SCREE_PREPARE_DROP_AND_ROLL,
-     "each disc falls and rolls on those below until it is stable (Jodrey and Tory 1979)"},
-    {"hexagonal", SCREE_PREPARE_HEXAGONAL, "triangular lattice, spaced for the largest radius"},
-    {"square", SCREE_PREPARE_SQUARE, "square lattice, spaced for the largest radius"},
+     "each particle falls and rolls on those below until it is stable (Jodrey and Tory 1979)"},
+    {"hexagonal", SCREE_PREPARE_HEXAGONAL, "triangular lattice of equal discs that touch"},
+    {"square", SCREE_PREPARE_SQUARE, "square lattice of equal discs that touch"},
+    {"face_centred", SCREE_PREPARE_FACE_CENTRED,
+     "face-centred cubic lattice of equal spheres that touch, square layers horizontal"},
+    {"cubic", SCREE_PREPARE_CUBIC, "simple cubic lattice of equal spheres that touch"},
     {"gas", SCREE_PREPARE_GAS, "loose random places without contacts"},
+    {"growth", SCREE_PREPARE_GROWTH,
+     "particles grow at random places and push each other away: dense and isotropic, without contacts"},
+    {0},
+};
+static const scree_choice outlines[] = {
+    {"box", SCREE_SAMPLE_BOX, "the packing fills its box"},
+    {"circle", SCREE_SAMPLE_CIRCLE, "in two dimensions: the middle of a larger packing, without plates around it"},
+    {"ball", SCREE_SAMPLE_BALL, "in three dimensions: the middle of a larger packing, without plates around it"},
     {0},
 };
 static const scree_choice stage_kinds[] = {
@@ -133,7 +153,7 @@ static const scree_key particles_keys[] = {
            .meaning = "Smallest radius."),
     NUMBER(particles, radius_max, "m", FROM("1 nm"), TO("100 m"), .when = "distribution=uniform|two_sizes",
            .meaning = "Largest radius."),
-    NUMBER(particles, thickness, "m", .standard = "auto", FROM("1 nm"), TO("1 km"),
+    NUMBER(particles, thickness, "m", .standard = "auto", FROM("1 nm"), TO("1 km"), .when = "shape=disc",
            .meaning = "Length of a disc along its axis; auto: twice the mean radius."),
 };
 
@@ -144,6 +164,8 @@ static const scree_key contact_keys[] = {
            .meaning = "Time T of the viscous part T K d^0.5 d'."),
     NUMBER(contact, friction_exponent, "1", .standard = "50", FROM("1"), TO("1e6"), .when = "law=hertz_brilliantov",
            .meaning = "Exponent c of the regularised friction mu f_n (s/v_R)^(1/c)."),
+    CHOICE(contact, friction_update, friction_updates, .standard = "explicit", .when = "law=hertz_brilliantov",
+           .meaning = "How the stiff friction law is integrated."),
     NUMBER(contact, reference_velocity, "m/s", .standard = "auto", ABOVE("0 m/s"), TO("1000 m/s"),
            .meaning = "v_R, to which slip speeds are referred; auto: 2 x strain rate x mean radius."),
 };
@@ -152,9 +174,18 @@ typedef scree_config_integrator integrator;
 static const scree_key integrator_keys[] = {
     CHOICE(integrator, scheme, schemes, .standard = "velocity_verlet", .meaning = "Integration scheme."),
     NUMBER(integrator, step, "s", .standard = "auto", ABOVE("0 s"), TO("10 s"),
-           .meaning = "Time step; auto: `step_fraction` of the critical step."),
+           .meaning =
+               "Time step, the small one of two_timescales; auto: the largest is `step_fraction` of the critical "
+               "step."),
     NUMBER(integrator, step_fraction, "1", .standard = "0.1", ABOVE("0"), TO("1"), .when = "step=auto",
-           .meaning = "Step over critical step."),
+           .meaning = "Largest step over critical step."),
+    INTEGER(integrator, repeats, .standard = "5", FROM("1"), TO("1e6"), .when = "scheme=two_timescales",
+            .meaning = "m of m(n+q): sequences in N_S = m(n+q) small steps. N_S steps are the step before loading, and "
+                       "the unit of boundary.every."),
+    INTEGER(integrator, large_multiple, .standard = "5", FROM("1"), TO("1e6"), .when = "scheme=two_timescales",
+            .meaning = "n of m(n+q): the large step of a sequence, in small steps."),
+    INTEGER(integrator, small_steps, .standard = "5", FROM("0"), TO("1e6"), .when = "scheme=two_timescales",
+            .meaning = "q of m(n+q): small steps after each large one."),
 };
 
 typedef scree_config_boundary boundary;
@@ -162,7 +193,8 @@ static const scree_key boundary_keys[] = {
     CHOICE(boundary, lateral, laterals, .standard = "pressure",
            .meaning = "What holds the sides, beside plates below and above, until a stage chooses its `boundary`."),
     INTEGER(boundary, every, .standard = "250", FROM("1"), TO("1e9"),
-            .meaning = "Steps between two updates of the Delaunay boundary."),
+            .meaning =
+                "Steps between two updates of the Delaunay boundary; with two_timescales steps of N_S small ones."),
     NUMBER(boundary, gap_limit, "1", .standard = "0.5", FROM("0"), TO("100"),
            .meaning = "Boundary edges with a free gap above this many mean diameters are cut."),
     NUMBER(boundary, servo_gain, "1", .standard = "1", ABOVE("0"), TO("10"),
@@ -200,10 +232,14 @@ static const scree_key prepare_keys[] = {
     CHOICE(stage, method, methods, .standard = "drop_and_roll", .meaning = "How the particles are placed."),
     NUMBER(stage, aspect_ratio, "1", .standard = "2", FROM("0.01"), TO("100"), .when = "width=auto",
            .meaning = "Height over width of the sample."),
-    NUMBER(stage, width, "m", .standard = "auto", FROM("1 nm"), TO("100 km"),
+    CHOICE(stage, outline, outlines, .standard = "box", .meaning = "Outline of the sample."),
+    NUMBER(stage, width, "m", .standard = "auto", FROM("1 nm"), TO("100 km"), .when = "outline=box",
            .meaning = "Width of the sample; auto: from `aspect_ratio`, and number and sizes of the particles."),
-    NUMBER(stage, solid_fraction, "1", .standard = "30 %", ABOVE("0"), TO("90 %"), .when = "method=gas",
-           .meaning = "Area of the discs over area of the box."),
+    NUMBER(stage, depth, "m", .standard = "auto", FROM("1 nm"), TO("100 km"), .when = "particles.shape=sphere",
+           .meaning = "Depth of the sample, along y in three dimensions; auto: its width."),
+    NUMBER(stage, solid_fraction, "1", .standard = "auto", ABOVE("0"), TO("90 %"), .when = "method=gas|growth",
+           .meaning = "Area (volume) of the particles over that of the box; auto: 30 % of discs and 15 % of spheres in "
+                      "a gas; with growth 80 % and 60 %, less what the walls take."),
     NUMBER(stage, velocity, "m/s", .standard = "0 m/s", FROM("0 m/s"), TO("1000 m/s"), .when = "method=gas",
            .meaning = "Root-mean-square velocity component."),
 };
@@ -313,7 +349,8 @@ static const scree_key root_keys[] = {
     KEY(scree_config, name, SCREE_KEY_WORD, .standard = "case", FROM("1"), TO("63"),
         .meaning = "Short name, for file names and tables."),
     KEY(scree_config, title, SCREE_KEY_TEXT, .standard = "", FROM("0"), TO("200"), .meaning = "Title of the figures."),
-    INTEGER(scree_config, dimension, .standard = "2", FROM("2"), TO("2"), .meaning = "Dimensions of space."),
+    INTEGER(scree_config, dimension, .standard = "2", FROM("2"), TO("3"),
+            .meaning = "Dimensions of space: 2 for discs, 3 for spheres."),
     INTEGER(scree_config, seed, .standard = "1", FROM("0"), TO("9007199254740992"),
             .meaning = "Seed of the random numbers: the same seed gives the same sample on any machine."),
     {.name = "gravity",
@@ -322,8 +359,8 @@ static const scree_key root_keys[] = {
      .standard = "[0, 0]",
      FROM("-1e6 m/s2"),
      TO("1e6 m/s2"),
-     .offset = offsetof(scree_config, gravity_x),
-     .meaning = "Acceleration [x, y]; y is upwards."},
+     .offset = offsetof(scree_config, gravity),
+     .meaning = "Acceleration [x, y] or [x, y, z]; the last axis is upwards."},
     KEY(scree_config, materials, SCREE_KEY_LIST, FROM("1"), TO("16"), .sections = material_table, .section_count = 1,
         .count_offset = offsetof(scree_config, material_count), .element_size = sizeof(material),
         .meaning = "What particles and plates are made of."),

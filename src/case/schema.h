@@ -1,5 +1,6 @@
 /// The schema of a case file: one table of keys a section. It drives parsing, checks, defaults, --set, the comments of
-/// a written case and the case reference; nothing else knows how a case file looks. Private to src/case/ and its tests.
+/// a written case and the case reference; nothing else knows how a case file looks. Other files in the same language
+/// (sweeps, tables of statements) have tables of their own, read by case/document.h.
 #ifndef SCREE_CASE_SCHEMA_H
 #define SCREE_CASE_SCHEMA_H
 
@@ -14,14 +15,15 @@ typedef enum scree_key_type {
     SCREE_KEY_WORD,    ///< char *, a name: letters, digits, '_' and '-', a letter first; NULL for `auto`
     SCREE_KEY_FLAG,    ///< bool
     SCREE_KEY_CHOICE,  ///< int, one of `choices`
-    SCREE_KEY_VECTOR,  ///< two doubles, one beside the other
+    SCREE_KEY_VECTOR,  ///< three doubles, one beside the other; the third may be left out in a case, and is zero then
     SCREE_KEY_PAIRS,   ///< array of pairs of doubles, and its count; the limits hold for each number
     SCREE_KEY_TENSOR, ///< nine doubles, 3 x 3 by rows, given as {component: value}: `choices` names the components that
                       ///< may be given; NAN for all others
     SCREE_KEY_SECTION, ///< struct, sections[0] describes it
     SCREE_KEY_LIST,    ///< array of structs, and its count, which the limits are for. With several sections, the first
                        ///< key of each is the choice that selects among them
-    SCREE_KEY_PATHS,   ///< the `quick` section: key path -> value
+    SCREE_KEY_VALUES,  ///< a list of single values or lists of them; the member is its const scree_node *
+    SCREE_KEY_PATHS,   ///< section of key path -> value; its const scree_node * is stored if element_size is not 0
 } scree_key_type;
 
 /// End of a range, as text in the unit that a user would write. NULL: no limit.

@@ -45,6 +45,8 @@ const char *scree_key_noun(const scree_key *key)
         return "a section: keys with values, indented below";
     case SCREE_KEY_LIST:
         return "a list: each element starts with '- '";
+    case SCREE_KEY_VALUES:
+        return "a list of values, e.g. [0.2, 0.4]";
     case SCREE_KEY_PATHS:
         return "a section: key paths with values, indented below";
     }
@@ -54,7 +56,7 @@ const char *scree_key_noun(const scree_key *key)
 void scree_limits_text(const scree_key *key, char *text, size_t size)
 {
     const scree_limit *least = &key->least, *most = &key->most;
-    const char *things = key->type == SCREE_KEY_LIST                                  ? " elements"
+    const char *things = key->type == SCREE_KEY_LIST || key->type == SCREE_KEY_VALUES ? " elements"
                          : key->type == SCREE_KEY_TEXT || key->type == SCREE_KEY_WORD ? " characters"
                                                                                       : "";
     text[0] = 0;

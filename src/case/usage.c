@@ -19,7 +19,7 @@ static bool is_among(const char *text, const char *alternatives)
 scree_usage scree_key_usage(const scree_node *root, const scree_section *section, const scree_node *mapping,
                             const scree_key *key)
 {
-    scree_usage usage = {SCREE_USED, NULL, NULL};
+    scree_usage usage = {SCREE_USED, NULL, NULL, key->when};
     if (!key->when) return usage;
     size_t dot = strcspn(key->when, ".="), equals = strcspn(key->when, "=");
     const char *name = key->when;
@@ -30,6 +30,9 @@ scree_usage scree_key_usage(const scree_node *root, const scree_section *section
         name += dot + 1;
     }
     usage.chooser = scree_section_find(section, name, (size_t)(key->when + equals - name));
+    // What depends on a key that is not used is not used.
+    scree_usage chooser = scree_key_usage(root, section, mapping, usage.chooser);
+    if (chooser.use == SCREE_UNUSED) return chooser;
     usage.choice = scree_node_find(mapping, usage.chooser->name);
     const char *text = usage.choice ? usage.choice->text : usage.chooser->standard;
     bool known = text && text[0] && (!usage.chooser->choices || scree_choice_find(usage.chooser->choices, text));

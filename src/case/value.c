@@ -144,19 +144,19 @@ static char *text_of(const value *v)
     return (char *)text;
 }
 
-/// Two numbers of a list into `out`.
-static void store_two(const value *v, const scree_node *node, double out[2])
+/// Two numbers of a list into `out`, or up to `most`.
+static void store_numbers(const value *v, const scree_node *node, size_t most, double *out)
 {
     out[0] = out[1] = NAN;
-    if (node->kind != SCREE_NODE_LIST || node->count != 2) {
+    if (node->kind != SCREE_NODE_LIST || node->count < 2 || node->count > most) {
         value whole = *v;
         whole.place = node->place;
         reject(&whole, NULL,
                v->key->type == SCREE_KEY_PAIRS ? "expected a pair of values, e.g. [1 %, 3 %]"
-                                               : "expected two values, e.g. [0, -9.81 m/s2]");
+                                               : "expected two or three values, e.g. [0, -9.81 m/s2]");
         return;
     }
-    for (size_t i = 0; i < 2; i++) {
+    for (size_t i = 0; i < node->count; i++) {
         const scree_node *part = scree_node_at(node, i);
         value one = {v->reader, v->key, part->place, v->path, part->text};
         if (part->kind == SCREE_NODE_SCALAR && part->text[0])
@@ -202,7 +202,7 @@ static void store_pairs(const value *v, const scree_node *node, char *member, in
         return;
     }
     size_t index = 0;
-    for (const scree_node *pair = node->first; pair; pair = pair->next) store_two(v, pair, pairs[index++]);
+    for (const scree_node *pair = node->first; pair; pair = pair->next) store_numbers(v, pair, 2, pairs[index++]);
     memcpy(member, &pairs, sizeof pairs);
     *count = (int64_t)node->count;
 }
@@ -233,6 +233,27 @@ static void store_scalar(const value *v, char *member)
     }
 }
 
+/// A list of values, or the mapping of key paths, as it stands in the file.
+static void store_node(const value *v, const scree_node *node, char *member)
+{
+    if (!node || (node->kind == SCREE_NODE_SCALAR && !node->text[0] && v->key->type == SCREE_KEY_PATHS)) return;
+    bool list = v->key->type == SCREE_KEY_VALUES;
+    if (node->kind != (list ? SCREE_NODE_LIST : SCREE_NODE_MAPPING)) {
+        reject_kind(v, node);
+        return;
+    }
+    double count = (double)node->count;
+    char limits[200];
+    scree_limits_text(v->key, limits, sizeof limits);
+    if (count < limit_value(v->key, &v->key->least) || count > limit_value(v->key, &v->key->most))
+        scree_problem_add(v->reader, v->place, v->path, NULL, limits, "%zu values are too %s", node->count,
+                          node->count == 0 ? "few" : "many");
+    for (const scree_node *each = node->first; each; each = each->next)
+        if (each->kind == SCREE_NODE_MAPPING || (each->kind == SCREE_NODE_SCALAR && !each->text[0]))
+            scree_problem_add(v->reader, each->place, v->path, NULL, NULL, "expected a value here");
+    memcpy(member, &node, sizeof node);
+}
+
 void scree_value_store(scree_reader *reader, const scree_key *key, const scree_node *node, const char *path, void *base)
 {
     static const scree_place nowhere = {0};
@@ -240,14 +261,16 @@ void scree_value_store(scree_reader *reader, const scree_key *key, const scree_n
     value v = {reader, key, node ? node->place : nowhere, path, node ? node->text : key->standard};
     bool list = key->type == SCREE_KEY_VECTOR || key->type == SCREE_KEY_PAIRS;
     if (list && !node) return; // the defaults of lists are zeros, or empty
-    if (key->type == SCREE_KEY_TENSOR) {
+    if (key->type == SCREE_KEY_VALUES || key->type == SCREE_KEY_PATHS) {
+        store_node(&v, node, member);
+    } else if (key->type == SCREE_KEY_TENSOR) {
         double nine[9];
         store_tensor(&v, node, nine);
         memcpy(member, nine, sizeof nine);
     } else if (key->type == SCREE_KEY_VECTOR) {
-        double two[2];
-        store_two(&v, node, two);
-        memcpy(member, two, sizeof two);
+        double vector[3] = {0};
+        store_numbers(&v, node, 3, vector);
+        memcpy(member, vector, sizeof vector);
     } else if (key->type == SCREE_KEY_PAIRS) {
         store_pairs(&v, node, member, (int64_t *)(void *)((char *)base + key->count_offset));
     } else if (node && (node->kind != SCREE_NODE_SCALAR || (!node->text[0] && key->type != SCREE_KEY_TEXT))) {

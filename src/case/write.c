@@ -81,6 +81,16 @@ static void put_value(writer *w, const scree_node *node)
     put(w, node->kind == SCREE_NODE_LIST ? "]" : "}");
 }
 
+void scree_node_write(FILE *file, const scree_node *node)
+{
+    writer w = {file, NULL, 0};
+    // The text of a single value is all of it: quotes are needed within lists only.
+    if (node->kind == SCREE_NODE_SCALAR)
+        put(&w, node->text);
+    else
+        put_value(&w, node);
+}
+
 /// Keys of a section that hold values. `first`: what stands before the first key ("  - "), `rest` before the others.
 static void write_values(writer *w, const scree_section *section, const scree_node *mapping, const char *first,
                          const char *rest)

@@ -38,8 +38,16 @@ static void print_summary(const scree_case_summary *summary)
     if (!isnan(summary->reference_velocity)) print_quantity("reference velocity", summary->reference_velocity, "m/s");
     scree_human_quantity(text, sizeof text, summary->step, "s");
     scree_human_quantity(part, sizeof part, summary->critical_step, "s");
-    (void)snprintf(more, sizeof more, "%.2g of the critical step of %s", summary->step / summary->critical_step, part);
+    (void)snprintf(more, sizeof more, "%s%.2g of the critical step of %s",
+                   summary->largest_step > 1 ? "the large one " : "",
+                   summary->step * (double)summary->largest_step / summary->critical_step, part);
     print_line("time step", text, more);
+    if (summary->largest_step > 1) {
+        (void)snprintf(text, sizeof text, "%llu", (unsigned long long)summary->largest_step);
+        scree_human_quantity(part, sizeof part, summary->step * (double)summary->largest_step, "s");
+        (void)snprintf(more, sizeof more, "small steps in a large one of %s", part);
+        print_line("N_S", text, more);
+    }
     scree_human_count(text, sizeof text, summary->steps);
     print_line("steps", text, "");
     scree_human_duration(text, sizeof text, summary->seconds);

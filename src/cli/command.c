@@ -2,6 +2,7 @@
 /// taken.
 #include "cli/command.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -144,4 +145,20 @@ const char *scree_command_value(const scree_command *command, const char *name)
     for (size_t i = command->option_count; i > 0; i--)
         if (strcmp(command->option[i - 1].option->name, name) == 0) return command->option[i - 1].value;
     return NULL;
+}
+
+scree_status scree_command_number(const scree_command *command, const char *name, long least, long most, long *value,
+                                  scree_error *error)
+{
+    const char *text = scree_command_value(command, name);
+    char *end, field[64], accepted[80];
+    if (!text) return SCREE_OK;
+    errno = 0;
+    long number = strtol(text, &end, 10);
+    (void)snprintf(field, sizeof field, "--%s", name);
+    (void)snprintf(accepted, sizeof accepted, "a number from %ld to %ld", least, most);
+    if (end == text || *end || errno || number < least || number > most)
+        return scree_command_refuse(error, field, accepted, "'%s' is not a number of %s", text, name);
+    *value = number;
+    return SCREE_OK;
 }

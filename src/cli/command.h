@@ -30,6 +30,10 @@ const char *scree_command_value(const scree_command *command, const char *name);
 /// All values of a repeatable option into `values`, which holds option_count; returns how many.
 size_t scree_command_values(const scree_command *command, const char *name, const char **values);
 
+/// Whole number from `least` to `most` of an option into *value, which stays as it is when the option was not given.
+scree_status scree_command_number(const scree_command *command, const char *name, long least, long most, long *value,
+                                  scree_error *error);
+
 /// Fills `error` as an error of input: `field: message (accepted: accepted)`. Returns SCREE_ERROR_INPUT.
 scree_status scree_command_refuse(scree_error *error, const char *field, const char *accepted, const char *format, ...)
     __attribute__((format(printf, 4, 5)));

@@ -14,6 +14,9 @@ static const char *candidates(scree_value_kind kind)
                "compgen -W \"$(scree list | cut -d ' ' -f 1)\" -- \"$word\"";
     case SCREE_VALUE_BUILTIN:
         return "compgen -W \"$(scree list | cut -d ' ' -f 1)\" -- \"$word\"";
+    case SCREE_VALUE_SWEEP:
+        return "compgen -f -X '!*.y*ml' -- \"$word\"; compgen -d -S / -- \"$word\"; "
+               "compgen -W \"$(scree list --sweeps | cut -d ' ' -f 1)\" -- \"$word\"";
     case SCREE_VALUE_RESULT:
         return "compgen -W \"$(scree get \"${COMP_WORDS[2]}\" 2>/dev/null | cut -d ' ' -f 1)\" -- \"$word\"";
     case SCREE_VALUE_VERB:

@@ -39,12 +39,9 @@ static void describe(const scree_progress *progress, char *text, size_t size)
     if (!isnan(progress->seconds_left)) (void)snprintf(text + used, size - used, "  %s left", part);
 }
 
-void scree_progress_show(void *user, const scree_progress *progress)
+void scree_progress_line(scree_progress_display *display, const char *text)
 {
-    scree_progress_display *display = user;
-    char text[512];
     if (display->quiet || (!display->rewrite && now() - display->last < plain_interval)) return;
-    describe(progress, text, sizeof text);
     if (display->rewrite) {
         // A line that wraps could not be rewritten.
         fprintf(stderr, "\r\033[K%.*s", (int)scree_terminal_width() - 1, text);
@@ -54,6 +51,13 @@ void scree_progress_show(void *user, const scree_progress *progress)
         fprintf(stderr, "%s\n", text);
         display->last = now();
     }
+}
+
+void scree_progress_show(void *user, const scree_progress *progress)
+{
+    char text[512];
+    describe(progress, text, sizeof text);
+    scree_progress_line(user, text);
 }
 
 void scree_progress_message(void *user, int level, const char *line)

@@ -12,6 +12,8 @@ typedef struct scree_progress_display {
 } scree_progress_display;
 
 void scree_progress_begin(scree_progress_display *display, bool quiet);
+/// Shows one line, which the next one replaces on a terminal; elsewhere at most one every ten seconds is printed.
+void scree_progress_line(scree_progress_display *display, const char *text);
 /// The two callbacks of scree_run_options; `user` is the display.
 void scree_progress_show(void *user, const scree_progress *progress);
 void scree_progress_message(void *user, int level, const char *line);

@@ -10,7 +10,7 @@ const char scree_purpose[] =
 const scree_exit_status scree_exit_statuses[] = {
     {SCREE_OK, "done"},
     {SCREE_ERROR_INPUT, "the input is wrong: the case, an option, a name, or a folder that is in use"},
-    {SCREE_ERROR_GUARD, "a physics guard stopped the run, after a checkpoint"},
+    {SCREE_ERROR_GUARD, "a physics guard stopped the run, after a checkpoint; members of a sweep failed"},
     {SCREE_ERROR_IO, "reading or writing failed, or memory ran out"},
     {SCREE_INTERRUPTED, "interrupted by a signal, after a checkpoint"},
     {0, NULL},
@@ -32,6 +32,24 @@ const scree_verb_option scree_common_options[] = {
         .name = "quick", .meaning = "apply the `quick` section of the case: the same physics, smaller"                 \
     }
 
+#define OPTION_QUIET                                                                                                   \
+    {                                                                                                                  \
+        .name = "quiet", .letter = 'q', .meaning = "no progress, warnings and errors only"                             \
+    }
+#define OPTION_REALISATIONS                                                                                            \
+    {                                                                                                                  \
+        .name = "realisations", .value = "N", .meaning = "samples at each point, which differ in their seed",          \
+        .preset = "as the sweep says"                                                                                  \
+    }
+#define OPTION_JOBS                                                                                                    \
+    {                                                                                                                  \
+        .name = "jobs", .letter = 'j', .value = "N", .meaning = "members at the same time", .preset = "one a core"     \
+    }
+#define OPTION_MEMBER_THREADS                                                                                          \
+    {                                                                                                                  \
+        .name = "threads", .letter = 't', .value = "N", .meaning = "threads of each member", .preset = "1"             \
+    }
+
 const scree_verb scree_verbs[] = {
     {
         .name = "list",
@@ -39,6 +57,7 @@ const scree_verb scree_verbs[] = {
         .text = "Prints the name and the meaning of every case that is built in. `scree new` turns one into a file to "
                 "edit, "
                 "`scree run` takes its name in place of a file.",
+        .option = {{.name = "sweeps", .meaning = "list the built-in sweeps, which repeat published experiments"}},
         .example = {{"scree list", "what there is"}},
         .status = {SCREE_ERROR_IO},
         .function = scree_verb_list,
@@ -111,12 +130,99 @@ const scree_verb scree_verbs[] = {
                     .value = "DIR",
                     .meaning = "continue the run in DIR from its newest checkpoint",
                     .kind = SCREE_VALUE_FOLDER},
-                   {.name = "quiet", .letter = 'q', .meaning = "no progress, warnings and errors only"}},
+                   OPTION_QUIET},
         .example = {{"scree run biaxial --quick -o out", "a built-in case in a minute"},
                     {"scree run my.yaml -o out --set stages.compress.rate=1e-2 --threads 2", "one value changed"},
                     {"scree run --restart out", "continue after an interrupt"}},
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_GUARD, SCREE_ERROR_IO, SCREE_INTERRUPTED},
         .function = scree_verb_run,
+    },
+    {
+        .name = "sweep",
+        .meaning = "run a grid of parameters and realisations, with means and figures",
+        .text =
+            "Runs every member of a sweep (a combination of parameters and a seed) as a process of its own, as many at "
+            "once as there are cores, and then collects them: `members.csv` (a row a member), `table.csv` (a row a "
+            "point of the grid, means with confidence intervals), `curves/` (averaged curves) and `figures/`.\n\n"
+            "A second call does what is missing: finished members are left as they are, interrupted ones are "
+            "continued from their checkpoints, failed ones stay failed unless `--retry` is given. A member that fails "
+            "does not keep the others from being run; the exit status is then 3. The first interrupt stops all members "
+            "after a checkpoint.\n\n"
+            "`--slurm` writes a script for a job array in place of running anything: its tasks call `--member`, and "
+            "`--collect` comes after them.",
+        .argument = {{"SWEEP", "a sweep file, or the name of a built-in sweep", SCREE_VALUE_SWEEP, false, false}},
+        .option = {{.name = "output",
+                    .letter = 'o',
+                    .value = "DIR",
+                    .meaning = "folder of the sweep",
+                    .preset = "out",
+                    .kind = SCREE_VALUE_FOLDER},
+                   OPTION_SET,
+                   OPTION_QUICK,
+                   OPTION_REALISATIONS,
+                   OPTION_JOBS,
+                   OPTION_MEMBER_THREADS,
+                   {.name = "retry", .meaning = "run failed members anew"},
+                   {.name = "force", .letter = 'f', .meaning = "run members anew whose folder holds another case"},
+                   {.name = "no-figures", .meaning = "leave all figures out"},
+                   {.name = "dry-run", .letter = 'n', .meaning = "list the members as command lines, run nothing"},
+                   {.name = "slurm",
+                    .value = "FILE",
+                    .meaning = "write a SLURM job array script, run nothing",
+                    .kind = SCREE_VALUE_FILE},
+                   {.name = "member", .value = "N", .meaning = "run one member, numbered from 0, and do not collect"},
+                   {.name = "collect", .meaning = "make tables, curves and figures of what is there, run nothing"},
+                   OPTION_QUIET},
+        .example = {{"scree sweep friction.yaml -o friction", "all members, then tables and figures"},
+                    {"scree sweep friction.yaml -o friction --realisations 10", "more realisations, beside those done"},
+                    {"scree sweep friction.yaml -o friction --slurm friction.sh", "a job array for a cluster"}},
+        .status = {SCREE_ERROR_INPUT, SCREE_ERROR_GUARD, SCREE_ERROR_IO, SCREE_INTERRUPTED},
+        .function = scree_verb_sweep,
+    },
+    {
+        .name = "reproduce",
+        .meaning = "repeat the published experiments, and compare with their sources",
+        .text = "Runs every built-in sweep into a folder of its own below DIR, continuing what is missing as `scree "
+                "sweep` does, and writes `DIR/reproduction.md`. Without `--full` the quick forms are run: smaller "
+                "samples, and a larger but still small quasistatic number.",
+        .option = {{.name = "output",
+                    .letter = 'o',
+                    .value = "DIR",
+                    .meaning = "folder of the sweeps",
+                    .preset = "out-reproduce/quick or out-reproduce/full",
+                    .kind = SCREE_VALUE_FOLDER},
+                   {.name = "full", .meaning = "the sources' own numbers: hours"},
+                   {.name = "only", .value = "NAME", .meaning = "run one built-in sweep", .kind = SCREE_VALUE_SWEEP},
+                   OPTION_REALISATIONS,
+                   OPTION_JOBS,
+                   OPTION_MEMBER_THREADS,
+                   {.name = "retry", .meaning = "run failed members anew"},
+                   {.name = "force", .letter = 'f', .meaning = "run members anew whose folder holds another case"},
+                   {.name = "no-figures", .meaning = "leave all figures out"},
+                   OPTION_QUIET},
+        .example = {{"scree reproduce", "all quick forms"},
+                    {"scree reproduce --full --only triaxial", "one experiment with the source's numbers"}},
+        .status = {SCREE_ERROR_INPUT, SCREE_ERROR_GUARD, SCREE_ERROR_IO, SCREE_INTERRUPTED},
+        .function = scree_verb_reproduce,
+    },
+    {
+        .name = "report",
+        .meaning = "compare results with what the published sources state",
+        .text = "Writes the reproduction page as Markdown: every statement of the sources with its value, the value "
+                "found with its confidence interval, and whether they agree. The runs are looked for in the folders "
+                "given: folders of runs, of sweeps, or folders that hold such. A statement whose runs are not there is "
+                "`not run`.",
+        .argument = {{"DIR", "folder of runs or sweeps", SCREE_VALUE_FOLDER, false, true}},
+        .option = {{.name = "output",
+                    .letter = 'o',
+                    .value = "FILE",
+                    .meaning = "write to FILE",
+                    .preset = "standard output",
+                    .kind = SCREE_VALUE_FILE}},
+        .example = {{"scree report out-reproduce/quick out-reproduce/full -o docs/reproduction.md", "the page of both "
+                                                                                                   "forms"}},
+        .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO},
+        .function = scree_verb_report,
     },
     {
         .name = "get",

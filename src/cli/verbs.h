@@ -16,6 +16,7 @@ typedef enum scree_value_kind {
     SCREE_VALUE_BUILTIN, ///< the name of a built-in case
     SCREE_VALUE_RESULT,  ///< the name of a result of the run in the first argument
     SCREE_VALUE_VERB,
+    SCREE_VALUE_SWEEP, ///< a sweep file or the name of a built-in sweep
 } scree_value_kind;
 
 typedef struct scree_verb_argument {
@@ -41,7 +42,7 @@ typedef struct scree_verb_example {
     const char *meaning;
 } scree_verb_example;
 
-enum { SCREE_VERB_ROWS = 12 }; ///< most arguments, options, examples of a verb; each list ends with an empty row
+enum { SCREE_VERB_ROWS = 20 }; ///< most arguments, options, examples of a verb; each list ends with an empty row
 
 struct scree_command;
 
@@ -81,6 +82,9 @@ scree_status scree_verb_list(const struct scree_command *command);
 scree_status scree_verb_new(const struct scree_command *command);
 scree_status scree_verb_check(const struct scree_command *command);
 scree_status scree_verb_run(const struct scree_command *command);
+scree_status scree_verb_sweep(const struct scree_command *command);
+scree_status scree_verb_reproduce(const struct scree_command *command);
+scree_status scree_verb_report(const struct scree_command *command);
 scree_status scree_verb_get(const struct scree_command *command);
 scree_status scree_verb_plot(const struct scree_command *command);
 scree_status scree_verb_help(const struct scree_command *command);

@@ -18,6 +18,9 @@
 #include "base/fixed.h"
 #include "contact/contact.h"
 
+/// The slip that an implicit friction sees holds what one step may change: so many times the largest now.
+static const double FORESEEN = 64;
+
 /// Largest constants over all pairs of materials and walls.
 typedef struct extremes {
     double stiffness, compliance_ratio, friction, damping;
@@ -73,7 +76,8 @@ contact_bounds contact_bounds_get(const scree_model *model, const scree_state *s
     double eta = mindlin ? e.damping * sqrt(largest_mass(model) * stiffness) : model->damping_time * stiffness;
 
     double damping = eta * relative, normal = stiffness * d + damping;
-    double mobilised = mindlin ? 1.0 : fmax(1.0, pow(relative / model->reference_velocity, model->inverse_exponent));
+    double slip = scree_model_foresees(model) ? FORESEEN * relative : relative;
+    double mobilised = mindlin ? 1.0 : fmax(1.0, pow(slip / model->reference_velocity, model->inverse_exponent));
     double force = normal * (1 + e.friction * mobilised + e.rolling + e.twisting);
     double friction = force * relative * state->step_size;
     if (mindlin) {

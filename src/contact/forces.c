@@ -44,6 +44,7 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
                     .rolling = model->rolling},
         .row = state->row,
         .turn = state->turn,
+        .foreseen = state->foreseen,
         .sum = state->sum,
         .torque = state->torque,
         .first = work->pairs.first,
@@ -85,32 +86,45 @@ static void prepare_part(contact_part *part, const contact_job *common, uint8_t 
     part->job = job;
 }
 
-/// Makes a range of rows whole, and adds the wall contacts of its bodies.
-static void finish_part(const contact_scratch *scratch, int k, scree_state *state, const scree_work *work)
+/// What the members of the team share.
+typedef struct parts_task {
+    contact_kernel *kernel;
+    contact_scratch *scratch;
+    const contact_job *common;
+    scree_state *state;
+    const scree_work *work;
+} parts_task;
+
+static void evaluate_share(void *argument, int index, int count)
 {
-    contact_job *job = &scratch->part[k].job;
-    size_t begin, end;
-    contact_merge_range(scratch, state->count, k, &begin, &end);
-    contact_merge(scratch, state, begin, end);
-    job->sum = state->sum;
-    job->torque = state->torque;
-    contact_walls(job, state->wall, &work->wall_pairs, begin, end);
+    const parts_task *task = argument;
+    (void)count;
+    prepare_part(&task->scratch->part[index], task->common, task->scratch->near_touched, task->state);
+    task->kernel(&task->scratch->part[index].job);
 }
 
-static contact_totals evaluate_parts(contact_kernel *kernel, const contact_scratch *scratch, const contact_job *common,
-                                     scree_state *state, const scree_work *work)
+/// Makes a range of rows whole, and adds the wall contacts of its bodies.
+static void finish_share(void *argument, int index, int count)
 {
+    const parts_task *task = argument;
+    scree_state *state = task->state;
+    contact_job *job = &task->scratch->part[index].job;
+    size_t begin, end;
+    (void)count;
+    contact_merge_range(task->scratch, state->count, index, &begin, &end);
+    contact_merge(task->scratch, state, begin, end);
+    job->sum = state->sum;
+    job->torque = state->torque;
+    contact_walls(job, state->wall, &task->work->wall_pairs, begin, end);
+}
+
+static contact_totals evaluate_parts(contact_kernel *kernel, contact_scratch *scratch, const contact_job *common,
+                                     scree_state *state, scree_work *work)
+{
+    parts_task task = {kernel, scratch, common, state, work};
     int parts = scratch->part_count;
-#pragma omp parallel num_threads(parts) if (parts > 1)
-    {
-#pragma omp for schedule(static, 1)
-        for (int k = 0; k < parts; k++) {
-            prepare_part(&scratch->part[k], common, scratch->near_touched, state);
-            kernel(&scratch->part[k].job);
-        }
-#pragma omp for schedule(static, 1)
-        for (int k = 0; k < parts; k++) finish_part(scratch, k, state, work);
-    }
+    scree_team_run(&work->team, parts, evaluate_share, &task);
+    scree_team_run(&work->team, parts, finish_share, &task);
     contact_totals totals = contact_totals_none();
     for (int k = 0; k < parts; k++) contact_totals_add(&totals, &scratch->part[k].job.totals);
     return totals;

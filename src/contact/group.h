@@ -5,11 +5,19 @@
 #include "contact/evaluate.h"
 #include "contact/rows.h"
 
-/// Pairs of one group. Where there are fewer than lanes, the first is repeated with `present` clear.
+/// Pairs of one group. Where there are fewer than lanes, the first is repeated with `present` clear. All rows of a body
+/// but its 64-byte row have 32 bytes, so that one offset finds them.
 typedef struct group {
     size_t pair[SCREE_LANES];
+    size_t first[SCREE_LANES], second[SCREE_LANES]; ///< bytes
     lanes_bits present;
 } group;
+
+SCREE_INLINE void find_bodies(const contact_job *job, group *g)
+{
+    LANE_LOOP g->first[k] = (size_t)job->first[g->pair[k]] * 32;
+    LANE_LOOP g->second[k] = (size_t)job->second[g->pair[k]] * 32;
+}
 
 /// Running totals in lanes.
 typedef struct totals {
@@ -18,40 +26,54 @@ typedef struct totals {
 } totals;
 
 /// Half of the body rows of a group, from number `half` on.
-SCREE_INLINE columns load_rows(const contact_job *job, const uint32_t *body, const group *g, int half)
+SCREE_INLINE columns load_rows(const contact_job *job, const size_t offset[SCREE_LANES], int half)
 {
     const double *row[SCREE_LANES];
-    LANE_LOOP row[k] = &job->row[body[g->pair[k]]].x + half;
+    LANE_LOOP row[k] = (const double *)(const void *)((const char *)job->row + 2 * offset[k]) + half;
     return columns_load(row);
 }
 
-SCREE_INLINE columns load_turns(const contact_job *job, const uint32_t *body, const group *g)
+SCREE_INLINE columns load_turns(const contact_job *job, const size_t offset[SCREE_LANES])
 {
     const double *row[SCREE_LANES];
-    LANE_LOOP row[k] = &job->turn[body[g->pair[k]]].wx;
+    LANE_LOOP row[k] = (const double *)(const void *)((const char *)job->turn + offset[k]);
     return columns_load(row);
+}
+
+SCREE_INLINE foresight load_foreseen(int dimension, const contact_job *job, const uint32_t *body, const group *g)
+{
+    const double *row[SCREE_LANES];
+    LANE_LOOP row[k] = &job->foreseen[body[g->pair[k]]].vx;
+    columns c = columns_load(row);
+    foresight ahead = {.velocity = {c.c0, c.c1, c.c2}, .contacts = c.c3};
+    ahead.spin.x = c.c2;
+    if (dimension == 2) return ahead;
+    LANE_LOOP row[k] += 4;
+    c = columns_load(row);
+    ahead.spin = (vector){c.c0, c.c1, c.c2};
+    return ahead;
 }
 
 /// Position and radius.
-SCREE_INLINE bodies load_places(int dimension, const contact_job *job, const uint32_t *body, const group *g)
+SCREE_INLINE bodies load_places(int dimension, const contact_job *job, const size_t offset[SCREE_LANES])
 {
-    columns place = load_rows(job, body, g, 0);
+    columns place = load_rows(job, offset, 0);
     bodies b = {.place = {place.c0, place.c1, place.c2}};
     b.radius = place.c3;
     if (dimension == 2) b.material = place.c2;
     return b;
 }
 
-SCREE_INLINE bodies load_bodies(int dimension, const contact_job *job, const uint32_t *body, const group *g)
+SCREE_INLINE bodies load_bodies(int dimension, const contact_job *job, const size_t offset[SCREE_LANES])
 {
-    bodies b = load_places(dimension, job, body, g);
-    columns move = load_rows(job, body, g, 4);
+    bodies b = load_places(dimension, job, offset);
+    columns move = load_rows(job, offset, 4);
     b.velocity = (vector){move.c0, move.c1, move.c2};
     b.mass = move.c3;
     if (dimension == 2) {
         b.spin.x = move.c2;
     } else {
-        columns turn = load_turns(job, body, g);
+        columns turn = load_turns(job, offset);
         b.spin = (vector){turn.c0, turn.c1, turn.c2};
         b.material = turn.c3;
     }
@@ -148,31 +170,37 @@ SCREE_INLINE void rows_of_bits(lanes_bits a, lanes_bits b, lanes_bits c, lanes_b
 }
 
 /// 2D: force, torque and count in one row; 3D: the torque in its own.
-SCREE_INLINE void add_to_sums(int dimension, const contact_job *job, const uint32_t *body, const group *g, quanta force,
+SCREE_INLINE void add_to_sums(int dimension, const contact_job *job, const size_t offset[SCREE_LANES], quanta force,
                               quanta torque, lanes_bits count)
 {
     row4 row[SCREE_LANES];
     rows_of_bits(force.x, force.y, dimension == 3 ? force.z : torque.x, count, row);
-    LANE_LOOP *(row4_bits *)&job->sum[body[g->pair[k]]] += (row4_bits)row[k];
+    LANE_LOOP *(row4_bits *)(void *)((char *)job->sum + offset[k]) += (row4_bits)row[k];
     if (dimension == 2) return;
     rows_of_bits(torque.x, torque.y, torque.z, (lanes_bits){0}, row);
-    LANE_LOOP *(row4_bits *)&job->torque[body[g->pair[k]]] += (row4_bits)row[k];
+    LANE_LOOP *(row4_bits *)(void *)((char *)job->torque + offset[k]) += (row4_bits)row[k];
 }
 
-SCREE_INLINE void evaluate_group(const contact_job *job, variant v, const group *g, totals *t)
+SCREE_INLINE void evaluate_group(const contact_job *job, variant v, group *g, totals *t)
 {
     const int dimension = v.dimension;
-    bodies first = load_bodies(dimension, job, job->first, g), second = load_bodies(dimension, job, job->second, g);
+    find_bodies(job, g);
+    bodies first = load_bodies(dimension, job, g->first), second = load_bodies(dimension, job, g->second);
     lanes_bits touching = g->present & group_touches(dimension, &first, &second);
     motion m = motion_of_pair(dimension, &first, &second, job->settings.step);
+    if (law_foresees(v)) {
+        foresight ahead = load_foreseen(dimension, job, job->first, g);
+        foresight ahead_second = load_foreseen(dimension, job, job->second, g);
+        motion_foresee(dimension, &m, &first, &ahead, &second, &ahead_second);
+    }
     law_constants constants = load_constants(job, v, first.material, second.material);
 
     law_memory before = load_memory(job, v, g), after;
     contact_quanta q = contact_evaluate(v, &constants, &job->settings, &job->scale, &m, touching, &before, &after);
     store_memory(job, v, g, &after);
 
-    add_to_sums(dimension, job, job->first, g, q.force, q.torque_first, q.count);
-    add_to_sums(dimension, job, job->second, g, quanta_opposite(q.force), q.torque_second, q.count);
+    add_to_sums(dimension, job, g->first, q.force, q.torque_first, q.count);
+    add_to_sums(dimension, job, g->second, quanta_opposite(q.force), q.torque_second, q.count);
     t->in_range &= q.in_range;
     t->largest_overlap = lanes_at_least(t->largest_overlap, lanes_keep(touching, m.indentation));
     t->damping += q.damping;

@@ -127,7 +127,7 @@ SCREE_INLINE law_force hertz_mindlin(variant v, const law_constants *constants, 
     }
     law_force f = {
         .normal = normal,
-        .tangential = vector_times(count, slip.resistance, lanes_all(-1)),
+        .tangential = vector_opposite(count, slip.resistance),
         .couple = vector_none(),
         .damping = 0.5 * (damping + damping_before) * m->approached + slip.damping,
         .friction = slip.friction,

@@ -26,6 +26,7 @@ typedef struct contact_job {
     variant variant;
     const scree_row *row;
     const scree_turn_row *turn;     ///< 3D
+    const scree_foreseen *foreseen; ///< one a row, with law_foresees
     scree_sum_row *sum;             ///< the sum of row r is sum[r]; this thread's own
     scree_torque_row *torque;       ///< 3D, in the same way
     const uint32_t *first, *second; ///< the whole pair list

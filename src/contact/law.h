@@ -27,6 +27,7 @@ typedef struct law_settings {
     double step;                       ///< s; 0 evaluates without advancing histories (contact table)
     double damping_time;               ///< s
     double binary_exponent;            ///< 1 / (c log 2)
+    double exponent;                   ///< 1, c
     double inverse_reference_velocity; ///< s/m, 1 / v_R
 } law_settings;
 

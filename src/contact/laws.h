@@ -12,6 +12,7 @@ SCREE_INLINE law_settings law_settings_get(const scree_model *model, double step
         .step = step,
         .damping_time = model->damping_time,
         .binary_exponent = model->inverse_exponent * M_LOG2E,
+        .exponent = 1.0 / model->inverse_exponent,
         .inverse_reference_velocity = 1.0 / model->reference_velocity,
     };
 }
@@ -19,7 +20,13 @@ SCREE_INLINE law_settings law_settings_get(const scree_model *model, double step
 /// Whether the law reads and writes history rows.
 SCREE_INLINE bool law_remembers(variant v)
 {
-    return v.ledger || v.law == SCREE_LAW_HERTZ_MINDLIN;
+    return v.ledger || v.law != SCREE_LAW_HERTZ_BRILLIANTOV;
+}
+
+/// Whether the law needs motion_foresee.
+SCREE_INLINE bool law_foresees(variant v)
+{
+    return v.law == SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT;
 }
 
 /// Whether it reads and writes booking rows.

@@ -46,11 +46,19 @@ typedef struct motion {
     lanes arm_first, arm_second; ///< m
     lanes reduced_radius;        ///< m, R_eff
     lanes reduced_mass;          ///< kg, m_eff
-    lanes turned;                ///< rad, psi
+    vector turned;               ///< rad, psi n, in space
     lanes approached;            ///< middle increments over the step, for the ledger
     vector slipped, rolled;
     lanes twisted;
+    vector foreseen_slip; ///< m/s, slip after the coming kick if all forces stay as they are (motion_foresee)
+    lanes mobility;       ///< 1/kg, slip per tangential impulse of the contact's share of the bodies
 } motion;
+
+/// scree_foreseen in lanes.
+typedef struct foresight {
+    vector velocity, spin;
+    lanes contacts;
+} foresight;
 
 /// Set where the bodies are in contact; also where a coordinate is NaN, so that the kernels notice.
 SCREE_INLINE lanes_bits bodies_touch(int dimension, vector apart, lanes radii)
@@ -62,18 +70,20 @@ SCREE_INLINE lanes_bits bodies_touch(int dimension, vector apart, lanes radii)
 SCREE_INLINE vector motion_carry(int dimension, const motion *m, vector a)
 {
     if (dimension == 2) return a;
-    vector turned = vector_plus(3, a, vector_times(3, vector_cross(m->normal, a), m->turned));
+    vector turned = vector_plus(3, a, vector_cross(m->turned, a));
     return vector_minus(3, turned, vector_times(3, m->normal, vector_dot(3, a, m->normal)));
 }
 
-/// The same with the length that it had.
+/// The same with the length that it had, up to the third order of the part q of its square that was lost:
+/// (1 - q)^(-1/2) = 1 + q/2 + 3 q^2/8. The one division waits for nothing but the memory.
 SCREE_INLINE vector motion_carry_whole(int dimension, const motion *m, vector a)
 {
     if (dimension == 2) return a;
-    vector carried = motion_carry(3, m, a);
-    lanes square = vector_dot(3, carried, carried);
+    lanes square = vector_dot(3, a, a), inverse = 1.0 / square;
     lanes_bits some = ~lanes_at_or_below(square, lanes_all(0));
-    return vector_times(3, carried, lanes_keep(some, lanes_root(vector_dot(3, a, a) / square)));
+    vector carried = motion_carry(3, m, a);
+    lanes lost = 1.0 - vector_dot(3, carried, carried) * inverse;
+    return vector_times(3, carried, lanes_keep(some, 1.0 + lost * (0.5 + 0.375 * lost)));
 }
 
 /// Everything that depends on velocities; normal, indentation, arms and reduced radius are set.
@@ -90,22 +100,48 @@ SCREE_INLINE void motion_advance(int dimension, motion *m, vector velocity, vect
     m->roll = vector_times(count, spin_across(dimension, relative, n), m->reduced_radius);
 
     vector shift = vector_times(count, along, dt), angle = vector_times(count, shift, inverse_distance);
-    vector turn = spin_across(dimension, vector_times(count, spins, dt), n);
+    vector half_turn = spin_across(dimension, vector_times(count, spins, 0.5 * dt), n);
     m->approached = m->approach * step + 0.5 * vector_dot(count, shift, angle);
-    vector bent = vector_plus(count, angle, vector_times(count, turn, lanes_all(0.5)));
+    vector bent = vector_plus(count, angle, half_turn);
     m->slipped = vector_minus(count, vector_times(count, m->slip, dt), vector_times(count, bent, m->approached * 0.5));
     m->rolled = vector_times(count, m->roll, dt);
     if (dimension == 2) return;
 
     lanes lever_normal = vector_dot(3, lever, n) * step;
     m->twist = vector_dot(3, relative, n);
-    m->turned = 0.5 * step * vector_dot(3, spins, n);
-    vector screw = vector_plus(3, vector_times(3, angle, lever_normal), vector_times(3, m->slip, m->turned * step));
+    lanes turned = 0.5 * step * vector_dot(3, spins, n);
+    m->turned = vector_times(3, n, turned);
+    vector screw = vector_plus(3, vector_times(3, angle, lever_normal), vector_times(3, m->slip, turned * step));
     m->slipped = vector_plus(3, m->slipped, vector_times(3, vector_cross(n, screw), lanes_all(0.5)));
-    screw = vector_minus(3, vector_times(3, m->roll, m->turned * step),
+    screw = vector_minus(3, vector_times(3, m->roll, turned * step),
                          vector_times(3, angle, m->reduced_radius * m->twist * step));
     m->rolled = vector_plus(3, m->rolled, vector_times(3, vector_cross(n, screw), lanes_all(0.5)));
     m->twisted = m->twist * step - 0.5 * step * vector_dot(3, relative, angle);
+}
+
+/// 1 / m + a^2 / J times the number of contacts that pull at the body: each may move its share of the mass alone.
+SCREE_INLINE lanes body_mobility(int dimension, const bodies *body, const foresight *ahead, lanes arm)
+{
+    lanes lever = arm / body->radius;
+    lanes one = 1.0 + (dimension == 3 ? 2.5 : 2.0) * (lever * lever);
+    return lanes_at_least(ahead->contacts, lanes_all(1)) * one / body->mass;
+}
+
+/// For laws that look ahead. Against a wall, `second` is NULL.
+SCREE_INLINE void motion_foresee(int dimension, motion *m, const bodies *first, const foresight *ahead,
+                                 const bodies *second, const foresight *ahead_second)
+{
+    const int count = tangential_count(dimension);
+    vector velocity = ahead->velocity, lever = vector_times(count, ahead->spin, m->arm_first);
+    m->mobility = body_mobility(dimension, first, ahead, m->arm_first);
+    if (second) {
+        velocity = vector_minus(dimension, velocity, ahead_second->velocity);
+        lever = vector_plus(count, lever, vector_times(count, ahead_second->spin, m->arm_second));
+        m->mobility += body_mobility(dimension, second, ahead_second, m->arm_second);
+    }
+    vector change =
+        vector_minus(count, vector_across(dimension, velocity, m->normal), spin_across(dimension, lever, m->normal));
+    m->foreseen_slip = vector_plus(count, m->slip, change);
 }
 
 SCREE_INLINE motion motion_of_pair(int dimension, const bodies *first, const bodies *second, double step)
@@ -114,8 +150,9 @@ SCREE_INLINE motion motion_of_pair(int dimension, const bodies *first, const bod
     motion m;
     vector apart = vector_minus(dimension, first->place, second->place);
     lanes radii = first->radius + second->radius, masses = first->mass + second->mass;
-    lanes distance = lanes_root(vector_dot(dimension, apart, apart));
-    lanes inverse_distance = 1.0 / distance;
+    lanes square = vector_dot(dimension, apart, apart), distance = lanes_root(square);
+    // In space, where the chain of operations is long, the division does not wait for the root.
+    lanes inverse_distance = dimension == 2 ? 1.0 / distance : distance * (1.0 / square);
     m.normal = vector_times(dimension, apart, inverse_distance);
     m.indentation = radii - distance;
 

@@ -29,12 +29,12 @@ SCREE_INLINE void prefetch_bodies(int dimension, const contact_job *job, size_t 
 {
     LANE_LOOP
     {
-        size_t second = job->second[p + (size_t)k];
-        __builtin_prefetch(&job->row[second]);
-        __builtin_prefetch(&job->sum[second], 1);
+        size_t offset = (size_t)job->second[p + (size_t)k] * 32;
+        __builtin_prefetch((const char *)job->row + 2 * offset);
+        __builtin_prefetch((const char *)job->sum + offset, 1);
         if (dimension == 2) continue;
-        __builtin_prefetch(&job->turn[second]);
-        __builtin_prefetch(&job->torque[second], 1);
+        __builtin_prefetch((const char *)job->turn + offset);
+        __builtin_prefetch((const char *)job->torque + offset, 1);
     }
 }
 
@@ -43,7 +43,8 @@ SCREE_INLINE unsigned near_contacts(int dimension, const contact_job *job, size_
 {
     group g;
     LANE_LOOP g.pair[k] = p + (size_t)k;
-    bodies first = load_places(dimension, job, job->first, &g), second = load_places(dimension, job, job->second, &g);
+    find_bodies(job, &g);
+    bodies first = load_places(dimension, job, g.first), second = load_places(dimension, job, g.second);
     return lanes_ones(group_touches(dimension, &first, &second));
 }
 
@@ -132,8 +133,10 @@ SCREE_INLINE void run(contact_job *given, variant v)
 SCREE_INLINE void run_variant(contact_job *job, const int dimension)
 {
     const scree_law mindlin = SCREE_LAW_HERTZ_MINDLIN, brilliantov = SCREE_LAW_HERTZ_BRILLIANTOV;
+    const scree_law implicit = SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT;
     const variant *v = &job->variant;
-    const int choice = v->rolling ? 8 : 4 * (v->law == mindlin) + 2 * v->many_materials;
+    const int law = v->law == implicit ? 10 : v->law == mindlin ? 4 : 0;
+    const int choice = v->rolling ? 8 : law + 2 * v->many_materials;
     switch (choice + v->ledger) {
     case 0:
         run(job, (variant){dimension, brilliantov, false, false, false});
@@ -162,8 +165,20 @@ SCREE_INLINE void run_variant(contact_job *job, const int dimension)
     case 8:
         run(job, (variant){dimension, mindlin, true, false, true});
         break;
-    default:
+    case 9:
         run(job, (variant){dimension, mindlin, true, true, true});
+        break;
+    case 10:
+        run(job, (variant){dimension, implicit, false, false, false});
+        break;
+    case 11:
+        run(job, (variant){dimension, implicit, false, true, false});
+        break;
+    case 12:
+        run(job, (variant){dimension, implicit, true, false, false});
+        break;
+    default:
+        run(job, (variant){dimension, implicit, true, true, false});
         break;
     }
 }

@@ -91,7 +91,7 @@ static scree_status cut_part(contact_scratch *scratch, const scree_pair_list *pa
 
 static scree_status cut(contact_scratch *scratch, const scree_work *work, const scree_state *state)
 {
-    int parts = work->threads > 1 ? work->threads : 1;
+    int parts = scree_work_shares(work);
     if (parts > scratch->part_capacity) {
         release_parts(scratch);
         scree_status status = scree_allocate(&scratch->part, (size_t)parts, sizeof *scratch->part, NULL);

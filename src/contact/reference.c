@@ -65,6 +65,11 @@ static void evaluate_pair(contact_job *job, size_t p)
     if (!touching && memory_is_clear(&rows)) return;
     bodies one = body_at(job, first), other = body_at(job, second);
     motion m = motion_of_pair(dimension, &one, &other, job->settings.step);
+    if (law_foresees(job->variant)) {
+        foresight ahead = foresight_get(dimension, &job->foreseen[first]);
+        foresight ahead_second = foresight_get(dimension, &job->foreseen[second]);
+        motion_foresee(dimension, &m, &one, &ahead, &other, &ahead_second);
+    }
     const scree_pair_constants *constants = &job->model->pairs[(int)one.material][(int)other.material];
     contact_quanta q = evaluate(job, constants, &m, touching, &rows);
     add_to_sums(job, first, q.force, q.torque_first, q.count);
@@ -91,6 +96,10 @@ void contact_walls(contact_job *job, const scree_wall *wall, const scree_wall_pa
         if (!touching && memory_is_clear(&rows)) continue;
         bodies one = body_at(job, row);
         motion m = motion_of_wall(dimension, &one, &wall[w], job->settings.step);
+        if (law_foresees(job->variant)) {
+            foresight ahead = foresight_get(dimension, &job->foreseen[row]);
+            motion_foresee(dimension, &m, &one, &ahead, NULL, NULL);
+        }
         contact_quanta q = evaluate(job, &job->model->walls[(int)one.material], &m, touching, &rows);
         add_to_sums(job, row, q.force, q.torque_first, q.count);
         job->totals.wall_force[w] += q.normal;

@@ -22,6 +22,12 @@ static inline bodies body_get(int dimension, const scree_row *row, const scree_t
     return body;
 }
 
+static inline foresight foresight_get(int dimension, const scree_foreseen *f)
+{
+    if (dimension == 2) return (foresight){.velocity = {f->vx, f->vy, 0}, .spin = {f->spin, 0, 0}, f->contacts};
+    return (foresight){.velocity = {f->vx, f->vy, f->vz}, .spin = {f->wx, f->wy, f->wz}, f->contacts};
+}
+
 static inline law_constants constants_get(const scree_pair_constants *c)
 {
     return (law_constants){c->normal_stiffness, c->tangential_stiffness, c->friction,

@@ -56,13 +56,13 @@ SCREE_INLINE slider slider_move(int count, const slider_memory *before, const sl
     s.resistance = vector_at_most(count, vector_plus(count, spring, viscous), cap);
     s.now = (slider_memory){stretch, spring, vector_minus(count, s.resistance, spring)};
 
-    vector mean_spring = vector_times(count, vector_plus(count, spring, before->spring), lanes_all(0.5));
-    vector mean_dashpot = vector_times(count, vector_plus(count, s.now.dashpot, before->dashpot), lanes_all(0.5));
+    vector springs = vector_plus(count, spring, before->spring);
+    vector dashpots = vector_plus(count, s.now.dashpot, before->dashpot);
     vector stretched = vector_minus(count, stretch, before->stretch);
-    s.damping = vector_dot(count, mean_dashpot, move->middle);
-    s.friction = vector_dot(count, mean_spring, vector_minus(count, step, stretched));
-    s.stiffness = 0.5 * (vector_dot(count, spring, before->stretch) - vector_dot(count, before->spring, stretch)) -
-                  vector_dot(count, mean_spring, vector_minus(count, move->middle, step));
+    s.damping = 0.5 * vector_dot(count, dashpots, move->middle);
+    s.friction = 0.5 * vector_dot(count, springs, vector_minus(count, step, stretched));
+    s.stiffness = 0.5 * (vector_dot(count, spring, before->stretch) - vector_dot(count, before->spring, stretch) -
+                         vector_dot(count, springs, vector_minus(count, move->middle, step)));
     s.elastic = 0.5 * vector_dot(count, spring, stretch);
     return s;
 }

@@ -53,6 +53,14 @@ SCREE_INLINE vector vector_times(int count, vector a, lanes factor)
     return a;
 }
 
+SCREE_INLINE vector vector_opposite(int count, vector a)
+{
+    a.x = -a.x;
+    if (count > 1) a.y = -a.y;
+    if (count > 2) a.z = -a.z;
+    return a;
+}
+
 SCREE_INLINE vector vector_keep(int count, lanes_bits mask, vector a)
 {
     a.x = lanes_keep(mask, a.x);
@@ -96,11 +104,12 @@ SCREE_INLINE vector moment_of(int dimension, vector n, vector f)
 }
 
 /// Factor that shortens `a` in space to the length `limit` where it is longer, else 1. NaN for a vector with NaN.
+/// limit |a| / a^2: root and division do not wait for each other.
 SCREE_INLINE lanes vector_limit_factor(vector a, lanes limit)
 {
     lanes square = vector_dot(3, a, a);
     lanes_bits within = lanes_at_or_below(square, limit * limit);
-    return lanes_select(within, lanes_all(1), limit / lanes_root(square));
+    return lanes_select(within, lanes_all(1), limit * (lanes_root(square) * (1.0 / square)));
 }
 
 /// `a`, shortened to the length `limit` where it is longer.

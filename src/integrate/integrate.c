@@ -8,8 +8,19 @@ const scree_integrator *scree_integrator_get(scree_scheme scheme)
     static const scree_integrator *const table[] = {
         [SCREE_SCHEME_POSITION_VERLET] = &scree_position_verlet,
         [SCREE_SCHEME_VELOCITY_VERLET] = &scree_velocity_verlet,
+        [SCREE_SCHEME_TWO_TIMESCALES] = &scree_two_timescales,
     };
     return table[scheme];
+}
+
+uint64_t scree_integrator_choose_step(const scree_integrator *integrator, const scree_model *model, scree_state *state,
+                                      bool loading)
+{
+    uint64_t ticks = loading && integrator->ticks ? integrator->ticks(model, state) : model->largest_step;
+    double next = (double)ticks * state->tick;
+    state->kick_size = 0.5 * (state->step_size + next);
+    state->step_size = next;
+    return ticks;
 }
 
 void scree_body_force(const scree_model *model, const scree_state *state, size_t row, scree_vector force,

@@ -7,6 +7,8 @@
 typedef struct scree_integrator {
     const char *name;
     const char *meaning; ///< one line for the manual
+    /// Ticks of the next step of a loading stage. NULL: always the largest step of the model.
+    uint64_t (*ticks)(const scree_model *model, const scree_state *state);
     /// Advances rows (and angles, largest_speed, work->budget) to positions n+1 from the sums at n.
     void (*first)(const scree_model *model, scree_state *state, scree_work *work);
     /// Finishes velocities with the sums at n+1. May be NULL.
@@ -16,6 +18,11 @@ typedef struct scree_integrator {
 
 /// Descriptor of a scheme.
 const scree_integrator *scree_integrator_get(scree_scheme scheme);
+
+/// Chooses the next step: sets step_size and kick_size of the state. Returns its ticks. The state must stand between
+/// two steps; state->step is the caller's to advance.
+uint64_t scree_integrator_choose_step(const scree_integrator *integrator, const scree_model *model, scree_state *state,
+                                      bool loading);
 
 /// Force [N] and torque [N m] on the body in `row` at the present step: sums, gravity.
 void scree_body_force(const scree_model *model, const scree_state *state, size_t row, scree_vector force,

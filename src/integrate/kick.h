@@ -1,5 +1,5 @@
-/// The one loop that both schemes are made of: v += h dt a, optionally x += dt v and, in 2D, angle += dt spin.
-/// Mass and inertia: m, m R^2 / 2 of a disc, 2 m R^2 / 5 of a sphere. Cost: two divisions and about 30 flops a body (50
+/// The one loop that all schemes are made of: v += h a, h in s, optionally x += dt v and, in 2D, angle += dt spin.
+/// Mass and inertia: m, m R^2 / 2 of a disc, 2 m R^2 / 5 of a sphere. Cost: one division and about 30 flops a body (50
 /// in 3D); streams one row and one sum, in 3D a row of spins and one of torques more.
 #ifndef SCREE_INTEGRATE_KICK_H
 #define SCREE_INTEGRATE_KICK_H
@@ -8,39 +8,64 @@
 #include "integrate/integrate.h"
 
 #include <math.h>
-#include <omp.h>
 
 /// Largest of |v| + R |w| (all) and of |v| (moving), over the bodies; NaN speeds count as infinite.
 typedef struct scree_speeds {
     double surface, centre;
 } scree_speeds;
 
-/// What one step adds: h times the quanta and gravity.
+/// What one step adds: h times the quanta and gravity. whole: of the part of a kick before a drift, all of it.
 typedef struct scree_kick_scale {
     double force, torque;
     double gravity[3];
+    double whole;
 } scree_kick_scale;
 
 #define KICK_INLINE static inline __attribute__((always_inline))
 
-KICK_INLINE void scree_kick_velocity(int dimension, scree_state *state, size_t i, const scree_kick_scale *scale)
+/// Adds to velocity and spin; returns what it has added, and the number of contacts.
+KICK_INLINE scree_foreseen scree_kick_velocity(int dimension, scree_state *state, size_t i,
+                                               const scree_kick_scale *scale)
 {
     scree_row *row = &state->row[i];
     const scree_sum_row *sum = &state->sum[i];
-    double inverse_mass = 1.0 / row->mass;
-    row->vx += (double)sum->fx * scale->force * inverse_mass + scale->gravity[0];
-    row->vy += (double)sum->fy * scale->force * inverse_mass + scale->gravity[1];
+    // One division for mass and inertia.
+    double square = row->radius * row->radius, inverse = 1.0 / (row->mass * square), inverse_mass = inverse * square;
+    scree_foreseen added = {.vx = (double)sum->fx * scale->force * inverse_mass + scale->gravity[0],
+                            .vy = (double)sum->fy * scale->force * inverse_mass + scale->gravity[1],
+                            .contacts = (double)sum->contacts};
+    row->vx += added.vx;
+    row->vy += added.vy;
     if (dimension == 2) {
-        row->spin += (double)sum->torque * scale->torque * 2.0 * inverse_mass / (row->radius * row->radius);
-        return;
+        added.spin = (double)sum->torque * (scale->torque * 2.0) * inverse;
+        row->spin += added.spin;
+        return added;
     }
     scree_turn_row *turn = &state->turn[i];
     const scree_torque_row *torque = &state->torque[i];
-    double inverse_inertia = scale->torque * 2.5 * inverse_mass / (row->radius * row->radius);
-    row->vz += (double)sum->fz * scale->force * inverse_mass + scale->gravity[2];
-    turn->wx += (double)torque->x * inverse_inertia;
-    turn->wy += (double)torque->y * inverse_inertia;
-    turn->wz += (double)torque->z * inverse_inertia;
+    double inverse_inertia = scale->torque * 2.5 * inverse;
+    added.vz = (double)sum->fz * scale->force * inverse_mass + scale->gravity[2];
+    added.wx = (double)torque->x * inverse_inertia;
+    added.wy = (double)torque->y * inverse_inertia;
+    added.wz = (double)torque->z * inverse_inertia;
+    row->vz += added.vz;
+    turn->wx += added.wx;
+    turn->wy += added.wy;
+    turn->wz += added.wz;
+    return added;
+}
+
+/// Keeps what a kick has added for the laws that look ahead.
+KICK_INLINE void scree_kick_foresee(int dimension, scree_foreseen *row, scree_foreseen added, double whole)
+{
+    row->vx = added.vx * whole;
+    row->vy = added.vy * whole;
+    row->spin = added.spin * whole;
+    row->contacts = added.contacts;
+    if (dimension == 2) return;
+    row->wx = added.wx * whole;
+    row->wy = added.wy * whole;
+    row->wz = added.wz * whole;
 }
 
 /// Moves a body; returns |v|^2, and R |w| in 2D, its square in 3D.
@@ -60,33 +85,60 @@ KICK_INLINE scree_speeds scree_drift(int dimension, scree_state *state, size_t i
     return (scree_speeds){.surface = row->radius * row->radius * spin2, .centre = speed2 + row->vz * row->vz};
 }
 
-KICK_INLINE scree_speeds scree_kick_loop(int dimension, scree_state *state, const scree_kick_scale *scale, bool drift,
-                                         int threads)
+/// What the members of a team share.
+typedef struct scree_kick_task {
+    scree_state *state;
+    scree_kick_scale scale;
+    bool drift;
+    scree_speeds speeds[SCREE_TEAM_MOST]; ///< as of scree_drift
+} scree_kick_task;
+
+KICK_INLINE scree_speeds scree_kick_loop(int dimension, const scree_kick_task *task, size_t begin, size_t end)
 {
+    scree_state *state = task->state;
     const double dt = state->step_size;
     double surface = 0, centre = 0;
-#pragma omp parallel for num_threads(threads) schedule(static) reduction(max : surface, centre) if (threads > 1)
-    for (size_t i = 0; i < state->count; i++) {
-        scree_kick_velocity(dimension, state, i, scale);
-        if (!drift) continue;
+    for (size_t i = begin; i < end; i++) {
+        scree_foreseen added = scree_kick_velocity(dimension, state, i, &task->scale);
+        if (!task->drift) continue;
+        if (state->foreseen) scree_kick_foresee(dimension, &state->foreseen[i], added, task->scale.whole);
         scree_speeds moved = scree_drift(dimension, state, i, dt);
         centre = moved.centre > centre ? moved.centre : centre;
         surface = moved.surface > surface ? moved.surface : surface;
         // A speed that is not a number would be lost by the comparisons above.
         if (!(moved.centre + moved.surface < (double)INFINITY)) centre = (double)INFINITY;
     }
-    centre = sqrt(centre);
-    return (scree_speeds){.surface = centre + (dimension == 2 ? surface : sqrt(surface)), .centre = centre};
+    return (scree_speeds){.surface = surface, .centre = centre};
 }
 
-static inline scree_speeds scree_kick(const scree_model *model, scree_state *state, double kick, bool drift,
-                                      int threads)
+static void scree_kick_share(void *argument, int index, int count)
 {
-    const double h = kick * state->step_size, *gravity = model->gravity;
-    const scree_kick_scale scale = {
-        state->force_quantum * h, state->torque_quantum * h, {gravity[0] * h, gravity[1] * h, gravity[2] * h}};
-    return state->dimension == 3 ? scree_kick_loop(3, state, &scale, drift, threads)
-                                 : scree_kick_loop(2, state, &scale, drift, threads);
+    scree_kick_task *task = argument;
+    size_t begin = task->state->count * (size_t)index / (size_t)count;
+    size_t end = task->state->count * (size_t)(index + 1) / (size_t)count;
+    task->speeds[index] =
+        task->state->dimension == 3 ? scree_kick_loop(3, task, begin, end) : scree_kick_loop(2, task, begin, end);
+}
+
+static inline scree_speeds scree_kick(const scree_model *model, scree_state *state, scree_work *work, double h,
+                                      bool drift)
+{
+    const double *gravity = model->gravity;
+    scree_kick_task task = {.state = state,
+                            .scale = {.force = state->force_quantum * h,
+                                      .torque = state->torque_quantum * h,
+                                      .gravity = {gravity[0] * h, gravity[1] * h, gravity[2] * h},
+                                      .whole = state->step_size / h},
+                            .drift = drift};
+    int count = scree_work_shares(work);
+    scree_team_run(&work->team, count, scree_kick_share, &task);
+    double surface = 0, centre = 0;
+    for (int k = 0; k < count; k++) {
+        surface = fmax(surface, task.speeds[k].surface);
+        centre = fmax(centre, task.speeds[k].centre);
+    }
+    centre = sqrt(centre);
+    return (scree_speeds){.surface = centre + (state->dimension == 2 ? surface : sqrt(surface)), .centre = centre};
 }
 
 /// Books the speeds of a drift: bound for the quanta, budget of the neighbour list, NaN flag.

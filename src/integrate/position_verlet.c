@@ -7,7 +7,7 @@
 
 static void first(const scree_model *model, scree_state *state, scree_work *work)
 {
-    scree_kick_book(state, work, scree_kick(model, state, 1.0, true, work->threads));
+    scree_kick_book(state, work, scree_kick(model, state, work, state->step_size, true));
 }
 
 const scree_integrator scree_position_verlet = {

@@ -6,5 +6,6 @@
 
 extern const scree_integrator scree_position_verlet;
 extern const scree_integrator scree_velocity_verlet;
+extern const scree_integrator scree_two_timescales;
 
 #endif

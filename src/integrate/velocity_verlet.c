@@ -7,12 +7,12 @@
 
 static void first(const scree_model *model, scree_state *state, scree_work *work)
 {
-    scree_kick_book(state, work, scree_kick(model, state, 0.5, true, work->threads));
+    scree_kick_book(state, work, scree_kick(model, state, work, 0.5 * state->step_size, true));
 }
 
 static void second(const scree_model *model, scree_state *state, scree_work *work)
 {
-    (void)scree_kick(model, state, 0.5, false, work->threads);
+    (void)scree_kick(model, state, work, 0.5 * state->step_size, false);
 }
 
 const scree_integrator scree_velocity_verlet = {

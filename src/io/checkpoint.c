@@ -218,6 +218,8 @@ static scree_status make_room(scree_state *state, const scree_field *field, size
     if (field->rows == SCREE_ROWS_DRIVE && state->drive.count == 0) return make_drive(&state->drive, rows, error);
     if (field->rows == SCREE_ROWS_MEMBRANE && state->membrane.count == 0)
         return make_membrane(&state->membrane, rows, error);
+    if (field->rows == SCREE_ROWS_BOOKING && rows > 0) return scree_state_add_booking(state, error);
+    if (field->rows == SCREE_ROWS_ROLLING && rows > 0) return scree_state_add_rolling(state, error);
     if (field->rows != SCREE_ROWS_CONTACTS || state->contact_count > 0) return SCREE_OK;
     scree_status status = scree_state_reserve_contacts(state, rows, error);
     if (!status) state->contact_count = rows;

@@ -138,8 +138,7 @@ static scree_status take_over(const char *path, bool force, scree_error *error)
     return status;
 }
 
-/// Makes `path` and the folders above it.
-static scree_status make_folders(const char *path, scree_error *error)
+scree_status scree_folders_make(const char *path, scree_error *error)
 {
     char part[PATH_MAX];
     scree_status status = scree_path_join(part, sizeof part, path, "", error);
@@ -164,7 +163,7 @@ scree_status scree_run_directory_create(const char *path, bool force, scree_erro
     if (strlen(path) + 1 + LONGEST_FILE_NAME >= PATH_MAX)
         return scree_error_set(error, SCREE_ERROR_INPUT, "the name of the run's folder has %zu bytes, at most %d work",
                                strlen(path), PATH_MAX - LONGEST_FILE_NAME - 2);
-    scree_status status = make_folders(path, error);
+    scree_status status = scree_folders_make(path, error);
     if (status || (status = take_over(path, force, error))) return status;
     for (size_t i = 0; i < OWN_FOLDER_COUNT; i++) {
         char folder[PATH_MAX];

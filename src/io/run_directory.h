@@ -22,6 +22,9 @@
 /// with it the files of the old run (only those that Scree writes) are removed first.
 scree_status scree_run_directory_create(const char *path, bool force, scree_error *error) SCREE_MUST_USE;
 
+/// Makes `path` and the folders above it. Errors: SCREE_ERROR_IO, SCREE_ERROR_INPUT when a file is in the way.
+scree_status scree_folders_make(const char *path, scree_error *error) SCREE_MUST_USE;
+
 /// Opens a temporary file beside `path`; scree_replace_finish flushes (fsync), checks and renames it over `path`,
 /// or removes it when `keep` is false. A full disk is reported by finish and leaves the old file as it was.
 scree_status scree_replace_begin(const char *path, FILE **file, scree_error *error) SCREE_MUST_USE;

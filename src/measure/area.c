@@ -1,6 +1,8 @@
-/// Area of the sample and of its Delaunay boundary (shoelace formula). Cost: O(length of the loop).
+/// Area and volume of the sample and of its Delaunay boundary (shoelace formula; hull.h). Cost: O(length of the loop),
+/// O(triangles of the hull).
 #include "measure/measure.h"
 
+#include "measure/hull.h"
 #include "measure/outline.h"
 
 double scree_loop_area(const scree_state *state)
@@ -15,6 +17,12 @@ double scree_loop_area(const scree_state *state)
     return area;
 }
 
+/// Distance of two opposite walls: their normals are opposite, so their positions add up to minus that.
+static double distance(const scree_wall *wall, int one, int other)
+{
+    return -(wall[one].position + wall[other].position);
+}
+
 double scree_sample_area(const scree_state *state)
 {
     const scree_wall *wall = state->wall;
@@ -22,8 +30,17 @@ double scree_sample_area(const scree_state *state)
     for (int w = 0; w <= SCREE_WALL_RIGHT; w++) closed = closed && wall[w].active;
     double centre[2];
     if (state->loop.count > 0 && !closed) return scree_outline_area(state, centre);
-    // Opposite walls have opposite normals: their positions add up to minus their distance.
-    double height = -(wall[SCREE_WALL_BOTTOM].position + wall[SCREE_WALL_TOP].position);
-    double width = -(wall[SCREE_WALL_LEFT].position + wall[SCREE_WALL_RIGHT].position);
-    return width * height;
+    return distance(wall, SCREE_WALL_LEFT, SCREE_WALL_RIGHT) * distance(wall, SCREE_WALL_BOTTOM, SCREE_WALL_TOP);
+}
+
+double scree_sample_volume(const scree_model *model, const scree_state *state)
+{
+    const scree_wall *wall = state->wall;
+    if (state->dimension == 2) return scree_sample_area(state) * model->thickness;
+    bool closed = true;
+    for (int w = 0; w < SCREE_WALL_COUNT; w++) closed = closed && wall[w].active;
+    scree_vector centre;
+    if (state->hull.node_count > 0 && !closed) return scree_hull_sample_volume(state, centre);
+    return distance(wall, SCREE_WALL_BOTTOM, SCREE_WALL_TOP) * distance(wall, SCREE_WALL_LEFT, SCREE_WALL_RIGHT) *
+           distance(wall, SCREE_WALL_FRONT, SCREE_WALL_BACK);
 }

@@ -166,19 +166,42 @@ static scree_status find_triangles(const scree_assembly *assembly, const double 
     return status;
 }
 
+/// Six volumes of a tetrahedron over the cube of its longest edge from the first corner.
+static double shape_of(const double *points, const uint32_t vertex[4])
+{
+    double edge[3][3], longest = 0;
+    for (int n = 0; n < 3; n++) {
+        double square = 0;
+        for (int k = 0; k < 3; k++) {
+            edge[n][k] = points[3 * (size_t)vertex[n + 1] + (size_t)k] - points[3 * (size_t)vertex[0] + (size_t)k];
+            square += edge[n][k] * edge[n][k];
+        }
+        longest = fmax(longest, square);
+    }
+    double volume = edge[0][0] * (edge[1][1] * edge[2][2] - edge[1][2] * edge[2][1]) +
+                    edge[0][1] * (edge[1][2] * edge[2][0] - edge[1][0] * edge[2][2]) +
+                    edge[0][2] * (edge[1][0] * edge[2][1] - edge[1][1] * edge[2][0]);
+    return volume / (longest * sqrt(longest));
+}
+
+/// Tetrahedra inside the hull. Flat ones, as lattices have them, count as outside.
 static scree_status find_tetrahedra(const scree_assembly *assembly, const double *points, double gap_limit,
                                     scree_cells *cells, scree_error *error)
 {
     scree_tetrahedra tetrahedra;
+    scree_surface surface = {0};
     scree_status status = scree_tetrahedra_build(points, assembly->count, &tetrahedra, error);
     if (status) return status;
     simplices all = {
         .count = tetrahedra.count, .tetrahedron = tetrahedra.vertex, .tetrahedron_neighbour = tetrahedra.neighbour};
     status = scree_allocate(&all.outside, all.count, 1, error);
     if (!status)
-        status = scree_tetrahedra_peel(&tetrahedra, points, assembly->radius, assembly->count, gap_limit, all.outside,
-                                       error);
+        status = scree_boundary_surface(&tetrahedra, points, assembly->radius, assembly->count, gap_limit, &surface,
+                                        all.outside, error);
+    for (size_t t = 0; t < all.count && !status; t++)
+        all.outside[t] = all.outside[t] == SCREE_TRIANGLE_CUT || shape_of(points, all.tetrahedron[t]) < 1e-9;
     if (!status) status = keep_inside(&all, assembly, cells, error);
+    scree_surface_destroy(&surface);
     scree_release(&all.outside);
     scree_tetrahedra_destroy(&tetrahedra);
     return status;

@@ -41,7 +41,7 @@ typedef struct scree_cells {
     size_t crossing, unassigned; ///< contacts that are no edge of a cell; of these, those that meet no cell at all
 } scree_cells;
 
-/// Cells inside the boundary of the assembly at its positions: the loop of search/delaunay.h, the peeled hull of
+/// Cells inside the boundary of the assembly at its positions: the loop of search/delaunay.h, the surface of
 /// search/tetrahedra.h. gap_limit: m, as for the boundary. Errors: memory, no triangulation.
 /// Cost: O(n log n): Delaunay is nearly all of it.
 scree_status scree_cells_build(const scree_assembly *assembly, double gap_limit, scree_cells *cells,

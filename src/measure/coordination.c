@@ -1,84 +1,194 @@
 /// Coordination number, with and without rattlers.
 ///
 /// A contact of two bodies counts once for each of them, a contact with a wall or a membrane once. A rattler is a body
-/// that cannot be in equilibrium with the contacts it has: fewer than two with friction (two contacts hold a disc when
-/// the line between them lies in both friction cones), fewer than three without. The pressure on the boundary is one
-/// more support of the bodies that carry it. A contact with a rattler bears no load, so rattlers are taken away and the
-/// rest is counted again, until nothing changes. Cost: O(contacts) a pass, a few passes.
+/// that cannot be in equilibrium with the contacts it has: too few, or all on one side. With friction two can hold it
+/// (the line between them in both friction cones), without friction it needs three in 2D and four in 3D. In 3D the
+/// forces of the contacts lie in cones of the friction angle phi about their normals, and can add up to nothing only if
+/// no direction makes less than 90 degrees - phi with all normals: that is, if the convex hull of the unit normals
+/// comes within sin(phi) of the origin. Its nearest point is approached by Gilbert's algorithm (1966), which bounds the
+/// distance from both sides. The pressure on the boundary is one more support, along its force, of the bodies that
+/// carry it; in 3D gravity acts on all. A contact with a rattler bears no load, so rattlers are taken away and the rest
+/// is counted again, until nothing changes. Cost: O(contacts) a pass, a few passes.
 #include "measure/measure.h"
 
-static uint32_t needed_supports(const scree_model *model)
+#include <math.h>
+
+/// Steps of Gilbert's algorithm; a body that is not decided after them counts as supported.
+#define GILBERT_STEPS 64
+/// Distance to which the hull of the normals is known to come near enough.
+#define GILBERT_TOLERANCE 1e-3
+
+static double largest_friction(const scree_model *model)
 {
     double friction = 0;
     for (int a = 0; a < model->material_count; a++)
-        for (int b = 0; b < model->material_count; b++)
-            if (model->pairs[a][b].friction > friction) friction = model->pairs[a][b].friction;
-    return friction > 0 ? 2 : 3;
+        for (int b = 0; b < model->material_count; b++) friction = fmax(friction, model->pairs[a][b].friction);
+    return friction;
 }
 
+/// Working arrays, by row.
+typedef struct supports {
+    uint32_t *contacts; ///< with bodies that are no rattlers
+    uint8_t *rattler, *pressed;
+    uint32_t *begin;      ///< 3D: of each row in `normal`, count + 1
+    scree_vector *normal; ///< 3D: of the contacts, towards the body, and the direction of the pressure
+    uint32_t *other;      ///< 3D: the other body; UINT32_MAX: a wall or the pressure
+    uint32_t needed;      ///< number of supports
+    double sine;          ///< of the friction angle
+} supports;
+
 /// Contacts between bodies that are not rattlers, by row.
-static void count_contacts(const scree_contact_table *table, const uint8_t *rattler, size_t count, uint32_t *contacts)
+static void count_contacts(const scree_contact_table *table, const supports *s, size_t count)
 {
-    for (size_t row = 0; row < count; row++) contacts[row] = 0;
+    for (size_t row = 0; row < count; row++) s->contacts[row] = 0;
     for (size_t c = 0; c < table->count; c++) {
         const scree_contact *contact = &table->contact[c];
         bool outer = scree_contact_is_outer(contact);
-        if (rattler[contact->first] || (!outer && rattler[contact->second])) continue;
-        contacts[contact->first]++;
-        if (!outer) contacts[contact->second]++;
+        if (s->rattler[contact->first] || (!outer && s->rattler[contact->second])) continue;
+        s->contacts[contact->first]++;
+        if (!outer) s->contacts[contact->second]++;
     }
 }
 
-static double mean_contacts(const uint32_t *contacts, const uint8_t *rattler, size_t count, size_t *bodies)
+static double mean_contacts(const supports *s, size_t count, size_t *bodies)
 {
     double sum = 0;
     *bodies = 0;
     for (size_t row = 0; row < count; row++) {
-        if (rattler[row]) continue;
-        sum += contacts[row];
+        if (s->rattler[row]) continue;
+        sum += s->contacts[row];
         (*bodies)++;
     }
     return *bodies > 0 ? sum / (double)*bodies : 0;
 }
 
-/// Marks the bodies with too few supports; true when there were any.
-static bool mark_rattlers(const uint32_t *contacts, const uint8_t *pressed, uint32_t needed, size_t count,
-                          uint8_t *rattler)
+static double dot(const scree_vector a, const scree_vector b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Whether the normals of a row that count leave a direction which makes less than 90 degrees - phi with all of them.
+static bool on_one_side(const supports *s, size_t row)
+{
+    scree_vector point = {0};
+    for (int step = 0; step < GILBERT_STEPS; step++) {
+        const double *farthest = NULL;
+        double least = INFINITY;
+        for (uint32_t k = s->begin[row]; k < s->begin[row + 1]; k++) {
+            if (s->other[k] != UINT32_MAX && s->rattler[s->other[k]]) continue;
+            double along = dot(s->normal[k], point);
+            if (along < least) {
+                least = along;
+                farthest = s->normal[k];
+            }
+        }
+        if (!farthest) return true;
+        if (step == 0) {
+            for (int k = 0; k < 3; k++) point[k] = farthest[k];
+            continue;
+        }
+        // The hull lies beyond the plane at `least / length` from the origin; its nearest point is no farther than
+        // this.
+        double length = scree_length(point);
+        if (length <= s->sine + GILBERT_TOLERANCE) return false;
+        if (least > s->sine * length) return true;
+        // The nearest point of the way to the farthest normal.
+        scree_vector way = {farthest[0] - point[0], farthest[1] - point[1], farthest[2] - point[2]};
+        double part = fmin(1, -dot(point, way) / dot(way, way));
+        for (int k = 0; k < 3; k++) point[k] += part * way[k];
+    }
+    return false;
+}
+
+/// Marks the bodies without support; true when there were any.
+static bool mark_rattlers(const supports *s, size_t count)
 {
     bool found = false;
     for (size_t row = 0; row < count; row++) {
-        if (rattler[row] || contacts[row] + pressed[row] >= needed) continue;
-        rattler[row] = 1;
+        if (s->rattler[row]) continue;
+        if (s->contacts[row] + s->pressed[row] >= s->needed && !(s->begin && on_one_side(s, row))) continue;
+        s->rattler[row] = 1;
         found = true;
     }
     return found;
 }
 
+static void mark_pressed(const scree_state *state, const supports *s)
+{
+    const scree_loop *loop = &state->loop;
+    for (size_t k = 0; k < loop->count; k++)
+        if (scree_direct_pressure(state) > 0 && (loop->loaded[k] || loop->loaded[k > 0 ? k - 1 : loop->count - 1]))
+            s->pressed[state->row_of_id[loop->id[k]]] = 1;
+    for (size_t k = 0; k < state->hull.node_count; k++)
+        if (scree_length(state->hull.force[k]) > 0) s->pressed[state->row_of_id[state->hull.id[k]]] = 1;
+}
+
+/// Puts a support behind those that the row has already; begin[row + 1] is where.
+static void add_normal(const supports *s, size_t row, const scree_vector normal, double sign, uint32_t other)
+{
+    uint32_t place = s->begin[row + 1]++;
+    for (int k = 0; k < 3; k++) s->normal[place][k] = sign * normal[k];
+    s->other[place] = other;
+}
+
+/// 3D: the directions of the supports of every row.
+static scree_status collect_normals(const scree_model *model, const scree_state *state,
+                                    const scree_contact_table *table, supports *s, scree_error *error)
+{
+    double weight = scree_length(model->gravity);
+    size_t room = 2 * table->count + state->hull.node_count + state->count;
+    scree_status status = scree_allocate(&s->begin, state->count + 2, sizeof *s->begin, error);
+    if (!status) status = scree_allocate(&s->normal, room, sizeof *s->normal, error);
+    if (!status) status = scree_allocate(&s->other, room, sizeof *s->other, error);
+    if (status) return status;
+    // After this begin[row + 1] is the start of the row; filling advances it to the end.
+    for (size_t c = 0; c < table->count; c++) {
+        s->begin[table->contact[c].first + 2]++;
+        if (!scree_contact_is_outer(&table->contact[c])) s->begin[table->contact[c].second + 2]++;
+    }
+    for (size_t row = 0; row < state->count; row++)
+        s->begin[row + 2] += s->begin[row + 1] + s->pressed[row] + (weight > 0);
+    for (size_t c = 0; c < table->count; c++) {
+        const scree_contact *contact = &table->contact[c];
+        add_normal(s, contact->first, contact->normal, 1,
+                   scree_contact_is_outer(contact) ? UINT32_MAX : contact->second);
+        if (!scree_contact_is_outer(contact)) add_normal(s, contact->second, contact->normal, -1, contact->first);
+    }
+    for (size_t k = 0; k < state->hull.node_count; k++) {
+        const double *force = state->hull.force[k], length = scree_length(force);
+        if (length > 0) add_normal(s, state->row_of_id[state->hull.id[k]], force, 1 / length, UINT32_MAX);
+    }
+    for (size_t row = 0; row < state->count && weight > 0; row++)
+        add_normal(s, row, model->gravity, 1 / weight, UINT32_MAX);
+    return SCREE_OK;
+}
+
 scree_status scree_coordination_measure(const scree_model *model, const scree_state *state,
                                         const scree_contact_table *table, scree_coordination *out, scree_error *error)
 {
-    uint32_t *contacts = NULL;
-    uint8_t *rattler = NULL, *pressed = NULL;
-    scree_status status = scree_allocate(&contacts, state->count, sizeof *contacts, error);
-    if (!status) status = scree_allocate(&rattler, state->count, sizeof *rattler, error);
-    if (!status) status = scree_allocate(&pressed, state->count, sizeof *pressed, error);
+    double friction = largest_friction(model);
+    supports s = {.needed = friction > 0 ? 2 : (uint32_t)state->dimension + 1,
+                  .sine = friction / sqrt(1 + friction * friction)};
+    scree_status status = scree_allocate(&s.contacts, state->count, sizeof *s.contacts, error);
+    if (!status) status = scree_allocate(&s.rattler, state->count, sizeof *s.rattler, error);
+    if (!status) status = scree_allocate(&s.pressed, state->count, sizeof *s.pressed, error);
+    if (!status) mark_pressed(state, &s);
+    if (!status && state->dimension == 3) status = collect_normals(model, state, table, &s, error);
     if (!status) {
-        const scree_loop *loop = &state->loop;
-        for (size_t k = 0; k < loop->count; k++)
-            if (scree_direct_pressure(state) > 0 && (loop->loaded[k] || loop->loaded[k > 0 ? k - 1 : loop->count - 1]))
-                pressed[state->row_of_id[loop->id[k]]] = 1;
         size_t bodies;
         // Bodies of a membrane are no part of the assembly.
-        for (size_t row = 0; row < state->count; row++) rattler[row] = !scree_body_is_grain(state, row);
-        count_contacts(table, rattler, state->count, contacts);
-        out->mean = mean_contacts(contacts, rattler, state->count, &bodies);
-        while (mark_rattlers(contacts, pressed, needed_supports(model), state->count, rattler))
-            count_contacts(table, rattler, state->count, contacts);
-        out->mean_without_rattlers = mean_contacts(contacts, rattler, state->count, &bodies);
+        for (size_t row = 0; row < state->count; row++) s.rattler[row] = !scree_body_is_grain(state, row);
+        count_contacts(table, &s, state->count);
+        out->mean = mean_contacts(&s, state->count, &bodies);
+        while (mark_rattlers(&s, state->count)) count_contacts(table, &s, state->count);
+        out->mean_without_rattlers = mean_contacts(&s, state->count, &bodies);
         out->rattler_fraction = state->grains > 0 ? 1 - (double)bodies / (double)state->grains : 0;
     }
-    scree_release(&contacts);
-    scree_release(&rattler);
-    scree_release(&pressed);
+    scree_release(&s.contacts);
+    scree_release(&s.rattler);
+    scree_release(&s.pressed);
+    scree_release(&s.begin);
+    scree_release(&s.normal);
+    scree_release(&s.other);
     return status;
 }

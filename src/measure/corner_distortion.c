@@ -65,7 +65,9 @@ scree_status scree_corner_distortion(const scree_model *model, const scree_state
     if (status) return status;
     columns c = {room, room + n, room + 2 * n, room + 3 * n, room + 4 * n, room + 5 * n, n};
     fill(state, &c);
-    (void)scree_fluctuations(c.x0, c.y0, c.x1, c.y1, n, c.fx, c.fy, gradient);
+    const double *const from[] = {c.x0, c.y0}, *const to[] = {c.x1, c.y1};
+    double *const fluctuation[] = {c.fx, c.fy};
+    (void)scree_fluctuations(2, from, to, n, fluctuation, gradient);
     find_range(c.x0, n, x);
     find_range(c.y0, n, y);
     for (int k = 0; k < 4; k++)

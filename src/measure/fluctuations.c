@@ -1,12 +1,12 @@
 /// Displacement fluctuations relative to the affine field u = a + G (x - mean x) that fits all displacements best
-/// (least squares; P figs. 2.6, 3.7-3.9 show them). G solves the 2 x 2 normal equations G M = C with the centred
-/// moments M = sum dx (x) dx and C = sum du (x) dx. Bodies on a line have no gradient across it: then G = 0. Cost:
-/// O(count).
+/// (least squares; P figs. 2.6, 3.7-3.9 show them). G solves the normal equations G M = C with the centred moments
+/// M = sum dx (x) dx and C = sum du (x) dx, by Cholesky's factors of M. Bodies on a line (in a plane) have no gradient
+/// across it: then G = 0. Cost: O(count).
 #include "measure/measure.h"
 
 #include <math.h>
 
-/// Relative determinant of M below which all points count as lying on one line.
+/// Square of a diagonal Cholesky factor over the trace of M below which all points count as lying on one line or plane.
 #define DEGENERATE 1e-12
 
 static double mean_difference(const double *from, const double *to, size_t count)
@@ -16,45 +16,60 @@ static double mean_difference(const double *from, const double *to, size_t count
     return sum / (double)count;
 }
 
-static void solve_gradient(const double moment[3], const double mixed[4], double gradient[4])
+/// Turns the lower half of the moments into their Cholesky factor; false when they are degenerate.
+static bool factorise(int n, double m[3][3])
 {
-    double determinant = moment[0] * moment[2] - moment[1] * moment[1], trace = moment[0] + moment[2];
-    bool solvable = determinant > DEGENERATE * trace * trace;
-    for (int i = 0; i < 2; i++) {
-        const double *c = mixed + 2 * i;
-        gradient[2 * i] = solvable ? (c[0] * moment[2] - c[1] * moment[1]) / determinant : 0;
-        gradient[2 * i + 1] = solvable ? (c[1] * moment[0] - c[0] * moment[1]) / determinant : 0;
+    double trace = 0;
+    for (int i = 0; i < n; i++) trace += m[i][i];
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j <= i; j++) {
+            for (int k = 0; k < j; k++) m[i][j] -= m[i][k] * m[j][k];
+            if (i == j && !(m[i][i] > DEGENERATE * trace)) return false;
+            m[i][j] = i == j ? sqrt(m[i][i]) : m[i][j] / m[j][j];
+        }
+    return true;
+}
+
+/// Row of G from its row of C.
+static void solve_row(int n, double factor[3][3], const double *mixed, double *row)
+{
+    for (int i = 0; i < n; i++) {
+        row[i] = mixed[i];
+        for (int k = 0; k < i; k++) row[i] -= factor[i][k] * row[k];
+        row[i] /= factor[i][i];
+    }
+    for (int i = n - 1; i >= 0; i--) {
+        for (int k = i + 1; k < n; k++) row[i] -= factor[k][i] * row[k];
+        row[i] /= factor[i][i];
     }
 }
 
-double scree_fluctuations(const double *x0, const double *y0, const double *x1, const double *y1, size_t count,
-                          double *fx, double *fy, double gradient[4])
+double scree_fluctuations(int dimension, const double *const *from, const double *const *to, size_t count,
+                          double *const *fluctuation, double *gradient)
 {
-    if (count == 0) {
-        for (int i = 0; i < 4; i++) gradient[i] = 0;
-        return 0;
+    double centre[3] = {0}, shift[3] = {0}, moment[3][3] = {{0}}, mixed[3][3] = {{0}}, square = 0;
+    for (int i = 0; i < dimension * dimension; i++) gradient[i] = 0;
+    if (count == 0) return 0;
+    for (int k = 0; k < dimension; k++) {
+        centre[k] = mean_difference(NULL, from[k], count);
+        shift[k] = mean_difference(from[k], to[k], count);
     }
-    double centre[2] = {mean_difference(NULL, x0, count), mean_difference(NULL, y0, count)};
-    double shift[2] = {mean_difference(x0, x1, count), mean_difference(y0, y1, count)};
-    double moment[3] = {0}, mixed[4] = {0};
-    for (size_t i = 0; i < count; i++) {
-        double dx = x0[i] - centre[0], dy = y0[i] - centre[1];
-        double ux = x1[i] - x0[i] - shift[0], uy = y1[i] - y0[i] - shift[1];
-        moment[0] += dx * dx;
-        moment[1] += dx * dy;
-        moment[2] += dy * dy;
-        mixed[0] += ux * dx;
-        mixed[1] += ux * dy;
-        mixed[2] += uy * dx;
-        mixed[3] += uy * dy;
-    }
-    solve_gradient(moment, mixed, gradient);
-    double square = 0;
-    for (size_t i = 0; i < count; i++) {
-        double dx = x0[i] - centre[0], dy = y0[i] - centre[1];
-        fx[i] = x1[i] - x0[i] - shift[0] - gradient[0] * dx - gradient[1] * dy;
-        fy[i] = y1[i] - y0[i] - shift[1] - gradient[2] * dx - gradient[3] * dy;
-        square += fx[i] * fx[i] + fy[i] * fy[i];
-    }
+    for (size_t n = 0; n < count; n++)
+        for (int j = 0; j < dimension; j++) {
+            double away = from[j][n] - centre[j];
+            for (int i = 0; i < dimension; i++) {
+                moment[i][j] += (from[i][n] - centre[i]) * away;
+                mixed[i][j] += (to[i][n] - from[i][n] - shift[i]) * away;
+            }
+        }
+    if (factorise(dimension, moment))
+        for (int i = 0; i < dimension; i++) solve_row(dimension, moment, mixed[i], gradient + dimension * i);
+    for (size_t n = 0; n < count; n++)
+        for (int i = 0; i < dimension; i++) {
+            double rest = to[i][n] - from[i][n] - shift[i];
+            for (int j = 0; j < dimension; j++) rest -= gradient[dimension * i + j] * (from[j][n] - centre[j]);
+            fluctuation[i][n] = rest;
+            square += rest * rest;
+        }
     return sqrt(square / (double)count);
 }

@@ -14,8 +14,11 @@ double scree_loop_area(const scree_state *state);
 /// the plates. Outline in outline.h. With all four plates active: their box.
 double scree_sample_area(const scree_state *state);
 
+/// Volume of the sample [m3]: in 2D scree_sample_area * thickness; in 3D the same between plates and hull (hull.h).
+double scree_sample_volume(const scree_model *model, const scree_state *state);
+
 /// Average stress from contacts (Christoffersen, Mehrabadi and Nemat-Nasser 1981), walls included:
-/// sigma = -(1/V) sum_c f (x) branch, f the force on `first`; volume V [m3] = scree_sample_area * thickness. In
+/// sigma = -(1/V) sum_c f (x) branch, f the force on `first`; volume V [m3] = scree_sample_volume. In
 /// equilibrium equal to the stress that the boundary applies; in motion less by (1/V) sum m a (x) x: see stress.c.
 /// stress [Pa] out 9: row the direction of the force, column that of the branch.
 void scree_stress_from_contacts(const scree_contact_table *table, double volume, double stress[9]);
@@ -64,9 +67,9 @@ double scree_unbalanced_ratio(const scree_model *model, const scree_state *state
 double scree_mean_unbalanced_ratio(const scree_model *model, const scree_state *state,
                                    const scree_contact_table *table);
 
-/// Solid fraction inside the Delaunay boundary: disc areas (partial ones at the boundary by angle) over loop area. NAN
-/// without a loop.
-double scree_solid_fraction(const scree_state *state);
+/// Solid fraction inside the Delaunay boundary: disc areas (partial ones at the boundary by angle) over loop area,
+/// sphere volumes over hull volume. NAN without a boundary. Errors: memory.
+scree_status scree_solid_fraction(const scree_state *state, double *fraction, scree_error *error) SCREE_MUST_USE;
 
 /// How far the corners of the sample leave the affine motion of all grains, since the begin of the loading stage
 /// (state->reference): 1, the largest over the corners, relative to the width of the sample at the begin
@@ -82,13 +85,17 @@ typedef struct scree_energy {
     double relative; ///< |residual| / turnover of work
 } scree_energy;
 /// Energies at step n by the scheme's own discrete definition (kinetic = 1/2 m v(n-1/2).v(n+1/2)), and the residual.
+/// Books what a change of the step from `before` to `after` [s] does to the kinetic energy of the scheme; between two
+/// steps.
+void scree_energy_change_step(const scree_model *model, scree_state *state, double before, double after);
+
 void scree_energy_measure(const scree_model *model, const scree_state *state, const scree_contact_table *table,
                           scree_energy *energy);
 
 /// Displacement of each body relative to an affine field fitted by least squares to all displacements (P
-/// figs. 2.6, 3.7). x0, y0, x1, y1: count [m]; fx, fy out: count [m]; gradient out: 2 x 2 of the affine part; returns
-/// rms fluctuation [m].
-double scree_fluctuations(const double *x0, const double *y0, const double *x1, const double *y1, size_t count,
-                          double *fx, double *fy, double gradient[4]);
+/// figs. 2.6, 3.7). from, to: dimension arrays of count [m], one a component; fluctuation out: the same [m]; gradient
+/// out: dimension x dimension of the affine part; returns rms fluctuation [m].
+double scree_fluctuations(int dimension, const double *const *from, const double *const *to, size_t count,
+                          double *const *fluctuation, double *gradient);
 
 #endif

@@ -5,20 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-typedef void visitor(void *user, const scree_outline_segment *segment);
-
-void scree_loop_position(const scree_state *state, size_t k, double position[2])
-{
-    const scree_row *row = &state->row[state->row_of_id[state->loop.id[k]]];
-    position[0] = row->x;
-    position[1] = row->y;
-}
-
-static size_t next_place(const scree_loop *loop, size_t k)
-{
-    return k + 1 < loop->count ? k + 1 : 0;
-}
-
 static double distance_to(const scree_wall *wall, const double x[2])
 {
     return wall->normal[0] * x[0] + wall->normal[1] * x[1] - wall->position;
@@ -48,7 +34,7 @@ static void foot_on(const scree_wall *wall, const double x[2], double foot[2])
     foot[1] = wall->position * wall->normal[1] + along * wall->normal[0];
 }
 
-static void emit(visitor *visit, void *user, scree_outline_kind kind, int wall, const double from[2],
+static void emit(scree_outline_visitor *visit, void *user, scree_outline_kind kind, int wall, const double from[2],
                  const double to[2], size_t first, size_t second)
 {
     scree_outline_segment segment = {
@@ -56,12 +42,11 @@ static void emit(visitor *visit, void *user, scree_outline_kind kind, int wall, 
     visit(user, &segment);
 }
 
-/// The three segments that stand for the run of unloaded edges which begins at place k.
-static void emit_run(const scree_state *state, visitor *visit, void *user, size_t k)
+void scree_outline_visit_run(const scree_state *state, scree_outline_visitor *visit, void *user, size_t k)
 {
     const scree_loop *loop = &state->loop;
     size_t end = k;
-    while (!loop->loaded[end]) end = next_place(loop, end);
+    while (!loop->loaded[end]) end = scree_loop_next(loop, end);
     double a[2], b[2], foot_a[2], foot_b[2];
     scree_loop_position(state, k, a);
     scree_loop_position(state, end, b);
@@ -77,23 +62,9 @@ static void emit_run(const scree_state *state, visitor *visit, void *user, size_
     emit(visit, user, SCREE_OUTLINE_END, wall, foot_b, b, end, end);
 }
 
-void scree_outline_visit(const scree_state *state, visitor *visit, void *user)
+void scree_outline_visit(const scree_state *state, scree_outline_visitor *visit, void *user)
 {
-    const scree_loop *loop = &state->loop;
-    if (loop->count == 0) return;
-    bool any = memchr(loop->loaded, 1, loop->count) != NULL;
-    double a[2], b[2];
-    scree_loop_position(state, 0, a);
-    for (size_t k = 0; k < loop->count; k++) {
-        size_t next = next_place(loop, k), previous = k > 0 ? k - 1 : loop->count - 1;
-        scree_loop_position(state, next, b);
-        if (!any || loop->loaded[k])
-            emit(visit, user, any ? SCREE_OUTLINE_EDGE : SCREE_OUTLINE_BARE, -1, a, b, k, next);
-        else if (loop->loaded[previous])
-            emit_run(state, visit, user, k);
-        a[0] = b[0];
-        a[1] = b[1];
-    }
+    scree_outline_walk(state, visit, user);
 }
 
 typedef struct area_sum {

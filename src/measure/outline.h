@@ -13,6 +13,7 @@
 #include "state/state.h"
 
 #include <stdbool.h>
+#include <string.h>
 
 typedef enum scree_outline_kind {
     SCREE_OUTLINE_EDGE, ///< between two discs; pressure shared equally by the two
@@ -27,13 +28,49 @@ typedef struct scree_outline_segment {
     int wall;              ///< the plate that SCREE_OUTLINE_END and _BARE belong to; -1: none
 } scree_outline_segment;
 
+typedef void scree_outline_visitor(void *user, const scree_outline_segment *segment);
+
 /// Calls `visit` for every segment, at the present positions of the bodies. Nothing when there is no loop.
 /// Cost: O(length of the loop).
-void scree_outline_visit(const scree_state *state, void (*visit)(void *user, const scree_outline_segment *segment),
-                         void *user);
+void scree_outline_visit(const scree_state *state, scree_outline_visitor *visit, void *user);
+
+/// The three segments that stand for the run of unloaded edges which begins at place k.
+void scree_outline_visit_run(const scree_state *state, scree_outline_visitor *visit, void *user, size_t k);
 
 /// Present position [m] of the body at place k of the loop.
-void scree_loop_position(const scree_state *state, size_t k, double position[2]);
+static inline void scree_loop_position(const scree_state *state, size_t k, double position[2])
+{
+    const scree_row *row = &state->row[state->row_of_id[state->loop.id[k]]];
+    position[0] = row->x;
+    position[1] = row->y;
+}
+
+static inline size_t scree_loop_next(const scree_loop *loop, size_t k)
+{
+    return k + 1 < loop->count ? k + 1 : 0;
+}
+
+/// scree_outline_visit with the visitor inlined, for what happens in every step.
+static inline __attribute__((always_inline)) void scree_outline_walk(const scree_state *state,
+                                                                     scree_outline_visitor *visit, void *user)
+{
+    const scree_loop *loop = &state->loop;
+    if (loop->count == 0) return;
+    bool any = memchr(loop->loaded, 1, loop->count) != NULL;
+    scree_outline_segment edge = {.kind = any ? SCREE_OUTLINE_EDGE : SCREE_OUTLINE_BARE, .wall = -1};
+    scree_loop_position(state, 0, edge.to);
+    for (size_t k = 0; k < loop->count; k++) {
+        edge.first = k;
+        edge.second = scree_loop_next(loop, k);
+        edge.from[0] = edge.to[0];
+        edge.from[1] = edge.to[1];
+        scree_loop_position(state, edge.second, edge.to);
+        if (!any || loop->loaded[k])
+            visit(user, &edge);
+        else if (loop->loaded[k > 0 ? k - 1 : loop->count - 1])
+            scree_outline_visit_run(state, visit, user, k);
+    }
+}
 
 /// Length [m] of the bottom or top plate that the outline runs along, from corner to corner: what the plate has to
 /// carry under an all-round pressure p is p x this length x thickness, and with that the sample is in equilibrium. 0

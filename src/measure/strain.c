@@ -1,10 +1,14 @@
-/// Strain from the motion of a closed loop (Bagi 1996; P 3.1-3.3): see polygon.h for the formula and its exactness.
+/// Strain from the motion of a closed loop or hull (Bagi 1996; P 3.1-3.3): see polygon.h and polyhedron.h for the
+/// formula and its exactness.
 /// Accumulation: each increment is taken on its own mid configuration, so the sum is the logarithmic strain of the
-/// region to third order in the increments, and its trace the logarithm of the area ratio. Cost: O(length of the loop).
+/// region to third order in the increments, and its trace the logarithm of the area (volume) ratio. Cost: O(length
+/// of the loop), O(triangles of the hull).
 #include "measure/measure.h"
 
+#include "measure/hull.h"
 #include "measure/outline.h"
 #include "measure/polygon.h"
+#include "measure/polyhedron.h"
 
 void scree_loop_gradient(const double *x, const double *y, const double *ux, const double *uy, size_t count,
                          double gradient[4])
@@ -20,7 +24,8 @@ void scree_loop_gradient(const double *x, const double *y, const double *ux, con
     scree_polygon_finish(&sum, gradient);
 }
 
-void scree_strain_measure(const scree_state *state, double gradient[9])
+/// Increment of the loop since its update, 2 x 2.
+static void loop_increment(const scree_state *state, double increment[4])
 {
     const scree_loop *loop = &state->loop;
     scree_polygon_sum sum = {0};
@@ -37,9 +42,41 @@ void scree_strain_measure(const scree_state *state, double gradient[9])
             ua[i] = ub[i];
         }
     }
-    double increment[4];
     scree_polygon_finish(&sum, increment);
+}
+
+/// Increment of the hull since its update. Places are relative to the first node, which keeps the digits of the volume,
+/// and so are displacements: a common part of them adds up to nothing.
+static void hull_increment(const scree_state *state, double increment[9])
+{
+    const scree_hull *hull = &state->hull;
+    scree_polyhedron_sum sum = {0};
+    scree_vector first = {0};
+    if (hull->node_count > 0) scree_hull_position(state, 0, first);
+    for (size_t t = 0; t < hull->triangle_count; t++) {
+        scree_vector x[3], u[3];
+        scree_hull_corners(state, t, first, u);
+        for (int c = 0; c < 3; c++)
+            for (int k = 0; k < 3; k++) {
+                x[c][k] = hull->place[hull->triangle[t][c]][k] - hull->place[0][k];
+                u[c][k] -= x[c][k];
+            }
+        scree_polyhedron_add(&sum, x, u);
+    }
+    scree_polyhedron_finish(&sum, increment);
+}
+
+void scree_strain_measure(const scree_state *state, double gradient[9])
+{
     for (int i = 0; i < 9; i++) gradient[i] = state->strain.gradient[i];
+    if (state->dimension == 3) {
+        double increment[9];
+        hull_increment(state, increment);
+        for (int i = 0; i < 9; i++) gradient[i] += increment[i];
+        return;
+    }
+    double increment[4];
+    loop_increment(state, increment);
     for (int i = 0; i < 2; i++)
         for (int j = 0; j < 2; j++) gradient[3 * i + j] += increment[2 * i + j];
 }

@@ -13,7 +13,7 @@
 /// side is taken about the centre of the sample. Moments: sigma is symmetric as far as the bodies are in rotational
 /// equilibrium.
 ///
-/// V = scree_sample_area * thickness is the volume to divide by: its outline runs along the plates, where their forces
+/// V = scree_sample_volume is the volume to divide by: its outline runs along the plates, where their forces
 /// act, and through the centres of the pressed bodies, where theirs do. So a sample under pressure p on all sides has
 /// sigma = -p exactly (integral of n (x) x over a closed outline = area), and the lateral stress of the boundary is -p
 /// for any shape of the sides. Sources: Christoffersen, Mehrabadi, Nemat-Nasser 1981 (contact stress); Bagi 1996
@@ -21,6 +21,7 @@
 #include "measure/measure.h"
 
 #include "measure/facets.h"
+#include "measure/hull.h"
 #include "measure/outline.h"
 
 #include <math.h>
@@ -73,6 +74,18 @@ static void add_pressure(void *user, const scree_outline_segment *segment)
     add_product(pressure->sum, force, middle);
 }
 
+/// The same of the hull, whose forces at its bodies are kept.
+static void add_hull_pressure(const scree_state *state, pressure_sum *pressure)
+{
+    (void)scree_hull_sample_volume(state, pressure->centre);
+    for (size_t k = 0; k < state->hull.node_count; k++) {
+        scree_vector place;
+        scree_hull_position(state, k, place);
+        for (int i = 0; i < 3; i++) place[i] -= pressure->centre[i];
+        add_product(pressure->sum, state->hull.force[k], place);
+    }
+}
+
 /// Forces of imposed rates on the bodies of the boundary.
 static void add_drive(const scree_state *state, const scree_vector centre, double sum[9])
 {
@@ -88,6 +101,10 @@ static void add_drive(const scree_state *state, const scree_vector centre, doubl
 static pressure_sum sum_pressure(const scree_model *model, const scree_state *state, double applied)
 {
     pressure_sum pressure = {.state = state, .traction = applied * model->thickness};
+    if (state->dimension == 3) {
+        add_hull_pressure(state, &pressure);
+        return pressure;
+    }
     scree_outline_area(state, pressure.centre);
     if (pressure.traction > 0) scree_outline_visit(state, add_pressure, &pressure);
     return pressure;
@@ -97,7 +114,7 @@ void scree_stress_from_boundary(const scree_model *model, const scree_state *sta
                                 double stress[9])
 {
     pressure_sum pressure = sum_pressure(model, state, scree_direct_pressure(state));
-    double volume = scree_sample_area(state) * model->thickness;
+    double volume = scree_sample_volume(model, state);
     scree_vector force;
     for (size_t c = 0; c < table->count; c++) {
         const scree_contact *contact = &table->contact[c];
@@ -125,6 +142,13 @@ static void add_wall(const scree_wall *wall, const scree_vector centre, double s
     add_product(sum, force, point);
 }
 
+/// Whether a plate across this axis is active.
+static bool has_plates(const scree_state *state, int axis)
+{
+    int low = axis == state->dimension - 1 ? SCREE_WALL_BOTTOM : axis == 0 ? SCREE_WALL_LEFT : SCREE_WALL_FRONT;
+    return state->wall[low].active || state->wall[low + 1].active;
+}
+
 void scree_stress_from_plates(const scree_model *model, const scree_state *state, double stress[9])
 {
     pressure_sum pressure = sum_pressure(model, state, state->pressure);
@@ -132,15 +156,20 @@ void scree_stress_from_plates(const scree_model *model, const scree_state *state
     for (int w = 0; w < SCREE_WALL_COUNT; w++)
         if (wall[w].active) add_wall(&wall[w], pressure.centre, pressure.sum);
     add_drive(state, pressure.centre, pressure.sum);
-    double volume = scree_sample_area(state) * model->thickness;
+    double volume = scree_sample_volume(model, state);
     for (int i = 0; i < 9; i++) stress[i] = pressure.sum[i] / volume;
 
     // What cannot be known from the resultants of the walls: see measure.h.
-    bool pressed = state->pressure > 0 && state->loop.count > 0;
-    bool axial = wall[SCREE_WALL_BOTTOM].active || wall[SCREE_WALL_TOP].active;
-    bool lateral = wall[SCREE_WALL_LEFT].active || wall[SCREE_WALL_RIGHT].active;
-    if (!lateral && !pressed) stress[0] = NAN;
-    if (!axial && !pressed) stress[4] = NAN;
-    if (axial) stress[3] = lateral ? NAN : stress[1];
-    if (lateral) stress[1] = axial ? NAN : stress[3];
+    int dimension = state->dimension, active = 0;
+    bool pressed = state->pressure > 0 && (state->loop.count > 0 || state->hull.node_count > 0), plates[3];
+    for (int k = 0; k < dimension; k++) active += plates[k] = has_plates(state, k);
+    double known[9];
+    for (int i = 0; i < 9; i++) known[i] = stress[i];
+    for (int i = 0; i < dimension; i++)
+        for (int j = 0; j < dimension; j++) {
+            // Plates across another axis than j apply forces at unknown places along j.
+            bool here = active == plates[j], mirrored = active == plates[i];
+            if (i != j && !here) stress[3 * i + j] = mirrored ? known[3 * j + i] : NAN;
+            if (i == j && !pressed && !plates[i]) stress[4 * i] = NAN;
+        }
 }

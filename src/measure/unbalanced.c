@@ -44,7 +44,7 @@ double scree_unbalanced_ratio(const scree_model *model, const scree_state *state
 
 static void mean_force(const scree_model *model, const scree_state *state, size_t row, scree_vector force)
 {
-    double time = (double)(state->step - state->sampled_step) * state->step_size, mass = state->row[row].mass;
+    double time = (double)(state->step - state->sampled_step) * state->tick, mass = state->row[row].mass;
     scree_vector velocity, spin;
     scree_body_velocity(model, state, row, velocity, spin);
     for (int k = 0; k < 3; k++) force[k] = mass * (velocity[k] - state->sampled_velocity[row][k]) / time;

@@ -64,7 +64,7 @@ scree_contact_tangent scree_contact_linearise(const scree_model *model, const sc
     indentation *= indentation;
     double secant = pair->normal_stiffness * root * sqrt(indentation);
     scree_contact_tangent tangent = {.normal_stiffness = 1.5 * secant};
-    if (model->law == SCREE_LAW_HERTZ_BRILLIANTOV) {
+    if (model->law != SCREE_LAW_HERTZ_MINDLIN) {
         tangent.normal_damping = model->damping_time * secant;
         return tangent;
     }
@@ -104,12 +104,14 @@ static double sample_height(const scree_model *model, const scree_config_stage *
 {
     const scree_config *config = model->config;
     bool gas = stage && stage->method == SCREE_PREPARE_GAS;
-    double phi = gas ? stage->solid_fraction : solid_fraction(model), radius = model->mean_radius;
+    double phi = gas ? scree_model_gas_fraction(model, stage) : solid_fraction(model), radius = model->mean_radius;
     double aspect = stage ? stage->aspect_ratio : 1, count = (double)config->particles.count;
     if (model->dimension == 3) {
         double volume = count * 4.0 / 3.0 * M_PI * radius * radius * radius / phi;
-        if (stage && !isnan(stage->width)) return volume / (stage->width * stage->width);
-        return cbrt(volume * aspect * aspect);
+        double width = stage ? stage->width : NAN, depth = stage ? stage->depth : NAN;
+        if (isnan(width) && !isnan(depth)) return sqrt(volume * aspect / depth);
+        if (isnan(width)) return cbrt(volume * aspect * aspect);
+        return volume / (width * (isnan(depth) ? width : depth));
     }
     double area = count * M_PI * radius * radius / phi;
     if (stage && !isnan(stage->width)) return area / stage->width;

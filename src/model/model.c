@@ -166,15 +166,19 @@ static scree_status resolve_membrane(scree_model *model, scree_error *error)
 static scree_status check_prepare(const scree_model *model, int64_t index, scree_error *error)
 {
     const scree_config_stage *stage = &model->config->stages[index];
-    bool lattice = stage->method == SCREE_PREPARE_HEXAGONAL || stage->method == SCREE_PREPARE_SQUARE;
+    bool lattice = stage->method == SCREE_PREPARE_HEXAGONAL || stage->method == SCREE_PREPARE_SQUARE ||
+                   stage->method == SCREE_PREPARE_FACE_CENTRED || stage->method == SCREE_PREPARE_CUBIC;
+    bool solid = model->dimension == 3;
     if (lattice && model->radius_min < model->radius_max)
         return indexed_error(error, "stages", index, "method",
                              "a lattice needs particles of one radius: set particles.distribution to equal");
-    if (!isnan(stage->width) && stage->width < 2 * model->radius_max) {
+    bool shallow = solid && !isnan(stage->depth) && stage->depth < 2 * model->radius_max;
+    if (shallow || (!isnan(stage->width) && stage->width < 2 * model->radius_max)) {
         char text[160];
-        (void)snprintf(text, sizeof text, "a disc of radius %g m does not fit into a box %g m wide", model->radius_max,
-                       stage->width);
-        return indexed_error(error, "stages", index, "width", text);
+        (void)snprintf(text, sizeof text, "a %s of radius %g m does not fit into a box %g m %s",
+                       solid ? "sphere" : "disc", model->radius_max, shallow ? stage->depth : stage->width,
+                       shallow ? "deep" : "wide");
+        return indexed_error(error, "stages", index, shallow ? "depth" : "width", text);
     }
     return SCREE_OK;
 }
@@ -218,7 +222,7 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
     }
     model->reference_velocity = config->contact.reference_velocity;
     if (isnan(model->reference_velocity) && !isnan(rate)) model->reference_velocity = 2 * rate * model->mean_radius;
-    if (model->law == SCREE_LAW_HERTZ_BRILLIANTOV && !(model->reference_velocity > 0))
+    if (model->law != SCREE_LAW_HERTZ_MINDLIN && !(model->reference_velocity > 0))
         return FIELD_ERROR(error, "contact.reference_velocity",
                            "hertz_brilliantov needs a reference slip velocity: without a loading stage (2 rate <R>) "
                            "give contact.reference_velocity");
@@ -241,8 +245,22 @@ static scree_status resolve_step(scree_model *model, scree_error *error)
 {
     const scree_config_integrator *integrator = &model->config->integrator;
     model->critical_step = scree_critical_step_estimate(model);
-    model->step = isnan(integrator->step) ? integrator->step_fraction * model->critical_step : integrator->step;
-    if (model->step <= model->critical_step) return SCREE_OK;
+    model->largest_step = model->large_multiple = 1;
+    model->small_steps = 0;
+    if (model->scheme == SCREE_SCHEME_TWO_TIMESCALES) {
+        model->large_multiple = (uint64_t)integrator->large_multiple;
+        model->small_steps = (uint64_t)integrator->small_steps;
+        model->largest_step = (uint64_t)integrator->repeats * (model->large_multiple + model->small_steps);
+    }
+    double ticks = (double)model->largest_step;
+    model->step = isnan(integrator->step) ? integrator->step_fraction * model->critical_step / ticks : integrator->step;
+    if (ticks * model->step <= model->critical_step) return SCREE_OK;
+    if (model->largest_step > 1)
+        return FIELD_ERROR(
+            error, "integrator.step",
+            "the large step, %g steps of %.3g s, is above the critical step of this case, %.3g s, and may "
+            "be unstable; give %.2g s, or auto",
+            ticks, model->step, model->critical_step, two_digits_below(0.5 * model->critical_step / ticks));
     scree_status status =
         FIELD_ERROR(error, "integrator.step",
                     "a step of %.3g s is above the critical step of this case, %.3g s, and may be unstable; "
@@ -255,15 +273,21 @@ static scree_status resolve_step(scree_model *model, scree_error *error)
     return status;
 }
 
+static scree_law resolve_law(const scree_config_contact *contact)
+{
+    bool implicit = contact->law == SCREE_LAW_HERTZ_BRILLIANTOV && contact->friction_update == SCREE_FRICTION_IMPLICIT;
+    return implicit ? SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT : (scree_law)contact->law;
+}
+
 scree_status scree_model_build(const scree_config *config, scree_model *model, scree_error *error)
 {
     *model = (scree_model){
         .dimension = (int)config->dimension,
-        .law = (scree_law)config->contact.law,
+        .law = resolve_law(&config->contact),
         .damping_time = config->contact.damping_time,
         .inverse_exponent = 1 / config->contact.friction_exponent,
         .scheme = (scree_scheme)config->integrator.scheme,
-        .gravity = {config->gravity_x, config->gravity_y, 0},
+        .gravity = {config->gravity[0], config->gravity[1], config->gravity[2]},
         .config = config,
     };
     scree_status status = resolve_materials(model, error);
@@ -272,6 +296,12 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
     if (!status) status = resolve_step(model, error);
     if (!status) status = resolve_membrane(model, error);
     return status;
+}
+
+double scree_model_gas_fraction(const scree_model *model, const scree_config_stage *stage)
+{
+    if (!isnan(stage->solid_fraction)) return stage->solid_fraction;
+    return model->dimension == 3 ? 0.15 : 0.3;
 }
 
 scree_model scree_model_with_friction(const scree_model *model, double friction)

@@ -31,7 +31,10 @@ typedef struct scree_model {
     double inverse_exponent;   ///< 1/c of hertz_brilliantov
     double reference_velocity; ///< m/s, v_R
     scree_scheme scheme;
-    double step;                   ///< s
+    double step;                   ///< s, the tick: the small step of two_timescales, the step of all other schemes
+    uint64_t largest_step;         ///< ticks, N_S of two_timescales (the step before loading), else 1
+    uint64_t large_multiple;       ///< ticks, n of two_timescales, else 1
+    uint64_t small_steps;          ///< q of two_timescales, else 0
     double critical_step;          ///< s, estimate at the confining pressure (see model.c)
     double gravity[3];             ///< m/s2
     double mean_radius;            ///< m, of the distribution
@@ -53,6 +56,12 @@ typedef struct scree_model {
 /// exist.
 scree_status scree_model_build(const scree_config *config, scree_model *model, scree_error *error) SCREE_MUST_USE;
 
+/// Whether the law looks ahead by a step and needs scree_state_foresee.
+static inline bool scree_model_foresees(const scree_model *model)
+{
+    return model->law == SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT;
+}
+
 /// Largest radius of all bodies [m], those of a membrane included.
 double scree_model_largest_radius(const scree_model *model);
 
@@ -68,6 +77,9 @@ double scree_model_loading_rate(const scree_config_stage *stage);
 
 /// Index of the material that the particles are made of.
 int scree_model_particle_material(const scree_model *model);
+
+/// Solid fraction of a gas that `stage` prepares: what it says, 30 % of discs or 15 % of spheres where that is auto.
+double scree_model_gas_fraction(const scree_model *model, const scree_config_stage *stage);
 
 /// A copy with every friction coefficient replaced by `friction` (used while preparing dense samples), but a membrane's
 /// zero. NAN copies only.

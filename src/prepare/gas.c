@@ -1,9 +1,9 @@
-/// Random loose gas: discs at random places without overlap, with random velocities.
+/// Random loose gas: discs or spheres at random places without overlap, with random velocities.
 ///
-/// Places by random sequential addition, largest disc first: random points in the box until one is free. Random
-/// addition of equal discs jams at a solid fraction of 0.547 (Feder 1980) and needs ever more trials towards it;
-/// MOST_TRIALS for one disc carry 100,000 equal discs to 0.51, and discs of 1:2, the small between the large, to 0.62.
-/// Above that is an error.
+/// Places by random sequential addition, largest body first: random points in the box until one is free. Random
+/// addition of equal discs jams at a solid fraction of 0.547 (Feder 1980), of equal spheres at 0.384 (Talbot, Schaaf
+/// and Tarjus 1991), and needs ever more trials towards it; MOST_TRIALS for one disc carry 100,000 equal discs to 0.51,
+/// and discs of 1:2, the small between the large, to 0.62. Above that is an error.
 ///
 /// Velocities: normal components of equal variance (Maxwell; the same temperature for all only if masses are equal),
 /// without the drift of the centre of mass, scaled so that the root mean square of a component is exactly the one asked
@@ -20,10 +20,10 @@
 enum { MOST_TRIALS = 20000 };
 
 typedef struct gas_grid {
-    const double *radius, *x, *y;
+    const scree_packing *packing;
     double cell;
-    size_t columns, rows;
-    uint32_t *head, *next; ///< 1 + disc, 0 for none
+    size_t columns, rows, layers; ///< along x, y, z; one layer in 2D
+    uint32_t *head, *next;        ///< 1 + body, 0 for none
 } gas_grid;
 
 static int larger_first(const void *a, const void *b, void *radii)
@@ -34,80 +34,97 @@ static int larger_first(const void *a, const void *b, void *radii)
     return i < j ? -1 : i > j;
 }
 
-static bool is_free(const gas_grid *grid, double x, double y, double radius)
+static size_t cell_of(const gas_grid *grid, const double at[3])
 {
-    size_t column = (size_t)(x / grid->cell), row = (size_t)(y / grid->cell);
-    for (size_t r = row - (row > 0); r <= row + 1 && r < grid->rows; r++)
-        for (size_t c = column - (column > 0); c <= column + 1 && c < grid->columns; c++)
-            for (uint32_t k = grid->head[r * grid->columns + c]; k > 0; k = grid->next[k - 1]) {
-                double dx = grid->x[k - 1] - x, dy = grid->y[k - 1] - y, reach = grid->radius[k - 1] + radius;
-                if (dx * dx + dy * dy < reach * reach) return false;
-            }
+    size_t layer = (size_t)(at[2] / grid->cell), row = (size_t)(at[1] / grid->cell);
+    return (layer * grid->rows + row) * grid->columns + (size_t)(at[0] / grid->cell);
+}
+
+static bool is_clear(const gas_grid *grid, uint32_t first, const double at[3], double radius)
+{
+    const scree_packing *packing = grid->packing;
+    for (uint32_t k = first; k > 0; k = grid->next[k - 1]) {
+        double square = 0, reach = packing->radius[k - 1] + radius;
+        for (int c = 0; c < packing->dimension; c++) {
+            double away = packing->place[c][k - 1] - at[c];
+            square += away * away;
+        }
+        if (square < reach * reach) return false;
+    }
     return true;
 }
 
-/// Places discs in `order` until one finds no room; returns how many found one.
-static size_t add_discs(gas_grid *grid, uint64_t seed, const uint32_t *order, size_t count, const scree_box *box,
-                        double *x, double *y)
+static bool is_free(const gas_grid *grid, const double at[3], double radius)
 {
+    size_t column = (size_t)(at[0] / grid->cell), row = (size_t)(at[1] / grid->cell);
+    size_t layer = (size_t)(at[2] / grid->cell);
+    for (size_t l = layer - (layer > 0); l <= layer + 1 && l < grid->layers; l++)
+        for (size_t r = row - (row > 0); r <= row + 1 && r < grid->rows; r++)
+            for (size_t c = column - (column > 0); c <= column + 1 && c < grid->columns; c++)
+                if (!is_clear(grid, grid->head[(l * grid->rows + r) * grid->columns + c], at, radius)) return false;
+    return true;
+}
+
+/// Places bodies in `order` until one finds no room; returns how many found one.
+static size_t add_bodies(gas_grid *grid, uint64_t seed, const uint32_t *order, scree_packing *packing)
+{
+    const scree_box *box = &packing->box;
+    const bool solid = packing->dimension == 3;
+    const double side[3] = {box->width, solid ? box->depth : box->height, box->height};
     uint64_t trials = 0;
-    for (size_t placed = 0; placed < count; placed++) {
+    for (size_t placed = 0; placed < packing->count; placed++) {
         uint32_t i = order[placed];
-        double radius = grid->radius[i];
+        double radius = packing->radius[i], at[3] = {0};
         int trial = 0;
         do {
             if (trial++ == MOST_TRIALS) return placed;
-            x[i] = radius + scree_random_uniform(seed, SCREE_RANDOM_POSITION, trials++) * (box->width - 2 * radius);
-            y[i] = radius + scree_random_uniform(seed, SCREE_RANDOM_POSITION, trials++) * (box->height - 2 * radius);
-        } while (!is_free(grid, x[i], y[i], radius));
-        uint32_t *head = &grid->head[(size_t)(y[i] / grid->cell) * grid->columns + (size_t)(x[i] / grid->cell)];
+            for (int c = 0; c < packing->dimension; c++)
+                at[c] = radius + scree_random_uniform(seed, SCREE_RANDOM_POSITION, trials++) * (side[c] - 2 * radius);
+        } while (!is_free(grid, at, radius));
+        for (int c = 0; c < packing->dimension; c++) packing->place[c][i] = at[c];
+        uint32_t *head = &grid->head[cell_of(grid, at)];
         grid->next[i] = *head;
         *head = i + 1;
     }
-    return count;
+    return packing->count;
 }
 
-static scree_status does_not_fit(const scree_model *model, const scree_config_stage *stage, size_t count,
-                                 double reached, scree_error *error)
+static scree_status does_not_fit(const scree_model *model, const scree_config_stage *stage,
+                                 const scree_packing *packing, double wanted, double reached, scree_error *error)
 {
+    const bool solid = packing->dimension == 3;
     return scree_prepare_error(error, model, stage, "solid_fraction",
-                               "%zu discs do not fit at random at a solid fraction of %.3g: there was room up to %.2g; "
-                               "ask for %.2g or less, or prepare with drop_and_roll (about 0.8) or hexagonal (0.9)",
-                               count, stage->solid_fraction, reached, 0.95 * reached);
+                               "%zu %s do not fit at random at a solid fraction of %.3g: there was room up to %.2g; "
+                               "ask for %.2g or less, or prepare with drop_and_roll (about %s) or %s",
+                               packing->count, solid ? "spheres" : "discs", wanted, reached, 0.95 * reached,
+                               solid ? "0.58" : "0.8", solid ? "growth (0.6)" : "hexagonal (0.9)");
 }
 
-static scree_status place(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
-                          scree_error *error)
+/// Random addition of all bodies into the box of the packing.
+static scree_status fill(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
+                         double largest, double solid_fraction, scree_error *error)
 {
-    const double *radius = packing->radius;
-    size_t count = packing->count;
-    scree_box *box = &packing->box;
-    double area = 0, largest = 0;
-    for (size_t i = 0; i < count; i++) {
-        area += M_PI * radius[i] * radius[i];
-        largest = fmax(largest, radius[i]);
-    }
-    if (isnan(box->width)) box->width = sqrt(area / (stage->solid_fraction * stage->aspect_ratio));
-    box->height = area / (stage->solid_fraction * box->width);
-    if (fmin(box->width, box->height) < 2 * largest)
-        return scree_prepare_error(error, model, stage, "solid_fraction",
-                                   "a disc of radius %g m does not fit into a box of %g m by %g m", largest, box->width,
-                                   box->height);
-
-    gas_grid grid = {.radius = radius, .x = packing->x, .y = packing->y, .cell = 2 * largest};
-    grid.columns = (size_t)(box->width / grid.cell) + 1;
-    grid.rows = (size_t)(box->height / grid.cell) + 1;
+    gas_grid grid = {.packing = packing, .cell = 2 * largest, .layers = 1};
+    const bool solid = packing->dimension == 3;
+    grid.columns = (size_t)(packing->box.width / grid.cell) + 1;
+    grid.rows = (size_t)((solid ? packing->box.depth : packing->box.height) / grid.cell) + 1;
+    if (solid) grid.layers = (size_t)(packing->box.height / grid.cell) + 1;
     uint32_t *order = NULL;
-    scree_status status = scree_allocate(&grid.head, grid.columns * grid.rows, sizeof *grid.head, error);
+    size_t count = packing->count;
+    scree_status status = scree_allocate(&grid.head, grid.columns * grid.rows * grid.layers, sizeof *grid.head, error);
     if (!status) status = scree_allocate(&grid.next, count, sizeof *grid.next, error);
     if (!status) status = scree_allocate(&order, count, sizeof *order, error);
     if (!status) {
         for (size_t i = 0; i < count; i++) order[i] = (uint32_t)i;
-        qsort_r(order, count, sizeof *order, larger_first, (void *)(uintptr_t)radius);
-        size_t placed = add_discs(&grid, (uint64_t)model->config->seed, order, count, box, packing->x, packing->y);
+        qsort_r(order, count, sizeof *order, larger_first, packing->radius);
+        size_t placed = add_bodies(&grid, (uint64_t)model->config->seed, order, packing);
         double room = 0;
-        for (size_t k = 0; k < placed; k++) room += M_PI * radius[order[k]] * radius[order[k]];
-        if (placed < count) status = does_not_fit(model, stage, count, room / (box->width * box->height), error);
+        for (size_t k = 0; k < placed; k++) {
+            double r = packing->radius[order[k]];
+            room += solid ? 4 * M_PI / 3 * r * r * r : M_PI * r * r;
+        }
+        double box = packing->box.width * packing->box.height * (solid ? packing->box.depth : 1);
+        if (placed < count) status = does_not_fit(model, stage, packing, solid_fraction, room / box, error);
     }
     scree_release(&order);
     scree_release(&grid.next);
@@ -115,34 +132,58 @@ static scree_status place(const scree_model *model, const scree_config_stage *st
     return status;
 }
 
+static scree_status place(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
+                          scree_error *error)
+{
+    scree_box *box = &packing->box;
+    double largest = scree_packing_largest(packing), fraction = scree_model_gas_fraction(model, stage);
+    scree_packing_fit_box(packing, scree_packing_solid(packing), fraction, 0);
+    if (packing->dimension == 2 && fmin(box->width, box->height) < 2 * largest)
+        return scree_prepare_error(error, model, stage, "solid_fraction",
+                                   "a disc of radius %g m does not fit into a box of %g m by %g m", largest, box->width,
+                                   box->height);
+    if (packing->dimension == 3 && fmin(fmin(box->width, box->depth), box->height) < 2 * largest)
+        return scree_prepare_error(error, model, stage, "solid_fraction",
+                                   "a sphere of radius %g m does not fit into a box of %g m by %g m by %g m", largest,
+                                   box->width, box->depth, box->height);
+    return fill(model, stage, packing, largest, fraction, error);
+}
+
 static void set_moving(const scree_model *model, const scree_config_stage *stage, scree_state *state)
 {
-    uint64_t seed = (uint64_t)model->config->seed;
-    double mass = 0, momentum[2] = {0, 0}, square = 0;
+    uint64_t seed = (uint64_t)model->config->seed, dimension = (uint64_t)state->dimension;
+    double mass = 0, momentum[3] = {0}, square = 0;
     for (size_t i = 0; i < state->count; i++) {
         scree_row *row = &state->row[i];
-        row->vx = scree_random_normal(seed, SCREE_RANDOM_VELOCITY, 2 * i);
-        row->vy = scree_random_normal(seed, SCREE_RANDOM_VELOCITY, 2 * i + 1);
+        double *const velocity[3] = {&row->vx, &row->vy, &row->vz};
         mass += row->mass;
-        momentum[0] += row->mass * row->vx;
-        momentum[1] += row->mass * row->vy;
+        for (size_t c = 0; c < dimension; c++) {
+            *velocity[c] = scree_random_normal(seed, SCREE_RANDOM_VELOCITY, dimension * i + c);
+            momentum[c] += row->mass * *velocity[c];
+        }
     }
     for (size_t i = 0; i < state->count; i++) {
         scree_row *row = &state->row[i];
-        row->vx -= momentum[0] / mass;
-        row->vy -= momentum[1] / mass;
-        square += row->vx * row->vx + row->vy * row->vy;
+        double *const velocity[3] = {&row->vx, &row->vy, &row->vz};
+        double own = 0;
+        for (size_t c = 0; c < dimension; c++) {
+            *velocity[c] -= momentum[c] / mass;
+            own += *velocity[c] * *velocity[c];
+        }
+        square += own;
     }
-    double scale = square > 0 ? stage->velocity / sqrt(square / (2 * (double)state->count)) : 0;
+    double scale = square > 0 ? stage->velocity / sqrt(square / ((double)dimension * (double)state->count)) : 0;
     for (size_t i = 0; i < state->count; i++) {
-        state->row[i].vx *= scale;
-        state->row[i].vy *= scale;
+        scree_row *row = &state->row[i];
+        row->vx *= scale;
+        row->vy *= scale;
+        if (dimension == 3) row->vz *= scale;
     }
 }
 
 const scree_preparation scree_prepare_gas = {
     .name = "gas",
-    .meaning = "discs at random places without contact, with random velocities",
+    .meaning = "particles at random places without contact, with random velocities",
     .place = place,
     .set_moving = set_moving,
 };

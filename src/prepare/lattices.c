@@ -1,70 +1,121 @@
-/// Hexagonal and square lattices of equal discs that touch each other, floor and side walls.
+/// Lattices of equal discs or spheres that touch each other, floor and side walls.
 ///
-/// hexagonal: rows of n and n - 1 discs in turn, sqrt(3) R apart, in a box 2 n R wide. square: rows of n discs, 2 R
-/// apart. The last row may be incomplete; it fills from the left. Width auto: the number n whose height over width
-/// comes nearest to the aspect ratio; a given width is lowered to the next that the lattice fills. The model has
-/// checked that radii are equal.
+/// In 2D rows of discs. hexagonal: n and n - 1 discs in turn, sqrt(3) R apart, in a box 2 n R wide. square: n discs, 2
+/// R apart. In 3D square layers of spheres. face_centred: n x m and (n - 1) x (m - 1) spheres in turn, sqrt(2) R apart.
+/// cubic: n x m spheres, 2 R apart. The last row or layer may be incomplete; it fills from the left (and the front).
+/// Width auto: the number n whose height over width comes nearest to the aspect ratio (m = n where the depth is auto
+/// too); a given width or depth is lowered to the next that the lattice fills. The model has checked that radii are
+/// equal.
 #include "prepare/methods.h"
 
 #include <math.h>
 
-/// Rows that `count` discs need when rows of n and of n - missing discs alternate.
-static size_t rows_needed(size_t count, size_t n, size_t missing)
+typedef struct lattice {
+    size_t missing; ///< by how many bodies every second layer is shorter, along each side
+    double rise;    ///< distance of layers in radii
+} lattice;
+
+/// Layers (rows in 2D) of a lattice that is n bodies wide and m deep.
+typedef struct layers {
+    size_t n, m;
+    size_t full, shorter; ///< bodies in the one and the other
+} layers;
+
+static layers layers_of(const lattice *kind, int dimension, size_t n, size_t m)
 {
-    size_t pair = 2 * n - missing, rest = count % pair;
-    return 2 * (count / pair) + (rest > 0) + (rest > n);
+    if (dimension == 2) m = 1;
+    size_t deep = dimension == 3 ? m - kind->missing : 1;
+    return (layers){n, m, n * m, (n - kind->missing) * deep};
 }
 
-/// Number of discs in the first row. Height over width falls with it: the first below the aspect ratio, or the one
-/// before.
-static size_t columns_for(size_t count, size_t missing, double rise, double aspect_ratio)
+/// Layers that `count` bodies need.
+static size_t layers_needed(const layers *of, size_t count)
+{
+    size_t pair = of->full + of->shorter, rest = count % pair;
+    return 2 * (count / pair) + (rest > 0) + (rest > of->full);
+}
+
+/// Number of bodies across. Height over width falls with it: the first below the aspect ratio, or the one before.
+/// `deep`: number of bodies from front to back, 0 for as many as across.
+static size_t columns_for(const lattice *kind, const scree_packing *packing, size_t deep)
 {
     double before = INFINITY;
-    for (size_t n = 1 + missing;; n++) {
-        double ratio = (2 + rise * (double)(rows_needed(count, n, missing) - 1)) / (2 * (double)n);
-        if (ratio <= aspect_ratio || n >= count) return before - aspect_ratio < aspect_ratio - ratio ? n - 1 : n;
+    for (size_t n = 1 + kind->missing;; n++) {
+        layers of = layers_of(kind, packing->dimension, n, deep > 0 ? deep : n);
+        double ratio = (2 + kind->rise * (double)(layers_needed(&of, packing->count) - 1)) / (2 * (double)n);
+        if (ratio <= packing->aspect_ratio || n >= packing->count)
+            return before - packing->aspect_ratio < packing->aspect_ratio - ratio ? n - 1 : n;
         before = ratio;
     }
 }
 
-/// missing: by how many discs every second row is shorter; rise: distance of rows in radii.
+/// Number of bodies that fit beside each other into a given side of the box.
+static size_t fitting(double side, double r)
+{
+    return (size_t)floor(side / (2 * r) * (1 + 1e-12));
+}
+
+static void place_body(scree_packing *packing, size_t i, const lattice *kind, const layers *of)
+{
+    double r = packing->radius[0];
+    size_t pair = of->full + of->shorter, within = i % pair, layer = 2 * (i / pair) + (within >= of->full);
+    bool shorter = within >= of->full;
+    size_t number = shorter ? within - of->full : within, across = shorter ? of->n - kind->missing : of->n;
+    double shift = shorter && kind->missing ? 1 : 0;
+    packing->place[0][i] = r * (1 + 2 * (double)(packing->dimension == 3 ? number % across : number) + shift);
+    if (packing->dimension == 3) packing->place[1][i] = r * (1 + 2 * (double)(number / across) + shift);
+    packing->place[packing->dimension - 1][i] = r * (1 + kind->rise * (double)layer);
+}
+
 static scree_status place_lattice(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
-                                  size_t missing, double rise, scree_error *error)
+                                  const lattice *kind, scree_error *error)
 {
     size_t count = packing->count;
     scree_box *box = &packing->box;
     if (count == 0) return SCREE_OK;
     double r = packing->radius[0];
-    size_t n = isnan(box->width) ? columns_for(count, missing, rise, stage->aspect_ratio)
-                                 : (size_t)floor(box->width / (2 * r) * (1 + 1e-12));
-    if (n < 1 + missing && count > 1)
+    const bool solid = packing->dimension == 3, deep = solid && !isnan(box->depth);
+    size_t m = deep ? fitting(box->depth, r) : 0;
+    if (deep && m < 1 + kind->missing && count > 1)
+        return scree_prepare_error(error, model, stage, "depth", "a layer of the lattice needs at least %g m",
+                                   2 * (double)(1 + kind->missing) * r);
+    size_t n = isnan(box->width) ? columns_for(kind, packing, m) : fitting(box->width, r);
+    if (n < 1 + kind->missing && count > 1)
         return scree_prepare_error(error, model, stage, "width", "a row of the lattice needs at least %g m",
-                                   2 * (double)(1 + missing) * r);
-    size_t pair = 2 * n - missing;
-    for (size_t i = 0; i < count; i++) {
-        size_t within = i % pair, row = 2 * (i / pair) + (within >= n);
-        bool shorter = within >= n;
-        packing->x[i] = r * (1 + 2 * (double)(shorter ? within - n : within) + (shorter && missing ? 1 : 0));
-        packing->y[i] = r * (1 + rise * (double)row);
-    }
-    box->width = 2 * (double)n * r;
-    box->height = r * (2 + rise * (double)(rows_needed(count, n, missing) - 1));
+                                   2 * (double)(1 + kind->missing) * r);
+    layers of = layers_of(kind, packing->dimension, n, deep ? m : n);
+    for (size_t i = 0; i < count; i++) place_body(packing, i, kind, &of);
+    box->width = 2 * (double)of.n * r;
+    box->depth = 2 * (double)of.m * r;
+    box->height = r * (2 + kind->rise * (double)(layers_needed(&of, count) - 1));
     return SCREE_OK;
 }
 
 static scree_status place_hexagonal(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
                                     scree_error *error)
 {
-    return place_lattice(model, stage, packing, 1, sqrt(3.0), error);
+    return place_lattice(model, stage, packing, &(lattice){1, sqrt(3.0)}, error);
 }
 
-static scree_status place_square(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
-                                 scree_error *error)
+static scree_status place_upright(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
+                                  scree_error *error)
 {
-    return place_lattice(model, stage, packing, 0, 2, error);
+    return place_lattice(model, stage, packing, &(lattice){0, 2}, error);
+}
+
+static scree_status place_face_centred(const scree_model *model, const scree_config_stage *stage,
+                                       scree_packing *packing, scree_error *error)
+{
+    return place_lattice(model, stage, packing, &(lattice){1, sqrt(2.0)}, error);
 }
 
 const scree_preparation scree_prepare_hexagonal = {
     .name = "hexagonal", .meaning = "equal discs on a triangular lattice, just touching", .place = place_hexagonal};
 const scree_preparation scree_prepare_square = {
-    .name = "square", .meaning = "equal discs on a square lattice, just touching", .place = place_square};
+    .name = "square", .meaning = "equal discs on a square lattice, just touching", .place = place_upright};
+const scree_preparation scree_prepare_face_centred = {.name = "face_centred",
+                                                      .meaning =
+                                                          "equal spheres on a face-centred lattice, just touching",
+                                                      .place = place_face_centred};
+const scree_preparation scree_prepare_cubic = {
+    .name = "cubic", .meaning = "equal spheres on a simple cubic lattice, just touching", .place = place_upright};

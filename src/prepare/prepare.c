@@ -18,8 +18,14 @@ const scree_preparation *scree_preparation_get(scree_prepare_method method)
         return &scree_prepare_hexagonal;
     case SCREE_PREPARE_SQUARE:
         return &scree_prepare_square;
+    case SCREE_PREPARE_FACE_CENTRED:
+        return &scree_prepare_face_centred;
+    case SCREE_PREPARE_CUBIC:
+        return &scree_prepare_cubic;
     case SCREE_PREPARE_GAS:
         return &scree_prepare_gas;
+    case SCREE_PREPARE_GROWTH:
+        return &scree_prepare_growth;
     }
     return NULL;
 }
@@ -57,26 +63,30 @@ static void fill_rows(const scree_model *model, const scree_packing *packing, sc
     for (size_t i = 0; i < state->count; i++) {
         double radius = packing->radius[i];
         state->row[i] = (scree_row){
-            .x = packing->x[i],
-            .y = packing->y[i],
-            .material = material,
+            .x = packing->place[0][i],
+            .y = packing->place[1][i],
             .radius = radius,
-            .mass = model->density[material] * M_PI * radius * radius * model->thickness,
+            .mass = scree_model_mass(model, material, radius),
         };
+        if (state->dimension == 3) {
+            state->row[i].z = packing->place[2][i];
+            state->turn[i].material = material;
+        } else
+            state->row[i].material = material;
         scree_body_place(state, i, state->reference[i]);
     }
 }
 
-static void stand_walls(const scree_model *model, const scree_box *box, scree_state *state)
+/// Walls of the box. Those of a round sample say where it is, but do not exist.
+static void stand_walls(const scree_model *model, const scree_box *box, bool active, scree_state *state)
 {
-    int material = scree_model_particle_material(model);
-    state->wall[SCREE_WALL_BOTTOM] = (scree_wall){.normal = {0, 1}, .position = 0};
-    state->wall[SCREE_WALL_TOP] = (scree_wall){.normal = {0, -1}, .position = -box->height};
-    state->wall[SCREE_WALL_LEFT] = (scree_wall){.normal = {1, 0}, .position = 0};
-    state->wall[SCREE_WALL_RIGHT] = (scree_wall){.normal = {-1, 0}, .position = -box->width};
-    for (int w = 0; w <= SCREE_WALL_RIGHT; w++) {
-        state->wall[w].active = 1;
-        state->wall[w].material = material;
+    const int axis[SCREE_WALL_COUNT] = {state->dimension - 1, state->dimension - 1, 0, 0, 1, 1};
+    const double far[SCREE_WALL_COUNT / 2] = {box->height, box->width, box->depth};
+    for (int w = 0; w < 2 * state->dimension; w++) {
+        scree_wall *wall = &state->wall[w];
+        *wall = (scree_wall){
+            .position = w % 2 ? -far[w / 2] : 0, .active = active, .material = scree_model_particle_material(model)};
+        wall->normal[axis[w]] = w % 2 ? -1 : 1;
     }
 }
 
@@ -84,26 +94,28 @@ scree_status scree_prepare(const scree_model *model, const scree_config_stage *s
                            scree_error *error)
 {
     const scree_preparation *method = scree_preparation_get((scree_prepare_method)stage->method);
+    const bool round = stage->outline != SCREE_SAMPLE_BOX;
     size_t count = (size_t)model->config->particles.count;
     scree_status status = scree_state_create(state, model->dimension, count, error);
     if (status) return status;
-    scree_packing packing = {.count = count, .box.width = stage->width};
-    status = scree_allocate(&packing.radius, count, sizeof(double), error);
-    if (!status) status = scree_allocate(&packing.x, count, sizeof(double), error);
-    if (!status) status = scree_allocate(&packing.y, count, sizeof(double), error);
-    if (!status) {
+    scree_packing packing;
+    status = scree_packing_create(&packing, model->dimension, count, error);
+    if (!status && round)
+        status = scree_packing_cut_round(model, stage, method, &packing, error);
+    else if (!status) {
+        packing.box = (scree_box){.width = stage->width, .depth = stage->depth};
+        packing.aspect_ratio = stage->aspect_ratio;
         scree_draw_radii(model, packing.radius, count);
         status = method->place(model, stage, &packing, error);
     }
     if (!status) {
         fill_rows(model, &packing, state);
-        stand_walls(model, &packing.box, state);
-        state->step_size = model->step;
+        stand_walls(model, &packing.box, !round, state);
+        state->tick = model->step;
+        state->step_size = state->kick_size = (double)model->largest_step * model->step;
         if (method->set_moving) method->set_moving(model, stage, state);
     }
-    scree_release(&packing.radius);
-    scree_release(&packing.x);
-    scree_release(&packing.y);
+    scree_packing_destroy(&packing);
     if (status) scree_state_destroy(state);
     return status;
 }

@@ -4,23 +4,27 @@
 
 #include "state/state.h"
 
-/// Box that a method fills: x in [0, width], y in [0, height]; `height` is set by the method to the top of the packing.
+/// Box that a method fills: x in [0, width], y in [0, height] in 2D; x in [0, width], y in [0, depth], z in [0, height]
+/// in 3D. `height` is set by the method to the top of the packing.
 typedef struct scree_box {
-    double width, height;
+    double width, depth, height;
 } scree_box;
 
 /// A packing in the making: radii, and centres in the box, in the order of placement.
 typedef struct scree_packing {
+    int dimension; ///< 2 or 3
     size_t count;
-    double *radius, *x, *y; ///< m
+    double *radius;      ///< m
+    double *place[3];    ///< m, x, y, z; z is NULL in 2D
+    double aspect_ratio; ///< 1, height over width where the width is auto
     scree_box box;
 } scree_packing;
 
 typedef struct scree_preparation {
     const char *name;
     const char *meaning;
-    /// Places the discs of `packing` (radii drawn, width of the box given or NAN for auto) and sets its height. A
-    /// method may draw other radii from the same distribution. Errors: does not fit, memory.
+    /// Places the bodies of `packing` (radii drawn; width and depth of its box given, or NAN for auto) and sets the
+    /// box. A method may draw other radii from the same distribution. Errors: does not fit, memory.
     scree_status (*place)(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
                           scree_error *error);
     /// Velocities at the start, when the rows are filled. NULL: at rest.
@@ -32,8 +36,30 @@ const scree_preparation *scree_preparation_get(scree_prepare_method method);
 /// Draws `count` radii from the case's distribution (stream SCREE_RANDOM_RADIUS, counter = index).
 void scree_draw_radii(const scree_model *model, double *radius, size_t count);
 
-/// Creates the state: radii, positions, masses (density * pi R^2 * thickness), walls of the box, ids in order of
-/// placement.
+/// Makes room for `count` bodies. Errors: memory; nothing is kept then.
+scree_status scree_packing_create(scree_packing *packing, int dimension, size_t count,
+                                  scree_error *error) SCREE_MUST_USE;
+void scree_packing_destroy(scree_packing *packing);
+
+/// Area (2D) or volume (3D) of the bodies.
+double scree_packing_solid(const scree_packing *packing);
+
+/// Largest radius.
+double scree_packing_largest(const scree_packing *packing);
+
+/// Width and depth of the box where they are NAN (one not below `least`), and the height that the bodies need, for
+/// bodies of `solid` area or volume at this solid fraction.
+void scree_packing_fit_box(scree_packing *packing, double solid, double solid_fraction, double least);
+
+/// Makes `packing`, whose radii need not be drawn, the middle of a larger one that `method` makes: the bodies that
+/// reach least far from its centre, in a box that just holds their circle or ball.
+scree_status scree_packing_cut_round(const scree_model *model, const scree_config_stage *stage,
+                                     const scree_preparation *method, scree_packing *packing,
+                                     scree_error *error) SCREE_MUST_USE;
+
+/// Creates the state: radii, positions, masses (density * pi R^2 * thickness, density * 4/3 pi R^3), walls of the box,
+/// ids in order of placement. A round sample (stage->outline) is the middle of a larger packing; its walls bound it but
+/// are not active.
 scree_status scree_prepare(const scree_model *model, const scree_config_stage *stage, scree_state *state,
                            scree_error *error) SCREE_MUST_USE;
 

@@ -7,9 +7,13 @@
 static size_t first_not_finite(const scree_state *state)
 {
     for (size_t id = 0; id < state->count; id++) {
-        const scree_row *row = &state->row[state->row_of_id[id]];
-        if (!isfinite(row->x) || !isfinite(row->y) || !isfinite(row->vx) || !isfinite(row->vy) || !isfinite(row->spin))
-            return id;
+        scree_vector place, velocity, spin;
+        scree_body_place(state, state->row_of_id[id], place);
+        scree_body_motion(state, state->row_of_id[id], velocity, spin);
+        // The sum of finite numbers of these sizes is finite, and of others it is not.
+        double sum = 0;
+        for (int k = 0; k < 3; k++) sum += place[k] + velocity[k] + spin[k];
+        if (!isfinite(sum)) return id;
     }
     return state->count;
 }
@@ -20,7 +24,7 @@ static scree_status stop_not_finite(const scree_simulation *s, scree_error *erro
     return scree_error_set(error, SCREE_ERROR_GUARD,
                            "step %llu: position or velocity of particle %zu is not a number; "
                            "the step is probably too large: try integrator.step=%.2g s (now %.2g s, critical %.2g s)",
-                           (unsigned long long)s->state.step, id, 0.2 * s->state.step_size, s->state.step_size,
+                           (unsigned long long)s->state.step, id, 0.2 * s->state.tick, s->state.tick,
                            s->model.critical_step);
 }
 
@@ -54,14 +58,17 @@ static scree_status stop_escaped(const scree_simulation *s, scree_error *error)
     const scree_state *state = &s->state;
     const scree_wall *bottom = &state->wall[SCREE_WALL_BOTTOM], *top = &state->wall[SCREE_WALL_TOP];
     for (size_t id = 0; id < state->count; id++) {
-        const scree_row *row = &state->row[state->row_of_id[id]];
-        bool below = bottom->active && row->y < bottom->position;
-        bool above = top->active && -row->y < top->position;
+        scree_vector place;
+        scree_body_place(state, state->row_of_id[id], place);
+        double height = place[state->dimension - 1];
+        bool below = bottom->active && height < bottom->position;
+        bool above = top->active && -height < top->position;
         if (below || above)
-            return scree_error_set(error, SCREE_ERROR_GUARD,
-                                   "step %llu: the centre of particle %zu is behind the %s plate, at (%.4g, %.4g) m: "
-                                   "the plate moves too fast or the step is too large",
-                                   (unsigned long long)state->step, id, below ? "bottom" : "top", row->x, row->y);
+            return scree_error_set(
+                error, SCREE_ERROR_GUARD,
+                "step %llu: the centre of particle %zu is behind the %s plate, at (%.4g, %.4g, %.4g) "
+                "m: the plate moves too fast or the step is too large",
+                (unsigned long long)state->step, id, below ? "bottom" : "top", place[0], place[1], place[2]);
     }
     return SCREE_OK;
 }
@@ -75,5 +82,5 @@ scree_status scree_guard_sample(const scree_simulation *s, double relative_resid
     return scree_error_set(error, SCREE_ERROR_GUARD,
                            "step %llu: the energy balance is open by %.2g of the work done (guard.energy_growth %.2g); "
                            "energy appears from nowhere: try integrator.step=%.2g s",
-                           (unsigned long long)s->state.step, relative_residual, limit, 0.25 * s->state.step_size);
+                           (unsigned long long)s->state.step, relative_residual, limit, 0.25 * s->state.tick);
 }

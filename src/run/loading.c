@@ -50,10 +50,10 @@ scree_stage_plan scree_loading_plan(const scree_simulation *s, double time)
     // Without a confining pressure there is no wave time; a tenth of the loading is slow enough for anything.
     double rise = fmin(RISE_WAVES * reference[SCREE_LOADING_WAVE], 0.1 * time);
     if (!isnan(stage->rise_time)) rise = stage->rise_time;
-    uint64_t expected = (uint64_t)ceil((time + 0.5 * rise) / s->state.step_size);
-    uint64_t interval = expected / (uint64_t)s->model.config->measure.samples;
+    uint64_t expected = scree_stage_ticks(s, time + 0.5 * rise), largest = s->model.largest_step;
+    uint64_t interval = expected / largest / (uint64_t)s->model.config->measure.samples * largest;
     return (scree_stage_plan){
-        .interval = interval > 0 ? interval : 1,
+        .interval = interval > 0 ? interval : largest,
         .expected = expected,
         .ramp_time = rise,
         .sides = {.impedance = reference[SCREE_LOADING_SIDES], .mass = reference[SCREE_LOADING_SIDES + 1]}};
@@ -61,7 +61,7 @@ scree_stage_plan scree_loading_plan(const scree_simulation *s, double time)
 
 double scree_loading_rise(const scree_simulation *s, double *loaded)
 {
-    double elapsed = (double)(s->state.step - s->state.stage.first_step) * s->state.step_size;
+    double elapsed = scree_stage_elapsed(s);
     double rise = s->plan.ramp_time, fraction = rise > 0 ? fmin(1, elapsed / rise) : 1;
     *loaded = rise * fraction * fraction * fraction * (1 - 0.5 * fraction) + fmax(0, elapsed - rise);
     return rise > 0 ? scree_smooth_ramp(elapsed / rise) : 1;

@@ -32,7 +32,7 @@ scree_status scree_recorder_open(scree_recorder *recorder, const scree_simulatio
                                  const char *directory, bool restart, scree_error *error)
 {
     char path[4096];
-    *recorder = (scree_recorder){.options = options, .directory = directory, .rate = NAN};
+    *recorder = (scree_recorder){.options = options, .directory = directory};
     scree_status status = scree_path_join(path, sizeof path, directory, SCREE_FILE_LOG, error);
     if (status) return status;
     recorder->log = (scree_log){.file = fopen(path, "a"), .sink = forward_line};
@@ -42,7 +42,9 @@ scree_status scree_recorder_open(scree_recorder *recorder, const scree_simulatio
     status = scree_series_open(&recorder->series, path, scree_sample_columns, SCREE_SAMPLE_COUNT,
                                restart ? s->state.stage.samples : -1, error);
     recorder->started = recorder->last_checkpoint = recorder->last_progress = scree_clock();
-    recorder->first_step = recorder->progress_step = recorder->checkpoint_step = s->state.step;
+    recorder->progress_step = s->state.step;
+    recorder->first_evaluations = recorder->progress_evaluations = recorder->checkpoint_evaluations =
+        s->state.evaluations;
     return status;
 }
 
@@ -59,7 +61,7 @@ scree_status scree_recorder_checkpoint(scree_recorder *recorder, scree_simulatio
     scree_status status = scree_contacts_save(&s->state, &s->work, error);
     if (!status) status = scree_checkpoint_write(recorder->directory, &s->state, recorder->case_checksum, error);
     recorder->last_checkpoint = scree_clock();
-    recorder->checkpoint_step = s->state.step;
+    recorder->checkpoint_evaluations = s->state.evaluations;
     return status;
 }
 
@@ -99,14 +101,14 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
     return status;
 }
 
-/// Steps of this and the following loading stages that are still to come; NAN when a stage has no planned end.
-static double steps_left(const scree_simulation *s)
+/// Ticks of this and the following loading stages that are still to come; NAN when a stage has no planned end.
+static double ticks_left(const scree_simulation *s)
 {
     if (!s->plan.expected) return NAN;
     double left = (double)s->plan.expected - (double)(s->state.step - s->state.stage.first_step);
     for (int64_t k = s->state.stage.index + 1; k < s->model.config->stage_count; k++) {
         const scree_config_stage *stage = &s->model.config->stages[k];
-        left += stage->strain / scree_model_loading_rate(stage) / s->state.step_size;
+        left += stage->strain / scree_model_loading_rate(stage) / s->state.tick;
     }
     return left;
 }
@@ -114,16 +116,18 @@ static double steps_left(const scree_simulation *s)
 static void report_progress(scree_recorder *recorder, const scree_simulation *s, double now)
 {
     double passed = now - recorder->last_progress;
-    recorder->rate = (double)s->state.count * (double)(s->state.step - recorder->progress_step) / passed;
+    double steps = (double)(s->state.evaluations - recorder->progress_evaluations);
+    double ticks = (double)(s->state.step - recorder->progress_step);
     recorder->last_progress = now;
     recorder->progress_step = s->state.step;
+    recorder->progress_evaluations = s->state.evaluations;
     if (!recorder->options->progress || !s->stage || s->stage_ended) return;
     scree_progress progress = {.stage = s->stage->name,
                                .fraction = s->stage->fraction ? s->stage->fraction(s) : NAN,
                                .time = scree_state_time(&s->state),
                                .strain = scree_loading_strain(s),
-                               .particle_steps_per_second = recorder->rate,
-                               .seconds_left = steps_left(s) * (double)s->state.count / recorder->rate};
+                               .particle_steps_per_second = (double)s->state.count * steps / passed,
+                               .seconds_left = ticks_left(s) * passed / ticks};
     recorder->options->progress(recorder->options->user, &progress);
 }
 
@@ -131,7 +135,7 @@ static bool checkpoint_due(const scree_recorder *recorder, const scree_simulatio
 {
     const scree_config_output *output = &s->model.config->output;
     uint64_t every = (uint64_t)output->checkpoint_steps;
-    return (every > 0 && s->state.step - recorder->checkpoint_step >= every) ||
+    return (every > 0 && s->state.evaluations - recorder->checkpoint_evaluations >= every) ||
            now - recorder->last_checkpoint > output->checkpoint_interval;
 }
 
@@ -146,7 +150,7 @@ scree_status scree_recorder_follow(scree_recorder *recorder, scree_simulation *s
     if (s->stage_ended)
         scree_log_write(&recorder->log, SCREE_LOG_INFO, "stage %s ended at step %llu, time %.6g s: %s", s->stage->name,
                         (unsigned long long)s->state.step, scree_state_time(&s->state), s->reason);
-    if (s->state.step % CLOCK_STEPS != 0 && !s->stage_ended) return SCREE_OK;
+    if (s->state.evaluations % CLOCK_STEPS != 0 && !s->stage_ended) return SCREE_OK;
     double now = scree_clock();
     if (s->stage_ended || checkpoint_due(recorder, s, now)) status = scree_recorder_checkpoint(recorder, s, error);
     if (now - recorder->last_progress > PROGRESS_SECONDS) report_progress(recorder, s, now);

@@ -14,10 +14,9 @@ typedef struct scree_recorder {
     uint64_t case_checksum;
     double started; ///< s, monotonic clock at the begin of this process's part of the run
     double last_progress, last_checkpoint;
-    uint64_t progress_step, checkpoint_step;
-    double rate;         ///< particle-steps per second, over the last progress interval
-    uint64_t first_step; ///< at `started`
-    double stepping;     ///< s of wall time in the stepping loop
+    uint64_t progress_step, progress_evaluations, checkpoint_evaluations;
+    uint64_t first_evaluations; ///< at `started`
+    double stepping;            ///< s of wall time in the stepping loop
 } scree_recorder;
 
 /// Opens log and series in a run directory that exists; rows > 0 or restart: continues the series after `rows` rows.

@@ -144,7 +144,7 @@ static void summarise_run(const scree_recorder *recorder, scree_simulation *s, s
     const scree_config *config = s->model.config;
     char checksum[32];
     (void)snprintf(checksum, sizeof checksum, "%016" PRIx64, scree_simulation_checksum(s));
-    double steps = (double)(s->state.step - recorder->first_step);
+    double steps = (double)(s->state.evaluations - recorder->first_evaluations);
     scree_summary_set_text(summary, "case", config->name);
     scree_summary_set_text(summary, "status",
                            status == SCREE_OK            ? "done"
@@ -154,7 +154,9 @@ static void summarise_run(const scree_recorder *recorder, scree_simulation *s, s
     scree_summary_set_integer(summary, "seed", config->seed);
     scree_summary_set_integer(summary, "particles", (int64_t)s->state.grains);
     scree_summary_set_integer(summary, "steps", (int64_t)s->state.step);
-    scree_summary_set_number(summary, "step_size", s->state.step_size);
+    scree_summary_set_integer(summary, "force_evaluations", (int64_t)s->state.evaluations);
+    scree_summary_set_integer(summary, "n_s", (int64_t)s->model.largest_step);
+    scree_summary_set_number(summary, "step_size", s->state.tick);
     scree_summary_set_number(summary, "critical_step", s->model.critical_step);
     scree_summary_set_number(summary, "time", scree_state_time(&s->state));
     scree_summary_set_number(summary, "phi", s->model.phi);

@@ -101,8 +101,9 @@ static scree_status record(scree_simulation *s, const scree_run_options *options
         scree_log_write(&recorder.log, SCREE_LOG_INFO, "%s; case %s, %d threads%s", scree_version(),
                         s->model.config->name, s->work.threads, restarted ? ", restarted" : "");
         if (restarted && restarted[0]) scree_log_write(&recorder.log, SCREE_LOG_WARNING, "%s", restarted);
-        scree_log_write(&recorder.log, SCREE_LOG_INFO, "step %.4g s (critical %.4g s), phi %.4g, psi %.4g",
-                        s->model.step, s->model.critical_step, s->model.phi, s->model.psi);
+        scree_log_write(&recorder.log, SCREE_LOG_INFO, "step %.4g s (N_S %llu, critical %.4g s), phi %.4g, psi %.4g",
+                        s->model.step, (unsigned long long)s->model.largest_step, s->model.critical_step, s->model.phi,
+                        s->model.psi);
         status = drive(&recorder, s, error);
         status = finish(&recorder, s, status, error);
         if (!status) draw_figures(&recorder, s);

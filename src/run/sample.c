@@ -3,13 +3,14 @@
 
 #include "boundary/drive.h"
 #include "boundary/membrane.h"
+#include "measure/facets.h"
 #include "measure/measure.h"
 #include "run/guard.h"
 
 #include <math.h>
 
 const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
-    [SCREE_SAMPLE_STEP] = {"step", "1", "number of the step"},
+    [SCREE_SAMPLE_STEP] = {"step", "1", "simulated time in ticks: steps, small ones with two_timescales"},
     [SCREE_SAMPLE_TIME] = {"time", "s", "simulated time"},
     [SCREE_SAMPLE_STAGE] = {"stage", "1", "index of the stage in the case, from 0"},
     [SCREE_SAMPLE_AXIAL_STRAIN] = {"axial_strain", "1",
@@ -20,7 +21,9 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
     [SCREE_SAMPLE_BOUNDARY_AXIAL] = {"boundary_axial_strain", "1",
                                      "axial strain from the Delaunay boundary, compression positive"},
     [SCREE_SAMPLE_BOUNDARY_LATERAL] = {"boundary_lateral_strain", "1",
-                                       "lateral strain from the Delaunay boundary, compression positive"},
+                                       "lateral strain from the Delaunay boundary, compression positive; in 3D the "
+                                       "mean of both"},
+    [SCREE_SAMPLE_BOUNDARY_LATERAL_Y] = {"boundary_lateral_strain_y", "1", "its y component in 3D, not a number in 2D"},
     [SCREE_SAMPLE_SHEAR_STRAIN] =
         {"boundary_shear_strain", "1",
          "engineering shear strain of the first and the last axis from the Delaunay boundary"},
@@ -38,14 +41,15 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
     [SCREE_SAMPLE_LATERAL_CONTACTS] = {"stress_lateral_contacts", "Pa",
                                        "average stress from contacts, compression positive"},
     [SCREE_SAMPLE_SHEAR_CONTACTS] = {"stress_shear_contacts", "Pa",
-                                     "symmetric part of the average stress from contacts, tension positive"},
+                                     "symmetric part of the average stress from contacts, of the first and the "
+                                     "last axis, tension positive"},
     [SCREE_SAMPLE_SLIP_RATIO] = {"slip_ratio", "1", "mean slip speed of contacts over the characteristic velocity v_R"},
     [SCREE_SAMPLE_SLIDING_FRACTION] = {"sliding_fraction", "1", "fraction of contacts at the Coulomb limit"},
     [SCREE_SAMPLE_COORDINATION] = {"coordination", "1", "contacts a particle"},
     [SCREE_SAMPLE_COORDINATION_WITHOUT_RATTLERS] = {"coordination_without_rattlers", "1",
                                                     "contacts a load-bearing particle"},
     [SCREE_SAMPLE_RATTLER_FRACTION] = {"rattler_fraction", "1", "fraction of particles that bear no load"},
-    [SCREE_SAMPLE_SOLID_FRACTION] = {"solid_fraction", "1", "disc area over sample area, inside the Delaunay boundary"},
+    [SCREE_SAMPLE_SOLID_FRACTION] = {"solid_fraction", "1", "particles over sample, inside the Delaunay boundary"},
     [SCREE_SAMPLE_UNBALANCED_RATIO] = {"unbalanced_ratio", "1",
                                        "mean unbalanced force since the last sample over mean contact force"},
     [SCREE_SAMPLE_KINETIC] = {"kinetic", "J", "kinetic energy, translation and rotation"},
@@ -61,11 +65,14 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
                                     "work of imposed rates, or of the chain of a membrane and its ends"},
     [SCREE_SAMPLE_ELASTIC_MEMBRANE] = {"elastic_membrane", "J", "stored in the chain of a membrane"},
     [SCREE_SAMPLE_WORK_GRAVITY] = {"work_gravity", "J", "work of gravity"},
+    [SCREE_SAMPLE_SCHEME_WORK] = {"scheme_work", "J", "put into the kinetic energy by changes of the step"},
     [SCREE_SAMPLE_ENERGY_RESIDUAL] = {"energy_residual", "J", "what the energy balance leaves open"},
     [SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE] = {"energy_residual_relative", "1", "the same over the work done"},
     [SCREE_SAMPLE_HEIGHT] = {"height", "m",
                              "distance of bottom and top plate, or height as the Delaunay boundary is strained"},
-    [SCREE_SAMPLE_AREA] = {"area", "m2", "area of the sample between plates and Delaunay boundary"},
+    [SCREE_SAMPLE_AREA] = {"area", "m2",
+                           "area of the sample between plates and Delaunay boundary; in 3D its mean section"},
+    [SCREE_SAMPLE_VOLUME] = {"volume", "m3", "volume of the sample between plates and Delaunay boundary"},
     [SCREE_SAMPLE_BOUNDARY_COUNT] = {"boundary_count", "1", "particles on the Delaunay boundary"},
 };
 
@@ -76,28 +83,39 @@ static void sample_strain(const scree_simulation *s, double *value)
     scree_strain_measure(&s->state, gradient);
     bool loading = s->stage->loading;
     value[SCREE_SAMPLE_AXIAL_STRAIN] = scree_loading_strain(s);
-    int axis = s->state.dimension - 1;
-    double shear = gradient[axis] + gradient[3 * axis] - begin[axis] - begin[3 * axis];
+    int axial = s->state.dimension - 1;
+    double strain[3] = {0}, volumetric = 0;
+    double shear = gradient[axial] + gradient[3 * axial] - begin[axial] - begin[3 * axial];
+    for (int k = 0; k <= axial; k++) volumetric += strain[k] = loading ? begin[4 * k] - gradient[4 * k] : NAN;
     value[SCREE_SAMPLE_SHEAR_STRAIN] = loading ? shear : NAN;
-    value[SCREE_SAMPLE_BOUNDARY_AXIAL] = loading ? begin[4] - gradient[4] : NAN;
-    value[SCREE_SAMPLE_BOUNDARY_LATERAL] = loading ? begin[0] - gradient[0] : NAN;
-    value[SCREE_SAMPLE_VOLUMETRIC_STRAIN] = value[SCREE_SAMPLE_BOUNDARY_AXIAL] + value[SCREE_SAMPLE_BOUNDARY_LATERAL];
+    value[SCREE_SAMPLE_BOUNDARY_AXIAL] = strain[axial];
+    value[SCREE_SAMPLE_BOUNDARY_LATERAL] = (volumetric - strain[axial]) / axial;
+    value[SCREE_SAMPLE_BOUNDARY_LATERAL_Y] = axial == 2 ? strain[1] : NAN;
+    value[SCREE_SAMPLE_VOLUMETRIC_STRAIN] = volumetric;
+}
+
+/// Normal stress across the sides: in 3D the mean of both directions.
+static double lateral_of(const scree_simulation *s, const double stress[9])
+{
+    return s->state.dimension == 3 ? 0.5 * (stress[0] + stress[4]) : stress[0];
 }
 
 static void sample_stress(const scree_simulation *s, double *value)
 {
     const scree_model *model = &s->stage_model;
-    double area = scree_sample_area(&s->state), plates[9], contacts[9];
+    double volume = scree_sample_volume(model, &s->state), plates[9], contacts[9];
+    int axial = 4 * (s->state.dimension - 1), shear = s->state.dimension - 1;
     scree_stress_from_plates(model, &s->state, plates);
-    scree_stress_from_contacts(&s->table, area * model->thickness, contacts);
-    value[SCREE_SAMPLE_AREA] = area;
-    value[SCREE_SAMPLE_AXIAL_PLATES] = -plates[4];
-    value[SCREE_SAMPLE_LATERAL_APPLIED] = -plates[0];
-    value[SCREE_SAMPLE_STRESS_RATIO] = plates[4] / plates[0];
-    value[SCREE_SAMPLE_AXIAL_CONTACTS] = -contacts[4];
-    value[SCREE_SAMPLE_LATERAL_CONTACTS] = -contacts[0];
-    value[SCREE_SAMPLE_SHEAR_CONTACTS] = 0.5 * (contacts[1] + contacts[3]);
-    value[SCREE_SAMPLE_STRESS_RATIO_CONTACTS] = contacts[4] / contacts[0];
+    scree_stress_from_contacts(&s->table, volume, contacts);
+    value[SCREE_SAMPLE_VOLUME] = volume;
+    value[SCREE_SAMPLE_AREA] = s->state.dimension == 3 ? volume / scree_sample_height(s) : scree_sample_area(&s->state);
+    value[SCREE_SAMPLE_AXIAL_PLATES] = -plates[axial];
+    value[SCREE_SAMPLE_LATERAL_APPLIED] = -lateral_of(s, plates);
+    value[SCREE_SAMPLE_STRESS_RATIO] = plates[axial] / lateral_of(s, plates);
+    value[SCREE_SAMPLE_AXIAL_CONTACTS] = -contacts[axial];
+    value[SCREE_SAMPLE_LATERAL_CONTACTS] = -lateral_of(s, contacts);
+    value[SCREE_SAMPLE_SHEAR_CONTACTS] = 0.5 * (contacts[shear] + contacts[3 * shear]);
+    value[SCREE_SAMPLE_STRESS_RATIO_CONTACTS] = contacts[axial] / lateral_of(s, contacts);
 }
 
 static scree_status sample_structure(const scree_simulation *s, double *value, scree_error *error)
@@ -112,9 +130,9 @@ static scree_status sample_structure(const scree_simulation *s, double *value, s
     value[SCREE_SAMPLE_COORDINATION] = coordination.mean;
     value[SCREE_SAMPLE_COORDINATION_WITHOUT_RATTLERS] = coordination.mean_without_rattlers;
     value[SCREE_SAMPLE_RATTLER_FRACTION] = coordination.rattler_fraction;
-    value[SCREE_SAMPLE_SOLID_FRACTION] = scree_solid_fraction(&s->state);
+    if ((status = scree_solid_fraction(&s->state, &value[SCREE_SAMPLE_SOLID_FRACTION], error))) return status;
     value[SCREE_SAMPLE_UNBALANCED_RATIO] = scree_mean_unbalanced_ratio(&s->stage_model, &s->state, &s->table);
-    value[SCREE_SAMPLE_BOUNDARY_COUNT] = (double)s->state.loop.count;
+    value[SCREE_SAMPLE_BOUNDARY_COUNT] = (double)scree_boundary_count(&s->state);
     value[SCREE_SAMPLE_HEIGHT] = scree_sample_height(s);
     return SCREE_OK;
 }
@@ -135,6 +153,7 @@ static void sample_energy(const scree_simulation *s, double *value)
     value[SCREE_SAMPLE_WORK_BOUNDARY] = ledger->boundary;
     value[SCREE_SAMPLE_ELASTIC_MEMBRANE] = scree_membrane_energy(&s->stage_model, &s->state);
     value[SCREE_SAMPLE_WORK_GRAVITY] = energy.gravity;
+    value[SCREE_SAMPLE_SCHEME_WORK] = ledger->scheme;
     value[SCREE_SAMPLE_ENERGY_RESIDUAL] = energy.residual;
     value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE] = energy.relative;
 }

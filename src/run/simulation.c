@@ -148,10 +148,10 @@ scree_status scree_simulation_create(const scree_case *c, int threads, scree_sim
 
 scree_status scree_simulation_advance(scree_simulation *s, uint64_t steps, bool *done, scree_error *error)
 {
-    uint64_t target = s->state.step + steps;
+    uint64_t target = s->state.evaluations + steps;
     scree_status status = SCREE_OK;
     *done = false;
-    while (!status && s->state.step < target) {
+    while (!status && s->state.evaluations < target) {
         status = scree_simulation_step(s, error);
         if (!status && s->state.stage.index >= s->model.config->stage_count) {
             *done = true;

@@ -22,6 +22,17 @@ const scree_config_stage *scree_stage_config(const scree_simulation *s)
     return &s->model.config->stages[s->state.stage.index];
 }
 
+double scree_stage_elapsed(const scree_simulation *s)
+{
+    return (double)(s->state.step - s->state.stage.first_step) * s->state.tick;
+}
+
+uint64_t scree_stage_ticks(const scree_simulation *s, double time)
+{
+    uint64_t largest = s->model.largest_step;
+    return (uint64_t)fmax(1, ceil(time / ((double)largest * s->state.tick))) * largest;
+}
+
 /// Logarithmic axial strain of the Delaunay boundary since the begin of the loading stage, extension positive.
 static double axial_stretch(const scree_simulation *s)
 {
@@ -59,6 +70,6 @@ double scree_smooth_ramp(double fraction)
 
 void scree_servo_sides(scree_simulation *s, double pressure)
 {
-    for (int w = SCREE_WALL_LEFT; w <= SCREE_WALL_RIGHT; w++)
+    for (int w = SCREE_WALL_LEFT; w < SCREE_WALL_COUNT; w++)
         if (s->state.wall[w].active) scree_plate_servo(&s->stage_model, &s->state, w, s->plan.sides, pressure);
 }

@@ -9,11 +9,11 @@ typedef struct scree_simulation scree_simulation;
 
 /// What a stage needs at every step and can be derived from the state at its begin (so it is not stored).
 typedef struct scree_stage_plan {
-    uint64_t interval;  ///< steps between two samples
-    uint64_t expected;  ///< steps of the whole stage, 0: not known in advance
+    uint64_t interval;  ///< ticks between two samples, whole largest steps
+    uint64_t expected;  ///< ticks of the whole stage, whole largest steps; 0: not known in advance
     double ramp_time;   ///< s
     scree_servo plates; ///< bottom and top
-    scree_servo sides;  ///< left and right
+    scree_servo sides;  ///< left and right, front and back
     double time_limit;  ///< s
 } scree_stage_plan;
 
@@ -40,6 +40,12 @@ extern const scree_stage scree_stage_prepare;
 extern const scree_stage scree_stage_confine;
 extern const scree_stage scree_stage_compress;
 extern const scree_stage scree_stage_deform;
+
+/// s since the begin of the stage.
+double scree_stage_elapsed(const scree_simulation *s);
+
+/// Ticks of `time` [s], rounded up to whole largest steps, where every sequence of steps ends; at least one of them.
+uint64_t scree_stage_ticks(const scree_simulation *s, double time);
 
 /// The config of the stage that runs now.
 const scree_config_stage *scree_stage_config(const scree_simulation *s);

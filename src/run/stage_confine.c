@@ -45,7 +45,7 @@ static void plan(scree_simulation *s)
     const double *reference = s->state.stage.reference;
     double wave = reference[1];
     s->plan = (scree_stage_plan){
-        .interval = (uint64_t)fmax(1, ceil(wave / SAMPLES_A_WAVE / s->state.step_size)),
+        .interval = scree_stage_ticks(s, wave / SAMPLES_A_WAVE),
         .ramp_time = isnan(stage->ramp_time) ? RAMP_WAVES * wave : stage->ramp_time,
         .time_limit = isnan(stage->time_limit) ? LIMIT_WAVES * wave : stage->time_limit,
         .plates = {.impedance = reference[2], .mass = reference[3]},
@@ -53,15 +53,10 @@ static void plan(scree_simulation *s)
     };
 }
 
-static double elapsed(const scree_simulation *s)
-{
-    return (double)(s->state.step - s->state.stage.first_step) * s->state.step_size;
-}
-
 static void control(scree_simulation *s)
 {
     double from = s->state.stage.reference[0], to = scree_stage_config(s)->pressure;
-    double done = s->plan.ramp_time > 0 ? elapsed(s) / s->plan.ramp_time : 1;
+    double done = s->plan.ramp_time > 0 ? scree_stage_elapsed(s) / s->plan.ramp_time : 1;
     s->state.pressure = from + (to - from) * scree_smooth_ramp(done);
     s->state.wall[SCREE_WALL_BOTTOM].velocity = 0;
     if (!scree_boundary_has_plates(s->boundary)) return;
@@ -76,17 +71,18 @@ static scree_status finished(scree_simulation *s, bool *done, scree_error *error
     double unbalanced = s->sample.value[SCREE_SAMPLE_UNBALANCED_RATIO];
     bool plates = scree_boundary_has_plates(s->boundary);
     double top = plates ? scree_plate_stress(model, &s->state, SCREE_WALL_TOP) / stage->pressure - 1 : 0;
-    bool calm = elapsed(s) > s->plan.ramp_time && unbalanced < stage->unbalanced_limit && fabs(top) < PLATE_TOLERANCE;
+    bool calm = scree_stage_elapsed(s) > s->plan.ramp_time && unbalanced < stage->unbalanced_limit &&
+                fabs(top) < PLATE_TOLERANCE;
     s->state.stage.counter = calm ? s->state.stage.counter + 1 : 0;
     *done = s->state.stage.counter >= CALM;
     (void)snprintf(s->reason, sizeof s->reason, "unbalanced force ratio %.2g below %.2g for %d samples", unbalanced,
                    stage->unbalanced_limit, CALM);
-    if (*done || elapsed(s) < s->plan.time_limit) return SCREE_OK;
+    if (*done || scree_stage_elapsed(s) < s->plan.time_limit) return SCREE_OK;
     return scree_error_set(
         error, SCREE_ERROR_GUARD,
         "stage %lld (confine): not at rest after %.3g s: unbalanced force ratio %.2g (limit %.2g), plate "
         "stress off by %.2g; try a larger unbalanced_limit, a larger time_limit or more damping",
-        (long long)s->state.stage.index, elapsed(s), unbalanced, stage->unbalanced_limit, fabs(top));
+        (long long)s->state.stage.index, scree_stage_elapsed(s), unbalanced, stage->unbalanced_limit, fabs(top));
 }
 
 static double fraction(const scree_simulation *s)

@@ -3,8 +3,19 @@
 #include "run/step.h"
 
 #include "boundary/plates.h"
+#include "measure/measure.h"
 #include "run/guard.h"
 #include "search/neighbours.h"
+
+/// The size of the step from n to n + 1, in ticks; where it differs from the last one, the ledger is told.
+static uint64_t choose_step(scree_simulation *s)
+{
+    double before = s->state.step_size;
+    uint64_t ticks = scree_integrator_choose_step(s->integrator, &s->stage_model, &s->state, s->stage->loading);
+    if (s->state.step_size != before && s->work.ledger)
+        scree_energy_change_step(&s->stage_model, &s->state, before, s->state.step_size);
+    return ticks;
+}
 
 scree_status scree_step(scree_simulation *s, scree_error *error)
 {
@@ -13,12 +24,15 @@ scree_status scree_step(scree_simulation *s, scree_error *error)
     scree_work *work = &s->work;
     scree_status status;
 
+    if (scree_model_foresees(model) && (status = scree_state_foresee(state, error))) return status;
+    uint64_t ticks = choose_step(s);
     // Boundaries decide their velocities from the stresses at n, then everything moves to n + 1.
     if (s->stage->control) s->stage->control(s);
     scree_plates_move(state);
     s->integrator->first(model, state, work);
     scree_boundary_finish_work(s->boundary, state);
-    state->step++;
+    state->step += ticks;
+    state->evaluations++;
 
     // Forces at n + 1: contacts of bodies and plates, then the pressure and what else the boundary applies.
     if ((status = scree_neighbours_refresh(model, state, work, error))) return status;

@@ -23,8 +23,10 @@ static scree_status make_probe(const scree_model *model, scree_state *state, scr
 {
     double radius = model->mean_radius, spacing = 2 * radius * (1 - 1e-4);
     scree_status status = scree_state_create(state, 2, PROBE_SIDE * PROBE_SIDE, error);
+    if (!status && scree_model_foresees(model)) status = scree_state_foresee(state, error);
     if (status) return status;
-    state->step_size = model->step;
+    state->tick = model->step;
+    state->step_size = state->kick_size = (double)model->largest_step * model->step;
     for (size_t k = 0; k < state->count; k++) {
         size_t i = k % PROBE_SIDE, j = k / PROBE_SIDE;
         state->row[k] = (scree_row){.x = spacing * ((double)i + 0.5 * (double)(j % 2)),
@@ -71,6 +73,12 @@ static double expected_wave_time(const scree_model *model, double count, double 
     return sqrt(area * fmax(aspect_ratio, 1 / aspect_ratio) * mass_per_area / stiffness);
 }
 
+/// Force evaluations a tick while loading.
+static double evaluations_a_tick(const scree_model *model)
+{
+    return (double)(1 + model->small_steps) / (double)(model->large_multiple + model->small_steps);
+}
+
 static double expected_steps(const scree_model *model)
 {
     const scree_config *config = model->config;
@@ -80,10 +88,10 @@ static double expected_steps(const scree_model *model)
         if (stage->kind == SCREE_STAGE_PREPARE && stage->aspect_ratio > 0) aspect_ratio = stage->aspect_ratio;
         if (stage->kind == SCREE_STAGE_CONFINE) {
             double wave = expected_wave_time(model, (double)config->particles.count, aspect_ratio, stage->pressure);
-            steps += CONFINE_WAVES * wave / model->step;
+            steps += CONFINE_WAVES * wave / model->step / (double)model->largest_step;
         }
         double rate = scree_model_loading_rate(stage);
-        if (!isnan(rate)) steps += stage->strain / rate / model->step;
+        if (!isnan(rate)) steps += stage->strain / rate / model->step * evaluations_a_tick(model);
     }
     return steps;
 }
@@ -98,6 +106,7 @@ scree_status scree_case_summarise(const scree_case *c, scree_case_summary *summa
     }
     *summary = (scree_case_summary){.particles = (uint64_t)c->config.particles.count,
                                     .step = model.step,
+                                    .largest_step = model.largest_step,
                                     .critical_step = model.critical_step,
                                     .phi = model.phi,
                                     .psi = model.psi,

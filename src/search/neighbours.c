@@ -13,7 +13,8 @@
 /// with its history. The list depends on positions and ids alone, not on threads or on the order before. Cost, like
 /// discs in a dense packing, one core: about 230 cycles a disc (3 ms for 32,768 discs at 2.4 GHz; measured with
 /// bench/bench_neighbours), a third of it the search. Cells and sorts are not shared among threads, the rest is.
-/// Memory: 40 bytes a pair for the list, 40 a contact for state->contact, about 150 a disc for cells and buffers.
+/// Memory: 40 bytes a pair for the list (56 in 3D), during a rebuild 40 (56) a contact for state->contact and about 150
+/// a disc, 250 a sphere, for cells and buffers, which only small samples keep.
 #include "search/neighbours.h"
 
 #include "search/search.h"
@@ -254,6 +255,28 @@ static scree_status assemble(const scree_model *model, const scree_state *state,
     return SCREE_OK;
 }
 
+/// Number of bodies from which on memory matters more than a few per cent of a rebuild; smaller samples keep all they
+/// have, so that their rebuilds allocate nothing.
+enum { LARGE = 20000 };
+
+/// In a large assembly, frees what only a rebuild needs: cells, buffers of the search, the packed histories. They would
+/// take more room than the state.
+static void release_scratch(scree_search *search, scree_state *state)
+{
+    if (state->count < LARGE) return;
+    scree_cell_grid_destroy(&search->grid);
+    for (int c = 0; c < search->chunks; c++) {
+        scree_release(&search->chunk[c].touching.pair);
+        scree_release(&search->chunk[c].near.pair);
+        scree_release(&search->chunk[c].wall.pair);
+        search->chunk[c].touching.capacity = search->chunk[c].near.capacity = search->chunk[c].wall.capacity = 0;
+    }
+    scree_release(&search->entry_begin);
+    scree_release(&search->entry);
+    search->entry_begin_capacity = search->entry_capacity = 0;
+    scree_state_release_contacts(state);
+}
+
 static scree_status rebuild(const scree_model *model, scree_state *state, scree_work *work, scree_error *error)
 {
     scree_search *search = work->search;
@@ -265,6 +288,7 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     search->listed = false;
     search->bodies = state->count;
     work->pairs.count = work->pairs.touching_count = work->wall_pairs.count = 0;
+    if (state->count >= LARGE) scree_pair_lists_destroy(work);
 
     scree_cell_grid_fit(&search->grid, state, work->skin, work->threads);
     if (!search->grid.finite) {
@@ -282,6 +306,7 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
 #pragma omp parallel for num_threads(work->threads) schedule(static) if (work->threads > 1)
     for (size_t k = 0; k < state->count; k++) scree_body_place(state, k, state->rebuild[k]);
     memcpy(search->wall, state->wall, sizeof search->wall);
+    release_scratch(search, state);
     search->listed = work->valid = true;
     work->budget = half_skin(work);
     work->rebuilds++;

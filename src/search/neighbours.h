@@ -9,9 +9,9 @@
 /// by id (from the old list, or from state->contact when there is none), and does the same for body-wall pairs. Called
 /// after every drift. The integrator subtracts (largest |v| of any body) dt from work->budget in the drift; walls are
 /// watched here. Pairs are ordered along the curve by the lower of their rows, touching pairs first; wall pairs by row,
-/// then wall. Behind the last pair there are 16 more entries that may be read (row 0). A rebuild leaves state->contact
-/// holding the histories that it carried. Positions that are not finite raise SCREE_FLAG_NAN with the smallest such id.
-/// Errors: memory; the histories are safe then, and the call can be repeated.
+/// then wall. Behind the last pair there are 16 more entries that may be read (row 0). After a rebuild
+/// state->contact means nothing: its rows are in the list. Positions that are not finite raise SCREE_FLAG_NAN with the
+/// smallest such id. Errors: memory; the histories are safe then, and the call can be repeated.
 scree_status scree_neighbours_refresh(const scree_model *model, scree_state *state, scree_work *work,
                                       scree_error *error) SCREE_MUST_USE;
 

@@ -32,6 +32,7 @@ scree_status scree_work_create(scree_work *work, const scree_model *model, int t
 
 void scree_work_destroy(scree_work *work)
 {
+    scree_team_destroy(&work->team);
     scree_search *search = work->search;
     if (search) {
         for (int c = 0; c < search->chunks; c++) scree_pair_chunk_destroy(&search->chunk[c]);

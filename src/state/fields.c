@@ -59,6 +59,11 @@ const size_t scree_field_count = sizeof scree_fields / sizeof *scree_fields;
         "contacts/" name_, type_, components_, unit_, SCREE_FIELD_STATE, false, meaning_,                              \
             IN_ARRAY(contact, scree_contact_memory, member), .rows = SCREE_ROWS_CONTACTS                               \
     }
+#define BESIDE_CONTACT(name_, type_, array_, c_type, unit_, member, meaning_, rows_)                                   \
+    {                                                                                                                  \
+        "contacts/" name_, type_, 4, unit_, SCREE_FIELD_STATE, false, meaning_, IN_ARRAY(array_, c_type, member),      \
+            .rows = rows_                                                                                              \
+    }
 #define LOOP(name_, type_, c_type, unit_, member, meaning_)                                                            \
     {                                                                                                                  \
         "boundary/" name_, type_, 1, unit_, SCREE_FIELD_STATE, true, meaning_, PLAIN_ARRAY(loop.member, c_type),       \
@@ -94,6 +99,14 @@ const scree_field scree_members[] = {
     CONTACT("second", SCREE_FIELD_UINT32, 1, "1", second,
             "id of the second body, larger than the first; 4294967280 + index for a wall"),
     CONTACT("history", SCREE_FIELD_DOUBLE, SCREE_HISTORY, "1", history, "memory of the contact law, in its own units"),
+    BESIDE_CONTACT("booking", SCREE_FIELD_FLOAT, booking, scree_booking, "N", value,
+                   "damping force and dashpot x, y, z that the ledger needs again (hertz_mindlin in 3D)",
+                   SCREE_ROWS_BOOKING),
+    BESIDE_CONTACT("rolling", SCREE_FIELD_DOUBLE, rolling, scree_rolling, "1", value,
+                   "stretch of rolling and angle of twist: x, y, z [m] and [rad]; 2D: stretch [m] and spring force [N]",
+                   SCREE_ROWS_ROLLING),
+    BESIDE_CONTACT("rolling_booked", SCREE_FIELD_FLOAT, rolling, scree_rolling, "1", booked,
+                   "dashpots of rolling [N] and twisting [N m] that the ledger needs again", SCREE_ROWS_ROLLING),
 
     LOOP("id", SCREE_FIELD_UINT32, uint32_t, "1", id, "bodies along the closed boundary, counter-clockwise, by id"),
     LOOP("loaded", SCREE_FIELD_UINT8, uint8_t, "1", loaded,
@@ -110,7 +123,7 @@ const scree_field scree_members[] = {
          SCREE_ROWS_HULL_NODES),
     HULL("triangle", SCREE_FIELD_UINT32, 3, uint32_t[3], "1", triangle,
          "places in hull/id of the corners, counter-clockwise seen from outside", SCREE_ROWS_HULL_TRIANGLES),
-    HULL("loaded", SCREE_FIELD_UINT8, 1, uint8_t, "1", loaded, "1: the triangle carries the pressure",
+    HULL("loaded", SCREE_FIELD_UINT8, 1, uint8_t, "1", loaded, "1: the triangle carries the pressure; 2, 3: it faces the bottom, top plate",
          SCREE_ROWS_HULL_TRIANGLES),
 
     {"drive/force", SCREE_FIELD_DOUBLE, 3, "N", SCREE_FIELD_STATE, false,
@@ -149,9 +162,13 @@ const scree_field scree_members[] = {
     WALL("active", SCREE_FIELD_INT32, 1, "1", active, "1: the wall exists in this stage"),
     WALL("material", SCREE_FIELD_INT32, 1, "1", material, "index of the material in the case"),
 
-    ONE("scalars/step", SCREE_FIELD_UINT64, 1, "1", step, "steps since the start of the run"),
+    ONE("scalars/step", SCREE_FIELD_UINT64, 1, "1", step, "time since the start of the run, in ticks"),
+    ONE("scalars/evaluations", SCREE_FIELD_UINT64, 1, "1", evaluations,
+        "steps taken since the start of the run, one force evaluation each"),
     ONE("scalars/sampled_step", SCREE_FIELD_UINT64, 1, "1", sampled_step, "step of the last sample"),
-    ONE("scalars/step_size", SCREE_FIELD_DOUBLE, 1, "s", step_size, "time step"),
+    ONE("scalars/tick", SCREE_FIELD_DOUBLE, 1, "s", tick, "unit of step: the smallest time step of the scheme"),
+    ONE("scalars/step_size", SCREE_FIELD_DOUBLE, 1, "s", step_size, "the last time step"),
+    ONE("scalars/kick_size", SCREE_FIELD_DOUBLE, 1, "s", kick_size, "mean of the last two time steps"),
     ONE("scalars/force_quantum", SCREE_FIELD_DOUBLE, 1, "N", force_quantum, "unit of force_sum"),
     ONE("scalars/torque_quantum", SCREE_FIELD_DOUBLE, 1, "N m", torque_quantum, "unit of torque_sum"),
     ONE("scalars/largest_overlap", SCREE_FIELD_DOUBLE, 1, "m", largest_overlap, "largest indentation of all contacts"),
@@ -176,6 +193,8 @@ const scree_field scree_members[] = {
         "work of the other forces of the boundary on the bodies"),
     ONE("ledger/gravity", SCREE_FIELD_DOUBLE, 1, "J", ledger.gravity, "work of gravity on the bodies"),
     ONE("ledger/initial", SCREE_FIELD_DOUBLE, 1, "J", ledger.initial, "energy when the ledger was opened"),
+    ONE("ledger/scheme", SCREE_FIELD_DOUBLE, 1, "J", ledger.scheme,
+        "put into the kinetic energy of the scheme by changes of its step"),
     ONE("ledger/turnover", SCREE_FIELD_DOUBLE, 1, "J", ledger.turnover, "sum of the magnitudes of all work increments"),
 
     ONE("stage/index", SCREE_FIELD_INT64, 1, "1", stage.index, "number of the stage in the case"),
@@ -225,6 +244,10 @@ size_t scree_field_rows_count(const scree_state *state, const scree_field *field
         return state->count;
     case SCREE_ROWS_CONTACTS:
         return state->contact_count;
+    case SCREE_ROWS_BOOKING:
+        return state->booking ? state->contact_count : 0;
+    case SCREE_ROWS_ROLLING:
+        return state->rolling ? state->contact_count : 0;
     case SCREE_ROWS_LOOP:
         return state->loop.count;
     case SCREE_ROWS_HULL_NODES:

@@ -25,6 +25,8 @@ typedef enum scree_field_role { SCREE_FIELD_STATE, SCREE_FIELD_DERIVED } scree_f
 typedef enum scree_field_rows {
     SCREE_ROWS_BODIES,
     SCREE_ROWS_CONTACTS,
+    SCREE_ROWS_BOOKING, ///< as many as contacts where the law books them beside the history, else none
+    SCREE_ROWS_ROLLING, ///< as many as contacts where there is resistance to rolling, else none
     SCREE_ROWS_LOOP,
     SCREE_ROWS_HULL_NODES,
     SCREE_ROWS_HULL_TRIANGLES,

@@ -62,15 +62,22 @@ void scree_state_destroy(scree_state *state)
     scree_loop *loop = &state->loop;
     scree_hull *hull = &state->hull;
     scree_membrane *membrane = &state->membrane;
-    void *const others[] = {&state->row_of_id,   &state->contact, &state->booking,  &state->rolling, &loop->id,
-                            &loop->loaded,       &loop->x,        &loop->y,         &loop->fx,       &loop->fy,
-                            &hull->id,           &hull->place,    &hull->force,     &hull->triangle, &hull->loaded,
+    void *const others[] = {&state->row_of_id,   &state->contact, &state->booking,  &state->rolling,
+                            &loop->id,           &loop->loaded,   &loop->x,         &loop->y,
+                            &loop->fx,           &loop->fy,       &hull->id,        &hull->place,
+                            &hull->force,        &hull->triangle, &hull->loaded,    &state->foreseen,
                             &state->drive.force, &membrane->rest, &membrane->press, &membrane->force};
     body_array arrays[BODY_ARRAYS];
     size_t array_count = body_arrays(state, arrays);
     for (size_t k = 0; k < array_count; k++) scree_release(arrays[k].array);
     for (size_t k = 0; k < sizeof others / sizeof *others; k++) scree_release(others[k]);
     memset(state, 0, sizeof *state);
+}
+
+scree_status scree_state_foresee(scree_state *state, scree_error *error)
+{
+    if (state->foreseen) return SCREE_OK;
+    return scree_allocate(&state->foreseen, state->count + 1, sizeof *state->foreseen, error);
 }
 
 scree_status scree_state_append(scree_state *state, size_t more, scree_error *error)
@@ -84,12 +91,13 @@ scree_status scree_state_append(scree_state *state, size_t more, scree_error *er
     if (status) return status;
     for (size_t row = old; row < count; row++) state->id[row] = state->row_of_id[row] = (uint32_t)row;
     state->count = count;
+    scree_release(&state->foreseen);
     return SCREE_OK;
 }
 
 double scree_state_time(const scree_state *state)
 {
-    return state->stage.first_time + (double)(state->step - state->stage.first_step) * state->step_size;
+    return state->stage.first_time + (double)(state->step - state->stage.first_step) * state->tick;
 }
 
 /// array[k] <- array[order[k]] for elements of `size` bytes, through `scratch`.
@@ -110,6 +118,7 @@ scree_status scree_state_permute(scree_state *state, const uint32_t *order, scre
     size_t array_count = body_arrays(state, arrays);
     for (size_t k = 0; k < array_count; k++)
         permute_array(*(void **)arrays[k].array, arrays[k].size, order, state->count, scratch);
+    if (state->foreseen) permute_array(state->foreseen, sizeof *state->foreseen, order, state->count, scratch);
     scree_release(&scratch);
     for (size_t row = 0; row < state->count; row++) state->row_of_id[state->id[row]] = (uint32_t)row;
     return SCREE_OK;
@@ -126,6 +135,14 @@ scree_status scree_state_reserve_contacts(scree_state *state, size_t count, scre
         status = scree_reallocate(&state->rolling, old, capacity, sizeof *state->rolling, error);
     if (!status) state->contact_capacity = capacity;
     return status;
+}
+
+void scree_state_release_contacts(scree_state *state)
+{
+    scree_release(&state->contact);
+    scree_release(&state->booking);
+    scree_release(&state->rolling);
+    state->contact_count = state->contact_capacity = 0;
 }
 
 scree_status scree_state_add_booking(scree_state *state, scree_error *error)
@@ -207,8 +224,8 @@ static uint64_t checksum_imposed(const scree_state *state, uint64_t c)
 uint64_t scree_state_checksum(const scree_state *state)
 {
     uint64_t c = checksum_bodies(state, scree_checksum_word(state->step, state->count));
-    const double scalars[] = {state->step_size,       state->force_quantum, state->torque_quantum,
-                              state->largest_overlap, state->largest_speed, state->pressure};
+    const double scalars[] = {state->tick,           state->step_size,       state->kick_size,     state->force_quantum,
+                              state->torque_quantum, state->largest_overlap, state->largest_speed, state->pressure};
     c = scree_checksum_bytes(c, scalars, sizeof scalars);
     c = scree_checksum_bytes(c, state->contact, state->contact_count * sizeof *state->contact);
     if (state->booking) c = scree_checksum_bytes(c, state->booking, state->contact_count * sizeof *state->booking);
@@ -216,6 +233,7 @@ uint64_t scree_state_checksum(const scree_state *state)
     c = checksum_imposed(state, checksum_boundary(state, checksum_walls(state, c)));
     c = scree_checksum_word(c, state->grains);
     c = scree_checksum_word(c, state->sampled_step);
+    c = scree_checksum_word(c, state->evaluations);
     c = scree_checksum_bytes(c, &state->strain, sizeof state->strain);
     c = scree_checksum_bytes(c, &state->ledger, sizeof state->ledger);
     return scree_checksum_bytes(c, &state->stage, sizeof state->stage);

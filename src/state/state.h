@@ -50,6 +50,19 @@ typedef struct scree_sum_row {
     int64_t contacts; ///< number of touching neighbours and walls
 } scree_sum_row;
 
+/// What the next step will do to a body if its forces stay as they are, for laws that look ahead (contact/laws.h): the
+/// increments of its velocity and spin, and the number of its contacts. Derived; valid from the drift to the forces.
+typedef struct scree_foreseen {
+    double vx, vy; ///< m/s
+    union {
+        double spin; ///< 2D: rad/s
+        double vz;   ///< 3D: m/s
+    };
+    double contacts;
+    double wx, wy, wz; ///< 3D: rad/s
+    double unused;     ///< zero
+} scree_foreseen;
+
 /// 3D only: sum of the torques, in torque quanta.
 typedef struct scree_torque_row {
     int64_t x, y, z;
@@ -72,8 +85,8 @@ typedef struct scree_history {
     double value[SCREE_HISTORY]; ///< meaning depends on the law: see the head of its file in src/contact/
 } scree_history;
 
-/// hertz_mindlin in 3D, for the ledger: damping forces at n - 1 that the ledger needs again. Single precision is enough: each
-/// enters a mean with the present force, and the rounding errors have no preferred sign.
+/// hertz_mindlin in 3D, for the ledger: damping forces at n - 1 that the ledger needs again. Single precision is
+/// enough: each enters a mean with the present force, and the rounding errors have no preferred sign.
 typedef struct scree_booking {
     float value[4]; ///< N: normal, tangential x, y, z
 } scree_booking;
@@ -113,7 +126,7 @@ enum {
 };
 
 /// Energy ledger, J. Work is done ON the bodies; dissipation is positive. Residual of the balance:
-/// kinetic + elastic - initial - (plates + pressure + boundary + gravity) + damping + friction - stiffness, see
+/// kinetic + elastic - initial - (plates + pressure + boundary + gravity) + damping + friction - stiffness - scheme:
 /// measure/energy.c.
 typedef struct scree_ledger {
     double damping;   ///< dissipated by contact damping, normal and tangential
@@ -124,6 +137,7 @@ typedef struct scree_ledger {
     double boundary;  ///< work of the other forces of the boundary: imposed rates, chain and ends of a membrane
     double gravity;   ///< sum of m g . x when the ledger was opened
     double initial;   ///< kinetic + elastic energy when the ledger was opened
+    double scheme;    ///< put into the kinetic energy of the scheme by changes of its step (measure/energy.c)
     double turnover;  ///< sum of |work| increments, the scale of the residual
 } scree_ledger;
 
@@ -138,6 +152,13 @@ typedef struct scree_loop {
     uint64_t updated; ///< step of the last update
 } scree_loop;
 
+/// What a triangle of the hull carries.
+typedef enum scree_hull_load {
+    SCREE_HULL_BARE = 0,    ///< nothing
+    SCREE_HULL_LOADED = 1,  ///< the lateral pressure
+    SCREE_HULL_ON_WALL = 2, ///< faces a plate: this value plus the index of the wall
+} scree_hull_load;
+
 /// 3D: triangulated hull of the assembly, closed, normals outward; empty when there is none. The counterpart of
 /// scree_loop in 2D.
 typedef struct scree_hull {
@@ -145,7 +166,7 @@ typedef struct scree_hull {
     scree_vector *place;     ///< node_count, m, positions at `updated`
     scree_vector *force;     ///< node_count, N, force of the boundary at the present step
     uint32_t (*triangle)[3]; ///< triangle_count, nodes; counter-clockwise seen from outside
-    uint8_t *loaded;         ///< triangle_count, 1: carries the pressure
+    uint8_t *loaded;         ///< triangle_count, scree_hull_load
     size_t node_count, node_capacity;
     size_t triangle_count, triangle_capacity;
     uint64_t updated; ///< step of the last update
@@ -206,8 +227,11 @@ typedef struct scree_state {
     int dimension; ///< 2 or 3
     size_t count;
     size_t grains;            ///< bodies with ids below it are the assembly, those from it on belong to a membrane
-    uint64_t step;            ///< of the whole run; time = stage.first_time + (step - stage.first_step) * dt
-    double step_size;         ///< s, dt now
+    uint64_t step;            ///< time of the run in ticks; time = stage.first_time + (step - stage.first_step) * tick
+    uint64_t evaluations;     ///< steps taken since the start of the run, one force evaluation each
+    double tick;              ///< s, the small step of two_timescales, the step of all other schemes
+    double step_size;         ///< s, the last step, from n - 1 to n
+    double kick_size;         ///< s, what leapfrog velocities were advanced by in it: the mean of it and the one before
     scree_row *row;           ///< count
     scree_turn_row *turn;     ///< 3D: count; NULL in 2D
     scree_sum_row *sum;       ///< count, forces at `step`
@@ -224,6 +248,7 @@ typedef struct scree_state {
     uint64_t sampled_step;          ///< step of the last sample
     scree_vector *rebuild;          ///< m, positions at the last neighbour rebuild (derived, kept sorted with rows)
     uint32_t *row_of_id;            ///< derived
+    scree_foreseen *foreseen;       ///< derived, sorted with rows; NULL unless the law looks ahead
     // contacts: filled from `work` by scree_contacts_save, consumed by scree_contacts_load (contact/contact.h)
     scree_contact_memory *contact;
     scree_booking *booking; ///< beside `contact` where the law has booking rows; else NULL
@@ -279,6 +304,9 @@ static inline double scree_body_inertia(const scree_state *state, size_t row)
     return (state->dimension == 3 ? 0.4 : 0.5) * body->mass * body->radius * body->radius;
 }
 
+/// Makes room for what laws that look ahead need, if there is none yet.
+scree_status scree_state_foresee(scree_state *state, scree_error *error) SCREE_MUST_USE;
+
 /// The body in `row` is of the assembly, not of a membrane.
 static inline bool scree_body_is_grain(const scree_state *state, size_t row)
 {
@@ -308,6 +336,9 @@ uint64_t scree_state_checksum(const scree_state *state);
 
 /// Grows the contact memory to hold `count`, and the booking and rolling rows beside it where there are any.
 scree_status scree_state_reserve_contacts(scree_state *state, size_t count, scree_error *error) SCREE_MUST_USE;
+
+/// Frees the contact memory and what lies beside it.
+void scree_state_release_contacts(scree_state *state);
 
 /// Puts booking rows, and rolling rows, beside the contact memory; nothing happens where there are some.
 scree_status scree_state_add_booking(scree_state *state, scree_error *error) SCREE_MUST_USE;

@@ -2,6 +2,7 @@
 #ifndef SCREE_STATE_WORK_H
 #define SCREE_STATE_WORK_H
 
+#include "base/team.h"
 #include "state/state.h"
 
 /// Flags that kernels and integrators raise; the guard looks once a step.
@@ -49,6 +50,7 @@ typedef struct scree_work {
     bool valid;    ///< false: rebuild before the next force evaluation
     uint64_t rebuilds;
     int threads;
+    scree_team *team;      ///< of `threads` members, for loops of some microseconds; made at their first use
     bool ledger;           ///< dissipated energies are accumulated (default true)
     bool reference_kernel; ///< use the plain scalar core with runtime arguments (tests)
     int instruction_set;   ///< 0: best of this machine; 2, 3, 4: x86-64-v2, v3, v4
@@ -56,5 +58,11 @@ typedef struct scree_work {
     uint64_t flagged_id;   ///< a body that raised a flag
     void *contact_scratch; ///< private to contact/ (per-thread slots); freed by scree_contact_scratch_destroy
 } scree_work;
+
+/// Members of the team.
+static inline int scree_work_shares(const scree_work *work)
+{
+    return work->threads < 1 ? 1 : work->threads > SCREE_TEAM_MOST ? SCREE_TEAM_MOST : work->threads;
+}
 
 #endif

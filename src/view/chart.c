@@ -106,6 +106,7 @@ static void write_data(FILE *file, const scree_chart *chart)
         }
         fputc(',', file);
         write_csv_text(file, line->label ? line->label : chart->y_label);
+        if (line->low) fputs(",low,high", file);
     }
     fputc('\n', file);
     for (size_t row = 0; row < rows; row++) {
@@ -117,34 +118,94 @@ static void write_data(FILE *file, const scree_chart *chart)
             }
             fputc(',', file);
             write_value(file, line, line->y, row);
+            for (int side = 0; line->low && side < 2; side++) {
+                fputc(',', file);
+                write_value(file, line, side == 0 ? line->low : line->high, row);
+            }
         }
         fputc('\n', file);
     }
 }
 
+/// One line of the plot command: the columns of the data file, then how they are drawn.
+static void begin_plot(FILE *file, const char *name, bool first)
+{
+    fputs(first ? "plot " : ", \\\n     ", file);
+    write_quoted(file, name);
+    fputs(".'.csv' skip 1 using ", file);
+}
+
+/// The band or the error bars of the line whose y is in column y; they are drawn first, under the line.
+static void write_range(FILE *file, const scree_chart_line *line, size_t x, size_t y, const char *colour)
+{
+    if (line->points)
+        fprintf(file, "%zu:%zu:%zu:%zu with yerrorbars linecolor rgb '%s' linewidth 1.4 pointtype 0", x, y, y + 1,
+                y + 2, colour);
+    else
+        fprintf(file, "%zu:%zu:%zu with filledcurves fillcolor rgb '%s' fillstyle transparent solid 0.15 noborder", x,
+                y + 1, y + 2, colour);
+    fputs(" notitle", file);
+}
+
+static void write_line(FILE *file, const scree_chart_line *line, size_t x, size_t y, const char *colour)
+{
+    fprintf(file, "%zu:%zu with %s linecolor rgb '%s'", x, y,
+            line->bare     ? "points"
+            : line->points ? "linespoints"
+                           : "lines",
+            colour);
+    fprintf(file, " linewidth 2%s%s", line->bare ? "" : " dashtype ",
+            line->bare     ? ""
+            : line->dashed ? "(7,4)"
+                           : "solid");
+    if (line->points) fprintf(file, " pointtype 7 pointsize %s", line->low ? "1" : "0.5");
+    if (line->label) {
+        fputs(" title ", file);
+        write_quoted(file, line->label);
+    } else {
+        fputs(" notitle", file);
+    }
+}
+
+/// Bands come before all lines, so that none is dulled by the band of another; error bars belong to their points.
 static void write_plot(FILE *file, const scree_chart *chart, const char *name)
 {
-    size_t column = 0, x_column = 0, written = 0;
-    for (size_t k = 0; k < chart->line_count; k++) {
-        const scree_chart_line *line = &chart->line[k];
-        if (!shares_x(chart, k)) x_column = ++column;
-        column++;
-        if (!line_drawable(chart, line)) continue;
-        fputs(written == 0 ? "plot " : ", \\\n     ", file);
-        write_quoted(file, name);
-        fprintf(file, ".'.csv' skip 1 using %zu:%zu with %s", x_column, column, line->points ? "linespoints" : "lines");
-        int colour = line->colour > 0 ? (line->colour - 1) % COLOURS : (int)(written % COLOURS);
-        fprintf(file, " linecolor rgb '%s' linewidth 2 dashtype %s", palette[colour], line->dashed ? "(7,4)" : "solid");
-        if (line->points) fputs(" pointtype 7 pointsize 0.5", file);
-        if (line->label) {
-            fputs(" title ", file);
-            write_quoted(file, line->label);
-        } else {
-            fputs(" notitle", file);
+    bool first = true;
+    for (int bands = 1; bands >= 0; bands--) {
+        size_t column = 0, x_column = 0, written = 0;
+        for (size_t k = 0; k < chart->line_count; k++) {
+            const scree_chart_line *line = &chart->line[k];
+            if (!shares_x(chart, k)) x_column = ++column;
+            size_t y_column = ++column;
+            if (line->low) column += 2;
+            if (!line_drawable(chart, line)) continue;
+            const char *colour = palette[line->colour > 0 ? (size_t)(line->colour - 1) % COLOURS : written % COLOURS];
+            written++;
+            if (line->low && bands != line->points) {
+                begin_plot(file, name, first);
+                write_range(file, line, x_column, y_column, colour);
+                first = false;
+            }
+            if (bands) continue;
+            begin_plot(file, name, first);
+            write_line(file, line, x_column, y_column, colour);
+            first = false;
         }
-        written++;
     }
     fputc('\n', file);
+}
+
+/// Names in place of numbers along the x axis, with half a place free at both ends.
+static void write_x_names(FILE *file, const scree_chart *chart)
+{
+    if (!chart->x_name) return;
+    fputs("unset mxtics\nset xtics (", file);
+    for (size_t k = 0; k < chart->x_name_count; k++) {
+        fputs(k > 0 ? ", " : "", file);
+        write_quoted(file, chart->x_name[k]);
+        fprintf(file, " %zu", k + 1);
+    }
+    fprintf(file, ") noenhanced\nset xrange [0.5:%zu.5]\n", chart->x_name_count);
 }
 
 static void write_output(FILE *file, const char *name, const char *extension, const char *terminal)
@@ -154,15 +215,24 @@ static void write_output(FILE *file, const char *name, const char *extension, co
     fprintf(file, ".'.%s'\n", extension);
 }
 
+/// Points with error bars keep clear of the sides.
+static bool has_bars(const scree_chart *chart)
+{
+    bool bars = false;
+    for (size_t k = 0; k < chart->line_count; k++) bars |= chart->line[k].points && chart->line[k].low;
+    return bars && !chart->x_name;
+}
+
 /// Values that are all positive, and not far from zero, are shown from zero.
 static bool begins_at_zero(const scree_chart *chart)
 {
     double low = INFINITY, high = -INFINITY;
     for (size_t k = 0; k < chart->line_count; k++)
         for (size_t row = 0; row < chart->line[k].count; row++) {
-            if (!drawable(chart, chart->line[k].x[row], chart->line[k].y[row])) continue;
-            low = fmin(low, chart->line[k].y[row]);
-            high = fmax(high, chart->line[k].y[row]);
+            const scree_chart_line *line = &chart->line[k];
+            if (!drawable(chart, line->x[row], line->y[row])) continue;
+            low = fmin(low, line->low && isfinite(line->low[row]) ? line->low[row] : line->y[row]);
+            high = fmax(high, line->y[row]);
         }
     return low >= 0 && low < 0.25 * high;
 }
@@ -181,12 +251,11 @@ static void write_style(FILE *file, const scree_chart *chart)
     write_quoted(file, chart->x_label);
     fputs("\nset ylabel ", file);
     write_quoted(file, chart->y_label);
-    fputs(" offset 0.5,0\nset border 3 linecolor rgb '#333333' linewidth 1\n"
+    fputs("\nset border 3 linecolor rgb '#333333' linewidth 1\n"
           "set tics nomirror out scale 0.6 textcolor rgb '#222222'\nset mxtics 2\n"
           "set grid back xtics ytics linetype 1 linecolor rgb '#e4e4e4' linewidth 0.8\n"
           "set xzeroaxis linetype 1 linecolor rgb '#999999' linewidth 1\n"
-          "set offsets 0, 0, graph 0.03, graph 0.03\nset autoscale xfix\nset "
-          "bmargin at screen 0.15\nset tmargin at screen 0.89\n",
+          "set autoscale xfix\nset bmargin at screen 0.15\nset tmargin at screen 0.89\n",
           file);
     bool legend = false;
     for (size_t k = 0; k < chart->line_count; k++) legend |= chart->line[k].label != NULL;
@@ -194,7 +263,11 @@ static void write_style(FILE *file, const scree_chart *chart)
                    "set key at screen 0.715,0.90 left top vertical Left reverse samplen 2.2 spacing 1.35\n"
                  : "set rmargin at screen 0.965\nunset key\n",
           file);
-    if (!chart->log_y && begins_at_zero(chart)) fputs("set offsets 0, 0, graph 0.03, 0\nset yrange [0:]\n", file);
+    bool zero = !chart->log_y && begins_at_zero(chart);
+    const char *side = has_bars(chart) && !chart->log_x ? "graph 0.04" : "0";
+    fprintf(file, "set offsets %s, %s, graph 0.03, %s\n%s", side, side, zero ? "0" : "graph 0.03",
+            zero ? "set yrange [0:]\n" : "");
+    write_x_names(file, chart);
     if (chart->log_x) fputs("set logscale x\nset format x '10^{%L}'\n", file);
     if (chart->log_y) fputs("unset offsets\nset logscale y\nset format y '10^{%L}'\n", file);
 }

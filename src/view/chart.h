@@ -10,9 +10,11 @@
 /// Labels (not titles) may use gnuplot's enhanced text, e.g. `v_R` or `10^{-3}`.
 typedef struct scree_chart_line {
     const double *x, *y;
+    const double *low, *high; ///< NULL, or a band around a line, error bars of points
     size_t count;
     const char *label; ///< NULL: no legend entry
     bool dashed, points;
+    bool bare;  ///< points without a line
     int colour; ///< 1 to 7: of the palette, e.g. the same for two lines that belong together; 0: the next one
 } scree_chart_line;
 
@@ -22,6 +24,8 @@ typedef struct scree_chart {
     const scree_chart_line *line;
     size_t line_count;
     bool log_x, log_y;
+    const char *const *x_name; ///< NULL, or what stands at x = 1, 2, ... in place of numbers
+    size_t x_name_count;
 } scree_chart;
 
 /// path without extension. Values that are not finite are gaps, and so are those not above zero on a logarithmic axis.

@@ -200,7 +200,9 @@ static scree_status draw_fluctuations(const scree_plot_run *run, const scree_sna
     scree_status status = scree_path_join(path, sizeof path, run->figures, name, error);
     if (!status) status = scree_allocate(&arrow, 2 * from->count, sizeof *arrow, error);
     if (!status) {
-        (void)scree_fluctuations(from->x, from->y, to->x, to->y, from->grains, arrow, arrow + from->count, gradient);
+        const double *const begin[] = {from->x, from->y}, *const end[] = {to->x, to->y};
+        double *const fluctuation[] = {arrow, arrow + from->count};
+        (void)scree_fluctuations(2, begin, end, from->grains, fluctuation, gradient);
         scree_scene scene = {.title = title, .arrow_x = arrow, .arrow_y = arrow + from->count, .plates = true};
         status = scree_scene_draw(path, from, &scene, error);
     }

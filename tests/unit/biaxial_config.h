@@ -35,6 +35,7 @@ static inline void biaxial_config_set(biaxial_config *c, int64_t count)
                                        .method = SCREE_PREPARE_DROP_AND_ROLL,
                                        .aspect_ratio = 2,
                                        .width = NAN,
+                                       .depth = NAN,
                                        .solid_fraction = 0.4,
                                        .velocity = 0.1};
     c->stage[1] = (scree_config_stage){.kind = SCREE_STAGE_CONFINE, .pressure = 100e3};

@@ -84,7 +84,8 @@ static inline void fixture_create_in(fixture *f, int dimension, scree_law law, s
     f->config.guard.overlap = 0.5;
     f->model.config = &f->config;
     assert_int_equal(scree_state_create(&f->state, dimension, count, &error), SCREE_OK);
-    f->state.step_size = step;
+    f->state.tick = f->state.step_size = f->state.kick_size = step;
+    if (scree_model_foresees(&f->model)) assert_int_equal(scree_state_foresee(&f->state, &error), SCREE_OK);
     f->model.step = step;
     f->work.threads = 1;
     f->work.ledger = true;
@@ -100,6 +101,7 @@ static inline void fixture_create(fixture *f, scree_law law, size_t count, doubl
 
 static inline void fixture_destroy(fixture *f)
 {
+    scree_team_destroy(&f->work.team);
     scree_contact_scratch_destroy(&f->work);
     scree_release(&f->work.pairs.first);
     scree_release(&f->work.pairs.second);
@@ -208,6 +210,12 @@ static inline void fixture_step(fixture *f)
         scree_row *row = &f->state.row[k];
         double force[3];
         fixture_force(f, k, force);
+        if (f->state.foreseen)
+            f->state.foreseen[k] =
+                (scree_foreseen){.vx = dt * (force[0] / row->mass + f->model.gravity[0]),
+                                 .vy = dt * (force[1] / row->mass + f->model.gravity[1]),
+                                 .spin = dt * force[2] / (0.5 * row->mass * row->radius * row->radius),
+                                 .contacts = (double)f->state.sum[k].contacts};
         row->vx += dt * (force[0] / row->mass + f->model.gravity[0]);
         row->vy += dt * (force[1] / row->mass + f->model.gravity[1]);
         row->spin += dt * force[2] / (0.5 * row->mass * row->radius * row->radius);

@@ -4,6 +4,7 @@
 
 #include "base/fixed.h"
 #include "integrate/integrate.h"
+#include "measure/measure.h"
 
 #include <math.h>
 #include <string.h>
@@ -36,7 +37,7 @@ static void make_state(scree_state *state, size_t count, double dt)
 {
     scree_error error;
     assert_int_equal(scree_state_create(state, 2, count, &error), SCREE_OK);
-    state->step_size = dt;
+    state->tick = state->step_size = state->kick_size = dt;
     state->force_quantum = scree_fixed_quantum(1000);
     state->torque_quantum = scree_fixed_quantum(1000);
     for (size_t k = 0; k < count; k++) {
@@ -88,6 +89,155 @@ static void both_schemes_are_of_second_order(void **unused)
         assert_true(coarse < 2 * pow(OMEGA * 0.01, 2) / 24 * OMEGA * 3.0 * OMEGA);
         assert_true(fabs(coarse / fine - 4) < 0.1);
     }
+}
+
+/// Springs to the origin in space, and a torque that turns the spin as if it were a position's velocity.
+static void spring_forces_in_space(scree_state *state, double time)
+{
+    double inertia = 0.4 * MASS * RADIUS * RADIUS, turning = inertia * OMEGA * cos(OMEGA * time);
+    double force = 1 / state->force_quantum, torque = 1 / state->torque_quantum;
+    for (size_t k = 0; k < state->count; k++) {
+        const scree_row *row = &state->row[k];
+        state->sum[k].fx = scree_fixed_from(-STIFFNESS * row->x, force);
+        state->sum[k].fy = scree_fixed_from(-STIFFNESS * row->y, force);
+        state->sum[k].fz = scree_fixed_from(-STIFFNESS * row->z, force);
+        state->torque[k].x = scree_fixed_from(turning, torque);
+        state->torque[k].y = scree_fixed_from(-2 * turning, torque);
+        state->torque[k].z = scree_fixed_from(3 * turning, torque);
+    }
+}
+
+/// Largest error of positions, velocity and spin of a sphere after `time`.
+static double error_in_space(scree_scheme scheme, double time, int steps)
+{
+    scree_model model = make_model(scheme);
+    scree_state state;
+    scree_error error;
+    scree_work work = {.threads = 1};
+    double dt = time / steps;
+    assert_int_equal(scree_state_create(&state, 3, 1, &error), SCREE_OK);
+    state.step_size = dt;
+    state.force_quantum = state.torque_quantum = scree_fixed_quantum(1000);
+    state.row[0] = (scree_row){.x = 1, .y = -0.5, .radius = RADIUS, .mass = MASS};
+    state.row[0].z = 0.25;
+    if (scheme == SCREE_SCHEME_POSITION_VERLET) {
+        double back = 0.5 * dt * OMEGA;
+        state.row[0].vx = back * OMEGA, state.row[0].vy = -0.5 * back * OMEGA, state.row[0].vz = 0.25 * back * OMEGA;
+        state.turn[0] = (scree_turn_row){-back, 2 * back, -3 * back, 0};
+    }
+    const scree_integrator *integrator = scree_integrator_get(scheme);
+    spring_forces_in_space(&state, 0);
+    for (int k = 0; k < steps; k++) {
+        integrator->first(&model, &state, &work);
+        spring_forces_in_space(&state, dt * (k + 1));
+        if (integrator->second) integrator->second(&model, &state, &work);
+    }
+    double c = cos(OMEGA * time), s = sin(OMEGA * time), worst = 0;
+    scree_vector place, velocity, spin;
+    scree_body_place(&state, 0, place);
+    scree_body_velocity(&model, &state, 0, velocity, spin);
+    const double start[3] = {1, -0.5, 0.25}, rate[3] = {1, -2, 3};
+    for (int k = 0; k < 3; k++) {
+        worst = fmax(worst, fabs(place[k] - start[k] * c));
+        worst = fmax(worst, fabs(velocity[k] + start[k] * OMEGA * s));
+        worst = fmax(worst, fabs(spin[k] - rate[k] * s));
+    }
+    scree_state_destroy(&state);
+    return worst;
+}
+
+/// Largest error of x, angle and their velocities at `time` of `sequences` sequences of one step of n ticks and q of
+/// one.
+static double sequences_error(uint64_t n, uint64_t q, double time, int sequences)
+{
+    scree_model model = make_model(SCREE_SCHEME_TWO_TIMESCALES);
+    model.large_multiple = n;
+    model.small_steps = q;
+    model.largest_step = n + q;
+    scree_state state;
+    scree_work work = {.threads = 1};
+    double dt = time / (double)(n + q) / sequences;
+    make_state(&state, 1, dt);
+    // The step before the first one is as large: v(-1/2) belongs to it.
+    state.step_size = (double)n * dt;
+    state.row[0].vx = 0.5 * state.step_size * OMEGA * OMEGA * 1.0;
+    state.row[0].spin = 0.5 * state.step_size * OMEGA * OMEGA * 0.3;
+    spring_forces(&state);
+    const scree_integrator *integrator = scree_integrator_get(SCREE_SCHEME_TWO_TIMESCALES);
+    while (state.step < (uint64_t)sequences * (n + q)) {
+        state.step += scree_integrator_choose_step(integrator, &model, &state, true);
+        integrator->first(&model, &state, &work);
+        spring_forces(&state);
+    }
+    assert_true(scree_state_time(&state) == (double)state.step * dt);
+    double c = cos(OMEGA * time), s = sin(OMEGA * time);
+    scree_vector velocity, spin;
+    scree_body_velocity(&model, &state, 0, velocity, spin);
+    double worst = fmax(fabs(state.row[0].x - c), fabs(state.angle[0] - 0.3 * c));
+    worst = fmax(worst, fmax(fabs(velocity[0] + OMEGA * s), fabs(spin[2] + 0.3 * OMEGA * s)));
+    scree_state_destroy(&state);
+    return worst;
+}
+
+static void both_schemes_are_of_second_order_in_space(void **unused)
+{
+    (void)unused;
+    for (int scheme = SCREE_SCHEME_POSITION_VERLET; scheme <= SCREE_SCHEME_VELOCITY_VERLET; scheme++) {
+        double coarse = error_in_space((scree_scheme)scheme, 3.0, 300);
+        double fine = error_in_space((scree_scheme)scheme, 3.0, 600);
+        // As in two dimensions.
+        assert_true(coarse < 2 * pow(OMEGA * 0.01, 2) / 24 * OMEGA * 3.0 * OMEGA);
+        assert_true(fabs(coarse / fine - 4) < 0.1);
+    }
+}
+
+/// Steps of two sizes: kicks by the mean of neighbouring steps keep the second order.
+static void two_timescales_are_of_second_order(void **unused)
+{
+    (void)unused;
+    const uint64_t combinations[][2] = {{20, 5}, {5, 5}, {10, 15}, {3, 1}};
+    for (size_t k = 0; k < sizeof combinations / sizeof *combinations; k++) {
+        double coarse = sequences_error(combinations[k][0], combinations[k][1], 3.0, 60);
+        double fine = sequences_error(combinations[k][0], combinations[k][1], 3.0, 120);
+        // 4 up to the next order in omega times a sequence, 0.1.
+        assert_true(coarse < 0.1 && fabs(coarse / fine - 4) < 0.15);
+    }
+}
+
+/// What a change of the step does to the scheme's kinetic energy is booked: the balance over the work of the springs.
+static void changes_of_the_step_are_booked(void **unused)
+{
+    (void)unused;
+    scree_model model = make_model(SCREE_SCHEME_TWO_TIMESCALES);
+    model.large_multiple = 7, model.small_steps = 3, model.largest_step = 10;
+    scree_state state;
+    scree_work work = {.threads = 1};
+    scree_contact_table none = {0};
+    scree_energy energy;
+    make_state(&state, 3, 0.01);
+    spring_forces(&state);
+    scree_integrator_choose_step(scree_integrator_get(model.scheme), &model, &state, true);
+    double initial = NAN, worst = 0, booked = 0;
+    for (int k = 0; k < 400; k++) {
+        scree_energy_measure(&model, &state, &none, &energy);
+        double potential = 0;
+        for (size_t i = 0; i < 3; i++)
+            potential += 0.5 * STIFFNESS *
+                         (state.row[i].x * state.row[i].x + state.row[i].y * state.row[i].y +
+                          0.5 * RADIUS * RADIUS * state.angle[i] * state.angle[i]);
+        double sum = energy.kinetic + energy.kinetic_rotation + potential - state.ledger.scheme;
+        initial = k > 0 ? initial : sum;
+        worst = fmax(worst, fabs(sum - initial));
+        booked = fmax(booked, fabs(state.ledger.scheme));
+        double before = state.step_size;
+        state.step += scree_integrator_choose_step(scree_integrator_get(model.scheme), &model, &state, true);
+        scree_energy_change_step(&model, &state, before, state.step_size);
+        scree_integrator_get(model.scheme)->first(&model, &state, &work);
+        spring_forces(&state);
+    }
+    // Linear forces: the trapezoid is exact, so only round-off and the quantum of the force are left of some 70 J.
+    assert_true(worst < 1e-11 && booked > 1e-3);
+    scree_state_destroy(&state);
 }
 
 static void schemes_share_their_trajectory(void **unused)
@@ -162,6 +312,7 @@ static void threads_give_the_same_bits(void **unused)
             integrator->second(&model, &state, &work);
         }
         checksum[threads - 1] = scree_state_checksum(&state);
+        scree_team_destroy(&work.team);
         scree_state_destroy(&state);
     }
     assert_true(checksum[0] == checksum[1] && checksum[0] == checksum[2]);
@@ -204,6 +355,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(both_schemes_are_of_second_order),
+        cmocka_unit_test(both_schemes_are_of_second_order_in_space),
+        cmocka_unit_test(two_timescales_are_of_second_order),
+        cmocka_unit_test(changes_of_the_step_are_booked),
         cmocka_unit_test(schemes_share_their_trajectory),
         cmocka_unit_test(gravity_is_a_parabola),
         cmocka_unit_test(threads_give_the_same_bits),

@@ -447,21 +447,28 @@ static void slip_and_unbalanced_force(void **user)
     scree_state_destroy(&b.state);
 }
 
+static double solid_fraction(const scree_state *state)
+{
+    double fraction;
+    assert_int_equal(scree_solid_fraction(state, &fraction, NULL), SCREE_OK);
+    return fraction;
+}
+
 static void solid_fraction_of_lattices(void **user)
 {
     (void)user;
     bench b;
     bench_create(&b, 30);
-    assert_true(isnan(scree_solid_fraction(&b.state)));
+    assert_true(isnan(solid_fraction(&b.state)));
     for (size_t i = 0; i < 30; i++) place(&b, i, 2.0 * (double)(i % 5), 2.0 * (double)(i / 5));
     assert_int_equal(scree_boundary_refresh(&b.model, &b.state, NULL), SCREE_OK);
-    assert_true(near(scree_solid_fraction(&b.state), M_PI / 4, 1e-14, 1));
+    assert_true(near(solid_fraction(&b.state), M_PI / 4, 1e-14, 1));
     scree_state_destroy(&b.state);
     bench_create(&b, 30);
     b.config.boundary.gap_limit = 2; // straight sides would do as well: partial discs only at the vertices
     for (size_t i = 0; i < 30; i++) place(&b, i, 2.0 * (double)(i % 5) + (double)(i / 5), sqrt(3.0) * (double)(i / 5));
     assert_int_equal(scree_boundary_refresh(&b.model, &b.state, NULL), SCREE_OK);
-    assert_true(near(scree_solid_fraction(&b.state), M_PI / sqrt(12.0), 1e-14, 1));
+    assert_true(near(solid_fraction(&b.state), M_PI / sqrt(12.0), 1e-14, 1));
     scree_state_destroy(&b.state);
 }
 
@@ -551,18 +558,19 @@ static void fluctuations_about_an_affine_field(void **user)
     (void)user;
     enum { COUNT = 200 };
     double x0[COUNT], y0[COUNT], x1[COUNT], y1[COUNT], fx[COUNT], fy[COUNT], g[4];
-    const double f[4] = {0.02, -0.01, 0.03, -0.05};
+    const double f[4] = {0.02, -0.01, 0.03, -0.05}, *const from[2] = {x0, y0}, *const to[2] = {x1, y1};
+    double *const fluctuation[2] = {fx, fy};
     for (uint64_t i = 0; i < COUNT; i++) {
         x0[i] = 4 + uniform(3000 + 2 * i);
         y0[i] = -2 + 2 * uniform(3001 + 2 * i);
         x1[i] = x0[i] + 0.1 + f[0] * x0[i] + f[1] * y0[i];
         y1[i] = y0[i] - 0.3 + f[2] * x0[i] + f[3] * y0[i];
     }
-    assert_true(scree_fluctuations(x0, y0, x1, y1, COUNT, fx, fy, g) < 1e-14);
+    assert_true(scree_fluctuations(2, from, to, COUNT, fluctuation, g) < 1e-14);
     assert_true(distance(g, f) < 1e-13);
     // One body out of step: the fit hardly notices, the body does.
     x1[7] += 0.5;
-    double rms = scree_fluctuations(x0, y0, x1, y1, COUNT, fx, fy, g);
+    double rms = scree_fluctuations(2, from, to, COUNT, fluctuation, g);
     assert_true(fabs(fx[7] - 0.5) < 0.02 && fabs(fy[7]) < 1e-12);
     assert_true(fabs(rms - 0.5 / sqrt(COUNT)) < 0.02 / sqrt(COUNT));
     // The residual of a least-squares fit is orthogonal to what it fits.
@@ -578,9 +586,9 @@ static void fluctuations_about_an_affine_field(void **user)
     for (int i = 0; i < 6; i++) assert_true(fabs(normal[i]) < 1e-11);
     // On a line: no gradient, the mean displacement goes.
     for (int i = 0; i < COUNT; i++) y0[i] = 2 * x0[i];
-    (void)scree_fluctuations(x0, y0, x1, y1, COUNT, fx, fy, g);
+    (void)scree_fluctuations(2, from, to, COUNT, fluctuation, g);
     for (int i = 0; i < 4; i++) assert_true(g[i] == 0);
-    assert_true(scree_fluctuations(x0, y0, x1, y1, 0, fx, fy, g) == 0);
+    assert_true(scree_fluctuations(2, from, to, 0, fluctuation, g) == 0);
 }
 
 int main(void)

@@ -35,13 +35,14 @@ static void bench_create(bench *b, size_t columns, size_t rows, bool plates)
     b->config.boundary.every = 250;
     b->config.boundary.gap_limit = 0.5;
     b->model.config = &b->config;
+    b->model.largest_step = 1;
     b->model.thickness = THICKNESS;
     b->model.mean_radius = RADIUS;
     assert_int_equal(scree_state_create(&b->state, 2, columns * rows, NULL), SCREE_OK);
     scree_state *state = &b->state;
     state->pressure = PRESSURE;
     state->force_quantum = QUANTUM;
-    state->step_size = 1e-6;
+    state->tick = state->step_size = state->kick_size = 1e-6;
     double low = INFINITY, high = -INFINITY;
     for (size_t i = 0; i < state->count; i++) {
         scree_row *row = &state->row[i];

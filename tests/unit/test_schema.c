@@ -128,7 +128,7 @@ static void compare_section(const scree_section *section, const char *a, const c
     static const size_t sizes[] = {
         [SCREE_KEY_NUMBER] = sizeof(double),     [SCREE_KEY_INTEGER] = sizeof(int64_t),
         [SCREE_KEY_FLAG] = sizeof(bool),         [SCREE_KEY_CHOICE] = sizeof(int),
-        [SCREE_KEY_VECTOR] = 2 * sizeof(double), [SCREE_KEY_TENSOR] = 9 * sizeof(double),
+        [SCREE_KEY_VECTOR] = 3 * sizeof(double), [SCREE_KEY_TENSOR] = 9 * sizeof(double),
     };
     for (size_t i = 0; i < section->count; i++) {
         const scree_key *key = &section->keys[i];

@@ -33,12 +33,19 @@ static const char case_text[] =
     "measure: {samples: 20}\n"
     "output: {snapshots: 2, paraview: no, figures: no, checkpoint_steps: 700}\n";
 
-/// The four combinations of law and scheme.
-static const char *const combinations[4][2] = {
-    {"contact.law=hertz_mindlin", "integrator.scheme=velocity_verlet"},
-    {"contact.law=hertz_mindlin", "integrator.scheme=position_verlet"},
-    {"contact.law=hertz_brilliantov", "integrator.scheme=velocity_verlet"},
-    {"contact.law=hertz_brilliantov", "integrator.scheme=position_verlet"},
+/// Combinations of law, scheme and update of friction.
+#define BRILLIANTOV "contact.law=hertz_brilliantov"
+enum { COMBINATIONS = 7, OVERRIDES = 4 };
+static const char *const combinations[COMBINATIONS][OVERRIDES] = {
+    {"contact.law=hertz_mindlin", "integrator.scheme=velocity_verlet", "stages.confine.friction=0.1", "dimension=2"},
+    {"contact.law=hertz_mindlin", "integrator.scheme=position_verlet", "stages.confine.friction=0.1", "dimension=2"},
+    {BRILLIANTOV, "integrator.scheme=velocity_verlet", "stages.confine.friction=0.1", "dimension=2"},
+    {BRILLIANTOV, "integrator.scheme=position_verlet", "stages.confine.friction=0.1", "dimension=2"},
+    {BRILLIANTOV, "integrator.scheme=velocity_verlet", "contact.friction_update=implicit",
+     "stages.confine.friction=0.1"},
+    {BRILLIANTOV, "integrator.scheme=position_verlet", "contact.friction_update=implicit",
+     "stages.confine.friction=0.1"},
+    {BRILLIANTOV, "integrator.scheme=two_timescales", "integrator.step=1e-6 s", "integrator.repeats=2"},
 };
 
 static scree_case *read_case(const char *const *overrides, size_t count)
@@ -72,9 +79,9 @@ static uint64_t run_some(const scree_case *c, int threads, uint64_t discard)
     scree_simulation s;
     scree_error error;
     check(scree_simulation_open(c, threads, &s, &error), &error);
-    while (s.state.step < COMPARED_STEPS) {
+    while (s.state.evaluations < COMPARED_STEPS) {
         check(scree_simulation_step(&s, &error), &error);
-        if (discard == 0 || s.state.step != discard) continue;
+        if (discard == 0 || s.state.evaluations != discard) continue;
         check(scree_contacts_save(&s.state, &s.work, &error), &error);
         scree_contact_scratch_destroy(&s.work);
         scree_work_destroy(&s.work);
@@ -90,8 +97,8 @@ static uint64_t run_some(const scree_case *c, int threads, uint64_t discard)
 static void threads_and_lost_work_give_the_same_bits(void **unused)
 {
     (void)unused;
-    for (int k = 0; k < 4; k++) {
-        scree_case *c = read_case(combinations[k], 2);
+    for (int k = 0; k < COMBINATIONS; k++) {
+        scree_case *c = read_case(combinations[k], OVERRIDES);
         uint64_t reference = run_some(c, 1, 0);
         for (int threads = 2; threads <= 3; threads++) assert_true(run_some(c, threads, 0) == reference);
         double random = scree_random_uniform(1, SCREE_RANDOM_TEST, (uint64_t)k);
@@ -125,10 +132,10 @@ static void restart_gives_the_same_bits(void **unused)
     assert_non_null(mkdtemp(folder));
     snprintf(whole, sizeof whole, "%s/whole", folder);
     snprintf(part, sizeof part, "%s/part", folder);
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < COMBINATIONS; k++) {
         scree_error error;
         stopper stopping = {0};
-        scree_case *c = read_case(combinations[k], 2);
+        scree_case *c = read_case(combinations[k], OVERRIDES);
         scree_run_options options = {.output = whole, .threads = 1, .force = true};
         check(scree_run(c, &options, &error), &error);
         options = (scree_run_options){.output = part,

@@ -1,0 +1,21 @@
+/// The triangulated hull as the place of the lateral pressure in three dimensions; private to pressure.c, which has the
+/// loop of 2D beside it.
+#ifndef SCREE_BOUNDARY_HULL_H
+#define SCREE_BOUNDARY_HULL_H
+
+#include "state/state.h"
+
+/// Finds the hull of the present positions, marks its loads, closes the strain increment of the old one and takes its
+/// place. Errors: memory, SCREE_ERROR_GUARD; the state is unchanged then.
+scree_status scree_hull_renew(const scree_model *model, scree_state *state, scree_error *error) SCREE_MUST_USE;
+
+/// Adds the forces of state->pressure at the present positions to the sums, and keeps them in hull.force.
+void scree_hull_press(scree_state *state);
+
+/// A bound of the force of the pressure on a body [N], for the quanta.
+double scree_hull_pressure_bound(const scree_model *model, const scree_state *state);
+
+/// Power of the kept forces on the velocities that the rows hold [W].
+double scree_hull_power(const scree_state *state);
+
+#endif

@@ -1,0 +1,33 @@
+/// Signals that ask for an orderly end.
+#include "cli/stop.h"
+
+#include <errno.h>
+#include <signal.h>
+#include <stddef.h>
+#include <unistd.h>
+
+/// A signal handler can reach nothing else.
+static volatile sig_atomic_t stop_signal;
+
+static void ask_to_stop(int signal_number)
+{
+    static const char note[] = "\nstopping after a checkpoint; a second signal ends at once\n";
+    int number = errno;
+    stop_signal = signal_number;
+    ssize_t ignored = write(STDERR_FILENO, note, sizeof note - 1);
+    (void)ignored;
+    errno = number;
+}
+
+const volatile int *scree_stop_signal(void)
+{
+    return &stop_signal;
+}
+
+void scree_stop_catch(void)
+{
+    // The handler is gone after the first signal.
+    struct sigaction action = {.sa_handler = ask_to_stop, .sa_flags = SA_RESTART | (int)SA_RESETHAND};
+    (void)sigaction(SIGINT, &action, NULL);
+    (void)sigaction(SIGTERM, &action, NULL);
+}

@@ -1,0 +1,11 @@
+/// Asking a run or a sweep to stop: the first SIGINT or SIGTERM asks, a second one ends the program at once.
+#ifndef SCREE_CLI_STOP_H
+#define SCREE_CLI_STOP_H
+
+/// Where the number of the signal appears, for the options of a run or a sweep.
+const volatile int *scree_stop_signal(void);
+
+/// From here on the signals are caught.
+void scree_stop_catch(void);
+
+#endif

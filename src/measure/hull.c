@@ -1,0 +1,114 @@
+/// The sample inside a triangulated hull: see hull.h. Cost: O(triangles).
+#include "measure/hull.h"
+
+#include <math.h>
+
+void scree_hull_position(const scree_state *state, size_t node, scree_vector place)
+{
+    scree_body_place(state, state->row_of_id[state->hull.id[node]], place);
+}
+
+void scree_hull_corners(const scree_state *state, size_t triangle, const scree_vector origin, scree_vector corner[3])
+{
+    for (int c = 0; c < 3; c++) {
+        scree_hull_position(state, state->hull.triangle[triangle][c], corner[c]);
+        for (int k = 0; k < 3; k++) corner[c][k] -= origin[k];
+    }
+}
+
+/// Six times the volume of the tetrahedron of the origin and a triangle.
+static double six_volumes(const scree_vector a, const scree_vector b, const scree_vector c)
+{
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+/// Volume, and centre relative to `origin`.
+static double volume_about(const scree_state *state, const scree_vector origin, scree_vector centre)
+{
+    double volume = 0;
+    scree_vector corner[3], moment = {0};
+    for (size_t t = 0; t < state->hull.triangle_count; t++) {
+        scree_hull_corners(state, t, origin, corner);
+        double part = six_volumes(corner[0], corner[1], corner[2]) / 6;
+        volume += part;
+        for (int k = 0; k < 3; k++) moment[k] += part * (corner[0][k] + corner[1][k] + corner[2][k]) / 4;
+    }
+    for (int k = 0; k < 3; k++) centre[k] = volume > 0 ? moment[k] / volume : 0;
+    return volume;
+}
+
+double scree_hull_volume(const scree_state *state)
+{
+    scree_vector origin = {0}, centre;
+    if (state->hull.node_count > 0) scree_hull_position(state, 0, origin);
+    return volume_about(state, origin, centre);
+}
+
+/// Area of the foot of a triangle on a plate across the last axis, positive when the triangle faces it.
+static double foot_area(const scree_wall *wall, scree_vector corner[3])
+{
+    const double *a = corner[0], *b = corner[1], *c = corner[2];
+    return -0.5 * wall->normal[2] * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+}
+
+double scree_hull_sample_volume(const scree_state *state, scree_vector centre)
+{
+    scree_vector origin = {0}, corner[3];
+    if (state->hull.node_count > 0) scree_hull_position(state, 0, origin);
+    double volume = volume_about(state, origin, centre);
+    for (size_t t = 0; t < state->hull.triangle_count; t++) {
+        int w = scree_hull_wall(&state->hull, t);
+        if (w < 0) continue;
+        const scree_wall *wall = &state->wall[w];
+        scree_hull_corners(state, t, origin, corner);
+        double height = wall->normal[2] * (origin[2] + (corner[0][2] + corner[1][2] + corner[2][2]) / 3);
+        volume += foot_area(wall, corner) * (height - wall->position);
+    }
+    for (int k = 0; k < 3; k++) centre[k] += origin[k];
+    return volume;
+}
+
+double scree_hull_plate_area(const scree_state *state, int wall)
+{
+    double area = 0;
+    scree_vector origin = {0}, corner[3];
+    if (state->hull.node_count > 0) scree_hull_position(state, 0, origin);
+    for (size_t t = 0; t < state->hull.triangle_count; t++) {
+        if (state->hull.loaded[t] != SCREE_HULL_ON_WALL + wall) continue;
+        scree_hull_corners(state, t, origin, corner);
+        area += foot_area(&state->wall[wall], corner);
+    }
+    return area;
+}
+
+/// Partner of the edge `edge` (3 x triangle + corner) among those that start at its end; UINT32_MAX: none.
+static uint32_t partner_of(const scree_hull *hull, const uint32_t *begin, const uint32_t *edges, size_t edge)
+{
+    uint32_t a = hull->triangle[edge / 3][edge % 3], b = hull->triangle[edge / 3][(edge % 3 + 1) % 3];
+    for (uint32_t k = begin[b]; k < begin[b + 1]; k++)
+        if (hull->triangle[edges[k] / 3][(edges[k] % 3 + 1) % 3] == a) return edges[k] / 3;
+    return UINT32_MAX;
+}
+
+scree_status scree_hull_neighbours(const scree_hull *hull, uint32_t (*neighbour)[3], scree_error *error)
+{
+    uint32_t *begin = NULL, *edges = NULL;
+    size_t count = 3 * hull->triangle_count;
+    scree_status status = scree_allocate(&begin, hull->node_count + 2, sizeof *begin, error);
+    if (!status) status = scree_allocate(&edges, count, sizeof *edges, error);
+    if (!status) {
+        // Edges bucketed by their first node; filling advances begin[i + 1] from the start to the end of bucket i.
+        for (size_t e = 0; e < count; e++) begin[hull->triangle[e / 3][e % 3] + 2]++;
+        for (size_t i = 1; i <= hull->node_count; i++) begin[i + 1] += begin[i];
+        for (size_t e = 0; e < count; e++) edges[begin[hull->triangle[e / 3][e % 3] + 1]++] = (uint32_t)e;
+    }
+    for (size_t e = 0; e < count && !status; e++) {
+        neighbour[e / 3][e % 3] = partner_of(hull, begin, edges, e);
+        if (neighbour[e / 3][e % 3] == UINT32_MAX)
+            status = scree_error_set(error, SCREE_ERROR_GUARD, "the hull is not closed at body %u",
+                                     hull->id[hull->triangle[e / 3][e % 3]]);
+    }
+    scree_release(&begin);
+    scree_release(&edges);
+    return status;
+}

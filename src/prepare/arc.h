@@ -1,0 +1,59 @@
+/// Geometry of a point that slides down, without friction and inertia, among spheres and planes that it must not enter.
+///
+/// Contacts. Surfaces that the point touches, with unit normals n towards the point. Its velocity is the projection of
+/// gravity on the cone of velocities that enter none of them (n . v >= 0 for all): zero, or down along one or two of
+/// them. The surfaces that hold it have multipliers > 0 in v = g + sum multiplier n; it rests where three of them carry
+/// the whole of gravity.
+///
+/// Paths. On one sphere a meridian, on two surfaces the circle in which they meet: both are arcs. Along an arc all
+/// events are roots of a sin(phi) + b cos(phi) = c, found with square roots alone, so that a packing is the same to the
+/// last bit on any machine.
+#ifndef SCREE_PREPARE_ARC_H
+#define SCREE_PREPARE_ARC_H
+
+#include <stdbool.h>
+
+/// The point keeps outside of a sphere, or on the side of a plane that its normal points to.
+typedef struct scree_surface {
+    bool plane;
+    double centre[3]; ///< m, of the sphere; 1, unit normal of the plane
+    double reach;     ///< m, radius; offset of the plane: points with normal . x = reach
+} scree_surface;
+
+typedef struct scree_arc {
+    double middle[3], radius; ///< m
+    double along[3];          ///< 1, from the middle to the start
+    double ahead[3];          ///< 1, tangent at the start
+} scree_arc;
+
+/// Which surfaces hold a point: 0 (it falls) to 3 (it rests).
+typedef struct scree_hold {
+    int count;
+    int by[3];          ///< indices of the normals
+    double velocity[3]; ///< projection of gravity, (0, 0, -1)
+} scree_hold;
+
+static inline double scree_dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Unit normal of `surface` at `point`.
+void scree_surface_normal(const scree_surface *surface, const double point[3], double normal[3]);
+
+/// Projects gravity on the cone of `count` normals.
+scree_hold scree_hold_find(const double (*normal)[3], int count);
+
+/// The arc from `point` with `velocity` on one sphere, or on two surfaces of which the first is a sphere.
+scree_arc scree_arc_make(const scree_surface *one, const scree_surface *other, const double point[3],
+                         const double velocity[3]);
+
+/// Height at which the multiplier of `one` vanishes when the point goes down along `one` and `other` (NULL: alone); -1
+/// if it does not. The normals of the two enclose an angle of cosine `cosine`.
+double scree_arc_parting(const scree_surface *one, const scree_surface *other, double cosine);
+
+/// How far along the arc it enters the surface: the angle in a measure that grows with it, 0 to 2 for 0 to pi, and the
+/// point. False if it does not within half a turn. Surfaces touched at the start and entered from there give 0.
+bool scree_arc_enters(const scree_arc *arc, const scree_surface *surface, double *measure, double point[3]);
+
+#endif

@@ -1,0 +1,340 @@
+/// Running the members of a sweep: as many processes at the same time as asked for, started in the order of their
+/// numbers. A member is a run of a case file that holds everything, so its result depends neither on the order nor on
+/// the others. One that crashes, runs out of memory or is stopped by a guard takes nothing else with it.
+#include "sweep/member.h"
+#include "sweep/process.h"
+
+#include "base/memory.h"
+#include "io/run_directory.h"
+
+#include <omp.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { MOST_JOBS = 4096, PAUSE_NANOSECONDS = 20 * 1000 * 1000 };
+
+/// A process that runs a member.
+typedef struct job {
+    pid_t process;
+    size_t member;
+    int log;
+    double began;
+} job;
+
+typedef struct drive {
+    const scree_sweep *sweep;
+    const scree_sweep_options *options;
+    scree_member_state *state; ///< of each member
+    job *job;
+    size_t jobs, running;
+    size_t done, failed, left; ///< left: to be run in this call, and not begun yet
+    double seconds;            ///< of members that ended in this call
+    size_t ended;
+    bool interrupted;
+    scree_status status; ///< of what keeps the sweep from going on
+    scree_error *error;
+} drive;
+
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static void tell(const drive *d, int level, const char *format, ...) SCREE_PRINTF(3, 4);
+static void tell(const drive *d, int level, const char *format, ...)
+{
+    char line[2048];
+    va_list arguments;
+    if (!d->options->message) return;
+    va_start(arguments, format);
+    (void)vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    d->options->message(d->options->user, level, line);
+}
+
+static void report(const drive *d)
+{
+    if (!d->options->progress) return;
+    double mean = d->ended > 0 ? d->seconds / (double)d->ended : NAN;
+    scree_sweep_progress progress = {.members = d->sweep->member_count,
+                                     .done = d->done,
+                                     .failed = d->failed,
+                                     .running = d->running,
+                                     .seconds_left = mean * ceil((double)d->left / (double)d->jobs + 0.5)};
+    d->options->progress(d->options->user, &progress);
+}
+
+static void fail(drive *d, scree_status status, const scree_error *error)
+{
+    if (d->status || !status) return;
+    d->status = status;
+    if (d->error) *d->error = *error;
+}
+
+/// Writes the case of a member, which its process reads.
+static scree_status write_case(const char *path, const char *text, scree_error *error)
+{
+    FILE *file;
+    scree_status status = scree_replace_begin(path, &file, error);
+    if (status) return status;
+    bool whole = fputs(text, file) >= 0;
+    return scree_replace_finish(path, file, whole, error);
+}
+
+/// The process of a member: from the begin, or from its checkpoint.
+static scree_status start_process(const drive *d, const scree_member_paths *paths, scree_member_state state, job *j,
+                                  scree_error *error)
+{
+    char threads[16];
+    const char *arguments[16] = {d->options->program, "run"};
+    size_t count = 2;
+    bool restart = state == SCREE_MEMBER_INTERRUPTED && scree_member_has_checkpoint(paths);
+    (void)snprintf(threads, sizeof threads, "%d", d->options->threads > 0 ? d->options->threads : 1);
+    arguments[count++] = restart ? "--restart" : paths->file;
+    if (!restart) arguments[count++] = "--output";
+    arguments[count++] = paths->folder;
+    arguments[count++] = "--threads";
+    arguments[count++] = threads;
+    arguments[count++] = "--quiet";
+    if (!d->options->figures) arguments[count++] = "--no-figures";
+    if (!restart && state != SCREE_MEMBER_MISSING) arguments[count++] = "--force";
+    scree_member_note(j->log, "%s %s", restart ? "continues" : "begins", paths->folder);
+    return scree_process_start(arguments, j->log, &j->process, error);
+}
+
+static scree_status start(drive *d, size_t member)
+{
+    char *text;
+    scree_error error;
+    scree_member_paths paths;
+    job j = {.member = member, .began = now(), .log = -1};
+    scree_status status = scree_member_find(d->sweep, member, d->options->output, &paths, &error);
+    if (!status) status = scree_member_text(d->sweep, member, &text, &error);
+    if (status) {
+        fail(d, status, &error);
+        return status;
+    }
+    status = scree_member_open_log(&paths, &j.log, &error);
+    // Looked at again under the lock: another sweep may have finished it in between.
+    scree_member_state state = status ? SCREE_MEMBER_MISSING : scree_member_look(&paths, text, NULL, 0);
+    if (!status && state == SCREE_MEMBER_DONE) {
+        d->state[member] = state;
+        d->done++;
+        close(j.log);
+        free(text);
+        return SCREE_OK;
+    }
+    if (!status) status = write_case(paths.file, text, &error);
+    if (!status) status = start_process(d, &paths, state, &j, &error);
+    free(text);
+    if (status) {
+        if (j.log >= 0) close(j.log);
+        fail(d, status, &error);
+        return status;
+    }
+    d->job[d->running++] = j;
+    return SCREE_OK;
+}
+
+/// How a process ended, in words for the log and the terminal.
+static scree_member_state judge(const drive *d, int state, char *text, size_t size)
+{
+    bool stopping = d->options->stop && *d->options->stop;
+    if (WIFEXITED(state) && WEXITSTATUS(state) == SCREE_OK) return SCREE_MEMBER_DONE;
+    if (WIFEXITED(state) && WEXITSTATUS(state) == SCREE_INTERRUPTED) return SCREE_MEMBER_INTERRUPTED;
+    if (WIFSIGNALED(state) && stopping) return SCREE_MEMBER_INTERRUPTED;
+    if (WIFSIGNALED(state))
+        (void)snprintf(text, size, "killed by signal %d (%s)", WTERMSIG(state), strsignal(WTERMSIG(state)));
+    else
+        (void)snprintf(text, size, "exit status %d", WEXITSTATUS(state));
+    return SCREE_MEMBER_FAILED;
+}
+
+static void finish(drive *d, const job *j, int wait_status)
+{
+    char how[128] = "", *text = NULL, reason[1024] = "";
+    const char *name = d->sweep->folder[j->member];
+    scree_member_state state = judge(d, wait_status, how, sizeof how);
+    double seconds = now() - j->began;
+    d->state[j->member] = state;
+    if (state == SCREE_MEMBER_FAILED)
+        scree_member_note(j->log, SCREE_MEMBER_FAILURE "%s", how);
+    else
+        scree_member_note(j->log, "%s after %.1f s", scree_member_state_name(state), seconds);
+    close(j->log);
+    if (state == SCREE_MEMBER_DONE) {
+        d->done++;
+        tell(d, 0, "%s: done in %.1f s", name, seconds);
+    } else if (state == SCREE_MEMBER_INTERRUPTED) {
+        tell(d, 0, "%s: interrupted, can be continued", name);
+    } else {
+        scree_member_paths paths;
+        scree_error error;
+        d->failed++;
+        bool looked = !scree_member_find(d->sweep, j->member, d->options->output, &paths, &error) &&
+                      !scree_member_text(d->sweep, j->member, &text, &error);
+        if (looked) (void)scree_member_look(&paths, text, reason, sizeof reason);
+        free(text);
+        tell(d, 1, "%s: failed (%s): %s", name, how, reason[0] ? reason : "it said nothing");
+    }
+    d->seconds += seconds;
+    d->ended++;
+}
+
+/// Waits until one of the processes has ended, or somebody asks to stop.
+static void wait_for_jobs(drive *d)
+{
+    bool stop = d->options->stop && *d->options->stop;
+    if (stop && !d->interrupted) {
+        for (size_t i = 0; i < d->running; i++) scree_process_interrupt(d->job[i].process);
+        d->interrupted = true;
+    }
+    size_t before = d->running;
+    for (size_t i = 0; i < d->running;) {
+        int state;
+        if (!scree_process_ended(d->job[i].process, &state)) {
+            i++;
+            continue;
+        }
+        job ended = d->job[i];
+        d->running--;
+        memmove(&d->job[i], &d->job[i + 1], (d->running - i) * sizeof *d->job);
+        finish(d, &ended, state);
+        report(d);
+    }
+    struct timespec pause = {.tv_nsec = PAUSE_NANOSECONDS};
+    if (d->running == before) (void)nanosleep(&pause, NULL);
+}
+
+/// Whether this call runs a member in that state.
+static bool is_wanted(const drive *d, scree_member_state state)
+{
+    if (state == SCREE_MEMBER_FAILED) return d->options->retry;
+    if (state == SCREE_MEMBER_CHANGED) return d->options->force;
+    return state != SCREE_MEMBER_DONE;
+}
+
+/// Runs the wanted ones of members [from, to).
+static void run_members(drive *d, size_t from, size_t to)
+{
+    size_t next = from;
+    for (;;) {
+        while (next < to && !is_wanted(d, d->state[next])) next++;
+        bool stop = d->status || (d->options->stop && *d->options->stop);
+        if (!stop && next < to && d->running < d->jobs) {
+            d->left--;
+            (void)start(d, next++);
+            report(d);
+            continue;
+        }
+        if (d->running == 0) break;
+        wait_for_jobs(d);
+    }
+}
+
+/// State of members [from, to); a directory with another case is refused before anything is run.
+static scree_status look(drive *d, size_t from, size_t to)
+{
+    for (size_t i = from; i < to; i++) {
+        char *text;
+        scree_member_paths paths;
+        scree_status status = scree_member_find(d->sweep, i, d->options->output, &paths, d->error);
+        if (!status) status = scree_member_text(d->sweep, i, &text, d->error);
+        if (status) return status;
+        d->state[i] = scree_member_look(&paths, text, NULL, 0);
+        free(text);
+        if (d->state[i] == SCREE_MEMBER_CHANGED && !d->options->force)
+            return scree_error_set(d->error, SCREE_ERROR_INPUT,
+                                   "'%s' holds a run of another case: choose another folder, or --force to run it anew",
+                                   paths.folder);
+        bool wanted = is_wanted(d, d->state[i]);
+        d->done += d->state[i] == SCREE_MEMBER_DONE;
+        d->failed += d->state[i] == SCREE_MEMBER_FAILED && !wanted;
+        d->left += wanted;
+    }
+    return SCREE_OK;
+}
+
+static scree_status make_folder(const drive *d)
+{
+    char path[PATH_MAX];
+    scree_status status = scree_path_join(path, sizeof path, d->options->output, SCREE_FILE_LOG, d->error);
+    if (!status && access(path, F_OK) == 0)
+        return scree_error_set(d->error, SCREE_ERROR_INPUT, "the folder '%s' holds a run: a sweep needs its own",
+                               d->options->output);
+    if (!status) status = scree_path_join(path, sizeof path, d->options->output, "members", d->error);
+    return status ? status : scree_folders_make(path, d->error);
+}
+
+static scree_status open_drive(drive *d, size_t from, size_t to)
+{
+    int threads = d->options->threads > 0 ? d->options->threads : 1, cores = omp_get_num_procs() / threads;
+    int jobs = d->options->jobs > 0 ? d->options->jobs : cores > 0 ? cores : 1;
+    d->jobs = (size_t)(jobs < MOST_JOBS ? jobs : MOST_JOBS);
+    scree_status status = make_folder(d);
+    if (!status) status = scree_allocate(&d->state, d->sweep->member_count, sizeof *d->state, d->error);
+    if (!status) status = scree_allocate(&d->job, d->jobs, sizeof *d->job, d->error);
+    return status ? status : look(d, from, to);
+}
+
+static scree_status conclude(drive *d)
+{
+    if (d->status) return d->status;
+    if (d->options->stop && *d->options->stop)
+        return scree_error_set(d->error, SCREE_INTERRUPTED,
+                               "interrupted with %zu of %zu members done; the same command goes on", d->done,
+                               d->sweep->member_count);
+    return SCREE_OK;
+}
+
+static void close_drive(drive *d)
+{
+    scree_release(&d->state);
+    scree_release(&d->job);
+}
+
+scree_status scree_sweep_run(const scree_sweep *sweep, const scree_sweep_options *options, scree_error *error)
+{
+    drive d = {.sweep = sweep, .options = options, .error = error};
+    scree_status status = open_drive(&d, 0, sweep->member_count);
+    if (!status) {
+        if (d.done + d.failed > 0)
+            tell(&d, 0, "%zu of %zu members are done, %zu have failed, %zu to run", d.done, sweep->member_count,
+                 d.failed, d.left);
+        report(&d);
+        run_members(&d, 0, sweep->member_count);
+        status = conclude(&d);
+    }
+    close_drive(&d);
+    return status ? status : scree_sweep_collect(sweep, options, error);
+}
+
+scree_status scree_sweep_run_member(const scree_sweep *sweep, size_t member, const scree_sweep_options *options,
+                                    scree_error *error)
+{
+    drive d = {.sweep = sweep, .options = options, .error = error};
+    if (member >= sweep->member_count)
+        return scree_error_set(error, SCREE_ERROR_INPUT, "there is no member %zu: the sweep has %zu, numbered from 0",
+                               member, sweep->member_count);
+    scree_status status = open_drive(&d, member, member + 1);
+    if (!status) {
+        if (d.done > 0) tell(&d, 0, "%s: is done", sweep->folder[member]);
+        run_members(&d, member, member + 1);
+        status = conclude(&d);
+        if (!status && d.state[member] == SCREE_MEMBER_INTERRUPTED)
+            status = scree_error_set(error, SCREE_INTERRUPTED, "%s was interrupted", sweep->folder[member]);
+        if (!status && d.state[member] == SCREE_MEMBER_FAILED)
+            status =
+                scree_error_set(error, SCREE_ERROR_GUARD, "%s has failed; --retry runs it anew", sweep->folder[member]);
+    }
+    close_drive(&d);
+    return status;
+}

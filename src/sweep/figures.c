@@ -1,0 +1,226 @@
+/// Comparison figures of a sweep: each mean curve with its confidence band, one line a point of the grid; and each
+/// measure against each dimension, with error bars. A chart has at most the seven colours of the palette: where there
+/// are more points, there is one chart for each setting of the first dimension.
+#include "sweep/results.h"
+
+#include "base/memory.h"
+#include "io/run_directory.h"
+#include "view/chart.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MOST_LINES = 7, LABEL = 128 };
+
+static const char *title_of(const scree_sweep *sweep)
+{
+    return sweep->config.title && sweep->config.title[0] ? sweep->config.title : sweep->config.name;
+}
+
+/// "stress_ratio" with unit "1" is "stress ratio"; a strain is shown in percent, which the factor returns.
+static double axis_label(char label[LABEL], const char *name, const char *unit)
+{
+    const char *tail = strstr(name, "strain");
+    bool percent = unit && strcmp(unit, "1") == 0 && tail && strcmp(tail, "strain") == 0;
+    (void)snprintf(label, LABEL, "%s%s%s%s", name, unit && (percent || strcmp(unit, "1") != 0) ? " (" : "",
+                   percent                          ? "%"
+                   : unit && strcmp(unit, "1") != 0 ? unit
+                                                    : "",
+                   unit && (percent || strcmp(unit, "1") != 0) ? ")" : "");
+    for (char *c = label; *c; c++)
+        if (*c == '_') *c = ' ';
+    return percent ? 100 : 1;
+}
+
+/// Labels are plain text: what gnuplot's enhanced text would interpret is escaped.
+static void plain(char label[LABEL], const char *text)
+{
+    size_t used = 0;
+    for (const char *c = text; *c && used + 3 < LABEL; c++) {
+        if (strchr("^_{}@&~\\", *c)) label[used++] = '\\';
+        label[used++] = *c;
+    }
+    label[used] = 0;
+}
+
+static void draw(const scree_sweep_results *results, const char *name, const scree_chart *chart)
+{
+    char path[PATH_MAX], file[400];
+    scree_error error;
+    (void)snprintf(file, sizeof file, "figures/%s", name);
+    scree_status status = scree_path_join(path, sizeof path, results->options->output, file, &error);
+    if (!status) status = scree_chart_draw(path, chart, &error);
+    if (status && status != SCREE_ERROR_INPUT)
+        scree_sweep_tell(results->options, 1, "figure %s: %s", name, error.message);
+}
+
+/// Arrays of one line: x, y, low, high.
+typedef struct sheet {
+    double *x, *y, *low, *high;
+} sheet;
+
+static scree_status take_sheet(sheet *s, size_t count, scree_error *error)
+{
+    scree_status status = scree_allocate(&s->x, 4 * count, sizeof(double), error);
+    if (status) return status;
+    s->y = s->x + count;
+    s->low = s->y + count;
+    s->high = s->low + count;
+    return SCREE_OK;
+}
+
+/// A line at [place] with the interval around it; a single realisation has none.
+static void put_estimate(sheet *s, size_t place, double x, const scree_estimate *e, double factor)
+{
+    double half = isfinite(e->half) ? e->half : 0;
+    s->x[place] = x;
+    s->y[place] = factor * e->mean;
+    s->low[place] = factor * (e->mean - half);
+    s->high[place] = factor * (e->mean + half);
+}
+
+// ---- mean curves -------------------------------------------------------------------------------------------------
+
+/// One chart of the points [from, to).
+static void draw_points(const scree_sweep_results *results, const scree_mean_curve *curve, size_t from, size_t to,
+                        size_t left_out, const char *name, const char *title)
+{
+    scree_chart_line line[MOST_LINES];
+    char label[MOST_LINES][LABEL], x_label[LABEL], y_label[LABEL], text[LABEL];
+    sheet s[MOST_LINES] = {0};
+    scree_error error;
+    double x_factor = axis_label(x_label, curve->name_x, curve->unit_x);
+    double y_factor = axis_label(y_label, curve->name_y, curve->unit_y);
+    size_t count = 0;
+    for (size_t point = from; point < to && count < MOST_LINES; point++) {
+        if (!curve->there[point] || take_sheet(&s[count], SCREE_CURVE_PLACES, &error)) continue;
+        for (size_t k = 0; k < SCREE_CURVE_PLACES; k++)
+            put_estimate(&s[count], k, x_factor * curve->x[point * SCREE_CURVE_PLACES + k],
+                         &curve->estimate[point * SCREE_CURVE_PLACES + k], y_factor);
+        scree_point_label(results->sweep, point, left_out, text, sizeof text);
+        plain(label[count], text);
+        bool band = results->sweep->realisations > 1;
+        line[count] = (scree_chart_line){.x = s[count].x,
+                                         .y = s[count].y,
+                                         .low = band ? s[count].low : NULL,
+                                         .high = band ? s[count].high : NULL,
+                                         .count = SCREE_CURVE_PLACES,
+                                         .label = text[0] ? label[count] : NULL};
+        count++;
+    }
+    scree_chart chart = {.title = title, .x_label = x_label, .y_label = y_label, .line = line, .line_count = count};
+    if (count > 0) draw(results, name, &chart);
+    for (size_t i = 0; i < count; i++) scree_release(&s[i].x);
+}
+
+void scree_sweep_draw_curve(const scree_sweep_results *results, const scree_mean_curve *curve)
+{
+    const scree_sweep *sweep = results->sweep;
+    char name[320], title[400];
+    if (sweep->point_count <= MOST_LINES || sweep->dimension_count < 2) {
+        (void)snprintf(name, sizeof name, "%s-over-%s", curve->name_y, curve->name_x);
+        draw_points(results, curve, 0, sweep->point_count, SIZE_MAX, name, title_of(sweep));
+        return;
+    }
+    const scree_sweep_dimension *first = &sweep->dimension[0];
+    size_t each = sweep->point_count / first->count;
+    for (size_t i = 0; i < first->count; i++) {
+        (void)snprintf(name, sizeof name, "%s-over-%s-%s", curve->name_y, curve->name_x, first->setting[i].slug);
+        (void)snprintf(title, sizeof title, "%s: %s%s%s", title_of(sweep), first->named ? "" : first->name,
+                       first->named ? "" : " ", first->setting[i].label);
+        draw_points(results, curve, i * each, (i + 1) * each, 0, name, title);
+    }
+}
+
+// ---- measures ----------------------------------------------------------------------------------------------------
+
+/// The parameter that says where settings of a dimension stand on an axis: its one key, with a number for each; NULL
+/// when several keys vary or when they only have names.
+static const scree_sweep_parameter *axis_of(const scree_sweep *sweep, size_t dimension)
+{
+    if (!sweep->config.vary[dimension].key[0]) return NULL;
+    for (size_t k = 0; k < sweep->parameter_count; k++) {
+        const scree_sweep_parameter *parameter = &sweep->parameter[k];
+        if (parameter->dimension != dimension || !parameter->unit) continue;
+        bool all = true;
+        for (size_t i = 0; i < sweep->dimension[dimension].count; i++) all &= isfinite(parameter->number[i]);
+        if (all) return parameter;
+    }
+    return NULL;
+}
+
+/// Values over more than a factor of 30, all positive, are spread on a logarithmic axis.
+static bool is_wide(const scree_sweep_parameter *axis, size_t count)
+{
+    double least = INFINITY, most = 0;
+    for (size_t i = 0; i < count; i++) {
+        least = fmin(least, axis->number[i]);
+        most = fmax(most, axis->number[i]);
+    }
+    return least > 0 && most / least > 30;
+}
+
+/// The line of measure `k` through all settings of `dimension`, beginning at `point` (where its setting is 0). Settings
+/// that only have names stand at 1, 2, ...; several lines stand beside one another there, `shift` apart.
+static void trace(const scree_sweep_results *results, size_t k, size_t dimension, size_t point, double shift, sheet *s)
+{
+    const scree_sweep *sweep = results->sweep;
+    const scree_sweep_parameter *axis = axis_of(sweep, dimension);
+    size_t stride = 1;
+    for (size_t j = dimension + 1; j < sweep->dimension_count; j++) stride *= sweep->dimension[j].count;
+    for (size_t i = 0; i < sweep->dimension[dimension].count; i++)
+        put_estimate(s, i, axis ? axis->number[i] : (double)i + 1 + shift,
+                     &results->estimate[(point + i * stride) * sweep->measure_count + k], 1);
+}
+
+static void draw_measure(const scree_sweep_results *results, size_t k, size_t dimension)
+{
+    const scree_sweep *sweep = results->sweep;
+    const scree_sweep_dimension *d = &sweep->dimension[dimension];
+    const scree_sweep_parameter *axis = axis_of(sweep, dimension);
+    scree_chart_line line[MOST_LINES];
+    char label[MOST_LINES][LABEL], x_label[LABEL], y_label[LABEL], text[LABEL], name[320];
+    const char *names[1000];
+    sheet s[MOST_LINES] = {0};
+    scree_error error;
+    size_t count = 0, lines = sweep->point_count / d->count;
+    if (lines > MOST_LINES) lines = MOST_LINES;
+    for (size_t point = 0; point < sweep->point_count && count < MOST_LINES; point++) {
+        if (scree_point_setting(sweep, point, dimension) != 0 || take_sheet(&s[count], d->count, &error)) continue;
+        trace(results, k, dimension, point, 0.08 * ((double)count - 0.5 * (double)(lines - 1)), &s[count]);
+        scree_point_label(sweep, point, dimension, text, sizeof text);
+        plain(label[count], text);
+        line[count] = (scree_chart_line){.x = s[count].x,
+                                         .y = s[count].y,
+                                         .low = s[count].low,
+                                         .high = s[count].high,
+                                         .count = d->count,
+                                         .label = text[0] ? label[count] : NULL,
+                                         .points = true,
+                                         .bare = !axis};
+        count++;
+    }
+    for (size_t i = 0; i < d->count && i < 1000; i++) names[i] = d->setting[i].label;
+    (void)axis_label(x_label, d->name, axis ? axis->unit : NULL);
+    (void)axis_label(y_label, sweep->measure[k], NULL);
+    scree_chart chart = {.title = title_of(sweep),
+                         .x_label = x_label,
+                         .y_label = y_label,
+                         .line = line,
+                         .line_count = count,
+                         .log_x = axis && is_wide(axis, d->count),
+                         .x_name = axis ? NULL : names,
+                         .x_name_count = d->count};
+    (void)snprintf(name, sizeof name, "%s-over-%s", sweep->measure[k], d->name);
+    if (count > 0) draw(results, name, &chart);
+    for (size_t i = 0; i < count; i++) scree_release(&s[i].x);
+}
+
+void scree_sweep_draw_measures(const scree_sweep_results *results)
+{
+    const scree_sweep *sweep = results->sweep;
+    for (size_t dimension = 0; dimension < sweep->dimension_count; dimension++)
+        for (size_t k = 0; k < sweep->measure_count && sweep->dimension[dimension].count > 1; k++)
+            draw_measure(results, k, dimension);
+}

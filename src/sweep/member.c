@@ -1,0 +1,132 @@
+/// State of members on disk. Nothing is kept elsewhere: a sweep that is killed finds out what there is by looking.
+#include "sweep/member.h"
+
+#include "base/memory.h"
+#include "case/case.h"
+#include "io/run_directory.h"
+#include "io/run_file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#define NOTE "scree sweep: "
+enum { TAIL = 8192 };
+
+const char *scree_member_state_name(scree_member_state state)
+{
+    static const char *const names[] = {"missing", "interrupted", "done", "failed", "changed"};
+    return names[state];
+}
+
+scree_status scree_member_find(const scree_sweep *sweep, size_t member, const char *output, scree_member_paths *paths,
+                               scree_error *error)
+{
+    char name[400];
+    (void)snprintf(name, sizeof name, "members/%s", sweep->folder[member]);
+    scree_status status = scree_path_join(paths->folder, sizeof paths->folder, output, name, error);
+    (void)snprintf(name, sizeof name, "members/%s.yaml", sweep->folder[member]);
+    if (!status) status = scree_path_join(paths->file, sizeof paths->file, output, name, error);
+    (void)snprintf(name, sizeof name, "members/%s.txt", sweep->folder[member]);
+    if (!status) status = scree_path_join(paths->log, sizeof paths->log, output, name, error);
+    return status;
+}
+
+/// The first line says which version of Scree wrote the case, and is no part of it.
+static const char *without_head(const char *text)
+{
+    const char *end = text[0] == '#' ? strchr(text, '\n') : NULL;
+    return end ? end + 1 : text;
+}
+
+/// 0: the file is not there; 1: it holds this case; -1: another one.
+static int compare_case(const char *path, const char *text)
+{
+    char *other;
+    size_t length;
+    if (access(path, F_OK) != 0 || scree_case_text(path, &other, &length, NULL)) return 0;
+    int result = strcmp(without_head(other), without_head(text)) == 0 ? 1 : -1;
+    scree_release(&other);
+    return result;
+}
+
+/// The end of a log as lines: the last note of the sweep, and the last line before it that the member printed.
+static void read_log(const char *path, char *note, char *said, size_t size)
+{
+    char tail[TAIL + 1], *rest = tail;
+    note[0] = said[0] = 0;
+    int file = open(path, O_RDONLY | O_CLOEXEC);
+    if (file < 0) return;
+    off_t end = lseek(file, 0, SEEK_END);
+    ssize_t got = pread(file, tail, TAIL, end > TAIL ? end - TAIL : 0);
+    close(file);
+    tail[got > 0 ? got : 0] = 0;
+    for (char *line; (line = strsep(&rest, "\n"));) {
+        bool own = strncmp(line, NOTE, strlen(NOTE)) == 0;
+        if (own)
+            (void)snprintf(note, size, "%s", line + strlen(NOTE));
+        else if (line[0])
+            (void)snprintf(said, size, "%s", line);
+    }
+}
+
+scree_member_state scree_member_look(const scree_member_paths *paths, const char *text, char *reason, size_t size)
+{
+    char path[PATH_MAX], status[64], note[1024], said[1024];
+    if (reason) reason[0] = 0;
+    read_log(paths->log, note, said, sizeof note);
+    bool failed = strncmp(note, SCREE_MEMBER_FAILURE, strlen(SCREE_MEMBER_FAILURE)) == 0;
+    if (failed && reason) (void)snprintf(reason, size, "%s", said[0] ? said : note + strlen(SCREE_MEMBER_FAILURE));
+    if (scree_path_join(path, sizeof path, paths->folder, SCREE_FILE_CASE, NULL)) return SCREE_MEMBER_MISSING;
+    int same = compare_case(path, text);
+    if (same < 0) return SCREE_MEMBER_CHANGED;
+    // Without a directory, a member may still have failed: with this case, or with another one that counts no more.
+    if (same == 0) return failed && compare_case(paths->file, text) > 0 ? SCREE_MEMBER_FAILED : SCREE_MEMBER_MISSING;
+    if (scree_result_get(paths->folder, "status", status, sizeof status, NULL) == SCREE_OK) {
+        if (strcmp(status, "done") == 0) return SCREE_MEMBER_DONE;
+        if (strcmp(status, "stopped") == 0) return SCREE_MEMBER_FAILED;
+    }
+    return failed ? SCREE_MEMBER_FAILED : SCREE_MEMBER_INTERRUPTED;
+}
+
+bool scree_member_has_checkpoint(const scree_member_paths *paths)
+{
+    scree_part_list list = {0};
+    scree_status status = scree_parts_list(paths->folder, SCREE_PART_CHECKPOINT, &list, NULL);
+    bool some = !status && list.count > 0;
+    scree_part_list_destroy(&list);
+    return some;
+}
+
+scree_status scree_member_open_log(const scree_member_paths *paths, int *log, scree_error *error)
+{
+    *log = open(paths->log, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    if (*log < 0) return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot write '%s'", paths->log);
+    if (flock(*log, LOCK_EX | LOCK_NB) == 0) return SCREE_OK;
+    bool held = errno == EWOULDBLOCK;
+    scree_status status = held ? scree_error_set(error, SCREE_ERROR_INPUT, "another sweep runs this member now")
+                               : scree_error_set_errno(error, SCREE_ERROR_IO, "cannot lock '%s'", paths->log);
+    close(*log);
+    *log = -1;
+    return status;
+}
+
+void scree_member_note(int log, const char *format, ...)
+{
+    char line[2048];
+    int used = snprintf(line, sizeof line, NOTE);
+    va_list arguments;
+    va_start(arguments, format);
+    (void)vsnprintf(line + used, sizeof line - (size_t)used - 1, format, arguments);
+    va_end(arguments);
+    size_t length = strlen(line);
+    line[length++] = '\n';
+    // A log that cannot be written loses a reason, not a result.
+    ssize_t ignored = write(log, line, length);
+    (void)ignored;
+}

@@ -1,0 +1,187 @@
+/// Reading a sweep: its file, the case it is about, the grid, and the case of every point, with all problems at once.
+#include "case/case.h"
+#include "case/templates.h"
+#include "sweep/sweep.h"
+#include "sweep/templates.h"
+
+#include "base/memory.h"
+#include "run/sample.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+/// Path of a file beside the sweep file.
+static void path_beside(char path[PATH_MAX], const char *source, const char *name)
+{
+    const char *slash = strrchr(source, '/');
+    int folder = slash && name[0] != '/' ? (int)(slash + 1 - source) : 0;
+    (void)snprintf(path, PATH_MAX, "%.*s%s", folder, source, name);
+}
+
+static void keep_case(scree_reader *reader, scree_sweep *sweep, const char *name, const char *text, size_t length)
+{
+    sweep->case_name = scree_arena_copy(reader->arena, name, strlen(name));
+    sweep->case_text = scree_arena_copy(reader->arena, text, length);
+    sweep->case_length = length;
+    if (!sweep->case_name || !sweep->case_text) scree_reader_fail(reader, length);
+}
+
+/// No such case: the nearest built-in one is suggested.
+static void refuse_case(scree_reader *reader, const scree_node *node)
+{
+    const char *names[256];
+    char accepted[256] = "";
+    size_t count = 0, length = 0;
+    for (; count < scree_templates_count && count < 256; count++) {
+        names[count] = scree_templates[count].name;
+        if (length < sizeof accepted)
+            length += (size_t)snprintf(accepted + length, sizeof accepted - length, "%s%s", count > 0 ? ", " : "",
+                                       names[count]);
+    }
+    const char *nearest = scree_nearest(node->text, names, count);
+    scree_problem_add(reader, node->place, "case", node->text, nearest ? nearest : accepted,
+                      "there is no built-in case '%s'%s%s%s, and no file of this name beside the sweep",
+                      scree_show(node->text).text, nearest ? "; did you mean '" : "", nearest ? nearest : "",
+                      nearest ? "'?" : "");
+}
+
+/// Finds the text of the case: a built-in one of that name, or else a file beside the sweep.
+static void find_case(scree_reader *reader, scree_sweep *sweep, bool embedded)
+{
+    const scree_node *node = scree_node_find(reader->root, "case");
+    const char *name = sweep->config.base, *text = name ? scree_template_text(name) : NULL;
+    char path[PATH_MAX];
+    if (!name || !node) return; // noted
+    path_beside(path, embedded ? "" : sweep->source, name);
+    bool file = !embedded && !text && access(path, F_OK) == 0;
+    if (!file && text) {
+        keep_case(reader, sweep, name, text, strlen(text));
+    } else if (!file) {
+        refuse_case(reader, node);
+    } else {
+        char *bytes;
+        size_t length;
+        scree_problems *problems = NULL;
+        if (scree_case_text(path, &bytes, &length, &problems))
+            scree_problem_add(reader, node->place, "case", path, NULL, "%s", scree_problems_get(problems, 0)->message);
+        else
+            keep_case(reader, sweep, path, bytes, length);
+        scree_problems_free(problems);
+        scree_release(&bytes);
+    }
+}
+
+static void check_column(scree_reader *reader, int64_t index, const char *key, const char *name)
+{
+    const char *names[SCREE_SAMPLE_COUNT];
+    char path[48];
+    if (!name) return; // noted
+    for (size_t i = 0; i < SCREE_SAMPLE_COUNT; i++) {
+        names[i] = scree_sample_columns[i].name;
+        if (strcmp(names[i], name) == 0) return;
+    }
+    const scree_node *element = scree_node_at(scree_node_find(reader->root, "curves"), (size_t)index);
+    const scree_node *value = scree_node_find(element, key);
+    const char *nearest = scree_nearest(name, names, SCREE_SAMPLE_COUNT);
+    (void)snprintf(path, sizeof path, "curves.%lld.%s", (long long)index, key);
+    scree_problem_add(reader, value ? value->place : element->place, path, name, nearest ? nearest : "",
+                      "series.csv has no column '%s'%s%s%s", scree_show(name).text, nearest ? "; did you mean '" : "",
+                      nearest ? nearest : "", nearest ? "'?" : "");
+}
+
+/// --set of the command line, for all members and after everything else.
+static void keep_overrides(scree_reader *reader, scree_sweep *sweep, const scree_sweep_read_options *options)
+{
+    size_t count = options ? options->override_count : 0;
+    sweep->last = scree_arena_take(reader->arena, count * sizeof *sweep->last);
+    if (!sweep->last) {
+        scree_reader_fail(reader, count);
+        return;
+    }
+    for (size_t i = 0; i < count; i++) {
+        const char *text = scree_arena_copy(reader->arena, options->overrides[i], strlen(options->overrides[i]));
+        if (!text) scree_reader_fail(reader, 1);
+        sweep->last[sweep->last_count++] = (scree_sweep_assignment){.text = text};
+    }
+}
+
+typedef struct input {
+    const char *name, *text;
+    size_t length;
+    bool embedded;
+    const scree_sweep_read_options *options;
+} input;
+
+/// What the rules need: the sweep that is being read, and from what.
+typedef struct reading {
+    scree_sweep *sweep;
+    const input *in;
+} reading;
+
+/// What the schema cannot check, after it has been applied.
+static void apply_rules(scree_reader *reader, void *user)
+{
+    const reading *r = user;
+    scree_sweep *sweep = r->sweep;
+    find_case(reader, sweep, r->in->embedded);
+    for (int64_t i = 0; i < sweep->config.curve_count; i++) {
+        check_column(reader, i, "x", sweep->config.curves[i].x);
+        check_column(reader, i, "y", sweep->config.curves[i].y);
+    }
+    keep_overrides(reader, sweep, r->in->options);
+    if (scree_sweep_expand(reader, sweep) && sweep->case_text) scree_sweep_check_cases(reader, sweep);
+}
+
+static scree_status read_text(const input *in, scree_sweep **out, scree_problems **problems)
+{
+    scree_arena arena = {0};
+    scree_sweep *sweep = scree_arena_take(&arena, sizeof *sweep);
+    if (sweep) sweep->source = scree_arena_copy(&arena, in->name, strlen(in->name));
+    if (!sweep || !sweep->source) {
+        scree_arena_release(&arena);
+        return SCREE_ERROR_IO;
+    }
+    if (in->options) {
+        sweep->quick = in->options->quick;
+        sweep->realisations = in->options->realisations;
+    }
+    reading r = {sweep, in};
+    scree_document document = {&scree_sweep_schema, apply_rules, &r, in->name, in->text, in->length};
+    scree_status status = scree_document_read(&document, &arena, &sweep->config, sizeof sweep->config, problems);
+    if (status) {
+        scree_arena_release(&arena);
+        return status;
+    }
+    sweep->arena = arena;
+    *out = sweep;
+    return SCREE_OK;
+}
+
+scree_status scree_sweep_read(const char *name, const scree_sweep_read_options *options, scree_sweep **out,
+                              scree_problems **problems)
+{
+    const scree_template *built_in = scree_sweep_template(name);
+    input in = {.name = name, .options = options};
+    char *bytes = NULL;
+    *out = NULL;
+    if (built_in && access(name, F_OK) != 0) {
+        in.text = built_in->text;
+        in.length = built_in->length;
+        in.embedded = true;
+        return read_text(&in, out, problems);
+    }
+    scree_status status = scree_case_text(name, &bytes, &in.length, problems);
+    in.text = bytes;
+    if (!status) status = read_text(&in, out, problems);
+    scree_release(&bytes);
+    return status;
+}
+
+void scree_sweep_free(scree_sweep *sweep)
+{
+    if (!sweep) return;
+    scree_arena arena = sweep->arena;
+    scree_arena_release(&arena);
+}

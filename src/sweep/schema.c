@@ -1,0 +1,91 @@
+/// The schema table of a sweep file, in the language of cases.
+#include "sweep/sweep.h"
+
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+#define FROM(limit)  .least = {limit, false}
+#define TO(limit)    .most = {limit, false}
+#define KEY(owner, member, kind, ...)                                                                                  \
+    {                                                                                                                  \
+        .name = #member, .type = kind, .offset = offsetof(owner, member), __VA_ARGS__                                  \
+    }
+#define TEXT(owner, member, longest, ...) KEY(owner, member, SCREE_KEY_TEXT, FROM("0"), TO(longest), __VA_ARGS__)
+#define VALUES(owner, member, ...)        KEY(owner, member, SCREE_KEY_VALUES, FROM("1"), TO("1000"), __VA_ARGS__)
+#define PATHS(owner, member, ...)                                                                                      \
+    KEY(owner, member, SCREE_KEY_PATHS, .element_size = sizeof(scree_node *), .standard = "{}", __VA_ARGS__)
+#define LIST(owner, member, table, number, ...)                                                                        \
+    KEY(owner, member, SCREE_KEY_LIST, .standard = "[]", FROM("1"), TO("100"), .sections = table, .section_count = 1,  \
+        .count_offset = offsetof(owner, number), .element_size = sizeof *((owner *)0)->member, __VA_ARGS__)
+#define TABLE(title, text, keys)                                                                                       \
+    {                                                                                                                  \
+        title, text, keys, COUNT(keys)                                                                                 \
+    }
+
+typedef scree_sweep_together together;
+static const scree_key together_keys[] = {
+    TEXT(together, key, "159", .meaning = "Key path in the case."),
+    VALUES(together, values, .meaning = "One value for each setting."),
+};
+static const scree_section together_table[] = {TABLE("together", "Keys that vary in step.", together_keys)};
+
+typedef scree_sweep_alternative alternative;
+static const scree_key alternative_keys[] = {
+    TEXT(alternative, name, "60", .meaning = "What it is called in figures, tables and folders."),
+    PATHS(alternative, set, .meaning = "Key path and value of everything that it changes."),
+};
+static const scree_section alternative_table[] = {
+    TABLE("alternatives", "Variants of the case, each with settings of its own.", alternative_keys)};
+
+typedef scree_sweep_vary vary;
+static const scree_key vary_keys[] = {
+    KEY(vary, name, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),
+        .meaning = "What varies; auto: the last part of the key path."),
+    TEXT(vary, key, "159", .standard = "", .meaning = "Key path in the case."),
+    VALUES(vary, values, .standard = "[]", .meaning = "Values of the key."),
+    VALUES(vary, names, .standard = "[]", .meaning = "What the values are called in figures, tables and folders."),
+    LIST(vary, together, together_table, together_count, .meaning = "Several keys that vary in step, instead of one."),
+    LIST(vary, alternatives, alternative_table, alternative_count,
+         .meaning = "Variants with different keys, instead of values of one."),
+};
+static const scree_section vary_table[] = {TABLE("vary", "One dimension of the grid.", vary_keys)};
+
+typedef scree_sweep_curve curve;
+static const scree_key curve_keys[] = {
+    TEXT(curve, x, "63", .standard = "axial_strain", .meaning = "Column of series.csv that the curve runs along."),
+    TEXT(curve, y, "63", .meaning = "Column of series.csv."),
+};
+static const scree_section curve_table[] = {TABLE("curves", "A curve, averaged over realisations.", curve_keys)};
+
+typedef scree_sweep_config config;
+static const scree_key root_keys[] = {
+    {.name = "sweep",
+     .type = SCREE_KEY_INTEGER,
+     .standard = "1",
+     FROM("1"),
+     TO("1"),
+     .offset = offsetof(config, language),
+     .meaning = "Version of the sweep language."},
+    KEY(config, name, SCREE_KEY_WORD, .standard = "sweep", FROM("1"), TO("63"), .meaning = "Short name."),
+    TEXT(config, title, "200", .standard = "", .meaning = "Title of the figures."),
+    {.name = "case",
+     .type = SCREE_KEY_TEXT,
+     FROM("1"),
+     TO("1000"),
+     .offset = offsetof(config, base),
+     .meaning = "Name of a built-in case, or a case file beside this file."},
+    KEY(config, quick, SCREE_KEY_FLAG, .standard = "no", .meaning = "Apply the `quick` section of the case."),
+    KEY(config, realisations, SCREE_KEY_INTEGER, .standard = "1", FROM("1"), TO("10000"),
+        .meaning = "Number of samples at each point, which differ in their seed."),
+    KEY(config, quick_realisations, SCREE_KEY_INTEGER, .standard = "0", FROM("0"), TO("10000"),
+        .meaning = "The same with `quick`; 0: as many."),
+    KEY(config, seed, SCREE_KEY_INTEGER, .standard = "1", FROM("0"), TO("9007199254000000"),
+        .meaning = "Seed of the first realisation; the others follow."),
+    PATHS(config, set, .meaning = "Key path and value of everything that all members change."),
+    PATHS(config, quick_set, .meaning = "The same with `quick`, after `set`."),
+    LIST(config, vary, vary_table, vary_count, .meaning = "The grid: every combination of these."),
+    VALUES(config, measures, .standard = "[]", .meaning = "Names in summary.json that are averaged and compared."),
+    LIST(config, curves, curve_table, curve_count, .meaning = "Curves that are averaged and drawn."),
+    KEY(config, confidence, SCREE_KEY_NUMBER, .unit = "1", .standard = "95 %", FROM("50 %"), TO("99.9 %"),
+        .meaning = "Probability of the confidence intervals."),
+};
+
+const scree_section scree_sweep_schema = TABLE("sweep", "A sweep file.", root_keys);

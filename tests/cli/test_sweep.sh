@@ -1,0 +1,167 @@
+#!/usr/bin/env bash
+# scree sweep, scree report and scree reproduce: what is run, resumed, survived and written.
+# shellcheck source=tests/cli/check.sh
+. "$(dirname "$0")/check.sh"
+
+# Members of less than a second each.
+cat >tiny.yaml <<'END'
+# Friction of a tiny sample
+name: tiny
+title: Friction
+case: biaxial
+quick: yes
+realisations: 2
+set:
+  particles.count: 40
+  stages.compress.strain: 1 %
+  stages.compress.rate: 0.5 1/s
+  stages.confine.friction: 0.4
+  integrator.step: 4e-5 s
+  measure.windows: []
+  output.snapshots: 0
+  output.paraview: no
+  output.figures: no
+vary:
+  - {key: materials.0.friction, values: [0.2, 0.5]}
+measures: [peak_stress_ratio, steps]
+curves: [{y: stress_ratio}]
+END
+
+# --- what it amounts to, without running
+expect 0 '^003-friction=0.5-seed=2: scree run biaxial --quick .*--set materials.0.friction=0.5 --set seed=2$' \
+    "$scree" sweep tiny.yaml --dry-run
+same "$(wc -l <<<"$output")" 4
+same "$("$scree" sweep tiny.yaml -n --realisations 3 | wc -l)" 6
+[ -e out ] && complain "--dry-run made a folder"
+sed 's/friction, v/fraction, v/' tiny.yaml >wrong.yaml
+expect 2 'wrong.yaml:18:[0-9]+: materials.0.fraction: .*did you mean .materials.0.friction.' "$scree" sweep wrong.yaml
+expect 2 'does not go with' "$scree" sweep tiny.yaml --dry-run --collect
+expect 2 'no number of jobs|not a number of jobs' "$scree" sweep tiny.yaml --jobs 0
+expect 2 'a number from 0 to 3' "$scree" sweep tiny.yaml --member 4
+expect 4 'No such file' "$scree" sweep nothing.yaml
+
+# --- a whole sweep, then nothing left to do
+expect 0 'means in s/table.csv' "$scree" sweep tiny.yaml -o s --jobs 2
+for file in s/members.csv s/table.csv s/sweep.json s/curves/stress_ratio-over-axial_strain.csv \
+    s/figures/stress_ratio-over-axial_strain.png s/figures/peak_stress_ratio-over-friction.svg \
+    s/members/003-friction=0.5-seed=2/summary.json; do
+    [ -s "$file" ] || complain "no $file"
+done
+same "$(head -1 s/members.csv)" \
+    'member,folder,point,realisation,seed,materials.0.friction [1],status,wall_time [s],peak_stress_ratio,steps'
+same "$(grep -c ',done,' s/members.csv)" 4
+same "$(wc -l <s/table.csv)" 3
+peaks=($("$scree" get s/members/000-friction=0.2-seed=1 peak_stress_ratio) $("$scree" get s/members/002-friction=0.2-seed=2 peak_stress_ratio))
+# 12.7062: Student's t for one degree of freedom, four decimals; half = t |a - b| / 2.
+awk -F, -v a="${peaks[0]}" -v b="${peaks[1]}" 'NR == 2 { d = a - b; if (d < 0) d = -d; half = 12.7062 * d / 2; m = (a + b) / 2
+    ok = ($4 - m)^2 < 1e-20 && ($7 - m - half)^2 < 1e-8 * half^2 && $8 == 2; exit !ok }' s/table.csv || complain "mean or interval: $(sed -n 2p s/table.csv)"
+touch stamp
+expect 0 '4 of 4 members are done' "$scree" sweep tiny.yaml -o s
+[ -n "$(find s/members -name run.h5 -newer stamp)" ] && complain "a finished member was run again"
+same "$("$scree" get s/members/000-friction=0.2-seed=1 seed)" 1
+
+# --- results do not depend on how it is run
+sums() { for k in "$1"/members/0*/; do "$scree" get "$k" state_checksum; done; }
+expect 0 '' "$scree" sweep tiny.yaml -o one -q --jobs 1 --threads 2 --no-figures
+same "$(sums one)" "$(sums s)" "checksums with one job and with two"
+expect 0 '' cmp one/curves/stress_ratio-over-axial_strain.csv s/curves/stress_ratio-over-axial_strain.csv
+[ -e one/figures/stress_ratio-over-axial_strain.png ] && complain "figures in spite of --no-figures"
+
+# --- more realisations beside those that are there
+expect 0 '4 of 6 members are done' "$scree" sweep tiny.yaml -o one --realisations 3 --no-figures
+same "$(grep -c ',done,' one/members.csv)" 6
+expect 0 '2 folders .*do not belong to this sweep' "$scree" sweep tiny.yaml -o one --collect --no-figures
+
+# --- another case is not mixed in
+expect 2 'holds a run of another case.*--force' "$scree" sweep tiny.yaml -o one --set measure.samples=90
+expect 0 'means in' "$scree" sweep tiny.yaml -o one --set measure.samples=90 --force --no-figures
+grep -q "samples: 90" one/members/000-friction=0.2-seed=1/case.yaml || complain "--force did not run the other case"
+expect 2 'holds a run' "$scree" sweep tiny.yaml -o s/members/000-friction=0.2-seed=1
+
+# --- failed members: the others are run, the status says so, and only --retry runs them again
+cat >failing.yaml <<'END'
+name: failing
+case: biaxial
+quick: yes
+set: {particles.count: 40, stages.compress.strain: 1 %, stages.compress.rate: 0.5 1/s, measure.windows: [], output.paraview: no,
+  stages.confine.friction: 0.4, integrator.step: 4e-5 s}
+vary:
+  - name: guard
+    alternatives:
+      - {name: strict, set: {guard.overlap: 1e-9 %}}
+      - {name: usual}
+measures: [steps, stepps]
+END
+expect 3 '000-strict-seed=1: failed \(exit status 3\): .*' "$scree" sweep failing.yaml -o f --no-figures
+grep -q '1 of 2 members have failed' <<<"$output" || complain "no word of the failure: $output"
+grep -q "did you mean 'steps'" <<<"$output" || complain "no word of the misspelt measure: $output"
+same "$(cut -d, -f6,7 f/members.csv | sed 's/,.*//' | tail -2 | tr '\n' ' ')" 'strict usual '
+grep -q '^0,.*,failed,' f/members.csv || complain "members.csv does not have the failed member"
+grep -q '^1,usual,usual,[0-9]' f/table.csv || complain "table.csv does not have the mean of the others"
+touch stamp
+expect 3 '1 of 2 members are done, 1 have failed, 0 to run' "$scree" sweep failing.yaml -o f --no-figures
+[ -n "$(find f/members -name log.txt -newer stamp)" ] && complain "a failed member was run without --retry"
+expect 3 'failed' "$scree" sweep failing.yaml -o f --no-figures --retry
+[ -n "$(find f/members -name log.txt -newer stamp)" ] || complain "--retry ran nothing"
+expect 3 'has failed' "$scree" sweep failing.yaml -o f --member 0
+
+# --- a member that is killed fails by itself; an interrupt stops all with checkpoints, and the same call goes on
+long=(--set 'stages.compress.strain=4 %' --set 'stages.compress.rate=1e-2 1/s' --no-figures)
+expect 0 '' "$scree" sweep tiny.yaml -o whole -q "${long[@]}"
+wait_for() {
+    for ((i = 0; i < 1200; i++)); do
+        grep -qs "$1" "$2" && return
+        sleep 0.05
+    done
+    complain "nothing like '$1' in $2"
+}
+# Ctrl-C goes to all processes of the terminal's group, here that of a session of its own.
+setsid "$scree" sweep tiny.yaml -o cut --jobs 2 "${long[@]}" 2>cut.txt &
+pid=$!
+wait_for 'confine ended' cut/members/001-friction=0.5-seed=1/log.txt
+kill -INT -- -$pid
+wait $pid 2>/dev/null
+same $? 130 "status of an interrupted sweep"
+grep -q 'interrupted with [0-3] of 4 members done; the same command goes on' cut.txt || complain "after the interrupt: $(cat cut.txt)"
+grep -q 'interrupted at step' cut/members/*.txt || complain "no member stopped after a checkpoint"
+pgrep -f "$scratch/cut/members" >/dev/null && complain "a member goes on after the interrupt"
+expect 0 'means in' "$scree" sweep tiny.yaml -o cut "${long[@]}"
+grep -q 'restarted' cut/members/*/log.txt || complain "the interrupted member was not continued"
+same "$(sums cut)" "$(sums whole)" "checksums after an interrupt"
+# One that dies with the sweep is continued too.
+rm -r cut
+"$scree" sweep tiny.yaml -o cut --jobs 1 "${long[@]}" 2>/dev/null &
+pid=$!
+wait_for 'confine ended' cut/members/000-friction=0.2-seed=1/log.txt
+kill -KILL $pid
+wait $pid 2>/dev/null
+wait_for 'interrupted at step' cut/members/000-friction=0.2-seed=1.txt # its process was asked to stop
+sleep 0.2
+expect 0 'means in' "$scree" sweep tiny.yaml -o cut "${long[@]}"
+same "$(sums cut)" "$(sums whole)" "checksums after the sweep was killed"
+
+# --- a job array: the script runs one member, and collecting comes after
+expect 0 'sbatch array.sh' "$scree" sweep tiny.yaml -o array --no-figures --slurm array.sh
+grep -q '^#SBATCH --array=0-3$' array.sh || complain "array.sh: $(cat array.sh)"
+[ -e array ] && complain "--slurm ran something"
+for k in 0 1 2 3; do SLURM_ARRAY_TASK_ID=$k bash array.sh 2>/dev/null || complain "task $k"; done
+[ -e array/table.csv ] && complain "a task collected"
+expect 0 'means in array' "$scree" sweep tiny.yaml -o array --no-figures --collect
+same "$(sums array)" "$(sums s)" "checksums of the job array"
+
+# --- the report: statements that nothing was run for, and one that something was
+expect 0 '\*\*0 agree, 0 differ, 0 were not measured, [0-9]+ were not run' "$scree" report s
+expect 0 '' "$scree" report s -o page.md
+"$scree" report s | cmp -s - page.md || complain "the page is not the same each time"
+# Members of a sweep stand for a published case when they have its name.
+sed 's/^name: tiny/name: triaxial/' tiny.yaml | sed '/^vary/,$d' >triaxial.yaml
+expect 0 '' "$scree" sweep triaxial.yaml -o pages/triaxial -q --no-figures
+expect 0 '^\| triaxial-dilation .*\| (agrees|\*\*differs\*\*) \| quick \|$' "$scree" report pages
+grep -qE '^\| triaxial-cell-strain .* \| - \| .* \| not measured \| quick \|$' <<<"$output" || complain "a missing result is not 'not measured'"
+expect 0 '^\| triaxial-dilation .*\(n = 2\)' "$scree" report pages/triaxial
+expect 4 'cannot read the folder' "$scree" report nowhere
+
+# --- reproduce: what has no case is not available, and the page is written all the same
+expect 2 'there is no built-in sweep of this name' "$scree" reproduce --only nothing
+expect 0 'biaxial-timescales ' "$scree" list --sweeps
+finish ""
