@@ -2,7 +2,8 @@
 ///
 /// Over the last loading stage: peak of the stress ratio, as a running mean over SMOOTHING of axial strain, and its
 /// strain; mean stress ratio over the last fifth of the strain; largest compaction and dilation relative to the begin
-/// of loading (dilation positive); disagreement of the axial stress of plates and contacts, of the means over the stage
+/// of loading (dilation positive), and the strain of the latter; disagreement of the axial stress of plates and
+/// contacts, of the means over the stage
 /// (`stress_disagreement`) and as the mean of the instantaneous differences, which holds the inertia of the waves
 /// (`stress_disagreement_instant`); `shear_strain_reached`, the engineering shear strain of the first and the last
 /// axis; with imposed rates, mean, least and largest ratio of actual and imposed rate (`rate_ratio_...`, of the
@@ -97,11 +98,14 @@ static void summarise_rate(const loading *l, scree_summary *summary)
 
 static void summarise_loading(const loading *l, scree_summary *summary)
 {
-    double compaction = 0, dilation = 0, slip = 0, plates = 0, contacts = 0, apart = 0;
+    double compaction = 0, dilation = 0, strain_at_dilation = NAN, slip = 0, plates = 0, contacts = 0, apart = 0;
     double rows = (double)(l->last - l->first);
     for (size_t k = l->first; k < l->last; k++) {
         compaction = fmax(compaction, l->volumetric[k]);
-        dilation = fmax(dilation, -l->volumetric[k]);
+        if (-l->volumetric[k] > dilation) {
+            dilation = -l->volumetric[k];
+            strain_at_dilation = l->strain[k];
+        }
         slip += l->slip[k] / rows;
         plates += l->plates[k];
         contacts += l->contacts[k];
@@ -113,6 +117,7 @@ static void summarise_loading(const loading *l, scree_summary *summary)
     summarise_rate(l, summary);
     scree_summary_set_number(summary, "max_volumetric_compaction", compaction);
     scree_summary_set_number(summary, "max_volumetric_dilation", dilation);
+    scree_summary_set_number(summary, "strain_at_max_dilation", strain_at_dilation);
     scree_summary_set_number(summary, "stress_disagreement", fabs(contacts / plates - 1));
     scree_summary_set_number(summary, "stress_disagreement_instant", apart / plates);
     scree_summary_set_number(summary, "mean_slip_ratio", slip);

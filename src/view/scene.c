@@ -195,9 +195,11 @@ static void write_caption(scree_scene_view *view)
     if (isfinite(s->time)) (void)snprintf(time, sizeof time, ", t = %s s", number);
     if (view->disc_count < s->count && !view->scene->section)
         (void)snprintf(left_out, sizeof left_out, ", %zu without a position", s->count - view->disc_count);
-    (void)snprintf(view->caption, sizeof view->caption, "%zu %s%s%s%s%s", view->disc_count,
-                   view->scene->depth || view->scene->section ? "sphere" : "disc", view->disc_count == 1 ? "" : "s",
-                   left_out, strain, time);
+    // The bodies of a membrane are drawn too, but are no grains.
+    size_t grains = view->disc_count - (s->grains > 0 ? s->count - s->grains : 0);
+    (void)snprintf(view->caption, sizeof view->caption, "%zu %s%s%s%s%s", grains,
+                   view->scene->depth || view->scene->section ? "sphere" : "disc", grains == 1 ? "" : "s", left_out,
+                   strain, time);
 }
 
 /// Title and caption from the top margin; returns the y below them.
