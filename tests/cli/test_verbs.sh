@@ -31,7 +31,7 @@ complete_line() {
 }
 same "$(complete_line scree ch)" check
 same "$(complete_line scree run --no)" --no-figures
-same "$(complete_line scree new bia)" biaxial
+same "$(complete_line scree new biaxial-b)" biaxial-boundaries
 same "$(complete_line scree help --com)" --completion
 touch some.yaml other.txt
 same "$(complete_line scree check s)" some.yaml
