@@ -105,16 +105,17 @@ static double sample_height(const scree_model *model, const scree_config_stage *
     const scree_config *config = model->config;
     bool gas = stage && stage->method == SCREE_PREPARE_GAS;
     double phi = gas ? scree_model_gas_fraction(model, stage) : solid_fraction(model), radius = model->mean_radius;
-    double aspect = stage ? stage->aspect_ratio : 1, count = (double)config->particles.count;
+    bool box = stage && stage->outline == SCREE_SAMPLE_BOX;
+    double aspect = box ? stage->aspect_ratio : 1, count = (double)config->particles.count;
     if (model->dimension == 3) {
         double volume = count * 4.0 / 3.0 * M_PI * radius * radius * radius / phi;
-        double width = stage ? stage->width : NAN, depth = stage ? stage->depth : NAN;
+        double width = box ? stage->width : NAN, depth = box ? stage->depth : NAN;
         if (isnan(width) && !isnan(depth)) return sqrt(volume * aspect / depth);
         if (isnan(width)) return cbrt(volume * aspect * aspect);
         return volume / (width * (isnan(depth) ? width : depth));
     }
     double area = count * M_PI * radius * radius / phi;
-    if (stage && !isnan(stage->width)) return area / stage->width;
+    if (box && !isnan(stage->width)) return area / stage->width;
     return sqrt(area * aspect);
 }
 

@@ -172,6 +172,7 @@ static scree_status check_prepare(const scree_model *model, int64_t index, scree
     if (lattice && model->radius_min < model->radius_max)
         return indexed_error(error, "stages", index, "method",
                              "a lattice needs particles of one radius: set particles.distribution to equal");
+    if (stage->outline != SCREE_SAMPLE_BOX) return SCREE_OK; // its sides are not the user's
     bool shallow = solid && !isnan(stage->depth) && stage->depth < 2 * model->radius_max;
     if (shallow || (!isnan(stage->width) && stage->width < 2 * model->radius_max)) {
         char text[160];

@@ -393,8 +393,12 @@ static void round_samples(void **unused)
             sample s;
             sample_set(&s, dimension, methods[k], 400);
             s.c.stage[0].outline = dimension == 3 ? SCREE_SAMPLE_BALL : SCREE_SAMPLE_CIRCLE;
+            // As the case language leaves keys that are not used.
+            s.c.stage[0].width = s.c.stage[0].aspect_ratio = 0;
+            s.c.config.gravity[1] = -9.81;
             sample_prepare(&s);
             assert_int_equal(s.state.count, 400);
+            assert_true(s.model.critical_step > 0);
             // The box holds the sample: overlaps with its sides are those of bodies with each other.
             assert_true(largest_overlap(&s, NULL) < ROUND_OFF);
             double radius = s.side[0] / 2, reach = 0, moment[3] = {0};
