@@ -2,8 +2,8 @@
 /// the centre being the mean of their places; spins stay free, and the pressure changes nothing. The stiffest of all
 /// boundaries, with which the others are compared: uniform displacement against uniform traction.
 ///
-/// The velocity is imposed by the force m (v - v(n-1/2)) / dt - (all other forces), after which the kick leads to it up
-/// to the rounding of a quantum. Bodies that come onto the boundary when it is found anew are caught in one step, so
+/// The velocity is imposed by the force m (v - v(n-1/2)) / kick - (all other forces), after which the kick leads to it
+/// up to the rounding of a quantum. Bodies that come onto the boundary when it is found anew are caught in one step, so
 /// the conditions are meant for small strains. Cost: O(boundary) a step.
 #include "base/fixed.h"
 #include "boundary/boundary.h"
@@ -35,7 +35,7 @@ static void wanted_velocity(const scree_state *state, size_t row, const scree_ve
     }
 }
 
-static void move_bodies(scree_state *state, const scree_vector centre)
+static void move_bodies(scree_state *state, const scree_vector centre, double kick)
 {
     for (size_t k = 0; k < state->drive.count; k++) {
         size_t row = scree_boundary_row(state, k);
@@ -46,7 +46,7 @@ static void move_bodies(scree_state *state, const scree_vector centre)
         wanted_velocity(state, row, centre, wanted);
         scree_body_motion(state, row, velocity, spin);
         for (int i = 0; i < 3; i++) {
-            double force = state->row[row].mass * (wanted[i] - velocity[i]) / state->step_size;
+            double force = state->row[row].mass * (wanted[i] - velocity[i]) / kick;
             quanta[i] = llrint(force / state->force_quantum) - others[i];
         }
         scree_drive_add(state, k, quanta);
@@ -55,7 +55,6 @@ static void move_bodies(scree_state *state, const scree_vector centre)
 
 static void forces(const scree_model *model, scree_state *state, scree_work *work)
 {
-    (void)work;
     scree_drive *drive = &state->drive;
     if (drive->count == 0) return;
     double rate[9];
@@ -65,7 +64,7 @@ static void forces(const scree_model *model, scree_state *state, scree_work *wor
     scree_drive_record(state, rate);
     memset(drive->force, 0, drive->count * sizeof *drive->force);
     find_centre(state, centre);
-    move_bodies(state, centre);
+    move_bodies(state, centre, work->next_kick);
     scree_drive_work(state);
 }
 

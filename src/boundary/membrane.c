@@ -127,14 +127,14 @@ static void press_side(scree_state *state, size_t first, size_t last, double sca
 }
 
 /// Gives every end the velocity of its plate along the plate's normal.
-static void hold_ends(scree_state *state)
+static void hold_ends(scree_state *state, double kick)
 {
     for (size_t k = 0; k < state->membrane.count; k++) {
         int plate = plate_of(&state->membrane, k);
         if (plate < 0) continue;
         const scree_wall *wall = &state->wall[plate];
         const scree_row *row = row_of(state, k);
-        double force = row->mass * (wall->velocity * wall->normal[1] - row->vy) / state->step_size;
+        double force = row->mass * (wall->velocity * wall->normal[1] - row->vy) / kick;
         int64_t others = state->sum[scree_membrane_row(state, k)].fy;
         add_force(state, state->membrane.force, k, 0, llrint(force / state->force_quantum) - others);
     }
@@ -166,7 +166,6 @@ static double carried_pressure(const scree_state *state)
 
 static void forces(const scree_model *model, scree_state *state, scree_work *work)
 {
-    (void)work;
     scree_membrane *membrane = &state->membrane;
     memset(membrane->press, 0, membrane->count * sizeof *membrane->press);
     memset(membrane->force, 0, membrane->count * sizeof *membrane->force);
@@ -174,7 +173,7 @@ static void forces(const scree_model *model, scree_state *state, scree_work *wor
     press_side(state, 0, membrane->right - 1, scale);
     press_side(state, membrane->right, membrane->count - 1, scale);
     add_chain(model, state);
-    hold_ends(state);
+    hold_ends(state, work->next_kick);
     book_half_work(state);
 }
 

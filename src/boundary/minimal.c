@@ -9,11 +9,11 @@
 /// So the conditions are a uniform traction that adjusts itself; kappa is a viscosity [Pa s]. The forces add up to zero
 /// (to the last bit: drive.c), those of symmetric tensors C have no moment, and their power is V Lambda : L exactly.
 ///
-/// Integration. Explicitly the penalty would demand kappa dt M < 2 with M_CC' = (1/V) C : (C' B), B = sum a (x) a /
-/// m_k: light boundary bodies. Instead lambda is taken at the end of the kick, e = e_0 + dt M lambda, where e_0 is what
-/// the velocities v(n-1/2) and all other forces at n would lead to: the small system
-///     (1/kappa + dt M) lambda = - e_0
-/// is symmetric and positive, and stable for any kappa; it leaves of an error the fraction 1 / (1 + kappa dt M) in one
+/// Integration. Explicitly the penalty would demand kappa h M < 2 with M_CC' = (1/V) C : (C' B), B = sum a (x) a /
+/// m_k: light boundary bodies. Instead lambda is taken at the end of the kick h, e = e_0 + h M lambda, where e_0 is
+/// what the velocities v(n-1/2) and all other forces at n would lead to: the small system
+///     (1/kappa + h M) lambda = - e_0
+/// is symmetric and positive, and stable for any kappa; it leaves of an error the fraction 1 / (1 + kappa h M) in one
 /// step. kappa = INFINITY is the constraint itself, nothing left.
 ///
 /// In steady motion the error is e = - lambda / kappa: by default kappa is chosen so that the confining pressure, the
@@ -57,7 +57,8 @@ static double double_product(const double a[9], const double b[9])
 }
 
 /// Velocity gradient that the next kick leads to without the penalty, and B / V.
-static void predict(const scree_state *state, scree_vector *area, double volume, double rate[9], double mobility[9])
+static void predict(const scree_state *state, scree_vector *area, double volume, double kick, double rate[9],
+                    double mobility[9])
 {
     memset(rate, 0, 9 * sizeof *rate);
     memset(mobility, 0, 9 * sizeof *mobility);
@@ -69,8 +70,7 @@ static void predict(const scree_state *state, scree_vector *area, double volume,
         scree_vector velocity, spin;
         scree_body_motion(state, row, velocity, spin);
         for (int i = 0; i < 3; i++) {
-            double next =
-                velocity[i] + state->step_size * scree_fixed_to(force[i], state->force_quantum) * inverse_mass;
+            double next = velocity[i] + kick * scree_fixed_to(force[i], state->force_quantum) * inverse_mass;
             for (int j = 0; j < 3; j++) {
                 rate[3 * i + j] += next * area[k][j] / volume;
                 mobility[3 * i + j] += area[k][i] * area[k][j] * inverse_mass / volume;
@@ -120,7 +120,6 @@ static void find_stress(const scree_drive *drive, const double rate[9], const do
 
 static void forces(const scree_model *model, scree_state *state, scree_work *work)
 {
-    (void)work;
     scree_drive *drive = &state->drive;
     if (drive->count == 0) return;
     double actual[9], predicted[9], mobility[9], volume = scree_boundary_volume(model, state);
@@ -128,8 +127,8 @@ static void forces(const scree_model *model, scree_state *state, scree_work *wor
     scree_boundary_areas(model, state, drive->force);
     scree_drive_measure(state, drive->force, volume, actual);
     scree_drive_record(state, actual);
-    predict(state, drive->force, volume, predicted, mobility);
-    find_stress(drive, predicted, mobility, state->step_size, drive->stress);
+    predict(state, drive->force, volume, work->next_kick, predicted, mobility);
+    find_stress(drive, predicted, mobility, work->next_kick, drive->stress);
     memset(drive->force, 0, drive->count * sizeof *drive->force);
     scree_drive_apply_stress(model, state, drive->stress);
     scree_drive_work(state);

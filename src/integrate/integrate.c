@@ -13,13 +13,24 @@ const scree_integrator *scree_integrator_get(scree_scheme scheme)
     return table[scheme];
 }
 
+static uint64_t next_ticks(const scree_integrator *integrator, const scree_model *model, const scree_state *state,
+                           bool loading)
+{
+    return loading && integrator->ticks ? integrator->ticks(model, state) : model->largest_step;
+}
+
+double scree_integrator_next_kick(const scree_integrator *integrator, const scree_model *model,
+                                  const scree_state *state, bool loading)
+{
+    return 0.5 * (state->step_size + (double)next_ticks(integrator, model, state, loading) * state->tick);
+}
+
 uint64_t scree_integrator_choose_step(const scree_integrator *integrator, const scree_model *model, scree_state *state,
                                       bool loading)
 {
-    uint64_t ticks = loading && integrator->ticks ? integrator->ticks(model, state) : model->largest_step;
-    double next = (double)ticks * state->tick;
-    state->kick_size = 0.5 * (state->step_size + next);
-    state->step_size = next;
+    uint64_t ticks = next_ticks(integrator, model, state, loading);
+    state->kick_size = scree_integrator_next_kick(integrator, model, state, loading);
+    state->step_size = (double)ticks * state->tick;
     return ticks;
 }
 

@@ -24,6 +24,11 @@ const scree_integrator *scree_integrator_get(scree_scheme scheme);
 uint64_t scree_integrator_choose_step(const scree_integrator *integrator, const scree_model *model, scree_state *state,
                                       bool loading);
 
+/// The kick [s] that the next step will begin with, in which the forces at the present step act: all of it, of which
+/// velocity_verlet gives half right away.
+double scree_integrator_next_kick(const scree_integrator *integrator, const scree_model *model,
+                                  const scree_state *state, bool loading);
+
 /// Force [N] and torque [N m] on the body in `row` at the present step: sums, gravity.
 void scree_body_force(const scree_model *model, const scree_state *state, size_t row, scree_vector force,
                       scree_vector torque);

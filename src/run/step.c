@@ -40,6 +40,7 @@ scree_status scree_step(scree_simulation *s, scree_error *error)
     if ((status = scree_boundary_prepare(s->boundary, model, state, error))) return status;
     scree_contact_set_quanta(model, state, scree_boundary_bound(s->boundary, model, state));
     scree_contact_forces(model, state, work);
+    work->next_kick = scree_integrator_next_kick(s->integrator, model, state, s->stage->loading);
     scree_boundary_forces(s->boundary, model, state, work);
     scree_forced_spin_settle(state);
 

@@ -49,6 +49,7 @@ typedef struct scree_work {
     double budget; ///< m, distance that bodies may still move before the list must be checked
     bool valid;    ///< false: rebuild before the next force evaluation
     uint64_t rebuilds;
+    double next_kick; ///< s, in which the forces of this step will act (integrate.h), for boundaries that foresee it
     int threads;
     scree_team *team;      ///< of `threads` members, for loops of some microseconds; made at their first use
     bool ledger;           ///< dissipated energies are accumulated (default true)

@@ -91,7 +91,7 @@ static void bench_create(bench *b, int dimension)
     assert_int_equal(scree_state_create(&b->state, dimension, count, NULL), SCREE_OK);
     scree_state *state = &b->state;
     state->force_quantum = QUANTUM;
-    state->step_size = STEP;
+    state->step_size = b->work.next_kick = STEP;
     for (size_t k = 0; k < count; k++) {
         scree_row *row = &state->row[k];
         row->mass = 1 + 0.5 * uniform(100 + k);

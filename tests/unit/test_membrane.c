@@ -61,7 +61,7 @@ static void bench_create(bench *b)
     assert_int_equal(scree_state_create(&b->state, 2, COLUMNS * ROWS, NULL), SCREE_OK);
     scree_state *state = &b->state;
     state->force_quantum = QUANTUM;
-    state->step_size = STEP;
+    state->step_size = b->work.next_kick = STEP;
     double low = INFINITY, high = -INFINITY;
     for (size_t i = 0; i < state->count; i++) {
         scree_row *row = &state->row[i];
