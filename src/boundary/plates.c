@@ -13,6 +13,7 @@
 
 #include "measure/measure.h"
 #include "measure/outline.h"
+#include "state/cell.h"
 
 #include <math.h>
 
@@ -34,6 +35,7 @@ double scree_plate_length(const scree_state *state, int index)
     bool horizontal = index == SCREE_WALL_BOTTOM || index == SCREE_WALL_TOP;
     double height = distance(state, SCREE_WALL_BOTTOM, SCREE_WALL_TOP);
     if (!horizontal) return height;
+    if (scree_cell_repeats(&state->cell, 0)) return state->cell.lattice[0];
     if (state->wall[SCREE_WALL_LEFT].active && state->wall[SCREE_WALL_RIGHT].active)
         return distance(state, SCREE_WALL_LEFT, SCREE_WALL_RIGHT);
     return state->loop.count > 0 ? scree_outline_plate_length(state, index) : scree_sample_area(state) / height;

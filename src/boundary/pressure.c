@@ -83,6 +83,7 @@ static void replace_loop(const scree_model *model, scree_state *state, const uin
 scree_status scree_boundary_refresh(const scree_model *model, scree_state *state, scree_error *error)
 {
     const scree_loop *loop = &state->loop;
+    if (state->cell.periodic) return SCREE_OK;
     if (loop->count > 0 && state->step - loop->updated < (uint64_t)model->config->boundary.every) return SCREE_OK;
     uint32_t *ids = NULL;
     size_t count = 0;

@@ -55,7 +55,11 @@ typedef struct scree_config_integrator {
 
 typedef enum scree_lateral { SCREE_LATERAL_PRESSURE, SCREE_LATERAL_PLATES } scree_lateral;
 
+/// Mask of periodic directions.
+enum { SCREE_PERIODIC_NONE = 0, SCREE_PERIODIC_X = 1, SCREE_PERIODIC_XY = 3, SCREE_PERIODIC_XYZ = 7 };
+
 typedef struct scree_config_boundary {
+    int periodic;          ///< SCREE_PERIODIC_...
     int lateral;           ///< scree_lateral: pressure on the Delaunay boundary, or rigid side plates under servo
     int64_t every;         ///< steps between two updates of the Delaunay boundary
     double gap_limit;      ///< 1, boundary edges with a free gap above this many mean diameters are cut
@@ -63,7 +67,12 @@ typedef struct scree_config_boundary {
     double servo_velocity; ///< m/s, largest plate velocity under servo; auto
 } scree_config_boundary;
 
-typedef enum scree_stage_kind { SCREE_STAGE_PREPARE, SCREE_STAGE_CONFINE, SCREE_STAGE_COMPRESS } scree_stage_kind;
+typedef enum scree_stage_kind {
+    SCREE_STAGE_PREPARE,
+    SCREE_STAGE_CONFINE,
+    SCREE_STAGE_COMPRESS,
+    SCREE_STAGE_DEFORM
+} scree_stage_kind;
 typedef enum scree_prepare_method {
     SCREE_PREPARE_DROP_AND_ROLL,
     SCREE_PREPARE_HEXAGONAL,
@@ -90,7 +99,10 @@ typedef struct scree_config_stage {
     double strain;    ///< 1, axial strain (engineering) at which to stop, compression positive
     double rate;      ///< 1/s, axial strain rate referred to the height at the start of the stage
     double rise_time; ///< s, in which the plates reach their velocity; auto: four wave times of the sample
-    // confine and compress
+    // deform (with `strain`, of the fastest component, and `rise_time`)
+    double cell_rate[9];   ///< 1/s, velocity gradient by rows; auto: 0, or what holds the stress
+    double cell_stress[9]; ///< Pa, held instead; normal components compression positive, shear by its direction
+    // confine, compress and deform
     double friction; ///< 1, friction during this stage; auto: the material's
 } scree_config_stage;
 

@@ -45,6 +45,13 @@ static const scree_choice schemes[] = {
     {"velocity_verlet", SCREE_SCHEME_VELOCITY_VERLET, "velocities and positions at the same time"},
     {0},
 };
+static const scree_choice periodics[] = {
+    {"no", SCREE_PERIODIC_NONE, "not periodic: plates and what `lateral` says"},
+    {"x", SCREE_PERIODIC_X, "periodic in x; plates in the other directions"},
+    {"xy", SCREE_PERIODIC_XY, "periodic in x and y: in 2D no boundary at all, in 3D plates below and above"},
+    {"xyz", SCREE_PERIODIC_XYZ, "periodic in all directions of space"},
+    {0},
+};
 static const scree_choice laterals[] = {
     {"pressure", SCREE_LATERAL_PRESSURE, "traction on the Delaunay boundary of the assembly"},
     {"plates", SCREE_LATERAL_PLATES, "rigid side plates that a servo holds at the pressure"},
@@ -62,6 +69,7 @@ static const scree_choice stage_kinds[] = {
     {"prepare", SCREE_STAGE_PREPARE, "places the particles"},
     {"confine", SCREE_STAGE_CONFINE, "raises the pressure and waits for equilibrium"},
     {"compress", SCREE_STAGE_COMPRESS, "moves the plates together to a strain"},
+    {"deform", SCREE_STAGE_DEFORM, "deforms the periodic cell: each component by a rate or a stress"},
     {0},
 };
 
@@ -125,7 +133,9 @@ static const scree_key integrator_keys[] = {
 
 typedef scree_config_boundary boundary;
 static const scree_key boundary_keys[] = {
-    CHOICE(boundary, lateral, laterals, .standard = "pressure", .meaning = "What holds the sides."),
+    CHOICE(boundary, periodic, periodics, .standard = "no", .meaning = "Directions in which the sample repeats."),
+    CHOICE(boundary, lateral, laterals, .standard = "pressure",
+           .meaning = "What holds the sides, where they are not periodic."),
     INTEGER(boundary, every, .standard = "250", FROM("1"), TO("1e9"),
             .meaning = "Steps between two updates of the Delaunay boundary."),
     NUMBER(boundary, gap_limit, "1", .standard = "0.5", FROM("0"), TO("100"),
@@ -181,6 +191,42 @@ static const scree_key compress_keys[] = {
     STAGE_FRICTION,
 };
 
+/// Component i, j of the velocity gradient, and of the stress.
+#define RATE(text, i, j)                                                                                               \
+    {                                                                                                                  \
+        .name = "rate_" text, .type = SCREE_KEY_NUMBER, .unit = "1/s", .standard = "auto", FROM("-1e6 1/s"),           \
+        TO("1e6 1/s"), .offset = offsetof(stage, cell_rate[3 * (i) + (j)]),                                            \
+        .meaning = "Velocity gradient " text ", extension positive; auto: 0, or what holds the stress."                \
+    }
+#define STRESS(key, i, j, text)                                                                                        \
+    {                                                                                                                  \
+        .name = key, .type = SCREE_KEY_NUMBER, .unit = "Pa", .standard = "auto", FROM("-1000 GPa"), TO("1000 GPa"),    \
+        .offset = offsetof(stage, cell_stress[3 * (i) + (j)]), .meaning = text                                         \
+    }
+static const scree_key deform_keys[] = {
+    STAGE_HEAD,
+    NUMBER(stage, strain, "1", ABOVE("0 %"), TO("1000000 %"),
+           .meaning = "Strain of the fastest prescribed component at which the stage ends."),
+    RATE("xx", 0, 0),
+    RATE("xy", 0, 1),
+    RATE("xz", 0, 2),
+    RATE("yx", 1, 0),
+    RATE("yy", 1, 1),
+    RATE("yz", 1, 2),
+    RATE("zx", 2, 0),
+    RATE("zy", 2, 1),
+    RATE("zz", 2, 2),
+    STRESS("pressure_x", 0, 0, "Normal stress on x that is held, compression positive; auto: rate_xx is."),
+    STRESS("pressure_y", 1, 1, "Normal stress on y that is held, compression positive; auto: rate_yy is."),
+    STRESS("pressure_z", 2, 2, "Normal stress on z that is held, compression positive; auto: rate_zz is."),
+    STRESS("shear_xy", 0, 1, "Shear stress xy that is held by rate_xy, positive along it; auto: rate_xy is."),
+    STRESS("shear_xz", 0, 2, "Shear stress xz that is held by rate_xz, positive along it; auto: rate_xz is."),
+    STRESS("shear_yz", 1, 2, "Shear stress yz that is held by rate_yz, positive along it; auto: rate_yz is."),
+    NUMBER(stage, rise_time, "s", .standard = "auto", FROM("0 s"), TO("1e9 s"),
+           .meaning = "Time in which the rates are reached; auto: four wave times of the sample."),
+    STAGE_FRICTION,
+};
+
 typedef scree_config_measure measure;
 static const scree_key measure_keys[] = {
     INTEGER(measure, samples, .standard = "200", FROM("1"), TO("1e6"),
@@ -224,6 +270,8 @@ static const scree_section stage_tables[] = {
     TABLE("prepare", "Places the particles; the first stage of every case.", prepare_keys),
     TABLE("confine", "Raises the pressure on all sides and waits for equilibrium.", confine_keys),
     TABLE("compress", "Moves the plates together at a constant rate under the pressure reached before.", compress_keys),
+    TABLE("deform", "Deforms the periodic cell: each component of the velocity gradient has a rate or holds a stress.",
+          deform_keys),
 };
 static const scree_section measure_table[] = {TABLE("measure", "What is recorded.", measure_keys)};
 static const scree_section output_table[] = {TABLE("output", "What is written, and how often.", output_keys)};

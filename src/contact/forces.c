@@ -7,6 +7,7 @@
 #include "contact/bounds.h"
 #include "contact/contact.h"
 #include "contact/faults.h"
+#include "contact/images.h"
 #include "contact/laws.h"
 #include "contact/partition.h"
 #include "contact/reference.h"
@@ -56,7 +57,7 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
 
 static contact_totals evaluate_serially(contact_job *job, scree_state *state, const scree_work *work)
 {
-    if (state->count > 0) memset(state->sum, 0, state->count * sizeof *state->sum);
+    if (state->count > 0) memset(state->sum, 0, scree_row_count(state, work) * sizeof *state->sum);
     contact_pairs_reference(job);
     contact_walls(job, state->sum, state->wall, &work->wall_pairs, 0, state->count);
     return job->totals;
@@ -89,7 +90,7 @@ static contact_totals evaluate_parts(contact_kernel *kernel, const contact_scrat
 #pragma omp for schedule(static, 1)
         for (int k = 0; k < parts; k++) {
             size_t begin, end;
-            contact_merge_range(scratch, state->count, k, &begin, &end);
+            contact_merge_range(scratch, scree_row_count(state, work), k, &begin, &end);
             contact_merge(scratch, state, begin, end);
             contact_walls(&scratch->part[k].job, state->sum, state->wall, &work->wall_pairs, begin, end);
         }
@@ -134,10 +135,11 @@ void scree_contact_forces(const scree_model *model, scree_state *state, scree_wo
 {
     contact_job job = describe_job(model, state, work);
     contact_kernel *kernel = work->reference_kernel ? NULL : choose_kernel(work->instruction_set);
-    contact_scratch *scratch = kernel ? contact_scratch_refresh(work, state->count) : NULL;
+    contact_scratch *scratch = kernel ? contact_scratch_refresh(work, scree_row_count(state, work)) : NULL;
     contact_totals totals =
         scratch ? evaluate_parts(kernel, scratch, &job, state, work) : evaluate_serially(&job, state, work);
 
+    scree_images_fold(state, work);
     double plates = settle_walls(state, &totals);
     if (work->ledger) settle_ledger(&state->ledger, &totals, &job.scale, plates);
     state->largest_overlap = totals.largest_overlap;

@@ -3,10 +3,11 @@
 #include "contact/contact.h"
 #include "contact/order.h"
 #include "contact/single.h"
+#include "state/cell.h"
 
-/// The row of a body with v(n - 1/2), with which the forces at n were evaluated: velocity_verlet stores v(n), half a
-/// step of acceleration later (integrate/velocity_verlet.c).
-static scree_row row_at_half_step(const scree_model *model, const scree_state *state, size_t k)
+/// The row of a body with the velocity that the scheme keeps, at n - 1/2: velocity_verlet stores v(n), half a step of
+/// acceleration later (integrate/velocity_verlet.c).
+static scree_row stored_row_at_half_step(const scree_model *model, const scree_state *state, size_t k)
 {
     scree_row row = state->row[k];
     if (model->scheme != SCREE_SCHEME_VELOCITY_VERLET) return row;
@@ -19,6 +20,27 @@ static scree_row row_at_half_step(const scree_model *model, const scree_state *s
     return row;
 }
 
+/// The row of a body or an image with v(n - 1/2), with which the forces at n were evaluated; in a periodic cell with the
+/// affine field, and an image where it is.
+static scree_row row_at_half_step(const scree_model *model, const scree_state *state, const scree_work *work,
+                                  uint32_t k)
+{
+    uint32_t parent = scree_parent_row(state, work, k);
+    scree_row row = stored_row_at_half_step(model, state, parent);
+    if (!state->cell.periodic) return row;
+    scree_vector place, relative = {row.vx, row.vy, state->dimension == 3 ? row.vz : 0}, velocity;
+    scree_body_place(state, k, place);
+    scree_cell_full_velocity(state, place, relative, velocity);
+    row.x = place[0];
+    row.y = place[1];
+    row.vx = velocity[0];
+    row.vy = velocity[1];
+    if (state->dimension == 2) return row;
+    row.z = place[2];
+    row.vz = velocity[2];
+    return row;
+}
+
 static scree_status reserve(scree_contact_table *table, size_t count, scree_error *error)
 {
     if (count <= table->capacity) return SCREE_OK;
@@ -28,6 +50,15 @@ static scree_status reserve(scree_contact_table *table, size_t count, scree_erro
     return status;
 }
 
+/// The first body is the image: its contact is told where the body itself is.
+static void move_point(const scree_state *state, uint32_t image, scree_contact *contact)
+{
+    scree_vector there, here;
+    scree_body_place(state, image, there);
+    scree_body_place(state, contact->first, here);
+    for (int k = 0; k < 3; k++) contact->point[k] += here[k] - there[k];
+}
+
 static void fill(const scree_model *model, const scree_state *state, const scree_work *work,
                  const contact_reference *reference, scree_contact *contact)
 {
@@ -35,14 +66,16 @@ static void fill(const scree_model *model, const scree_state *state, const scree
     if (contact_reference_is_wall(reference)) {
         contact->first = work->wall_pairs.body[p];
         contact->second = work->wall_pairs.wall[p];
-        scree_row body = row_at_half_step(model, state, contact->first);
+        scree_row body = row_at_half_step(model, state, work, contact->first);
         contact_of_wall(model, &body, &state->wall[contact->second], &work->wall_pairs.history[p], contact);
     } else {
-        contact->first = work->pairs.first[p];
-        contact->second = work->pairs.second[p];
-        scree_row first = row_at_half_step(model, state, contact->first);
-        scree_row second = row_at_half_step(model, state, contact->second);
+        scree_row first = row_at_half_step(model, state, work, work->pairs.first[p]);
+        scree_row second = row_at_half_step(model, state, work, work->pairs.second[p]);
+        contact->first = scree_parent_row(state, work, work->pairs.first[p]);
+        contact->second = scree_parent_row(state, work, work->pairs.second[p]);
+        contact->image = work->pairs.first[p] >= state->count || work->pairs.second[p] >= state->count;
         contact_of_pair(model, &first, &second, &work->pairs.history[p], contact);
+        if (work->pairs.first[p] != contact->first) move_point(state, work->pairs.first[p], contact);
     }
 }
 

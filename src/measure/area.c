@@ -2,6 +2,7 @@
 #include "measure/measure.h"
 
 #include "measure/outline.h"
+#include "state/cell.h"
 
 double scree_loop_area(const scree_state *state)
 {
@@ -17,6 +18,7 @@ double scree_loop_area(const scree_state *state)
 
 double scree_sample_area(const scree_state *state)
 {
+    if (state->cell.periodic) return scree_cell_extent(state);
     const scree_wall *wall = state->wall;
     bool closed = true;
     for (int w = 0; w < SCREE_WALL_COUNT; w++) closed = closed && wall[w].active;

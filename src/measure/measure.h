@@ -11,7 +11,7 @@ double scree_loop_area(const scree_state *state);
 
 /// Area of the sample [m2]: bounded by the active plates where there are any (where their forces act) and by the loaded
 /// edges of the Delaunay boundary elsewhere (through the centres, where the pressure acts). Without a loop: the box of
-/// the plates. Outline in outline.h. With all four plates active: their box.
+/// the plates. Of a periodic cell: its own. Outline in outline.h. With all four plates active: their box.
 double scree_sample_area(const scree_state *state);
 
 /// Average stress from contacts (Christoffersen, Mehrabadi and Nemat-Nasser 1981), walls included:
@@ -29,7 +29,8 @@ void scree_stress_from_boundary(const scree_model *model, const scree_state *sta
 /// normal of a plate it is exact (the vertical part of the pressure on inclined edges included); what needs to know
 /// WHERE on a plate its forces act is missing: the plates' friction in the lateral stress, which so is exactly -p with
 /// pressed sides. [Pa], tension positive; normal components NAN where nothing is applied in that direction, shear
-/// components NAN with plates on all sides and otherwise taken to be symmetric.
+/// components NAN with plates on all sides and otherwise taken to be symmetric. A whole periodic cell applies the stress of
+/// contacts and motion together (state/cell.h).
 void scree_stress_from_plates(const scree_model *model, const scree_state *state, double stress[9]);
 
 /// Displacement gradient of the interior of a loop from the displacements of its vertices (Bagi 1996; P 3.1-3.3):
@@ -40,7 +41,8 @@ void scree_loop_gradient(const double *x, const double *y, const double *ux, con
                          double gradient[4]);
 
 /// Displacement gradient accumulated up to now (sum of increments over the current configuration, so its trace is the
-/// logarithmic volume change): the closed increments in state->strain plus that of the present loop. Tension positive.
+/// logarithmic volume change): the closed increments in state->strain plus that of the present loop. Of a whole periodic
+/// cell the integral of its velocity gradient. Tension positive.
 void scree_strain_measure(const scree_state *state, double gradient[9]);
 
 typedef struct scree_coordination {
@@ -64,8 +66,8 @@ double scree_unbalanced_ratio(const scree_model *model, const scree_state *state
 double scree_mean_unbalanced_ratio(const scree_model *model, const scree_state *state,
                                    const scree_contact_table *table);
 
-/// Solid fraction inside the Delaunay boundary: disc areas (partial ones at the boundary by angle) over loop area. NAN
-/// without a loop.
+/// Solid fraction inside the Delaunay boundary: disc areas (partial ones at the boundary by angle) over loop area; of a
+/// periodic cell, all bodies over the cell. NAN without either.
 double scree_solid_fraction(const scree_state *state);
 
 typedef struct scree_energy {

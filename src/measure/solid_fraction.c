@@ -4,6 +4,7 @@
 #include "measure/measure.h"
 
 #include "measure/outline.h"
+#include "state/cell.h"
 
 #include <math.h>
 
@@ -25,8 +26,9 @@ double scree_solid_fraction(const scree_state *state)
     double solid = 0;
     for (size_t id = 0; id < state->count; id++) {
         double radius = state->row[state->row_of_id[id]].radius;
-        solid += M_PI * radius * radius;
+        solid += state->dimension == 2 ? M_PI * radius * radius : 4 * M_PI / 3 * radius * radius * radius;
     }
+    if (state->cell.periodic) return solid / scree_cell_extent(state);
     for (size_t k = 0; k < state->loop.count; k++) {
         double radius = state->row[state->row_of_id[state->loop.id[k]]].radius;
         solid -= (M_PI - interior_angle(state, k) / 2) * radius * radius;

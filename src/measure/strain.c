@@ -5,6 +5,9 @@
 
 #include "measure/outline.h"
 #include "measure/polygon.h"
+#include "state/cell.h"
+
+#include <string.h>
 
 void scree_loop_gradient(const double *x, const double *y, const double *ux, const double *uy, size_t count,
                          double gradient[4])
@@ -22,6 +25,10 @@ void scree_loop_gradient(const double *x, const double *y, const double *ux, con
 
 void scree_strain_measure(const scree_state *state, double gradient[9])
 {
+    if (scree_cell_is_whole(state)) {
+        memcpy(gradient, state->cell.strain, sizeof state->cell.strain);
+        return;
+    }
     const scree_loop *loop = &state->loop;
     scree_polygon_sum sum = {0};
     double first[2] = {0}, position[2], a[2] = {0}, ua[2] = {0};

@@ -21,6 +21,7 @@
 #include "measure/measure.h"
 
 #include "measure/outline.h"
+#include "state/cell.h"
 
 #include <math.h>
 
@@ -111,6 +112,10 @@ static void add_wall(const scree_wall *wall, const scree_vector centre, double s
 
 void scree_stress_from_plates(const scree_model *model, const scree_state *state, double stress[9])
 {
+    if (scree_cell_is_whole(state)) {
+        scree_cell_stress(model, state, stress);
+        return;
+    }
     pressure_sum pressure = sum_pressure(model, state);
     const scree_wall *wall = state->wall;
     for (int w = 0; w < SCREE_WALL_COUNT; w++)

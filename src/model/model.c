@@ -40,6 +40,23 @@ int scree_model_particle_material(const scree_model *model)
     return -1;
 }
 
+bool scree_model_is_whole_cell(const scree_model *model)
+{
+    return model->config->boundary.periodic == (1 << model->dimension) - 1;
+}
+
+int scree_deform_leader(const scree_config_stage *stage)
+{
+    int leader = 0;
+    double fastest = 0;
+    for (int k = 0; k < 9; k++) {
+        if (!(fabs(stage->cell_rate[k]) > fastest)) continue;
+        fastest = fabs(stage->cell_rate[k]);
+        leader = k;
+    }
+    return leader;
+}
+
 static double shear_modulus(const scree_config_material *m)
 {
     return m->young_modulus / (2 * (1 + m->poisson_ratio));
@@ -134,35 +151,47 @@ static double mean_square_radius(const scree_model *model)
                                                                        : (a * a + b * b) / 2;
 }
 
-/// Reference velocity, phi and psi: those of the first compress stage under the pressure of the last confine stage
-/// before it.
+double scree_loading_rate(const scree_config_stage *stage)
+{
+    if (stage->kind == SCREE_STAGE_COMPRESS) return fabs(stage->rate);
+    return stage->kind == SCREE_STAGE_DEFORM ? fabs(stage->cell_rate[scree_deform_leader(stage)]) : 0;
+}
+
+double scree_held_pressure(const scree_config_stage *stage)
+{
+    if (stage->kind == SCREE_STAGE_CONFINE) return stage->pressure;
+    double largest = NAN;
+    for (int k = 0; k < 9 && stage->kind == SCREE_STAGE_DEFORM; k += 4) largest = fmax(largest, stage->cell_stress[k]);
+    return largest;
+}
+
+/// Reference velocity, phi and psi: those of the first loading stage, under the pressure that it holds or that of the
+/// last confine stage before it.
 static scree_status resolve_loading(scree_model *model, scree_error *error)
 {
     const scree_config *config = model->config;
-    const scree_config_stage *compress = NULL;
-    double pressure = NAN;
-    for (int64_t i = 0; i < config->stage_count && !compress; i++) {
+    double pressure = NAN, rate = 0;
+    for (int64_t i = 0; i < config->stage_count && !(rate > 0); i++) {
         const scree_config_stage *stage = &config->stages[i];
         if (stage->kind == SCREE_STAGE_PREPARE) {
             scree_status status = check_prepare(model, i, error);
             if (status) return status;
         }
-        if (stage->kind == SCREE_STAGE_CONFINE) pressure = stage->pressure;
-        if (stage->kind == SCREE_STAGE_COMPRESS) compress = stage;
+        if (scree_held_pressure(stage) > 0) pressure = scree_held_pressure(stage);
+        rate = scree_loading_rate(stage);
     }
     model->reference_velocity = config->contact.reference_velocity;
-    if (isnan(model->reference_velocity) && compress)
-        model->reference_velocity = 2 * fabs(compress->rate) * model->mean_radius;
+    if (isnan(model->reference_velocity) && rate > 0) model->reference_velocity = 2 * rate * model->mean_radius;
     if (model->law == SCREE_LAW_HERTZ_BRILLIANTOV && !(model->reference_velocity > 0))
         return FIELD_ERROR(error, "contact.reference_velocity",
-                           "hertz_brilliantov needs a reference slip velocity: without a compress stage (2 rate <R>) "
+                           "hertz_brilliantov needs a reference slip velocity: without a loading stage (2 rate <R>) "
                            "give contact.reference_velocity");
     model->phi = model->psi = NAN;
-    if (!compress) return SCREE_OK;
+    if (!(rate > 0) || isnan(pressure)) return SCREE_OK;
     double mass =
         model->density[scree_model_particle_material(model)] * M_PI * mean_square_radius(model) * model->thickness;
     scree_quasistatic_numbers(model->dimension, (double)config->particles.count, mass, model->mean_radius,
-                              model->thickness, compress->rate, pressure, &model->phi, &model->psi);
+                              model->thickness, rate, pressure, &model->phi, &model->psi);
     return SCREE_OK;
 }
 

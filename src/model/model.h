@@ -43,6 +43,18 @@ typedef struct scree_model {
 /// exist.
 scree_status scree_model_build(const scree_config *config, scree_model *model, scree_error *error) SCREE_MUST_USE;
 
+/// The sample is periodic in all directions of space.
+bool scree_model_is_whole_cell(const scree_model *model);
+
+/// Component (0 to 8) of the velocity gradient that a deform stage drives fastest.
+int scree_deform_leader(const scree_config_stage *stage);
+
+/// Magnitude of the strain rate of a loading stage [1/s], 0 for the other kinds.
+double scree_loading_rate(const scree_config_stage *stage);
+
+/// Largest normal stress that a stage holds [Pa, compression positive], NAN when it holds none.
+double scree_held_pressure(const scree_config_stage *stage);
+
 /// Index of the material that the particles are made of.
 int scree_model_particle_material(const scree_model *model);
 

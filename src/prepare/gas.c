@@ -5,6 +5,8 @@
 /// MOST_TRIALS for one disc carry 100,000 equal discs to 0.51, and discs of 1:2, the small between the large, to 0.62.
 /// Above that is an error.
 ///
+/// In directions in which the box repeats itself there are no walls, and images are kept clear of too.
+///
 /// Velocities: normal components of equal variance (Maxwell; the same temperature for all only if masses are equal),
 /// without the drift of the centre of mass, scaled so that the root mean square of a component is exactly the one asked
 /// for. They go through log and cos, whose last bit may differ between mathematical libraries; places do not.
@@ -23,6 +25,7 @@ typedef struct gas_grid {
     const double *radius, *x, *y;
     double cell;
     size_t columns, rows;
+    scree_box box;
     uint32_t *head, *next; ///< 1 + disc, 0 for none
 } gas_grid;
 
@@ -34,16 +37,36 @@ static int larger_first(const void *a, const void *b, void *radii)
     return i < j ? -1 : i > j;
 }
 
-static bool is_free(const gas_grid *grid, double x, double y, double radius)
+/// No disc of the box is within reach of one at (x, y), which may lie outside.
+static bool is_free_at(const gas_grid *grid, double x, double y, double radius)
 {
-    size_t column = (size_t)(x / grid->cell), row = (size_t)(y / grid->cell);
-    for (size_t r = row - (row > 0); r <= row + 1 && r < grid->rows; r++)
-        for (size_t c = column - (column > 0); c <= column + 1 && c < grid->columns; c++)
+    double column = floor(x / grid->cell), row = floor(y / grid->cell);
+    size_t first_column = column > 1 ? (size_t)column - 1 : 0, first_row = row > 1 ? (size_t)row - 1 : 0;
+    for (size_t r = first_row; (double)r <= row + 1 && r < grid->rows; r++)
+        for (size_t c = first_column; (double)c <= column + 1 && c < grid->columns; c++)
             for (uint32_t k = grid->head[r * grid->columns + c]; k > 0; k = grid->next[k - 1]) {
                 double dx = grid->x[k - 1] - x, dy = grid->y[k - 1] - y, reach = grid->radius[k - 1] + radius;
                 if (dx * dx + dy * dy < reach * reach) return false;
             }
     return true;
+}
+
+/// Nor is an image.
+static bool is_free(const gas_grid *grid, double x, double y, double radius)
+{
+    const scree_box *box = &grid->box;
+    int aside = box->periodic & 1 ? 1 : 0, above = box->periodic & 2 ? 1 : 0;
+    for (int i = -aside; i <= aside; i++)
+        for (int j = -above; j <= above; j++)
+            if (!is_free_at(grid, x + i * box->width, y + j * box->height, radius)) return false;
+    return true;
+}
+
+/// Coordinate of a centre: anywhere in a direction that repeats itself, else a radius from both walls.
+static double random_coordinate(uint64_t seed, uint64_t counter, double side, bool periodic, double radius)
+{
+    double u = scree_random_uniform(seed, SCREE_RANDOM_POSITION, counter);
+    return periodic ? u * side : radius + u * (side - 2 * radius);
 }
 
 /// Places discs in `order` until one finds no room; returns how many found one.
@@ -57,8 +80,8 @@ static size_t add_discs(gas_grid *grid, uint64_t seed, const uint32_t *order, si
         int trial = 0;
         do {
             if (trial++ == MOST_TRIALS) return placed;
-            x[i] = radius + scree_random_uniform(seed, SCREE_RANDOM_POSITION, trials++) * (box->width - 2 * radius);
-            y[i] = radius + scree_random_uniform(seed, SCREE_RANDOM_POSITION, trials++) * (box->height - 2 * radius);
+            x[i] = random_coordinate(seed, trials++, box->width, box->periodic & 1, radius);
+            y[i] = random_coordinate(seed, trials++, box->height, box->periodic & 2, radius);
         } while (!is_free(grid, x[i], y[i], radius));
         uint32_t *head = &grid->head[(size_t)(y[i] / grid->cell) * grid->columns + (size_t)(x[i] / grid->cell)];
         grid->next[i] = *head;
@@ -94,7 +117,7 @@ static scree_status place(const scree_model *model, const scree_config_stage *st
                                    "a disc of radius %g m does not fit into a box of %g m by %g m", largest, box->width,
                                    box->height);
 
-    gas_grid grid = {.radius = radius, .x = packing->x, .y = packing->y, .cell = 2 * largest};
+    gas_grid grid = {.radius = radius, .x = packing->x, .y = packing->y, .cell = 2 * largest, .box = *box};
     grid.columns = (size_t)(box->width / grid.cell) + 1;
     grid.rows = (size_t)(box->height / grid.cell) + 1;
     uint32_t *order = NULL;
@@ -143,6 +166,7 @@ static void set_moving(const scree_model *model, const scree_config_stage *stage
 const scree_preparation scree_prepare_gas = {
     .name = "gas",
     .meaning = "discs at random places without contact, with random velocities",
+    .periodic = true,
     .place = place,
     .set_moving = set_moving,
 };

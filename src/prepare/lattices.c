@@ -4,6 +4,9 @@
 /// apart. The last row may be incomplete; it fills from the left. Width auto: the number n whose height over width
 /// comes nearest to the aspect ratio; a given width is lowered to the next that the lattice fills. The model has
 /// checked that radii are equal.
+///
+/// Periodic in x, all rows of the hexagonal lattice have n discs. Periodic in y too, the rows have to be whole, and even
+/// in number when hexagonal: then width (or aspect ratio) and number have to suit each other.
 #include "prepare/methods.h"
 
 #include <math.h>
@@ -27,6 +30,18 @@ static size_t columns_for(size_t count, size_t missing, double rise, double aspe
     }
 }
 
+/// Of a lattice that repeats itself upwards, the rows must be whole and close with the first.
+static scree_status check_rows(const scree_model *model, const scree_config_stage *stage, size_t count, size_t n,
+                               bool in_pairs, scree_error *error)
+{
+    size_t whole = in_pairs ? 2 * n : n, fewer = count / whole * whole;
+    if (count % whole == 0) return SCREE_OK;
+    return scree_prepare_error(error, model, stage, "method",
+                               "%zu discs do not fill a periodic lattice of %srows with %zu discs: set particles.count "
+                               "to %zu or %zu, or another width",
+                               count, in_pairs ? "pairs of " : "", n, fewer > 0 ? fewer : whole, fewer + whole);
+}
+
 /// missing: by how many discs every second row is shorter; rise: distance of rows in radii.
 static scree_status place_lattice(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
                                   size_t missing, double rise, scree_error *error)
@@ -35,20 +50,27 @@ static scree_status place_lattice(const scree_model *model, const scree_config_s
     scree_box *box = &packing->box;
     if (count == 0) return SCREE_OK;
     double r = packing->radius[0];
+    const bool staggered = missing > 0, around = box->periodic & 1, upwards = box->periodic & 2;
+    if (around) missing = 0;
     size_t n = isnan(box->width) ? columns_for(count, missing, rise, stage->aspect_ratio)
                                  : (size_t)floor(box->width / (2 * r) * (1 + 1e-12));
     if (n < 1 + missing && count > 1)
         return scree_prepare_error(error, model, stage, "width", "a row of the lattice needs at least %g m",
                                    2 * (double)(1 + missing) * r);
+    if (upwards) {
+        scree_status status = check_rows(model, stage, count, n, staggered, error);
+        if (status) return status;
+    }
     size_t pair = 2 * n - missing;
     for (size_t i = 0; i < count; i++) {
         size_t within = i % pair, row = 2 * (i / pair) + (within >= n);
-        bool shorter = within >= n;
-        packing->x[i] = r * (1 + 2 * (double)(shorter ? within - n : within) + (shorter && missing ? 1 : 0));
+        bool second = within >= n;
+        packing->x[i] = r * (1 + 2 * (double)(second ? within - n : within) + (second && staggered ? 1 : 0));
         packing->y[i] = r * (1 + rise * (double)row);
     }
     box->width = 2 * (double)n * r;
-    box->height = r * (2 + rise * (double)(rows_needed(count, n, missing) - 1));
+    size_t rows = rows_needed(count, n, missing);
+    box->height = upwards ? r * rise * (double)rows : r * (2 + rise * (double)(rows - 1));
     return SCREE_OK;
 }
 
@@ -65,6 +87,6 @@ static scree_status place_square(const scree_model *model, const scree_config_st
 }
 
 const scree_preparation scree_prepare_hexagonal = {
-    .name = "hexagonal", .meaning = "equal discs on a triangular lattice, just touching", .place = place_hexagonal};
+    .name = "hexagonal", .meaning = "equal discs on a triangular lattice, just touching", .periodic = true, .place = place_hexagonal};
 const scree_preparation scree_prepare_square = {
-    .name = "square", .meaning = "equal discs on a square lattice, just touching", .place = place_square};
+    .name = "square", .meaning = "equal discs on a square lattice, just touching", .periodic = true, .place = place_square};

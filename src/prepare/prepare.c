@@ -5,6 +5,7 @@
 #include "prepare/methods.h"
 
 #include "base/random.h"
+#include "state/cell.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -78,6 +79,10 @@ static void stand_walls(const scree_model *model, const scree_box *box, scree_st
         state->wall[w].active = 1;
         state->wall[w].material = material;
     }
+    // No walls where the sample repeats itself.
+    if (box->periodic & 1) state->wall[SCREE_WALL_LEFT].active = state->wall[SCREE_WALL_RIGHT].active = 0;
+    if (box->periodic & 2) state->wall[SCREE_WALL_BOTTOM].active = state->wall[SCREE_WALL_TOP].active = 0;
+    if (box->periodic) scree_cell_set(&state->cell, box->periodic, (const double[3]){box->width, box->height, 1});
 }
 
 scree_status scree_prepare(const scree_model *model, const scree_config_stage *stage, scree_state *state,
@@ -85,9 +90,15 @@ scree_status scree_prepare(const scree_model *model, const scree_config_stage *s
 {
     const scree_preparation *method = scree_preparation_get((scree_prepare_method)stage->method);
     size_t count = (size_t)model->config->particles.count;
+    unsigned periodic = (unsigned)model->config->boundary.periodic;
+    if (periodic && !method->periodic)
+        return scree_prepare_error(error, model, stage, "method",
+                                   "%s needs side walls and cannot fill a periodic cell: prepare with gas, hexagonal "
+                                   "or square, and confine",
+                                   method->name);
     scree_status status = scree_state_create(state, model->dimension, count, error);
     if (status) return status;
-    scree_packing packing = {.count = count, .box.width = stage->width};
+    scree_packing packing = {.count = count, .box = {.width = stage->width, .periodic = periodic}};
     status = scree_allocate(&packing.radius, count, sizeof(double), error);
     if (!status) status = scree_allocate(&packing.x, count, sizeof(double), error);
     if (!status) status = scree_allocate(&packing.y, count, sizeof(double), error);

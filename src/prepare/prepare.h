@@ -7,6 +7,7 @@
 /// Box that a method fills: x in [0, width], y in [0, height]; `height` is set by the method to the top of the packing.
 typedef struct scree_box {
     double width, height;
+    unsigned periodic; ///< mask of directions in which the box repeats itself
 } scree_box;
 
 /// A packing in the making: radii, and centres in the box, in the order of placement.
@@ -19,6 +20,7 @@ typedef struct scree_packing {
 typedef struct scree_preparation {
     const char *name;
     const char *meaning;
+    bool periodic; ///< can fill a box that repeats itself
     /// Places the discs of `packing` (radii drawn, width of the box given or NAN for auto) and sets its height. A
     /// method may draw other radii from the same distribution. Errors: does not fit, memory.
     scree_status (*place)(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,

@@ -97,8 +97,9 @@ static double steps_left(const scree_simulation *s)
     double left = (double)s->plan.expected - (double)(s->state.step - s->state.stage.first_step);
     for (int64_t k = s->state.stage.index + 1; k < s->model.config->stage_count; k++) {
         const scree_config_stage *stage = &s->model.config->stages[k];
-        if (stage->kind != SCREE_STAGE_COMPRESS) return NAN;
-        left += stage->strain / stage->rate / s->state.step_size;
+        double rate = scree_loading_rate(stage);
+        if (!(rate > 0)) return NAN;
+        left += stage->strain / rate / s->state.step_size;
     }
     return left;
 }

@@ -2,6 +2,7 @@
 #ifndef SCREE_RUN_STAGE_H
 #define SCREE_RUN_STAGE_H
 
+#include "boundary/cell.h"
 #include "boundary/plates.h"
 #include "state/work.h"
 
@@ -15,6 +16,7 @@ typedef struct scree_stage_plan {
     scree_servo plates; ///< bottom and top
     scree_servo sides;  ///< left and right
     double time_limit;  ///< s
+    scree_cell_drive cell;
 } scree_stage_plan;
 
 typedef struct scree_stage {
@@ -27,21 +29,28 @@ typedef struct scree_stage {
     void (*plan)(scree_simulation *s);
     /// Every step, before the plates move: velocities of plates, pressure. NULL: nothing to do.
     void (*control)(scree_simulation *s);
+    /// Strain of a loading stage that is not the axial one from the plates. NULL: it is.
+    double (*strain)(const scree_simulation *s);
     /// At every sample: has the stage ended? Then writes the reason. May fail: time limit.
     scree_status (*finished)(scree_simulation *s, bool *done, scree_error *error);
     /// Fraction done, NAN when not known.
     double (*fraction)(const scree_simulation *s);
 } scree_stage;
 
-const scree_stage *scree_stage_get(scree_stage_kind kind);
+/// whole_cell: the sample is periodic in all directions (stage_cell.c).
+const scree_stage *scree_stage_get(scree_stage_kind kind, bool whole_cell);
 extern const scree_stage scree_stage_prepare;
 extern const scree_stage scree_stage_confine;
 extern const scree_stage scree_stage_compress;
+extern const scree_stage scree_stage_confine_cell;
+extern const scree_stage scree_stage_compress_cell;
+extern const scree_stage scree_stage_deform;
 
 /// The config of the stage that runs now.
 const scree_config_stage *scree_stage_config(const scree_simulation *s);
 
-/// Axial strain from the plates [1, compression positive], engineering, since the begin of the loading stage; NAN else.
+/// Axial strain from the plates or the periodic cell [1, compression positive], engineering, since the begin of the
+/// loading stage, or the strain that the stage has of its own; NAN else.
 double scree_axial_strain(const scree_simulation *s);
 
 /// Smooth step from 0 to 1 (cubic), for pressures and velocities that must not shock the sample.
@@ -50,7 +59,7 @@ double scree_smooth_ramp(double fraction);
 /// Side plates under servo to `pressure`, where they are active.
 void scree_servo_sides(scree_simulation *s, double pressure);
 
-/// Distance between bottom and top plate [m].
+/// Distance between bottom and top plate, or between the faces of the periodic cell [m].
 double scree_sample_height(const scree_state *state);
 
 #endif

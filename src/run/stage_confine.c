@@ -11,6 +11,7 @@
 /// the side plates.
 #include "run/sample.h"
 #include "run/simulation.h"
+#include "state/cell.h"
 
 #include <math.h>
 
@@ -28,16 +29,17 @@ static scree_status begin(scree_simulation *s, scree_error *error)
     reference[0] = state->pressure;
     reference[1] = scree_sample_wave_time(&s->model, state, stage->pressure);
     scree_servo plates = scree_servo_for(&s->model, state, SCREE_WALL_TOP, stage->pressure);
-    scree_servo sides = scree_servo_for(&s->model, state, SCREE_WALL_LEFT, stage->pressure);
+    scree_servo lateral = scree_servo_for(&s->model, state, SCREE_WALL_LEFT, stage->pressure);
     reference[2] = plates.impedance;
     reference[3] = plates.mass;
-    reference[4] = sides.impedance;
-    reference[5] = sides.mass;
+    reference[4] = lateral.impedance;
+    reference[5] = lateral.mass;
 
     // Measured while the box of the preparation still stands; then the sides go where the pressure takes their place.
     bool pressed = s->model.config->boundary.lateral == SCREE_LATERAL_PRESSURE;
     state->wall[SCREE_WALL_BOTTOM].active = state->wall[SCREE_WALL_TOP].active = 1;
-    state->wall[SCREE_WALL_LEFT].active = state->wall[SCREE_WALL_RIGHT].active = !pressed;
+    bool sides = !pressed && !scree_cell_repeats(&state->cell, 0);
+    state->wall[SCREE_WALL_LEFT].active = state->wall[SCREE_WALL_RIGHT].active = sides;
     return SCREE_OK;
 }
 

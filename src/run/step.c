@@ -2,6 +2,7 @@
 /// here.
 #include "run/step.h"
 
+#include "boundary/cell.h"
 #include "boundary/plates.h"
 #include "boundary/pressure.h"
 #include "run/guard.h"
@@ -18,6 +19,7 @@ scree_status scree_step(scree_simulation *s, scree_error *error)
     if (s->stage->control) s->stage->control(s);
     scree_plates_move(state);
     s->integrator->first(model, state, work);
+    if ((status = scree_cell_move(model, state, work, error))) return status;
     scree_pressure_work(state);
     state->step++;
 
@@ -26,6 +28,7 @@ scree_status scree_step(scree_simulation *s, scree_error *error)
     if ((status = scree_boundary_refresh(model, state, error))) return status;
     scree_contact_set_quanta(model, state, scree_pressure_bound(model, state));
     scree_contact_forces(model, state, work);
+    scree_cell_settle(state, work);
     scree_pressure_forces(model, state);
 
     if (s->integrator->second) s->integrator->second(model, state, work);

@@ -82,7 +82,7 @@ static double expected_steps(const scree_model *model)
             double wave = expected_wave_time(model, (double)config->particles.count, aspect_ratio, stage->pressure);
             steps += CONFINE_WAVES * wave / model->step;
         }
-        if (stage->kind == SCREE_STAGE_COMPRESS) steps += stage->strain / stage->rate / model->step;
+        if (scree_loading_rate(stage) > 0) steps += stage->strain / scree_loading_rate(stage) / model->step;
     }
     return steps;
 }
