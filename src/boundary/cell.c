@@ -5,8 +5,8 @@
 ///     x' = c + L x,     m c' = F - m L c
 /// (SLLOD: Evans and Morriss 1984). This is the one motion that does not know where the cell has its faces: with x also
 /// x + H s obeys it, with the same c, for any L that changes as it likes. Driving bodies through their images alone
-/// (Lees and Edwards 1972) gives the same in steady flow, but every change of L enters at the faces and runs through the
-/// sample as a wave, so that the result depends on where they are. With K the energy of c and of the spins,
+/// (Lees and Edwards 1972) gives the same in steady flow, but every change of L enters at the faces and runs through
+/// the sample as a wave, so that the result depends on where they are. With K the energy of c and of the spins,
 ///     K' + stored' + dissipated = V sigma : L,     V sigma = - sum over contacts f (x) b - sum over bodies m c (x) c,
 /// b the branch to the image that the contact is with: the cell works on its sample with the whole stress, contacts and
 /// motion, and with nothing else. For a rotation, L antisymmetric, that is nothing but round-off.
@@ -24,18 +24,19 @@
 /// Rows hold c+ or c(n), whatever the scheme keeps, between two steps, and v while contacts are evaluated.
 ///
 /// Lattice. When a lattice vector leans over another by more than half of it, whole multiples of the other are taken
-/// away: the same lattice, so nothing changes but which image of a body is called the body. Bodies are put back into the
-/// cell together when one of them is a mean diameter outside. Both depend on the state alone. The reference position of
-/// a body that is put back by H s goes back by H_0 s, H_0 the reference lattice: that of the image which is now in the
-/// cell. So x - F X, F = H H_0^-1, is right across faces.
+/// away: the same lattice, so nothing changes but which image of a body is called the body. Bodies are put back into
+/// the cell together when one of them is a mean diameter outside. Both depend on the state alone. The reference
+/// position of a body that is put back by H s goes back by H_0 s, H_0 the reference lattice: that of the image which is
+/// now in the cell. So x - F X, F = H H_0^-1, is right across faces.
 ///
 /// Servo. A component of L under stress is a degree of freedom with inertia and dashpot,
-///     I dL/dt = sigma_wanted - sigma - Z L,     I = rho d w,   Z = rho a w,
-/// rho the mass per volume, w the width of the cell, d the mean diameter, a the speed of waves: per area of a face this
-/// is the plate of boundary/plates.c with the mass of a layer of grains and the impedance of the sample, here spread
-/// over the cell. The sample answers with sigma' = rho a^2 L: a creep time w / a, without overshoot when w > 4 d. The
-/// dashpot is implicit, and goes down to a tenth while the stress is far below the wanted one: a loose sample is
-/// gathered that much faster. sigma is the whole stress at n. a from the Hertz stiffness at the mean contact force, as there.
+///     I dL/dt = sigma_wanted - sigma - Z L,     I = 5 rho d^2,   Z = 5 rho a d,
+/// rho the mass per volume, d the mean diameter, a the speed of waves. The cell has no faces that waves could be
+/// reflected from, so it need not wait for them as a plate does (boundary/plates.c): the sample answers at once, with
+/// sigma' = rho a^2 L, and the stress creeps to what is wanted within 5 d / a, the times that a wave needs past five
+/// grains, without overshoot (damping ratio 1.1). The dashpot is implicit, and goes down to a tenth while the stress is
+/// far below the wanted one: a loose sample is gathered that much faster. sigma is the whole stress at n. a from the
+/// Hertz stiffness at the mean contact force, as there; the gain of the case divides Z.
 ///
 /// Cost: two passes over the bodies a step in a deforming cell, one in a cell at rest. Limits: a cell that is not
 /// periodic in all directions does not deform.
@@ -49,8 +50,9 @@
 #include <math.h>
 #include <string.h>
 
+#define CREEP_GRAINS     5.0 // grains that a wave passes in the creep time of the servo
 #define LEAST_RESISTANCE 0.1
-#define LEAN_LIMIT 0.51 // of a lattice vector over another: a little above half, where two lattices are as good
+#define LEAN_LIMIT       0.51 // of a lattice vector over another: a little above half, where two lattices are as good
 
 static bool deforms(const scree_cell *cell)
 {
@@ -100,12 +102,12 @@ double scree_cell_wave_time(const scree_model *model, const scree_state *state, 
 void scree_cell_drive_fit(const scree_model *model, const scree_state *state, double pressure, scree_cell_drive *drive)
 {
     const scree_config_boundary *boundary = &model->config->boundary;
-    double diameter = 2 * model->mean_radius, width = mean_width(state);
-    drive->inertia = density(model, state) * diameter * width;
+    double diameter = 2 * model->mean_radius;
+    drive->inertia = CREEP_GRAINS * density(model, state) * diameter * diameter;
     drive->damping = wave_speed(model, state, pressure) / diameter / boundary->servo_gain;
     // Auto: a face may not cross a hundredth of the smallest radius in a step.
     double velocity = boundary->servo_velocity;
-    drive->limit = (isnan(velocity) ? 0.01 * model->radius_min / state->step_size : velocity) / width;
+    drive->limit = (isnan(velocity) ? 0.01 * model->radius_min / state->step_size : velocity) / mean_width(state);
 }
 
 void scree_cell_control(const scree_model *model, scree_state *state, const scree_cell_drive *drive, double rise)
@@ -119,8 +121,8 @@ void scree_cell_control(const scree_model *model, scree_state *state, const scre
             continue;
         }
         double resistance = fmin(1, fmax(LEAST_RESISTANCE, fabs(stress[k] / drive->stress[k])));
-        double next = (*rate + dt / drive->inertia * (drive->stress[k] - stress[k])) /
-                      (1 + dt * drive->damping * resistance);
+        double next =
+            (*rate + dt / drive->inertia * (drive->stress[k] - stress[k])) / (1 + dt * drive->damping * resistance);
         *rate = fmax(-drive->limit, fmin(drive->limit, next));
     }
 }
@@ -225,7 +227,7 @@ static void wide_add(wide_sum *into, const wide_sum *more)
     for (int k = 0; k < 9; k++) into->value[k] += more->value[k];
 }
 
-#pragma omp declare reduction(wide : wide_sum : wide_add(&omp_out, &omp_in)) initializer(omp_priv = (wide_sum){{0}})
+#pragma omp declare reduction(wide:wide_sum : wide_add(&omp_out, &omp_in)) initializer(omp_priv = (wide_sum){{0}})
 
 static double mass_bound(const scree_model *model)
 {

@@ -139,8 +139,7 @@ static void check_deform(scree_reader *reader, scree_config *config, int64_t ind
         const char *key = held ? stress_keys[k] : rate_keys[k];
         if ((rate || held) && config->dimension == 2 && (k / 3 == 2 || k % 3 == 2))
             stage_problem(reader, index, key, "there is no z in two dimensions");
-        if (rate && held)
-            stage_problem(reader, index, key, "the same component has a rate: give the one or the other");
+        if (rate && held) stage_problem(reader, index, key, "the same component has a rate: give the one or the other");
         moves = moves || (rate && stage->cell_rate[k] != 0);
     }
     if (!moves) stage_problem(reader, index, "stage", "no component has a rate: give one, or use confine");
@@ -166,7 +165,8 @@ static void check_periodic(scree_reader *reader, scree_config *config)
                           "gravity has nothing to fall on: without a floor the sample would fall for ever");
     for (int64_t i = 0; i < config->stage_count; i++) {
         const scree_config_stage *stage = &config->stages[i];
-        if (stage->kind == SCREE_STAGE_PREPARE && stage->method == SCREE_PREPARE_DROP_AND_ROLL && boundary->periodic > 0)
+        if (stage->kind == SCREE_STAGE_PREPARE && stage->method == SCREE_PREPARE_DROP_AND_ROLL &&
+            boundary->periodic > 0)
             stage_problem(reader, i, "method",
                           "drop_and_roll needs side walls and cannot fill a periodic cell: prepare with gas, hexagonal "
                           "or square, and confine");
@@ -199,7 +199,8 @@ static void check_windows(scree_reader *reader, const scree_config *config)
         if (window->from >= window->to)
             scree_problem_add(reader, pair->place, path, NULL, NULL, "a window must begin before it ends");
         else if (largest == 0 && config->stage_count > 0 && !isnan(window->to))
-            scree_problem_add(reader, pair->place, path, NULL, NULL, "no stage compresses or deforms, so there is no strain");
+            scree_problem_add(reader, pair->place, path, NULL, NULL,
+                              "no stage compresses or deforms, so there is no strain");
         else if (largest > 0 && window->to > largest)
             scree_problem_add(reader, pair->place, path, NULL, NULL, "ends at '%s', beyond the largest strain, '%s'",
                               pair->last->text, largest_text);

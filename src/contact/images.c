@@ -1,13 +1,13 @@
 /// Sums of images, and the virial of the contact forces.
 ///
 /// The virial, sum over contacts of f (x) (x_first - x_second) with f the force on the first and the positions that the
-/// contact sees, is the sum over all rows, images included, of F (x) x, F the sum on the row. With x = x_parent + H s of
-/// an image this is
+/// contact sees, is the sum over all rows, images included, of F (x) x, F the sum on the row. With x = x_parent + H s
+/// of an image this is
 ///     sum over bodies of F (x) x + (sum over images of F (x) s) H^T,      F of a body now with those of its images.
 /// The second sum is one of integers; the terms of the first are rounded to integers, in quanta of the force times a
-/// power of two above every coordinate, and added in 128 bits. Both so depend on nothing but the state: not on the order
-/// of rows, on threads, or on which of the two bodies of a contact is the image. Rounding: 2^-51 of the largest force
-/// times the size of the cell, a body. Cost: d^2 multiplications a body.
+/// power of two above every coordinate, and added in 128 bits. Both so depend on nothing but the state: not on the
+/// order of rows, on threads, or on which of the two bodies of a contact is the image. Rounding: 2^-51 of the largest
+/// force times the size of the cell, a body. Cost: d^2 multiplications a body.
 #include "contact/images.h"
 
 #include "base/fixed.h"
@@ -63,7 +63,7 @@ static void wide_add(wide_sum *into, const wide_sum *more)
     for (int k = 0; k < 9; k++) into->value[k] += more->value[k];
 }
 
-#pragma omp declare reduction(wide : wide_sum : wide_add(&omp_out, &omp_in)) initializer(omp_priv = (wide_sum){{0}})
+#pragma omp declare reduction(wide:wide_sum : wide_add(&omp_out, &omp_in)) initializer(omp_priv = (wide_sum){{0}})
 
 /// Power of two above the magnitude of every coordinate.
 static double coordinate_bound(const scree_state *state, int threads)
@@ -109,6 +109,5 @@ void scree_images_fold(scree_state *state, scree_work *work)
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             for (int k = 0; k < 3; k++)
-                cell->virial[3 * i + j] +=
-                    (double)faces[3 * i + k] * state->force_quantum * cell->lattice[3 * j + k];
+                cell->virial[3 * i + j] += (double)faces[3 * i + k] * state->force_quantum * cell->lattice[3 * j + k];
 }

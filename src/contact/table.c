@@ -20,8 +20,8 @@ static scree_row stored_row_at_half_step(const scree_model *model, const scree_s
     return row;
 }
 
-/// The row of a body or an image with v(n - 1/2), with which the forces at n were evaluated; in a periodic cell with the
-/// affine field, and an image where it is.
+/// The row of a body or an image with v(n - 1/2), with which the forces at n were evaluated; in a periodic cell with
+/// the affine field, and an image where it is.
 static scree_row row_at_half_step(const scree_model *model, const scree_state *state, const scree_work *work,
                                   uint32_t k)
 {

@@ -29,11 +29,11 @@ scree_status scree_snapshot_write(const char *directory, const scree_model *mode
 /// Writes a checkpoint (contacts must have been saved into the state); keeps the newest two.
 scree_status scree_checkpoint_write(const char *directory, const scree_state *state, uint64_t case_checksum,
                                     scree_error *error) SCREE_MUST_USE;
-/// Reads the newest checkpoint of a state of this dimension that is whole into *state, which must own nothing and stays empty on failure; rows are
-/// in the order in which they were written, derived arrays but row_of_id are zero. When the newest is damaged and an
-/// older one is used, the status is SCREE_OK and error->message says so; else the message is empty. Errors:
-/// SCREE_ERROR_INPUT: none there, of another case (checksum), of another version of the state (field tables);
-/// SCREE_ERROR_IO: none is whole, memory.
+/// Reads the newest checkpoint of a state of this dimension that is whole into *state, which must own nothing and stays
+/// empty on failure; rows are in the order in which they were written, derived arrays but row_of_id are zero. When the
+/// newest is damaged and an older one is used, the status is SCREE_OK and error->message says so; else the message is
+/// empty. Errors: SCREE_ERROR_INPUT: none there, of another case (checksum), of another version of the state (field
+/// tables); SCREE_ERROR_IO: none is whole, memory.
 scree_status scree_checkpoint_read(const char *directory, int dimension, scree_state *state, uint64_t case_checksum,
                                    scree_error *error) SCREE_MUST_USE;
 

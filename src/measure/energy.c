@@ -48,7 +48,8 @@ void scree_energy_measure(const scree_model *model, const scree_state *state, co
     }
     energy->gravity = potential - ledger->gravity;
     double stored = energy->kinetic + energy->kinetic_rotation + energy->elastic_normal + energy->elastic_tangential;
-    energy->residual = (stored - ledger->initial) - (ledger->plates + ledger->pressure + ledger->cell + energy->gravity) +
-                       ledger->damping + ledger->friction - ledger->stiffness;
+    energy->residual = (stored - ledger->initial) -
+                       (ledger->plates + ledger->pressure + ledger->cell + energy->gravity) + ledger->damping +
+                       ledger->friction - ledger->stiffness;
     energy->relative = ledger->turnover > 0 ? fabs(energy->residual) / ledger->turnover : 0;
 }

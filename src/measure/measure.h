@@ -29,8 +29,8 @@ void scree_stress_from_boundary(const scree_model *model, const scree_state *sta
 /// normal of a plate it is exact (the vertical part of the pressure on inclined edges included); what needs to know
 /// WHERE on a plate its forces act is missing: the plates' friction in the lateral stress, which so is exactly -p with
 /// pressed sides. [Pa], tension positive; normal components NAN where nothing is applied in that direction, shear
-/// components NAN with plates on all sides and otherwise taken to be symmetric. A whole periodic cell applies the stress of
-/// contacts and motion together (state/cell.h).
+/// components NAN with plates on all sides and otherwise taken to be symmetric. A whole periodic cell applies the
+/// stress of contacts and motion together (state/cell.h).
 void scree_stress_from_plates(const scree_model *model, const scree_state *state, double stress[9]);
 
 /// Displacement gradient of the interior of a loop from the displacements of its vertices (Bagi 1996; P 3.1-3.3):
@@ -41,8 +41,8 @@ void scree_loop_gradient(const double *x, const double *y, const double *ux, con
                          double gradient[4]);
 
 /// Displacement gradient accumulated up to now (sum of increments over the current configuration, so its trace is the
-/// logarithmic volume change): the closed increments in state->strain plus that of the present loop. Of a whole periodic
-/// cell the integral of its velocity gradient. Tension positive.
+/// logarithmic volume change): the closed increments in state->strain plus that of the present loop. Of a whole
+/// periodic cell the integral of its velocity gradient. Tension positive.
 void scree_strain_measure(const scree_state *state, double gradient[9]);
 
 typedef struct scree_coordination {

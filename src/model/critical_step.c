@@ -138,7 +138,8 @@ double scree_critical_step_estimate(const scree_model *model)
     double force = strong_static_force(model, height, material);
     if (stage && stage->method == SCREE_PREPARE_GAS) {
         double fall = sqrt(2 * hypot(model->gravity[0], model->gravity[1]) * height);
-        force = fmax(force, impact_force(stiffness, effective_mass, fmax(FAST * fmax(stage->velocity, shear_speed(model)), fall)));
+        force = fmax(force, impact_force(stiffness, effective_mass,
+                                         fmax(FAST * fmax(stage->velocity, shear_speed(model)), fall)));
     }
     double guard = stiffness * pow(model->config->guard.overlap * model->radius_min, 1.5);
     if (!(force > 0 && force < guard)) force = guard;

@@ -5,8 +5,8 @@
 /// comes nearest to the aspect ratio; a given width is lowered to the next that the lattice fills. The model has
 /// checked that radii are equal.
 ///
-/// Periodic in x, all rows of the hexagonal lattice have n discs. Periodic in y too, the rows have to be whole, and even
-/// in number when hexagonal: then width (or aspect ratio) and number have to suit each other.
+/// Periodic in x, all rows of the hexagonal lattice have n discs. Periodic in y too, the rows have to be whole, and
+/// even in number when hexagonal: then width (or aspect ratio) and number have to suit each other.
 #include "prepare/methods.h"
 
 #include <math.h>
@@ -86,7 +86,11 @@ static scree_status place_square(const scree_model *model, const scree_config_st
     return place_lattice(model, stage, packing, 0, 2, error);
 }
 
-const scree_preparation scree_prepare_hexagonal = {
-    .name = "hexagonal", .meaning = "equal discs on a triangular lattice, just touching", .periodic = true, .place = place_hexagonal};
-const scree_preparation scree_prepare_square = {
-    .name = "square", .meaning = "equal discs on a square lattice, just touching", .periodic = true, .place = place_square};
+const scree_preparation scree_prepare_hexagonal = {.name = "hexagonal",
+                                                   .meaning = "equal discs on a triangular lattice, just touching",
+                                                   .periodic = true,
+                                                   .place = place_hexagonal};
+const scree_preparation scree_prepare_square = {.name = "square",
+                                                .meaning = "equal discs on a square lattice, just touching",
+                                                .periodic = true,
+                                                .place = place_square};

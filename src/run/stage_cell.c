@@ -56,8 +56,7 @@ static void set_reference(scree_state *state)
 static scree_cell_drive drive_at_rest(const scree_simulation *s)
 {
     const double *reference = s->state.stage.reference;
-    scree_cell_drive drive = {
-        .inertia = reference[INERTIA], .damping = reference[DAMPING], .limit = reference[LIMIT]};
+    scree_cell_drive drive = {.inertia = reference[INERTIA], .damping = reference[DAMPING], .limit = reference[LIMIT]};
     for (int k = 0; k < 9; k++) drive.stress[k] = NAN;
     return drive;
 }
@@ -142,10 +141,8 @@ static void plan_loading(scree_simulation *s, double rate)
     // The smooth start costs half the rise time.
     uint64_t expected = (uint64_t)ceil((stage->strain / rate + 0.5 * rise) / s->state.step_size);
     uint64_t interval = expected / (uint64_t)s->model.config->measure.samples;
-    s->plan = (scree_stage_plan){.interval = interval > 0 ? interval : 1,
-                                 .expected = expected,
-                                 .ramp_time = rise,
-                                 .cell = drive_at_rest(s)};
+    s->plan = (scree_stage_plan){
+        .interval = interval > 0 ? interval : 1, .expected = expected, .ramp_time = rise, .cell = drive_at_rest(s)};
 }
 
 static double rise_now(const scree_simulation *s)

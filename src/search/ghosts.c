@@ -2,9 +2,9 @@
 ///
 /// Of the images x_j + H s of a body, those with a lexicographically positive shift (first component that is not zero
 /// above zero) are enough: the pair of i and the image of j at s is the pair of j and the image of i at -s, and exactly
-/// one of the two shifts is positive. An image is made when its fractional coordinates lie within (R_j + R_max + skin) /
-/// width of the range that the bodies fill, in each periodic direction. Bodies may be outside the cell by any distance:
-/// shifts are taken relative to where they are.
+/// one of the two shifts is positive. An image is made when its fractional coordinates lie within (R_j + R_max + skin)
+/// / width of the range that the bodies fill, in each periodic direction. Bodies may be outside the cell by any
+/// distance: shifts are taken relative to where they are.
 ///
 /// Search. Images are few (a layer at half of the faces). They are put into a hash table of square cells 2 R_max + skin
 /// wide; bodies that lie near an upper face look into the 3^d cells around them. Cost: a pass over the bodies with d
@@ -55,11 +55,12 @@ static scree_status check_width(const scree_state *state, const image_range *ran
     double needed = 4 * range->radius + 2 * skin;
     for (int k = 0; k < state->dimension; k++)
         if (scree_cell_repeats(&state->cell, k) && !(range->width[k] >= needed))
-            return scree_error_set(error, SCREE_ERROR_GUARD,
-                                   "step %llu: the periodic cell is only %.4g m wide along lattice vector %d; it must be "
-                                   "wider than two of the largest particles (%.4g m), or a particle would meet the same "
-                                   "neighbour on both sides: try more particles or less strain",
-                                   (unsigned long long)state->step, range->width[k], k + 1, needed);
+            return scree_error_set(
+                error, SCREE_ERROR_GUARD,
+                "step %llu: the periodic cell is only %.4g m wide along lattice vector %d; it must be "
+                "wider than two of the largest particles (%.4g m), or a particle would meet the same "
+                "neighbour on both sides: try more particles or less strain",
+                (unsigned long long)state->step, range->width[k], k + 1, needed);
     return SCREE_OK;
 }
 
@@ -157,15 +158,15 @@ void scree_ghosts_deformation(const scree_state *state, const scree_work *work, 
 
 /// Images by cells of space: chains of images that share a slot.
 typedef struct image_table {
-    double inverse_width; ///< 1/m
+    double inverse_width;  ///< 1/m
     uint32_t *head, *next; ///< 1 + image, 0 for none
     uint64_t mask;
 } image_table;
 
 static uint64_t slot_of(const image_table *table, const int64_t cell[3])
 {
-    uint64_t hash = (uint64_t)cell[0] * UINT64_C(0x9e3779b97f4a7c15) + (uint64_t)cell[1] * UINT64_C(0xc2b2ae3d27d4eb4f) +
-                    (uint64_t)cell[2] * UINT64_C(0x165667b19e3779f9);
+    uint64_t hash = (uint64_t)cell[0] * UINT64_C(0x9e3779b97f4a7c15) +
+                    (uint64_t)cell[1] * UINT64_C(0xc2b2ae3d27d4eb4f) + (uint64_t)cell[2] * UINT64_C(0x165667b19e3779f9);
     return (hash ^ hash >> 29) & table->mask;
 }
 

@@ -112,7 +112,8 @@ enum {
 };
 
 /// Energy ledger, J. Work is done ON the bodies; dissipation is positive. Residual of the balance:
-/// kinetic + elastic - initial - (plates + pressure + cell + gravity) + damping + friction - stiffness, see measure/energy.c.
+/// kinetic + elastic - initial - (plates + pressure + cell + gravity) + damping + friction - stiffness, see
+/// measure/energy.c.
 typedef struct scree_ledger {
     double damping;   ///< dissipated by contact damping, normal and tangential
     double friction;  ///< dissipated by sliding
@@ -154,8 +155,8 @@ typedef struct scree_strain {
     double gradient[9]; ///< accumulated displacement gradient, row-major (d u_row / d x_column)
 } scree_strain;
 
-/// The periodic cell; `periodic` zero: there is none. Geometry in state/cell.h, motion in boundary/cell.c. Velocities of
-/// bodies in a deforming cell are relative to the affine field gradient . x. Tensors are 3 x 3 by rows, tension and
+/// The periodic cell; `periodic` zero: there is none. Geometry in state/cell.h, motion in boundary/cell.c. Velocities
+/// of bodies in a deforming cell are relative to the affine field gradient . x. Tensors are 3 x 3 by rows, tension and
 /// extension positive.
 typedef struct scree_cell {
     double lattice[9];   ///< m, lattice vectors as columns; the unit vector where a direction is not periodic
