@@ -4,11 +4,13 @@
 ///   contacts-000012.vtp  a line a contact, between centres (a wall: from the centre to the contact point)
 ///   boundary-000012.vtp  a line an edge of the closed Delaunay boundary
 ///   plates-000012.vtp    a line an active plate, as long as the sample
+///   cell-000012.vtp      the sides of the periodic cell, in a periodic run instead of the boundary
 ///   discs.pvd, ...       the collections of all snapshots with their times
 #include "io/paraview.h"
 
 #include "io/run_directory.h"
 #include "io/vtp.h"
+#include "state/cell.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -25,7 +27,7 @@ typedef struct scene {
     const scree_contact_table *table;
 } scene;
 
-// ---- the four scenes ---------------------------------------------------------------------------------------------
+// ---- the scenes --------------------------------------------------------------------------------------------------
 
 static scree_status build_discs(scree_vtp *vtp, const scene *from, scree_error *error)
 {
@@ -69,9 +71,8 @@ static scree_status build_contacts(scree_vtp *vtp, const scene *from, scree_erro
     for (size_t k = 0; k < table->count; k++) {
         const scree_contact *contact = &table->contact[k];
         const scree_row *first = &state->row[contact->first];
-        const scree_row *second = contact->wall ? NULL : &state->row[contact->second];
         scree_vtp_place(vtp, 2 * k, first->x, first->y);
-        scree_vtp_place(vtp, 2 * k + 1, second ? second->x : contact->point[0], second ? second->y : contact->point[1]);
+        scree_vtp_place(vtp, 2 * k + 1, first->x - contact->branch[0], first->y - contact->branch[1]);
     }
     for (size_t k = 0; k < scree_contact_array_count() && !status; k++) {
         scree_array array;
@@ -150,6 +151,19 @@ static scree_status build_plates(scree_vtp *vtp, const scene *from, scree_error 
     return status;
 }
 
+/// The sides of the cell as a closed line, from the bottom to the top plate where they do not repeat.
+static scree_status build_cell(scree_vtp *vtp, const scene *from, scree_error *error)
+{
+    const scree_state *state = from->state;
+    double corner[4][2];
+    scree_status status = scree_vtp_create(vtp, 4, SCREE_VTP_LINES, true, error);
+    if (status) return status;
+    scree_cell_corners(&state->cell, state->wall[SCREE_WALL_BOTTOM].position, -state->wall[SCREE_WALL_TOP].position,
+                       corner);
+    for (size_t k = 0; k < 4; k++) scree_vtp_place(vtp, k, corner[k][0], corner[k][1]);
+    return SCREE_OK;
+}
+
 // ---- files -------------------------------------------------------------------------------------------------------
 
 /// Copies the entries of snapshots before `index` from an old collection.
@@ -207,10 +221,14 @@ scree_status scree_paraview_write(const char *directory, const scree_model *mode
         const char *kind;
         scree_status (*build)(scree_vtp *vtp, const scene *from, scree_error *error);
     } scenes[] = {
-        {"discs", build_discs}, {"contacts", build_contacts}, {"boundary", build_boundary}, {"plates", build_plates}};
+        {"discs", build_discs},   {"contacts", build_contacts}, {"boundary", build_boundary},
+        {"plates", build_plates}, {"cell", build_cell},
+    };
     const scene from = {model, state, table};
     for (size_t k = 0; k < sizeof scenes / sizeof *scenes && !status; k++) {
         scree_vtp vtp;
+        // A cell has no boundary, and only a periodic sample has a cell.
+        if (state->cell.periodic ? scenes[k].build == build_boundary : scenes[k].build == build_cell) continue;
         status = scenes[k].build(&vtp, &from, error);
         if (!status) status = write_scene(&vtp, folder, scenes[k].kind, info, error);
         scree_vtp_destroy(&vtp);

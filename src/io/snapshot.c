@@ -136,22 +136,25 @@ static void read_contacts(scree_hdf5 *run, const char *group, scree_snapshot *sn
     snapshot->normal_force = read_column(run, group, "contacts/normal_force", SCREE_FIELD_DOUBLE, 1, rows);
     snapshot->tangential_force = read_column(run, group, "contacts/tangential_force", SCREE_FIELD_DOUBLE, 1, rows);
     read_pair(run, group, "contacts/point", rows, &snapshot->contact_x, &snapshot->contact_y);
+    read_pair(run, group, "contacts/branch", rows, &snapshot->branch_x, &snapshot->branch_y);
 }
 
-/// Walls, through the table of members: they are read into an otherwise empty state.
-static void read_walls(scree_hdf5 *run, const char *group, scree_snapshot *snapshot)
+/// Walls and cell, through the table of members: they are read into an otherwise empty state.
+static void read_members(scree_hdf5 *run, const char *group, scree_snapshot *snapshot)
 {
-    scree_state walls = {0};
+    scree_state members = {.dimension = 2};
     for (size_t k = 0; k < scree_member_count && !run->status; k++) {
         const scree_field *field = &scree_members[k];
-        if (field->rows != SCREE_ROWS_WALLS) continue;
-        size_t rows = SCREE_WALL_COUNT;
-        scree_array array = scree_array_of_field(&walls, field);
-        array.data = read_column(run, group, field->name, field->type, field->components, &rows);
-        if (!run->status) scree_array_to_field(&array, field, &walls);
+        bool wanted = field->rows == SCREE_ROWS_WALLS || (field->rows == SCREE_ROWS_ONE && field->snapshot);
+        if (!wanted) continue;
+        scree_array array = scree_array_of_field(&members, field);
+        size_t rows = array.rows;
+        array.data = read_column(run, group, field->name, field->type, array.components, &rows);
+        if (!run->status) scree_array_to_field(&array, field, &members);
         scree_array_destroy(&array);
     }
-    memcpy(snapshot->wall, walls.wall, sizeof walls.wall);
+    memcpy(snapshot->wall, members.wall, sizeof members.wall);
+    snapshot->cell = members.cell;
 }
 
 /// Every id names a body or a wall, so that a reader may index with them.
@@ -191,7 +194,7 @@ scree_status scree_snapshot_read(const char *directory, size_t which, scree_snap
     read_contacts(&run, group, snapshot);
     snapshot->loop_count = SIZE_MAX;
     snapshot->loop = read_column(&run, group, "boundary/id", SCREE_FIELD_UINT32, 1, &snapshot->loop_count);
-    read_walls(&run, group, snapshot);
+    read_members(&run, group, snapshot);
     check_ids(&run, snapshot);
     status = scree_hdf5_close(&run);
     if (status) scree_snapshot_destroy(snapshot);
@@ -204,7 +207,7 @@ void scree_snapshot_destroy(scree_snapshot *snapshot)
         &snapshot->x,         &snapshot->y,        &snapshot->radius,       &snapshot->angle,
         &snapshot->vx,        &snapshot->vy,       &snapshot->spin,         &snapshot->first,
         &snapshot->second,    &snapshot->loop,     &snapshot->normal_force, &snapshot->tangential_force,
-        &snapshot->contact_x, &snapshot->contact_y};
+        &snapshot->contact_x, &snapshot->contact_y, &snapshot->branch_x, &snapshot->branch_y};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
     *snapshot = (scree_snapshot){0};
 }

@@ -56,9 +56,11 @@ typedef struct scree_snapshot {
     uint32_t *first, *second;                ///< ids; second >= SCREE_WALL_ID is a wall
     double *normal_force, *tangential_force; ///< N
     double *contact_x, *contact_y;           ///< m
+    double *branch_x, *branch_y;             ///< m, from the second (its image in a periodic cell) to the first
     size_t loop_count;
     uint32_t *loop;
     scree_wall wall[SCREE_WALL_COUNT];
+    scree_cell cell; ///< periodic 0: none
 } scree_snapshot;
 scree_status scree_snapshot_count(const char *directory, size_t *count, scree_error *error) SCREE_MUST_USE;
 scree_status scree_snapshot_read(const char *directory, size_t which, scree_snapshot *snapshot,

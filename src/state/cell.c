@@ -34,6 +34,19 @@ double scree_cell_extent(const scree_state *state)
     return extent;
 }
 
+void scree_cell_corners(const scree_cell *cell, double bottom, double top, double corner[4][2])
+{
+    static const double fraction[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    for (int k = 0; k < 4; k++)
+        for (int i = 0; i < 2; i++) {
+            corner[k][i] = fraction[k][0] * cell->lattice[3 * i];
+            if (scree_cell_repeats(cell, 1))
+                corner[k][i] += fraction[k][1] * cell->lattice[3 * i + 1];
+            else if (i == 1)
+                corner[k][i] = fraction[k][1] > 0 ? top : bottom;
+        }
+}
+
 /// (unit + sign dt/2 L)^-1
 static void half_step_inverse(const scree_state *state, double sign, double inverse[9])
 {

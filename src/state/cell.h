@@ -30,6 +30,9 @@ void scree_cell_widths(const double inverse[9], double width[3]);
 /// that do not repeat. [m2, m3]
 double scree_cell_extent(const scree_state *state);
 
+/// Corners [m] of a plane cell, counter-clockwise; from `bottom` to `top` when it is periodic in x alone.
+void scree_cell_corners(const scree_cell *cell, double bottom, double top, double corner[4][2]);
+
 /// Velocities [m/s] with which the lattice vectors move, as columns, at the end of a step with the gradient of the
 /// cell: an image moves as its body plus this times its shift.
 void scree_cell_lattice_velocity(const scree_state *state, double velocity[9]);

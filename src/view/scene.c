@@ -5,6 +5,7 @@
 #include "view/scene_parts.h"
 
 #include "base/memory.h"
+#include "state/cell.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -40,7 +41,7 @@ static void extend(scree_scene_view *view, int axis, double low, double high)
     view->high[axis] = fmax(view->high[axis], high);
 }
 
-/// Corners of the drawn discs, and of the plates that lie near them.
+/// Corners of the drawn discs and of the periodic cell, and of the plates that lie near them.
 static scree_status measure_extent(scree_scene_view *view, scree_error *error)
 {
     const scree_snapshot *s = view->snapshot;
@@ -53,6 +54,10 @@ static scree_status measure_extent(scree_scene_view *view, scree_error *error)
         view->disc_count++;
         view->mean_radius += (s->radius[k] - view->mean_radius) / (double)view->disc_count;
     }
+    double corner[4][2];
+    scree_cell_corners(&s->cell, view->low[1], view->high[1], corner);
+    for (int k = 0; k < 4 && s->cell.periodic; k++)
+        for (int axis = 0; axis < 2; axis++) extend(view, axis, corner[k][axis], corner[k][axis]);
     double size = fmax(view->high[0] - view->low[0], view->high[1] - view->low[1]);
     if (view->disc_count == 0 || !isfinite(size) || !(size > 0))
         return scree_error_set(error, SCREE_ERROR_INPUT, "the snapshot has no disc that could be drawn");
