@@ -1,10 +1,11 @@
 /// ParaView files of one snapshot: what lies in paraview/ and which data each file carries.
 ///
-///   discs-000012.vtp     a point a disc; all fields of a snapshot
+///   discs-000012.vtp     a point a disc (3D: spheres-000012.vtp); all fields of a snapshot
 ///   contacts-000012.vtp  a line a contact, between centres (a wall: from the centre to the contact point)
-///   boundary-000012.vtp  a line an edge of the closed Delaunay boundary
-///   plates-000012.vtp    a line an active plate, as long as the sample
-///   cell-000012.vtp      the sides of the periodic cell, in a periodic run instead of the boundary
+///   boundary-000012.vtp  2D: a line an edge of the closed Delaunay boundary
+///   hull-000012.vtp      3D: a triangle a face of the closed Delaunay hull
+///   plates-000012.vtp    a line (3D: a quadrilateral) an active plate, as long as the sample
+///   cell-000012.vtp      the edges of the periodic cell, in a periodic run instead of boundary or hull
 ///   discs.pvd, ...       the collections of all snapshots with their times
 #include "io/paraview.h"
 
@@ -27,18 +28,19 @@ typedef struct scene {
     const scree_contact_table *table;
 } scene;
 
-// ---- the scenes --------------------------------------------------------------------------------------------------
+// ---- the scenes ---------------------------------------------------------------------------------------------------
 
-static scree_status build_discs(scree_vtp *vtp, const scene *from, scree_error *error)
+static scree_status build_bodies(scree_vtp *vtp, const scene *from, scree_error *error)
 {
     const scree_state *state = from->state;
-    scree_status status = scree_vtp_create(vtp, state->count, SCREE_VTP_POINTS, false, error);
+    scree_status status = scree_vtp_create(vtp, state->count, SCREE_VTP_POINTS, state->count, error);
     if (status) return status;
     for (size_t id = 0; id < state->count; id++) {
-        const scree_row *row = &state->row[state->row_of_id[id]];
-        scree_vtp_place(vtp, id, row->x, row->y);
+        scree_vector place;
+        scree_body_place(state, state->row_of_id[id], place);
+        scree_vtp_place(vtp, id, place);
     }
-    for (size_t k = 0; k < scree_body_array_count(from->state) && !status; k++) {
+    for (size_t k = 0; k < scree_body_array_count(state) && !status; k++) {
         scree_array array;
         status = scree_body_array(from->model, state, k, &array, error);
         if (!status) status = scree_vtp_add(vtp, false, array, error);
@@ -49,15 +51,15 @@ static scree_status build_discs(scree_vtp *vtp, const scene *from, scree_error *
 /// Force on the first body of each contact.
 static scree_status add_contact_force(scree_vtp *vtp, const scree_contact_table *table, scree_error *error)
 {
-    scree_array array = {.name = "force", .rows = table->count, .components = 2, .unit = "N"};
+    scree_array array = {.name = "force", .rows = table->count, .components = 3, .unit = "N"};
     scree_status status = scree_array_allocate(&array, error);
     if (status) return status;
     double *force = array.data;
     for (size_t k = 0; k < table->count; k++) {
         const scree_contact *contact = &table->contact[k];
-        const double *n = contact->normal;
-        force[2 * k] = contact->normal_force * n[0] - contact->tangential_force * n[1];
-        force[2 * k + 1] = contact->normal_force * n[1] + contact->tangential_force * n[0];
+        for (size_t i = 0; i < 3; i++)
+            force[3 * k + i] =
+                contact->normal_force * contact->normal[i] + contact->tangential_force * contact->tangent[i];
     }
     return scree_vtp_add(vtp, true, array, error);
 }
@@ -66,13 +68,15 @@ static scree_status build_contacts(scree_vtp *vtp, const scene *from, scree_erro
 {
     const scree_state *state = from->state;
     const scree_contact_table *table = from->table;
-    scree_status status = scree_vtp_create(vtp, 2 * table->count, SCREE_VTP_LINES, false, error);
+    scree_status status = scree_vtp_create(vtp, 2 * table->count, SCREE_VTP_LINES, table->count, error);
     if (status) return status;
     for (size_t k = 0; k < table->count; k++) {
         const scree_contact *contact = &table->contact[k];
-        const scree_row *first = &state->row[contact->first];
-        scree_vtp_place(vtp, 2 * k, first->x, first->y);
-        scree_vtp_place(vtp, 2 * k + 1, first->x - contact->branch[0], first->y - contact->branch[1]);
+        scree_vector first, second;
+        scree_body_place(state, contact->first, first);
+        for (int i = 0; i < 3; i++) second[i] = first[i] - contact->branch[i];
+        scree_vtp_place(vtp, 2 * k, first);
+        scree_vtp_place(vtp, 2 * k + 1, second);
     }
     for (size_t k = 0; k < scree_contact_array_count() && !status; k++) {
         scree_array array;
@@ -82,43 +86,91 @@ static scree_status build_contacts(scree_vtp *vtp, const scene *from, scree_erro
     return status ? status : add_contact_force(vtp, table, error);
 }
 
-static scree_status build_boundary(scree_vtp *vtp, const scene *from, scree_error *error)
+/// Adds every member of the state that has as many rows as `points` or as `cells`.
+static scree_status add_members(scree_vtp *vtp, const scree_state *state, scree_field_rows points,
+                                scree_field_rows cells, scree_error *error)
 {
-    const scree_state *state = from->state;
-    const scree_loop *loop = &state->loop;
-    scree_status status = scree_vtp_create(vtp, loop->count, SCREE_VTP_LINES, true, error);
-    if (status) return status;
-    for (size_t k = 0; k < loop->count; k++) {
-        const scree_row *row = &state->row[state->row_of_id[loop->id[k]]];
-        scree_vtp_place(vtp, k, row->x, row->y);
-    }
+    scree_status status = SCREE_OK;
     for (size_t k = 0; k < scree_member_count && !status; k++) {
         const scree_field *field = &scree_members[k];
-        if (field->rows != SCREE_ROWS_LOOP) continue;
+        if (field->rows != points && field->rows != cells) continue;
+        // `loaded` belongs to the edge that begins at the body, the rest to the body.
+        bool of_cells = field->rows == points && points == cells ? strcmp(field->name, "boundary/loaded") == 0
+                                                                 : field->rows == cells;
         scree_array array;
         status = scree_array_from_field(state, field, false, &array, error);
-        // `loaded` belongs to the edge that begins at the body, the rest to the body.
-        if (!status) status = scree_vtp_add(vtp, strcmp(field->name, "boundary/loaded") == 0, array, error);
+        if (!status) status = scree_vtp_add(vtp, of_cells, array, error);
     }
     return status;
 }
 
-/// Ends of a wall: as far along its tangent as the bodies reach.
-static void place_wall(scree_vtp *vtp, size_t line, const scree_wall *wall, const scree_state *state)
+/// The loop as a closed chain of lines.
+static scree_status build_boundary(scree_vtp *vtp, const scene *from, scree_error *error)
 {
-    const double tangent[2] = {-wall->normal[1], wall->normal[0]};
-    double low = INFINITY, high = -INFINITY;
-    for (size_t k = 0; k < state->count; k++) {
-        const scree_row *row = &state->row[k];
-        double along = tangent[0] * row->x + tangent[1] * row->y;
-        low = fmin(low, along - row->radius);
-        high = fmax(high, along + row->radius);
+    const scree_state *state = from->state;
+    const scree_loop *loop = &state->loop;
+    scree_status status = scree_vtp_create(vtp, loop->count, SCREE_VTP_LINES, loop->count, error);
+    if (status) return status;
+    for (size_t k = 0; k < loop->count; k++) {
+        scree_vector place;
+        scree_body_place(state, state->row_of_id[loop->id[k]], place);
+        scree_vtp_place(vtp, k, place);
+        scree_vtp_join(vtp, k, 0, k);
+        scree_vtp_join(vtp, k, 1, (k + 1) % loop->count);
     }
-    if (!(low <= high)) low = high = 0;
-    const double ends[2] = {low, high};
-    for (size_t e = 0; e < 2; e++)
-        scree_vtp_place(vtp, 2 * line + e, wall->position * wall->normal[0] + ends[e] * tangent[0],
-                        wall->position * wall->normal[1] + ends[e] * tangent[1]);
+    return add_members(vtp, state, SCREE_ROWS_LOOP, SCREE_ROWS_LOOP, error);
+}
+
+static scree_status build_hull(scree_vtp *vtp, const scene *from, scree_error *error)
+{
+    const scree_state *state = from->state;
+    const scree_hull *hull = &state->hull;
+    scree_status status = scree_vtp_create(vtp, hull->node_count, SCREE_VTP_TRIANGLES, hull->triangle_count, error);
+    if (status) return status;
+    for (size_t k = 0; k < hull->node_count; k++) {
+        scree_vector place;
+        scree_body_place(state, state->row_of_id[hull->id[k]], place);
+        scree_vtp_place(vtp, k, place);
+    }
+    for (size_t k = 0; k < hull->triangle_count; k++)
+        for (size_t c = 0; c < 3; c++) scree_vtp_join(vtp, k, c, hull->triangle[k][c]);
+    return add_members(vtp, state, SCREE_ROWS_HULL_NODES, SCREE_ROWS_HULL_TRIANGLES, error);
+}
+
+/// Extent of the bodies along a direction.
+static void extent(const scree_state *state, const scree_vector along, double reach[2])
+{
+    reach[0] = INFINITY;
+    reach[1] = -INFINITY;
+    for (size_t k = 0; k < state->count; k++) {
+        scree_vector place;
+        scree_body_place(state, k, place);
+        double at = along[0] * place[0] + along[1] * place[1] + along[2] * place[2];
+        reach[0] = fmin(reach[0], at - state->row[k].radius);
+        reach[1] = fmax(reach[1], at + state->row[k].radius);
+    }
+    if (!(reach[0] <= reach[1])) reach[0] = reach[1] = 0;
+}
+
+/// Corners of a wall: as far along its tangents as the bodies reach.
+static void place_wall(scree_vtp *vtp, size_t cell, const scree_wall *wall, const scree_state *state)
+{
+    const double *n = wall->normal;
+    const size_t corners = (size_t)vtp->cells;
+    // Two tangents; in 2D the second one is not used.
+    scree_vector along = {-n[1], n[0], 0};
+    if (n[0] == 0 && n[1] == 0) along[0] = 1;
+    const scree_vector across = {n[1] * along[2] - n[2] * along[1], n[2] * along[0] - n[0] * along[2],
+                                 n[0] * along[1] - n[1] * along[0]};
+    double reach[2], width[2];
+    extent(state, along, reach);
+    extent(state, across, width);
+    for (size_t c = 0; c < corners; c++) {
+        double a = reach[c == 1 || c == 2], b = corners == 4 ? width[c >= 2] : 0;
+        scree_vector corner;
+        for (int i = 0; i < 3; i++) corner[i] = wall->position * n[i] + a * along[i] + b * across[i];
+        scree_vtp_place(vtp, corners * cell + c, corner);
+    }
 }
 
 /// Keeps the rows of the active walls.
@@ -134,12 +186,13 @@ static void keep_active(scree_array *array, const scree_state *state)
 static scree_status build_plates(scree_vtp *vtp, const scene *from, scree_error *error)
 {
     const scree_state *state = from->state;
-    size_t active = 0, line = 0;
+    size_t active = 0, cell = 0;
     for (size_t w = 0; w < SCREE_WALL_COUNT; w++) active += state->wall[w].active != 0;
-    scree_status status = scree_vtp_create(vtp, 2 * active, SCREE_VTP_LINES, false, error);
+    const scree_vtp_cells cells = state->dimension == 3 ? SCREE_VTP_QUADRILATERALS : SCREE_VTP_LINES;
+    scree_status status = scree_vtp_create(vtp, (size_t)cells * active, cells, active, error);
     if (status) return status;
     for (size_t w = 0; w < SCREE_WALL_COUNT; w++)
-        if (state->wall[w].active) place_wall(vtp, line++, &state->wall[w], state);
+        if (state->wall[w].active) place_wall(vtp, cell++, &state->wall[w], state);
     for (size_t k = 0; k < scree_member_count && !status; k++) {
         if (scree_members[k].rows != SCREE_ROWS_WALLS) continue;
         scree_array array;
@@ -151,17 +204,20 @@ static scree_status build_plates(scree_vtp *vtp, const scene *from, scree_error 
     return status;
 }
 
-/// The sides of the cell as a closed line, from the bottom to the top plate where they do not repeat.
+/// The edges of the cell, from the bottom to the top plate where it does not repeat.
 static scree_status build_cell(scree_vtp *vtp, const scene *from, scree_error *error)
 {
     const scree_state *state = from->state;
-    double corner[4][2];
-    scree_status status = scree_vtp_create(vtp, 4, SCREE_VTP_LINES, true, error);
-    if (status) return status;
-    scree_cell_corners(&state->cell, state->wall[SCREE_WALL_BOTTOM].position, -state->wall[SCREE_WALL_TOP].position,
-                       corner);
-    for (size_t k = 0; k < 4; k++) scree_vtp_place(vtp, k, corner[k][0], corner[k][1]);
-    return SCREE_OK;
+    scree_vector low, high, ends[2];
+    scree_cell_box(state, low, high);
+    size_t line = 0, edges = state->dimension == 2 ? 4 : 12;
+    scree_status status = scree_vtp_create(vtp, 2 * edges, SCREE_VTP_LINES, edges, error);
+    for (int edge = 0; edge < SCREE_CELL_EDGES && !status; edge++) {
+        if (!scree_cell_edge(&state->cell, state->dimension, low, high, edge, ends)) continue;
+        scree_vtp_place(vtp, 2 * line, ends[0]);
+        scree_vtp_place(vtp, 2 * line++ + 1, ends[1]);
+    }
+    return status;
 }
 
 // ---- files -------------------------------------------------------------------------------------------------------
@@ -220,15 +276,17 @@ scree_status scree_paraview_write(const char *directory, const scree_model *mode
     static const struct {
         const char *kind;
         scree_status (*build)(scree_vtp *vtp, const scene *from, scree_error *error);
-    } scenes[] = {
-        {"discs", build_discs},   {"contacts", build_contacts}, {"boundary", build_boundary},
-        {"plates", build_plates}, {"cell", build_cell},
-    };
+        int only_dimension; ///< 0: both
+    } scenes[] = {{"discs", build_bodies, 2},      {"spheres", build_bodies, 3}, {"contacts", build_contacts, 0},
+                  {"boundary", build_boundary, 2}, {"hull", build_hull, 3},      {"plates", build_plates, 0},
+                  {"cell", build_cell, 0}};
     const scene from = {model, state, table};
     for (size_t k = 0; k < sizeof scenes / sizeof *scenes && !status; k++) {
+        if (scenes[k].only_dimension && scenes[k].only_dimension != state->dimension) continue;
         scree_vtp vtp;
         // A cell has no boundary, and only a periodic sample has a cell.
-        if (state->cell.periodic ? scenes[k].build == build_boundary : scenes[k].build == build_cell) continue;
+        bool around = scenes[k].build == build_boundary || scenes[k].build == build_hull;
+        if (state->cell.periodic ? around : scenes[k].build == build_cell) continue;
         status = scenes[k].build(&vtp, &from, error);
         if (!status) status = write_scene(&vtp, folder, scenes[k].kind, info, error);
         scree_vtp_destroy(&vtp);

@@ -38,7 +38,7 @@ static void write_contacts(scree_hdf5 *part, const char *group, const scree_stat
 static void write_members(scree_hdf5 *part, const char *group, const scree_state *state)
 {
     for (size_t k = 0; k < scree_member_count && !part->status; k++) {
-        if (!scree_members[k].snapshot) continue;
+        if (!scree_members[k].snapshot || !scree_field_exists(&scree_members[k], state->dimension)) continue;
         scree_array array;
         part->status = scree_array_from_field(state, &scree_members[k], true, &array, part->error);
         scree_hdf5_write(part, group, &array);
@@ -58,11 +58,12 @@ scree_status scree_snapshot_write(const char *directory, const scree_model *mode
     scree_hdf5_create(&part, path, error);
     scree_hdf5_group(&part, group);
     scree_hdf5_set_integer(&part, group, "step", state->step);
+    scree_hdf5_set_integer(&part, group, "dimension", (uint64_t)state->dimension);
     scree_hdf5_set_number(&part, group, "time", info->time);
     scree_hdf5_set_text(&part, group, "stage", info->stage);
     scree_hdf5_set_number(&part, group, "axial_strain", info->axial_strain);
     scree_hdf5_set_number(&part, group, "pressure", state->pressure);
-    scree_hdf5_set_text(&part, group, "attribute_units", "step 1, time s, axial_strain 1, pressure Pa");
+    scree_hdf5_set_text(&part, group, "attribute_units", "step 1, dimension 1, time s, axial_strain 1, pressure Pa");
     write_bodies(&part, group, model, state);
     write_contacts(&part, group, state, table);
     write_members(&part, group, state);
@@ -103,40 +104,61 @@ static void *read_column(scree_hdf5 *run, const char *group, const char *name, s
     return array.data;
 }
 
-/// Splits pairs (x, y) into two arrays.
-static void read_pair(scree_hdf5 *run, const char *group, const char *name, size_t *rows, double **x, double **y)
+/// Splits vectors of the snapshot's dimension into arrays of their components.
+static void read_vectors(scree_hdf5 *run, const char *group, const char *name, int dimension, size_t *rows,
+                         double **const components[3])
 {
-    double *pairs = read_column(run, group, name, SCREE_FIELD_DOUBLE, 2, rows);
-    if (!run->status) run->status = scree_allocate(x, *rows, sizeof **x, run->error);
-    if (!run->status) run->status = scree_allocate(y, *rows, sizeof **y, run->error);
-    for (size_t k = 0; k < *rows && !run->status; k++) {
-        (*x)[k] = pairs[2 * k];
-        (*y)[k] = pairs[2 * k + 1];
-    }
-    scree_release(&pairs);
+    double *vectors = read_column(run, group, name, SCREE_FIELD_DOUBLE, dimension, rows);
+    for (int i = 0; i < dimension && !run->status; i++)
+        run->status = scree_allocate(components[i], *rows, sizeof **components[i], run->error);
+    for (int i = 0; i < dimension && !run->status; i++)
+        for (size_t k = 0; k < *rows; k++) (*components[i])[k] = vectors[(size_t)dimension * k + (size_t)i];
+    scree_release(&vectors);
+}
+
+/// Magnitudes of the spins of spheres.
+static void read_spin_magnitudes(scree_hdf5 *run, const char *group, scree_snapshot *snapshot)
+{
+    double *spin = read_column(run, group, "spin", SCREE_FIELD_DOUBLE, 3, &snapshot->count);
+    if (!run->status)
+        run->status = scree_allocate(&snapshot->spin, snapshot->count, sizeof *snapshot->spin, run->error);
+    for (size_t k = 0; k < snapshot->count && !run->status; k++) snapshot->spin[k] = scree_length(&spin[3 * k]);
+    scree_release(&spin);
 }
 
 static void read_bodies(scree_hdf5 *run, const char *group, scree_snapshot *snapshot)
 {
     size_t *rows = &snapshot->count;
+    double **const place[3] = {&snapshot->x, &snapshot->y, &snapshot->z};
+    double **const velocity[3] = {&snapshot->vx, &snapshot->vy, &snapshot->vz};
     *rows = SIZE_MAX;
+    uint64_t dimension = 2;
+    scree_hdf5_get_integer(run, group, "dimension", &dimension);
+    if (!run->status && dimension != 2 && dimension != 3) scree_hdf5_damaged(run, "it is neither plane nor solid");
+    snapshot->dimension = run->status ? 2 : (int)dimension;
     snapshot->radius = read_column(run, group, "radius", SCREE_FIELD_DOUBLE, 1, rows);
-    snapshot->angle = read_column(run, group, "angle", SCREE_FIELD_DOUBLE, 1, rows);
-    snapshot->spin = read_column(run, group, "spin", SCREE_FIELD_DOUBLE, 1, rows);
-    read_pair(run, group, "position", rows, &snapshot->x, &snapshot->y);
-    read_pair(run, group, "velocity", rows, &snapshot->vx, &snapshot->vy);
+    read_vectors(run, group, "position", snapshot->dimension, rows, place);
+    read_vectors(run, group, "velocity", snapshot->dimension, rows, velocity);
+    if (snapshot->dimension == 3) {
+        read_spin_magnitudes(run, group, snapshot);
+    } else {
+        snapshot->angle = read_column(run, group, "angle", SCREE_FIELD_DOUBLE, 1, rows);
+        snapshot->spin = read_column(run, group, "spin", SCREE_FIELD_DOUBLE, 1, rows);
+    }
 }
 
 static void read_contacts(scree_hdf5 *run, const char *group, scree_snapshot *snapshot)
 {
     size_t *rows = &snapshot->contact_count;
+    double **const point[3] = {&snapshot->contact_x, &snapshot->contact_y, &snapshot->contact_z};
+    double **const branch[3] = {&snapshot->branch_x, &snapshot->branch_y, &snapshot->branch_z};
     *rows = SIZE_MAX;
     snapshot->first = read_column(run, group, "contacts/first", SCREE_FIELD_UINT32, 1, rows);
     snapshot->second = read_column(run, group, "contacts/second", SCREE_FIELD_UINT32, 1, rows);
     snapshot->normal_force = read_column(run, group, "contacts/normal_force", SCREE_FIELD_DOUBLE, 1, rows);
     snapshot->tangential_force = read_column(run, group, "contacts/tangential_force", SCREE_FIELD_DOUBLE, 1, rows);
-    read_pair(run, group, "contacts/point", rows, &snapshot->contact_x, &snapshot->contact_y);
-    read_pair(run, group, "contacts/branch", rows, &snapshot->branch_x, &snapshot->branch_y);
+    read_vectors(run, group, "contacts/point", snapshot->dimension, rows, point);
+    read_vectors(run, group, "contacts/branch", snapshot->dimension, rows, branch);
 }
 
 /// Walls and cell, through the table of members: they are read into an otherwise empty state.
@@ -192,8 +214,10 @@ scree_status scree_snapshot_read(const char *directory, size_t which, scree_snap
     scree_hdf5_get_text(&run, group, "stage", snapshot->stage, sizeof snapshot->stage);
     read_bodies(&run, group, snapshot);
     read_contacts(&run, group, snapshot);
-    snapshot->loop_count = SIZE_MAX;
-    snapshot->loop = read_column(&run, group, "boundary/id", SCREE_FIELD_UINT32, 1, &snapshot->loop_count);
+    if (snapshot->dimension == 2) {
+        snapshot->loop_count = SIZE_MAX;
+        snapshot->loop = read_column(&run, group, "boundary/id", SCREE_FIELD_UINT32, 1, &snapshot->loop_count);
+    }
     read_members(&run, group, snapshot);
     check_ids(&run, snapshot);
     status = scree_hdf5_close(&run);
@@ -203,11 +227,26 @@ scree_status scree_snapshot_read(const char *directory, size_t which, scree_snap
 
 void scree_snapshot_destroy(scree_snapshot *snapshot)
 {
-    void *const arrays[] = {
-        &snapshot->x,         &snapshot->y,        &snapshot->radius,       &snapshot->angle,
-        &snapshot->vx,        &snapshot->vy,       &snapshot->spin,         &snapshot->first,
-        &snapshot->second,    &snapshot->loop,     &snapshot->normal_force, &snapshot->tangential_force,
-        &snapshot->contact_x, &snapshot->contact_y, &snapshot->branch_x, &snapshot->branch_y};
+    void *const arrays[] = {&snapshot->x,
+                            &snapshot->y,
+                            &snapshot->radius,
+                            &snapshot->angle,
+                            &snapshot->vx,
+                            &snapshot->vy,
+                            &snapshot->spin,
+                            &snapshot->first,
+                            &snapshot->second,
+                            &snapshot->loop,
+                            &snapshot->normal_force,
+                            &snapshot->tangential_force,
+                            &snapshot->contact_x,
+                            &snapshot->contact_y,
+                            &snapshot->z,
+                            &snapshot->vz,
+                            &snapshot->contact_z,
+                            &snapshot->branch_x,
+                            &snapshot->branch_y,
+                            &snapshot->branch_z};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
     *snapshot = (scree_snapshot){0};
 }

@@ -2,7 +2,7 @@
 /// renamed), and run.h5 is a small file of external links, replaced after each: a kill at any moment leaves a readable
 /// run.h5. `scree_run_file_finish` gathers everything into one self-contained run.h5 and removes the parts.
 ///
-///   /snapshots/000012/            attributes: step, time [s], stage, axial_strain, pressure [Pa]
+///   /snapshots/000012/            attributes: step, dimension, time [s], stage, axial_strain, pressure [Pa]
 ///       position (n x 2), radius, velocity, spin, ... from the field table and io/array.h, in id order
 ///       contacts/ first, second (ids), normal, point, branch, normal_force, tangential_force, ...
 ///       boundary/ id (the loop), loaded, ...; walls/ position, normal, force, ...
@@ -50,13 +50,16 @@ typedef struct scree_snapshot {
     int64_t index;
     double time, axial_strain;
     char stage[32];
+    int dimension;
     size_t count;
-    double *x, *y, *radius, *angle, *vx, *vy, *spin;
+    double *x, *y, *radius, *angle, *vx, *vy, *spin; ///< in 3D no angle (NULL), and spin is the magnitude
+    double *z, *vz;                                  ///< 3D only, else NULL
     size_t contact_count;
     uint32_t *first, *second;                ///< ids; second >= SCREE_WALL_ID is a wall
     double *normal_force, *tangential_force; ///< N
     double *contact_x, *contact_y;           ///< m
-    double *branch_x, *branch_y;             ///< m, from the second (its image in a periodic cell) to the first
+    double *contact_z;                       ///< m, 3D only, else NULL
+    double *branch_x, *branch_y, *branch_z;  ///< m, from the second (its image in a periodic cell) to the first; z in 3D
     size_t loop_count;
     uint32_t *loop;
     scree_wall wall[SCREE_WALL_COUNT];

@@ -1,4 +1,4 @@
-/// Files of points and lines. See the header.
+/// Files of points, lines and polygons. See the header.
 #include "io/vtp.h"
 
 #include "io/run_directory.h"
@@ -16,33 +16,33 @@
 
 // ---- building ----------------------------------------------------------------------------------------------------
 
-static void number_cells(scree_vtp *vtp, size_t cells, bool chain)
+scree_status scree_vtp_create(scree_vtp *vtp, size_t points, scree_vtp_cells cells, size_t count, scree_error *error)
 {
-    int64_t *connectivity = vtp->connectivity.data, *ends = vtp->ends.data;
-    const size_t per_cell = vtp->cells == SCREE_VTP_LINES ? 2 : 1;
-    for (size_t k = 0; k < cells; k++) {
-        ends[k] = (int64_t)(per_cell * (k + 1));
-        connectivity[per_cell * k] = (int64_t)(chain ? k : per_cell * k);
-        if (per_cell == 2) connectivity[2 * k + 1] = (int64_t)(chain ? (k + 1) % cells : 2 * k + 1);
-    }
-}
-
-scree_status scree_vtp_create(scree_vtp *vtp, size_t points, scree_vtp_cells cells, bool chain, scree_error *error)
-{
-    const size_t per_cell = cells == SCREE_VTP_LINES ? 2 : 1, count = chain ? points : points / per_cell;
+    const size_t corners = (size_t)cells;
     *vtp = (scree_vtp){.cells = cells};
     vtp->points = (scree_array){.name = "Points", .components = 3, .rows = points, .unit = "m"};
     vtp->connectivity =
-        (scree_array){.name = "connectivity", .type = SCREE_FIELD_INT64, .components = 1, .rows = per_cell * count};
+        (scree_array){.name = "connectivity", .type = SCREE_FIELD_INT64, .components = 1, .rows = corners * count};
     vtp->ends = (scree_array){.name = "offsets", .type = SCREE_FIELD_INT64, .components = 1, .rows = count};
     scree_status status = scree_array_allocate(&vtp->points, error);
     if (!status) status = scree_array_allocate(&vtp->connectivity, error);
     if (!status) status = scree_array_allocate(&vtp->ends, error);
-    if (status)
+    if (status) {
         scree_vtp_destroy(vtp);
-    else
-        number_cells(vtp, count, chain);
-    return status;
+        return status;
+    }
+    int64_t *ends = vtp->ends.data;
+    for (size_t k = 0; k < count; k++) {
+        ends[k] = (int64_t)(corners * (k + 1));
+        for (size_t c = 0; c < corners; c++) scree_vtp_join(vtp, k, c, corners * k + c);
+    }
+    return SCREE_OK;
+}
+
+void scree_vtp_join(scree_vtp *vtp, size_t cell, size_t corner, size_t point)
+{
+    int64_t *connectivity = vtp->connectivity.data;
+    connectivity[(size_t)vtp->cells * cell + corner] = (int64_t)point;
 }
 
 void scree_vtp_destroy(scree_vtp *vtp)
@@ -55,11 +55,9 @@ void scree_vtp_destroy(scree_vtp *vtp)
     vtp->point_data_count = vtp->cell_data_count = 0;
 }
 
-void scree_vtp_place(scree_vtp *vtp, size_t k, double x, double y)
+void scree_vtp_place(scree_vtp *vtp, size_t k, const scree_vector place)
 {
-    double *point = (double *)vtp->points.data + 3 * k;
-    point[0] = x;
-    point[1] = y;
+    memcpy((double *)vtp->points.data + 3 * k, place, sizeof(scree_vector));
 }
 
 /// (x, y) becomes (x, y, 0).
@@ -145,7 +143,14 @@ static void announce_section(FILE *file, const char *section, const scree_array 
 
 static void write_head(FILE *file, const scree_vtp *vtp, double time)
 {
-    const bool lines = vtp->cells == SCREE_VTP_LINES;
+    static const char *const sections[] = {
+        [SCREE_VTP_POINTS] = "Verts",
+        [SCREE_VTP_LINES] = "Lines",
+        [SCREE_VTP_TRIANGLES] = "Polys",
+        [SCREE_VTP_QUADRILATERALS] = "Polys",
+    };
+    const size_t count = vtp->ends.rows;
+    const bool points = vtp->cells == SCREE_VTP_POINTS, lines = vtp->cells == SCREE_VTP_LINES;
     const scree_array cells[] = {vtp->connectivity, vtp->ends};
     uint64_t offset = 0;
     fprintf(
@@ -157,10 +162,10 @@ static void write_head(FILE *file, const scree_vtp *vtp, double time)
         "      <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">%.17g</DataArray>\n"
         "    </FieldData>\n"
         "    <Piece NumberOfPoints=\"%zu\" NumberOfVerts=\"%zu\" NumberOfLines=\"%zu\" NumberOfStrips=\"0\" "
-        "NumberOfPolys=\"0\">\n",
-        time, vtp->points.rows, lines ? (size_t)0 : vtp->ends.rows, lines ? vtp->ends.rows : (size_t)0);
+        "NumberOfPolys=\"%zu\">\n",
+        time, vtp->points.rows, points ? count : 0, lines ? count : 0, points || lines ? 0 : count);
     announce_section(file, "Points", &vtp->points, 1, &offset);
-    announce_section(file, lines ? "Lines" : "Verts", cells, 2, &offset);
+    announce_section(file, sections[vtp->cells], cells, 2, &offset);
     announce_section(file, "PointData", vtp->point_data, vtp->point_data_count, &offset);
     announce_section(file, "CellData", vtp->cell_data, vtp->cell_data_count, &offset);
     fputs("    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_", file);

@@ -1,6 +1,7 @@
-/// VTK's XML format for points and lines in space (.vtp), written without VTK: an XML head that says which arrays there
-/// are and at which byte they begin, and the arrays behind it as raw bytes, each after its length (UInt64) in bytes.
-/// Source: the VTK file formats, https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
+/// VTK's XML format for points, lines, triangles and quadrilaterals in space (.vtp), written without VTK: an XML head
+/// that says which arrays there are and at which byte they begin, and the arrays behind it as raw bytes, each after its
+/// length (UInt64) in bytes. Source: the VTK file formats,
+/// https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
 #ifndef SCREE_IO_VTP_H
 #define SCREE_IO_VTP_H
 
@@ -8,24 +9,32 @@
 
 enum { SCREE_VTP_ARRAYS = 24 };
 
-typedef enum scree_vtp_cells { SCREE_VTP_POINTS, SCREE_VTP_LINES } scree_vtp_cells;
+/// The value is the number of points of a cell.
+typedef enum scree_vtp_cells {
+    SCREE_VTP_POINTS = 1,
+    SCREE_VTP_LINES = 2,
+    SCREE_VTP_TRIANGLES = 3,
+    SCREE_VTP_QUADRILATERALS = 4
+} scree_vtp_cells;
 
 typedef struct scree_vtp {
     scree_array points;             ///< x, y, z [m]
-    scree_vtp_cells cells;          ///< each point is a cell, or each line between two points
+    scree_vtp_cells cells;          ///< what a cell is
     scree_array connectivity, ends; ///< points of all cells; index behind the last point of each cell
     scree_array point_data[SCREE_VTP_ARRAYS], cell_data[SCREE_VTP_ARRAYS];
     size_t point_data_count, cell_data_count;
 } scree_vtp;
 
-/// Points at the origin and cells; lines join points 2 k and 2 k + 1, or (`chain`) each point with the next and the
-/// last with the first. Errors: memory.
-scree_status scree_vtp_create(scree_vtp *vtp, size_t points, scree_vtp_cells cells, bool chain,
+/// Points at the origin and `count` cells, the k-th of the c points from c k on. Errors: memory.
+scree_status scree_vtp_create(scree_vtp *vtp, size_t points, scree_vtp_cells cells, size_t count,
                               scree_error *error) SCREE_MUST_USE;
 void scree_vtp_destroy(scree_vtp *vtp);
 
 /// Sets point k.
-void scree_vtp_place(scree_vtp *vtp, size_t k, double x, double y);
+void scree_vtp_place(scree_vtp *vtp, size_t k, const scree_vector place);
+
+/// Makes `point` a corner of a cell.
+void scree_vtp_join(scree_vtp *vtp, size_t cell, size_t corner, size_t point);
 
 /// Takes over `array` (also when it fails) as data of points or of cells. Vectors in the plane get a third component,
 /// as ParaView wants them; a group in front of the name is cut off. Errors: memory.

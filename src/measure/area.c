@@ -21,7 +21,7 @@ double scree_sample_area(const scree_state *state)
     if (state->cell.periodic) return scree_cell_extent(state);
     const scree_wall *wall = state->wall;
     bool closed = true;
-    for (int w = 0; w < SCREE_WALL_COUNT; w++) closed = closed && wall[w].active;
+    for (int w = 0; w <= SCREE_WALL_RIGHT; w++) closed = closed && wall[w].active;
     double centre[2];
     if (state->loop.count > 0 && !closed) return scree_outline_area(state, centre);
     // Opposite walls have opposite normals: their positions add up to minus their distance.

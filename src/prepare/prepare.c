@@ -75,7 +75,7 @@ static void stand_walls(const scree_model *model, const scree_box *box, scree_st
     state->wall[SCREE_WALL_TOP] = (scree_wall){.normal = {0, -1}, .position = -box->height};
     state->wall[SCREE_WALL_LEFT] = (scree_wall){.normal = {1, 0}, .position = 0};
     state->wall[SCREE_WALL_RIGHT] = (scree_wall){.normal = {-1, 0}, .position = -box->width};
-    for (int w = 0; w < SCREE_WALL_COUNT; w++) {
+    for (int w = 0; w <= SCREE_WALL_RIGHT; w++) {
         state->wall[w].active = 1;
         state->wall[w].material = material;
     }

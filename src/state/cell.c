@@ -22,29 +22,40 @@ void scree_cell_widths(const double inverse[9], double width[3])
 
 double scree_cell_extent(const scree_state *state)
 {
-    static const int low[] = {SCREE_WALL_LEFT, SCREE_WALL_FRONT}, high[] = {SCREE_WALL_RIGHT, SCREE_WALL_BACK};
     double extent = fabs(scree_matrix_determinant(state->cell.lattice));
-    for (int k = 0; k < state->dimension; k++) {
-        if (scree_cell_repeats(&state->cell, k)) continue;
-        bool axial = k == state->dimension - 1;
-        // Opposite walls have opposite normals: their positions add up to minus their distance.
-        extent *= -(state->wall[axial ? SCREE_WALL_BOTTOM : low[k]].position +
-                    state->wall[axial ? SCREE_WALL_TOP : high[k]].position);
-    }
+    scree_vector low, high;
+    scree_cell_box(state, low, high);
+    for (int k = 0; k < state->dimension; k++)
+        if (!scree_cell_repeats(&state->cell, k)) extent *= high[k] - low[k];
     return extent;
 }
 
-void scree_cell_corners(const scree_cell *cell, double bottom, double top, double corner[4][2])
+void scree_cell_box(const scree_state *state, scree_vector low, scree_vector high)
 {
-    static const double fraction[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    for (int k = 0; k < 4; k++)
-        for (int i = 0; i < 2; i++) {
-            corner[k][i] = fraction[k][0] * cell->lattice[3 * i];
-            if (scree_cell_repeats(cell, 1))
-                corner[k][i] += fraction[k][1] * cell->lattice[3 * i + 1];
-            else if (i == 1)
-                corner[k][i] = fraction[k][1] > 0 ? top : bottom;
+    static const int below[] = {SCREE_WALL_LEFT, SCREE_WALL_FRONT}, above[] = {SCREE_WALL_RIGHT, SCREE_WALL_BACK};
+    for (int k = 0; k < 3; k++) {
+        bool axial = k == state->dimension - 1, none = k >= state->dimension;
+        low[k] = none ? 0 : state->wall[axial ? SCREE_WALL_BOTTOM : below[k]].position;
+        high[k] = none ? 0 : -state->wall[axial ? SCREE_WALL_TOP : above[k]].position;
+    }
+}
+
+bool scree_cell_edge(const scree_cell *cell, int dimension, const scree_vector low, const scree_vector high, int edge,
+                     scree_vector ends[2])
+{
+    // Edges are numbered by their direction and the corner, a bit a direction, that they begin at.
+    int direction = edge / 8, corner = edge % 8;
+    if (direction >= dimension || corner >= 1 << dimension || corner >> direction & 1) return false;
+    for (int end = 0; end < 2; end++) {
+        int bits = corner | end << direction;
+        for (int i = 0; i < 3; i++) {
+            ends[end][i] = 0;
+            for (int k = 0; k < dimension; k++)
+                if (scree_cell_repeats(cell, k) && bits >> k & 1) ends[end][i] += cell->lattice[3 * i + k];
+            if (i < dimension && !scree_cell_repeats(cell, i)) ends[end][i] = bits >> i & 1 ? high[i] : low[i];
         }
+    }
+    return true;
 }
 
 /// (unit + sign dt/2 L)^-1

@@ -30,8 +30,14 @@ void scree_cell_widths(const double inverse[9], double width[3]);
 /// that do not repeat. [m2, m3]
 double scree_cell_extent(const scree_state *state);
 
-/// Corners [m] of a plane cell, counter-clockwise; from `bottom` to `top` when it is periodic in x alone.
-void scree_cell_corners(const scree_cell *cell, double bottom, double top, double corner[4][2]);
+/// Walls on both sides of the sample along each axis [m]; 0 in 2D along z.
+void scree_cell_box(const scree_state *state, scree_vector low, scree_vector high);
+
+/// Ends [m] of an edge of the cell; in directions that do not repeat from `low` to `high`. False: no edge in this
+/// dimension.
+enum { SCREE_CELL_EDGES = 24 };
+bool scree_cell_edge(const scree_cell *cell, int dimension, const scree_vector low, const scree_vector high, int edge,
+                     scree_vector ends[2]);
 
 /// Velocities [m/s] with which the lattice vectors move, as columns, at the end of a step with the gradient of the
 /// cell: an image moves as its body plus this times its shift.

@@ -4,13 +4,15 @@
 #include "base/memory.h"
 #include "io/run_directory.h"
 #include "measure/measure.h"
+#include "view/projection.h"
 #include "view/scene.h"
 
 #include <math.h>
 #include <stdio.h>
 
 enum { WHEN_START, WHEN_PEAK, WHEN_END };
-enum { FIELD_NONE, FIELD_ROTATION, FIELD_SPIN, FIELD_SPEED };
+enum { FIELD_NONE, FIELD_ROTATION, FIELD_SPIN, FIELD_SPIN_MAGNITUDE, FIELD_SPEED, FIELD_DISPLACEMENT };
+enum { VIEW_PLANE, VIEW_SPACE, VIEW_SECTION }; // VIEW_PLANE is for discs, the others for spheres
 
 static const struct field_entry {
     const char *label;
@@ -19,20 +21,28 @@ static const struct field_entry {
     [FIELD_ROTATION] = {"rotation since the start of loading (degrees), counter-clockwise positive",
                         SCREE_COLOUR_DIVERGING},
     [FIELD_SPIN] = {"spin (rad/s), counter-clockwise positive", SCREE_COLOUR_DIVERGING},
+    [FIELD_SPIN_MAGNITUDE] = {"spin, magnitude (rad/s)", SCREE_COLOUR_SEQUENTIAL},
     [FIELD_SPEED] = {"speed (mm/s)", SCREE_COLOUR_SEQUENTIAL},
+    [FIELD_DISPLACEMENT] = {"displacement since the start of loading (mm)", SCREE_COLOUR_SEQUENTIAL},
 };
 
 static const struct scene_entry {
     const char *name, *title;
     int when, field;
     bool force_network, boundary;
+    int view;
 } scenes[] = {
-    {"packing-start", "Packing at the start of loading", WHEN_START, FIELD_NONE, false, true},
-    {"packing-end", "Packing at the end: rotations", WHEN_END, FIELD_ROTATION, false, true},
-    {"forces-peak", "Force network at the peak of the stress ratio", WHEN_PEAK, FIELD_NONE, true, false},
-    {"forces-end", "Force network at the end", WHEN_END, FIELD_NONE, true, false},
-    {"speed-end", "Speed at the end", WHEN_END, FIELD_SPEED, false, false},
-    {"spin-end", "Spin at the end", WHEN_END, FIELD_SPIN, false, false},
+    {"packing-start", "Packing at the start of loading", WHEN_START, FIELD_NONE, false, true, VIEW_PLANE},
+    {"packing-end", "Packing at the end: rotations", WHEN_END, FIELD_ROTATION, false, true, VIEW_PLANE},
+    {"forces-peak", "Force network at the peak of the stress ratio", WHEN_PEAK, FIELD_NONE, true, false, VIEW_PLANE},
+    {"forces-end", "Force network at the end", WHEN_END, FIELD_NONE, true, false, VIEW_PLANE},
+    {"speed-end", "Speed at the end", WHEN_END, FIELD_SPEED, false, false, VIEW_PLANE},
+    {"spin-end", "Spin at the end", WHEN_END, FIELD_SPIN, false, false, VIEW_PLANE},
+    {"packing-start", "Packing at the start of loading", WHEN_START, FIELD_NONE, false, false, VIEW_SPACE},
+    {"packing-end", "Packing at the end: displacements", WHEN_END, FIELD_DISPLACEMENT, false, false, VIEW_SPACE},
+    {"section-end", "Section at the end: displacements", WHEN_END, FIELD_DISPLACEMENT, false, false, VIEW_SECTION},
+    {"spin-section-end", "Section at the end: spin", WHEN_END, FIELD_SPIN_MAGNITUDE, false, false, VIEW_SECTION},
+    {"forces-end", "Force network at the end", WHEN_END, FIELD_NONE, true, false, VIEW_SPACE},
 };
 
 /// First, or last, snapshot of the loading stage; of all when nothing was loaded.
@@ -69,16 +79,48 @@ static scree_status find_snapshot(const scree_plot_run *run, int when, size_t *w
     return scree_error_set(error, SCREE_ERROR_INPUT, "%s has no stress ratio to find the peak of", SCREE_FILE_SERIES);
 }
 
+static double displacement(const scree_snapshot *start, const scree_snapshot *now, size_t k)
+{
+    double z = now->z ? now->z[k] - start->z[k] : 0;
+    return sqrt(pow(now->x[k] - start->x[k], 2) + pow(now->y[k] - start->y[k], 2) + z * z);
+}
+
 static double field_value(int field, const scree_snapshot *start, const scree_snapshot *now, size_t k)
 {
     switch (field) {
     case FIELD_ROTATION:
         return (now->angle[k] - start->angle[k]) * 180 / M_PI;
     case FIELD_SPIN:
+    case FIELD_SPIN_MAGNITUDE:
         return now->spin[k];
+    case FIELD_DISPLACEMENT:
+        return 1e3 * displacement(start, now, k);
     default:
-        return 1e3 * hypot(now->vx[k], now->vy[k]);
+        return 1e3 * sqrt(now->vx[k] * now->vx[k] + now->vy[k] * now->vy[k] + (now->vz ? now->vz[k] * now->vz[k] : 0));
     }
+}
+
+/// Draws what the entry says of spheres: from outside, or cut.
+static scree_status draw_in_space(const char *path, const scree_snapshot *now, int view, scree_scene *scene,
+                                  scree_error *error)
+{
+    if (view == VIEW_SECTION) {
+        scree_snapshot plane;
+        scree_status status = scree_section_create(now, &plane, error);
+        if (status) return status;
+        scene->section = true;
+        status = scree_scene_draw(path, &plane, scene, error);
+        scree_snapshot_destroy(&plane);
+        return status;
+    }
+    scree_projection projection;
+    scree_status status = scree_projection_create(now, &projection, error);
+    if (status) return status;
+    scene->depth = projection.depth;
+    scene->projection = &projection;
+    status = scree_scene_draw(path, &projection.plane, scene, error);
+    scree_projection_destroy(&projection);
+    return status;
 }
 
 static scree_status draw_scene(const scree_plot_run *run, const struct scene_entry *entry, const scree_snapshot *start,
@@ -96,7 +138,9 @@ static scree_status draw_scene(const scree_plot_run *run, const struct scene_ent
                          .force_network = entry->force_network,
                          .boundary = entry->boundary,
                          .plates = true};
-    if (!status) status = scree_scene_draw(path, now, &scene, error);
+    if (!status)
+        status = entry->view == VIEW_PLANE ? scree_scene_draw(path, now, &scene, error)
+                                           : draw_in_space(path, now, entry->view, &scene, error);
     scree_release(&field);
     return status;
 }
@@ -181,9 +225,11 @@ void scree_plot_scenes(scree_plot_run *run)
         scree_status status = find_snapshot(run, scenes[k].when, &which, &error);
         if (!status) status = read_two(run, start, which, &first, &now, &error);
         if (!status) {
-            status = draw_scene(run, &scenes[k], &first, &now, &error);
+            bool meant = (scenes[k].view == VIEW_PLANE) == (now.dimension == 2);
+            if (meant) status = draw_scene(run, &scenes[k], &first, &now, &error);
             scree_snapshot_destroy(&first);
             scree_snapshot_destroy(&now);
+            if (!meant) continue;
         }
         scree_plot_report(run, scenes[k].name, status, &error);
     }

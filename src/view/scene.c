@@ -5,10 +5,11 @@
 #include "view/scene_parts.h"
 
 #include "base/memory.h"
-#include "state/cell.h"
+#include "view/projection.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #define MARGIN        9.0
 #define LEGEND_GAP    14.0
@@ -54,13 +55,20 @@ static scree_status measure_extent(scree_scene_view *view, scree_error *error)
         view->disc_count++;
         view->mean_radius += (s->radius[k] - view->mean_radius) / (double)view->disc_count;
     }
-    double corner[4][2];
-    scree_cell_corners(&s->cell, view->low[1], view->high[1], corner);
-    for (int k = 0; k < 4 && s->cell.periodic; k++)
-        for (int axis = 0; axis < 2; axis++) extend(view, axis, corner[k][axis], corner[k][axis]);
+    const scree_projection *projection = view->scene->projection;
+    view->cell = projection ? projection->cell : scree_cell_lines_of(s);
+    for (size_t k = 0; k < 2 * view->cell.count; k++)
+        for (int axis = 0; axis < 2; axis++) {
+            double place = view->cell.end[k / 2][k % 2][axis];
+            extend(view, axis, place, place);
+        }
     double size = fmax(view->high[0] - view->low[0], view->high[1] - view->low[1]);
     if (view->disc_count == 0 || !isfinite(size) || !(size > 0))
         return scree_error_set(error, SCREE_ERROR_INPUT, "the snapshot has no disc that could be drawn");
+    for (int w = 0; projection && view->scene->plates && w < 2; w++)
+        for (int c = 0; c < 4 && projection->has_plate[w]; c++)
+            for (int axis = 0; axis < 2; axis++)
+                extend(view, axis, projection->plate[w][c][axis], projection->plate[w][c][axis]);
     for (int k = 0; view->scene->plates && k < SCREE_WALL_COUNT; k++) {
         const scree_wall *wall = &s->wall[k];
         int axis = fabs(wall->normal[0]) > 0.999 ? 0 : fabs(wall->normal[1]) > 0.999 ? 1 : -1;
@@ -80,7 +88,29 @@ static int colour_level(const scree_scene_view *view, size_t k)
     return (int)lround(fmin(1, fmax(0, position)) * (SCREE_SCENE_LEVELS - 1));
 }
 
-/// Sorts the drawn discs by colour level (counting sort).
+scree_colour scree_scene_disc_colour(const scree_scene_view *view, size_t k)
+{
+    if (!view->scene->field) return (scree_colour){0.66, 0.72, 0.80};
+    int level = colour_level(view, k);
+    return scree_colour_at(view->scene->map,
+                           level == SCREE_SCENE_LEVELS ? NAN : (double)level / (SCREE_SCENE_LEVELS - 1));
+}
+
+static int farther_first(const void *one, const void *other, void *depth)
+{
+    double a = ((const double *)depth)[*(const uint32_t *)one], b = ((const double *)depth)[*(const uint32_t *)other];
+    return (a > b) - (a < b);
+}
+
+static void order_by_depth(scree_scene_view *view)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < view->snapshot->count; k++)
+        if (scree_scene_drawn(view->snapshot, k)) view->order[count++] = (uint32_t)k;
+    qsort_r(view->order, count, sizeof *view->order, farther_first, (void *)(uintptr_t)view->scene->depth);
+}
+
+/// Sorts the drawn discs by colour level (counting sort), or by depth.
 static scree_status order_discs(scree_scene_view *view, scree_error *error)
 {
     const scree_snapshot *s = view->snapshot;
@@ -90,6 +120,10 @@ static scree_status order_discs(scree_scene_view *view, scree_error *error)
                                    &view->limits, error);
     if (!status) status = scree_allocate(&view->order, view->disc_count, sizeof *view->order, error);
     if (status) return status;
+    if (view->scene->depth) {
+        order_by_depth(view);
+        return SCREE_OK;
+    }
     size_t next[SCREE_SCENE_LEVELS + 2] = {0};
     for (size_t k = 0; k < s->count; k++)
         if (scree_scene_drawn(s, k)) view->start[colour_level(view, k) + 1]++;
@@ -162,10 +196,11 @@ static void write_caption(scree_scene_view *view)
         (void)snprintf(strain, sizeof strain, ", axial strain %.2f %%", 100 * s->axial_strain);
     scree_number_text(number, sizeof number, s->time, 4);
     if (isfinite(s->time)) (void)snprintf(time, sizeof time, ", t = %s s", number);
-    if (view->disc_count < s->count)
+    if (view->disc_count < s->count && !view->scene->section)
         (void)snprintf(left_out, sizeof left_out, ", %zu without a position", s->count - view->disc_count);
-    (void)snprintf(view->caption, sizeof view->caption, "%zu disc%s%s%s%s", view->disc_count,
-                   view->disc_count == 1 ? "" : "s", left_out, strain, time);
+    (void)snprintf(view->caption, sizeof view->caption, "%zu %s%s%s%s%s", view->disc_count,
+                   view->scene->depth || view->scene->section ? "sphere" : "disc", view->disc_count == 1 ? "" : "s",
+                   left_out, strain, time);
 }
 
 /// Title and caption from the top margin; returns the y below them.

@@ -17,7 +17,10 @@ typedef struct scree_scene {
     bool boundary;          ///< Delaunay boundary loop
     bool plates;
     const double *arrow_x, *arrow_y; ///< per disc, m; NULL: none
-    double arrow_scale;              ///< drawn length over true length; 0: chosen, and told in the figure
+    bool section;                    ///< discs are cuts of spheres; those that are not cut are not missed
+    const double *depth;             ///< per disc, m towards the viewer: discs are spheres, far ones first; NULL: flat
+    const struct scree_projection *projection; ///< where the plates of a view in space lie; NULL: flat
+    double arrow_scale;                        ///< drawn length over true length; 0: chosen, and told in the figure
 } scree_scene;
 
 /// path without extension. Discs without a finite position or a positive radius are left out, and counted in the

@@ -1,6 +1,6 @@
 /// The marks of a scene: plates, discs, force network, Delaunay boundary, arrows. Marks of equal style share one path,
 /// which keeps the SVG of 5000 discs near 2 MB. Cost: linear.
-#include "state/cell.h"
+#include "view/projection.h"
 #include "view/scene_parts.h"
 
 #include <math.h>
@@ -15,6 +15,60 @@ static void draw_disc_paths(const scree_scene_view *view, cairo_t *cairo, size_t
                   s->radius[disc] * view->scale, 0, 2 * M_PI);
         cairo_close_path(cairo);
     }
+}
+
+/// A lighter colour; weight 0: the same, 1: white.
+static scree_colour lighter(scree_colour colour, double weight)
+{
+    return (scree_colour){colour.red + weight * (1 - colour.red), colour.green + weight * (1 - colour.green),
+                          colour.blue + weight * (1 - colour.blue)};
+}
+
+/// Spheres from far to near: a disc with an outline, and two lighter ones towards the light, upper left.
+static void draw_spheres(const scree_scene_view *view, cairo_t *cairo)
+{
+    static const double shade[3][3] = {{1, 0, 0}, {0.68, 0.20, 0.35}, {0.30, 0.38, 0.75}}; // size, offset, weight
+    const scree_snapshot *s = view->snapshot;
+    double line = fmin(0.5, fmax(0.08, 0.035 * 2 * view->mean_radius * view->scale));
+    for (size_t k = 0; k < view->disc_count; k++) {
+        uint32_t disc = view->order[k];
+        double radius = s->radius[disc] * view->scale;
+        double x = scree_scene_x(view, s->x[disc]), y = scree_scene_y(view, s->y[disc]);
+        scree_colour colour = scree_scene_disc_colour(view, disc);
+        for (int part = 0; part < 3; part++) {
+            double shift = shade[part][1] * radius * M_SQRT1_2;
+            cairo_new_sub_path(cairo);
+            cairo_arc(cairo, x - shift, y - shift, shade[part][0] * radius, 0, 2 * M_PI);
+            cairo_close_path(cairo);
+            scree_page_colour(cairo, lighter(colour, shade[part][2]));
+            if (part > 0) {
+                cairo_fill(cairo);
+                continue;
+            }
+            cairo_fill_preserve(cairo);
+            cairo_set_line_width(cairo, line);
+            scree_page_colour(cairo, scree_scene_ink);
+            cairo_stroke(cairo);
+        }
+    }
+}
+
+/// The bottom (0) or top (1) plate of a view in space.
+static void draw_plate_in_space(const scree_scene_view *view, cairo_t *cairo, int which)
+{
+    const scree_projection *projection = view->scene->projection;
+    if (!view->scene->plates || !projection || !projection->has_plate[which]) return;
+    for (int c = 0; c < 4; c++) {
+        const double *corner = projection->plate[which][c];
+        cairo_line_to(cairo, scree_scene_x(view, corner[0]), scree_scene_y(view, corner[1]));
+    }
+    cairo_close_path(cairo);
+    scree_colour colour = scree_scene_quiet;
+    cairo_set_source_rgba(cairo, colour.red, colour.green, colour.blue, which == 1 ? 0.35 : 0.6);
+    cairo_fill_preserve(cairo);
+    cairo_set_line_width(cairo, 0.8);
+    scree_page_colour(cairo, colour);
+    cairo_stroke(cairo);
 }
 
 static void draw_discs(const scree_scene_view *view, cairo_t *cairo)
@@ -100,7 +154,7 @@ static void draw_boundary(const scree_scene_view *view, cairo_t *cairo)
 /// A plate is a bar on the outer side of the wall's plane, as long as the drawn sample.
 static void draw_plates(const scree_scene_view *view, cairo_t *cairo)
 {
-    double thickness = fmax(2.5, 0.8 * view->mean_radius * view->scale);
+    double thickness = fmin(6, fmax(2.5, 0.8 * view->mean_radius * view->scale));
     for (int k = 0; view->scene->plates && k < SCREE_WALL_COUNT; k++) {
         const scree_wall *wall = &view->snapshot->wall[k];
         if (!wall->active || !isfinite(wall->position)) continue;
@@ -121,16 +175,15 @@ static void draw_plates(const scree_scene_view *view, cairo_t *cairo)
     }
 }
 
-/// Outline of the periodic cell; between plates only its sides.
+/// Edges of the periodic cell.
 static void draw_cell(const scree_scene_view *view, cairo_t *cairo)
 {
-    const scree_cell *cell = &view->snapshot->cell;
-    if (!cell->periodic) return;
-    double corner[4][2];
-    scree_cell_corners(cell, view->low[1], view->high[1], corner);
-    for (int k = 0; k < 4; k++)
-        cairo_line_to(cairo, scree_scene_x(view, corner[k][0]), scree_scene_y(view, corner[k][1]));
-    cairo_close_path(cairo);
+    if (view->cell.count == 0) return;
+    for (size_t k = 0; k < view->cell.count; k++) {
+        const double(*edge)[2] = view->cell.end[k];
+        cairo_move_to(cairo, scree_scene_x(view, edge[0][0]), scree_scene_y(view, edge[0][1]));
+        cairo_line_to(cairo, scree_scene_x(view, edge[1][0]), scree_scene_y(view, edge[1][1]));
+    }
     cairo_set_dash(cairo, (const double[]){4, 2.5}, 2, 0);
     cairo_set_line_width(cairo, 0.9);
     scree_page_colour(cairo, scree_scene_boundary);
@@ -181,6 +234,17 @@ static void draw_arrows(const scree_scene_view *view, cairo_t *cairo)
 
 void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo)
 {
+    if (view->scene->depth) {
+        draw_plate_in_space(view, cairo, 0);
+        // The network of the inside would be hidden.
+        if (view->scene->force_network)
+            draw_network(view, cairo);
+        else
+            draw_spheres(view, cairo);
+        draw_plate_in_space(view, cairo, 1);
+        draw_cell(view, cairo);
+        return;
+    }
     draw_plates(view, cairo);
     draw_discs(view, cairo);
     draw_boundary(view, cairo);

@@ -3,6 +3,7 @@
 #define SCREE_VIEW_SCENE_PARTS_H
 
 #include "view/page.h"
+#include "view/projection.h"
 #include "view/scale.h"
 #include "view/scene.h"
 
@@ -19,9 +20,10 @@ typedef struct scree_scene_view {
     // what is drawn
     size_t disc_count;                        ///< discs with a place on the page
     double low[2], high[2];                   ///< m, corners of what is drawn
+    scree_cell_lines cell;                    ///< edges of the periodic cell
     double mean_radius;                       ///< m
     scree_limits limits;                      ///< of the field
-    uint32_t *order;                          ///< drawn discs by colour level
+    uint32_t *order;                          ///< drawn discs by colour level; with depth: far to near
     size_t start[SCREE_SCENE_LEVELS + 2];     ///< of each level in `order`; the last level is "undefined"
     double mean_force;                        ///< N, over touching contacts between discs; 0: none
     double arrow_scale;                       ///< drawn over true length; 0: no arrows
@@ -46,6 +48,9 @@ static inline double scree_scene_y(const scree_scene_view *view, double y)
 {
     return view->top + (view->high[1] + view->overhang_high[1] - y) * view->scale;
 }
+/// Colour of disc `k` by its field.
+scree_colour scree_scene_disc_colour(const scree_scene_view *view, size_t k);
+
 /// Whether disc `k` has a place on the page.
 bool scree_scene_drawn(const scree_snapshot *snapshot, size_t k);
 

@@ -116,7 +116,7 @@ def check_plates(path, group):
         for e in range(2):
             point = plates.GetCell(k).GetPoints().GetPoint(e)[:2]
             # two products and a sum of lengths up to 1 m
-            require(abs(numpy.dot(normal, point) - position) < 1e-15, f"{path}: plate {k} lies elsewhere")
+            require(abs(numpy.dot(normal[:2], point) - position) < 1e-15, f"{path}: plate {k} lies elsewhere")
 
 
 def check_attributes(name, item):

@@ -31,7 +31,8 @@ static inline void *hand_made_array(size_t count, size_t size)
 
 static inline void hand_made_create(scree_snapshot *s, size_t count, size_t contacts, size_t loop)
 {
-    *s = (scree_snapshot){.count = count, .contact_count = contacts, .loop_count = loop, .axial_strain = NAN};
+    *s = (scree_snapshot){
+        .dimension = 2, .count = count, .contact_count = contacts, .loop_count = loop, .axial_strain = NAN};
     (void)snprintf(s->stage, sizeof s->stage, "compress");
     double **body[] = {&s->x, &s->y, &s->radius, &s->angle, &s->vx, &s->vy, &s->spin};
     for (size_t k = 0; k < sizeof body / sizeof body[0]; k++) *body[k] = hand_made_array(count, sizeof(double));

@@ -29,26 +29,27 @@ static inline scree_status sample_state(scree_state *state, size_t count, uint64
                                       .vy = 0.25 - u,
                                       .spin = 10 * u,
                                       .mass = 1e-2 * (1 + u)};
-        state->sum[row] = (scree_sum_row){(int64_t)id + 1, -(int64_t)id - 2, (int64_t)(5 * id), (int64_t)(id % 5)};
+        state->sum[row] = (scree_sum_row){
+            .fx = (int64_t)id + 1, .fy = -(int64_t)id - 2, .torque = (int64_t)(5 * id), .contacts = (int64_t)(id % 5)};
         state->angle[row] = 0.1 * u;
-        state->reference_x[row] = state->row[row].x - 1e-4;
-        state->reference_y[row] = state->row[row].y + 2e-4 * u;
-        state->sampled_vx[row] = 1e-3 * u;
-        state->sampled_vy[row] = -2e-3 * u;
+        state->reference[row][0] = state->row[row].x - 1e-4;
+        state->reference[row][1] = state->row[row].y + 2e-4 * u;
+        state->sampled_velocity[row][0] = 1e-3 * u;
+        state->sampled_velocity[row][1] = -2e-3 * u;
     }
     state->step = 1234 + seed;
     state->step_size = 1e-6;
     state->force_quantum = ldexp(1, -30);
     state->torque_quantum = ldexp(1, -40);
     state->pressure = 1e5;
-    const double normals[SCREE_WALL_COUNT][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
-    const double positions[SCREE_WALL_COUNT] = {-1e-3, -17e-3, -1e-3, -17e-3};
-    for (int w = 0; w < SCREE_WALL_COUNT; w++)
+    const double normals[][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
+    const double positions[] = {-1e-3, -17e-3, -1e-3, -17e-3};
+    for (int w = 0; w <= SCREE_WALL_RIGHT; w++)
         state->wall[w] = (scree_wall){.position = positions[w],
                                       .normal = {normals[w][0], normals[w][1]},
                                       .velocity = 0.1 * w,
                                       .force = 10.0 + w,
-                                      .shear = -1.0 * w,
+                                      .shear = {-1.0 * w, 0.5 * w},
                                       .active = w != SCREE_WALL_RIGHT,
                                       .material = 1};
     return status;
@@ -103,6 +104,7 @@ static inline scree_status sample_table(const scree_state *state, scree_contact_
                                             .wall = wall,
                                             .sliding = k % 2 == 1,
                                             .normal = {0.6, 0.8},
+                                            .tangent = {-0.8, 0.6},
                                             .point = {1e-3 * (double)k, 2e-3},
                                             .branch = {1.2e-3, 1.6e-3},
                                             .indentation = 1e-7 * (double)(k + 1),

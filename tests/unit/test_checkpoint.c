@@ -34,11 +34,13 @@ static void create_state(scree_state *state, uint64_t seed)
     uint64_t counter = 0;
     for (size_t k = 1; k < scree_field_count + scree_member_count; k++) {
         const scree_field *field = k < scree_field_count ? &scree_fields[k] : &scree_members[k - scree_field_count];
+        if (!scree_field_exists(field, state->dimension)) continue;
+        size_t size = (size_t)scree_components(field->components, state->dimension) * scree_field_size(field->type);
         for (size_t row = 0; row < scree_field_rows_count(state, field); row++)
-            for (size_t b = 0; b < (size_t)field->components * scree_field_size(field->type); b += 4) {
+            for (size_t b = 0; b < size; b += 4) {
                 uint32_t words[4];
                 scree_random_words(seed, SCREE_RANDOM_TEST, counter++, words);
-                size_t left = (size_t)field->components * scree_field_size(field->type) - b;
+                size_t left = size - b;
                 memcpy((unsigned char *)scree_field_get_mutable(state, field, row) + b, words, left < 4 ? left : 4);
             }
     }
@@ -54,9 +56,10 @@ static void assert_same(const scree_state *a, const scree_state *b)
     assert_memory_equal(a->row_of_id, b->row_of_id, a->count * sizeof *a->row_of_id);
     for (size_t k = 0; k < scree_field_count + scree_member_count; k++) {
         const scree_field *field = k < scree_field_count ? &scree_fields[k] : &scree_members[k - scree_field_count];
+        if (!scree_field_exists(field, a->dimension)) continue;
+        size_t size = (size_t)scree_components(field->components, a->dimension) * scree_field_size(field->type);
         for (size_t row = 0; row < scree_field_rows_count(a, field) && field->role == SCREE_FIELD_STATE; row++)
-            assert_memory_equal(scree_field_get(a, field, row), scree_field_get(b, field, row),
-                                (size_t)field->components * scree_field_size(field->type));
+            assert_memory_equal(scree_field_get(a, field, row), scree_field_get(b, field, row), size);
     }
 }
 

@@ -22,8 +22,8 @@ static void assert_same(const fixture *a, const fixture *b)
 static void create(fixture *f, scree_law law, int materials)
 {
     fixture_create_assembly(f, law, SIDE, materials);
-    f->state.wall[SCREE_WALL_BOTTOM] =
-        (scree_wall){.position = -0.95e-3, .normal = {0, 1}, .velocity = 0.3, .tangential_velocity = 0.2, .active = 1};
+    f->state.wall[SCREE_WALL_BOTTOM] = (scree_wall){
+        .position = -0.95e-3, .normal = {0, 1}, .velocity = 0.3, .tangential_velocity = {-0.2}, .active = 1};
     f->state.wall[SCREE_WALL_LEFT] =
         (scree_wall){.position = -0.96e-3, .normal = {1, 0}, .velocity = -0.1, .active = 1};
     fixture_find_walls(f);
@@ -170,9 +170,9 @@ static void momentum_is_conserved_exactly(void **unused)
     }
     // What the walls give is on their books, in the same quanta: normals along the axes round nothing.
     const scree_wall *bottom = &f.state.wall[SCREE_WALL_BOTTOM], *left = &f.state.wall[SCREE_WALL_LEFT];
-    assert_true(bottom->force > 0 && left->force > 0 && bottom->shear != 0);
-    int64_t x = scree_fixed_from(left->force + bottom->shear, 1 / f.state.force_quantum);
-    int64_t y = scree_fixed_from(bottom->force - left->shear, 1 / f.state.force_quantum);
+    assert_true(bottom->force > 0 && left->force > 0 && bottom->shear[0] != 0);
+    int64_t x = scree_fixed_from(left->force - bottom->shear[0], 1 / f.state.force_quantum);
+    int64_t y = scree_fixed_from(bottom->force - left->shear[1], 1 / f.state.force_quantum);
     assert_int_equal(fx, x);
     assert_int_equal(fy, y);
     assert_true(contacts > 0);

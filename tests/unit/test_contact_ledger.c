@@ -23,7 +23,8 @@ static void create(fixture *f, scree_law law, double step)
     }
     scree_wall *wall = f->state.wall;
     wall[SCREE_WALL_BOTTOM] = (scree_wall){.position = -3e-3, .normal = {0, 1}, .velocity = 0.5, .active = 1};
-    wall[SCREE_WALL_TOP] = (scree_wall){.position = -3.6e-3, .normal = {0, -1}, .tangential_velocity = 2, .active = 1};
+    wall[SCREE_WALL_TOP] =
+        (scree_wall){.position = -3.6e-3, .normal = {0, -1}, .tangential_velocity = {2}, .active = 1};
     wall[SCREE_WALL_LEFT] = (scree_wall){.position = -2.9e-3, .normal = {1, 0}, .velocity = -0.3, .active = 1};
     wall[SCREE_WALL_RIGHT] = (scree_wall){.position = -3.2e-3, .normal = {-1, 0}, .active = 1};
     fixture_find_pairs(f, 1);

@@ -66,13 +66,14 @@ static double oscillator_error(scree_scheme scheme, double time, int steps)
         spring_forces(&state);
         if (integrator->second) integrator->second(&model, &state, &work);
     }
-    double velocity[3], c = cos(OMEGA * time), s = sin(OMEGA * time);
-    scree_body_velocity(&model, &state, 0, velocity);
+    double c = cos(OMEGA * time), s = sin(OMEGA * time);
+    scree_vector velocity, spin;
+    scree_body_velocity(&model, &state, 0, velocity, spin);
     double worst = fabs(state.row[0].x - c);
     worst = fmax(worst, fabs(state.row[0].y + 0.5 * c));
     worst = fmax(worst, fabs(state.angle[0] - 0.3 * c));
     worst = fmax(worst, fabs(velocity[0] + OMEGA * s));
-    worst = fmax(worst, fabs(velocity[2] + 0.3 * OMEGA * s));
+    worst = fmax(worst, fabs(spin[2] + 0.3 * OMEGA * s));
     scree_state_destroy(&state);
     return worst;
 }
@@ -113,12 +114,12 @@ static void schemes_share_their_trajectory(void **unused)
         // Round-off of 1000 steps and the quantum of the force.
         assert_true(fabs(a.row[0].x - b.row[0].x) < 1e-11);
     }
-    double va[3], vb[3];
-    scree_body_velocity(&position, &a, 0, va);
-    scree_body_velocity(&velocity, &b, 0, vb);
+    scree_vector va, vb, wa, wb;
+    scree_body_velocity(&position, &a, 0, va, wa);
+    scree_body_velocity(&velocity, &b, 0, vb, wb);
     assert_true(fabs(va[0] - vb[0]) < 1e-11);
-    scree_body_half_velocity(&position, &a, 0, va);
-    scree_body_half_velocity(&velocity, &b, 0, vb);
+    scree_body_half_velocity(&position, &a, 0, va, wa);
+    scree_body_half_velocity(&velocity, &b, 0, vb, wb);
     assert_true(fabs(va[0] - vb[0]) < 1e-11);
     scree_state_destroy(&a);
     scree_state_destroy(&b);

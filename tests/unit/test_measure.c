@@ -38,8 +38,8 @@ static void bench_create(bench *b, size_t count)
     assert_int_equal(scree_state_create(&b->state, 2, count, NULL), SCREE_OK);
     b->state.force_quantum = b->state.torque_quantum = 0x1p-50;
     b->state.step_size = 1e-6;
-    const double normals[SCREE_WALL_COUNT][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
-    for (int w = 0; w < SCREE_WALL_COUNT; w++) memcpy(b->state.wall[w].normal, normals[w], sizeof normals[w]);
+    const double normals[][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
+    for (int w = 0; w <= SCREE_WALL_RIGHT; w++) memcpy(b->state.wall[w].normal, normals[w], sizeof normals[w]);
     for (size_t i = 0; i < count; i++) {
         b->state.row[i].radius = RADIUS;
         b->state.row[i].mass = 1e-3;
@@ -68,6 +68,7 @@ static scree_contact *touch(bench *b, uint32_t first, uint32_t second, double no
     *contact = (scree_contact){.first = first,
                                .second = second,
                                .normal = {branch[0] / length, branch[1] / length},
+                               .tangent = {-branch[1] / length, branch[0] / length},
                                .branch = {branch[0], branch[1]},
                                .point = {j->x + branch[0] / 2, j->y + branch[1] / 2},
                                .normal_force = normal_force,
@@ -88,12 +89,14 @@ static void touch_wall(bench *b, uint32_t first, uint32_t wall, double normal_fo
                                .second = wall,
                                .wall = true,
                                .normal = {w->normal[0], w->normal[1]},
+                               .tangent = {-w->normal[1], w->normal[0]},
                                .branch = {distance * w->normal[0], distance * w->normal[1]},
                                .point = {i->x - distance * w->normal[0], i->y - distance * w->normal[1]},
                                .normal_force = normal_force,
                                .tangential_force = tangential_force};
     w->force += normal_force;
-    w->shear -= tangential_force;
+    w->shear[0] += tangential_force * w->normal[1];
+    w->shear[1] -= tangential_force * w->normal[0];
     b->state.sum[first].contacts++;
 }
 
@@ -115,9 +118,10 @@ static void add_table_forces(bench *b)
 
 static double largest_resultant(const bench *b)
 {
-    double largest = 0, force[3];
+    double largest = 0;
+    scree_vector force, torque;
     for (size_t i = 0; i < b->state.count; i++) {
-        scree_body_force(&b->model, &b->state, i, force);
+        scree_body_force(&b->model, &b->state, i, force, torque);
         largest = fmax(largest, hypot(force[0], force[1]));
     }
     return largest;
@@ -153,15 +157,15 @@ static void stress_between_plates_under_pressure(void **user)
     bench b;
     pressed_column(&b, 0.7);
     assert_true(largest_resultant(&b) < 1e-12 * 0.7); // the hand-made sample is in equilibrium
-    double area = 4 * RADIUS * 8 * RADIUS, contacts[4], boundary[4], plates[4];
+    double area = 4 * RADIUS * 8 * RADIUS, contacts[9], boundary[9], plates[9];
     assert_true(near(scree_sample_area(&b.state), area, 1e-14, area));
     assert_true(near(scree_loop_area(&b.state), 4 * 6 * RADIUS * RADIUS, 1e-14, area));
     scree_stress_from_contacts(&b.table, area * THICKNESS, contacts);
     scree_stress_from_boundary(&b.model, &b.state, &b.table, boundary);
     scree_stress_from_plates(&b.model, &b.state, plates);
     double axial = -3 * 0.7 / (4 * RADIUS * THICKNESS);
-    const double expected[4] = {-PRESSURE, 0, 0, axial};
-    for (int i = 0; i < 4; i++) {
+    const double expected[9] = {-PRESSURE, 0, 0, 0, axial};
+    for (int i = 0; i < 9; i++) {
         // Round-off of some thirty products.
         assert_true(near(contacts[i], expected[i], 1e-13, PRESSURE));
         assert_true(near(boundary[i], expected[i], 1e-13, PRESSURE));
@@ -175,11 +179,11 @@ static void stress_without_pressure_is_not_a_number_where_nothing_acts(void **us
     (void)user;
     bench b;
     pressed_column(&b, 0.7);
-    double plates[4];
+    double plates[9];
     b.state.pressure = 0;
     scree_stress_from_plates(&b.model, &b.state, plates);
     assert_true(isnan(plates[0]));
-    assert_true(near(plates[3], -3 * 0.7 / (4 * RADIUS * THICKNESS), 1e-13, PRESSURE));
+    assert_true(near(plates[4], -3 * 0.7 / (4 * RADIUS * THICKNESS), 1e-13, PRESSURE));
     scree_state_destroy(&b.state);
 }
 
@@ -197,8 +201,8 @@ static void stress_of_a_free_triangle(void **user)
     // Disc 0: bars to 1 and 2 balance the pressure force; disc 1 gives the third bar (2 equations, 2 unknowns each).
     double force[3][2];
     for (size_t i = 0; i < 3; i++) {
-        double f[3];
-        scree_body_force(&b.model, &b.state, i, f);
+        scree_vector f, torque;
+        scree_body_force(&b.model, &b.state, i, f, torque);
         force[i][0] = f[0];
         force[i][1] = f[1];
     }
@@ -216,12 +220,12 @@ static void stress_of_a_free_triangle(void **user)
     touch(&b, 1, 2, bar[0], 0);
     add_table_forces(&b);
     assert_true(largest_resultant(&b) < 1e-12 * PRESSURE * RADIUS * THICKNESS * 10);
-    double stress[4], boundary[4], plates[4];
+    double stress[9], boundary[9], plates[9];
     scree_stress_from_contacts(&b.table, scree_sample_area(&b.state) * THICKNESS, stress);
     scree_stress_from_boundary(&b.model, &b.state, &b.table, boundary);
     scree_stress_from_plates(&b.model, &b.state, plates);
-    for (int i = 0; i < 4; i++) {
-        double expected = i == 0 || i == 3 ? -PRESSURE : 0;
+    for (int i = 0; i < 9; i++) {
+        double expected = i == 0 || i == 4 ? -PRESSURE : 0;
         assert_true(near(stress[i], expected, 1e-12, PRESSURE));
         assert_true(near(boundary[i], expected, 1e-12, PRESSURE));
         assert_true(near(plates[i], expected, 1e-12, PRESSURE));
@@ -248,12 +252,13 @@ static void stress_differs_by_the_residual(void **user)
     for (uint32_t i = 0; i < 5; i++) touch_wall(&b, i, SCREE_WALL_BOTTOM, uniform(500 + i), uniform(600 + i) - 0.5);
     for (uint32_t i = 35; i < 40; i++) touch_wall(&b, i, SCREE_WALL_TOP, uniform(500 + i), uniform(600 + i) - 0.5);
     add_table_forces(&b);
-    double volume = scree_sample_area(&b.state) * THICKNESS, contacts[4], boundary[4], plates[4], residual[4] = {0};
-    double moved[4], total[3] = {0}, scale = 0;
+    double volume = scree_sample_area(&b.state) * THICKNESS, contacts[9], boundary[9], plates[9], residual[9] = {0};
+    double moved[9], total[3] = {0}, scale = 0;
     for (size_t i = 0; i < 40; i++) {
-        double force[3], x[2] = {b.state.row[i].x, b.state.row[i].y};
-        scree_body_force(&b.model, &b.state, i, force);
-        for (int k = 0; k < 4; k++) residual[k] += force[k / 2] * x[k % 2] / volume;
+        scree_vector force, torque;
+        double x[2] = {b.state.row[i].x, b.state.row[i].y};
+        scree_body_force(&b.model, &b.state, i, force, torque);
+        for (int k = 0; k < 4; k++) residual[3 * (k / 2) + k % 2] += force[k / 2] * x[k % 2] / volume;
         for (int k = 0; k < 2; k++) total[k] += force[k];
     }
     scree_stress_from_contacts(&b.table, volume, contacts);
@@ -264,17 +269,17 @@ static void stress_differs_by_the_residual(void **user)
     for (size_t i = 0; i < 40; i++) b.state.row[i].x += 3;
     for (size_t c = 0; c < b.table.count; c++) b.contact[c].point[0] += 3;
     scree_stress_from_boundary(&b.model, &b.state, &b.table, moved);
-    for (int i = 0; i < 4; i++) scale = fmax(scale, fabs(contacts[i]));
-    for (int i = 0; i < 4; i++) assert_true(near(moved[i], boundary[i], 1e-11, scale));
+    for (int i = 0; i < 9; i++) scale = fmax(scale, fabs(contacts[i]));
+    for (int i = 0; i < 9; i++) assert_true(near(moved[i], boundary[i], 1e-11, scale));
     // The centre from one component of each column; the other component then checks the identity.
     for (int j = 0; j < 2; j++) {
         double centre = (contacts[j] - boundary[j] + residual[j]) * volume / total[0];
         assert_true(
-            near(contacts[2 + j], boundary[2 + j] - residual[2 + j] + total[1] * centre / volume, 1e-11, scale));
+            near(contacts[3 + j], boundary[3 + j] - residual[3 + j] + total[1] * centre / volume, 1e-11, scale));
         assert_true(centre > 0 && centre < 20 * RADIUS);
     }
     // What the plates know: everything that has to do with their height.
-    assert_true(near(plates[3], boundary[3], 1e-12, scale));
+    assert_true(near(plates[4], boundary[4], 1e-12, scale));
     assert_true(near(plates[1], boundary[1], 1e-12, scale));
     assert_true(plates[0] == -PRESSURE || near(plates[0], -PRESSURE, 1e-13, PRESSURE));
     scree_state_destroy(&b.state);

@@ -75,8 +75,8 @@ static void make_state(scree_state *state, size_t count, double ratio, uint64_t 
         state->row[k].x = side * uniform(seed, 3 * k + 1);
         state->row[k].y = side * uniform(seed, 3 * k + 2);
     }
-    const double normal[SCREE_WALL_COUNT][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
-    for (int w = 0; w < SCREE_WALL_COUNT; w++)
+    const double normal[][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
+    for (int w = 0; w <= SCREE_WALL_RIGHT; w++)
         state->wall[w] = (scree_wall){
             .position = w % 2 ? -side : 0, .normal = {normal[w][0], normal[w][1]}, .active = w != SCREE_WALL_TOP};
 }

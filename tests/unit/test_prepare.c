@@ -240,12 +240,12 @@ static void test_state_is_complete(void **unused)
         highest = fmax(highest, p->y + p->radius);
         assert_true(p->material == 1 && p->vx == 0 && p->vy == 0 && p->spin == 0);
         assert_true(fabs(p->mass / (8e3 * M_PI * p->radius * p->radius * 1.5e-3) - 1) < 1e-14);
-        assert_true(s.state.reference_x[i] == p->x && s.state.reference_y[i] == p->y && s.state.id[i] == i);
+        assert_true(s.state.reference[i][0] == p->x && s.state.reference[i][1] == p->y && s.state.id[i] == i);
     }
     assert_true(highest == s.height);
     assert_true(s.state.step_size == s.model.step);
-    const double normals[SCREE_WALL_COUNT][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
-    for (int w = 0; w < SCREE_WALL_COUNT; w++) {
+    const double normals[][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
+    for (int w = 0; w <= SCREE_WALL_RIGHT; w++) {
         assert_true(s.state.wall[w].active && s.state.wall[w].material == 1 && s.state.wall[w].velocity == 0);
         assert_true(s.state.wall[w].normal[0] == normals[w][0] && s.state.wall[w].normal[1] == normals[w][1]);
     }
