@@ -4,6 +4,8 @@
 /// O(count).
 #include "measure/measure.h"
 
+#include "base/matrix.h"
+
 #include <math.h>
 
 /// Relative determinant of M below which all points count as lying on one line.
@@ -57,4 +59,42 @@ double scree_fluctuations(const double *x0, const double *y0, const double *x1, 
         square += fx[i] * fx[i] + fy[i] * fy[i];
     }
     return sqrt(square / (double)count);
+}
+
+/// H H_0^-1, H_0 at the start of the loading stage.
+static void deformation_of(const scree_cell *cell, double deformation[9])
+{
+    double inverse[9];
+    scree_matrix_invert(cell->reference, inverse);
+    scree_matrix_multiply(cell->lattice, inverse, deformation);
+}
+
+double scree_cell_fluctuations(const scree_cell *from, const scree_cell *to, const double *x0, const double *y0,
+                               const double *x1, const double *y1, size_t count, double *fx, double *fy)
+{
+    double before[9], back[9], after[9], deformation[9], inverse[9], mean[2] = {0}, square = 0;
+    deformation_of(from, before);
+    deformation_of(to, after);
+    scree_matrix_invert(before, back);
+    scree_matrix_multiply(after, back, deformation);
+    scree_matrix_invert(to->lattice, inverse);
+    for (size_t i = 0; i < count; i++) {
+        const double begin[3] = {x0[i], y0[i], 0};
+        double carried[3], u[3], whole[3], fraction[3];
+        scree_matrix_apply(deformation, begin, carried);
+        u[0] = x1[i] - carried[0], u[1] = y1[i] - carried[1], u[2] = 0;
+        scree_matrix_apply(inverse, u, fraction);
+        for (int k = 0; k < 3; k++) fraction[k] = rint(fraction[k]);
+        scree_matrix_apply(to->lattice, fraction, whole);
+        fx[i] = u[0] - whole[0];
+        fy[i] = u[1] - whole[1];
+        mean[0] += fx[i] / (double)count;
+        mean[1] += fy[i] / (double)count;
+    }
+    for (size_t i = 0; i < count; i++) {
+        fx[i] -= mean[0];
+        fy[i] -= mean[1];
+        square += fx[i] * fx[i] + fy[i] * fy[i];
+    }
+    return count > 0 ? sqrt(square / (double)count) : 0;
 }

@@ -87,4 +87,10 @@ void scree_energy_measure(const scree_model *model, const scree_state *state, co
 double scree_fluctuations(const double *x0, const double *y0, const double *x1, const double *y1, size_t count,
                           double *fx, double *fy, double gradient[4]);
 
+/// The same in a whole plane periodic cell, between two states of one loading stage: relative to the affine field of
+/// the cell itself and to the mean, between the images that are nearest after it. Fluctuations must be less than half
+/// the cell. Returns the rms fluctuation [m].
+double scree_cell_fluctuations(const scree_cell *from, const scree_cell *to, const double *x0, const double *y0,
+                               const double *x1, const double *y1, size_t count, double *fx, double *fy);
+
 #endif

@@ -4,6 +4,7 @@
 #include "boundary/plates.h"
 #include "measure/measure.h"
 #include "run/guard.h"
+#include "state/cell.h"
 
 #include <math.h>
 
@@ -50,9 +51,13 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
     [SCREE_SAMPLE_WORK_GRAVITY] = {"work_gravity", "J", "work of gravity"},
     [SCREE_SAMPLE_ENERGY_RESIDUAL] = {"energy_residual", "J", "what the energy balance leaves open"},
     [SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE] = {"energy_residual_relative", "1", "the same over the work done"},
-    [SCREE_SAMPLE_HEIGHT] = {"height", "m", "distance of bottom and top plate"},
-    [SCREE_SAMPLE_AREA] = {"area", "m2", "area of the sample between plates and Delaunay boundary"},
+    [SCREE_SAMPLE_HEIGHT] = {"height", "m", "distance of bottom and top plate, or of the faces of the periodic cell"},
+    [SCREE_SAMPLE_AREA] = {"area", "m2",
+                           "area of the sample between plates and Delaunay boundary, or of the periodic cell"},
     [SCREE_SAMPLE_BOUNDARY_COUNT] = {"boundary_count", "1", "particles on the Delaunay boundary"},
+    [SCREE_SAMPLE_WORK_CELL] = {"work_cell", "J", "work of the deforming periodic cell"},
+    [SCREE_SAMPLE_SHEAR_RATIO] = {"shear_ratio", "1",
+                                  "shear stress over axial normal stress from contacts, in a periodic cell"},
 };
 
 static void sample_strain(const scree_simulation *s, double *value)
@@ -80,6 +85,9 @@ static void sample_stress(const scree_simulation *s, double *value)
     value[SCREE_SAMPLE_AXIAL_CONTACTS] = -contacts[4];
     value[SCREE_SAMPLE_LATERAL_CONTACTS] = -contacts[0];
     value[SCREE_SAMPLE_SHEAR_CONTACTS] = 0.5 * (contacts[1] + contacts[3]);
+    bool whole = scree_cell_is_whole(&s->state);
+    value[SCREE_SAMPLE_SHEAR_RATIO] =
+        whole ? value[SCREE_SAMPLE_SHEAR_CONTACTS] / value[SCREE_SAMPLE_AXIAL_CONTACTS] : NAN;
     value[SCREE_SAMPLE_STRESS_RATIO_CONTACTS] = contacts[4] / contacts[0];
 }
 
@@ -115,6 +123,7 @@ static void sample_energy(const scree_simulation *s, double *value)
     value[SCREE_SAMPLE_STIFFNESS_WORK] = ledger->stiffness;
     value[SCREE_SAMPLE_WORK_PLATES] = ledger->plates;
     value[SCREE_SAMPLE_WORK_PRESSURE] = ledger->pressure;
+    value[SCREE_SAMPLE_WORK_CELL] = ledger->cell;
     value[SCREE_SAMPLE_WORK_GRAVITY] = energy.gravity;
     value[SCREE_SAMPLE_ENERGY_RESIDUAL] = energy.residual;
     value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE] = energy.relative;

@@ -182,7 +182,12 @@ static scree_status draw_fluctuations(const scree_plot_run *run, const scree_sna
     scree_status status = scree_path_join(path, sizeof path, run->figures, name, error);
     if (!status) status = scree_allocate(&arrow, 2 * from->count, sizeof *arrow, error);
     if (!status) {
-        (void)scree_fluctuations(from->x, from->y, to->x, to->y, from->count, arrow, arrow + from->count, gradient);
+        double *arrow_y = arrow + from->count;
+        if (from->cell.periodic == 3)
+            (void)scree_cell_fluctuations(&from->cell, &to->cell, from->x, from->y, to->x, to->y, from->count, arrow,
+                                          arrow_y);
+        else
+            (void)scree_fluctuations(from->x, from->y, to->x, to->y, from->count, arrow, arrow_y, gradient);
         scree_scene scene = {.title = title, .arrow_x = arrow, .arrow_y = arrow + from->count, .plates = true};
         status = scree_scene_draw(path, from, &scene, error);
     }
