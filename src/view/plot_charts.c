@@ -26,7 +26,6 @@ static const struct chart_entry {
     const char *y_label; ///< "@" stands for the SI prefix that suits the values
     bool log_y;
     curve curve[CURVES]; ///< ended by a column that is NULL
-    bool cell;           ///< only of periodic runs
 } charts[] = {
     {"volumetric-strain", "Volumetric strain", "dilation −ε_v (%), positive: volume grows", false, {
         {"volumetric_strain", NULL, -100, BLUE, false}}},
@@ -34,7 +33,7 @@ static const struct chart_entry {
         {"stress_ratio", "from plates", 1, BLUE, false},
         {"stress_ratio_contacts", "from contacts", 1, VERMILLION, true}}},
     {"shear-ratio", "Shear stress over normal stress", "shear over axial stress (1)", false, {
-        {"shear_ratio", NULL, 1, BLUE, false}}, true},
+        {"shear_ratio", NULL, 1, BLUE, false}}},
     {"slip", "Slip at contacts", "mean slip speed / v_R (1)", false, {
         {"slip_ratio", NULL, 1, BLUE, false}}},
     {"stress", "Stress from plates and from contacts", "stress (@Pa), compression positive", false, {
@@ -150,7 +149,8 @@ void scree_plot_charts(scree_plot_run *run)
         return;
     }
     for (size_t k = 0; k < sizeof charts / sizeof charts[0]; k++) {
-        if (charts[k].cell && !is_cell(run)) continue;
+        bool of_cell = strcmp(charts[k].curve[0].column, "shear_ratio") == 0;
+        if (of_cell && !is_cell(run)) continue;
         status = draw_chart(run, &charts[k], value, &error);
         scree_plot_report(run, charts[k].name, status, &error);
     }
