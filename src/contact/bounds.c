@@ -5,9 +5,12 @@
 ///   d = d_0 + 2 v dt + 2^-32 R_max                                     (the last term: round-off of positions at rest)
 ///   f_n <= k_n d + eta 2 v, k_n = normal_stiffness sqrt(R_max d), eta = damping sqrt(m_max k_n) or T k_n
 ///   f   <= f_n (1 + mu), for hertz_brilliantov (1 + mu max(1, (2 v / v_R)^(1/c)))
+/// and torques below R_max f, with mu + mu_r + mu_tw where there is resistance to rolling and twisting.
 /// With no contact in the last evaluation, which may be the first of the run, d_0 is the guard's limit instead.
 /// Energies of one contact and step: damping 2 (eta 2 v) (2 v dt); friction f (2 v dt) plus what a tangential spring
-/// may hold, S^2 / k_t with S <= mu f_n + eta 2 v. Each bound is doubled, so round-off cannot matter.
+/// may hold, S^2 / k_t with S <= mu f_n + eta 2 v, and for rolling alike. A twisting spring slides at an angle of
+/// 2 mu_tw k_n / k_t or so (its cap over its stiffness), so it holds no more than twice that times mu_tw R_max f_n.
+/// Each bound is doubled, so round-off cannot matter.
 ///
 /// Cost: materials^2, a few powers.
 #include "contact/bounds.h"
@@ -18,6 +21,7 @@
 /// Largest constants over all pairs of materials and walls.
 typedef struct extremes {
     double stiffness, compliance_ratio, friction, damping;
+    double rolling, twisting; ///< friction
 } extremes;
 
 static void extend(extremes *e, const scree_pair_constants *c)
@@ -25,6 +29,8 @@ static void extend(extremes *e, const scree_pair_constants *c)
     e->stiffness = fmax(e->stiffness, c->normal_stiffness);
     e->friction = fmax(e->friction, c->friction);
     e->damping = fmax(e->damping, c->damping);
+    e->rolling = fmax(e->rolling, c->rolling_friction);
+    e->twisting = fmax(e->twisting, c->twisting_friction);
     if (c->tangential_stiffness > 0)
         e->compliance_ratio = fmax(e->compliance_ratio, c->normal_stiffness / c->tangential_stiffness);
 }
@@ -43,7 +49,8 @@ static double largest_mass(const scree_model *model)
 {
     double density = 0;
     for (int k = 0; k < model->material_count; k++) density = fmax(density, model->density[k]);
-    return density * M_PI * model->radius_max * model->radius_max * model->thickness;
+    double radius = model->radius_max, length = model->dimension == 3 ? 4.0 / 3.0 * radius : model->thickness;
+    return density * M_PI * radius * radius * length;
 }
 
 static double largest_speed(const scree_state *state)
@@ -68,23 +75,25 @@ contact_bounds contact_bounds_get(const scree_model *model, const scree_state *s
 
     double damping = eta * relative, normal = stiffness * d + damping;
     double mobilised = mindlin ? 1.0 : fmax(1.0, pow(relative / model->reference_velocity, model->inverse_exponent));
-    double force = normal * (1 + e.friction * mobilised);
+    double force = normal * (1 + e.friction * mobilised + e.rolling + e.twisting);
     double friction = force * relative * state->step_size;
     if (mindlin) {
         // S^2 / k_t is largest at the largest indentation for its frictional part, and does not depend on it for the
         // viscous part: (eta 2 v)^2 / k_n = damping^2 m (2 v)^2.
-        double slide = e.friction * (normal + damping);
+        double slide = (e.friction + e.rolling) * (normal + damping);
         friction += 2 * e.compliance_ratio * (slide * slide / stiffness + damping * damping / stiffness);
+        friction += 4 * e.compliance_ratio * e.twisting * e.twisting * radius * normal;
         friction += force * relative * state->step_size;
     }
     return (contact_bounds){
         .force = 2 * force, .damping = 4 * damping * relative * state->step_size, .friction = 2 * friction};
 }
 
-int contact_energy_bits(size_t count)
+int contact_energy_bits(int dimension, size_t count)
 {
     int bits = 0;
-    while (bits < 60 && ((uint64_t)count * 4 >> bits) > 0) bits++;
+    const uint64_t most = (uint64_t)count * (dimension == 3 ? 16 : 4);
+    while (bits < 60 && (most >> bits) > 0) bits++;
     return 62 - bits < SCREE_FIXED_RANGE_BITS ? 62 - bits : SCREE_FIXED_RANGE_BITS;
 }
 

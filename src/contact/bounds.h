@@ -4,9 +4,11 @@
 
 #include "state/state.h"
 
-/// Number of bits that one contribution to the ledger may fill, so that the sum over all contacts fits in 63: a plane
-/// assembly of N bodies has fewer than 3 N contacts and at most 4 N with walls; `count` = N.
-int contact_energy_bits(size_t count);
+/// Number of bits that one contribution to the ledger may fill, so that the sum over all contacts fits in 63. A plane
+/// assembly of `count` bodies has fewer than 3 contacts a body and at most 4 with walls. In space the mean coordination
+/// of spheres is below 8 + 4 sqrt(3) = 14.93 (Kuperberg and Schramm 1994), that is 7.5 contacts a body; 16 leave room
+/// for indentations and walls.
+int contact_energy_bits(int dimension, size_t count);
 
 typedef struct contact_bounds {
     double force;    ///< N

@@ -6,31 +6,78 @@
 #include "contact/job.h"
 #include "contact/laws.h"
 
+/// A vector in quanta; one component or two are zero where there are fewer (vector.h).
+typedef struct quanta {
+    lanes_bits x, y, z;
+} quanta;
+
 /// Contributions of one contact a lane, in quanta. The force on second is the opposite of that on first.
 typedef struct contact_quanta {
-    lanes_bits fx, fy, torque_first, torque_second;
+    quanta force, torque_first, torque_second;
     lanes_bits count;                        ///< 1 where touching
     lanes_bits damping, friction, stiffness; ///< zero without a ledger
     lanes_bits in_range;                     ///< mask: the force is a number below the limit
-    lanes_bits normal, tangential;           ///< the same force along n and t
+    lanes_bits normal;                       ///< the same force along n
+    quanta tangential;                       ///< and in the tangent plane (2D: along t)
 } contact_quanta;
 
-SCREE_INLINE contact_quanta contact_evaluate(scree_law law, bool ledger, const law_constants *constants,
-                                             const law_settings *settings, const contact_scale *scale, const motion *m,
-                                             lanes_bits touching, const law_memory *before, law_memory *after)
+SCREE_INLINE quanta quanta_of(int count, vector v, double inverse_quantum)
 {
-    law_force f = law_evaluate(law, constants, settings, m, touching, before, after);
+    const lanes_bits none = lanes_as_bits(lanes_all(0));
+    quanta q = {lanes_fixed(v.x, inverse_quantum), none, none};
+    if (count > 1) q.y = lanes_fixed(v.y, inverse_quantum);
+    if (count > 2) q.z = lanes_fixed(v.z, inverse_quantum);
+    return q;
+}
+
+SCREE_INLINE quanta quanta_sum(quanta a, quanta b)
+{
+    return (quanta){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+SCREE_INLINE quanta quanta_opposite(quanta a)
+{
+    return (quanta){-a.x, -a.y, -a.z};
+}
+
+/// f_n n + f_t.
+SCREE_INLINE vector force_on_first(int dimension, const law_force *f, vector n)
+{
+    if (dimension == 2)
+        return (vector){.x = f->normal * n.x - f->tangential.x * n.y, .y = f->normal * n.y + f->tangential.x * n.x};
+    return vector_plus(3, vector_times(3, n, f->normal), f->tangential);
+}
+
+/// -a n x f_t, for both bodies.
+SCREE_INLINE quanta torque_on(int dimension, vector moment, lanes arm, const contact_scale *scale)
+{
+    const int count = tangential_count(dimension);
+    return quanta_of(count, vector_times(count, moment, -arm), scale->inverse_torque);
+}
+
+SCREE_INLINE contact_quanta contact_evaluate(variant v, const law_constants *constants, const law_settings *settings,
+                                             const contact_scale *scale, const motion *m, lanes_bits touching,
+                                             const law_memory *before, law_memory *after)
+{
+    const int dimension = v.dimension, count = tangential_count(dimension);
+    law_force f = law_evaluate(v, constants, settings, m, touching, before, after);
+    law_forget(v, after);
+    vector moment = moment_of(dimension, m->normal, f.tangential);
     contact_quanta q = {
-        .fx = lanes_fixed(f.normal * m->normal_x - f.tangential * m->normal_y, scale->inverse_force),
-        .fy = lanes_fixed(f.normal * m->normal_y + f.tangential * m->normal_x, scale->inverse_force),
-        .torque_first = lanes_fixed(-(m->arm_first * f.tangential), scale->inverse_torque),
-        .torque_second = lanes_fixed(-(m->arm_second * f.tangential), scale->inverse_torque),
+        .force = quanta_of(dimension, force_on_first(dimension, &f, m->normal), scale->inverse_force),
+        .torque_first = torque_on(dimension, moment, m->arm_first, scale),
+        .torque_second = torque_on(dimension, moment, m->arm_second, scale),
         .count = -touching,
         .normal = lanes_fixed(f.normal, scale->inverse_force),
-        .tangential = lanes_fixed(f.tangential, scale->inverse_force),
-        .in_range = lanes_at_or_below(f.normal + lanes_abs(f.tangential), lanes_all(scale->force_limit)),
+        .tangential = quanta_of(count, f.tangential, scale->inverse_force),
+        .in_range = lanes_at_or_below(f.normal + vector_extent(count, f.tangential), lanes_all(scale->force_limit)),
     };
-    if (ledger) {
+    if (v.rolling) {
+        quanta couple = quanta_of(count, f.couple, scale->inverse_torque);
+        q.torque_first = quanta_sum(q.torque_first, couple);
+        q.torque_second = quanta_sum(q.torque_second, quanta_opposite(couple));
+    }
+    if (v.ledger) {
         q.damping = lanes_fixed(f.damping, scale->inverse_damping);
         q.friction = lanes_fixed(f.friction, scale->inverse_friction);
         q.stiffness = lanes_fixed(f.stiffness, scale->inverse_friction);

@@ -20,8 +20,11 @@ static void lower(uint64_t *least, uint64_t id)
 static void check_rows(const scree_state *state, faults *f)
 {
     for (size_t k = 0; k < state->count; k++) {
-        const scree_row *row = &state->row[k];
-        double sum = row->x + row->y + row->vx + row->vy + row->spin;
+        scree_vector place, velocity, spin;
+        double sum = 0;
+        scree_body_place(state, k, place);
+        scree_body_motion(state, k, velocity, spin);
+        for (int i = 0; i < 3; i++) sum += place[i] + velocity[i] + spin[i];
         if (!isfinite(sum)) lower(&f->not_finite, state->id[k]);
     }
 }
@@ -40,15 +43,19 @@ void contact_find_faults(const scree_model *model, const scree_state *state, scr
     check_rows(state, &f);
     const scree_pair_list *pairs = &work->pairs;
     for (size_t p = 0; p < pairs->count; p++) {
-        const scree_row *first = &state->row[pairs->first[p]], *second = &state->row[pairs->second[p]];
-        if (contact_of_pair(model, first, second, &pairs->history[p], &c))
-            check_contact(&c, limit * fmin(first->radius, second->radius), force_limit, state->id[pairs->first[p]], &f);
+        contact_body first = contact_body_get(state, pairs->first[p]),
+                     second = contact_body_get(state, pairs->second[p]);
+        memory_rows memory = contact_memory_of(work, false, p);
+        double radius = fmin(first.row.radius, second.row.radius);
+        if (contact_of_pair(model, state->dimension, &first, &second, &memory, &c))
+            check_contact(&c, limit * radius, force_limit, state->id[pairs->first[p]], &f);
     }
     const scree_wall_pair_list *walls = &work->wall_pairs;
     for (size_t p = 0; p < walls->count; p++) {
-        const scree_row *body = &state->row[walls->body[p]];
-        if (contact_of_wall(model, body, &state->wall[walls->wall[p]], &walls->history[p], &c))
-            check_contact(&c, limit * body->radius, force_limit, state->id[walls->body[p]], &f);
+        contact_body body = contact_body_get(state, walls->body[p]);
+        memory_rows memory = contact_memory_of(work, true, p);
+        if (contact_of_wall(model, state->dimension, &body, &state->wall[walls->wall[p]], &memory, &c))
+            check_contact(&c, limit * body.row.radius, force_limit, state->id[walls->body[p]], &f);
     }
 
     uint64_t id = f.not_finite < UINT64_MAX ? f.not_finite : f.overlap < UINT64_MAX ? f.overlap : f.force;

@@ -18,29 +18,40 @@ int scree_contact_instruction_set(int wanted)
     return wanted > 0 && wanted < best ? wanted : best;
 }
 
-static contact_kernel *choose_kernel(int wanted)
+static contact_kernel *choose_kernel(int dimension, int wanted)
 {
 #if defined(__x86_64__)
-    static contact_kernel *const table[] = {
-        [2] = scree_pairs_batch_v2, [3] = scree_pairs_batch_v3, [4] = scree_pairs_batch_v4};
+    static contact_kernel *const plane[] = {
+        [2] = scree_plane_pairs_v2, [3] = scree_plane_pairs_v3, [4] = scree_plane_pairs_v4};
+    static contact_kernel *const solid[] = {
+        [2] = scree_solid_pairs_v2, [3] = scree_solid_pairs_v3, [4] = scree_solid_pairs_v4};
 #else
-    static contact_kernel *const table[] = {scree_pairs_batch_v0};
+    static contact_kernel *const plane[] = {scree_plane_pairs_v0}, *const solid[] = {scree_solid_pairs_v0};
 #endif
-    return table[scree_contact_instruction_set(wanted)];
+    return (dimension == 3 ? solid : plane)[scree_contact_instruction_set(wanted)];
 }
 
 /// What all parts of an evaluation share.
 static contact_job describe_job(const scree_model *model, const scree_state *state, const scree_work *work)
 {
     contact_bounds bounds = contact_bounds_get(model, state);
-    double room = ldexp(1.0, SCREE_FIXED_RANGE_BITS - contact_energy_bits(state->count));
+    double room = ldexp(1.0, SCREE_FIXED_RANGE_BITS - contact_energy_bits(state->dimension, state->count));
     return (contact_job){
         .model = model,
+        .variant = {.dimension = state->dimension,
+                    .law = model->law,
+                    .many_materials = model->material_count > 1,
+                    .ledger = work->ledger,
+                    .rolling = model->rolling},
         .row = state->row,
+        .turn = state->turn,
         .sum = state->sum,
+        .torque = state->torque,
         .first = work->pairs.first,
         .second = work->pairs.second,
         .history = work->pairs.history,
+        .booking = work->pairs.booking,
+        .rolling = work->pairs.rolling,
         .near = work->pairs.touching_count,
         .touching_end = work->pairs.touching_count,
         .near_begin = work->pairs.touching_count,
@@ -51,15 +62,14 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
                   .inverse_damping = 1 / (scree_fixed_quantum(bounds.damping) * room),
                   .inverse_friction = 1 / (scree_fixed_quantum(bounds.friction) * room),
                   .force_limit = ldexp(state->force_quantum, SCREE_FIXED_RANGE_BITS)},
-        .ledger = work->ledger,
     };
 }
 
 static contact_totals evaluate_serially(contact_job *job, scree_state *state, const scree_work *work)
 {
-    if (state->count > 0) memset(state->sum, 0, scree_row_count(state, work) * sizeof *state->sum);
+    contact_clear_rows(state, 0, scree_row_count(state, work));
     contact_pairs_reference(job);
-    contact_walls(job, state->sum, state->wall, &work->wall_pairs, 0, state->count);
+    contact_walls(job, state->wall, &work->wall_pairs, 0, state->count);
     return job->totals;
 }
 
@@ -72,8 +82,20 @@ static void prepare_part(contact_part *part, const contact_job *common, uint8_t 
     job.near_begin = part->job.near_begin;
     job.near_end = part->job.near_end;
     job.near_touched = near_touched;
-    job.sum = contact_part_clear(part, state);
+    contact_part_clear(part, state, &job);
     part->job = job;
+}
+
+/// Makes a range of rows whole, and adds the wall contacts of its bodies.
+static void finish_part(const contact_scratch *scratch, int k, scree_state *state, const scree_work *work)
+{
+    contact_job *job = &scratch->part[k].job;
+    size_t begin, end;
+    contact_merge_range(scratch, scratch->rows, k, &begin, &end);
+    contact_merge(scratch, state, begin, end);
+    job->sum = state->sum;
+    job->torque = state->torque;
+    contact_walls(job, state->wall, &work->wall_pairs, begin, end);
 }
 
 static contact_totals evaluate_parts(contact_kernel *kernel, const contact_scratch *scratch, const contact_job *common,
@@ -88,32 +110,37 @@ static contact_totals evaluate_parts(contact_kernel *kernel, const contact_scrat
             kernel(&scratch->part[k].job);
         }
 #pragma omp for schedule(static, 1)
-        for (int k = 0; k < parts; k++) {
-            size_t begin, end;
-            contact_merge_range(scratch, scree_row_count(state, work), k, &begin, &end);
-            contact_merge(scratch, state, begin, end);
-            contact_walls(&scratch->part[k].job, state->sum, state->wall, &work->wall_pairs, begin, end);
-        }
+        for (int k = 0; k < parts; k++) finish_part(scratch, k, state, work);
     }
     contact_totals totals = contact_totals_none();
     for (int k = 0; k < parts; k++) contact_totals_add(&totals, &scratch->part[k].job.totals);
     return totals;
 }
 
+/// Tangential force on wall `w` [N].
+static void shear_of(const scree_state *state, const contact_totals *totals, int w, scree_vector shear)
+{
+    const double *normal = state->wall[w].normal;
+    for (int k = 0; k < 3; k++) shear[k] = scree_fixed_to((int64_t)totals->wall_shear[w][k], state->force_quantum);
+    if (state->dimension == 3) return;
+    double along = shear[0];
+    shear[0] = along * -normal[1];
+    shear[1] = along * normal[0];
+}
+
 /// Forces on the walls, and the work they did on the bodies in this step (see motion.h for the trapezoid).
 static double settle_walls(scree_state *state, const contact_totals *totals)
 {
     double work = 0;
-    for (int k = 0; k < SCREE_WALL_COUNT; k++) {
-        scree_wall *wall = &state->wall[k];
-        double force = scree_fixed_to((int64_t)totals->wall_force[k], state->force_quantum);
-        double shear = scree_fixed_to((int64_t)totals->wall_shear[k], state->force_quantum);
-        const double tangent[2] = {-wall->normal[1], wall->normal[0]};
+    for (int w = 0; w < SCREE_WALL_COUNT; w++) {
+        scree_wall *wall = &state->wall[w];
+        double force = scree_fixed_to((int64_t)totals->wall_force[w], state->force_quantum);
+        scree_vector shear;
+        shear_of(state, totals, w, shear);
         work += 0.5 * state->step_size * (force + wall->force) * wall->velocity;
-        for (int i = 0; i < 2; i++) {
-            double now = shear * tangent[i];
-            work -= 0.5 * state->step_size * (now + wall->shear[i]) * wall->tangential_velocity[i];
-            wall->shear[i] = now;
+        for (int k = 0; k < state->dimension; k++) {
+            work -= 0.5 * state->step_size * (shear[k] + wall->shear[k]) * wall->tangential_velocity[k];
+            wall->shear[k] = shear[k];
         }
         wall->force = force;
     }
@@ -134,8 +161,8 @@ static void settle_ledger(scree_ledger *ledger, const contact_totals *totals, co
 void scree_contact_forces(const scree_model *model, scree_state *state, scree_work *work)
 {
     contact_job job = describe_job(model, state, work);
-    contact_kernel *kernel = work->reference_kernel ? NULL : choose_kernel(work->instruction_set);
-    contact_scratch *scratch = kernel ? contact_scratch_refresh(work, scree_row_count(state, work)) : NULL;
+    contact_kernel *kernel = work->reference_kernel ? NULL : choose_kernel(state->dimension, work->instruction_set);
+    contact_scratch *scratch = kernel ? contact_scratch_refresh(work, state) : NULL;
     contact_totals totals =
         scratch ? evaluate_parts(kernel, scratch, &job, state, work) : evaluate_serially(&job, state, work);
 

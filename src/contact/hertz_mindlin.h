@@ -1,32 +1,109 @@
 /// Law hertz_mindlin: Hertz's normal force, Mindlin's tangential spring with history, Coulomb's cap, damping from the
 /// coefficient of restitution (Hertz 1882; Mindlin 1949; Tsuji, Tanaka and Ishida 1992; displacement history without
-/// rescaling).
+/// rescaling), and resistance to rolling and twisting where materials have it (Luding 2008; Marshall 2009).
 ///   a = sqrt(R_eff d)   k_n = normal_stiffness a   eta = damping sqrt(m_eff k_n)   f_n = max(k_n d + eta d', 0)
-///   k_t = tangential_stiffness a   h <- h + s dt, |k_t h| <= mu f_n   f_t = -(k_t h + eta s), |f_t| <= mu f_n
-/// The spring alone is kept in the history and capped, then the sum with the dashpot: a sliding spring stretches no
-/// further. LAMMPS' `pair granular hertz/material, tangential mindlin, damping tsuji` differs in sliding contacts only:
-/// there the spring is set to mu f_n - eta s, which in a fast slide stretches it backwards and charges it with energy
-/// that no body has spent.
+///   k_t = tangential_stiffness a
+///   slip      stretch h [m], rate s, stiffness k_t, dashpot eta, cap mu f_n:                       force f_t
+///   rolling   stretch [m], rate R_eff (w_first - w_second) x n, k_t, eta, cap mu_r f_n: F_r, torque R_eff n x F_r
+///   twisting  angle [rad], rate (w_first - w_second) . n, k_t a^2 / 2, eta a^2 / 2, cap mu_tw R_eff f_n: torque along
+///   n
+/// each a spring with a slider and a dashpot (slider.h). Twisting is that of two plane surfaces of radius a that stick
+/// (Marshall 2009, whose cap is 2/3 a mu f_n; here its own coefficient, as for rolling). The couples on the two bodies
+/// are opposite.
 ///
-/// History row: h [m], and at n - 1 for the ledger: spring force k_t h, normal damping force, dashpot's part of the
-/// tangential force [N].
+/// LAMMPS' `pair granular hertz/material, tangential mindlin, damping tsuji` differs in sliding contacts: there the
+/// spring is set to mu f_n - eta s, which in a fast slide stretches it backwards and charges it with energy that no
+/// body has spent. It also leaves out that the spring turns with the pair about n.
 ///
-/// Ledger, with middle increments delta and sigma (motion.h) and mean forces <f> = (f(n-1) + f(n))/2:
-///   damping    <f_n - k_n d> delta + <f_t - k_t h> sigma
-///   friction   <k_t h> (s dt - (h(n) - h(n-1)))           zero while the contact sticks
-///   stiffness  1/2 (k_t(n) - k_t(n-1)) h(n) h(n-1) - <k_t h> (sigma - s dt)
-/// The work done on the spring, <k_t h> sigma, minus the change of its energy 1/2 k_t h^2 is friction - stiffness,
-/// exactly. Where a contact has opened, forces and h at n are zero: the same lines book what the spring still held as
-/// friction.
-/// Cost: 3 roots, 3 divisions a contact.
+/// In space the stretch is kept in the axes of space and brought into the present tangent plane in each step, with its
+/// length (motion_carry_whole): what the rotation of n leaves out is of second order in the angle of one step, and only
+/// concerns the direction. Two bodies that turn at different rates about n take the spring along at the mean.
+///
+/// History row in 2D: h [m], and at n - 1 for the ledger: spring force k_t h, normal damping force, dashpot's part of
+/// the tangential force [N]. In 3D: h and k_t(n - 1) [N/m]; scree_booking has the normal damping force and the
+/// dashpot's part. scree_rolling: 2D rolling stretch and its spring force, 3D rolling stretch and angle of twist;
+/// their dashpots booked beside.
+///
+/// Ledger, with the middle increment delta (motion.h): damping <f_n - k_n d> delta, the rest by slider.h.
+/// Cost: 3 roots, 3 divisions a contact in 2D, 6 and 6 in 3D; rolling and twisting 3 and 5 more.
 #ifndef SCREE_CONTACT_HERTZ_MINDLIN_H
 #define SCREE_CONTACT_HERTZ_MINDLIN_H
 
 #include "contact/law.h"
+#include "contact/slider.h"
 
-SCREE_INLINE law_force hertz_mindlin(const law_constants *constants, const law_settings *settings, const motion *m,
-                                     lanes_bits touching, const law_memory *before, law_memory *after)
+/// Three values of a row, one after the other.
+SCREE_INLINE vector row_vector(const lanes value[3])
 {
+    return (vector){value[0], value[1], value[2]};
+}
+
+SCREE_INLINE slider_memory remembered_slip(int dimension, const motion *m, const law_memory *before)
+{
+    if (dimension == 2)
+        return (slider_memory){{.x = before->value[0]}, {.x = before->value[1]}, {.x = before->value[3]}};
+    vector stretch = motion_carry_whole(3, m, row_vector(before->value));
+    return (slider_memory){stretch, vector_times(3, stretch, before->value[3]),
+                           motion_carry(3, m, row_vector(before->booked + 1))};
+}
+
+SCREE_INLINE slider_memory remembered_roll(int dimension, const motion *m, const law_memory *before)
+{
+    if (dimension == 2)
+        return (slider_memory){{.x = before->rolling[0]}, {.x = before->rolling[1]}, {.x = before->rolling_booked[0]}};
+    vector stretch = motion_carry_whole(3, m, row_vector(before->rolling));
+    return (slider_memory){stretch, vector_times(3, stretch, before->value[3]),
+                           motion_carry(3, m, row_vector(before->rolling_booked))};
+}
+
+/// Adds a slider's energies to those of the contact.
+SCREE_INLINE void book_slider(law_force *f, const slider *s)
+{
+    f->damping += s->damping;
+    f->friction += s->friction;
+    f->stiffness += s->stiffness;
+    f->elastic_tangential += s->elastic;
+}
+
+/// Couple and energies of rolling and twisting resistance.
+SCREE_INLINE void resist_turning(int dimension, const law_constants *constants, const motion *m, double step,
+                                 lanes tangential_stiffness, lanes eta, lanes normal, lanes_bits touching,
+                                 const law_memory *before, law_memory *after, law_force *f)
+{
+    const int count = tangential_count(dimension);
+    slider_memory rolled = remembered_roll(dimension, m, before);
+    slider_motion move = {m->roll, m->rolled, step};
+    slider roll =
+        slider_move(count, &rolled, &move, tangential_stiffness, eta, constants->rolling_friction * normal, touching);
+    f->couple = vector_times(count, moment_of(dimension, m->normal, roll.resistance), -m->reduced_radius);
+    book_slider(f, &roll);
+    if (dimension == 2) {
+        after->rolling[0] = roll.now.stretch.x;
+        after->rolling[1] = roll.now.spring.x;
+        after->rolling_booked[0] = roll.now.dashpot.x;
+        return;
+    }
+    // a^2 / 2 at n - 1 from k_t = tangential_stiffness a.
+    lanes radius = tangential_stiffness / constants->tangential_stiffness, half_square = 0.5 * (radius * radius);
+    lanes radius_before = before->value[3] / constants->tangential_stiffness;
+    lanes stiffness_before = before->value[3] * (0.5 * (radius_before * radius_before));
+    slider_memory twisted = {
+        {.x = before->rolling[3]}, {.x = stiffness_before * before->rolling[3]}, {.x = before->rolling_booked[3]}};
+    move = (slider_motion){{.x = m->twist}, {.x = m->twisted}, step};
+    slider twist = slider_move(1, &twisted, &move, tangential_stiffness * half_square, eta * half_square,
+                               constants->twisting_friction * m->reduced_radius * normal, touching);
+    f->couple = vector_minus(3, f->couple, vector_times(3, m->normal, twist.resistance.x));
+    book_slider(f, &twist);
+    vector stretch = roll.now.stretch, dashpot = roll.now.dashpot;
+    lanes *value = after->rolling, *booked = after->rolling_booked;
+    value[0] = stretch.x, value[1] = stretch.y, value[2] = stretch.z, value[3] = twist.now.stretch.x;
+    booked[0] = dashpot.x, booked[1] = dashpot.y, booked[2] = dashpot.z, booked[3] = twist.now.dashpot.x;
+}
+
+SCREE_INLINE law_force hertz_mindlin(variant v, const law_constants *constants, const law_settings *settings,
+                                     const motion *m, lanes_bits touching, const law_memory *before, law_memory *after)
+{
+    const int dimension = v.dimension, count = tangential_count(dimension);
     lanes d = lanes_keep(touching, m->indentation);
     lanes contact_radius = lanes_root(m->reduced_radius * d);
     lanes normal_stiffness = constants->normal_stiffness * contact_radius;
@@ -34,28 +111,34 @@ SCREE_INLINE law_force hertz_mindlin(const law_constants *constants, const law_s
     lanes eta = constants->damping * lanes_root(m->reduced_mass * normal_stiffness);
     lanes elastic = normal_stiffness * d;
     lanes normal = lanes_at_least(elastic + eta * m->approach, lanes_all(0));
+    lanes damping = normal - elastic;
 
-    lanes slip_step = m->slip * settings->step;
-    lanes stretch = before->value[0] + slip_step;
-    lanes trial = tangential_stiffness * stretch, cap = constants->friction * normal;
-    lanes spring = lanes_at_least(lanes_at_most(trial, cap), -cap);
-    lanes resistance = lanes_at_least(lanes_at_most(spring + eta * m->slip, cap), -cap);
-    stretch = lanes_keep(touching, lanes_select(lanes_differ(spring, trial), spring / tangential_stiffness, stretch));
-
-    *after = (law_memory){{stretch, spring, normal - elastic, resistance - spring}};
-    lanes mean_spring = 0.5 * (spring + before->value[1]);
-    lanes mean_damping = 0.5 * (after->value[2] + before->value[2]);
-    lanes mean_dashpot = 0.5 * (after->value[3] + before->value[3]);
-    return (law_force){
+    slider_memory slipped = remembered_slip(dimension, m, before);
+    slider_motion move = {m->slip, m->slipped, settings->step};
+    slider slip =
+        slider_move(count, &slipped, &move, tangential_stiffness, eta, constants->friction * normal, touching);
+    vector stretch = slip.now.stretch, dashpot = slip.now.dashpot;
+    lanes damping_before = before->value[2];
+    *after = (law_memory){.value = {stretch.x, slip.now.spring.x, damping, dashpot.x}};
+    if (dimension == 3) {
+        damping_before = before->booked[0];
+        *after = (law_memory){.value = {stretch.x, stretch.y, stretch.z, tangential_stiffness},
+                              .booked = {damping, dashpot.x, dashpot.y, dashpot.z}};
+    }
+    law_force f = {
         .normal = normal,
-        .tangential = -resistance,
-        .damping = mean_damping * m->approached + mean_dashpot * m->slipped,
-        .friction = mean_spring * (slip_step - (stretch - before->value[0])),
-        .stiffness =
-            0.5 * (spring * before->value[0] - before->value[1] * stretch) - mean_spring * (m->slipped - slip_step),
+        .tangential = vector_times(count, slip.resistance, lanes_all(-1)),
+        .couple = vector_none(),
+        .damping = 0.5 * (damping + damping_before) * m->approached + slip.damping,
+        .friction = slip.friction,
+        .stiffness = slip.stiffness,
         .elastic_normal = 0.4 * (elastic * d),
-        .elastic_tangential = 0.5 * (spring * stretch),
+        .elastic_tangential = slip.elastic,
     };
+    if (v.rolling)
+        resist_turning(dimension, constants, m, settings->step, tangential_stiffness, eta, normal, touching, before,
+                       after, &f);
+    return f;
 }
 
 #endif

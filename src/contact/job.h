@@ -1,6 +1,6 @@
 /// One thread's share of a force evaluation: what a kernel reads and what it gives back. Between contact/forces.c,
-/// which cuts the work, and the kernels (scree_pairs_batch_vN: one compilation of pairs_batch.c for each instruction
-/// set).
+/// which cuts the work, and the kernels (scree_plane_pairs_vN and scree_solid_pairs_vN for two and three dimensions:
+/// one compilation of their files for each instruction set).
 #ifndef SCREE_CONTACT_JOB_H
 #define SCREE_CONTACT_JOB_H
 
@@ -14,29 +14,35 @@ typedef struct contact_scale {
 } contact_scale;
 
 typedef struct contact_totals {
-    uint64_t damping, friction, stiffness; ///< energy quanta, two's complement
-    double largest_overlap;                ///< m
-    bool in_range;                         ///< no force is NaN or above the limit of the quanta
-    uint64_t wall_force[SCREE_WALL_COUNT], wall_shear[SCREE_WALL_COUNT]; ///< the same in force quanta, by the bodies
+    uint64_t damping, friction, stiffness;    ///< energy quanta, two's complement
+    double largest_overlap;                   ///< m
+    bool in_range;                            ///< no force is NaN or above the limit of the quanta
+    uint64_t wall_force[SCREE_WALL_COUNT];    ///< force quanta, normal, by the bodies
+    uint64_t wall_shear[SCREE_WALL_COUNT][3]; ///< the same in the plane of the wall; 2D: the first, along t
 } contact_totals;
 
 typedef struct contact_job {
     const scree_model *model;
+    variant variant;
     const scree_row *row;
+    const scree_turn_row *turn;     ///< 3D
     scree_sum_row *sum;             ///< the sum of row r is sum[r]; this thread's own
+    scree_torque_row *torque;       ///< 3D, in the same way
     const uint32_t *first, *second; ///< the whole pair list
     scree_history *history;
+    scree_booking *booking;              ///< with law_books
+    scree_rolling *rolling;              ///< with variant.rolling
     size_t near;                         ///< number of the first near pair; touching pairs come before it
     size_t touching_begin, touching_end; ///< pairs of this job
     size_t near_begin, near_end;         ///< near pairs of this job; near_begin - near is a multiple of 8
     uint8_t *near_touched;               ///< one bit a near pair: it touched in the last evaluation
     law_settings settings;
     contact_scale scale;
-    bool ledger;
     contact_totals totals; ///< out
 } contact_job;
 
 typedef void contact_kernel(contact_job *job);
-contact_kernel scree_pairs_batch_v0, scree_pairs_batch_v2, scree_pairs_batch_v3, scree_pairs_batch_v4;
+contact_kernel scree_plane_pairs_v0, scree_plane_pairs_v2, scree_plane_pairs_v3, scree_plane_pairs_v4;
+contact_kernel scree_solid_pairs_v0, scree_solid_pairs_v2, scree_solid_pairs_v3, scree_solid_pairs_v4;
 
 #endif

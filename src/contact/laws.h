@@ -17,16 +17,34 @@ SCREE_INLINE law_settings law_settings_get(const scree_model *model, double step
 }
 
 /// Whether the law reads and writes history rows.
-SCREE_INLINE bool law_remembers(scree_law law, bool ledger)
+SCREE_INLINE bool law_remembers(variant v)
 {
-    return ledger || law == SCREE_LAW_HERTZ_MINDLIN;
+    return v.ledger || v.law == SCREE_LAW_HERTZ_MINDLIN;
 }
 
-SCREE_INLINE law_force law_evaluate(scree_law law, const law_constants *constants, const law_settings *settings,
+/// Whether it reads and writes booking rows.
+SCREE_INLINE bool law_books(variant v)
+{
+    return v.ledger && v.dimension == 3 && v.law == SCREE_LAW_HERTZ_MINDLIN;
+}
+
+/// Without a ledger, what only the ledger needs is not kept, so that histories do not depend on it.
+SCREE_INLINE void law_forget(variant v, law_memory *after)
+{
+    if (v.ledger) return;
+    const lanes none = lanes_all(0);
+    if (v.dimension == 2) after->value[1] = after->value[2] = none;
+    after->value[3] = none;
+    if (!v.rolling) return;
+    if (v.dimension == 2) after->rolling[1] = none;
+    for (int k = 0; k < 4; k++) after->rolling_booked[k] = none;
+}
+
+SCREE_INLINE law_force law_evaluate(variant v, const law_constants *constants, const law_settings *settings,
                                     const motion *m, lanes_bits touching, const law_memory *before, law_memory *after)
 {
-    if (law == SCREE_LAW_HERTZ_MINDLIN) return hertz_mindlin(constants, settings, m, touching, before, after);
-    return hertz_brilliantov(constants, settings, m, touching, before, after);
+    if (v.law == SCREE_LAW_HERTZ_MINDLIN) return hertz_mindlin(v, constants, settings, m, touching, before, after);
+    return hertz_brilliantov(v, constants, settings, m, touching, before, after);
 }
 
 #endif

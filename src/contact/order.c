@@ -10,12 +10,12 @@ static bool reference_get(const scree_state *state, const scree_work *work, size
     if (k < pairs->count) {
         uint32_t a = pairs->first[k], b = pairs->second[k];
         *r = (contact_reference){state->id[a], state->id[b], (uint32_t)k};
-        return pair_touches(&state->row[a], &state->row[b]);
+        return pair_touches(state->dimension, &state->row[a], &state->row[b]);
     }
     k -= pairs->count;
     uint32_t body = work->wall_pairs.body[k], wall = work->wall_pairs.wall[k];
     *r = (contact_reference){state->id[body], SCREE_WALL_ID + wall, (uint32_t)k};
-    return wall_touches(&state->row[body], &state->wall[wall]);
+    return wall_touches(state->dimension, &state->row[body], &state->wall[wall]);
 }
 
 /// Puts list[k] in its place among list[begin .. k - 1], which are in order.

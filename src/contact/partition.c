@@ -7,7 +7,10 @@
 
 static void release_parts(contact_scratch *scratch)
 {
-    for (int k = 0; k < scratch->part_capacity; k++) scree_release(&scratch->part[k].buffer);
+    for (int k = 0; k < scratch->part_capacity; k++) {
+        scree_release(&scratch->part[k].buffer);
+        scree_release(&scratch->part[k].torque);
+    }
     scree_release(&scratch->part);
     scratch->part_count = scratch->part_capacity = 0;
 }
@@ -33,9 +36,10 @@ static scree_status mark_near(contact_scratch *scratch, const scree_pair_list *p
         scratch->near_capacity = bytes + bytes / 4;
     }
     if (bytes > 0) memset(scratch->near_touched, 0, bytes);
-    for (size_t k = 0; k < near; k++)
-        if (!history_is_clear(&pairs->history[pairs->touching_count + k]))
-            scratch->near_touched[k / 8] |= (uint8_t)(1U << k % 8);
+    for (size_t k = 0; k < near; k++) {
+        memory_rows rows = memory_rows_at(pairs->history, pairs->booking, pairs->rolling, pairs->touching_count + k);
+        if (!memory_is_clear(&rows)) scratch->near_touched[k / 8] |= (uint8_t)(1U << k % 8);
+    }
     return SCREE_OK;
 }
 
@@ -56,7 +60,7 @@ static size_t share(size_t count, int k, int parts)
     return k == parts ? count : count / (size_t)parts * (size_t)k / 8 * 8;
 }
 
-static scree_status cut_part(contact_scratch *scratch, const scree_pair_list *pairs, size_t rows, int k)
+static scree_status cut_part(contact_scratch *scratch, const scree_pair_list *pairs, bool solid, size_t rows, int k)
 {
     contact_part *part = &scratch->part[k];
     size_t touching = pairs->touching_count, near = pairs->count - touching;
@@ -77,13 +81,15 @@ static scree_status cut_part(contact_scratch *scratch, const scree_pair_list *pa
     size_t window = part->high - part->low;
     if (k == 0 || window <= part->capacity) return SCREE_OK;
     scree_release(&part->buffer);
+    scree_release(&part->torque);
     part->capacity = 0;
     scree_status status = scree_allocate(&part->buffer, window, sizeof *part->buffer, NULL);
+    if (!status && solid) status = scree_allocate(&part->torque, window, sizeof *part->torque, NULL);
     if (!status) part->capacity = window;
     return status;
 }
 
-static scree_status cut(contact_scratch *scratch, const scree_work *work, size_t rows)
+static scree_status cut(contact_scratch *scratch, const scree_work *work, const scree_state *state)
 {
     int parts = work->threads > 1 ? work->threads : 1;
     if (parts > scratch->part_capacity) {
@@ -94,7 +100,8 @@ static scree_status cut(contact_scratch *scratch, const scree_work *work, size_t
     }
     scratch->part_count = parts;
     scree_status status = mark_near(scratch, &work->pairs);
-    for (int k = 0; k < parts && !status; k++) status = cut_part(scratch, &work->pairs, rows, k);
+    for (int k = 0; k < parts && !status; k++)
+        status = cut_part(scratch, &work->pairs, state->dimension == 3, scree_row_count(state, work), k);
     return status;
 }
 
@@ -105,15 +112,15 @@ static bool is_current(const contact_scratch *scratch, const scree_work *work, s
            scratch->threads == work->threads && scratch->rows == rows;
 }
 
-contact_scratch *contact_scratch_refresh(scree_work *work, size_t rows)
+contact_scratch *contact_scratch_refresh(scree_work *work, const scree_state *state)
 {
     contact_scratch *scratch = work->contact_scratch;
-    if (scratch && is_current(scratch, work, rows)) return scratch;
+    if (scratch && is_current(scratch, work, scree_row_count(state, work))) return scratch;
     if (!scratch) {
         if (scree_allocate(&scratch, 1, sizeof *scratch, NULL)) return NULL;
         work->contact_scratch = scratch;
     }
-    if (cut(scratch, work, rows)) {
+    if (cut(scratch, work, state)) {
         scree_contact_scratch_destroy(work);
         return NULL;
     }
@@ -122,17 +129,33 @@ contact_scratch *contact_scratch_refresh(scree_work *work, size_t rows)
     scratch->count = work->pairs.count;
     scratch->touching_count = work->pairs.touching_count;
     scratch->threads = work->threads;
-    scratch->rows = rows;
+    scratch->rows = scree_row_count(state, work);
     return scratch;
 }
 
-scree_sum_row *contact_part_clear(contact_part *part, scree_state *state)
+/// The base from which the rows of a window are counted; it lies before a buffer, which as an integer it may.
+#define WINDOW_BASE(window, low) ((void *)((uintptr_t)(window) - (low) * sizeof *(window)))
+
+void contact_clear_rows(scree_state *state, size_t begin, size_t end)
 {
+    if (begin >= end) return;
+    memset(state->sum + begin, 0, (end - begin) * sizeof *state->sum);
+    if (state->torque) memset(state->torque + begin, 0, (end - begin) * sizeof *state->torque);
+}
+
+void contact_part_clear(contact_part *part, scree_state *state, contact_job *job)
+{
+    job->sum = state->sum;
+    job->torque = state->torque;
+    if (!part->buffer) {
+        contact_clear_rows(state, part->low, part->high);
+        return;
+    }
     size_t rows = part->high - part->low;
-    scree_sum_row *window = part->buffer ? part->buffer : state->sum + part->low;
-    if (rows > 0) memset(window, 0, rows * sizeof *window);
-    // The base from which the rows of the window are counted lies before the buffer; as an integer it may.
-    return (scree_sum_row *)((uintptr_t)window - part->low * sizeof *window);
+    if (rows > 0) memset(part->buffer, 0, rows * sizeof *part->buffer);
+    if (rows > 0 && part->torque) memset(part->torque, 0, rows * sizeof *part->torque);
+    job->sum = WINDOW_BASE(part->buffer, part->low);
+    if (part->torque) job->torque = WINDOW_BASE(part->torque, part->low);
 }
 
 void contact_merge_range(const contact_scratch *scratch, size_t rows, int index, size_t *begin, size_t *end)
@@ -141,23 +164,23 @@ void contact_merge_range(const contact_scratch *scratch, size_t rows, int index,
     *end = rows * (size_t)(index + 1) / (size_t)scratch->part_count;
 }
 
-static void clear_rows(scree_state *state, size_t begin, size_t end)
+static void add_buffer(const contact_part *part, scree_state *state, size_t begin, size_t end)
 {
-    if (begin < end) memset(state->sum + begin, 0, (end - begin) * sizeof *state->sum);
+    size_t from = begin > part->low ? begin : part->low, to = end < part->high ? end : part->high;
+    for (size_t row = from; row < to; row++) {
+        const scree_sum_row *more = &part->buffer[row - part->low];
+        sum_row_add(&state->sum[row], (uint64_t)more->fx, (uint64_t)more->fy, (uint64_t)more->fz,
+                    (uint64_t)more->contacts);
+        if (!part->torque) continue;
+        const scree_torque_row *torque = &part->torque[row - part->low];
+        torque_row_add(&state->torque[row], (uint64_t)torque->x, (uint64_t)torque->y, (uint64_t)torque->z);
+    }
 }
 
 void contact_merge(const contact_scratch *scratch, scree_state *state, size_t begin, size_t end)
 {
     const contact_part *own = &scratch->part[0];
-    clear_rows(state, begin, end < own->low ? end : own->low);
-    clear_rows(state, begin > own->high ? begin : own->high, end);
-    for (int k = 1; k < scratch->part_count; k++) {
-        const contact_part *part = &scratch->part[k];
-        size_t from = begin > part->low ? begin : part->low, to = end < part->high ? end : part->high;
-        for (size_t row = from; row < to; row++) {
-            const scree_sum_row *more = &part->buffer[row - part->low];
-            sum_row_add(&state->sum[row], (uint64_t)more->fx, (uint64_t)more->fy, (uint64_t)more->torque,
-                        (uint64_t)more->contacts);
-        }
-    }
+    contact_clear_rows(state, begin, end < own->low ? end : own->low);
+    contact_clear_rows(state, begin > own->high ? begin : own->high, end);
+    for (int k = 1; k < scratch->part_count; k++) add_buffer(&scratch->part[k], state, begin, end);
 }

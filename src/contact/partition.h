@@ -12,9 +12,10 @@
 #include "state/work.h"
 
 typedef struct contact_part {
-    contact_job job;       ///< ranges are set here; the rest by each evaluation
-    size_t low, high;      ///< window: rows that its pairs name
-    scree_sum_row *buffer; ///< sums of the window; none for part 0
+    contact_job job;          ///< ranges are set here; the rest by each evaluation
+    size_t low, high;         ///< window: rows that its pairs name
+    scree_sum_row *buffer;    ///< sums of the window; none for part 0
+    scree_torque_row *torque; ///< 3D: torques of the window
     size_t capacity;
 } contact_part;
 
@@ -30,12 +31,14 @@ typedef struct contact_scratch {
     int threads;
 } contact_scratch;
 
-/// The partition of the present list over `rows` bodies, made anew when the list is. NULL when there is no memory for
-/// it.
-contact_scratch *contact_scratch_refresh(scree_work *work, size_t rows);
+/// The partition of the present list, made anew when the list is. NULL when there is no memory for it.
+contact_scratch *contact_scratch_refresh(scree_work *work, const scree_state *state);
 
-/// Before the kernel: clears the sums of the part's window. Returns the base for contact_job.sum.
-scree_sum_row *contact_part_clear(contact_part *part, scree_state *state);
+/// Before the kernel: clears the sums of the part's window, and gives the job their bases.
+void contact_part_clear(contact_part *part, scree_state *state, contact_job *job);
+
+/// Clears state->sum (3D: and state->torque) of the rows [begin, end).
+void contact_clear_rows(scree_state *state, size_t begin, size_t end);
 
 /// Rows that part `index` merges.
 void contact_merge_range(const contact_scratch *scratch, size_t rows, int index, size_t *begin, size_t *end);

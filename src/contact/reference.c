@@ -16,23 +16,21 @@ void contact_totals_add(contact_totals *into, const contact_totals *more)
     into->stiffness += more->stiffness;
     into->largest_overlap = lanes_at_least(into->largest_overlap, more->largest_overlap);
     into->in_range &= more->in_range;
-    for (int k = 0; k < SCREE_WALL_COUNT; k++) {
-        into->wall_force[k] += more->wall_force[k];
-        into->wall_shear[k] += more->wall_shear[k];
+    for (int w = 0; w < SCREE_WALL_COUNT; w++) {
+        into->wall_force[w] += more->wall_force[w];
+        for (int k = 0; k < 3; k++) into->wall_shear[w][k] += more->wall_shear[w][k];
     }
 }
 
-/// Evaluates the law, advances the history row and books energies, overlap and range.
+/// Evaluates the law, advances the memory and books energies, overlap and range.
 static contact_quanta evaluate(contact_job *job, const scree_pair_constants *constants, const motion *m, bool touching,
-                               scree_history *history)
+                               const memory_rows *rows)
 {
-    scree_law law = job->model->law;
+    variant v = job->variant;
     law_constants c = constants_get(constants);
-    law_memory before = memory_get(history), after;
-    contact_quanta q =
-        contact_evaluate(law, job->ledger, &c, &job->settings, &job->scale, m, -(lanes_bits)touching, &before, &after);
-    if (!job->ledger) after.value[1] = after.value[2] = after.value[3] = 0;
-    if (law_remembers(law, job->ledger)) memcpy(history->value, after.value, sizeof after.value);
+    law_memory before = memory_get(v, rows), after;
+    contact_quanta q = contact_evaluate(v, &c, &job->settings, &job->scale, m, -(lanes_bits)touching, &before, &after);
+    memory_set(v, rows, &after);
     contact_totals *totals = &job->totals;
     totals->damping += q.damping;
     totals->friction += q.friction;
@@ -42,18 +40,35 @@ static contact_quanta evaluate(contact_job *job, const scree_pair_constants *con
     return q;
 }
 
+static bodies body_at(const contact_job *job, size_t row)
+{
+    return body_get(job->variant.dimension, &job->row[row], job->turn ? &job->turn[row] : NULL);
+}
+
+/// Adds to the sums of a row, modulo 2^64.
+static void add_to_sums(const contact_job *job, size_t row, quanta force, quanta torque, uint64_t count)
+{
+    if (job->variant.dimension == 2) {
+        sum_row_add(&job->sum[row], force.x, force.y, torque.x, count);
+        return;
+    }
+    sum_row_add(&job->sum[row], force.x, force.y, force.z, count);
+    torque_row_add(&job->torque[row], torque.x, torque.y, torque.z);
+}
+
 static void evaluate_pair(contact_job *job, size_t p)
 {
-    const scree_row *first = &job->row[job->first[p]], *second = &job->row[job->second[p]];
-    scree_history *history = &job->history[p];
-    bool touching = pair_touches(first, second);
-    if (!touching && history_is_clear(history)) return;
-    bodies one = body_get(first), other = body_get(second);
-    motion m = motion_of_pair(&one, &other, job->settings.step);
-    const scree_pair_constants *constants = &job->model->pairs[(int)first->material][(int)second->material];
-    contact_quanta q = evaluate(job, constants, &m, touching, history);
-    sum_row_add(&job->sum[job->first[p]], q.fx, q.fy, q.torque_first, q.count);
-    sum_row_add(&job->sum[job->second[p]], -q.fx, -q.fy, q.torque_second, q.count);
+    const int dimension = job->variant.dimension;
+    const size_t first = job->first[p], second = job->second[p];
+    memory_rows rows = memory_rows_at(job->history, job->booking, job->rolling, p);
+    bool touching = pair_touches(dimension, &job->row[first], &job->row[second]);
+    if (!touching && memory_is_clear(&rows)) return;
+    bodies one = body_at(job, first), other = body_at(job, second);
+    motion m = motion_of_pair(dimension, &one, &other, job->settings.step);
+    const scree_pair_constants *constants = &job->model->pairs[(int)one.material][(int)other.material];
+    contact_quanta q = evaluate(job, constants, &m, touching, &rows);
+    add_to_sums(job, first, q.force, q.torque_first, q.count);
+    add_to_sums(job, second, quanta_opposite(q.force), q.torque_second, q.count);
 }
 
 void contact_pairs_reference(contact_job *job)
@@ -63,22 +78,24 @@ void contact_pairs_reference(contact_job *job)
     for (size_t p = job->near_begin; p < job->near_end; p++) evaluate_pair(job, p);
 }
 
-void contact_walls(contact_job *job, scree_sum_row *sum, const scree_wall *wall, const scree_wall_pair_list *pairs,
-                   size_t row_begin, size_t row_end)
+void contact_walls(contact_job *job, const scree_wall *wall, const scree_wall_pair_list *pairs, size_t row_begin,
+                   size_t row_end)
 {
+    const int dimension = job->variant.dimension;
     for (size_t p = 0; p < pairs->count; p++) {
         size_t row = pairs->body[p];
         if (row < row_begin || row >= row_end) continue;
-        const scree_row *body = &job->row[row];
         uint32_t w = pairs->wall[p];
-        bool touching = wall_touches(body, &wall[w]);
-        if (!touching && history_is_clear(&pairs->history[p])) continue;
-        bodies one = body_get(body);
-        motion m = motion_of_wall(&one, &wall[w], job->settings.step);
-        const scree_pair_constants *constants = &job->model->walls[(int)body->material];
-        contact_quanta q = evaluate(job, constants, &m, touching, &pairs->history[p]);
-        sum_row_add(&sum[row], q.fx, q.fy, q.torque_first, q.count);
+        memory_rows rows = memory_rows_at(pairs->history, pairs->booking, pairs->rolling, p);
+        bool touching = wall_touches(dimension, &job->row[row], &wall[w]);
+        if (!touching && memory_is_clear(&rows)) continue;
+        bodies one = body_at(job, row);
+        motion m = motion_of_wall(dimension, &one, &wall[w], job->settings.step);
+        contact_quanta q = evaluate(job, &job->model->walls[(int)one.material], &m, touching, &rows);
+        add_to_sums(job, row, q.force, q.torque_first, q.count);
         job->totals.wall_force[w] += q.normal;
-        job->totals.wall_shear[w] -= q.tangential;
+        job->totals.wall_shear[w][0] -= q.tangential.x;
+        job->totals.wall_shear[w][1] -= q.tangential.y;
+        job->totals.wall_shear[w][2] -= q.tangential.z;
     }
 }

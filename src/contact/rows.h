@@ -8,6 +8,7 @@
 
 typedef double row4 __attribute__((vector_size(32), aligned(8), may_alias));
 typedef uint64_t row4_bits __attribute__((vector_size(32), aligned(8), may_alias));
+typedef float row4_single __attribute__((vector_size(16), aligned(4), may_alias));
 
 /// The four columns of `SCREE_LANES` rows: lane k of column c is row[k][c].
 typedef struct columns {
@@ -18,9 +19,9 @@ typedef struct columns {
 
 #if SCREE_LANES == 2
 
-SCREE_INLINE columns columns_load(const double *const row[2])
+SCREE_INLINE columns columns_of_rows(const row4 row[2])
 {
-    row4 a = *(const row4 *)row[0], b = *(const row4 *)row[1];
+    row4 a = row[0], b = row[1];
     return (columns){SHUFFLE(a, b, 0, 4), SHUFFLE(a, b, 1, 5), SHUFFLE(a, b, 2, 6), SHUFFLE(a, b, 3, 7)};
 }
 
@@ -42,10 +43,9 @@ SCREE_INLINE columns columns_transpose(lanes a, lanes b, lanes c, lanes d)
                      SHUFFLE(ab_even, cd_even, 2, 3, 6, 7), SHUFFLE(ab_odd, cd_odd, 2, 3, 6, 7)};
 }
 
-SCREE_INLINE columns columns_load(const double *const row[4])
+SCREE_INLINE columns columns_of_rows(const row4 row[4])
 {
-    return columns_transpose(*(const row4 *)row[0], *(const row4 *)row[1], *(const row4 *)row[2],
-                             *(const row4 *)row[3]);
+    return columns_transpose(row[0], row[1], row[2], row[3]);
 }
 
 SCREE_INLINE void columns_to_rows(columns c, row4 row[4])
@@ -57,12 +57,12 @@ SCREE_INLINE void columns_to_rows(columns c, row4 row[4])
 #else
 
 /// Rows a and b side by side.
-SCREE_INLINE lanes row4_join(const double *a, const double *b)
+SCREE_INLINE lanes row4_join(row4 a, row4 b)
 {
-    return SHUFFLE(*(const row4 *)a, *(const row4 *)b, 0, 1, 2, 3, 4, 5, 6, 7);
+    return SHUFFLE(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
-SCREE_INLINE columns columns_load(const double *const row[8])
+SCREE_INLINE columns columns_of_rows(const row4 row[8])
 {
     lanes r02 = row4_join(row[0], row[2]), r13 = row4_join(row[1], row[3]);
     lanes r46 = row4_join(row[4], row[6]), r57 = row4_join(row[5], row[7]);
@@ -87,5 +87,22 @@ SCREE_INLINE void columns_to_rows(columns c, row4 row[8])
 }
 
 #endif
+
+#define LANE_LOOP _Pragma("GCC unroll 8") for (int k = 0; k < SCREE_LANES; k++)
+
+SCREE_INLINE columns columns_load(const double *const place[SCREE_LANES])
+{
+    row4 row[SCREE_LANES];
+    LANE_LOOP row[k] = *(const row4 *)place[k];
+    return columns_of_rows(row);
+}
+
+/// Rows of four single-precision numbers.
+SCREE_INLINE columns columns_load_single(const float *const place[SCREE_LANES])
+{
+    row4 row[SCREE_LANES];
+    LANE_LOOP row[k] = __builtin_convertvector(*(const row4_single *)place[k], row4);
+    return columns_of_rows(row);
+}
 
 #endif

@@ -4,66 +4,125 @@
 
 #include "contact/evaluate.h"
 
-static inline bodies body_get(const scree_row *row)
+/// `turn` is not read in two dimensions.
+static inline bodies body_get(int dimension, const scree_row *row, const scree_turn_row *turn)
 {
-    return (bodies){row->x, row->y, row->material, row->radius, row->vx, row->vy, row->spin, row->mass};
+    bodies body = {.place = {row->x, row->y, 0}, .velocity = {row->vx, row->vy, 0}};
+    body.radius = row->radius;
+    body.mass = row->mass;
+    if (dimension == 2) {
+        body.spin.x = row->spin;
+        body.material = row->material;
+        return body;
+    }
+    body.place.z = row->z;
+    body.velocity.z = row->vz;
+    body.spin = (vector){turn->wx, turn->wy, turn->wz};
+    body.material = turn->material;
+    return body;
 }
 
 static inline law_constants constants_get(const scree_pair_constants *c)
 {
-    return (law_constants){c->normal_stiffness, c->tangential_stiffness, c->friction, c->damping};
+    return (law_constants){c->normal_stiffness, c->tangential_stiffness, c->friction,
+                           c->damping,          c->rolling_friction,     c->twisting_friction};
 }
 
-/// Adds to a sum, modulo 2^64.
-static inline void sum_row_add(scree_sum_row *sum, uint64_t fx, uint64_t fy, uint64_t torque, uint64_t contacts)
+/// Adds to a sum, modulo 2^64; the third is the torque in two dimensions and the force along z in three.
+static inline void sum_row_add(scree_sum_row *sum, uint64_t fx, uint64_t fy, uint64_t third, uint64_t contacts)
 {
     sum->fx = (int64_t)((uint64_t)sum->fx + fx);
     sum->fy = (int64_t)((uint64_t)sum->fy + fy);
-    sum->torque = (int64_t)((uint64_t)sum->torque + torque);
+    sum->fz = (int64_t)((uint64_t)sum->fz + third);
     sum->contacts = (int64_t)((uint64_t)sum->contacts + contacts);
 }
 
-static inline law_memory memory_get(const scree_history *history)
+static inline void torque_row_add(scree_torque_row *sum, uint64_t x, uint64_t y, uint64_t z)
 {
-    law_memory memory;
-    memcpy(memory.value, history->value, sizeof memory.value);
+    sum->x = (int64_t)((uint64_t)sum->x + x);
+    sum->y = (int64_t)((uint64_t)sum->y + y);
+    sum->z = (int64_t)((uint64_t)sum->z + z);
+}
+
+/// What a contact remembers, as rows; those that do not exist are NULL.
+typedef struct memory_rows {
+    scree_history *history;
+    scree_booking *booking;
+    scree_rolling *rolling;
+} memory_rows;
+
+static inline law_memory memory_get(variant v, const memory_rows *rows)
+{
+    law_memory memory = {0};
+    for (int k = 0; k < 4; k++) {
+        memory.value[k] = rows->history->value[k];
+        if (law_books(v)) memory.booked[k] = (double)rows->booking->value[k];
+        if (v.rolling) memory.rolling[k] = rows->rolling->value[k];
+        if (v.rolling) memory.rolling_booked[k] = (double)rows->rolling->booked[k];
+    }
     return memory;
 }
 
-static inline bool history_is_clear(const scree_history *history)
+static inline void memory_set(variant v, const memory_rows *rows, const law_memory *memory)
 {
-    const double *value = history->value;
-    return value[0] == 0 && value[1] == 0 && value[2] == 0 && value[3] == 0;
+    for (int k = 0; k < 4 && law_remembers(v); k++) {
+        rows->history->value[k] = memory->value[k];
+        if (law_books(v)) rows->booking->value[k] = (float)memory->booked[k];
+        if (v.rolling) rows->rolling->value[k] = memory->rolling[k];
+        if (v.rolling) rows->rolling->booked[k] = (float)memory->rolling_booked[k];
+    }
 }
 
-static inline bool pair_touches(const scree_row *first, const scree_row *second)
+/// Rows of contact `k` of a list.
+static inline memory_rows memory_rows_at(scree_history *history, scree_booking *booking, scree_rolling *rolling,
+                                         size_t k)
 {
-    return bodies_touch(first->x - second->x, first->y - second->y, first->radius + second->radius) != 0;
+    return (memory_rows){history + k, booking ? booking + k : NULL, rolling ? rolling + k : NULL};
+}
+
+/// A contact that has opened has all its rows clear, so the history row tells, but for what only rolls.
+static inline bool memory_is_clear(const memory_rows *rows)
+{
+    bool clear = true;
+    for (int k = 0; k < 4; k++) {
+        clear = clear && rows->history->value[k] == 0;
+        if (rows->booking) clear = clear && rows->booking->value[k] == 0;
+        if (rows->rolling) clear = clear && rows->rolling->value[k] == 0 && rows->rolling->booked[k] == 0;
+    }
+    return clear;
+}
+
+static inline bool pair_touches(int dimension, const scree_row *first, const scree_row *second)
+{
+    vector apart = {first->x - second->x, first->y - second->y, dimension == 3 ? first->z - second->z : 0};
+    return bodies_touch(dimension, apart, first->radius + second->radius) != 0;
 }
 
 /// A wall is a body of infinite radius and mass that moves with its normal and tangential velocity: R_eff = R, m_eff =
 /// m.
-static inline motion motion_of_wall(const bodies *body, const scree_wall *wall, double step)
+static inline motion motion_of_wall(int dimension, const bodies *body, const scree_wall *wall, double step)
 {
-    motion m = {.normal_x = wall->normal[0], .normal_y = wall->normal[1]};
-    m.indentation = body->radius - (m.normal_x * body->x + m.normal_y * body->y - wall->position);
-    double u = body->vx - (wall->velocity * m.normal_x + wall->tangential_velocity[0]);
-    double v = body->vy - (wall->velocity * m.normal_y + wall->tangential_velocity[1]);
-    double along_tangent = v * m.normal_x - u * m.normal_y;
-    m.approach = -(u * m.normal_x + v * m.normal_y);
+    const int count = tangential_count(dimension);
+    motion m = {.normal = {wall->normal[0], wall->normal[1], wall->normal[2]}};
+    vector moving = {wall->velocity * m.normal.x + wall->tangential_velocity[0],
+                     wall->velocity * m.normal.y + wall->tangential_velocity[1],
+                     wall->velocity * m.normal.z + wall->tangential_velocity[2]};
+    m.indentation = body->radius - (vector_dot(dimension, m.normal, body->place) - wall->position);
     m.arm_first = body->radius - 0.5 * m.indentation;
-    m.slip = along_tangent - m.arm_first * body->spin;
     m.reduced_radius = body->radius;
     m.reduced_mass = body->mass;
-    motion_advance(&m, along_tangent * step, 0, body->spin * step, step);
+    vector lever = vector_times(count, body->spin, m.arm_first);
+    motion_advance(dimension, &m, vector_minus(dimension, body->velocity, moving), lever, body->spin, vector_none(), 0,
+                   step);
     return m;
 }
 
 /// NaN counts as contact, so that it is noticed.
-static inline bool wall_touches(const scree_row *body, const scree_wall *wall)
+static inline bool wall_touches(int dimension, const scree_row *body, const scree_wall *wall)
 {
-    double gap = wall->normal[0] * body->x + wall->normal[1] * body->y - wall->position;
-    return wall->active && !(body->radius <= gap);
+    double height = wall->normal[0] * body->x + wall->normal[1] * body->y;
+    if (dimension == 3) height += wall->normal[2] * body->z;
+    return wall->active && !(body->radius <= height - wall->position);
 }
 
 #endif

@@ -2,66 +2,82 @@
 /// A contact slides when its tangential force has reached mu f_n; for hertz_brilliantov that is a slip speed of v_R.
 #include "contact/single.h"
 
-#include "contact/scalar.h"
-
 /// Round-off of a tangential force that is computed again from the spring it left.
 #define SLIDING_TOLERANCE 1e-9
 
-static void describe(const scree_model *model, const scree_pair_constants *constants, const motion *m,
-                     const scree_history *history, scree_contact *contact)
+static void set_vector(double to[3], vector from)
 {
+    to[0] = from.x;
+    to[1] = from.y;
+    to[2] = from.z;
+}
+
+/// Tangent, tangential force and slip: signed along t in two dimensions, magnitudes along the force in three.
+static void describe_tangent(int dimension, const motion *m, const law_force *f, scree_contact *contact)
+{
+    if (dimension == 2) {
+        set_vector(contact->tangent, (vector){-m->normal.y, m->normal.x, 0});
+        contact->tangential_force = f->tangential.x;
+        contact->slip = m->slip.x;
+        return;
+    }
+    double force = sqrt(vector_dot(3, f->tangential, f->tangential));
+    set_vector(contact->tangent, vector_times(3, f->tangential, force > 0 ? 1 / force : 0));
+    contact->tangential_force = force;
+    contact->slip = sqrt(vector_dot(3, m->slip, m->slip));
+}
+
+static void describe(const scree_model *model, int dimension, const scree_pair_constants *constants, const motion *m,
+                     const memory_rows *memory, scree_contact *contact)
+{
+    variant v = {.dimension = dimension, .law = model->law, .many_materials = true, .rolling = model->rolling};
     law_constants c = constants_get(constants);
     law_settings settings = law_settings_get(model, 0);
-    law_memory before = memory_get(history), after;
-    law_force f = law_evaluate(model->law, &c, &settings, m, ~UINT64_C(0), &before, &after);
+    law_memory before = memory_get(v, memory), after;
+    law_force f = law_evaluate(v, &c, &settings, m, ~UINT64_C(0), &before, &after);
+    describe_tangent(dimension, m, &f, contact);
     double cap = constants->friction * f.normal;
-    contact->sliding = f.normal > 0 && fabs(f.tangential) >= (1 - SLIDING_TOLERANCE) * cap;
-    contact->normal[0] = m->normal_x;
-    contact->normal[1] = m->normal_y;
-    contact->normal[2] = 0;
-    contact->tangent[0] = -m->normal_y;
-    contact->tangent[1] = m->normal_x;
-    contact->tangent[2] = 0;
+    contact->sliding = f.normal > 0 && fabs(contact->tangential_force) >= (1 - SLIDING_TOLERANCE) * cap;
+    set_vector(contact->normal, m->normal);
     contact->indentation = m->indentation;
     contact->normal_force = f.normal;
-    contact->tangential_force = f.tangential;
-    contact->slip = m->slip;
     contact->elastic_normal = f.elastic_normal;
     contact->elastic_tangential = f.elastic_tangential;
 }
 
 /// The contact point lies in the middle of the indentation, one lever arm from the centre of `first`.
-static void place(const scree_row *first, const motion *m, scree_contact *contact)
+static void place(int dimension, const bodies *first, const motion *m, scree_contact *contact)
 {
-    contact->point[0] = first->x - m->arm_first * m->normal_x;
-    contact->point[1] = first->y - m->arm_first * m->normal_y;
-    contact->point[2] = contact->branch[2] = 0;
+    vector arm = vector_times(dimension, m->normal, m->arm_first);
+    set_vector(contact->point, vector_minus(dimension, first->place, arm));
 }
 
-bool contact_of_pair(const scree_model *model, const scree_row *first, const scree_row *second,
-                     const scree_history *history, scree_contact *contact)
+bool contact_of_pair(const scree_model *model, int dimension, const contact_body *first, const contact_body *second,
+                     const memory_rows *memory, scree_contact *contact)
 {
-    if (!pair_touches(first, second)) return false;
-    bodies one = body_get(first), other = body_get(second);
-    motion m = motion_of_pair(&one, &other, 0);
-    describe(model, &model->pairs[(int)first->material][(int)second->material], &m, history, contact);
-    place(first, &m, contact);
+    if (!pair_touches(dimension, &first->row, &second->row)) return false;
+    bodies one = body_get(dimension, &first->row, &first->turn);
+    bodies other = body_get(dimension, &second->row, &second->turn);
+    motion m = motion_of_pair(dimension, &one, &other, 0);
+    describe(model, dimension, &model->pairs[(int)one.material][(int)other.material], &m, memory, contact);
+    place(dimension, &one, &m, contact);
     contact->wall = false;
-    contact->branch[0] = first->x - second->x;
-    contact->branch[1] = first->y - second->y;
+    set_vector(contact->branch, vector_minus(dimension, one.place, other.place));
     return true;
 }
 
-bool contact_of_wall(const scree_model *model, const scree_row *body, const scree_wall *wall,
-                     const scree_history *history, scree_contact *contact)
+bool contact_of_wall(const scree_model *model, int dimension, const contact_body *body, const scree_wall *wall,
+                     const memory_rows *memory, scree_contact *contact)
 {
-    if (!wall_touches(body, wall)) return false;
-    bodies one = body_get(body);
-    motion m = motion_of_wall(&one, wall, 0);
-    describe(model, &model->walls[(int)body->material], &m, history, contact);
-    place(body, &m, contact);
+    if (!wall_touches(dimension, &body->row, wall)) return false;
+    bodies one = body_get(dimension, &body->row, &body->turn);
+    motion m = motion_of_wall(dimension, &one, wall, 0);
+    describe(model, dimension, &model->walls[(int)one.material], &m, memory, contact);
+    place(dimension, &one, &m, contact);
     contact->wall = true;
-    contact->branch[0] = body->x - contact->point[0];
-    contact->branch[1] = body->y - contact->point[1];
+    for (int k = 0; k < 3; k++) {
+        const double centre[3] = {one.place.x, one.place.y, one.place.z};
+        contact->branch[k] = centre[k] - contact->point[k];
+    }
     return true;
 }

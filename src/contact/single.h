@@ -1,16 +1,39 @@
-/// A single contact as a measure sees it, from rows and history: the scalar law without advancing anything.
+/// A single contact as a measure sees it, from rows and memory: the scalar law without advancing anything.
 #ifndef SCREE_CONTACT_SINGLE_H
 #define SCREE_CONTACT_SINGLE_H
 
 #include "contact/contact.h"
+#include "contact/scalar.h"
 
-/// Two bodies whose rows hold v(n - 1/2); false when they do not touch. Leaves `first` and `second` of the contact
-/// alone.
-bool contact_of_pair(const scree_model *model, const scree_row *first, const scree_row *second,
-                     const scree_history *history, scree_contact *contact);
+/// A body with v(n - 1/2).
+typedef struct contact_body {
+    scree_row row;
+    scree_turn_row turn; ///< 3D
+} contact_body;
+
+/// The body in `row`, with the velocities that the state holds.
+static inline contact_body contact_body_get(const scree_state *state, size_t row)
+{
+    contact_body body = {.row = state->row[row]};
+    if (state->turn) body.turn = state->turn[row];
+    return body;
+}
+
+/// Memory of pair or wall pair `k`.
+static inline memory_rows contact_memory_of(const scree_work *work, bool wall, size_t k)
+{
+    const scree_pair_list *pairs = &work->pairs;
+    const scree_wall_pair_list *walls = &work->wall_pairs;
+    return wall ? memory_rows_at(walls->history, walls->booking, walls->rolling, k)
+                : memory_rows_at(pairs->history, pairs->booking, pairs->rolling, k);
+}
+
+/// Two bodies; false when they do not touch. Leaves `first` and `second` of the contact alone.
+bool contact_of_pair(const scree_model *model, int dimension, const contact_body *first, const contact_body *second,
+                     const memory_rows *memory, scree_contact *contact);
 
 /// A body and a wall.
-bool contact_of_wall(const scree_model *model, const scree_row *body, const scree_wall *wall,
-                     const scree_history *history, scree_contact *contact);
+bool contact_of_wall(const scree_model *model, int dimension, const contact_body *body, const scree_wall *wall,
+                     const memory_rows *memory, scree_contact *contact);
 
 #endif

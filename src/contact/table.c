@@ -5,40 +5,49 @@
 #include "contact/single.h"
 #include "state/cell.h"
 
-/// The row of a body with the velocity that the scheme keeps, at n - 1/2: velocity_verlet stores v(n), half a step of
-/// acceleration later (integrate/velocity_verlet.c).
-static scree_row stored_row_at_half_step(const scree_model *model, const scree_state *state, size_t k)
+/// A body with the velocity that the scheme keeps, at n - 1/2: velocity_verlet stores v(n), half a step of acceleration
+/// later (integrate/velocity_verlet.c).
+static contact_body stored_body_at_half_step(const scree_model *model, const scree_state *state, size_t k)
 {
-    scree_row row = state->row[k];
-    if (model->scheme != SCREE_SCHEME_VELOCITY_VERLET) return row;
+    contact_body body = contact_body_get(state, k);
+    if (model->scheme != SCREE_SCHEME_VELOCITY_VERLET) return body;
+    scree_row *row = &body.row;
     const scree_sum_row *sum = &state->sum[k];
-    double half = 0.5 * state->step_size;
-    double inertia = 0.5 * row.mass * row.radius * row.radius;
-    row.vx -= half * (scree_fixed_to(sum->fx, state->force_quantum) / row.mass + model->gravity[0]);
-    row.vy -= half * (scree_fixed_to(sum->fy, state->force_quantum) / row.mass + model->gravity[1]);
-    row.spin -= half * scree_fixed_to(sum->torque, state->torque_quantum) / inertia;
-    return row;
+    double half = 0.5 * state->step_size, inertia = scree_body_inertia(state, k);
+    row->vx -= half * (scree_fixed_to(sum->fx, state->force_quantum) / row->mass + model->gravity[0]);
+    row->vy -= half * (scree_fixed_to(sum->fy, state->force_quantum) / row->mass + model->gravity[1]);
+    if (state->dimension == 2) {
+        row->spin -= half * scree_fixed_to(sum->torque, state->torque_quantum) / inertia;
+        return body;
+    }
+    const scree_torque_row *torque = &state->torque[k];
+    row->vz -= half * (scree_fixed_to(sum->fz, state->force_quantum) / row->mass + model->gravity[2]);
+    body.turn.wx -= half * scree_fixed_to(torque->x, state->torque_quantum) / inertia;
+    body.turn.wy -= half * scree_fixed_to(torque->y, state->torque_quantum) / inertia;
+    body.turn.wz -= half * scree_fixed_to(torque->z, state->torque_quantum) / inertia;
+    return body;
 }
 
-/// The row of a body or an image with v(n - 1/2), with which the forces at n were evaluated; in a periodic cell with
-/// the affine field, and an image where it is.
-static scree_row row_at_half_step(const scree_model *model, const scree_state *state, const scree_work *work,
-                                  uint32_t k)
+/// A body or an image with v(n - 1/2), with which the forces at n were evaluated; in a periodic cell with the affine
+/// field, and an image where it is.
+static contact_body body_at_half_step(const scree_model *model, const scree_state *state, const scree_work *work,
+                                      uint32_t k)
 {
-    uint32_t parent = scree_parent_row(state, work, k);
-    scree_row row = stored_row_at_half_step(model, state, parent);
-    if (!state->cell.periodic) return row;
-    scree_vector place, relative = {row.vx, row.vy, state->dimension == 3 ? row.vz : 0}, velocity;
+    contact_body body = stored_body_at_half_step(model, state, scree_parent_row(state, work, k));
+    if (!state->cell.periodic) return body;
+    scree_row *row = &body.row;
+    bool solid = state->dimension == 3;
+    scree_vector place, relative = {row->vx, row->vy, solid ? row->vz : 0}, velocity;
     scree_body_place(state, k, place);
     scree_cell_full_velocity(state, place, relative, velocity);
-    row.x = place[0];
-    row.y = place[1];
-    row.vx = velocity[0];
-    row.vy = velocity[1];
-    if (state->dimension == 2) return row;
-    row.z = place[2];
-    row.vz = velocity[2];
-    return row;
+    row->x = place[0];
+    row->y = place[1];
+    row->vx = velocity[0];
+    row->vy = velocity[1];
+    if (!solid) return body;
+    row->z = place[2];
+    row->vz = velocity[2];
+    return body;
 }
 
 static scree_status reserve(scree_contact_table *table, size_t count, scree_error *error)
@@ -63,20 +72,21 @@ static void fill(const scree_model *model, const scree_state *state, const scree
                  const contact_reference *reference, scree_contact *contact)
 {
     size_t p = reference->pair;
-    if (contact_reference_is_wall(reference)) {
-        contact->first = work->wall_pairs.body[p];
-        contact->second = work->wall_pairs.wall[p];
-        scree_row body = row_at_half_step(model, state, work, contact->first);
-        contact_of_wall(model, &body, &state->wall[contact->second], &work->wall_pairs.history[p], contact);
-    } else {
-        scree_row first = row_at_half_step(model, state, work, work->pairs.first[p]);
-        scree_row second = row_at_half_step(model, state, work, work->pairs.second[p]);
-        contact->first = scree_parent_row(state, work, work->pairs.first[p]);
-        contact->second = scree_parent_row(state, work, work->pairs.second[p]);
-        contact->image = work->pairs.first[p] >= state->count || work->pairs.second[p] >= state->count;
-        contact_of_pair(model, &first, &second, &work->pairs.history[p], contact);
-        if (work->pairs.first[p] != contact->first) move_point(state, work->pairs.first[p], contact);
+    bool wall = contact_reference_is_wall(reference);
+    memory_rows memory = contact_memory_of(work, wall, p);
+    uint32_t one = wall ? work->wall_pairs.body[p] : work->pairs.first[p];
+    uint32_t other = wall ? work->wall_pairs.wall[p] : work->pairs.second[p];
+    contact->first = scree_parent_row(state, work, one);
+    contact->second = wall ? other : scree_parent_row(state, work, other);
+    contact->image = one != contact->first || other != contact->second;
+    contact_body first = body_at_half_step(model, state, work, one);
+    if (wall) {
+        contact_of_wall(model, state->dimension, &first, &state->wall[other], &memory, contact);
+        return;
     }
+    contact_body second = body_at_half_step(model, state, work, other);
+    contact_of_pair(model, state->dimension, &first, &second, &memory, contact);
+    if (one != contact->first) move_point(state, one, contact);
 }
 
 scree_status scree_contact_table_build(const scree_model *model, const scree_state *state, const scree_work *work,
@@ -104,14 +114,15 @@ scree_status scree_contacts_save(scree_state *state, const scree_work *work, scr
     size_t count;
     scree_status status = contact_order(state, work, &order, &count, error);
     if (!status) status = scree_state_reserve_contacts(state, count, error);
-    if (!status) {
-        state->contact_count = count;
-        for (size_t k = 0; k < count; k++) {
-            const contact_reference *r = &order[k];
-            const scree_history *history =
-                contact_reference_is_wall(r) ? work->wall_pairs.history : work->pairs.history;
-            state->contact[k] = (scree_contact_memory){r->first, r->second, history[r->pair]};
-        }
+    if (!status && work->pairs.booking) status = scree_state_add_booking(state, error);
+    if (!status && work->pairs.rolling) status = scree_state_add_rolling(state, error);
+    state->contact_count = status ? 0 : count;
+    for (size_t k = 0; k < state->contact_count; k++) {
+        const contact_reference *r = &order[k];
+        memory_rows memory = contact_memory_of(work, contact_reference_is_wall(r), r->pair);
+        state->contact[k] = (scree_contact_memory){r->first, r->second, *memory.history};
+        if (memory.booking) state->booking[k] = *memory.booking;
+        if (memory.rolling) state->rolling[k] = *memory.rolling;
     }
     scree_release(&order);
     return status;

@@ -14,13 +14,17 @@ typedef struct scree_pair_constants {
     double normal_stiffness;     ///< Pa, (4/3) Ebar;  f_n = normal_stiffness sqrt(R_eff) d^1.5
     double tangential_stiffness; ///< Pa, 8 Gbar;      k_t = tangential_stiffness sqrt(R_eff d)
     double friction;             ///< 1
-    double damping; ///< 1, hertz_mindlin: eta = damping sqrt(m_eff k_n), k_n = normal_stiffness sqrt(R_eff d)
+    double damping;           ///< 1, hertz_mindlin: eta = damping sqrt(m_eff k_n), k_n = normal_stiffness sqrt(R_eff d)
+    double rolling_friction;  ///< 1, hertz_mindlin: cap of the rolling resistance over f_n
+    double twisting_friction; ///< 1, hertz_mindlin in 3D: cap of the twisting torque over R_eff f_n
+    double unused[2];         ///< zero; keeps the row at 64 bytes, which kernels load in halves
 } scree_pair_constants;
 
 typedef struct scree_model {
     int dimension;
     double thickness; ///< m, length of the discs; 1 in 3D
     scree_law law;
+    bool rolling;              ///< some material resists rolling or twisting (hertz_mindlin)
     double damping_time;       ///< s, T of hertz_brilliantov
     double inverse_exponent;   ///< 1/c of hertz_brilliantov
     double reference_velocity; ///< m/s, v_R

@@ -4,26 +4,27 @@
 #include <math.h>
 #include <string.h>
 
-/// Cells from the origin at which coordinates are cut off.
-#define FARTHEST 0x1p30
+/// Cells from the origin at which coordinates are cut off: what is left fits into the bits of a key.
+#define FARTHEST(dimension) ((dimension) == 3 ? 0x1p19 : 0x1p30)
 /// Cells are wider than they need be by this part: round-off of a coordinate stays below 2^-22 cells.
 #define WIDENING (1.0 + 0x1p-20)
 
 /// Coordinate of the cell at `position`, a whole number; not a number goes to the lowest.
-static double cell_coordinate(double position, double inverse_width)
+static double cell_coordinate(double position, double inverse_width, double farthest)
 {
     double coordinate = floor(position * inverse_width);
-    coordinate = coordinate > -FARTHEST ? coordinate : -FARTHEST;
-    return coordinate < FARTHEST ? coordinate : FARTHEST;
+    coordinate = coordinate > -farthest ? coordinate : -farthest;
+    return coordinate < farthest ? coordinate : farthest;
 }
 
 void scree_cell_grid_fit(scree_cell_grid *grid, const scree_state *state, double skin, int threads)
 {
-    double smallest = INFINITY, largest = 0, x = INFINITY, y = INFINITY;
+    const bool solid = state->dimension == 3;
+    double smallest = INFINITY, largest = 0, x = INFINITY, y = INFINITY, z = INFINITY;
     uint64_t odd = UINT64_MAX;
 // clang-format off
 #pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1) \
-    reduction(min : smallest, x, y, odd) reduction(max : largest)
+    reduction(min : smallest, x, y, z, odd) reduction(max : largest)
     // clang-format on
     for (size_t k = 0; k < state->count; k++) {
         const scree_row *row = &state->row[k];
@@ -31,17 +32,21 @@ void scree_cell_grid_fit(scree_cell_grid *grid, const scree_state *state, double
         largest = row->radius > largest ? row->radius : largest;
         x = row->x < x ? row->x : x;
         y = row->y < y ? row->y : y;
-        if (!isfinite(row->x + row->y) && state->id[k] < odd) odd = state->id[k];
+        double height = solid ? row->z : 0;
+        z = height < z ? height : z;
+        if (!isfinite(row->x + row->y + height) && state->id[k] < odd) odd = state->id[k];
     }
     double width = (2 * largest + skin) * WIDENING;
     if (!(width > 0 && width < INFINITY)) width = 1;
     int top = 0;
     while (top < SCREE_CELL_LEVELS - 1 && ldexp(width, -top - 1) >= (2 * smallest + skin) * WIDENING) top++;
+    grid->dimension = state->dimension;
     grid->skin = skin;
     grid->top = top;
     for (int m = 0; m <= top; m++) grid->level[m] = (scree_cell_level){.width = ldexp(width, m - top)};
-    grid->lowest_x = cell_coordinate(x, 1 / grid->level[0].width);
-    grid->lowest_y = cell_coordinate(y, 1 / grid->level[0].width);
+    const double least[3] = {x, y, z};
+    for (int axis = 0; axis < 3; axis++)
+        grid->lowest[axis] = cell_coordinate(least[axis], 1 / grid->level[0].width, FARTHEST(grid->dimension));
     grid->finite = odd == UINT64_MAX;
     grid->odd_id = odd;
 }
@@ -55,7 +60,8 @@ static int level_of(const scree_cell_grid *grid, double radius)
 
 static void destroy_bodies(scree_cell_grid *grid)
 {
-    void *const arrays[] = {&grid->body_level, &grid->order, &grid->x, &grid->y, &grid->radius, &grid->row, &grid->id};
+    void *const arrays[] = {&grid->body_level, &grid->order,  &grid->x,   &grid->y,
+                            &grid->z,          &grid->radius, &grid->row, &grid->id};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
     grid->body_capacity = 0;
 }
@@ -69,6 +75,7 @@ static scree_status reserve_bodies(scree_cell_grid *grid, size_t count, scree_er
     if (!status) status = scree_allocate(&grid->order, capacity, sizeof *grid->order, error);
     if (!status) status = scree_allocate(&grid->x, slots, sizeof *grid->x, error);
     if (!status) status = scree_allocate(&grid->y, slots, sizeof *grid->y, error);
+    if (!status && grid->dimension == 3) status = scree_allocate(&grid->z, slots, sizeof *grid->z, error);
     if (!status) status = scree_allocate(&grid->radius, slots, sizeof *grid->radius, error);
     if (!status) status = scree_allocate(&grid->row, slots, sizeof *grid->row, error);
     if (!status) status = scree_allocate(&grid->id, slots, sizeof *grid->id, error);
@@ -84,17 +91,22 @@ scree_status scree_cell_grid_order(scree_cell_grid *grid, const scree_state *sta
     scree_status status = reserve_bodies(grid, state->count, error);
     if (!status) status = scree_key_list_reserve(&grid->curve, state->count, error);
     if (status) return status;
-    const double inverse = 1 / grid->level[0].width;
+    const double inverse = 1 / grid->level[0].width, farthest = FARTHEST(grid->dimension);
+    const double *lowest = grid->lowest;
     // Keys are put down by id: the stable sort then leaves bodies of one cell in the order of their ids.
 #pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
     for (size_t k = 0; k < state->count; k++) {
         const scree_row *row = &state->row[k];
         uint32_t id = state->id[k];
         // What is not a number has a coordinate below the lowest.
-        double x = fmax(cell_coordinate(row->x, inverse) - grid->lowest_x, 0);
-        double y = fmax(cell_coordinate(row->y, inverse) - grid->lowest_y, 0);
-        grid->curve.key[id] = scree_curve_key((uint32_t)x, (uint32_t)y);
+        uint32_t x = (uint32_t)fmax(cell_coordinate(row->x, inverse, farthest) - lowest[0], 0);
+        uint32_t y = (uint32_t)fmax(cell_coordinate(row->y, inverse, farthest) - lowest[1], 0);
         grid->curve.index[id] = id;
+        if (grid->dimension == 3) {
+            uint32_t z = (uint32_t)fmax(cell_coordinate(row->z, inverse, farthest) - lowest[2], 0);
+            grid->curve.key[id] = scree_curve_key_solid(x, y, z);
+        } else
+            grid->curve.key[id] = scree_curve_key(x, y);
     }
     scree_key_list_sort(&grid->curve, state->count);
     for (size_t k = 0; k < state->count; k++) grid->order[k] = state->row_of_id[grid->curve.index[k]];
@@ -107,8 +119,9 @@ static scree_status reserve_cells(scree_cell_grid *grid, size_t kept, size_t cou
     scree_status status = scree_key_list_reserve(&grid->sorted, scratch + 1, error);
     if (status || count <= grid->cell_capacity) return status;
     size_t capacity = count + count / 8 + 64;
+    size_t ranges = SCREE_CELL_ROWS(grid->dimension);
     status = scree_reallocate(&grid->cell_row, kept, capacity, sizeof *grid->cell_row, error);
-    if (!status) status = scree_reallocate(&grid->ranges, kept, capacity, sizeof *grid->ranges, error);
+    if (!status) status = scree_reallocate(&grid->range, kept * ranges, capacity * ranges, sizeof *grid->range, error);
     if (!status) grid->cell_capacity = capacity;
     return status;
 }
@@ -119,7 +132,7 @@ static size_t count_cells(const scree_cell_grid *grid, size_t bodies, int m)
     size_t cells = 0;
     uint64_t last = UINT64_MAX;
     for (size_t k = 0; k < bodies; k++) {
-        uint64_t key = grid->curve.key[k] >> 2 * m;
+        uint64_t key = grid->curve.key[k] >> grid->dimension * m;
         bool opens = grid->body_level[k] <= m && key != last;
         cells += opens;
         last = opens ? key : last;
@@ -127,78 +140,117 @@ static size_t count_cells(const scree_cell_grid *grid, size_t bodies, int m)
     return cells;
 }
 
-/// Finds the cells of level m along the curve: first row, number of bodies of the level (left in begin[0] of its
-/// ranges), and key. Returns the number of bits for a column.
-static int find_cells(scree_cell_grid *grid, size_t bodies, int m)
+/// Finds the cells of level m along the curve: first row, number of bodies of the level (left in the first of its
+/// ranges), and key.
+static void find_cells(scree_cell_grid *grid, size_t bodies, int m)
 {
     scree_cell_level *level = &grid->level[m];
-    uint32_t *cell_row = grid->cell_row + level->first_cell, column = 0;
-    scree_cell_ranges *ranges = grid->ranges + level->first_cell;
+    const size_t ranges = SCREE_CELL_ROWS(grid->dimension);
+    uint32_t *cell_row = grid->cell_row + level->first_cell;
+    scree_slot_range *range = grid->range + level->first_cell * ranges;
     uint64_t last = UINT64_MAX;
     size_t cells = 0;
     for (size_t k = 0; k < bodies; k++) {
-        uint64_t key = grid->curve.key[k] >> 2 * m;
+        uint64_t key = grid->curve.key[k] >> grid->dimension * m;
         if (grid->body_level[k] > m) continue;
         if (key != last) {
             cell_row[cells] = (uint32_t)k;
-            ranges[cells].begin[0] = 0;
+            range[cells * ranges].begin = 0;
             grid->sorted.key[cells++] = last = key;
-            column |= scree_curve_gather(key);
         }
-        ranges[cells - 1].begin[0] += grid->body_level[k] == m;
+        range[(cells - 1) * ranges].begin += grid->body_level[k] == m;
     }
-    // Columns are counted from 1, and the last has a neighbour.
-    return column >= UINT32_MAX / 2 ? 32 : 32 - __builtin_clz(2 * column + 2);
+}
+
+/// Replaces the keys of the `cells` in grid->sorted by plane, row and column, one beside the other in one number, and
+/// sorts by them. Coordinates are counted from 1, and the last has a neighbour, so a step to the row or plane beside is
+/// a constant difference. Fills `step` with the differences of the middles of the SCREE_CELL_ROWS rows around a cell.
+static void sort_cells(scree_cell_grid *grid, size_t cells, uint64_t *step)
+{
+    const bool solid = grid->dimension == 3;
+    uint64_t *key = grid->sorted.key;
+    uint32_t column = 0, row = 0;
+    for (size_t k = 0; k < cells; k++) {
+        column |= solid ? scree_curve_gather_solid(key[k]) : scree_curve_gather(key[k]);
+        if (solid) row |= scree_curve_gather_solid(key[k] >> 1);
+    }
+    // Coordinates are at most 2^20 in 3D and 2^31 in 2D (twice FARTHEST), which bounds what their neighbours need.
+    int most = solid ? 21 : 32;
+    int column_bits = 64 - __builtin_clzll((uint64_t)column + 2), row_bits = 64 - __builtin_clzll((uint64_t)row + 2);
+    column_bits = column_bits < most ? column_bits : most;
+    row_bits = row_bits < most ? row_bits : most;
+    for (size_t k = 0; k < cells; k++) {
+        uint64_t one = key[k], other;
+        if (solid) {
+            other = ((uint64_t)scree_curve_gather_solid(one >> 2) + 1) << row_bits;
+            other = (other + scree_curve_gather_solid(one >> 1) + 1) << column_bits;
+            other += (uint64_t)scree_curve_gather_solid(one) + 1;
+        } else {
+            other = ((uint64_t)scree_curve_gather(one >> 1) + 1) << column_bits;
+            other += (uint64_t)scree_curve_gather(one) + 1;
+        }
+        key[k] = other;
+        grid->sorted.index[k] = (uint32_t)k;
+    }
+    scree_key_list_sort(&grid->sorted, cells);
+    const int64_t beside = INT64_C(1) << column_bits, above = solid ? INT64_C(1) << (column_bits + row_bits) : 0;
+    for (int d = 0; d < SCREE_CELL_ROWS(grid->dimension); d++)
+        step[d] = (uint64_t)((solid ? d / 3 - 1 : 0) * above + (d % 3 - 1) * beside);
 }
 
 /// Copies the bodies of level m into their slots: row by row of cells, within a cell along the curve.
 static void fill_slots(scree_cell_grid *grid, const scree_state *state, int m, uint32_t first_slot)
 {
     const scree_cell_level *level = &grid->level[m];
-    scree_cell_ranges *ranges = grid->ranges + level->first_cell;
+    const size_t ranges = SCREE_CELL_ROWS(grid->dimension);
+    scree_slot_range *range = grid->range + level->first_cell * ranges;
     uint32_t *first = grid->sorted.other_index, slot = first_slot;
     for (size_t k = 0; k < level->cells; k++) {
-        scree_cell_ranges *cell = &ranges[grid->sorted.index[k]];
+        scree_slot_range *cell = &range[grid->sorted.index[k] * ranges];
         first[k] = slot;
-        slot += cell->begin[0];
-        cell->begin[0] = first[k];
+        slot += cell->begin;
+        cell->begin = first[k];
     }
     first[level->cells] = slot;
     uint64_t last = UINT64_MAX;
     size_t cell = SIZE_MAX;
     for (size_t k = 0; k < state->count; k++) {
         if (grid->body_level[k] > m) continue;
-        uint64_t key = grid->curve.key[k] >> 2 * m;
+        uint64_t key = grid->curve.key[k] >> grid->dimension * m;
         cell += key != last;
         last = key;
         if (grid->body_level[k] < m) continue;
-        uint32_t to = ranges[cell].begin[0]++;
+        uint32_t to = range[cell * ranges].begin++;
         const scree_row *row = &state->row[k];
         grid->x[to] = row->x;
         grid->y[to] = row->y;
+        if (grid->dimension == 3) grid->z[to] = row->z;
         grid->radius[to] = row->radius;
         grid->row[to] = (uint32_t)k;
         grid->id[to] = state->id[k];
     }
 }
 
-/// Gives every cell of level m its three ranges of slots. All six cursors only move forward.
-static void find_ranges(scree_cell_grid *grid, int m, int column_bits)
+/// Gives every cell of level m its ranges of slots. All cursors only move forward. `own`: only bodies of the level
+/// itself look here, each for higher rows; cells that lie before theirs on the curve are then left out at the ends.
+static inline __attribute__((always_inline)) void find_ranges(scree_cell_grid *grid, int m, const uint64_t *step,
+                                                              const int ranges, const bool own)
 {
     const scree_cell_level *level = &grid->level[m];
-    scree_cell_ranges *ranges = grid->ranges + level->first_cell;
+    scree_slot_range *range = grid->range + level->first_cell * (size_t)ranges;
     const uint64_t *key = grid->sorted.key;
-    const uint32_t *first = grid->sorted.other_index;
-    const uint64_t rows[3] = {-(UINT64_C(1) << column_bits), 0, UINT64_C(1) << column_bits};
-    size_t begin[3] = {0}, end[3] = {0};
+    const uint32_t *first = grid->sorted.other_index, *place = grid->sorted.index;
+    size_t begin[9] = {0}, end[9] = {0};
     for (size_t k = 0; k < level->cells; k++) {
-        scree_cell_ranges *cell = &ranges[grid->sorted.index[k]];
-        for (int d = 0; d < 3; d++) {
-            uint64_t middle = key[k] + rows[d];
+        scree_slot_range *cell = &range[grid->sorted.index[k] * (size_t)ranges];
+        for (int d = 0; d < ranges; d++) {
+            uint64_t middle = key[k] + step[d];
             while (begin[d] < level->cells && key[begin[d]] < middle - 1) begin[d]++;
             while (end[d] < level->cells && key[end[d]] <= middle + 1) end[d]++;
-            cell->begin[d] = first[begin[d]];
-            cell->end[d] = first[end[d]];
+            size_t from = begin[d], to = end[d];
+            while (own && from < to && place[from] < place[k]) from++;
+            while (own && from < to && place[to - 1] < place[k]) to--;
+            cell[d] = (scree_slot_range){first[from], first[to]};
         }
     }
 }
@@ -207,20 +259,19 @@ static scree_status fill_level(scree_cell_grid *grid, const scree_state *state, 
                                uint32_t first_slot, scree_error *error)
 {
     scree_cell_level *level = &grid->level[m];
+    uint64_t step[9];
     level->first_cell = cells_before;
     level->cells = count_cells(grid, state->count, m);
     scree_status status = reserve_cells(grid, cells_before, cells_before + level->cells, level->cells, error);
     if (status) return status;
-    int column_bits = find_cells(grid, state->count, m);
-    for (size_t k = 0; k < level->cells; k++) {
-        uint64_t key = grid->sorted.key[k];
-        uint64_t row = (uint64_t)scree_curve_gather(key >> 1) + 1, column = (uint64_t)scree_curve_gather(key) + 1;
-        grid->sorted.key[k] = row << column_bits | column;
-        grid->sorted.index[k] = (uint32_t)k;
-    }
-    scree_key_list_sort(&grid->sorted, level->cells);
+    find_cells(grid, state->count, m);
+    sort_cells(grid, level->cells, step);
     fill_slots(grid, state, m, first_slot);
-    find_ranges(grid, m, column_bits);
+    const bool lowest = grid->levels_in_use == 1;
+    if (grid->dimension == 3)
+        find_ranges(grid, m, step, SCREE_CELL_ROWS(3), lowest);
+    else
+        find_ranges(grid, m, step, SCREE_CELL_ROWS(2), lowest);
     return SCREE_OK;
 }
 
@@ -250,6 +301,6 @@ void scree_cell_grid_destroy(scree_cell_grid *grid)
     scree_key_list_destroy(&grid->curve);
     scree_key_list_destroy(&grid->sorted);
     scree_release(&grid->cell_row);
-    scree_release(&grid->ranges);
+    scree_release(&grid->range);
     memset(grid, 0, sizeof *grid);
 }

@@ -59,7 +59,8 @@ static bool walls_need_rebuild(const scree_state *state, const scree_work *work)
     for (int w = 0; w < SCREE_WALL_COUNT; w++) {
         const scree_wall *now = &state->wall[w], *then = &work->search->wall[w];
         if (!now->active) continue;
-        bool same = then->active && now->normal[0] == then->normal[0] && now->normal[1] == then->normal[1];
+        bool same = then->active && now->normal[0] == then->normal[0] && now->normal[1] == then->normal[1] &&
+                    now->normal[2] == then->normal[2];
         if (!same || !(fabs(now->position - then->position) < half_skin(work))) return true;
     }
     return false;

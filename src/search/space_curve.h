@@ -1,8 +1,9 @@
 /// Space-filling curve of cells, and the sort that puts bodies or cells into its order.
 ///
-/// The curve is Morton's (1966): the bits of the two cell coordinates are interleaved, x in the even places. Dropping
-/// the last 2 m bits of a key gives the key of the cell of 2^m x 2^m cells around it, so bodies sorted by the key of
-/// the finest cells are sorted by coarser cells too: all bodies of a coarse cell are neighbours in the order.
+/// The curve is Morton's (1966): the bits of the two or three cell coordinates are interleaved, x in the lowest places.
+/// Dropping the last d m bits of a key in d dimensions gives the key of the cell of 2^m cells a side around it, so
+/// bodies sorted by the key of the finest cells are sorted by coarser cells too: all bodies of a coarse cell are
+/// neighbours in the order. Coordinates have 32 bits in 2D and 21 in 3D.
 #ifndef SCREE_SEARCH_SPACE_CURVE_H
 #define SCREE_SEARCH_SPACE_CURVE_H
 
@@ -35,6 +36,33 @@ static inline uint32_t scree_curve_gather(uint64_t bits)
 static inline uint64_t scree_curve_key(uint32_t x, uint32_t y)
 {
     return scree_curve_spread(x) | scree_curve_spread(y) << 1;
+}
+
+/// Every third bit of the result is a bit of `value`, which has 21.
+static inline uint64_t scree_curve_spread_solid(uint32_t value)
+{
+    uint64_t bits = value & 0x1fffff;
+    bits = (bits | bits << 32) & UINT64_C(0x001f00000000ffff);
+    bits = (bits | bits << 16) & UINT64_C(0x001f0000ff0000ff);
+    bits = (bits | bits << 8) & UINT64_C(0x100f00f00f00f00f);
+    bits = (bits | bits << 4) & UINT64_C(0x10c30c30c30c30c3);
+    return (bits | bits << 2) & UINT64_C(0x1249249249249249);
+}
+
+/// Inverse of scree_curve_spread_solid; the other bits are ignored.
+static inline uint32_t scree_curve_gather_solid(uint64_t bits)
+{
+    bits &= UINT64_C(0x1249249249249249);
+    bits = (bits | bits >> 2) & UINT64_C(0x10c30c30c30c30c3);
+    bits = (bits | bits >> 4) & UINT64_C(0x100f00f00f00f00f);
+    bits = (bits | bits >> 8) & UINT64_C(0x001f0000ff0000ff);
+    bits = (bits | bits >> 16) & UINT64_C(0x001f00000000ffff);
+    return (uint32_t)(bits | bits >> 32) & 0x1fffff;
+}
+
+static inline uint64_t scree_curve_key_solid(uint32_t x, uint32_t y, uint32_t z)
+{
+    return scree_curve_spread_solid(x) | scree_curve_spread_solid(y) << 1 | scree_curve_spread_solid(z) << 2;
 }
 
 /// Keys with a 32-bit companion each, and room for a second copy that the sort needs.

@@ -103,9 +103,12 @@ scree_status scree_state_permute(scree_state *state, const uint32_t *order, scre
 scree_status scree_state_reserve_contacts(scree_state *state, size_t count, scree_error *error)
 {
     if (count <= state->contact_capacity) return SCREE_OK;
-    size_t capacity = count + count / 8 + 16;
-    scree_status status =
-        scree_reallocate(&state->contact, state->contact_count, capacity, sizeof *state->contact, error);
+    size_t old = state->contact_count, capacity = count + count / 8 + 16;
+    scree_status status = scree_reallocate(&state->contact, old, capacity, sizeof *state->contact, error);
+    if (!status && state->booking)
+        status = scree_reallocate(&state->booking, old, capacity, sizeof *state->booking, error);
+    if (!status && state->rolling)
+        status = scree_reallocate(&state->rolling, old, capacity, sizeof *state->rolling, error);
     if (!status) state->contact_capacity = capacity;
     return status;
 }
@@ -124,6 +127,18 @@ scree_status scree_state_reserve_rows(scree_state *state, size_t count, scree_er
     // After a failure some arrays are larger than the capacity says, and the next call copies no more than it says.
     if (!status) state->row_capacity = capacity;
     return status;
+}
+
+scree_status scree_state_add_booking(scree_state *state, scree_error *error)
+{
+    if (state->booking) return SCREE_OK;
+    return scree_allocate(&state->booking, state->contact_capacity, sizeof *state->booking, error);
+}
+
+scree_status scree_state_add_rolling(scree_state *state, scree_error *error)
+{
+    if (state->rolling) return SCREE_OK;
+    return scree_allocate(&state->rolling, state->contact_capacity, sizeof *state->rolling, error);
 }
 
 _Static_assert(sizeof(scree_row) == 64 && sizeof(scree_sum_row) == 32, "hot rows have fixed sizes");
@@ -178,6 +193,8 @@ uint64_t scree_state_checksum(const scree_state *state)
                               state->largest_overlap, state->largest_speed, state->pressure};
     c = scree_checksum_bytes(c, scalars, sizeof scalars);
     c = scree_checksum_bytes(c, state->contact, state->contact_count * sizeof *state->contact);
+    if (state->booking) c = scree_checksum_bytes(c, state->booking, state->contact_count * sizeof *state->booking);
+    if (state->rolling) c = scree_checksum_bytes(c, state->rolling, state->contact_count * sizeof *state->rolling);
     c = checksum_boundary(state, checksum_walls(state, c));
     c = scree_checksum_word(c, state->sampled_step);
     c = scree_checksum_bytes(c, &state->cell, sizeof state->cell);

@@ -269,7 +269,11 @@ scree_status scree_state_permute(scree_state *state, const uint32_t *order, scre
 /// Contacts must have been saved. Equal states in different row orders give the same number.
 uint64_t scree_state_checksum(const scree_state *state);
 
-/// Grows the contact memory to hold `count`.
+/// Grows the contact memory to hold `count`, and the booking and rolling rows beside it where there are any.
 scree_status scree_state_reserve_contacts(scree_state *state, size_t count, scree_error *error) SCREE_MUST_USE;
+
+/// Puts booking rows, and rolling rows, beside the contact memory; nothing happens where there are some.
+scree_status scree_state_add_booking(scree_state *state, scree_error *error) SCREE_MUST_USE;
+scree_status scree_state_add_rolling(scree_state *state, scree_error *error) SCREE_MUST_USE;
 
 #endif

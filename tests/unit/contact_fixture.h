@@ -18,6 +18,13 @@ typedef struct fixture {
     scree_work work;
 } fixture;
 
+#define FIXTURE_PAIR(normal, tangential, friction_, damping_)                                                          \
+    (scree_pair_constants)                                                                                             \
+    {                                                                                                                  \
+        .normal_stiffness = (normal), .tangential_stiffness = (tangential), .friction = (friction_),                   \
+        .damping = (damping_)                                                                                          \
+    }
+
 /// Quartz-like grains of 1 mm, and a softer second material.
 static inline scree_model fixture_model(scree_law law)
 {
@@ -36,15 +43,16 @@ static inline scree_model fixture_model(scree_law law)
     model.material_count = 1;
     model.density[0] = 2650;
     model.density[1] = 1200;
-    model.pairs[0][0] = model.walls[0] = (scree_pair_constants){4e9, 5e9, 0.5, 0.3};
-    model.pairs[1][1] = model.walls[1] = (scree_pair_constants){1e9, 1.2e9, 0.2, 0.6};
-    model.pairs[0][1] = model.pairs[1][0] = (scree_pair_constants){1.6e9, 2e9, 0.3, 0.4};
+    model.pairs[0][0] = model.walls[0] = FIXTURE_PAIR(4e9, 5e9, 0.5, 0.3);
+    model.pairs[1][1] = model.walls[1] = FIXTURE_PAIR(1e9, 1.2e9, 0.2, 0.6);
+    model.pairs[0][1] = model.pairs[1][0] = FIXTURE_PAIR(1.6e9, 2e9, 0.3, 0.4);
     return model;
 }
 
 static inline double fixture_mass(const scree_model *model, int material, double radius)
 {
-    return model->density[material] * M_PI * radius * radius * model->thickness;
+    double length = model->dimension == 3 ? 4.0 / 3.0 * radius : model->thickness;
+    return model->density[material] * M_PI * radius * radius * length;
 }
 
 static inline double fixture_random(uint64_t counter)
@@ -59,18 +67,23 @@ static inline void fixture_reserve(fixture *f, size_t pairs)
     assert_int_equal(scree_allocate(&list->first, pairs, sizeof *list->first, &error), SCREE_OK);
     assert_int_equal(scree_allocate(&list->second, pairs, sizeof *list->second, &error), SCREE_OK);
     assert_int_equal(scree_allocate(&list->history, pairs, sizeof *list->history, &error), SCREE_OK);
+    if (f->state.dimension == 3)
+        assert_int_equal(scree_allocate(&list->booking, pairs, sizeof *list->booking, &error), SCREE_OK);
+    if (f->model.rolling)
+        assert_int_equal(scree_allocate(&list->rolling, pairs, sizeof *list->rolling, &error), SCREE_OK);
     list->capacity = pairs;
 }
 
 /// `count` bodies at rest at the origin, one thread, ledger on, no pairs.
-static inline void fixture_create(fixture *f, scree_law law, size_t count, double step)
+static inline void fixture_create_in(fixture *f, int dimension, scree_law law, size_t count, double step)
 {
     scree_error error;
     memset(f, 0, sizeof *f);
     f->model = fixture_model(law);
+    f->model.dimension = dimension;
     f->config.guard.overlap = 0.5;
     f->model.config = &f->config;
-    assert_int_equal(scree_state_create(&f->state, 2, count, &error), SCREE_OK);
+    assert_int_equal(scree_state_create(&f->state, dimension, count, &error), SCREE_OK);
     f->state.step_size = step;
     f->model.step = step;
     f->work.threads = 1;
@@ -80,21 +93,40 @@ static inline void fixture_create(fixture *f, scree_law law, size_t count, doubl
         f->state.row[k] = (scree_row){.radius = 1e-3, .mass = fixture_mass(&f->model, 0, 1e-3)};
 }
 
+static inline void fixture_create(fixture *f, scree_law law, size_t count, double step)
+{
+    fixture_create_in(f, 2, law, count, step);
+}
+
 static inline void fixture_destroy(fixture *f)
 {
     scree_contact_scratch_destroy(&f->work);
     scree_release(&f->work.pairs.first);
     scree_release(&f->work.pairs.second);
     scree_release(&f->work.pairs.history);
+    scree_release(&f->work.pairs.booking);
+    scree_release(&f->work.pairs.rolling);
     scree_release(&f->work.wall_pairs.body);
     scree_release(&f->work.wall_pairs.wall);
     scree_release(&f->work.wall_pairs.history);
+    scree_release(&f->work.wall_pairs.booking);
+    scree_release(&f->work.wall_pairs.rolling);
     scree_state_destroy(&f->state);
 }
 
 static inline double fixture_distance(const scree_row *a, const scree_row *b)
 {
     return hypot(a->x - b->x, a->y - b->y);
+}
+
+/// Distance of the surfaces of the bodies in two rows [m].
+static inline double fixture_gap(const fixture *f, size_t i, size_t j)
+{
+    scree_vector a, b;
+    scree_body_place(&f->state, i, a);
+    scree_body_place(&f->state, j, b);
+    for (int k = 0; k < 3; k++) a[k] -= b[k];
+    return scree_length(a) - f->state.row[i].radius - f->state.row[j].radius;
 }
 
 /// All pairs closer than the sum of radii + skin, touching ones first, with clear histories; bodies keep their rows.
@@ -107,12 +139,13 @@ static inline void fixture_find_pairs(fixture *f, double skin)
     for (int pass = 0; pass < 2; pass++) {
         for (size_t i = 0; i < count; i++)
             for (size_t j = i + 1; j < count; j++) {
-                const scree_row *a = &f->state.row[i], *b = &f->state.row[j];
-                double gap = fixture_distance(a, b) - a->radius - b->radius;
+                double gap = fixture_gap(f, i, j);
                 if (pass == 0 ? gap >= 0 : gap < 0 || gap >= skin) continue;
                 assert_true(list->count < list->capacity);
                 list->first[list->count] = (uint32_t)(f->state.id[i] < f->state.id[j] ? i : j);
                 list->second[list->count] = (uint32_t)(f->state.id[i] < f->state.id[j] ? j : i);
+                if (list->booking) list->booking[list->count] = (scree_booking){{0}};
+                if (list->rolling) list->rolling[list->count] = (scree_rolling){{0}, {0}};
                 list->history[list->count++] = (scree_history){{0}};
             }
         if (pass == 0) list->touching_count = list->count;
@@ -129,6 +162,10 @@ static inline void fixture_find_walls(fixture *f)
     assert_int_equal(scree_allocate(&list->body, most, sizeof *list->body, &error), SCREE_OK);
     assert_int_equal(scree_allocate(&list->wall, most, sizeof *list->wall, &error), SCREE_OK);
     assert_int_equal(scree_allocate(&list->history, most, sizeof *list->history, &error), SCREE_OK);
+    if (f->state.dimension == 3)
+        assert_int_equal(scree_allocate(&list->booking, most, sizeof *list->booking, &error), SCREE_OK);
+    if (f->model.rolling)
+        assert_int_equal(scree_allocate(&list->rolling, most, sizeof *list->rolling, &error), SCREE_OK);
     list->capacity = most;
     for (uint32_t w = 0; w < SCREE_WALL_COUNT; w++)
         for (size_t k = 0; k < f->state.count && f->state.wall[w].active; k++) {
@@ -142,8 +179,10 @@ static inline void fixture_measure_speed(fixture *f)
 {
     f->state.largest_speed = 0;
     for (size_t k = 0; k < f->state.count; k++) {
-        const scree_row *row = &f->state.row[k];
-        f->state.largest_speed = fmax(f->state.largest_speed, hypot(row->vx, row->vy) + row->radius * fabs(row->spin));
+        scree_vector velocity, spin;
+        scree_body_motion(&f->state, k, velocity, spin);
+        double speed = scree_length(velocity) + f->state.row[k].radius * scree_length(spin);
+        f->state.largest_speed = fmax(f->state.largest_speed, speed);
     }
 }
 

@@ -1,29 +1,34 @@
-/// The kernel with eight lanes on any machine: compiled here for the basic instruction set, where the compiler makes
+/// The kernels with eight lanes on any machine: compiled here for the basic instruction set, where the compiler makes
 /// the wide vectors out of narrow ones. The machinery of AVX-512 kernels is tested by this also where they cannot run.
 #pragma GCC diagnostic ignored "-Wpsabi"
 #define SCREE_ISA   9 /* no machine has it: only a name */
 #define SCREE_LANES 8
-#include "contact/pairs_batch.c"
+#include "contact/plane_pairs_batch.c"
+#include "contact/solid_pairs_batch.c"
 
-#include "contact_fixture.h"
+#include "sphere_fixture.h"
 
 #include "contact/partition.h"
 #include "contact/reference.h"
 
-enum { SIDE = 13, EVALUATIONS = 20 }; // 169 bodies: no multiple of eight
+enum { SIDE = 13, EDGE = 5, EVALUATIONS = 20 }; // 169 and 125 bodies: no multiple of eight
 
 /// One evaluation of the pairs by `kernel`, as contact/forces.c would do it.
-static contact_totals evaluate(fixture *f, bool ledger, contact_kernel *kernel)
+static contact_totals evaluate(fixture *f, const variant *v, contact_kernel *kernel)
 {
-    contact_scratch *scratch = contact_scratch_refresh(&f->work, f->state.count);
+    contact_scratch *scratch = contact_scratch_refresh(&f->work, &f->state);
     scree_contact_set_quanta(&f->model, &f->state, 0);
     contact_job job = scratch->part[0].job;
+    contact_part_clear(&scratch->part[0], &f->state, &job);
     job.model = &f->model;
+    job.variant = *v;
     job.row = f->state.row;
-    job.sum = contact_part_clear(&scratch->part[0], &f->state);
+    job.turn = f->state.turn;
     job.first = f->work.pairs.first;
     job.second = f->work.pairs.second;
     job.history = f->work.pairs.history;
+    job.booking = f->work.pairs.booking;
+    job.rolling = f->work.pairs.rolling;
     job.near_touched = scratch->near_touched;
     job.settings = law_settings_get(&f->model, f->state.step_size);
     job.scale = (contact_scale){.inverse_force = 1 / f->state.force_quantum,
@@ -31,32 +36,52 @@ static contact_totals evaluate(fixture *f, bool ledger, contact_kernel *kernel)
                                 .inverse_damping = 0x1p60,
                                 .inverse_friction = 0x1p60,
                                 .force_limit = ldexp(f->state.force_quantum, 50)};
-    job.ledger = ledger;
     kernel(&job);
     f->state.largest_overlap = job.totals.largest_overlap;
     return job.totals;
 }
 
-static void compare(scree_law law, int materials, bool ledger)
+static void create(fixture *f, const variant *v)
+{
+    if (v->dimension == 3)
+        sphere_create_assembly(f, v->law, EDGE, v->many_materials ? 2 : 1, v->rolling);
+    else
+        fixture_create_assembly(f, v->law, SIDE, v->many_materials ? 2 : 1);
+}
+
+/// Equal numbers; 0 and -0 are the same memory.
+static void assert_same_memory(const fixture *a, const fixture *b)
+{
+    const scree_pair_list *one = &a->work.pairs, *other = &b->work.pairs;
+    for (size_t p = 0; p < one->count; p++)
+        for (int k = 0; k < 4; k++) {
+            assert_true(one->history[p].value[k] == other->history[p].value[k]);
+            if (one->booking) assert_true(one->booking[p].value[k] == other->booking[p].value[k]);
+            if (one->rolling) assert_true(one->rolling[p].value[k] == other->rolling[p].value[k]);
+            if (one->rolling) assert_true(one->rolling[p].booked[k] == other->rolling[p].booked[k]);
+        }
+}
+
+static void compare(const variant *v)
 {
     fixture one, wide;
-    fixture_create_assembly(&one, law, SIDE, materials);
-    fixture_create_assembly(&wide, law, SIDE, materials);
+    create(&one, v);
+    create(&wide, v);
     for (int n = 0; n < EVALUATIONS; n++) {
-        contact_totals a = evaluate(&one, ledger, contact_pairs_reference);
-        contact_totals b = evaluate(&wide, ledger, scree_pairs_batch_v9);
+        contact_totals a = evaluate(&one, v, contact_pairs_reference);
+        contact_totals b = evaluate(&wide, v, v->dimension == 3 ? scree_solid_pairs_v9 : scree_plane_pairs_v9);
         assert_memory_equal(one.state.sum, wide.state.sum, one.state.count * sizeof *one.state.sum);
+        if (v->dimension == 3)
+            assert_memory_equal(one.state.torque, wide.state.torque, one.state.count * sizeof *one.state.torque);
         assert_true(a.damping == b.damping && a.friction == b.friction && a.stiffness == b.stiffness);
         assert_true(a.largest_overlap == b.largest_overlap && a.in_range && b.in_range);
-        assert_true(!ledger || a.damping != 0);
+        assert_true(!v->ledger || a.damping != 0);
         for (size_t k = 0; k < one.state.count; k++) {
             one.state.row[k].x += 1e-6 * one.state.row[k].vx;
             wide.state.row[k].x += 1e-6 * wide.state.row[k].vx;
         }
     }
-    for (size_t p = 0; p < one.work.pairs.count; p++)
-        for (int v = 0; v < SCREE_HISTORY; v++)
-            assert_true(one.work.pairs.history[p].value[v] == wide.work.pairs.history[p].value[v]);
+    assert_same_memory(&one, &wide);
     fixture_destroy(&wide);
     fixture_destroy(&one);
 }
@@ -64,9 +89,12 @@ static void compare(scree_law law, int materials, bool ledger)
 static void eight_lanes_give_the_bits_of_one(void **unused)
 {
     (void)unused;
-    for (int law = SCREE_LAW_HERTZ_BRILLIANTOV; law <= SCREE_LAW_HERTZ_MINDLIN; law++)
-        for (int materials = 1; materials <= 2; materials++)
-            for (int ledger = 0; ledger <= 1; ledger++) compare((scree_law)law, materials, ledger);
+    for (int dimension = 2; dimension <= 3; dimension++)
+        for (int law = SCREE_LAW_HERTZ_BRILLIANTOV; law <= SCREE_LAW_HERTZ_MINDLIN; law++)
+            for (int materials = 1; materials <= 2; materials++)
+                for (int ledger = 0; ledger <= 1; ledger++)
+                    compare(&(variant){dimension, (scree_law)law, materials > 1, ledger, false});
+    for (int ledger = 0; ledger <= 1; ledger++) compare(&(variant){3, SCREE_LAW_HERTZ_MINDLIN, true, ledger, true});
 }
 
 int main(void)

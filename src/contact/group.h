@@ -1,0 +1,183 @@
+/// A group of pairs, one a lane: loads of the rows that they name, and what is written back. Only for kernels.
+#ifndef SCREE_CONTACT_GROUP_H
+#define SCREE_CONTACT_GROUP_H
+
+#include "contact/evaluate.h"
+#include "contact/rows.h"
+
+/// Pairs of one group. Where there are fewer than lanes, the first is repeated with `present` clear.
+typedef struct group {
+    size_t pair[SCREE_LANES];
+    lanes_bits present;
+} group;
+
+/// Running totals in lanes.
+typedef struct totals {
+    lanes_bits damping, friction, stiffness, in_range;
+    lanes largest_overlap;
+} totals;
+
+/// Half of the body rows of a group, from number `half` on.
+SCREE_INLINE columns load_rows(const contact_job *job, const uint32_t *body, const group *g, int half)
+{
+    const double *row[SCREE_LANES];
+    LANE_LOOP row[k] = &job->row[body[g->pair[k]]].x + half;
+    return columns_load(row);
+}
+
+SCREE_INLINE columns load_turns(const contact_job *job, const uint32_t *body, const group *g)
+{
+    const double *row[SCREE_LANES];
+    LANE_LOOP row[k] = &job->turn[body[g->pair[k]]].wx;
+    return columns_load(row);
+}
+
+/// Position and radius.
+SCREE_INLINE bodies load_places(int dimension, const contact_job *job, const uint32_t *body, const group *g)
+{
+    columns place = load_rows(job, body, g, 0);
+    bodies b = {.place = {place.c0, place.c1, place.c2}};
+    b.radius = place.c3;
+    if (dimension == 2) b.material = place.c2;
+    return b;
+}
+
+SCREE_INLINE bodies load_bodies(int dimension, const contact_job *job, const uint32_t *body, const group *g)
+{
+    bodies b = load_places(dimension, job, body, g);
+    columns move = load_rows(job, body, g, 4);
+    b.velocity = (vector){move.c0, move.c1, move.c2};
+    b.mass = move.c3;
+    if (dimension == 2) {
+        b.spin.x = move.c2;
+    } else {
+        columns turn = load_turns(job, body, g);
+        b.spin = (vector){turn.c0, turn.c1, turn.c2};
+        b.material = turn.c3;
+    }
+    return b;
+}
+
+SCREE_INLINE lanes_bits group_touches(int dimension, const bodies *first, const bodies *second)
+{
+    return bodies_touch(dimension, vector_minus(dimension, first->place, second->place),
+                        first->radius + second->radius);
+}
+
+SCREE_INLINE law_constants constants_of_columns(columns c, columns turning)
+{
+    return (law_constants){c.c0, c.c1, c.c2, c.c3, turning.c0, turning.c1};
+}
+
+SCREE_INLINE law_constants load_constants(const contact_job *job, variant v, lanes first, lanes second)
+{
+    const scree_pair_constants *same = &job->model->pairs[0][0];
+    columns turning = {0};
+    if (!v.many_materials) {
+        columns c = {lanes_all(same->normal_stiffness), lanes_all(same->tangential_stiffness),
+                     lanes_all(same->friction), lanes_all(same->damping)};
+        if (v.rolling)
+            turning = (columns){.c0 = lanes_all(same->rolling_friction), .c1 = lanes_all(same->twisting_friction)};
+        return constants_of_columns(c, turning);
+    }
+    const double *row[SCREE_LANES];
+    LANE_LOOP row[k] = &job->model->pairs[(int)first[k]][(int)second[k]].normal_stiffness;
+    columns c = columns_load(row);
+    if (v.rolling) {
+        LANE_LOOP row[k] += 4;
+        turning = columns_load(row);
+    }
+    return constants_of_columns(c, turning);
+}
+
+SCREE_INLINE void keep_columns(lanes value[4], lanes_bits present, columns c)
+{
+    value[0] = lanes_keep(present, c.c0);
+    value[1] = lanes_keep(present, c.c1);
+    value[2] = lanes_keep(present, c.c2);
+    value[3] = lanes_keep(present, c.c3);
+}
+
+/// Zero where a pair is not present.
+SCREE_INLINE law_memory load_memory(const contact_job *job, variant v, const group *g)
+{
+    law_memory m = {0};
+    const double *row[SCREE_LANES];
+    const float *single[SCREE_LANES];
+    if (!law_remembers(v)) return m;
+    LANE_LOOP row[k] = job->history[g->pair[k]].value;
+    keep_columns(m.value, g->present, columns_load(row));
+    if (law_books(v)) {
+        LANE_LOOP single[k] = job->booking[g->pair[k]].value;
+        keep_columns(m.booked, g->present, columns_load_single(single));
+    }
+    if (v.rolling) {
+        LANE_LOOP row[k] = job->rolling[g->pair[k]].value;
+        keep_columns(m.rolling, g->present, columns_load(row));
+        LANE_LOOP single[k] = job->rolling[g->pair[k]].booked;
+        keep_columns(m.rolling_booked, g->present, columns_load_single(single));
+    }
+    return m;
+}
+
+/// Last lane first, so that the first pair wins over its repetitions.
+SCREE_INLINE void store_memory(const contact_job *job, variant v, const group *g, const law_memory *m)
+{
+    row4 row[SCREE_LANES];
+    if (!law_remembers(v)) return;
+    columns_to_rows((columns){m->value[0], m->value[1], m->value[2], m->value[3]}, row);
+    LANE_LOOP *(row4 *)job->history[g->pair[SCREE_LANES - 1 - k]].value = row[SCREE_LANES - 1 - k];
+    if (law_books(v)) {
+        columns_to_rows((columns){m->booked[0], m->booked[1], m->booked[2], m->booked[3]}, row);
+        LANE_LOOP *(row4_single *)job->booking[g->pair[SCREE_LANES - 1 - k]].value =
+            __builtin_convertvector(row[SCREE_LANES - 1 - k], row4_single);
+    }
+    if (v.rolling) {
+        columns_to_rows((columns){m->rolling[0], m->rolling[1], m->rolling[2], m->rolling[3]}, row);
+        LANE_LOOP *(row4 *)job->rolling[g->pair[SCREE_LANES - 1 - k]].value = row[SCREE_LANES - 1 - k];
+        const lanes *booked = m->rolling_booked;
+        columns_to_rows((columns){booked[0], booked[1], booked[2], booked[3]}, row);
+        LANE_LOOP *(row4_single *)job->rolling[g->pair[SCREE_LANES - 1 - k]].booked =
+            __builtin_convertvector(row[SCREE_LANES - 1 - k], row4_single);
+    }
+}
+
+SCREE_INLINE void rows_of_bits(lanes_bits a, lanes_bits b, lanes_bits c, lanes_bits d, row4 row[SCREE_LANES])
+{
+    columns_to_rows((columns){lanes_as_double(a), lanes_as_double(b), lanes_as_double(c), lanes_as_double(d)}, row);
+}
+
+/// 2D: force, torque and count in one row; 3D: the torque in its own.
+SCREE_INLINE void add_to_sums(int dimension, const contact_job *job, const uint32_t *body, const group *g, quanta force,
+                              quanta torque, lanes_bits count)
+{
+    row4 row[SCREE_LANES];
+    rows_of_bits(force.x, force.y, dimension == 3 ? force.z : torque.x, count, row);
+    LANE_LOOP *(row4_bits *)&job->sum[body[g->pair[k]]] += (row4_bits)row[k];
+    if (dimension == 2) return;
+    rows_of_bits(torque.x, torque.y, torque.z, (lanes_bits){0}, row);
+    LANE_LOOP *(row4_bits *)&job->torque[body[g->pair[k]]] += (row4_bits)row[k];
+}
+
+SCREE_INLINE void evaluate_group(const contact_job *job, variant v, const group *g, totals *t)
+{
+    const int dimension = v.dimension;
+    bodies first = load_bodies(dimension, job, job->first, g), second = load_bodies(dimension, job, job->second, g);
+    lanes_bits touching = g->present & group_touches(dimension, &first, &second);
+    motion m = motion_of_pair(dimension, &first, &second, job->settings.step);
+    law_constants constants = load_constants(job, v, first.material, second.material);
+
+    law_memory before = load_memory(job, v, g), after;
+    contact_quanta q = contact_evaluate(v, &constants, &job->settings, &job->scale, &m, touching, &before, &after);
+    store_memory(job, v, g, &after);
+
+    add_to_sums(dimension, job, job->first, g, q.force, q.torque_first, q.count);
+    add_to_sums(dimension, job, job->second, g, quanta_opposite(q.force), q.torque_second, q.count);
+    t->in_range &= q.in_range;
+    t->largest_overlap = lanes_at_least(t->largest_overlap, lanes_keep(touching, m.indentation));
+    t->damping += q.damping;
+    t->friction += q.friction;
+    t->stiffness += q.stiffness;
+}
+
+#endif

@@ -1,0 +1,174 @@
+/// The kernels: contact forces of a share of the pair list, several contacts at once.
+///
+/// Method. Bodies are 64-byte rows; the rows of a group of pairs are loaded whole and transposed in registers, the law
+/// is evaluated in lanes, and the integer contributions are transposed back and added row by row (contact/group.h).
+/// Touching pairs, which come first in the list, go through whole groups. Near pairs get the distance test alone; those
+/// that touch, or did in the last step, are queued until a group is full, as are the ends of both ranges. Sums are
+/// integers, so the order does not matter.
+///
+/// Compiled once for each dimension (plane_pairs_batch.c, solid_pairs_batch.c) and instruction set (SCREE_ISA, two,
+/// four or eight lanes); inside, once for each variant, by always-inline functions that are called with constants.
+/// Cost: two cache lines of bodies, two sum rows and one history row a contact; in 3D two rows of spins, two of torques
+/// and, with the ledger, a booking row more.
+#ifndef SCREE_CONTACT_PAIRS_H
+#define SCREE_CONTACT_PAIRS_H
+
+#include "contact/group.h"
+
+#define PREFETCH_AHEAD 64 // pairs
+
+/// Pairs that wait for a whole group.
+enum { QUEUE_SIZE = 256 };
+typedef struct queue {
+    uint32_t pair[QUEUE_SIZE];
+    size_t count;
+} queue;
+
+/// Brings the bodies of the pairs from p on into the cache.
+SCREE_INLINE void prefetch_bodies(int dimension, const contact_job *job, size_t p)
+{
+    LANE_LOOP
+    {
+        size_t second = job->second[p + (size_t)k];
+        __builtin_prefetch(&job->row[second]);
+        __builtin_prefetch(&job->sum[second], 1);
+        if (dimension == 2) continue;
+        __builtin_prefetch(&job->turn[second]);
+        __builtin_prefetch(&job->torque[second], 1);
+    }
+}
+
+/// Bits of the near pairs p .. p + lanes - 1 that touch.
+SCREE_INLINE unsigned near_contacts(int dimension, const contact_job *job, size_t p)
+{
+    group g;
+    LANE_LOOP g.pair[k] = p + (size_t)k;
+    bodies first = load_places(dimension, job, job->first, &g), second = load_places(dimension, job, job->second, &g);
+    return lanes_ones(group_touches(dimension, &first, &second));
+}
+
+/// Renews the bits of the near pairs p .. p + lanes - 1; returns those of pairs that touch or did so in the last step.
+SCREE_INLINE unsigned near_renew(int dimension, const contact_job *job, size_t p)
+{
+    unsigned now = near_contacts(dimension, job, p);
+    uint8_t *byte = &job->near_touched[(p - job->near) / 8];
+    unsigned shift = (unsigned)((p - job->near) % 8), all = (1U << SCREE_LANES) - 1;
+    unsigned before = (unsigned)*byte >> shift & all;
+    if (now != before) *byte = (uint8_t)((*byte & ~(all << shift)) | now << shift);
+    return now | before;
+}
+
+/// Queues near pairs from p on, until the queue is full or the job's near pairs have ended; returns the next p.
+SCREE_INLINE size_t queue_near(int dimension, queue *q, const contact_job *job, size_t p)
+{
+    for (; p + SCREE_LANES <= job->near_end && q->count + SCREE_LANES <= QUEUE_SIZE; p += SCREE_LANES) {
+        if (p + PREFETCH_AHEAD + SCREE_LANES <= job->near_end) prefetch_bodies(dimension, job, p + PREFETCH_AHEAD);
+        for (unsigned bits = near_renew(dimension, job, p); bits; bits &= bits - 1)
+            q->pair[q->count++] = (uint32_t)(p + (size_t)__builtin_ctz(bits));
+    }
+    if (p + SCREE_LANES > job->near_end)
+        while (p < job->near_end && q->count < QUEUE_SIZE) q->pair[q->count++] = (uint32_t)p++;
+    return p;
+}
+
+/// Evaluates the queued pairs; a last group that is not full repeats its first pair.
+SCREE_INLINE void queue_evaluate(const queue *q, const contact_job *job, variant v, totals *t)
+{
+    lanes_bits number;
+    LANE_LOOP number[k] = (uint64_t)k;
+    for (size_t begin = 0; begin < q->count; begin += SCREE_LANES) {
+        size_t left = q->count - begin;
+        group g = {.present = (lanes_bits)(number < (uint64_t)left)};
+        LANE_LOOP g.pair[k] = q->pair[begin + ((size_t)k < left ? (size_t)k : 0)];
+        evaluate_group(job, v, &g, t);
+    }
+}
+
+/// Whole groups of touching pairs; returns the first pair that is left.
+SCREE_INLINE size_t evaluate_touching(const contact_job *job, variant v, totals *t)
+{
+    size_t p = job->touching_begin;
+    for (; p + SCREE_LANES <= job->touching_end; p += SCREE_LANES) {
+        if (p + PREFETCH_AHEAD + SCREE_LANES <= job->touching_end)
+            prefetch_bodies(v.dimension, job, p + PREFETCH_AHEAD);
+        group g = {.present = ~(lanes_bits){0}};
+        LANE_LOOP g.pair[k] = p + (size_t)k;
+        evaluate_group(job, v, &g, t);
+    }
+    return p;
+}
+
+static void totals_reduce(const totals *t, contact_totals *out)
+{
+    unsigned all = (1U << SCREE_LANES) - 1;
+    *out = (contact_totals){.in_range = lanes_ones(t->in_range) == all};
+    LANE_LOOP
+    {
+        out->damping += t->damping[k];
+        out->friction += t->friction[k];
+        out->stiffness += t->stiffness[k];
+        if (t->largest_overlap[k] > out->largest_overlap) out->largest_overlap = t->largest_overlap[k];
+    }
+}
+
+/// The job is copied, so that the compiler knows that sums and histories do not overlap it.
+SCREE_INLINE void run(contact_job *given, variant v)
+{
+    const contact_job copy = *given, *job = &copy;
+    totals t = {.in_range = ~(lanes_bits){0}};
+    queue q = {.count = 0};
+    for (size_t p = evaluate_touching(job, v, &t); p < job->touching_end; p++) q.pair[q.count++] = (uint32_t)p;
+    size_t p = job->near_begin;
+    do {
+        p = queue_near(v.dimension, &q, job, p);
+        queue_evaluate(&q, job, v, &t);
+        q.count = 0;
+    } while (p < job->near_end);
+    totals_reduce(&t, &given->totals);
+}
+
+/// Calls `run` with constants: one copy of it for each variant of the dimension. Rolling resistance looks its materials
+/// up even if there is only one.
+SCREE_INLINE void run_variant(contact_job *job, const int dimension)
+{
+    const scree_law mindlin = SCREE_LAW_HERTZ_MINDLIN, brilliantov = SCREE_LAW_HERTZ_BRILLIANTOV;
+    const variant *v = &job->variant;
+    const int choice = v->rolling ? 8 : 4 * (v->law == mindlin) + 2 * v->many_materials;
+    switch (choice + v->ledger) {
+    case 0:
+        run(job, (variant){dimension, brilliantov, false, false, false});
+        break;
+    case 1:
+        run(job, (variant){dimension, brilliantov, false, true, false});
+        break;
+    case 2:
+        run(job, (variant){dimension, brilliantov, true, false, false});
+        break;
+    case 3:
+        run(job, (variant){dimension, brilliantov, true, true, false});
+        break;
+    case 4:
+        run(job, (variant){dimension, mindlin, false, false, false});
+        break;
+    case 5:
+        run(job, (variant){dimension, mindlin, false, true, false});
+        break;
+    case 6:
+        run(job, (variant){dimension, mindlin, true, false, false});
+        break;
+    case 7:
+        run(job, (variant){dimension, mindlin, true, true, false});
+        break;
+    case 8:
+        run(job, (variant){dimension, mindlin, true, false, true});
+        break;
+    default:
+        run(job, (variant){dimension, mindlin, true, true, true});
+        break;
+    }
+}
+
+#define PASTE(a, b)            a##b
+#define KERNEL_NAME(name, isa) PASTE(name, isa)
+
+#endif

@@ -1,0 +1,267 @@
+/// Transmission of rotations: hand-made networks around a forced body whose answers are known.
+#include "testing.h"
+
+#include "base/random.h"
+#include "measure/rotation.h"
+
+#include <math.h>
+#include <string.h>
+
+#define RADIUS 1e-3
+#define DECAY  3.0 /* mean diameters */
+
+enum { RINGS = 14 };
+
+typedef struct cluster {
+    scree_model model;
+    scree_state state;
+    scree_contact_table table;
+    size_t forced;
+} cluster;
+
+static double uniform(uint64_t index)
+{
+    return scree_random_uniform(3, SCREE_RANDOM_TEST, index);
+}
+
+static size_t count_places(int dimension, double (*places)[3])
+{
+    size_t count = 0;
+    double limit = 2 * RADIUS * RINGS, layers = dimension == 3 ? RINGS : 0, height = sqrt(3) * RADIUS;
+    // A triangular lattice in the plane, a simple stack of square ones in space.
+    for (double k = -layers; k <= layers; k++)
+        for (double j = -20; j <= 20; j++)
+            for (double i = -20; i <= 20; i++) {
+                double x = dimension == 2 ? (2 * i + j) * RADIUS : 2 * i * RADIUS;
+                double place[3] = {x, j * (dimension == 2 ? height : 2 * RADIUS), 2 * k * RADIUS};
+                if (!(scree_length(place) <= limit)) continue;
+                if (places) memcpy(places[count], place, sizeof place);
+                count++;
+            }
+    return count;
+}
+
+static void add_contact(cluster *c, size_t first, size_t second, double force)
+{
+    scree_contact *contact = &c->table.contact[c->table.count++];
+    scree_vector a, b;
+    scree_body_place(&c->state, first, a);
+    scree_body_place(&c->state, second, b);
+    *contact = (scree_contact){.first = (uint32_t)first, .second = (uint32_t)second, .normal_force = force};
+    for (int i = 0; i < 3; i++) contact->branch[i] = a[i] - b[i];
+}
+
+/// Bodies on a lattice that touch their neighbours with equal forces; spins fall as exp(-r / DECAY).
+static void create(cluster *c, int dimension)
+{
+    double(*places)[3] = NULL;
+    size_t count = count_places(dimension, NULL);
+    *c = (cluster){.model = {.dimension = dimension, .mean_radius = RADIUS}};
+    assert_int_equal(scree_state_create(&c->state, dimension, count, NULL), SCREE_OK);
+    assert_int_equal(scree_allocate(&c->table.contact, 6 * count, sizeof *c->table.contact, NULL), SCREE_OK);
+    assert_int_equal(scree_allocate(&places, count, sizeof *places, NULL), SCREE_OK);
+    (void)count_places(dimension, places);
+    for (size_t k = 0; k < count; k++) {
+        double distance = scree_length(places[k]), spin = 0.03 * exp(-distance / (2 * RADIUS * DECAY));
+        c->state.row[k] = (scree_row){.x = places[k][0], .y = places[k][1], .radius = RADIUS, .mass = 1};
+        if (dimension == 3) {
+            c->state.row[k].z = places[k][2];
+            c->state.turn[k] = (scree_turn_row){.wx = 0.6 * spin, .wz = -0.8 * spin};
+        } else {
+            c->state.row[k].spin = k % 2 ? spin : -spin;
+        }
+        if (distance < 1e-9) c->forced = k;
+        for (size_t j = 0; j < k; j++) {
+            double apart[3];
+            for (int i = 0; i < 3; i++) apart[i] = places[k][i] - places[j][i];
+            if (scree_length(apart) < 2.001 * RADIUS) add_contact(c, j, k, 2);
+        }
+    }
+    scree_release(&places);
+}
+
+/// Segments exactly across have no direction away from the forced body; these tests leave them out.
+static void drop_segments_across(cluster *c)
+{
+    for (size_t k = 0; k < c->table.count; k++) {
+        scree_contact *contact = &c->table.contact[k];
+        scree_vector a, b;
+        scree_body_place(&c->state, contact->first, a);
+        scree_body_place(&c->state, contact->second, b);
+        double product = 0;
+        for (int i = 0; i < 3; i++) product += (a[i] + b[i]) / 2 * contact->branch[i];
+        if (fabs(product) < 1e-9 * RADIUS * RADIUS) contact->normal_force = 0;
+    }
+}
+
+static void destroy(cluster *c)
+{
+    scree_state_destroy(&c->state);
+    scree_release(&c->table.contact);
+}
+
+static void an_exponential_decay_is_found(void **unused)
+{
+    (void)unused;
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        cluster c;
+        scree_rotation_decay decay;
+        create(&c, dimension);
+        scree_rotation_decay_measure(&c.model, &c.state, c.forced, &decay);
+        // Bins are half a diameter wide, of bodies that lie anywhere in them: a quarter of a bin of 14 diameters.
+        assert_true(fabs(decay.length - DECAY) < 0.02 * DECAY);
+        assert_true(decay.length_low < DECAY && DECAY < decay.length_high);
+        assert_true(decay.length_high - decay.length_low < 0.1 * DECAY);
+        assert_true(fabs(log(decay.amplitude)) < 0.1);
+        assert_true(decay.reach > 5 && decay.reach < RINGS);
+        size_t counted = 0;
+        for (size_t b = 0; b < decay.bin_count; b++) counted += decay.bin[b].count;
+        assert_int_equal(counted, c.state.count - 1);
+        destroy(&c);
+    }
+}
+
+static void spins_that_do_not_decay_have_no_reach(void **unused)
+{
+    (void)unused;
+    cluster c;
+    scree_rotation_decay decay;
+    create(&c, 2);
+    for (size_t k = 0; k < c.state.count; k++) c.state.row[k].spin = 0.01 * (0.5 + uniform(k));
+    scree_rotation_decay_measure(&c.model, &c.state, c.forced, &decay);
+    assert_true(decay.reach < 2 && decay.fitted < 4);
+    destroy(&c);
+}
+
+/// Six like bonds around the body and everything else by symmetry: T is isotropic and symmetric.
+static void an_isotropic_network_has_an_isotropic_tensor(void **unused)
+{
+    (void)unused;
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        cluster c;
+        scree_rotation_network network;
+        create(&c, dimension);
+        drop_segments_across(&c);
+        scree_rotation_network_measure(&c.model, &c.state, &c.table, c.forced, 10, &network);
+        double scale = network.value[0];
+        assert_true(scale > 0 && network.contacts > 100);
+        for (int i = 0; i < dimension; i++)
+            for (int j = 0; j < dimension; j++) {
+                double expected = i == j ? network.tensor[0] : 0;
+                assert_true(fabs(network.tensor[3 * i + j] - expected) < 1e-12 * (double)network.contacts * scale);
+            }
+        destroy(&c);
+    }
+}
+
+/// P: diagonal if all segments are radial, off-diagonal if all are tangential.
+static void radial_and_tangential_segments(void **unused)
+{
+    (void)unused;
+    cluster c;
+    scree_rotation_network network;
+    create(&c, 2);
+    c.table.count = 2;
+    // One segment on the x axis, its middle at 3 diameters; then one there across it; f / <f> = 1.
+    for (int across = 0; across < 2; across++) {
+        c.state.row[0].x = 6 * RADIUS + (across ? 0 : RADIUS);
+        c.state.row[0].y = across ? RADIUS : 0;
+        c.state.row[1].x = 6 * RADIUS - (across ? 0 : RADIUS);
+        c.state.row[1].y = across ? -RADIUS : 0;
+        c.table.count = 0;
+        add_contact(&c, 1, 0, 7);
+        scree_rotation_network_measure(&c.model, &c.state, &c.table, c.forced, 10, &network);
+        double whole = 1 / (6 * RADIUS);
+        assert_int_equal(network.contacts, 1);
+        assert_true(fabs(network.tensor[0] - (across ? 0 : whole)) < 1e-12 * whole);
+        assert_true(fabs(fabs(network.tensor[1]) - (across ? whole : 0)) < 1e-12 * whole);
+        assert_true(fabs(network.rose[0] + network.rose[SCREE_ROTATION_SECTORS - 1] - (across ? 0 : whole)) <
+                    1e-12 * whole);
+        if (!across) assert_true(fabs(fabs(network.axis[0][0]) - 1) < 1e-12);
+        scree_rotation_network_measure(&c.model, &c.state, &c.table, c.forced, 2.9, &network);
+        assert_int_equal(network.contacts, 0);
+    }
+    destroy(&c);
+}
+
+/// Strong contacts along one lattice direction through the forced body, where spins are larger too; then smaller.
+static void rotations_that_follow_chains_correlate(void **unused)
+{
+    (void)unused;
+    for (int sign = -1; sign <= 1; sign++) {
+        cluster c;
+        scree_rotation_decay decay;
+        scree_rotation_network network;
+        scree_rotation_alignment alignment;
+        create(&c, 2);
+        for (size_t k = 0; k < c.table.count; k++) {
+            scree_contact *contact = &c.table.contact[k];
+            if (fabs(contact->branch[1]) < 1e-9) contact->normal_force = 10 + uniform(k);
+        }
+        for (size_t k = 0; k < c.state.count; k++) {
+            scree_row *row = &c.state.row[k];
+            double cosine = row->x / fmax(1e-9, hypot(row->x, row->y));
+            row->spin *= exp(sign * (cosine * cosine - 0.5) + 0.5 * (uniform(5000 + k) - 0.5));
+        }
+        scree_rotation_decay_measure(&c.model, &c.state, c.forced, &decay);
+        scree_rotation_network_measure(&c.model, &c.state, &c.table, c.forced, 10, &network);
+        assert_int_equal(scree_rotation_alignment_measure(&c.model, &c.state, &c.table, c.forced, 10, &decay, &network,
+                                                          &alignment, NULL),
+                         SCREE_OK);
+        assert_true(alignment.along.count > 100);
+        assert_true(alignment.along.low < alignment.along.value && alignment.along.value < alignment.along.high);
+        if (sign > 0) assert_true(alignment.along.low > 0.2 && alignment.sectors.low > 0.2);
+        if (sign < 0) assert_true(alignment.along.high < -0.2 && alignment.sectors.high < -0.2);
+        if (sign == 0) assert_true(alignment.along.low < 0 && alignment.along.high > 0);
+        // The chains lie along x, and so does the first axis.
+        assert_true(fabs(network.axis[0][0]) > 0.99);
+        destroy(&c);
+    }
+}
+
+/// A turned assembly has a turned tensor: R T R'.
+static void a_rotated_assembly_has_a_rotated_tensor(void **unused)
+{
+    (void)unused;
+    cluster c;
+    scree_rotation_network before, after;
+    create(&c, 2);
+    for (size_t k = 0; k < c.table.count; k++) c.table.contact[k].normal_force = uniform(k);
+    drop_segments_across(&c);
+    scree_rotation_network_measure(&c.model, &c.state, &c.table, c.forced, 8.03, &before);
+    const double angle = 0.7, r[2][2] = {{cos(angle), -sin(angle)}, {sin(angle), cos(angle)}};
+    for (size_t k = 0; k < c.state.count; k++) {
+        scree_row *row = &c.state.row[k];
+        double x = row->x, y = row->y;
+        row->x = r[0][0] * x + r[0][1] * y;
+        row->y = r[1][0] * x + r[1][1] * y;
+    }
+    for (size_t k = 0; k < c.table.count; k++) {
+        double *branch = c.table.contact[k].branch, x = branch[0], y = branch[1];
+        branch[0] = r[0][0] * x + r[0][1] * y;
+        branch[1] = r[1][0] * x + r[1][1] * y;
+    }
+    scree_rotation_network_measure(&c.model, &c.state, &c.table, c.forced, 8.03, &after);
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 2; j++) {
+            double expected = 0;
+            for (int k = 0; k < 2; k++)
+                for (int l = 0; l < 2; l++) expected += r[i][k] * before.tensor[3 * k + l] * r[j][l];
+            // Round-off of a thousand terms.
+            assert_true(fabs(after.tensor[3 * i + j] - expected) < 1e-9 * before.value[0]);
+        }
+    destroy(&c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_exponential_decay_is_found),
+        cmocka_unit_test(spins_that_do_not_decay_have_no_reach),
+        cmocka_unit_test(an_isotropic_network_has_an_isotropic_tensor),
+        cmocka_unit_test(radial_and_tangential_segments),
+        cmocka_unit_test(rotations_that_follow_chains_correlate),
+        cmocka_unit_test(a_rotated_assembly_has_a_rotated_tensor),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
