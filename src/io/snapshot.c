@@ -170,8 +170,9 @@ static void read_members(scree_hdf5 *run, const char *group, scree_snapshot *sna
         bool wanted = field->rows == SCREE_ROWS_WALLS || (field->rows == SCREE_ROWS_ONE && field->snapshot);
         if (!wanted) continue;
         scree_array array = scree_array_of_field(&members, field);
-        size_t rows = array.rows;
-        array.data = read_column(run, group, field->name, field->type, array.components, &rows);
+        scree_hdf5_read(run, group, &array);
+        if (!run->status && array.rows != scree_field_rows_count(&members, field))
+            scree_hdf5_damaged(run, "it has another number of walls");
         if (!run->status) scree_array_to_field(&array, field, &members);
         scree_array_destroy(&array);
     }
