@@ -9,7 +9,8 @@
 /// shear. Rates are reached smoothly within `rise_time`.
 ///
 /// reference: [0] confine: pressure at the begin, compress: width at the begin; [1] wave time, [2, 3, 13] inertia,
-/// damping and limit of components under stress, [4..12] strain of the cell at the begin (3 x 3).
+/// damping and limit of components under stress, [4..12] strain of the cell at the begin (3 x 3), [14] deform: number
+/// of its fastest component.
 #include "base/matrix.h"
 #include "run/sample.h"
 #include "run/simulation.h"
@@ -18,7 +19,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { WAVE_TIME = 1, INERTIA, DAMPING, STRAIN, LIMIT = 13 };
+enum { WAVE_TIME = 1, INERTIA, DAMPING, STRAIN, LIMIT = 13, LEADER };
 enum { CALM = 5, SAMPLES_A_WAVE = 4 };
 #define STRESS_TOLERANCE 0.02
 #define RAMP_WAVES       6.0
@@ -209,6 +210,7 @@ static scree_status begin_deform(scree_simulation *s, scree_error *error)
 {
     (void)error;
     measure_sample(s, stress_scale(s));
+    s->state.stage.reference[LEADER] = scree_deform_leader(scree_stage_config(s));
     set_reference(&s->state);
     return SCREE_OK;
 }
@@ -230,7 +232,8 @@ static void control_deform(scree_simulation *s)
 
 static double deform_strain(const scree_simulation *s)
 {
-    int leader = scree_deform_leader(scree_stage_config(s));
+    // Asked for after the end of the stage too, when the config is that of the next.
+    int leader = (int)s->state.stage.reference[LEADER];
     return fabs(s->state.cell.strain[leader] - s->state.stage.reference[STRAIN + leader]);
 }
 

@@ -322,6 +322,38 @@ static void stresses_are_held(void **unused)
     }
 }
 
+/// 600 steps of a flow; the list is thrown away every `discard`-th step.
+static uint64_t flow_checksum(int dimension, int threads, int discard)
+{
+    cell_sample s;
+    scree_error error;
+    const double gradient[9] = {-40, 900, 0, 0, 30, 0, 0, dimension == 3 ? 500.0 : 0, 0};
+    cell_fill(&s, dimension, 5, SCREE_LAW_HERTZ_MINDLIN, 2);
+    scree_contact_scratch_destroy(&s.work);
+    scree_work_destroy(&s.work);
+    cell_check(scree_work_create(&s.work, &s.model, threads, &error), &error);
+    s.work.ledger = dimension == 2;
+    for (int step = 1; step <= 600; step++) {
+        cell_run(&s, gradient, 1);
+        if (discard > 0 && step % discard == 0) scree_neighbours_invalidate(&s.work);
+    }
+    cell_check(scree_contacts_save(&s.state, &s.work, &error), &error);
+    uint64_t checksum = scree_state_checksum(&s.state);
+    cell_destroy(&s);
+    return checksum;
+}
+
+static void order_and_threads_do_not_show(void **unused)
+{
+    (void)unused;
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        uint64_t reference = flow_checksum(dimension, 1, 0);
+        assert_true(flow_checksum(dimension, 1, 7) == reference);
+        assert_true(flow_checksum(dimension, 2, 0) == reference);
+        assert_true(flow_checksum(dimension, 3, 11) == reference);
+    }
+}
+
 static void narrow_cells_are_refused(void **unused)
 {
     (void)unused;
@@ -347,6 +379,7 @@ int main(void)
         cmocka_unit_test(power_is_volume_times_stress_times_rate),
         cmocka_unit_test(displacements_go_across_faces),
         cmocka_unit_test(stresses_are_held),
+        cmocka_unit_test(order_and_threads_do_not_show),
         cmocka_unit_test(narrow_cells_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
