@@ -30,13 +30,16 @@
 /// now in the cell. So x - F X, F = H H_0^-1, is right across faces.
 ///
 /// Servo. A component of L under stress is a degree of freedom with inertia and dashpot,
-///     I dL/dt = sigma_wanted - sigma - Z L,     I = 5 rho d^2,   Z = 5 rho a d,
-/// rho the mass per volume, d the mean diameter, a the speed of waves. The cell has no faces that waves could be
-/// reflected from, so it need not wait for them as a plate does (boundary/plates.c): the sample answers at once, with
-/// sigma' = rho a^2 L, and the stress creeps to what is wanted within 5 d / a, the times that a wave needs past five
-/// grains, without overshoot (damping ratio 1.1). The dashpot is implicit, and goes down to a tenth while the stress is
-/// far below the wanted one: a loose sample is gathered that much faster. sigma is the whole stress at n. a from the
-/// Hertz stiffness at the mean contact force, as there; the gain of the case divides Z.
+///     I dL/dt = sigma_wanted - sigma - Z (L - L_mean),     I = 5 rho d^2,   Z = 5 rho a d,   dL_mean/dt = (L - L_mean)
+///     / T,
+/// rho the mass per volume, d the mean diameter, a the speed of waves, T = 20 d / a. The cell has no faces that waves
+/// could be reflected from, so it need not wait for them as a plate does (boundary/plates.c): the sample answers at
+/// once, with sigma' = rho a^2 L, and the stress comes to what is wanted within some 12 d / a, the time that a wave
+/// needs past twelve grains, without overshoot (all roots of the linear response are real). The dashpot resists changes
+/// of L, not a lasting rate: a sample that dilates or contracts steadily keeps its stress. Far below the wanted stress,
+/// where nothing would limit the rate of a loose sample, it resists the rate itself, with a tenth of Z. It is taken
+/// implicitly. sigma is the whole stress at n. a from the Hertz stiffness at the mean contact force, as there; the gain
+/// of the case divides Z.
 ///
 /// Cost: two passes over the bodies a step in a deforming cell, one in a cell at rest. Limits: a cell that is not
 /// periodic in all directions does not deform.
@@ -50,7 +53,8 @@
 #include <math.h>
 #include <string.h>
 
-#define CREEP_GRAINS     5.0 // grains that a wave passes in the creep time of the servo
+#define CREEP_GRAINS     5.0  // grains that a wave passes in the creep time of the servo
+#define MEAN_GRAINS      20.0 // the same in the time of the running mean
 #define LEAST_RESISTANCE 0.1
 #define LEAN_LIMIT       0.51 // of a lattice vector over another: a little above half, where two lattices are as good
 
@@ -110,20 +114,27 @@ void scree_cell_drive_fit(const scree_model *model, const scree_state *state, do
     drive->limit = (isnan(velocity) ? 0.01 * model->radius_min / state->step_size : velocity) / mean_width(state);
 }
 
+/// One step of the servo of a component.
+static void hold_stress(const scree_cell_drive *drive, double dt, double wanted, double stress, double *rate,
+                        double *drift)
+{
+    double reached = fmin(1, fabs(stress / wanted));
+    double resistance = dt * drive->damping * fmax(LEAST_RESISTANCE, reached);
+    double next = (*rate + dt / drive->inertia * (wanted - stress) + resistance * reached * *drift) / (1 + resistance);
+    *rate = fmax(-drive->limit, fmin(drive->limit, next));
+    *drift += dt * drive->damping / MEAN_GRAINS * (*rate - *drift);
+}
+
 void scree_cell_control(const scree_model *model, scree_state *state, const scree_cell_drive *drive, double rise)
 {
-    double stress[9], dt = state->step_size;
+    scree_cell *cell = &state->cell;
+    double stress[9];
     scree_cell_stress(model, state, stress);
     for (int k = 0; k < 9; k++) {
-        double *rate = &state->cell.gradient[k];
-        if (isnan(drive->stress[k])) {
-            *rate = drive->rate[k] * rise;
-            continue;
-        }
-        double resistance = fmin(1, fmax(LEAST_RESISTANCE, fabs(stress[k] / drive->stress[k])));
-        double next =
-            (*rate + dt / drive->inertia * (drive->stress[k] - stress[k])) / (1 + dt * drive->damping * resistance);
-        *rate = fmax(-drive->limit, fmin(drive->limit, next));
+        if (isnan(drive->stress[k]))
+            cell->gradient[k] = cell->drift[k] = drive->rate[k] * rise;
+        else
+            hold_stress(drive, state->step_size, drive->stress[k], stress[k], &cell->gradient[k], &cell->drift[k]);
     }
 }
 

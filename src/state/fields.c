@@ -141,6 +141,7 @@ const scree_field scree_members[] = {
          "the same lattice vectors at the start of the loading stage"),
     CELL("gradient", SCREE_FIELD_DOUBLE, 9, "1/s", gradient,
          "velocity gradient of the last step, 3 x 3 by rows, extension positive"),
+    CELL("drift", SCREE_FIELD_DOUBLE, 9, "1/s", drift, "running mean of the velocity gradient, for the servo"),
     CELL("strain", SCREE_FIELD_DOUBLE, 9, "1", strain, "integral of the velocity gradient over time"),
     CELL("virial", SCREE_FIELD_DOUBLE, 9, "J", virial, "sum over contacts of force on the first (x) branch"),
     CELL("motion", SCREE_FIELD_DOUBLE, 9, "J", motion,

@@ -162,6 +162,7 @@ typedef struct scree_cell {
     double lattice[9];   ///< m, lattice vectors as columns; the unit vector where a direction is not periodic
     double reference[9]; ///< m, the same lattice vectors at the start of the loading stage
     double gradient[9];  ///< 1/s, velocity gradient of the last step, d v_row / d x_column
+    double drift[9];     ///< 1/s, running mean of the gradient, for the servo
     double strain[9];    ///< 1, its integral over time
     double virial[9];    ///< J, at the present step: sum over contacts of force on first (x) branch
     double motion[9];    ///< J, in the last step: sum over bodies of mass velocity (x) velocity
