@@ -27,8 +27,8 @@ static inline double scree_fixed_quantum(double bound)
     return ldexp(1.0, exponent - SCREE_FIXED_RANGE_BITS);
 }
 
-/// value / quantum as an integer; `inverse` = 1 / quantum (exact). A value out of range gives a meaningless integer; the
-/// caller checks the range.
+/// value / quantum as an integer; `inverse` = 1 / quantum (exact). A value out of range gives a meaningless integer;
+/// the caller checks the range.
 static inline int64_t scree_fixed_from(double value, double inverse)
 {
     double shifted = value * inverse + SCREE_FIXED_MAGIC;

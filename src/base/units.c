@@ -34,6 +34,7 @@ static const quantity quantities[] = {
     {"kg", "a mass", "2 g"},
     {"N", "a force", "10 kN"},
     {"N/m", "a stiffness", "10 N/mm"},
+    {"Pa s", "a viscosity", "1e9 Pa s"},
     {"J", "an energy", "3 J"},
     {"W", "a power", "3 W"},
     {"m2", "an area", "2 mm2"},

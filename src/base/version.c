@@ -4,9 +4,9 @@
 #include <scree/scree.h>
 
 #if defined __clang__
-#define QUOTE(number) #number
+#define QUOTE(number)   #number
 #define DOTTED(a, b, c) QUOTE(a) "." QUOTE(b) "." QUOTE(c)
-#define COMPILER "clang " DOTTED(__clang_major__, __clang_minor__, __clang_patchlevel__)
+#define COMPILER        "clang " DOTTED(__clang_major__, __clang_minor__, __clang_patchlevel__)
 #else
 #define COMPILER "gcc " __VERSION__
 #endif

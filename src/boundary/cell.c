@@ -242,9 +242,10 @@ static void wide_add(wide_sum *into, const wide_sum *more)
 
 static double mass_bound(const scree_model *model)
 {
-    double densest = 0, r = model->radius_max;
-    for (int k = 0; k < model->material_count; k++) densest = fmax(densest, model->density[k]);
-    return densest * (model->dimension == 2 ? M_PI * r * r * model->thickness : 4 * M_PI / 3 * r * r * r);
+    double heaviest = 0;
+    for (int k = 0; k < model->material_count; k++)
+        heaviest = fmax(heaviest, scree_model_mass(model, k, model->radius_max));
+    return heaviest;
 }
 
 /// sum m c (x) c from rows that hold c-, rounded to integers so that it does not depend on the order of rows.

@@ -49,7 +49,7 @@ double scree_plate_stress(const scree_model *model, const scree_state *state, in
 static double sample_mass(const scree_state *state)
 {
     double mass = 0;
-    for (size_t id = 0; id < state->count; id++) mass += state->row[state->row_of_id[id]].mass;
+    for (size_t id = 0; id < state->grains; id++) mass += state->row[state->row_of_id[id]].mass;
     return mass;
 }
 

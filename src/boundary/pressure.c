@@ -43,17 +43,17 @@ static scree_status find_loop(const scree_model *model, const scree_state *state
                               scree_error *error)
 {
     double *points = NULL, *radius = NULL;
-    scree_status status = scree_allocate(&points, 2 * state->count, sizeof *points, error);
-    if (!status) status = scree_allocate(&radius, state->count, sizeof *radius, error);
+    scree_status status = scree_allocate(&points, 2 * state->grains, sizeof *points, error);
+    if (!status) status = scree_allocate(&radius, state->grains, sizeof *radius, error);
     if (!status) {
-        for (size_t id = 0; id < state->count; id++) {
+        for (size_t id = 0; id < state->grains; id++) {
             const scree_row *row = &state->row[state->row_of_id[id]];
             points[2 * id] = row->x;
             points[2 * id + 1] = row->y;
             radius[id] = row->radius;
         }
         double diameter = 2 * model->mean_radius, gap_limit = model->config->boundary.gap_limit * diameter;
-        status = scree_outer_loop(points, radius, state->count, diameter, gap_limit, ids, count, error);
+        status = scree_outer_loop(points, radius, state->grains, diameter, gap_limit, ids, count, error);
     }
     scree_release(&points);
     scree_release(&radius);
@@ -78,6 +78,11 @@ static void replace_loop(const scree_model *model, scree_state *state, const uin
         loop->fx[k] = loop->fy[k] = 0;
     }
     scree_loop_mark_loaded(model, state);
+}
+
+void scree_boundary_mark_loaded(const scree_model *model, scree_state *state)
+{
+    if (state->loop.count > 0) scree_loop_mark_loaded(model, state);
 }
 
 scree_status scree_boundary_refresh(const scree_model *model, scree_state *state, scree_error *error)
@@ -141,8 +146,9 @@ void scree_pressure_forces(const scree_model *model, scree_state *state)
     if (loop->count == 0) return;
     memset(loop->fx, 0, loop->count * sizeof *loop->fx);
     memset(loop->fy, 0, loop->count * sizeof *loop->fy);
-    if (!(state->pressure > 0)) return;
-    pressure_forces forces = {.state = state, .scale = 0.5 * state->pressure * model->thickness / state->force_quantum};
+    double pressure = scree_direct_pressure(state);
+    if (!(pressure > 0)) return;
+    pressure_forces forces = {.state = state, .scale = 0.5 * pressure * model->thickness / state->force_quantum};
     scree_loop_position(state, 0, forces.origin);
     scree_outline_visit(state, press_segment, &forces);
     book_half_work(state);

@@ -13,6 +13,9 @@
 /// then.
 scree_status scree_boundary_refresh(const scree_model *model, scree_state *state, scree_error *error) SCREE_MUST_USE;
 
+/// Marks again which edges of the present boundary carry the pressure, after walls have come or gone.
+void scree_boundary_mark_loaded(const scree_model *model, scree_state *state);
+
 /// Adds the pressure forces at the present positions to state->sum, keeps them in loop.fx, loop.fy, and books the half
 /// 1/2 F(n) . v(n-1/2) dt of their work. Call after scree_contact_forces and scree_boundary_refresh, before `second`,
 /// with the quantum of this step set: rows then hold v(n-1/2) in both schemes. Nothing when there is no loop; zeros the

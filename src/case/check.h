@@ -47,4 +47,7 @@ scree_node *scree_case_root(const scree_case *c);
 /// Rules that tie keys together. Values that are missing or wrong are left out: they have been noted.
 void scree_rules_check(scree_reader *reader, scree_config *config);
 
+/// Those of the boundaries of stages, and of the velocity gradients that they impose (boundary_rules.c).
+void scree_rules_check_boundaries(scree_reader *reader, const scree_config *config);
+
 #endif

@@ -11,12 +11,14 @@
 
 typedef struct scree_config_material {
     char *name;
-    double young_modulus; ///< Pa
-    double poisson_ratio; ///< 1
-    double density;       ///< kg/m3
-    double friction;      ///< 1, grain on grain
-    double wall_friction; ///< 1, grain on plate; auto: friction
-    double restitution;   ///< 1, used by laws that damp by restitution
+    double young_modulus;     ///< Pa
+    double poisson_ratio;     ///< 1
+    double density;           ///< kg/m3
+    double friction;          ///< 1, grain on grain
+    double wall_friction;     ///< 1, grain on plate; auto: friction
+    double restitution;       ///< 1, used by laws that damp by restitution
+    double rolling_friction;  ///< 1, hertz_mindlin: limit of the rolling resistance over the normal force
+    double twisting_friction; ///< 1, hertz_mindlin in 3D: limit of the twisting torque over R_eff times that force
 } scree_config_material;
 
 typedef enum scree_shape_kind { SCREE_SHAPE_DISC } scree_shape_kind;
@@ -53,18 +55,31 @@ typedef struct scree_config_integrator {
     double step_fraction; ///< 1, of the critical step, when step is auto
 } scree_config_integrator;
 
-typedef enum scree_lateral { SCREE_LATERAL_PRESSURE, SCREE_LATERAL_PLATES } scree_lateral;
+/// What holds the sample (boundary/boundary.h).
+typedef enum scree_boundary_kind {
+    SCREE_BOUNDARY_AUTO,     ///< of a stage: as in the stage before
+    SCREE_BOUNDARY_PRESSURE, ///< plates below and above, pressure on the Delaunay boundary of the sides
+    SCREE_BOUNDARY_PLATES,   ///< plates on all sides
+    SCREE_BOUNDARY_MEMBRANE, ///< plates below and above, pressure on a membrane around the sides
+    SCREE_BOUNDARY_MINIMAL,  ///< pressure on all sides, mean velocity gradient imposed (minimal kinematic conditions)
+    SCREE_BOUNDARY_AFFINE,   ///< every body of the boundary moves with the velocity gradient
+    SCREE_BOUNDARY_PERIODIC, ///< a cell that repeats itself in all directions (boundary.periodic)
+    SCREE_BOUNDARY_CHANNEL,  ///< the same in all but the last, with plates below and above
+} scree_boundary_kind;
 
 /// Mask of periodic directions.
 enum { SCREE_PERIODIC_NONE = 0, SCREE_PERIODIC_X = 1, SCREE_PERIODIC_XY = 3, SCREE_PERIODIC_XYZ = 7 };
 
 typedef struct scree_config_boundary {
-    int periodic;          ///< SCREE_PERIODIC_...
-    int lateral;           ///< scree_lateral: pressure on the Delaunay boundary, or rigid side plates under servo
-    int64_t every;         ///< steps between two updates of the Delaunay boundary
-    double gap_limit;      ///< 1, boundary edges with a free gap above this many mean diameters are cut
-    double servo_gain;     ///< 1, admittance of a plate under servo over that of the sample (1: absorbs waves)
-    double servo_velocity; ///< m/s, largest plate velocity under servo; auto
+    int periodic;              ///< SCREE_PERIODIC_...
+    int lateral;               ///< scree_boundary_kind, of what holds the sides until a stage chooses its own boundary
+    int64_t every;             ///< steps between two updates of the Delaunay boundary
+    double gap_limit;          ///< 1, boundary edges with a free gap above this many mean diameters are cut
+    double servo_gain;         ///< 1, admittance of a plate under servo over that of the sample (1: absorbs waves)
+    double servo_velocity;     ///< m/s, largest plate velocity under servo; auto
+    double penalty;            ///< Pa s, stress over error of the rate of minimal conditions; auto
+    double membrane_stiffness; ///< N/m, of the chain between two neighbours
+    double membrane_radius;    ///< m, of its discs; auto: 1.25 mean radii of the grains
 } scree_config_boundary;
 
 typedef enum scree_stage_kind {
@@ -99,10 +114,13 @@ typedef struct scree_config_stage {
     double strain;    ///< 1, axial strain (engineering) at which to stop, compression positive
     double rate;      ///< 1/s, axial strain rate referred to the height at the start of the stage
     double rise_time; ///< s, in which the plates reach their velocity; auto: four wave times of the sample
-    // deform (with `strain`, of the fastest component, and `rise_time`)
-    double cell_rate[9];   ///< 1/s, velocity gradient by rows; auto: 0, or what holds the stress
-    double cell_stress[9]; ///< Pa, held instead; normal components compression positive, shear by its direction
+    // deform; extension positive, row the direction of the velocity, NAN where free
+    double velocity_gradient[9]; ///< 1/s
+    double strain_rate[9];       ///< 1/s, symmetric: only components on and above the diagonal are given
+    double stress[9];            ///< Pa, held by a periodic cell, given like strain_rate; compression positive, shear
+                                 ///< stress in the sense of the shear rate
     // confine, compress and deform
+    int boundary;    ///< scree_boundary_kind
     double friction; ///< 1, friction during this stage; auto: the material's
 } scree_config_stage;
 
@@ -149,5 +167,17 @@ typedef struct scree_config {
     scree_config_output output;
     scree_config_guard guard;
 } scree_config;
+
+/// The boundary of stage `index`: periodic as the case says, else its own choice, or that of the last stage before it that made one, or `lateral`.
+static inline scree_boundary_kind scree_config_boundary_of(const scree_config *config, int64_t index)
+{
+    if (config->boundary.periodic > 0) {
+        bool whole = config->boundary.periodic == (1 << config->dimension) - 1;
+        return whole ? SCREE_BOUNDARY_PERIODIC : SCREE_BOUNDARY_CHANNEL;
+    }
+    while (index >= 0 && config->stages[index].boundary == SCREE_BOUNDARY_AUTO) index--;
+    int kind = index >= 0 ? config->stages[index].boundary : config->boundary.lateral;
+    return kind == SCREE_BOUNDARY_AUTO ? SCREE_BOUNDARY_PRESSURE : (scree_boundary_kind)kind;
+}
 
 #endif

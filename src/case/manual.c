@@ -44,7 +44,7 @@ static const char *type_name(scree_key_type type)
         [SCREE_KEY_NUMBER] = "number",      [SCREE_KEY_INTEGER] = "integer", [SCREE_KEY_TEXT] = "text",
         [SCREE_KEY_WORD] = "name",          [SCREE_KEY_FLAG] = "flag",       [SCREE_KEY_CHOICE] = "choice",
         [SCREE_KEY_VECTOR] = "two numbers", [SCREE_KEY_PAIRS] = "pairs",     [SCREE_KEY_SECTION] = "section",
-        [SCREE_KEY_LIST] = "list",          [SCREE_KEY_PATHS] = "key paths",
+        [SCREE_KEY_LIST] = "list",          [SCREE_KEY_PATHS] = "key paths", [SCREE_KEY_TENSOR] = "components",
     };
     return names[type];
 }
@@ -76,7 +76,7 @@ static void write_table(FILE *file, const scree_section *section)
     }
     for (size_t i = 0; i < section->count; i++) {
         const scree_key *key = &section->keys[i];
-        if (!key->choices || strcmp(key->name, "stage") == 0) continue;
+        if (key->type != SCREE_KEY_CHOICE || strcmp(key->name, "stage") == 0) continue;
         (void)fprintf(file, "\nChoices of `%s`:\n\n", key->name);
         for (const scree_choice *choice = key->choices; choice->name; choice++)
             (void)fprintf(file, "- `%s`: %s\n", choice->name, choice->meaning);

@@ -52,6 +52,19 @@ static void check_materials(scree_reader *reader, const scree_config *config)
                       nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
 }
 
+/// Discs turn about one axis, which no contact twists.
+static void check_twisting(scree_reader *reader, const scree_config *config)
+{
+    for (int64_t i = 0; i < config->material_count && config->dimension == 2; i++) {
+        if (!(config->materials[i].twisting_friction > 0)) continue;
+        const char *text;
+        char path[SCREE_PATH_BYTES];
+        (void)snprintf(path, sizeof path, "materials.%lld.twisting_friction", (long long)i);
+        scree_place place = place_of(element(reader, "materials", i), "twisting_friction", &text);
+        scree_problem_add(reader, place, path, text, "0", "discs do not twist: twisting_friction is for spheres");
+    }
+}
+
 static void check_radii(scree_reader *reader, scree_config *config)
 {
     scree_config_particles *particles = &config->particles;
@@ -104,77 +117,14 @@ static void check_stage_order(scree_reader *reader, const scree_config *config)
             wrong = "only the first stage can be prepare";
         else if (kind == SCREE_STAGE_COMPRESS && !confined)
             wrong = "a confine stage must come before: compress keeps its pressure";
+        else if (kind == SCREE_STAGE_DEFORM && !confined)
+            wrong = "a confine stage must come before: deform keeps its pressure";
         confined = confined || kind == SCREE_STAGE_CONFINE;
         if (!wrong) continue;
         char path[SCREE_PATH_BYTES];
         (void)snprintf(path, sizeof path, "stages.%lld.stage", (long long)i);
         scree_place place = place_of(element(reader, "stages", i), "stage", &text);
         scree_problem_add(reader, place, path, text, NULL, "%s", wrong);
-    }
-}
-
-/// Notes a problem at stages.INDEX.KEY.
-static void stage_problem(scree_reader *reader, int64_t index, const char *key, const char *message)
-{
-    char path[SCREE_PATH_BYTES];
-    const char *text;
-    (void)snprintf(path, sizeof path, "stages.%lld.%s", (long long)index, key);
-    scree_place place = place_of(element(reader, "stages", index), key, &text);
-    scree_problem_add(reader, place, path, text, NULL, "%s", message);
-}
-
-/// Keys of a deform stage, by component.
-static const char *const rate_keys[9] = {"rate_xx", "rate_xy", "rate_xz", "rate_yx", "rate_yy",
-                                         "rate_yz", "rate_zx", "rate_zy", "rate_zz"};
-static const char *const stress_keys[9] = {"pressure_x", "shear_xy", "shear_xz", NULL,        "pressure_y",
-                                           "shear_yz",   NULL,       NULL,       "pressure_z"};
-
-static void check_deform(scree_reader *reader, scree_config *config, int64_t index)
-{
-    scree_config_stage *stage = &config->stages[index];
-    bool moves = false;
-    for (int k = 0; k < 9; k++) {
-        if (!stress_keys[k]) stage->cell_stress[k] = NAN;
-        bool rate = !isnan(stage->cell_rate[k]), held = !isnan(stage->cell_stress[k]);
-        const char *key = held ? stress_keys[k] : rate_keys[k];
-        if ((rate || held) && config->dimension == 2 && (k / 3 == 2 || k % 3 == 2))
-            stage_problem(reader, index, key, "there is no z in two dimensions");
-        if (rate && held) stage_problem(reader, index, key, "the same component has a rate: give the one or the other");
-        moves = moves || (rate && stage->cell_rate[k] != 0);
-    }
-    if (!moves) stage_problem(reader, index, "stage", "no component has a rate: give one, or use confine");
-}
-
-static bool is_whole_cell(const scree_config *config)
-{
-    return config->boundary.periodic == (1 << config->dimension) - 1;
-}
-
-static void check_periodic(scree_reader *reader, scree_config *config)
-{
-    const scree_config_boundary *boundary = &config->boundary;
-    const char *text;
-    scree_place place = place_of(scree_node_find(reader->root, "boundary"), "periodic", &text);
-    if (boundary->periodic > (1 << config->dimension) - 1)
-        scree_problem_add(reader, place, "boundary.periodic", text, NULL, "there is no z in two dimensions");
-    if (config->dimension == 3 && boundary->periodic == SCREE_PERIODIC_X && boundary->lateral == SCREE_LATERAL_PRESSURE)
-        scree_problem_add(reader, place, "boundary.periodic", text, NULL,
-                          "the sides that are not periodic need boundary.lateral=plates");
-    if (is_whole_cell(config) && (config->gravity_x != 0 || config->gravity_y != 0))
-        scree_problem_add(reader, place, "boundary.periodic", text, NULL,
-                          "gravity has nothing to fall on: without a floor the sample would fall for ever");
-    for (int64_t i = 0; i < config->stage_count; i++) {
-        const scree_config_stage *stage = &config->stages[i];
-        if (stage->kind == SCREE_STAGE_PREPARE && stage->method == SCREE_PREPARE_DROP_AND_ROLL &&
-            boundary->periodic > 0)
-            stage_problem(reader, i, "method",
-                          "drop_and_roll needs side walls and cannot fill a periodic cell: prepare with gas, hexagonal "
-                          "or square, and confine");
-        if (stage->kind != SCREE_STAGE_DEFORM) continue;
-        if (!is_whole_cell(config))
-            stage_problem(reader, i, "stage",
-                          "only a cell that is periodic in all directions can be deformed: set boundary.periodic");
-        check_deform(reader, config, i);
     }
 }
 
@@ -200,7 +150,7 @@ static void check_windows(scree_reader *reader, const scree_config *config)
             scree_problem_add(reader, pair->place, path, NULL, NULL, "a window must begin before it ends");
         else if (largest == 0 && config->stage_count > 0 && !isnan(window->to))
             scree_problem_add(reader, pair->place, path, NULL, NULL,
-                              "no stage compresses or deforms, so there is no strain");
+                              "no stage loads the sample, so there is no strain");
         else if (largest > 0 && window->to > largest)
             scree_problem_add(reader, pair->place, path, NULL, NULL, "ends at '%s', beyond the largest strain, '%s'",
                               pair->last->text, largest_text);
@@ -210,9 +160,10 @@ static void check_windows(scree_reader *reader, const scree_config *config)
 void scree_rules_check(scree_reader *reader, scree_config *config)
 {
     check_materials(reader, config);
+    check_twisting(reader, config);
     check_radii(reader, config);
     name_stages(reader, config);
     check_stage_order(reader, config);
-    check_periodic(reader, config);
     check_windows(reader, config);
+    scree_rules_check_boundaries(reader, config);
 }

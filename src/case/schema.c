@@ -47,14 +47,52 @@ static const scree_choice schemes[] = {
 };
 static const scree_choice periodics[] = {
     {"no", SCREE_PERIODIC_NONE, "not periodic: plates and what `lateral` says"},
-    {"x", SCREE_PERIODIC_X, "periodic in x; plates in the other directions"},
-    {"xy", SCREE_PERIODIC_XY, "periodic in x and y: in 2D no boundary at all, in 3D plates below and above"},
+    {"x", SCREE_PERIODIC_X, "2D: periodic in x, between plates below and above"},
+    {"xy", SCREE_PERIODIC_XY, "periodic in x and y: in 2D without any boundary, in 3D between plates below and above"},
     {"xyz", SCREE_PERIODIC_XYZ, "periodic in all directions of space"},
     {0},
 };
 static const scree_choice laterals[] = {
-    {"pressure", SCREE_LATERAL_PRESSURE, "traction on the Delaunay boundary of the assembly"},
-    {"plates", SCREE_LATERAL_PLATES, "rigid side plates that a servo holds at the pressure"},
+    {"pressure", SCREE_BOUNDARY_PRESSURE, "traction on the Delaunay boundary of the assembly"},
+    {"plates", SCREE_BOUNDARY_PLATES, "rigid side plates that a servo holds at the pressure"},
+    {"membrane", SCREE_BOUNDARY_MEMBRANE, "pressure on a chain of discs around the assembly (2D)"},
+    {0},
+};
+static const scree_choice boundaries[] = {
+    {"auto", SCREE_BOUNDARY_AUTO, "that of the stage before, at first as `boundary.lateral` says"},
+    {"pressure", SCREE_BOUNDARY_PRESSURE, "plates below and above, pressure on the Delaunay boundary of the sides"},
+    {"plates", SCREE_BOUNDARY_PLATES, "rigid plates on all sides, those beside the sample under servo"},
+    {"membrane", SCREE_BOUNDARY_MEMBRANE,
+     "plates below and above; at the sides a chain of frictionless discs carries the pressure (2D)"},
+    {"minimal", SCREE_BOUNDARY_MINIMAL,
+     "no plates: pressure on all sides, and minimal kinematic conditions impose the strain rate"},
+    {"affine", SCREE_BOUNDARY_AFFINE, "no plates: every body of the boundary moves with the velocity gradient"},
+    {0},
+};
+// Component ij is the derivative of velocity i by coordinate j; its value is its place in a 3 x 3 tensor by rows.
+static const scree_choice components[] = {
+    {"xx", 0, "d v_x / d x"}, {"xy", 1, "d v_x / d y"},
+    {"xz", 2, "d v_x / d z"}, {"yx", 3, "d v_y / d x"},
+    {"yy", 4, "d v_y / d y"}, {"yz", 5, "d v_y / d z"},
+    {"zx", 6, "d v_z / d x"}, {"zy", 7, "d v_z / d y"},
+    {"zz", 8, "d v_z / d z"}, {0},
+};
+static const scree_choice symmetric_components[] = {
+    {"xx", 0, "strain rate along x"},
+    {"yy", 4, "strain rate along y"},
+    {"zz", 8, "strain rate along z"},
+    {"xy", 1, "shear rate, mean of xy and yx"},
+    {"xz", 2, "shear rate, mean of xz and zx"},
+    {"yz", 5, "shear rate, mean of yz and zy"},
+    {0},
+};
+static const scree_choice symmetric_stresses[] = {
+    {"xx", 0, "normal stress on x"},
+    {"yy", 4, "normal stress on y"},
+    {"zz", 8, "normal stress on z"},
+    {"xy", 1, "shear stress xy"},
+    {"xz", 2, "shear stress xz"},
+    {"yz", 5, "shear stress yz"},
     {0},
 };
 static const scree_choice methods[] = {
@@ -68,8 +106,8 @@ static const scree_choice methods[] = {
 static const scree_choice stage_kinds[] = {
     {"prepare", SCREE_STAGE_PREPARE, "places the particles"},
     {"confine", SCREE_STAGE_CONFINE, "raises the pressure and waits for equilibrium"},
-    {"compress", SCREE_STAGE_COMPRESS, "moves the plates together to a strain"},
-    {"deform", SCREE_STAGE_DEFORM, "deforms the periodic cell: each component by a rate or a stress"},
+    {"compress", SCREE_STAGE_COMPRESS, "shortens the sample along its axis to a strain"},
+    {"deform", SCREE_STAGE_DEFORM, "imposes any components of the velocity gradient, to a strain"},
     {0},
 };
 
@@ -87,6 +125,10 @@ static const scree_key material_keys[] = {
            .meaning = "Coefficient of friction on plates; auto: `friction`."),
     NUMBER(material, restitution, "1", .standard = "0.2", ABOVE("0"), TO("1"), .when = "contact.law=hertz_mindlin",
            .meaning = "Coefficient of restitution of a normal impact; sets the damping."),
+    NUMBER(material, rolling_friction, "1", .standard = "0", FROM("0"), TO("10"), .when = "contact.law=hertz_mindlin",
+           .meaning = "Limit of the rolling resistance over the normal force; its torque is that times R_eff."),
+    NUMBER(material, twisting_friction, "1", .standard = "0", FROM("0"), TO("10"), .when = "contact.law=hertz_mindlin",
+           .meaning = "Limit of the torque about the normal over R_eff times the normal force; spheres only."),
 };
 
 typedef scree_config_particles particles;
@@ -135,7 +177,8 @@ typedef scree_config_boundary boundary;
 static const scree_key boundary_keys[] = {
     CHOICE(boundary, periodic, periodics, .standard = "no", .meaning = "Directions in which the sample repeats."),
     CHOICE(boundary, lateral, laterals, .standard = "pressure",
-           .meaning = "What holds the sides, where they are not periodic."),
+           .meaning = "What holds the sides, beside plates below and above, until a stage chooses its `boundary`. Not "
+                      "asked for where the sample is periodic."),
     INTEGER(boundary, every, .standard = "250", FROM("1"), TO("1e9"),
             .meaning = "Steps between two updates of the Delaunay boundary."),
     NUMBER(boundary, gap_limit, "1", .standard = "0.5", FROM("0"), TO("100"),
@@ -144,6 +187,13 @@ static const scree_key boundary_keys[] = {
            .meaning = "Admittance of a plate under servo over that of the sample; 1 absorbs waves."),
     NUMBER(boundary, servo_velocity, "m/s", .standard = "auto", ABOVE("0 m/s"), TO("1000 m/s"),
            .meaning = "Largest velocity of a plate under servo."),
+    NUMBER(boundary, penalty, "Pa s", .standard = "auto", ABOVE("0 Pa s"), TO("1e30 Pa s"),
+           .meaning = "Minimal conditions: stress over the error of the rate; auto: the pressure answers an error of "
+                      "1 %."),
+    NUMBER(boundary, membrane_stiffness, "N/m", .standard = "10 N/mm", FROM("0 N/m"), TO("1e12 N/m"),
+           .meaning = "Membrane: axial stiffness between two neighbours; a slack chain bears nothing."),
+    NUMBER(boundary, membrane_radius, "m", .standard = "auto", FROM("1 nm"), TO("100 m"),
+           .meaning = "Membrane: radius of its discs; auto: 1.25 times the mean radius of the particles."),
 };
 
 typedef scree_config_stage stage;
@@ -158,6 +208,10 @@ typedef scree_config_stage stage;
 #define STAGE_FRICTION                                                                                                 \
     NUMBER(stage, friction, "1", .standard = "auto", FROM("0"), TO("10"),                                              \
            .meaning = "Friction in this stage, e.g. less while confining for a denser sample; auto: the material's.")
+#define STAGE_BOUNDARY                                                                                                 \
+    CHOICE(stage, boundary, boundaries, .standard = "auto", .meaning = "What holds the sample in this stage.")
+#define TENSOR(owner, member, list, si, ...)                                                                           \
+    KEY(owner, member, SCREE_KEY_TENSOR, .choices = list, .unit = si, .standard = "{}", __VA_ARGS__)
 
 static const scree_key prepare_keys[] = {
     STAGE_HEAD,
@@ -180,6 +234,7 @@ static const scree_key confine_keys[] = {
            .meaning = "The stage ends when the unbalanced force ratio stays below this."),
     NUMBER(stage, time_limit, "s", .standard = "auto", ABOVE("0 s"), TO("1e9 s"),
            .meaning = "The run stops with a message if equilibrium takes longer."),
+    STAGE_BOUNDARY,
     STAGE_FRICTION,
 };
 static const scree_key compress_keys[] = {
@@ -187,43 +242,27 @@ static const scree_key compress_keys[] = {
     NUMBER(stage, strain, "1", ABOVE("0 %"), TO("90 %"), .meaning = "Axial strain at which the stage ends."),
     NUMBER(stage, rate, "1/s", ABOVE("0 1/s"), TO("1e6 1/s"), .meaning = "Axial strain rate."),
     NUMBER(stage, rise_time, "s", .standard = "auto", FROM("0 s"), TO("1e9 s"),
-           .meaning = "Time in which the plates reach their velocity; auto: four wave times of the sample."),
+           .meaning = "Time in which the rate is reached; auto: four wave times of the sample."),
+    STAGE_BOUNDARY,
     STAGE_FRICTION,
 };
-
-/// Component i, j of the velocity gradient, and of the stress.
-#define RATE(text, i, j)                                                                                               \
-    {                                                                                                                  \
-        .name = "rate_" text, .type = SCREE_KEY_NUMBER, .unit = "1/s", .standard = "auto", FROM("-1e6 1/s"),           \
-        TO("1e6 1/s"), .offset = offsetof(stage, cell_rate[3 * (i) + (j)]),                                            \
-        .meaning = "Velocity gradient " text ", extension positive; auto: 0, or what holds the stress."                \
-    }
-#define STRESS(key, i, j, text)                                                                                        \
-    {                                                                                                                  \
-        .name = key, .type = SCREE_KEY_NUMBER, .unit = "Pa", .standard = "auto", FROM("-1000 GPa"), TO("1000 GPa"),    \
-        .offset = offsetof(stage, cell_stress[3 * (i) + (j)]), .meaning = text                                         \
-    }
 static const scree_key deform_keys[] = {
     STAGE_HEAD,
+    TENSOR(stage, velocity_gradient, components, "1/s", FROM("-1e6 1/s"), TO("1e6 1/s"),
+           .meaning = "Prescribed components of the velocity gradient, e.g. {xy: 5e-3 1/s, yx: 0}; extension positive; "
+                      "the others are free, in a periodic cell zero."),
+    TENSOR(stage, strain_rate, symmetric_components, "1/s", FROM("-1e6 1/s"), TO("1e6 1/s"),
+           .meaning = "Prescribed components of its symmetric part, e.g. {xy: 5e-3 1/s}; rotations stay free."),
+    TENSOR(stage, stress, symmetric_stresses, "Pa", FROM("-1000 GPa"), TO("1000 GPa"),
+           .meaning =
+               "Stresses that a periodic cell holds by the same component of its velocity gradient, e.g. {yy: 100 "
+               "kPa}; compression positive, shear stress in the sense of the rate."),
     NUMBER(stage, strain, "1", ABOVE("0 %"), TO("1000000 %"),
-           .meaning = "Strain of the fastest prescribed component at which the stage ends."),
-    RATE("xx", 0, 0),
-    RATE("xy", 0, 1),
-    RATE("xz", 0, 2),
-    RATE("yx", 1, 0),
-    RATE("yy", 1, 1),
-    RATE("yz", 1, 2),
-    RATE("zx", 2, 0),
-    RATE("zy", 2, 1),
-    RATE("zz", 2, 2),
-    STRESS("pressure_x", 0, 0, "Normal stress on x that is held, compression positive; auto: rate_xx is."),
-    STRESS("pressure_y", 1, 1, "Normal stress on y that is held, compression positive; auto: rate_yy is."),
-    STRESS("pressure_z", 2, 2, "Normal stress on z that is held, compression positive; auto: rate_zz is."),
-    STRESS("shear_xy", 0, 1, "Shear stress xy that is held by rate_xy, positive along it; auto: rate_xy is."),
-    STRESS("shear_xz", 0, 2, "Shear stress xz that is held by rate_xz, positive along it; auto: rate_xz is."),
-    STRESS("shear_yz", 1, 2, "Shear stress yz that is held by rate_yz, positive along it; auto: rate_yz is."),
+           .meaning = "The stage ends when the largest prescribed component has reached this, measured on the boundary "
+                      "or the cell."),
     NUMBER(stage, rise_time, "s", .standard = "auto", FROM("0 s"), TO("1e9 s"),
            .meaning = "Time in which the rates are reached; auto: four wave times of the sample."),
+    STAGE_BOUNDARY,
     STAGE_FRICTION,
 };
 
@@ -269,8 +308,14 @@ static const scree_section boundary_table[] = {TABLE("boundary", "What surrounds
 static const scree_section stage_tables[] = {
     TABLE("prepare", "Places the particles; the first stage of every case.", prepare_keys),
     TABLE("confine", "Raises the pressure on all sides and waits for equilibrium.", confine_keys),
-    TABLE("compress", "Moves the plates together at a constant rate under the pressure reached before.", compress_keys),
-    TABLE("deform", "Deforms the periodic cell: each component of the velocity gradient has a rate or holds a stress.",
+    TABLE(
+        "compress",
+        "Shortens the sample along its axis at a constant rate under the pressure reached before: plates approach each "
+        "other, or minimal conditions or a periodic cell impose the rate.",
+        compress_keys),
+    TABLE("deform",
+          "Imposes components of the velocity gradient on the boundary; needs `minimal`, `affine` or a "
+          "periodic cell.",
           deform_keys),
 };
 static const scree_section measure_table[] = {TABLE("measure", "What is recorded.", measure_keys)};

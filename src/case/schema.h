@@ -16,6 +16,8 @@ typedef enum scree_key_type {
     SCREE_KEY_CHOICE,  ///< int, one of `choices`
     SCREE_KEY_VECTOR,  ///< two doubles, one beside the other
     SCREE_KEY_PAIRS,   ///< array of pairs of doubles, and its count; the limits hold for each number
+    SCREE_KEY_TENSOR, ///< nine doubles, 3 x 3 by rows, given as {component: value}: `choices` names the components that
+                      ///< may be given; NAN for all others
     SCREE_KEY_SECTION, ///< struct, sections[0] describes it
     SCREE_KEY_LIST,    ///< array of structs, and its count, which the limits are for. With several sections, the first
                        ///< key of each is the choice that selects among them

@@ -39,6 +39,8 @@ const char *scree_key_noun(const scree_key *key)
         return "a list of two values, e.g. [0, -9.81 m/s2]";
     case SCREE_KEY_PAIRS:
         return "a list of pairs, e.g. [[1 %, 3 %], [10 %, 15 %]]";
+    case SCREE_KEY_TENSOR:
+        return "components with values, e.g. {xy: 5e-3 1/s}";
     case SCREE_KEY_SECTION:
         return "a section: keys with values, indented below";
     case SCREE_KEY_LIST:
@@ -70,8 +72,9 @@ void scree_key_accepts(const scree_key *key, char *text, size_t size)
 {
     scree_limits_text(key, text, size);
     if (key->type == SCREE_KEY_FLAG) (void)snprintf(text, size, "yes, no");
-    for (size_t i = 0, length = 0; key->choices && key->choices[i].name && length < size; i++)
-        length += (size_t)snprintf(text + length, size - length, "%s%s", i > 0 ? ", " : "", key->choices[i].name);
+    const scree_choice *names = key->type == SCREE_KEY_CHOICE ? key->choices : NULL;
+    for (size_t i = 0, length = 0; names && names[i].name && length < size; i++)
+        length += (size_t)snprintf(text + length, size - length, "%s%s", i > 0 ? ", " : "", names[i].name);
     size_t length = strlen(text);
     if (key->standard && strcmp(key->standard, "auto") == 0)
         (void)snprintf(text + length, size - length, "%sauto", length > 0 ? "; or " : "");

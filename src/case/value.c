@@ -166,6 +166,30 @@ static void store_two(const value *v, const scree_node *node, double out[2])
     }
 }
 
+/// {component: value} into the places that the choices of the key name.
+static void store_tensor(const value *v, const scree_node *node, double out[9])
+{
+    for (int i = 0; i < 9; i++) out[i] = NAN;
+    if (node && node->kind != SCREE_NODE_MAPPING) {
+        reject_kind(v, node);
+        return;
+    }
+    for (const scree_node *part = node ? node->first : NULL; part; part = part->next) {
+        value one = {v->reader, v->key, part->place, v->path, part->text};
+        const scree_choice *component = scree_choice_find(v->key->choices, part->key);
+        char names[64] = "";
+        for (const scree_choice *c = v->key->choices; c->name; c++)
+            (void)snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", names[0] ? ", " : "", c->name);
+        if (!component)
+            scree_problem_add(v->reader, part->key_place, v->path, part->key, names, "there is no component '%s'",
+                              scree_show(part->key).text);
+        else if (part->kind == SCREE_NODE_SCALAR && part->text[0])
+            out[component->value] = number_of(&one);
+        else
+            reject(&one, NULL, "expected a number");
+    }
+}
+
 static void store_pairs(const value *v, const scree_node *node, char *member, int64_t *count)
 {
     if (node->kind != SCREE_NODE_LIST) {
@@ -216,7 +240,11 @@ void scree_value_store(scree_reader *reader, const scree_key *key, const scree_n
     value v = {reader, key, node ? node->place : nowhere, path, node ? node->text : key->standard};
     bool list = key->type == SCREE_KEY_VECTOR || key->type == SCREE_KEY_PAIRS;
     if (list && !node) return; // the defaults of lists are zeros, or empty
-    if (key->type == SCREE_KEY_VECTOR) {
+    if (key->type == SCREE_KEY_TENSOR) {
+        double nine[9];
+        store_tensor(&v, node, nine);
+        memcpy(member, nine, sizeof nine);
+    } else if (key->type == SCREE_KEY_VECTOR) {
         double two[2];
         store_two(&v, node, two);
         memcpy(member, two, sizeof two);

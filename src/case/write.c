@@ -96,7 +96,7 @@ static void write_values(writer *w, const scree_section *section, const scree_no
         put(w, ": ");
         if (node)
             put_value(w, node);
-        else if (key->type == SCREE_KEY_VECTOR || key->type == SCREE_KEY_PAIRS)
+        else if (key->type == SCREE_KEY_VECTOR || key->type == SCREE_KEY_PAIRS || key->type == SCREE_KEY_TENSOR)
             put(w, key->standard);
         else
             put_text(w, key->standard);

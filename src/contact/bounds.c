@@ -47,10 +47,9 @@ static extremes extremes_get(const scree_model *model)
 
 static double largest_mass(const scree_model *model)
 {
-    double density = 0;
-    for (int k = 0; k < model->material_count; k++) density = fmax(density, model->density[k]);
-    double radius = model->radius_max, length = model->dimension == 3 ? 4.0 / 3.0 * radius : model->thickness;
-    return density * M_PI * radius * radius * length;
+    double mass = 0, radius = scree_model_largest_radius(model);
+    for (int k = 0; k < model->material_count; k++) mass = fmax(mass, scree_model_mass(model, k, radius));
+    return mass;
 }
 
 static double largest_speed(const scree_state *state)
@@ -66,7 +65,7 @@ static double largest_speed(const scree_state *state)
 contact_bounds contact_bounds_get(const scree_model *model, const scree_state *state)
 {
     extremes e = extremes_get(model);
-    double relative = 2 * largest_speed(state), radius = model->radius_max;
+    double relative = 2 * largest_speed(state), radius = scree_model_largest_radius(model);
     double before = state->largest_overlap > 0 ? state->largest_overlap : contact_overlap_limit(model) * radius;
     double d = before + relative * state->step_size + ldexp(radius, -32);
     double stiffness = e.stiffness * sqrt(radius * d);
@@ -101,7 +100,7 @@ void scree_contact_set_quanta(const scree_model *model, scree_state *state, doub
 {
     double force = fmax(contact_bounds_get(model, state).force, extra);
     int lever;
-    (void)frexp(model->radius_max, &lever);
+    (void)frexp(scree_model_largest_radius(model), &lever);
     state->force_quantum = scree_fixed_quantum(force);
     state->torque_quantum = ldexp(state->force_quantum, lever);
 }

@@ -30,6 +30,7 @@ typedef struct scree_contact {
     uint32_t first, second; ///< rows (not ids)
     bool wall;
     bool image; ///< across a face of the periodic cell: of `first` and `second` one is where its image is
+    bool membrane; ///< one of the two is a body of a membrane
     bool sliding;
     scree_vector normal;       ///< from second to first
     scree_vector tangent;      ///< 2D: (-n_y, n_x); 3D: direction of the tangential force on first, zero without one
@@ -42,6 +43,12 @@ typedef struct scree_contact {
     double elastic_normal;     ///< J
     double elastic_tangential; ///< J
 } scree_contact;
+
+/// The second of a contact is no grain, but a wall or a body of a membrane: a force from outside on the assembly.
+static inline bool scree_contact_is_outer(const scree_contact *contact)
+{
+    return contact->wall || contact->membrane;
+}
 
 typedef struct scree_contact_table {
     scree_contact *contact; ///< ordered by (id of first, id of second), walls last for each first

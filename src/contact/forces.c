@@ -40,7 +40,7 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
         .model = model,
         .variant = {.dimension = state->dimension,
                     .law = model->law,
-                    .many_materials = model->material_count > 1,
+                    .many_materials = model->material_count > 1 || model->membrane,
                     .ledger = work->ledger,
                     .rolling = model->rolling},
         .row = state->row,

@@ -68,6 +68,7 @@ static void move_point(const scree_state *state, uint32_t image, scree_contact *
     for (int k = 0; k < 3; k++) contact->point[k] += here[k] - there[k];
 }
 
+/// The contact of `reference`, which touches.
 static void fill(const scree_model *model, const scree_state *state, const scree_work *work,
                  const contact_reference *reference, scree_contact *contact)
 {
@@ -79,6 +80,7 @@ static void fill(const scree_model *model, const scree_state *state, const scree
     contact->first = scree_parent_row(state, work, one);
     contact->second = wall ? other : scree_parent_row(state, work, other);
     contact->image = one != contact->first || other != contact->second;
+    contact->membrane = !scree_body_is_grain(state, contact->first);
     contact_body first = body_at_half_step(model, state, work, one);
     if (wall) {
         contact_of_wall(model, state->dimension, &first, &state->wall[other], &memory, contact);
@@ -87,6 +89,7 @@ static void fill(const scree_model *model, const scree_state *state, const scree
     contact_body second = body_at_half_step(model, state, work, other);
     contact_of_pair(model, state->dimension, &first, &second, &memory, contact);
     if (one != contact->first) move_point(state, one, contact);
+    contact->membrane = contact->membrane || !scree_body_is_grain(state, contact->second);
 }
 
 scree_status scree_contact_table_build(const scree_model *model, const scree_state *state, const scree_work *work,

@@ -190,6 +190,22 @@ static scree_status make_hull_triangles(scree_hull *hull, size_t rows, scree_err
     return status;
 }
 
+static scree_status make_drive(scree_drive *drive, size_t rows, scree_error *error)
+{
+    scree_status status = scree_allocate(&drive->force, rows, sizeof *drive->force, error);
+    if (!status) drive->count = drive->capacity = rows;
+    return status;
+}
+
+static scree_status make_membrane(scree_membrane *membrane, size_t rows, scree_error *error)
+{
+    scree_status status = scree_allocate(&membrane->rest, rows, sizeof *membrane->rest, error);
+    if (!status) status = scree_allocate(&membrane->press, rows, sizeof *membrane->press, error);
+    if (!status) status = scree_allocate(&membrane->force, rows, sizeof *membrane->force, error);
+    if (!status) membrane->count = membrane->capacity = rows;
+    return status;
+}
+
 /// Makes the part of `state` that `field` describes have `rows` rows, when it has none yet.
 static scree_status make_room(scree_state *state, const scree_field *field, size_t rows, scree_error *error)
 {
@@ -199,6 +215,9 @@ static scree_status make_room(scree_state *state, const scree_field *field, size
     if (field->rows == SCREE_ROWS_HULL_NODES && hull->node_count == 0) return make_hull_nodes(hull, rows, error);
     if (field->rows == SCREE_ROWS_HULL_TRIANGLES && hull->triangle_count == 0)
         return make_hull_triangles(hull, rows, error);
+    if (field->rows == SCREE_ROWS_DRIVE && state->drive.count == 0) return make_drive(&state->drive, rows, error);
+    if (field->rows == SCREE_ROWS_MEMBRANE && state->membrane.count == 0)
+        return make_membrane(&state->membrane, rows, error);
     if (field->rows != SCREE_ROWS_CONTACTS || state->contact_count > 0) return SCREE_OK;
     scree_status status = scree_state_reserve_contacts(state, rows, error);
     if (!status) state->contact_count = rows;

@@ -62,8 +62,10 @@ scree_status scree_snapshot_write(const char *directory, const scree_model *mode
     scree_hdf5_set_number(&part, group, "time", info->time);
     scree_hdf5_set_text(&part, group, "stage", info->stage);
     scree_hdf5_set_number(&part, group, "axial_strain", info->axial_strain);
+    scree_hdf5_set_integer(&part, group, "grains", state->grains);
     scree_hdf5_set_number(&part, group, "pressure", state->pressure);
-    scree_hdf5_set_text(&part, group, "attribute_units", "step 1, dimension 1, time s, axial_strain 1, pressure Pa");
+    scree_hdf5_set_text(&part, group, "attribute_units",
+                        "step 1, dimension 1, grains 1, time s, axial_strain 1, pressure Pa");
     write_bodies(&part, group, model, state);
     write_contacts(&part, group, state, table);
     write_members(&part, group, state);
@@ -211,6 +213,7 @@ scree_status scree_snapshot_read(const char *directory, size_t which, scree_snap
     scree_part_list_destroy(&list);
     scree_part_group(SCREE_PART_SNAPSHOT, snapshot->index, group, sizeof group);
     scree_hdf5_get_number(&run, group, "time", &snapshot->time);
+    scree_hdf5_get_integer(&run, group, "grains", &snapshot->grains);
     scree_hdf5_get_number(&run, group, "axial_strain", &snapshot->axial_strain);
     scree_hdf5_get_text(&run, group, "stage", snapshot->stage, sizeof snapshot->stage);
     read_bodies(&run, group, snapshot);

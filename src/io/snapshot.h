@@ -52,6 +52,7 @@ typedef struct scree_snapshot {
     char stage[32];
     int dimension;
     size_t count;
+    uint64_t grains;                                 ///< bodies from it on belong to a membrane
     double *x, *y, *radius, *angle, *vx, *vy, *spin; ///< in 3D no angle (NULL), and spin is the magnitude
     double *z, *vz;                                  ///< 3D only, else NULL
     size_t contact_count;

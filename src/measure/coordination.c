@@ -1,10 +1,10 @@
 /// Coordination number, with and without rattlers.
 ///
-/// A contact of two bodies counts once for each of them, a contact with a wall once. A rattler is a body that cannot be
-/// in equilibrium with the contacts it has: fewer than two with friction (two contacts hold a disc when the line
-/// between them lies in both friction cones), fewer than three without. The pressure on the boundary is one more
-/// support of the bodies that carry it. A contact with a rattler bears no load, so rattlers are taken away and the rest
-/// is counted again, until nothing changes. Cost: O(contacts) a pass, a few passes.
+/// A contact of two bodies counts once for each of them, a contact with a wall or a membrane once. A rattler is a body
+/// that cannot be in equilibrium with the contacts it has: fewer than two with friction (two contacts hold a disc when
+/// the line between them lies in both friction cones), fewer than three without. The pressure on the boundary is one
+/// more support of the bodies that carry it. A contact with a rattler bears no load, so rattlers are taken away and the
+/// rest is counted again, until nothing changes. Cost: O(contacts) a pass, a few passes.
 #include "measure/measure.h"
 
 static uint32_t needed_supports(const scree_model *model)
@@ -22,9 +22,10 @@ static void count_contacts(const scree_contact_table *table, const uint8_t *ratt
     for (size_t row = 0; row < count; row++) contacts[row] = 0;
     for (size_t c = 0; c < table->count; c++) {
         const scree_contact *contact = &table->contact[c];
-        if (rattler[contact->first] || (!contact->wall && rattler[contact->second])) continue;
+        bool outer = scree_contact_is_outer(contact);
+        if (rattler[contact->first] || (!outer && rattler[contact->second])) continue;
         contacts[contact->first]++;
-        if (!contact->wall) contacts[contact->second]++;
+        if (!outer) contacts[contact->second]++;
     }
 }
 
@@ -64,15 +65,17 @@ scree_status scree_coordination_measure(const scree_model *model, const scree_st
     if (!status) {
         const scree_loop *loop = &state->loop;
         for (size_t k = 0; k < loop->count; k++)
-            if (state->pressure > 0 && (loop->loaded[k] || loop->loaded[k > 0 ? k - 1 : loop->count - 1]))
+            if (scree_direct_pressure(state) > 0 && (loop->loaded[k] || loop->loaded[k > 0 ? k - 1 : loop->count - 1]))
                 pressed[state->row_of_id[loop->id[k]]] = 1;
         size_t bodies;
+        // Bodies of a membrane are no part of the assembly.
+        for (size_t row = 0; row < state->count; row++) rattler[row] = !scree_body_is_grain(state, row);
         count_contacts(table, rattler, state->count, contacts);
         out->mean = mean_contacts(contacts, rattler, state->count, &bodies);
         while (mark_rattlers(contacts, pressed, needed_supports(model), state->count, rattler))
             count_contacts(table, rattler, state->count, contacts);
         out->mean_without_rattlers = mean_contacts(contacts, rattler, state->count, &bodies);
-        out->rattler_fraction = state->count > 0 ? 1 - (double)bodies / (double)state->count : 0;
+        out->rattler_fraction = state->grains > 0 ? 1 - (double)bodies / (double)state->grains : 0;
     }
     scree_release(&contacts);
     scree_release(&rattler);

@@ -70,6 +70,12 @@ double scree_mean_unbalanced_ratio(const scree_model *model, const scree_state *
 /// periodic cell, all bodies over the cell. NAN without either.
 double scree_solid_fraction(const scree_state *state);
 
+/// How far the corners of the sample leave the affine motion of all grains, since the begin of the loading stage
+/// (state->reference): 1, the largest over the corners, relative to the width of the sample at the begin
+/// (corner_distortion.c). NAN in 3D. Errors: memory.
+scree_status scree_corner_distortion(const scree_model *model, const scree_state *state, double *distortion,
+                                     scree_error *error) SCREE_MUST_USE;
+
 typedef struct scree_energy {
     double kinetic, kinetic_rotation; ///< J
     double elastic_normal, elastic_tangential;

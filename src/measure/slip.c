@@ -1,4 +1,5 @@
-/// Slip between bodies (P fig. 2.4): walls are left out, as their slip says how the plates are made. Cost: O(contacts).
+/// Slip between bodies (P fig. 2.4): walls and membranes are left out, as their slip says how the plates are made.
+/// Cost: O(contacts).
 #include "measure/measure.h"
 
 #include <math.h>
@@ -9,7 +10,7 @@ void scree_slip_measure(const scree_contact_table *table, double *mean_slip, dou
     size_t contacts = 0, sliding = 0;
     for (size_t c = 0; c < table->count; c++) {
         const scree_contact *contact = &table->contact[c];
-        if (contact->wall) continue;
+        if (scree_contact_is_outer(contact)) continue;
         contacts++;
         slip += fabs(contact->slip);
         sliding += contact->sliding;

@@ -24,7 +24,7 @@ static double interior_angle(const scree_state *state, size_t k)
 double scree_solid_fraction(const scree_state *state)
 {
     double solid = 0;
-    for (size_t id = 0; id < state->count; id++) {
+    for (size_t id = 0; id < state->grains; id++) {
         double radius = state->row[state->row_of_id[id]].radius;
         solid += state->dimension == 2 ? M_PI * radius * radius : 4 * M_PI / 3 * radius * radius * radius;
     }

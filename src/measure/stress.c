@@ -20,6 +20,7 @@
 /// (boundary). Cost: O(contacts), O(loop).
 #include "measure/measure.h"
 
+#include "measure/facets.h"
 #include "measure/outline.h"
 #include "state/cell.h"
 
@@ -44,6 +45,8 @@ void scree_stress_from_contacts(const scree_contact_table *table, double volume,
     double sum[9] = {0};
     scree_vector force;
     for (size_t c = 0; c < table->count; c++) {
+        // A membrane's force counts as one on the centre of its grain.
+        if (table->contact[c].membrane) continue;
         contact_force(&table->contact[c], force);
         add_product(sum, force, table->contact[c].branch);
     }
@@ -71,10 +74,21 @@ static void add_pressure(void *user, const scree_outline_segment *segment)
     add_product(pressure->sum, force, middle);
 }
 
-/// Centre of the sample, and the sum over the pressure forces about it.
-static pressure_sum sum_pressure(const scree_model *model, const scree_state *state)
+/// Forces of imposed rates on the bodies of the boundary.
+static void add_drive(const scree_state *state, const scree_vector centre, double sum[9])
 {
-    pressure_sum pressure = {.state = state, .traction = state->pressure * model->thickness};
+    scree_vector point;
+    for (size_t k = 0; k < state->drive.count; k++) {
+        scree_body_place(state, scree_boundary_row(state, k), point);
+        for (int i = 0; i < 3; i++) point[i] -= centre[i];
+        add_product(sum, state->drive.force[k], point);
+    }
+}
+
+/// Centre of the sample, and the sum over the forces of `pressure` about it.
+static pressure_sum sum_pressure(const scree_model *model, const scree_state *state, double applied)
+{
+    pressure_sum pressure = {.state = state, .traction = applied * model->thickness};
     scree_outline_area(state, pressure.centre);
     if (pressure.traction > 0) scree_outline_visit(state, add_pressure, &pressure);
     return pressure;
@@ -83,17 +97,19 @@ static pressure_sum sum_pressure(const scree_model *model, const scree_state *st
 void scree_stress_from_boundary(const scree_model *model, const scree_state *state, const scree_contact_table *table,
                                 double stress[9])
 {
-    pressure_sum pressure = sum_pressure(model, state);
+    pressure_sum pressure = sum_pressure(model, state, scree_direct_pressure(state));
     double volume = scree_sample_area(state) * model->thickness;
     scree_vector force;
     for (size_t c = 0; c < table->count; c++) {
         const scree_contact *contact = &table->contact[c];
-        if (!contact->wall) continue;
+        if (!scree_contact_is_outer(contact) || !scree_body_is_grain(state, contact->first)) continue;
         contact_force(contact, force);
         scree_vector point;
-        for (int i = 0; i < 3; i++) point[i] = contact->point[i] - pressure.centre[i];
+        scree_body_place(state, contact->first, point);
+        for (int i = 0; i < 3; i++) point[i] = (contact->wall ? contact->point[i] : point[i]) - pressure.centre[i];
         add_product(pressure.sum, force, point);
     }
+    add_drive(state, pressure.centre, pressure.sum);
     for (int i = 0; i < 9; i++) stress[i] = pressure.sum[i] / volume;
 }
 
@@ -116,10 +132,11 @@ void scree_stress_from_plates(const scree_model *model, const scree_state *state
         scree_cell_stress(model, state, stress);
         return;
     }
-    pressure_sum pressure = sum_pressure(model, state);
+    pressure_sum pressure = sum_pressure(model, state, state->pressure);
     const scree_wall *wall = state->wall;
     for (int w = 0; w < SCREE_WALL_COUNT; w++)
         if (wall[w].active) add_wall(&wall[w], pressure.centre, pressure.sum);
+    add_drive(state, pressure.centre, pressure.sum);
     double volume = scree_sample_area(state) * model->thickness;
     for (int i = 0; i < 9; i++) stress[i] = pressure.sum[i] / volume;
 

@@ -18,7 +18,7 @@ static double ratio(const scree_model *model, const scree_state *state, const sc
     double resultant = 0, contact_force = 0;
     scree_vector force;
     size_t bodies = 0;
-    for (size_t id = 0; id < state->count; id++) {
+    for (size_t id = 0; id < state->grains; id++) {
         size_t row = state->row_of_id[id];
         if (state->sum[row].contacts == 0) continue;
         resultant_on(model, state, row, force);

@@ -10,20 +10,25 @@
 /// the force of a strong one. Its fastest modes are known: all discs turning alike, so that every contact slides, and
 /// rows moving against each other (the corner M of the Brillouin zone):
 ///     K: max(24 k_t, 6 k_n + 2 k_t) / m,     and the same for C.
-/// M 2.16-2.19 has the second alone, without damping and tangential spring, with its user's alpha for the coordination.
-/// Nothing that occurs in a real packing is faster: no disc has more than six neighbours of its own size; larger
-/// neighbours are fewer and heavier (R^2) while their contacts are stiffer only by R_eff^(1/3), a plate's by 2^(1/3).
-/// On a drop-and-roll packing with all contacts equally stiff the true critical step is 1.3 to 2.2 times this one
-/// (tests/unit/test_model.c assembles both).
+/// In space it is the face-centred cubic lattice of the smallest spheres (2 m R^2 / 5): all turning alike, slip 2 R w x
+/// n at twelve contacts, and the layers (100) moving against each other along their normal (the corner X):
+///     K: max(40 k_t, 8 k_n + 8 k_t) / m.
+/// Resistance to rolling adds nothing to the first, and too little to matter elsewhere.
+/// M 2.16-2.19 has the second of 2D alone, without damping and tangential spring, with its user's alpha for the
+/// coordination. Nothing that occurs in a real packing is faster: no disc has more than six neighbours of its own size;
+/// larger neighbours are fewer and heavier (R^2) while their contacts are stiffer only by R_eff^(1/3), a plate's by
+/// 2^(1/3). On a drop-and-roll packing with all contacts equally stiff the true critical step is 1.3 to 2.2 times this
+/// one (tests/unit/test_model.c assembles both).
 ///
-/// Force. f_s = STRONG times the mean f0 = p 2<R> thickness. Forces of a static packing fall off exponentially above
-/// the mean; the strongest of 10^4 contacts carries about six times it, the contacts of one disc together less. Hertz
-/// stiffness goes as f^(1/3): a factor of two in f_s is 12 % in the step, 26 % in strong damping. Measured on 300 discs
-/// of 1:2, compressed to 100 kPa between four plates: the limit of the linearised sample (eigenvalue with the stiffness
-/// of each of its contacts) is 2.1 times the estimate for hertz_mindlin at restitution 0.2, 1.8 times at 0.9, 2.4 times
-/// for hertz_brilliantov at P's parameters (these two rescaled from a run with STRONG = 6). Past the limit of its
-/// linearised sample hertz_mindlin at 0.2 still ran at twice of it, at 0.9 it did not, nor hertz_brilliantov at 1.4
-/// times. Not measured under shear, whose higher forces, two- to threefold, would scale to another 10 to 30 %.
+/// Force. f_s = STRONG times the mean f0 = p 2<R> thickness, in space p (2<R>)^2. Forces of a static packing fall off
+/// exponentially above the mean; the strongest of 10^4 contacts carries about six times it, the contacts of one disc
+/// together less. Hertz stiffness goes as f^(1/3): a factor of two in f_s is 12 % in the step, 26 % in strong damping.
+/// Measured on 300 discs of 1:2, compressed to 100 kPa between four plates: the limit of the linearised sample
+/// (eigenvalue with the stiffness of each of its contacts) is 2.1 times the estimate for hertz_mindlin at restitution
+/// 0.2, 1.8 times at 0.9, 2.4 times for hertz_brilliantov at P's parameters (these two rescaled from a run with STRONG
+/// = 6). Past the limit of its linearised sample hertz_mindlin at 0.2 still ran at twice of it, at 0.9 it did not, nor
+/// hertz_brilliantov at 1.4 times. Not measured under shear, whose higher forces, two- to threefold, would scale to
+/// another 10 to 30 %.
 ///
 /// Tangents at a force f:  f = A sqrt(R_eff) d^1.5,  k_n = 1.5 A sqrt(R_eff d),  k_t = 8 Gbar sqrt(R_eff d);
 ///     hertz_brilliantov:  c_n = T A sqrt(R_eff d), no tangential spring
@@ -44,8 +49,12 @@
 #include <math.h>
 
 static const double STRONG = 3;
-static const double FAST = 6;             // in root-mean-square velocity components
-static const double SOLID_FRACTION = 0.8; // of a packing under its weight
+static const double FAST = 6; // in root-mean-square velocity components
+/// Solid fraction of a packing under its weight.
+static double solid_fraction(const scree_model *model)
+{
+    return model->dimension == 3 ? 0.64 : 0.8;
+}
 
 scree_contact_tangent scree_contact_linearise(const scree_model *model, const scree_pair_constants *pair,
                                               double effective_radius, double effective_mass, double force)
@@ -74,11 +83,12 @@ static double critical_step_of_mode(double stiffness, double damping)
     return 2 / frequency / (sqrt(1 + ratio * ratio) + ratio);
 }
 
-double scree_critical_step_lattice(const scree_contact_tangent *t, double mass)
+double scree_critical_step_lattice(int dimension, const scree_contact_tangent *t, double mass)
 {
-    double turning = critical_step_of_mode(24 * t->tangential_stiffness / mass, 24 * t->tangential_damping / mass);
-    double shifting = critical_step_of_mode((6 * t->normal_stiffness + 2 * t->tangential_stiffness) / mass,
-                                            (6 * t->normal_damping + 2 * t->tangential_damping) / mass);
+    const double turn = dimension == 3 ? 40 : 24, normal = dimension == 3 ? 8 : 6, across = dimension == 3 ? 8 : 2;
+    double turning = critical_step_of_mode(turn * t->tangential_stiffness / mass, turn * t->tangential_damping / mass);
+    double shifting = critical_step_of_mode((normal * t->normal_stiffness + across * t->tangential_stiffness) / mass,
+                                            (normal * t->normal_damping + across * t->tangential_damping) / mass);
     return fmin(turning, shifting);
 }
 
@@ -94,20 +104,32 @@ static double sample_height(const scree_model *model, const scree_config_stage *
 {
     const scree_config *config = model->config;
     bool gas = stage && stage->method == SCREE_PREPARE_GAS;
-    double disc = M_PI * model->mean_radius * model->mean_radius;
-    double area = (double)config->particles.count * disc / (gas ? stage->solid_fraction : SOLID_FRACTION);
+    double phi = gas ? stage->solid_fraction : solid_fraction(model), radius = model->mean_radius;
+    double aspect = stage ? stage->aspect_ratio : 1, count = (double)config->particles.count;
+    if (model->dimension == 3) {
+        double volume = count * 4.0 / 3.0 * M_PI * radius * radius * radius / phi;
+        if (stage && !isnan(stage->width)) return volume / (stage->width * stage->width);
+        return cbrt(volume * aspect * aspect);
+    }
+    double area = count * M_PI * radius * radius / phi;
     if (stage && !isnan(stage->width)) return area / stage->width;
-    return sqrt(area * (stage ? stage->aspect_ratio : 1));
+    return sqrt(area * aspect);
+}
+
+static double gravity_of(const scree_model *model)
+{
+    return hypot(hypot(model->gravity[0], model->gravity[1]), model->gravity[2]);
 }
 
 /// Force of a strong contact under pressure and weight.
 static double strong_static_force(const scree_model *model, double height, int material)
 {
     const scree_config *config = model->config;
-    double pressure = hypot(model->gravity[0], model->gravity[1]) * model->density[material] * SOLID_FRACTION * height;
+    double pressure = gravity_of(model) * model->density[material] * solid_fraction(model) * height;
     for (int64_t i = 0; i < config->stage_count; i++)
         pressure = fmax(pressure, scree_held_pressure(&config->stages[i]));
-    return STRONG * pressure * 2 * model->mean_radius * model->thickness;
+    double diameter = 2 * model->mean_radius;
+    return STRONG * pressure * diameter * (model->dimension == 3 ? diameter : model->thickness);
 }
 
 /// Speed [m/s] at which neighbours pass each other in the fastest loading.
@@ -115,7 +137,7 @@ static double shear_speed(const scree_model *model)
 {
     double fastest = 0;
     for (int64_t i = 0; i < model->config->stage_count; i++)
-        fastest = fmax(fastest, scree_loading_rate(&model->config->stages[i]));
+        fastest = fmax(fastest, scree_model_loading_rate(&model->config->stages[i]));
     return 2 * model->mean_radius * fastest;
 }
 
@@ -129,7 +151,7 @@ double scree_critical_step_estimate(const scree_model *model)
 {
     int material = scree_model_particle_material(model);
     const scree_pair_constants *pair = &model->pairs[material][material];
-    double mass = model->density[material] * M_PI * model->radius_min * model->radius_min * model->thickness;
+    double mass = scree_model_mass(model, material, model->radius_min);
     double effective_radius = model->radius_min / 2, effective_mass = mass / 2;
     double stiffness = pair->normal_stiffness * sqrt(effective_radius);
 
@@ -137,13 +159,12 @@ double scree_critical_step_estimate(const scree_model *model)
     double height = sample_height(model, stage);
     double force = strong_static_force(model, height, material);
     if (stage && stage->method == SCREE_PREPARE_GAS) {
-        double fall = sqrt(2 * hypot(model->gravity[0], model->gravity[1]) * height);
-        force = fmax(force, impact_force(stiffness, effective_mass,
-                                         fmax(FAST * fmax(stage->velocity, shear_speed(model)), fall)));
+        double fall = sqrt(2 * gravity_of(model) * height), speed = fmax(stage->velocity, shear_speed(model));
+        force = fmax(force, impact_force(stiffness, effective_mass, fmax(FAST * speed, fall)));
     }
     double guard = stiffness * pow(model->config->guard.overlap * model->radius_min, 1.5);
     if (!(force > 0 && force < guard)) force = guard;
 
     scree_contact_tangent tangent = scree_contact_linearise(model, pair, effective_radius, effective_mass, force);
-    return scree_critical_step_lattice(&tangent, mass);
+    return scree_critical_step_lattice(model->dimension, &tangent, mass);
 }

@@ -15,9 +15,9 @@ typedef struct scree_contact_tangent {
 scree_contact_tangent scree_contact_linearise(const scree_model *model, const scree_pair_constants *pair,
                                               double effective_radius, double effective_mass, double force);
 
-/// Largest stable step [s] of a hexagonal lattice of discs of `mass` [kg] with such contacts. INFINITY without
-/// stiffness.
-double scree_critical_step_lattice(const scree_contact_tangent *tangent, double mass);
+/// Largest stable step [s] of a hexagonal lattice of discs, in 3D a face-centred cubic one of spheres, of `mass` [kg]
+/// with such contacts. INFINITY without stiffness.
+double scree_critical_step_lattice(int dimension, const scree_contact_tangent *tangent, double mass);
 
 /// Estimate for the loads of the model's case (confining pressure, gravity, velocities). Reads everything of the model
 /// but the step.

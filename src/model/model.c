@@ -3,7 +3,7 @@
 /// Contacts of two materials (Hertz 1882, Mindlin 1949; unlike bodies as in Johnson 1985, eqs. 4.3-4.6 and 7.40):
 ///     1/Ebar = (1 - nu1^2)/E1 + (1 - nu2^2)/E2,     normal stiffness      (4/3) Ebar
 ///     1/Gbar = (2 - nu1)/G1 + (2 - nu2)/G2,         tangential stiffness  8 Gbar,      G = E / (2 (1 + nu))
-/// The weaker rules where materials have no theory of the pair: the smaller friction, the smaller restitution.
+/// The weaker rules where materials have no theory of the pair: the smaller friction (of any kind) and restitution.
 /// Everything here is O(materials^2 + stages).
 #include "model/model.h"
 
@@ -45,18 +45,6 @@ bool scree_model_is_whole_cell(const scree_model *model)
     return model->config->boundary.periodic == (1 << model->dimension) - 1;
 }
 
-int scree_deform_leader(const scree_config_stage *stage)
-{
-    int leader = 0;
-    double fastest = 0;
-    for (int k = 0; k < 9; k++) {
-        if (!(fabs(stage->cell_rate[k]) > fastest)) continue;
-        fastest = fabs(stage->cell_rate[k]);
-        leader = k;
-    }
-    return leader;
-}
-
 static double shear_modulus(const scree_config_material *m)
 {
     return m->young_modulus / (2 * (1 + m->poisson_ratio));
@@ -74,6 +62,8 @@ static scree_pair_constants pair_constants(const scree_config_material *a, const
         .tangential_stiffness = 8 / shear_compliance,
         .friction = fmin(a->friction, b->friction),
         .damping = law == SCREE_LAW_HERTZ_MINDLIN ? scree_damping_from_restitution(restitution) : 0,
+        .rolling_friction = fmin(a->rolling_friction, b->rolling_friction),
+        .twisting_friction = fmin(a->twisting_friction, b->twisting_friction),
     };
 }
 
@@ -98,6 +88,8 @@ static scree_status resolve_materials(scree_model *model, scree_error *error)
         model->walls[i] = model->pairs[i][i];
         if (!isnan(material->wall_friction)) model->walls[i].friction = material->wall_friction;
         model->density[i] = material->density;
+        bool rolls = material->rolling_friction > 0 || material->twisting_friction > 0;
+        model->rolling = model->rolling || (rolls && model->law == SCREE_LAW_HERTZ_MINDLIN);
     }
     return SCREE_OK;
 }
@@ -123,7 +115,56 @@ static scree_status resolve_particles(scree_model *model, scree_error *error)
     model->radius_min = equal ? model->mean_radius : particles->radius_min;
     model->radius_max = equal ? model->mean_radius : particles->radius_max;
     model->thickness = isnan(particles->thickness) ? 2 * model->mean_radius : particles->thickness;
+    if (model->dimension == 3) model->thickness = 1;
     return SCREE_OK;
+}
+
+double scree_model_largest_radius(const scree_model *model)
+{
+    return fmax(model->radius_max, model->membrane_radius);
+}
+
+/// Takes the friction of a membrane away.
+static void make_frictionless(scree_model *model)
+{
+    if (!model->membrane) return;
+    int m = model->membrane_material;
+    scree_pair_constants *own = &model->walls[m];
+    own->friction = own->rolling_friction = own->twisting_friction = 0;
+    for (int i = 0; i < SCREE_MAX_MATERIALS; i++) {
+        own = &model->pairs[i][m];
+        own->friction = own->rolling_friction = own->twisting_friction = 0;
+        model->pairs[m][i] = *own;
+    }
+}
+
+/// A membrane is made of the particles' material without friction, as one more material. Its chain must not swing
+/// faster than the step can follow: omega = 2 sqrt(k / m), step 2 / omega.
+static scree_status resolve_membrane(scree_model *model, scree_error *error)
+{
+    const scree_config *config = model->config;
+    for (int64_t i = 0; i < config->stage_count; i++)
+        if (config->stages[i].kind != SCREE_STAGE_PREPARE)
+            model->membrane = model->membrane || scree_config_boundary_of(config, i) == SCREE_BOUNDARY_MEMBRANE;
+    if (!model->membrane) return SCREE_OK;
+    if (model->material_count == SCREE_MAX_MATERIALS)
+        return FIELD_ERROR(error, "materials", "a case with a membrane has at most %d materials",
+                           SCREE_MAX_MATERIALS - 1);
+    int grains = scree_model_particle_material(model), m = model->membrane_material = model->material_count;
+    for (int i = 0; i < model->material_count; i++) model->pairs[m][i] = model->pairs[i][m] = model->pairs[grains][i];
+    model->pairs[m][m] = model->pairs[grains][grains];
+    model->walls[m] = model->walls[grains];
+    model->density[m] = model->density[grains];
+    make_frictionless(model);
+    double radius = config->boundary.membrane_radius;
+    model->membrane_radius = isnan(radius) ? 1.25 * model->mean_radius : radius;
+    model->membrane_stiffness = config->boundary.membrane_stiffness;
+    double limit = sqrt(scree_model_mass(model, m, model->membrane_radius) / model->membrane_stiffness);
+    if (model->step <= limit) return SCREE_OK;
+    return FIELD_ERROR(error, "boundary.membrane_stiffness",
+                       "the chain of the membrane needs a step of at most %.2g s, this case has %.2g s: give a smaller "
+                       "stiffness or step",
+                       limit, model->step);
 }
 
 /// Does the packing of a prepare stage exist?
@@ -143,53 +184,60 @@ static scree_status check_prepare(const scree_model *model, int64_t index, scree
     return SCREE_OK;
 }
 
-/// Mean square of the radius, of the distribution. Two sizes are equally frequent.
-static double mean_square_radius(const scree_model *model)
+/// Mean mass of the distribution of radii. Two sizes are equally frequent.
+static double mean_mass(const scree_model *model, int material)
 {
     double a = model->radius_min, b = model->radius_max;
-    return model->config->particles.distribution == SCREE_SIZE_UNIFORM ? (a * a + a * b + b * b) / 3
-                                                                       : (a * a + b * b) / 2;
-}
-
-double scree_loading_rate(const scree_config_stage *stage)
-{
-    if (stage->kind == SCREE_STAGE_COMPRESS) return fabs(stage->rate);
-    return stage->kind == SCREE_STAGE_DEFORM ? fabs(stage->cell_rate[scree_deform_leader(stage)]) : 0;
+    double at_ends = (scree_model_mass(model, material, a) + scree_model_mass(model, material, b)) / 2;
+    if (model->config->particles.distribution != SCREE_SIZE_UNIFORM) return at_ends;
+    // Simpson's rule is exact for the square and the cube.
+    return at_ends / 3 + scree_model_mass(model, material, (a + b) / 2) * 2 / 3;
 }
 
 double scree_held_pressure(const scree_config_stage *stage)
 {
     if (stage->kind == SCREE_STAGE_CONFINE) return stage->pressure;
     double largest = NAN;
-    for (int k = 0; k < 9 && stage->kind == SCREE_STAGE_DEFORM; k += 4) largest = fmax(largest, stage->cell_stress[k]);
+    for (int k = 0; k < 9 && stage->kind == SCREE_STAGE_DEFORM; k += 4) largest = fmax(largest, stage->stress[k]);
     return largest;
 }
 
-/// Reference velocity, phi and psi: those of the first loading stage, under the pressure that it holds or that of the
+double scree_model_loading_rate(const scree_config_stage *stage)
+{
+    if (stage->kind == SCREE_STAGE_COMPRESS) return fabs(stage->rate);
+    if (stage->kind != SCREE_STAGE_DEFORM) return NAN;
+    double rate = 0;
+    for (int c = 0; c < 9; c++) {
+        if (!isnan(stage->velocity_gradient[c])) rate = fmax(rate, fabs(stage->velocity_gradient[c]));
+        if (!isnan(stage->strain_rate[c])) rate = fmax(rate, fabs(stage->strain_rate[c]));
+    }
+    return rate;
+}
+
+/// Reference velocity, phi and psi: those of the first loading stage under the pressure that it holds or that of the
 /// last confine stage before it.
 static scree_status resolve_loading(scree_model *model, scree_error *error)
 {
     const scree_config *config = model->config;
-    double pressure = NAN, rate = 0;
-    for (int64_t i = 0; i < config->stage_count && !(rate > 0); i++) {
+    double pressure = NAN, rate = NAN;
+    for (int64_t i = 0; i < config->stage_count && isnan(rate); i++) {
         const scree_config_stage *stage = &config->stages[i];
         if (stage->kind == SCREE_STAGE_PREPARE) {
             scree_status status = check_prepare(model, i, error);
             if (status) return status;
         }
         if (scree_held_pressure(stage) > 0) pressure = scree_held_pressure(stage);
-        rate = scree_loading_rate(stage);
+        rate = scree_model_loading_rate(stage);
     }
     model->reference_velocity = config->contact.reference_velocity;
-    if (isnan(model->reference_velocity) && rate > 0) model->reference_velocity = 2 * rate * model->mean_radius;
+    if (isnan(model->reference_velocity) && !isnan(rate)) model->reference_velocity = 2 * rate * model->mean_radius;
     if (model->law == SCREE_LAW_HERTZ_BRILLIANTOV && !(model->reference_velocity > 0))
         return FIELD_ERROR(error, "contact.reference_velocity",
                            "hertz_brilliantov needs a reference slip velocity: without a loading stage (2 rate <R>) "
                            "give contact.reference_velocity");
     model->phi = model->psi = NAN;
-    if (!(rate > 0) || isnan(pressure)) return SCREE_OK;
-    double mass =
-        model->density[scree_model_particle_material(model)] * M_PI * mean_square_radius(model) * model->thickness;
+    if (isnan(rate) || isnan(pressure)) return SCREE_OK;
+    double mass = mean_mass(model, scree_model_particle_material(model));
     scree_quasistatic_numbers(model->dimension, (double)config->particles.count, mass, model->mean_radius,
                               model->thickness, rate, pressure, &model->phi, &model->psi);
     return SCREE_OK;
@@ -235,6 +283,7 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
     if (!status) status = resolve_particles(model, error);
     if (!status) status = resolve_loading(model, error);
     if (!status) status = resolve_step(model, error);
+    if (!status) status = resolve_membrane(model, error);
     return status;
 }
 
@@ -246,5 +295,6 @@ scree_model scree_model_with_friction(const scree_model *model, double friction)
         copy.walls[i].friction = friction;
         for (int j = 0; j < SCREE_MAX_MATERIALS; j++) copy.pairs[i][j].friction = friction;
     }
+    make_frictionless(&copy);
     return copy;
 }

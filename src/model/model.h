@@ -6,6 +6,8 @@
 
 #include "case/config.h"
 
+#include <math.h>
+
 #define SCREE_MAX_MATERIALS 16
 
 /// Constants of a contact between two materials (or a grain and a plate). Symmetric in the two materials.
@@ -34,7 +36,11 @@ typedef struct scree_model {
     double gravity[3];             ///< m/s2
     double mean_radius;            ///< m, of the distribution
     double radius_min, radius_max; ///< m
-    double phi, psi; ///< quasistatic and size coefficients (P 2.13, 2.14, B1), NAN without a loading stage
+    double phi, psi;           ///< quasistatic and size coefficients (P 2.13, 2.14, B1), NAN without a loading stage
+    bool membrane;             ///< some stage has one
+    int membrane_material;     ///< index of its constants below, frictionless, else those of the particles
+    double membrane_radius;    ///< m; 0 without a membrane
+    double membrane_stiffness; ///< N/m
     int material_count;
     scree_pair_constants pairs[SCREE_MAX_MATERIALS][SCREE_MAX_MATERIALS]; ///< grain on grain
     scree_pair_constants walls[SCREE_MAX_MATERIALS];                      ///< grain on a plate of the same material
@@ -50,19 +56,27 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
 /// The sample is periodic in all directions of space.
 bool scree_model_is_whole_cell(const scree_model *model);
 
-/// Component (0 to 8) of the velocity gradient that a deform stage drives fastest.
-int scree_deform_leader(const scree_config_stage *stage);
-
-/// Magnitude of the strain rate of a loading stage [1/s], 0 for the other kinds.
-double scree_loading_rate(const scree_config_stage *stage);
-
 /// Largest normal stress that a stage holds [Pa, compression positive], NAN when it holds none.
 double scree_held_pressure(const scree_config_stage *stage);
+
+/// Largest radius of all bodies [m], those of a membrane included.
+double scree_model_largest_radius(const scree_model *model);
+
+/// Mass [kg] of a body: a sphere, or a disc of the model's thickness.
+static inline double scree_model_mass(const scree_model *model, int material, double radius)
+{
+    double length = model->dimension == 3 ? 4.0 / 3.0 * radius : model->thickness;
+    return model->density[material] * M_PI * radius * radius * length;
+}
+
+/// Strain rate that a stage imposes [1/s]; of a deform stage the largest component. NAN: it loads nothing.
+double scree_model_loading_rate(const scree_config_stage *stage);
 
 /// Index of the material that the particles are made of.
 int scree_model_particle_material(const scree_model *model);
 
-/// A copy with every friction coefficient replaced by `friction` (used while preparing dense samples). NAN copies only.
+/// A copy with every friction coefficient replaced by `friction` (used while preparing dense samples), but a membrane's
+/// zero. NAN copies only.
 scree_model scree_model_with_friction(const scree_model *model, double friction);
 
 #endif

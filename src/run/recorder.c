@@ -80,7 +80,7 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
 {
     scree_snapshot_info info = {.index = s->state.stage.snapshots,
                                 .time = scree_state_time(&s->state),
-                                .axial_strain = scree_axial_strain(s),
+                                .axial_strain = scree_loading_strain(s),
                                 .stage = s->stage->name};
     const scree_model *model = &s->stage_model;
     scree_status status = scree_snapshot_write(recorder->directory, model, &s->state, &s->table, &info, error);
@@ -97,9 +97,7 @@ static double steps_left(const scree_simulation *s)
     double left = (double)s->plan.expected - (double)(s->state.step - s->state.stage.first_step);
     for (int64_t k = s->state.stage.index + 1; k < s->model.config->stage_count; k++) {
         const scree_config_stage *stage = &s->model.config->stages[k];
-        double rate = scree_loading_rate(stage);
-        if (!(rate > 0)) return NAN;
-        left += stage->strain / rate / s->state.step_size;
+        left += stage->strain / scree_model_loading_rate(stage) / s->state.step_size;
     }
     return left;
 }
@@ -114,7 +112,7 @@ static void report_progress(scree_recorder *recorder, const scree_simulation *s,
     scree_progress progress = {.stage = s->stage->name,
                                .fraction = s->stage->fraction ? s->stage->fraction(s) : NAN,
                                .time = scree_state_time(&s->state),
-                               .strain = scree_axial_strain(s),
+                               .strain = scree_loading_strain(s),
                                .particle_steps_per_second = recorder->rate,
                                .seconds_left = steps_left(s) * (double)s->state.count / recorder->rate};
     recorder->options->progress(recorder->options->user, &progress);

@@ -4,12 +4,16 @@
 /// strain; mean stress ratio over the last fifth of the strain; largest compaction and dilation relative to the begin
 /// of loading (dilation positive); disagreement of the axial stress of plates and contacts, of the means over the stage
 /// (`stress_disagreement`) and as the mean of the instantaneous differences, which holds the inertia of the waves
-/// (`stress_disagreement_instant`). Over the whole run: largest residual of the energy
+/// (`stress_disagreement_instant`); `shear_strain_reached`, the engineering shear strain of the first and the last
+/// axis; with imposed rates, mean, least and largest ratio of actual and imposed rate (`rate_ratio_...`, of the
+/// intervals between two samples) from STARTED of the strain on. Over the loading, from the bodies: `corner_distortion`
+/// (measure/corner_distortion.c). Over the whole run: largest residual of the energy
 /// balance over the work turned over by the end (`energy_residual`).
 #include "run/results.h"
 
 #include "io/run_directory.h"
 #include "io/summary.h"
+#include "measure/measure.h"
 #include "run/sample.h"
 
 #include <inttypes.h>
@@ -17,10 +21,11 @@
 #include <string.h>
 
 #define SMOOTHING 0.01
+#define STARTED   0.05
 
 /// The rows of the last loading stage.
 typedef struct loading {
-    const double *strain, *ratio, *volumetric, *plates, *contacts, *slip, *coordination;
+    const double *strain, *ratio, *volumetric, *plates, *contacts, *slip, *coordination, *rate, *shear;
     size_t first, last; ///< rows [first, last)
 } loading;
 
@@ -34,6 +39,8 @@ static bool find_loading(const scree_series *series, loading *l)
                    .contacts = scree_series_get(series, "stress_axial_contacts"),
                    .slip = scree_series_get(series, "slip_ratio"),
                    .coordination = scree_series_get(series, "coordination"),
+                   .rate = scree_series_get(series, "rate_ratio"),
+                   .shear = scree_series_get(series, "boundary_shear_strain"),
                    .last = series->row_count};
     if (series->row_count == 0 || isnan(l->strain[series->row_count - 1])) return false;
     for (l->first = l->last; l->first > 0 && stage[l->first - 1] == stage[l->last - 1]; l->first--) continue;
@@ -68,6 +75,24 @@ static void summarise_peak(const loading *l, scree_summary *summary)
     scree_summary_set_number(summary, "final_stress_ratio", final_ratio / (double)final_count);
 }
 
+/// Ratio of actual and imposed rate once the rate is up; nothing without minimal conditions.
+static void summarise_rate(const loading *l, scree_summary *summary)
+{
+    double least = INFINITY, most = -INFINITY, sum = 0;
+    size_t rows = 0;
+    for (size_t k = l->first; k < l->last; k++) {
+        if (isnan(l->rate[k]) || l->strain[k] < STARTED * l->strain[l->last - 1]) continue;
+        least = fmin(least, l->rate[k]);
+        most = fmax(most, l->rate[k]);
+        sum += l->rate[k];
+        rows++;
+    }
+    if (rows == 0) return;
+    scree_summary_set_number(summary, "rate_ratio_mean", sum / (double)rows);
+    scree_summary_set_number(summary, "rate_ratio_min", least);
+    scree_summary_set_number(summary, "rate_ratio_max", most);
+}
+
 static void summarise_loading(const loading *l, scree_summary *summary)
 {
     double compaction = 0, dilation = 0, slip = 0, plates = 0, contacts = 0, apart = 0;
@@ -81,7 +106,9 @@ static void summarise_loading(const loading *l, scree_summary *summary)
         apart += fabs(l->contacts[k] - l->plates[k]);
     }
     scree_summary_set_number(summary, "axial_strain", l->strain[l->last - 1]);
+    scree_summary_set_number(summary, "shear_strain_reached", fabs(l->shear[l->last - 1]));
     summarise_peak(l, summary);
+    summarise_rate(l, summary);
     scree_summary_set_number(summary, "max_volumetric_compaction", compaction);
     scree_summary_set_number(summary, "max_volumetric_dilation", dilation);
     scree_summary_set_number(summary, "stress_disagreement", fabs(contacts / plates - 1));
@@ -119,7 +146,7 @@ static void summarise_run(const scree_recorder *recorder, scree_simulation *s, s
                                                          : "stopped");
     scree_summary_set_text(summary, "version", scree_version());
     scree_summary_set_integer(summary, "seed", config->seed);
-    scree_summary_set_integer(summary, "particles", (int64_t)s->state.count);
+    scree_summary_set_integer(summary, "particles", (int64_t)s->state.grains);
     scree_summary_set_integer(summary, "steps", (int64_t)s->state.step);
     scree_summary_set_number(summary, "step_size", s->state.step_size);
     scree_summary_set_number(summary, "critical_step", s->model.critical_step);
@@ -135,6 +162,21 @@ static void summarise_run(const scree_recorder *recorder, scree_simulation *s, s
     scree_summary_set_integer(summary, "neighbour_rebuilds", (int64_t)s->work.rebuilds);
 }
 
+/// Of the last stage, when it loaded the sample without plates.
+static scree_status summarise_corners(const scree_simulation *s, scree_summary *summary, scree_error *error)
+{
+    const scree_config *config = s->model.config;
+    int64_t last = config->stage_count - 1;
+    if (s->state.stage.index < last || s->state.count == 0) return SCREE_OK;
+    scree_boundary_kind kind = scree_config_boundary_of(config, last);
+    bool loaded = !isnan(scree_model_loading_rate(&config->stages[last]));
+    if (!loaded || scree_boundary_has_plates(scree_boundary_get(kind))) return SCREE_OK;
+    double distortion;
+    scree_status status = scree_corner_distortion(&s->model, &s->state, &distortion, error);
+    if (!status) scree_summary_set_number(summary, "corner_distortion", distortion);
+    return status;
+}
+
 scree_status scree_results_write(const scree_recorder *recorder, scree_simulation *s, scree_status status,
                                  scree_error *error)
 {
@@ -147,6 +189,9 @@ scree_status scree_results_write(const scree_recorder *recorder, scree_simulatio
     if (!result) {
         summarise_run(recorder, s, status, summary);
         summarise_series(&series, s->state.ledger.turnover, summary);
+        result = summarise_corners(s, summary, error);
+    }
+    if (!result) {
         result = scree_path_join(path, sizeof path, recorder->directory, SCREE_FILE_SUMMARY, error);
     }
     if (!result) result = scree_summary_write(summary, path, error);

@@ -1,7 +1,8 @@
 /// The columns of series.csv and how each comes from the measures.
 #include "run/sample.h"
 
-#include "boundary/plates.h"
+#include "boundary/drive.h"
+#include "boundary/membrane.h"
 #include "measure/measure.h"
 #include "run/guard.h"
 #include "state/cell.h"
@@ -12,16 +13,25 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
     [SCREE_SAMPLE_STEP] = {"step", "1", "number of the step"},
     [SCREE_SAMPLE_TIME] = {"time", "s", "simulated time"},
     [SCREE_SAMPLE_STAGE] = {"stage", "1", "index of the stage in the case, from 0"},
-    [SCREE_SAMPLE_AXIAL_STRAIN] = {"axial_strain", "1", "from the plates, engineering, compression positive"},
+    [SCREE_SAMPLE_AXIAL_STRAIN] = {"axial_strain", "1",
+                                   "strain that the stage imposes: axial, engineering, compression positive, from the "
+                                   "plates or the Delaunay boundary; of a deform stage its largest component"},
     [SCREE_SAMPLE_VOLUMETRIC_STRAIN] = {"volumetric_strain", "1",
                                         "from the Delaunay boundary (Bagi), logarithmic, compression positive"},
     [SCREE_SAMPLE_BOUNDARY_AXIAL] = {"boundary_axial_strain", "1",
                                      "axial strain from the Delaunay boundary, compression positive"},
     [SCREE_SAMPLE_BOUNDARY_LATERAL] = {"boundary_lateral_strain", "1",
                                        "lateral strain from the Delaunay boundary, compression positive"},
-    [SCREE_SAMPLE_STRESS_RATIO] = {"stress_ratio", "1", "axial stress on the plates over the lateral stress applied"},
+    [SCREE_SAMPLE_SHEAR_STRAIN] =
+        {"boundary_shear_strain", "1",
+         "engineering shear strain of the first and the last axis from the Delaunay boundary"},
+    [SCREE_SAMPLE_RATE_RATIO] = {"rate_ratio", "1",
+                                 "actual over imposed strain rate since the last sample, of minimal conditions"},
+    [SCREE_SAMPLE_STRESS_RATIO] = {"stress_ratio", "1", "axial stress that the boundary applies over the lateral one"},
     [SCREE_SAMPLE_STRESS_RATIO_CONTACTS] = {"stress_ratio_contacts", "1", "the same from contact forces"},
-    [SCREE_SAMPLE_AXIAL_PLATES] = {"stress_axial_plates", "Pa", "mean of bottom and top plate, compression positive"},
+    [SCREE_SAMPLE_AXIAL_PLATES] =
+        {"stress_axial_plates", "Pa",
+         "axial stress of the boundary: of bottom and top plate, or of pressure and imposed rates"},
     [SCREE_SAMPLE_LATERAL_APPLIED] = {"stress_lateral_applied", "Pa",
                                       "pressure on the Delaunay boundary or mean of the side plates"},
     [SCREE_SAMPLE_AXIAL_CONTACTS] = {"stress_axial_contacts", "Pa",
@@ -48,10 +58,15 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
     [SCREE_SAMPLE_STIFFNESS_WORK] = {"stiffness_work", "J", "put into tangential springs by their change of stiffness"},
     [SCREE_SAMPLE_WORK_PLATES] = {"work_plates", "J", "work of the plates on the particles"},
     [SCREE_SAMPLE_WORK_PRESSURE] = {"work_pressure", "J", "work of the pressure on the Delaunay boundary"},
+    [SCREE_SAMPLE_WORK_BOUNDARY] = {"work_boundary", "J",
+                                    "work of imposed rates, or of the chain of a membrane and its ends"},
+    [SCREE_SAMPLE_ELASTIC_MEMBRANE] = {"elastic_membrane", "J", "stored in the chain of a membrane"},
     [SCREE_SAMPLE_WORK_GRAVITY] = {"work_gravity", "J", "work of gravity"},
     [SCREE_SAMPLE_ENERGY_RESIDUAL] = {"energy_residual", "J", "what the energy balance leaves open"},
     [SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE] = {"energy_residual_relative", "1", "the same over the work done"},
-    [SCREE_SAMPLE_HEIGHT] = {"height", "m", "distance of bottom and top plate, or of the faces of the periodic cell"},
+    [SCREE_SAMPLE_HEIGHT] = {"height", "m",
+                             "distance of bottom and top plate or of the faces of the periodic cell, or height as the "
+                             "Delaunay boundary is strained"},
     [SCREE_SAMPLE_AREA] = {"area", "m2",
                            "area of the sample between plates and Delaunay boundary, or of the periodic cell"},
     [SCREE_SAMPLE_BOUNDARY_COUNT] = {"boundary_count", "1", "particles on the Delaunay boundary"},
@@ -62,11 +77,14 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
 
 static void sample_strain(const scree_simulation *s, double *value)
 {
-    const double *begin = &s->state.stage.reference[4];
+    const double *begin = &s->state.stage.reference[SCREE_LOADING_STRAIN];
     double gradient[9];
     scree_strain_measure(&s->state, gradient);
     bool loading = s->stage->loading;
-    value[SCREE_SAMPLE_AXIAL_STRAIN] = scree_axial_strain(s);
+    value[SCREE_SAMPLE_AXIAL_STRAIN] = scree_loading_strain(s);
+    int axis = s->state.dimension - 1;
+    double shear = gradient[axis] + gradient[3 * axis] - begin[axis] - begin[3 * axis];
+    value[SCREE_SAMPLE_SHEAR_STRAIN] = loading ? shear : NAN;
     value[SCREE_SAMPLE_BOUNDARY_AXIAL] = loading ? begin[4] - gradient[4] : NAN;
     value[SCREE_SAMPLE_BOUNDARY_LATERAL] = loading ? begin[0] - gradient[0] : NAN;
     value[SCREE_SAMPLE_VOLUMETRIC_STRAIN] = value[SCREE_SAMPLE_BOUNDARY_AXIAL] + value[SCREE_SAMPLE_BOUNDARY_LATERAL];
@@ -106,7 +124,7 @@ static scree_status sample_structure(const scree_simulation *s, double *value, s
     value[SCREE_SAMPLE_SOLID_FRACTION] = scree_solid_fraction(&s->state);
     value[SCREE_SAMPLE_UNBALANCED_RATIO] = scree_mean_unbalanced_ratio(&s->stage_model, &s->state, &s->table);
     value[SCREE_SAMPLE_BOUNDARY_COUNT] = (double)s->state.loop.count;
-    value[SCREE_SAMPLE_HEIGHT] = scree_sample_height(&s->state);
+    value[SCREE_SAMPLE_HEIGHT] = scree_sample_height(s);
     return SCREE_OK;
 }
 
@@ -124,6 +142,8 @@ static void sample_energy(const scree_simulation *s, double *value)
     value[SCREE_SAMPLE_WORK_PLATES] = ledger->plates;
     value[SCREE_SAMPLE_WORK_PRESSURE] = ledger->pressure;
     value[SCREE_SAMPLE_WORK_CELL] = ledger->cell;
+    value[SCREE_SAMPLE_WORK_BOUNDARY] = ledger->boundary;
+    value[SCREE_SAMPLE_ELASTIC_MEMBRANE] = scree_membrane_energy(&s->stage_model, &s->state);
     value[SCREE_SAMPLE_WORK_GRAVITY] = energy.gravity;
     value[SCREE_SAMPLE_ENERGY_RESIDUAL] = energy.residual;
     value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE] = energy.relative;
@@ -151,6 +171,7 @@ scree_status scree_sample_take(scree_simulation *s, scree_error *error)
     sample_stress(s, value);
     if ((status = sample_structure(s, value, error))) return status;
     sample_energy(s, value);
+    value[SCREE_SAMPLE_RATE_RATIO] = scree_drive_take_ratio(&s->state);
     remember_velocities(s);
     return scree_guard_sample(s, value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE], error);
 }

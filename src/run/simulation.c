@@ -51,6 +51,24 @@ static void open_ledger(scree_simulation *s)
     s->state.ledger.gravity = energy.gravity;
 }
 
+/// Changes to the boundary of the stage that begins. What walls that go hold in their contacts goes with them; bodies
+/// may be added.
+static scree_status change_boundary(scree_simulation *s, scree_error *error)
+{
+    bool changed;
+    scree_status status = SCREE_OK;
+    s->table.count = 0;
+    if (s->work.valid) {
+        status = scree_contact_table_build(&s->stage_model, &s->state, &s->work, &s->table, error);
+        if (!status) status = scree_contacts_save(&s->state, &s->work, error);
+    }
+    if (!status) status = scree_boundary_begin(s->boundary, &s->stage_model, &s->state, &s->table, &changed, error);
+    scree_neighbours_invalidate(&s->work);
+    // Whoever looks at the contacts before the next step finds those that there are now.
+    if (!status && changed) status = scree_neighbours_refresh(&s->stage_model, &s->state, &s->work, error);
+    return status;
+}
+
 scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *error)
 {
     scree_stage_state *stage = &s->state.stage;
@@ -60,6 +78,7 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
     }
     const scree_config_stage *config = scree_stage_config(s);
     s->stage = scree_stage_get((scree_stage_kind)config->kind, scree_model_is_whole_cell(&s->model));
+    s->boundary = scree_boundary_get(scree_config_boundary_of(s->model.config, stage->index));
     s->stage_model = scree_model_with_friction(&s->model, config->friction);
     if (!restart || stage->counter == NOT_BEGUN) {
         stage->first_time = scree_state_time(&s->state);
@@ -68,7 +87,7 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
         scree_status status = s->stage->begin(s, error);
         if (status) return status;
         if (s->stage->instant) open_ledger(s);
-        scree_neighbours_invalidate(&s->work);
+        if (!s->stage->instant && (status = change_boundary(s, error))) return status;
     }
     if (s->stage->plan) s->stage->plan(s);
     return SCREE_OK;

@@ -2,13 +2,14 @@
 #ifndef SCREE_RUN_SIMULATION_H
 #define SCREE_RUN_SIMULATION_H
 
+#include "boundary/boundary.h"
 #include "case/case.h"
 #include "contact/contact.h"
 #include "integrate/integrate.h"
 #include "run/stage.h"
 
 /// One row of series.csv; the columns are in sample.c.
-#define SCREE_SAMPLE_COLUMNS 37
+#define SCREE_SAMPLE_COLUMNS 41
 typedef struct scree_sample {
     double value[SCREE_SAMPLE_COLUMNS];
 } scree_sample;
@@ -20,8 +21,9 @@ struct scree_simulation {
     const scree_integrator *integrator;
     scree_state state;
     scree_work work;
-    scree_contact_table table; ///< at the last sample
-    const scree_stage *stage;  ///< NULL when the case has ended
+    scree_contact_table table;      ///< at the last sample
+    const scree_stage *stage;       ///< NULL when the case has ended
+    const scree_boundary *boundary; ///< of the present stage
     scree_stage_plan plan;
     scree_sample sample; ///< the last one
     bool sampled;        ///< the last step made a sample

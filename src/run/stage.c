@@ -2,6 +2,7 @@
 #include "run/stage.h"
 
 #include "base/matrix.h"
+#include "measure/measure.h"
 #include "run/simulation.h"
 #include "state/cell.h"
 
@@ -13,7 +14,7 @@ const scree_stage *scree_stage_get(scree_stage_kind kind, bool whole_cell)
         [SCREE_STAGE_PREPARE] = {&scree_stage_prepare, &scree_stage_prepare},
         [SCREE_STAGE_CONFINE] = {&scree_stage_confine, &scree_stage_confine_cell},
         [SCREE_STAGE_COMPRESS] = {&scree_stage_compress, &scree_stage_compress_cell},
-        [SCREE_STAGE_DEFORM] = {&scree_stage_deform, &scree_stage_deform},
+        [SCREE_STAGE_DEFORM] = {&scree_stage_deform, &scree_stage_deform_cell},
     };
     return table[kind][whole_cell];
 }
@@ -23,23 +24,38 @@ const scree_config_stage *scree_stage_config(const scree_simulation *s)
     return &s->model.config->stages[s->state.stage.index];
 }
 
-double scree_sample_height(const scree_state *state)
+/// Logarithmic axial strain of the Delaunay boundary since the begin of the loading stage, extension positive.
+static double axial_stretch(const scree_simulation *s)
 {
-    if (scree_cell_is_whole(state)) {
+    double gradient[9];
+    int axial = s->state.dimension == 3 ? 8 : 4;
+    scree_strain_measure(&s->state, gradient);
+    return gradient[axial] - s->state.stage.reference[SCREE_LOADING_STRAIN + axial];
+}
+
+double scree_sample_height(const scree_simulation *s)
+{
+    const scree_wall *wall = s->state.wall;
+    if (scree_cell_is_whole(&s->state)) {
         double inverse[9], width[3];
-        scree_matrix_invert(state->cell.lattice, inverse);
+        scree_matrix_invert(s->state.cell.lattice, inverse);
         scree_cell_widths(inverse, width);
-        return width[state->dimension - 1];
+        return width[s->state.dimension - 1];
     }
-    return -(state->wall[SCREE_WALL_BOTTOM].position + state->wall[SCREE_WALL_TOP].position);
+    if (s->boundary && !scree_boundary_has_plates(s->boundary) && s->stage && s->stage->loading)
+        return s->state.stage.reference[SCREE_LOADING_HEIGHT] * exp(axial_stretch(s));
+    return -(wall[SCREE_WALL_BOTTOM].position + wall[SCREE_WALL_TOP].position);
 }
 
 double scree_axial_strain(const scree_simulation *s)
 {
-    if (!s->stage || !s->stage->loading) return NAN;
-    if (s->stage->strain) return s->stage->strain(s);
-    double height = s->state.stage.reference[0];
-    return (height - scree_sample_height(&s->state)) / height;
+    double height = s->state.stage.reference[SCREE_LOADING_HEIGHT];
+    return (height - scree_sample_height(s)) / height;
+}
+
+double scree_loading_strain(const scree_simulation *s)
+{
+    return s->stage && s->stage->strain ? s->stage->strain(s) : NAN;
 }
 
 double scree_smooth_ramp(double fraction)

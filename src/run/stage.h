@@ -22,15 +22,15 @@ typedef struct scree_stage_plan {
 typedef struct scree_stage {
     const char *name;
     bool instant; ///< ends as soon as it has begun (no steps)
-    bool loading; ///< samples of this stage have an axial strain, and snapshots are evenly spaced in it
+    bool loading; ///< samples of this stage have a strain, and snapshots are evenly spaced in it
+    /// Strain that the stage imposes, as far as it has come. NULL: none.
+    double (*strain)(const scree_simulation *s);
     /// Once, when the stage begins: walls, pressure, reference numbers in state.stage.reference.
     scree_status (*begin)(scree_simulation *s, scree_error *error);
     /// Derives the plan from the state; at begin and after a restart.
     void (*plan)(scree_simulation *s);
     /// Every step, before the plates move: velocities of plates, pressure. NULL: nothing to do.
     void (*control)(scree_simulation *s);
-    /// Strain of a loading stage that is not the axial one from the plates. NULL: it is.
-    double (*strain)(const scree_simulation *s);
     /// At every sample: has the stage ended? Then writes the reason. May fail: time limit.
     scree_status (*finished)(scree_simulation *s, bool *done, scree_error *error);
     /// Fraction done, NAN when not known.
@@ -44,14 +44,37 @@ extern const scree_stage scree_stage_confine;
 extern const scree_stage scree_stage_compress;
 extern const scree_stage scree_stage_confine_cell;
 extern const scree_stage scree_stage_compress_cell;
+extern const scree_stage scree_stage_deform_cell;
 extern const scree_stage scree_stage_deform;
 
 /// The config of the stage that runs now.
 const scree_config_stage *scree_stage_config(const scree_simulation *s);
 
-/// Axial strain from the plates or the periodic cell [1, compression positive], engineering, since the begin of the
-/// loading stage, or the strain that the stage has of its own; NAN else.
+/// Strain that the loading stage imposes, as far as it has come: NAN in other stages.
+double scree_loading_strain(const scree_simulation *s);
+
+/// Axial strain [1, compression positive], engineering, since the begin of the loading stage: from the plates or the
+/// periodic cell, or without them from the Delaunay boundary.
 double scree_axial_strain(const scree_simulation *s);
+
+/// Begins a loading stage: SCREE_LOADING_... of state.stage.reference and the reference positions.
+void scree_loading_begin(scree_simulation *s);
+enum {
+    SCREE_LOADING_HEIGHT,      ///< m, at the begin
+    SCREE_LOADING_WAVE,        ///< s, wave time at the begin
+    SCREE_LOADING_SIDES,       ///< 2: impedance and mass of the side plates
+    SCREE_LOADING_STRAIN = 4,  ///< 9: accumulated boundary strain at the begin
+    SCREE_LOADING_OTHERS = 13, ///< free for the stage
+};
+
+/// Plan of a loading stage that lasts `time` [s] at its full rate: samples, rise of the rate, steps.
+scree_stage_plan scree_loading_plan(const scree_simulation *s, double time);
+
+/// Fraction of the full rate that is reached now; *loaded [s]: time at the full rate that would have led as far.
+double scree_loading_rise(const scree_simulation *s, double *loaded);
+
+/// A stage without plates ends when its strain is reached; the error when it falls too far behind its rate.
+scree_status scree_loading_check(const scree_simulation *s, scree_error *error) SCREE_MUST_USE;
 
 /// Smooth step from 0 to 1 (cubic), for pressures and velocities that must not shock the sample.
 double scree_smooth_ramp(double fraction);
@@ -59,7 +82,8 @@ double scree_smooth_ramp(double fraction);
 /// Side plates under servo to `pressure`, where they are active.
 void scree_servo_sides(scree_simulation *s, double pressure);
 
-/// Distance between bottom and top plate, or between the faces of the periodic cell [m].
-double scree_sample_height(const scree_state *state);
+/// Distance between bottom and top plate or the faces of the periodic cell [m]; without either the height that the
+/// loading began with, changed as the Delaunay boundary was strained.
+double scree_sample_height(const scree_simulation *s);
 
 #endif

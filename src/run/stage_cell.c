@@ -42,7 +42,6 @@ static void measure_sample(scree_simulation *s, double pressure)
     reference[DAMPING] = drive.damping;
     reference[LIMIT] = drive.limit;
     memcpy(&reference[STRAIN], s->state.cell.strain, sizeof s->state.cell.strain);
-    for (int w = 0; w < SCREE_WALL_COUNT; w++) s->state.wall[w].active = 0;
 }
 
 /// Displacements and rotations count from here.
@@ -154,7 +153,7 @@ static double rise_now(const scree_simulation *s)
 static scree_status loading_finished(scree_simulation *s, bool *done, scree_error *error)
 {
     (void)error;
-    double strain = scree_axial_strain(s), gradient = scree_matrix_norm(s->state.cell.gradient);
+    double strain = scree_loading_strain(s), gradient = scree_matrix_norm(s->state.cell.gradient);
     // The last sample lies on the planned last step; half a step of strain covers round-off.
     *done = strain >= scree_stage_config(s)->strain - 0.5 * gradient * s->state.step_size;
     (void)snprintf(s->reason, sizeof s->reason, "strain %.4g reached", strain);
@@ -163,14 +162,14 @@ static scree_status loading_finished(scree_simulation *s, bool *done, scree_erro
 
 static double loading_fraction(const scree_simulation *s)
 {
-    return scree_axial_strain(s) / scree_stage_config(s)->strain;
+    return scree_loading_strain(s) / scree_stage_config(s)->strain;
 }
 
 static scree_status begin_compress(scree_simulation *s, scree_error *error)
 {
     (void)error;
     measure_sample(s, s->state.pressure);
-    s->state.stage.reference[0] = scree_sample_height(&s->state);
+    s->state.stage.reference[0] = scree_sample_height(s);
     set_reference(&s->state);
     return SCREE_OK;
 }
@@ -185,32 +184,41 @@ static void control_compress(scree_simulation *s)
 {
     int axial = 4 * (s->state.dimension - 1);
     double begin = s->state.stage.reference[0];
-    s->plan.cell.rate[axial] = -scree_stage_config(s)->rate * begin / scree_sample_height(&s->state);
+    s->plan.cell.rate[axial] = -scree_stage_config(s)->rate * begin / scree_sample_height(s);
     scree_cell_control(&s->stage_model, &s->state, &s->plan.cell, rise_now(s));
 }
 
 const scree_stage scree_stage_compress_cell = {.name = "compress",
                                                .loading = true,
+                                               .strain = scree_axial_strain,
                                                .begin = begin_compress,
                                                .plan = plan_compress,
                                                .control = control_compress,
                                                .finished = loading_finished,
                                                .fraction = loading_fraction};
 
-/// The largest stress that is held [Pa]; the pressure of the stage before when none is.
-static double stress_scale(const scree_simulation *s)
+/// Rates of a deform stage [1/s], zero where nothing is said, and the number of the fastest component.
+static int find_rates(const scree_config_stage *stage, double rate[9])
 {
-    const scree_config_stage *stage = scree_stage_config(s);
-    double largest = 0;
-    for (int k = 0; k < 9; k++) largest = fmax(largest, fabs(stage->cell_stress[k]));
-    return largest > 0 ? largest : s->state.pressure;
+    int leader = 0;
+    for (int k = 0; k < 9; k++) {
+        int mirror = 3 * (k % 3) + k / 3;
+        const double given[3] = {stage->velocity_gradient[k], stage->strain_rate[k], stage->strain_rate[mirror]};
+        rate[k] = 0;
+        for (int i = 0; i < 3; i++)
+            if (!isnan(given[i])) rate[k] = given[i];
+        if (fabs(rate[k]) > fabs(rate[leader])) leader = k;
+    }
+    return leader;
 }
 
 static scree_status begin_deform(scree_simulation *s, scree_error *error)
 {
     (void)error;
-    measure_sample(s, stress_scale(s));
-    s->state.stage.reference[LEADER] = scree_deform_leader(scree_stage_config(s));
+    const scree_config_stage *stage = scree_stage_config(s);
+    double held = scree_held_pressure(stage), rate[9];
+    measure_sample(s, held > 0 ? held : s->state.pressure);
+    s->state.stage.reference[LEADER] = find_rates(stage, rate);
     set_reference(&s->state);
     return SCREE_OK;
 }
@@ -218,11 +226,10 @@ static scree_status begin_deform(scree_simulation *s, scree_error *error)
 static void plan_deform(scree_simulation *s)
 {
     const scree_config_stage *stage = scree_stage_config(s);
-    plan_loading(s, fabs(stage->cell_rate[scree_deform_leader(stage)]));
-    for (int k = 0; k < 9; k++) {
-        s->plan.cell.rate[k] = isnan(stage->cell_rate[k]) ? 0 : stage->cell_rate[k];
-        s->plan.cell.stress[k] = k % 4 == 0 ? -stage->cell_stress[k] : stage->cell_stress[k];
-    }
+    double rate[9];
+    plan_loading(s, fabs(rate[find_rates(stage, rate)]));
+    memcpy(s->plan.cell.rate, rate, sizeof rate);
+    for (int k = 0; k < 9; k++) s->plan.cell.stress[k] = k % 4 == 0 ? -stage->stress[k] : stage->stress[k];
 }
 
 static void control_deform(scree_simulation *s)
@@ -237,11 +244,11 @@ static double deform_strain(const scree_simulation *s)
     return fabs(s->state.cell.strain[leader] - s->state.stage.reference[STRAIN + leader]);
 }
 
-const scree_stage scree_stage_deform = {.name = "deform",
-                                        .loading = true,
-                                        .begin = begin_deform,
-                                        .plan = plan_deform,
-                                        .control = control_deform,
-                                        .strain = deform_strain,
-                                        .finished = loading_finished,
-                                        .fraction = loading_fraction};
+const scree_stage scree_stage_deform_cell = {.name = "deform",
+                                             .loading = true,
+                                             .strain = deform_strain,
+                                             .begin = begin_deform,
+                                             .plan = plan_deform,
+                                             .control = control_deform,
+                                             .finished = loading_finished,
+                                             .fraction = loading_fraction};

@@ -1,5 +1,6 @@
 /// Stage `confine`: the top plate and the sides press with a pressure that rises smoothly; the bottom plate stands.
-/// Ends when the assembly is at rest under it. (With two plates under servo the sample would drift: the pressure on
+/// Ends when the assembly is at rest under it. Without plates (boundary minimal) the pressure acts on all sides and
+/// nothing is imposed. (With two plates under servo the sample would drift: the pressure on
 /// sloping sides has a vertical resultant that only a standing plate can bear.)
 ///
 /// Stop rule: after the ramp, the mean unbalanced force over the mean contact force stays below `unbalanced_limit` and
@@ -11,9 +12,9 @@
 /// the side plates.
 #include "run/sample.h"
 #include "run/simulation.h"
-#include "state/cell.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { CALM = 5, SAMPLES_A_WAVE = 4 };
 #define PLATE_TOLERANCE 0.05
@@ -29,17 +30,12 @@ static scree_status begin(scree_simulation *s, scree_error *error)
     reference[0] = state->pressure;
     reference[1] = scree_sample_wave_time(&s->model, state, stage->pressure);
     scree_servo plates = scree_servo_for(&s->model, state, SCREE_WALL_TOP, stage->pressure);
-    scree_servo lateral = scree_servo_for(&s->model, state, SCREE_WALL_LEFT, stage->pressure);
+    scree_servo sides = scree_servo_for(&s->model, state, SCREE_WALL_LEFT, stage->pressure);
     reference[2] = plates.impedance;
     reference[3] = plates.mass;
-    reference[4] = lateral.impedance;
-    reference[5] = lateral.mass;
-
-    // Measured while the box of the preparation still stands; then the sides go where the pressure takes their place.
-    bool pressed = s->model.config->boundary.lateral == SCREE_LATERAL_PRESSURE;
-    state->wall[SCREE_WALL_BOTTOM].active = state->wall[SCREE_WALL_TOP].active = 1;
-    bool sides = !pressed && !scree_cell_repeats(&state->cell, 0);
-    state->wall[SCREE_WALL_LEFT].active = state->wall[SCREE_WALL_RIGHT].active = sides;
+    reference[4] = sides.impedance;
+    reference[5] = sides.mass;
+    memset(state->drive.prescribed, 0, sizeof state->drive.prescribed);
     return SCREE_OK;
 }
 
@@ -68,6 +64,7 @@ static void control(scree_simulation *s)
     double done = s->plan.ramp_time > 0 ? elapsed(s) / s->plan.ramp_time : 1;
     s->state.pressure = from + (to - from) * scree_smooth_ramp(done);
     s->state.wall[SCREE_WALL_BOTTOM].velocity = 0;
+    if (!scree_boundary_has_plates(s->boundary)) return;
     scree_plate_servo(&s->stage_model, &s->state, SCREE_WALL_TOP, s->plan.plates, s->state.pressure);
     scree_servo_sides(s, s->state.pressure);
 }
@@ -77,7 +74,8 @@ static scree_status finished(scree_simulation *s, bool *done, scree_error *error
     const scree_config_stage *stage = scree_stage_config(s);
     const scree_model *model = &s->stage_model;
     double unbalanced = s->sample.value[SCREE_SAMPLE_UNBALANCED_RATIO];
-    double top = scree_plate_stress(model, &s->state, SCREE_WALL_TOP) / stage->pressure - 1;
+    bool plates = scree_boundary_has_plates(s->boundary);
+    double top = plates ? scree_plate_stress(model, &s->state, SCREE_WALL_TOP) / stage->pressure - 1 : 0;
     bool calm = elapsed(s) > s->plan.ramp_time && unbalanced < stage->unbalanced_limit && fabs(top) < PLATE_TOLERANCE;
     s->state.stage.counter = calm ? s->state.stage.counter + 1 : 0;
     *done = s->state.stage.counter >= CALM;

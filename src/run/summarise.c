@@ -82,7 +82,8 @@ static double expected_steps(const scree_model *model)
             double wave = expected_wave_time(model, (double)config->particles.count, aspect_ratio, stage->pressure);
             steps += CONFINE_WAVES * wave / model->step;
         }
-        if (scree_loading_rate(stage) > 0) steps += stage->strain / scree_loading_rate(stage) / model->step;
+        double rate = scree_model_loading_rate(stage);
+        if (!isnan(rate)) steps += stage->strain / rate / model->step;
     }
     return steps;
 }

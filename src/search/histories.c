@@ -3,7 +3,8 @@
 /// Method. The histories of the old list that are not zero (in any bit) are packed into state->contact, the form in
 /// which they also come from a checkpoint. When the rows have their new order, a counting sort puts them by the lower
 /// row of their pair; the new list then finds each one among the few of its row. Old and new order differ little, so
-/// all of it runs through memory nearly in order. Linear cost. A pair that has left the list loses its history; it is
+/// all of it runs through memory nearly in order. Linear cost. Booking and rolling rows go along with the histories
+/// where a law has them. A pair that has left the list loses its history; it is
 /// separated by more than the skin then.
 #include "search/search.h"
 
@@ -11,34 +12,53 @@
 #include <string.h>
 
 /// Any bit set: also a negative zero survives.
-static bool holds_something(const scree_history *history)
+static bool holds_something(const void *row, size_t bytes)
 {
-    uint64_t word[SCREE_HISTORY], any = 0;
-    memcpy(word, history->value, sizeof word);
-    for (int k = 0; k < SCREE_HISTORY; k++) any |= word[k];
+    const unsigned char *at = row;
+    uint64_t any = 0;
+    for (size_t k = 0; k < bytes; k += sizeof any) {
+        uint64_t word;
+        memcpy(&word, at + k, sizeof word);
+        any |= word;
+    }
     return any != 0;
 }
 
-/// The pairs of bodies and then those with walls, as one sequence: ids and history of number `k`.
-static const scree_history *entry_of(const scree_state *state, const scree_work *work, size_t k, uint32_t *first,
-                                     uint32_t *second)
+/// The pairs of bodies and then those with walls are one sequence: the list that number `*k` lies in, and its number
+/// there.
+static bool is_wall_entry(const scree_work *work, size_t *k)
 {
-    const scree_pair_list *pairs = &work->pairs;
-    if (k < pairs->count) {
-        *first = state->id[pairs->first[k]];
-        *second = state->id[pairs->second[k]];
-        return &pairs->history[k];
-    }
-    k -= pairs->count;
-    *first = state->id[work->wall_pairs.body[k]];
-    *second = SCREE_WALL_ID + work->wall_pairs.wall[k];
-    return &work->wall_pairs.history[k];
+    if (*k < work->pairs.count) return false;
+    *k -= work->pairs.count;
+    return true;
 }
 
 static bool entry_holds_something(const scree_work *work, size_t k)
 {
-    size_t pairs = work->pairs.count;
-    return holds_something(k < pairs ? &work->pairs.history[k] : &work->wall_pairs.history[k - pairs]);
+    bool wall = is_wall_entry(work, &k);
+    const scree_history *history = wall ? work->wall_pairs.history : work->pairs.history;
+    const scree_booking *booking = wall ? work->wall_pairs.booking : work->pairs.booking;
+    const scree_rolling *rolling = wall ? work->wall_pairs.rolling : work->pairs.rolling;
+    return holds_something(&history[k], sizeof *history) ||
+           (booking && holds_something(&booking[k], sizeof *booking)) ||
+           (rolling && holds_something(&rolling[k], sizeof *rolling));
+}
+
+/// Copies ids and rows of number `k` to the contact memory `to`.
+static void pack_entry(scree_state *state, const scree_work *work, size_t k, size_t to)
+{
+    const scree_pair_list *pairs = &work->pairs;
+    const scree_wall_pair_list *walls = &work->wall_pairs;
+    scree_contact_memory *memory = &state->contact[to];
+    if (is_wall_entry(work, &k)) {
+        *memory = (scree_contact_memory){state->id[walls->body[k]], SCREE_WALL_ID + walls->wall[k], walls->history[k]};
+        if (walls->booking) state->booking[to] = walls->booking[k];
+        if (walls->rolling) state->rolling[to] = walls->rolling[k];
+    } else {
+        *memory = (scree_contact_memory){state->id[pairs->first[k]], state->id[pairs->second[k]], pairs->history[k]};
+        if (pairs->booking) state->booking[to] = pairs->booking[k];
+        if (pairs->rolling) state->rolling[to] = pairs->rolling[k];
+    }
 }
 
 scree_status scree_histories_collect(scree_state *state, scree_work *work, scree_error *error)
@@ -56,16 +76,15 @@ scree_status scree_histories_collect(scree_state *state, scree_work *work, scree
     for (size_t c = 0; c < chunks; c++) total += search->chunk[c].carried;
     state->contact_count = 0;
     scree_status status = scree_state_reserve_contacts(state, total, error);
+    if (!status && work->pairs.booking) status = scree_state_add_booking(state, error);
+    if (!status && work->pairs.rolling) status = scree_state_add_rolling(state, error);
     if (status) return status;
 #pragma omp parallel for num_threads(search->chunks) schedule(static, 1) if (search->chunks > 1)
     for (size_t c = 0; c < chunks; c++) {
-        scree_contact_memory *to = state->contact;
+        size_t to = 0;
         for (size_t before = 0; before < c; before++) to += search->chunk[before].carried;
         for (size_t k = count * c / chunks; k < count * (c + 1) / chunks; k++)
-            if (entry_holds_something(work, k)) {
-                to->history = *entry_of(state, work, k, &to->first, &to->second);
-                to++;
-            }
+            if (entry_holds_something(work, k)) pack_entry(state, work, k, to++);
     }
     state->contact_count = total;
     return SCREE_OK;

@@ -66,21 +66,68 @@ static bool walls_need_rebuild(const scree_state *state, const scree_work *work)
     return false;
 }
 
-/// Makes room for `count` pairs and the padding; contents are lost when it grows.
-static scree_status reserve_pairs(uint32_t **one, uint32_t **other, scree_history **history, size_t *capacity,
-                                  size_t count, scree_error *error)
+/// The arrays of a list of pairs or of wall pairs.
+typedef struct list_arrays {
+    uint32_t **one, **other;
+    scree_history **history;
+    scree_booking **booking;
+    scree_rolling **rolling;
+    size_t *capacity;
+} list_arrays;
+
+static list_arrays arrays_of_pairs(scree_pair_list *l)
 {
-    if (count + SCREE_PAIR_PADDING <= *capacity) return SCREE_OK;
+    return (list_arrays){&l->first, &l->second, &l->history, &l->booking, &l->rolling, &l->capacity};
+}
+
+static list_arrays arrays_of_wall_pairs(scree_wall_pair_list *l)
+{
+    return (list_arrays){&l->body, &l->wall, &l->history, &l->booking, &l->rolling, &l->capacity};
+}
+
+static void release_list(const list_arrays *list)
+{
+    scree_release(list->one);
+    scree_release(list->other);
+    scree_release(list->history);
+    scree_release(list->booking);
+    scree_release(list->rolling);
+    *list->capacity = 0;
+}
+
+void scree_pair_lists_destroy(scree_work *work)
+{
+    list_arrays pairs = arrays_of_pairs(&work->pairs), walls = arrays_of_wall_pairs(&work->wall_pairs);
+    release_list(&pairs);
+    release_list(&walls);
+}
+
+/// Makes room for `count` pairs and the padding, with the rows that the law needs; contents are lost when it grows.
+static scree_status reserve_list(const list_arrays *list, size_t count, bool books, bool rolls, scree_error *error)
+{
+    bool complete = (!books || *list->booking) && (!rolls || *list->rolling);
+    if (complete && count + SCREE_PAIR_PADDING <= *list->capacity) return SCREE_OK;
     size_t room = count + count / 8 + 4 * SCREE_PAIR_PADDING;
-    scree_release(one);
-    scree_release(other);
-    scree_release(history);
-    *capacity = 0;
-    scree_status status = scree_allocate(one, room, sizeof **one, error);
-    if (!status) status = scree_allocate(other, room, sizeof **other, error);
-    if (!status) status = scree_allocate(history, room, sizeof **history, error);
-    if (!status) *capacity = room;
+    release_list(list);
+    scree_status status = scree_allocate(list->one, room, sizeof **list->one, error);
+    if (!status) status = scree_allocate(list->other, room, sizeof **list->other, error);
+    if (!status) status = scree_allocate(list->history, room, sizeof **list->history, error);
+    if (!status && books) status = scree_allocate(list->booking, room, sizeof **list->booking, error);
+    if (!status && rolls) status = scree_allocate(list->rolling, room, sizeof **list->rolling, error);
+    if (!status) *list->capacity = room;
     return status;
+}
+
+/// Drops the pairs of two bodies of the membrane, which its chain holds together; the order stays.
+static void drop_membrane_pairs(const scree_state *state, scree_pair_buffer *buffer)
+{
+    size_t kept = 0;
+    for (size_t k = 0; k < buffer->count; k++) {
+        scree_row_pair pair = buffer->pair[k];
+        if (scree_body_is_grain(state, pair.first) || scree_body_is_grain(state, pair.second))
+            buffer->pair[kept++] = pair;
+    }
+    buffer->count = kept;
 }
 
 static scree_status search_pairs(const scree_state *state, scree_work *work, scree_error *error)
@@ -94,6 +141,10 @@ static scree_status search_pairs(const scree_state *state, scree_work *work, scr
         if (find(&search->grid, state, state->count * c / chunks, state->count * (c + 1) / chunks, &search->chunk[c],
                  NULL))
             failed = c < failed ? c : failed;
+    for (size_t c = 0; c < chunks && state->membrane.count > 0; c++) {
+        drop_membrane_pairs(state, &search->chunk[c].touching);
+        drop_membrane_pairs(state, &search->chunk[c].near);
+    }
     if (failed == chunks) return SCREE_OK;
     return scree_error_set_memory(error, search->chunk[failed].touching.capacity * sizeof(scree_row_pair));
 }
@@ -149,39 +200,46 @@ static void list_wall_pairs(const scree_search *search, scree_wall_pair_list *wa
         }
 }
 
-/// Gives every pair of the new list its history.
+/// Gives entry `k` of a list the rows of contact `from` of the state, or clear ones if it has none.
+static void attach_rows(const scree_state *state, const list_arrays *list, size_t k, size_t from)
+{
+    bool known = from < state->contact_count;
+    (*list->history)[k] = known ? state->contact[from].history : (scree_history){{0}};
+    if (*list->booking) (*list->booking)[k] = known && state->booking ? state->booking[from] : (scree_booking){{0}};
+    if (*list->rolling)
+        (*list->rolling)[k] = known && state->rolling ? state->rolling[from] : (scree_rolling){{0}, {0}};
+}
+
+/// Gives every pair of the new list what its contact remembers.
 static void attach_histories(const scree_state *state, scree_work *work)
 {
     const scree_search *search = work->search;
     scree_pair_list *pairs = &work->pairs;
     scree_wall_pair_list *walls = &work->wall_pairs;
+    const list_arrays of_pairs = arrays_of_pairs(pairs), of_walls = arrays_of_wall_pairs(walls);
 #pragma omp parallel for num_threads(work->threads) schedule(static) if (work->threads > 1)
     for (size_t k = 0; k < pairs->count; k++) {
         uint32_t first = scree_parent_row(state, work, pairs->first[k]);
-        uint32_t second = scree_parent_row(state, work, pairs->second[k]);
-        pairs->history[k] =
-            scree_history_find(search, state, first < second ? first : second, state->id[first], state->id[second]);
+        uint32_t second = scree_parent_row(state, work, pairs->second[k]), lower = first < second ? first : second;
+        attach_rows(state, &of_pairs, k, scree_history_find(search, state, lower, state->id[first], state->id[second]));
     }
     for (size_t k = 0; k < walls->count; k++)
-        walls->history[k] = scree_history_find(search, state, walls->body[k], state->id[walls->body[k]],
-                                               SCREE_WALL_ID + walls->wall[k]);
+        attach_rows(state, &of_walls, k,
+                    scree_history_find(search, state, walls->body[k], state->id[walls->body[k]],
+                                       SCREE_WALL_ID + walls->wall[k]));
 }
 
-/// Row 0 (wall 0) and no history behind the last pair.
-static void pad_lists(scree_work *work)
+/// Row 0 (wall 0) and clear rows behind the last pair.
+static void pad_list(const scree_state *state, const list_arrays *list, size_t count)
 {
-    scree_pair_list *pairs = &work->pairs;
-    scree_wall_pair_list *walls = &work->wall_pairs;
-    for (size_t k = 0; k < SCREE_PAIR_PADDING; k++) {
-        pairs->first[pairs->count + k] = pairs->second[pairs->count + k] = 0;
-        pairs->history[pairs->count + k] = (scree_history){{0}};
-        walls->body[walls->count + k] = walls->wall[walls->count + k] = 0;
-        walls->history[walls->count + k] = (scree_history){{0}};
+    for (size_t k = count; k < count + SCREE_PAIR_PADDING; k++) {
+        (*list->one)[k] = (*list->other)[k] = 0;
+        attach_rows(state, list, k, SIZE_MAX);
     }
 }
 
 /// The chunks' pairs one after the other: the same list however many chunks there are.
-static scree_status assemble(const scree_state *state, scree_work *work, scree_error *error)
+static scree_status assemble(const scree_model *model, const scree_state *state, scree_work *work, scree_error *error)
 {
     scree_search *search = work->search;
     scree_pair_list *pairs = &work->pairs;
@@ -193,9 +251,10 @@ static scree_status assemble(const scree_state *state, scree_work *work, scree_e
         wall += search->chunk[c].wall.count;
     }
     pairs->count = pairs->touching_count = walls->count = 0;
-    scree_status status =
-        reserve_pairs(&pairs->first, &pairs->second, &pairs->history, &pairs->capacity, touching + near, error);
-    if (!status) status = reserve_pairs(&walls->body, &walls->wall, &walls->history, &walls->capacity, wall, error);
+    const list_arrays of_pairs = arrays_of_pairs(pairs), of_walls = arrays_of_wall_pairs(walls);
+    bool books = scree_contacts_book(model, state->dimension), rolls = model->rolling;
+    scree_status status = reserve_list(&of_pairs, touching + near, books, rolls, error);
+    if (!status) status = reserve_list(&of_walls, wall, books, rolls, error);
     if (status) return status;
     pairs->count = touching + near;
     pairs->touching_count = touching;
@@ -206,7 +265,8 @@ static scree_status assemble(const scree_state *state, scree_work *work, scree_e
     list_image_pairs(&search->images.near, pairs, touching + near - search->images.near.count);
     list_wall_pairs(search, walls);
     attach_histories(state, work);
-    pad_lists(work);
+    pad_list(state, &of_pairs, pairs->count);
+    pad_list(state, &of_walls, walls->count);
     return SCREE_OK;
 }
 
@@ -223,7 +283,7 @@ static scree_status permute_relative(scree_work *work, size_t count, scree_error
     return SCREE_OK;
 }
 
-static scree_status rebuild(scree_state *state, scree_work *work, scree_error *error)
+static scree_status rebuild(const scree_model *model, scree_state *state, scree_work *work, scree_error *error)
 {
     scree_search *search = work->search;
     scree_status status = SCREE_OK;
@@ -248,7 +308,7 @@ static scree_status rebuild(scree_state *state, scree_work *work, scree_error *e
     if (!status) status = search_pairs(state, work, error);
     if (!status) status = scree_ghosts_make(state, work, error);
     if (!status) status = scree_ghosts_search(state, work, &search->images, error);
-    if (!status) status = assemble(state, work, error);
+    if (!status) status = assemble(model, state, work, error);
     if (status) return status;
 
 #pragma omp parallel for num_threads(work->threads) schedule(static) if (work->threads > 1)
@@ -262,7 +322,7 @@ static scree_status rebuild(scree_state *state, scree_work *work, scree_error *e
 
 /// Looks at the displacements when the budget is used up. What a periodic cell has been compressed or sheared by brings
 /// bodies nearer too: by at most |F - 1| times the width of a list that still has all of its skin.
-static scree_status check_list(scree_state *state, scree_work *work, scree_error *error)
+static scree_status check_list(const scree_model *model, scree_state *state, scree_work *work, scree_error *error)
 {
     double deformation[9], change[9], shrunk = 0;
     scree_matrix_unit(deformation);
@@ -272,7 +332,7 @@ static scree_status check_list(scree_state *state, scree_work *work, scree_error
         shrunk = scree_matrix_norm(change) * (work->ghosts.largest_radius + 0.5 * work->skin);
     }
     double moved = largest_displacement(state, deformation, work->threads) + shrunk;
-    if (!(moved < half_skin(work))) return rebuild(state, work, error);
+    if (!(moved < half_skin(work))) return rebuild(model, state, work, error);
     work->budget = half_skin(work) - moved;
     return SCREE_OK;
 }
@@ -280,10 +340,9 @@ static scree_status check_list(scree_state *state, scree_work *work, scree_error
 scree_status scree_neighbours_refresh(const scree_model *model, scree_state *state, scree_work *work,
                                       scree_error *error)
 {
-    (void)model;
     if (!work->valid || work->search->bodies != state->count || walls_need_rebuild(state, work))
-        return rebuild(state, work, error);
-    scree_status status = work->budget >= 0 ? SCREE_OK : check_list(state, work, error);
+        return rebuild(model, state, work, error);
+    scree_status status = work->budget >= 0 ? SCREE_OK : check_list(model, state, work, error);
     if (!status && work->ghosts.count > 0) scree_ghosts_place(state, work);
     return status;
 }

@@ -22,21 +22,25 @@ struct scree_search {
     size_t entry_begin_capacity, entry_capacity;
 };
 
-/// Copies the nonzero histories of the list to state->contact, with ids. Errors: memory.
+/// Frees the lists of pairs and of wall pairs.
+void scree_pair_lists_destroy(scree_work *work);
+
+/// Copies the rows of the list that are not zero to state->contact (booking, rolling), with ids. Errors: memory.
 scree_status scree_histories_collect(scree_state *state, scree_work *work, scree_error *error) SCREE_MUST_USE;
 
 /// Sorts the entries of state->contact by rows, for scree_history_find. Entries with unknown ids are left out.
 scree_status scree_histories_index(scree_search *search, const scree_state *state, scree_error *error) SCREE_MUST_USE;
 
-/// History of a pair of ids with the lower row `row` (the body's, for a wall); zero if there is none.
-static inline scree_history scree_history_find(const scree_search *search, const scree_state *state, uint32_t row,
-                                               uint32_t first, uint32_t second)
+/// Number in state->contact of a pair of ids with the lower row `row` (the body's, for a wall); contact_count if there
+/// is none.
+static inline size_t scree_history_find(const scree_search *search, const scree_state *state, uint32_t row,
+                                        uint32_t first, uint32_t second)
 {
     for (uint32_t k = search->entry_begin[row]; k < search->entry_begin[row + 1]; k++) {
         const scree_contact_memory *memory = &state->contact[search->entry[k]];
-        if (memory->first == first && memory->second == second) return memory->history;
+        if (memory->first == first && memory->second == second) return search->entry[k];
     }
-    return (scree_history){{0}};
+    return state->contact_count;
 }
 
 #endif

@@ -44,11 +44,6 @@ void scree_work_destroy(scree_work *work)
     scree_release(&work->search);
     scree_release(&work->ghosts.ghost);
     scree_release(&work->relative);
-    scree_release(&work->pairs.first);
-    scree_release(&work->pairs.second);
-    scree_release(&work->pairs.history);
-    scree_release(&work->wall_pairs.body);
-    scree_release(&work->wall_pairs.wall);
-    scree_release(&work->wall_pairs.history);
+    scree_pair_lists_destroy(work);
     memset(work, 0, sizeof *work);
 }

@@ -69,6 +69,13 @@ const size_t scree_field_count = sizeof scree_fields / sizeof *scree_fields;
         "hull/" name_, type_, components_, unit_, SCREE_FIELD_STATE, true, meaning_, PLAIN_ARRAY(hull.member, c_type), \
             .rows = rows_, .only_dimension = 3                                                                         \
     }
+#define DRIVE(name_, type_, components_, unit_, member, meaning_)                                                      \
+    ONE("drive/" name_, type_, components_, unit_, drive.member, meaning_)
+#define MEMBRANE(name_, components_, c_type, unit_, member, meaning_)                                                  \
+    {                                                                                                                  \
+        "membrane/" name_, SCREE_FIELD_DOUBLE, components_, unit_, SCREE_FIELD_STATE, false, meaning_,                 \
+            PLAIN_ARRAY(membrane.member, c_type), .rows = SCREE_ROWS_MEMBRANE                                          \
+    }
 #define WALL(name_, type_, components_, unit_, member, meaning_)                                                       \
     {                                                                                                                  \
         "walls/" name_, type_, components_, unit_, SCREE_FIELD_STATE, true, meaning_,                                  \
@@ -112,6 +119,33 @@ const scree_field scree_members[] = {
     HULL("loaded", SCREE_FIELD_UINT8, 1, uint8_t, "1", loaded, "1: the triangle carries the pressure",
          SCREE_ROWS_HULL_TRIANGLES),
 
+    {"drive/force", SCREE_FIELD_DOUBLE, 3, "N", SCREE_FIELD_STATE, false,
+     "force of the imposed rates on each body of the boundary", PLAIN_ARRAY(drive.force, scree_vector),
+     .rows = SCREE_ROWS_DRIVE},
+    DRIVE("target", SCREE_FIELD_DOUBLE, 9, "1/s", target, "wanted velocity gradient, 3 x 3 by rows"),
+    DRIVE("prescribed", SCREE_FIELD_INT64, 9, "1", prescribed,
+          "of each component of target: 0 free, 1 prescribed, 2 prescribed for the mean of it and its mirror"),
+    DRIVE("viscosity", SCREE_FIELD_DOUBLE, 1, "Pa s", viscosity, "stress over the error of the rate"),
+    DRIVE("rate", SCREE_FIELD_DOUBLE, 9, "1/s", rate, "velocity gradient of the boundary, 3 x 3 by rows"),
+    DRIVE("stress", SCREE_FIELD_DOUBLE, 9, "Pa", stress,
+          "stress that the boundary applies besides the pressure, 3 x 3 by rows, tension positive"),
+    DRIVE("achieved", SCREE_FIELD_DOUBLE, 1, "1/s", achieved,
+          "integral of target : rate over time since the last sample"),
+    DRIVE("wanted", SCREE_FIELD_DOUBLE, 1, "1/s", wanted,
+          "integral of target : target over time since the last sample"),
+
+    MEMBRANE("rest", 1, double, "m", rest,
+             "unstressed length to the next body of the membrane; 0 for the last of a side"),
+    MEMBRANE("pressure_force", 3, scree_vector, "N", press, "force of the pressure on this body of the membrane"),
+    MEMBRANE("chain_force", 3, scree_vector, "N", force,
+             "force of the chain on this body of the membrane, and of the plate on an end"),
+    ONE("scalars/grains", SCREE_FIELD_UINT64, 1, "1", grains, "number of grains: ids from it on are of the membrane"),
+    ONE("scalars/membrane_right", SCREE_FIELD_UINT64, 1, "1", membrane.right, "bodies of the membrane's right side"),
+    ONE("scalars/membrane_radius", SCREE_FIELD_DOUBLE, 1, "m", membrane.radius, "radius of the membrane's bodies"),
+    ONE("scalars/membrane_ramp_time", SCREE_FIELD_DOUBLE, 1, "s", membrane.ramp_time,
+        "time in which the membrane takes the pressure over"),
+    ONE("scalars/membrane_share", SCREE_FIELD_DOUBLE, 1, "1", membrane.share, "fraction of that time passed"),
+
     WALL("position", SCREE_FIELD_DOUBLE, 1, "m", position, "position along the normal: normal . x = position"),
     WALL("normal", SCREE_FIELD_DOUBLE, 3, "1", normal, "unit normal, towards the bodies"),
     WALL("velocity", SCREE_FIELD_DOUBLE, 1, "m/s", velocity, "velocity along the normal"),
@@ -129,7 +163,7 @@ const scree_field scree_members[] = {
     ONE("scalars/largest_overlap", SCREE_FIELD_DOUBLE, 1, "m", largest_overlap, "largest indentation of all contacts"),
     ONE("scalars/largest_speed", SCREE_FIELD_DOUBLE, 1, "m/s", largest_speed,
         "bound of the surface speed of all bodies"),
-    ONE("scalars/pressure", SCREE_FIELD_DOUBLE, 1, "Pa", pressure, "lateral pressure applied now"),
+    ONE("scalars/pressure", SCREE_FIELD_DOUBLE, 1, "Pa", pressure, "confining pressure applied now"),
     ONE("scalars/boundary_updated", SCREE_FIELD_UINT64, 1, "1", loop.updated,
         "step at which the boundary was last found"),
 
@@ -158,6 +192,8 @@ const scree_field scree_members[] = {
     ONE("ledger/plates", SCREE_FIELD_DOUBLE, 1, "J", ledger.plates, "work of the walls on the bodies"),
     ONE("ledger/pressure", SCREE_FIELD_DOUBLE, 1, "J", ledger.pressure, "work of the pressure on the bodies"),
     ONE("ledger/cell", SCREE_FIELD_DOUBLE, 1, "J", ledger.cell, "work of the deforming periodic cell on the bodies"),
+    ONE("ledger/boundary", SCREE_FIELD_DOUBLE, 1, "J", ledger.boundary,
+        "work of the other forces of the boundary on the bodies"),
     ONE("ledger/gravity", SCREE_FIELD_DOUBLE, 1, "J", ledger.gravity, "work of gravity on the bodies"),
     ONE("ledger/initial", SCREE_FIELD_DOUBLE, 1, "J", ledger.initial, "energy when the ledger was opened"),
     ONE("ledger/turnover", SCREE_FIELD_DOUBLE, 1, "J", ledger.turnover, "sum of the magnitudes of all work increments"),
@@ -215,6 +251,10 @@ size_t scree_field_rows_count(const scree_state *state, const scree_field *field
         return state->hull.node_count;
     case SCREE_ROWS_HULL_TRIANGLES:
         return state->hull.triangle_count;
+    case SCREE_ROWS_DRIVE:
+        return state->drive.count;
+    case SCREE_ROWS_MEMBRANE:
+        return state->membrane.count;
     case SCREE_ROWS_WALLS:
         return SCREE_WALL_COUNT;
     case SCREE_ROWS_ONE:
@@ -227,7 +267,7 @@ const void *scree_field_get(const scree_state *state, const scree_field *field, 
 {
     const unsigned char *place = (const unsigned char *)state + field->array_offset, *first = place;
     // Arrays are behind a pointer; walls and single values are in the state itself.
-    if (field->rows <= SCREE_ROWS_HULL_TRIANGLES) memcpy(&first, place, sizeof(void *));
+    if (field->rows <= SCREE_ROWS_MEMBRANE) memcpy(&first, place, sizeof(void *));
     return first + row * field->stride + field->offset;
 }
 

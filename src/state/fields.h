@@ -20,14 +20,16 @@ typedef enum scree_field_type {
 
 typedef enum scree_field_role { SCREE_FIELD_STATE, SCREE_FIELD_DERIVED } scree_field_role;
 
-/// What a field has one element of. Bodies, contacts, loop and hull are arrays that the state points to; walls and the
-/// single values lie inside the state itself.
+/// What a field has one element of. Bodies, contacts, loop, hull, drive and membrane are arrays that the state points
+/// to; walls and the single values lie inside the state itself.
 typedef enum scree_field_rows {
     SCREE_ROWS_BODIES,
     SCREE_ROWS_CONTACTS,
     SCREE_ROWS_LOOP,
     SCREE_ROWS_HULL_NODES,
     SCREE_ROWS_HULL_TRIANGLES,
+    SCREE_ROWS_DRIVE,
+    SCREE_ROWS_MEMBRANE,
     SCREE_ROWS_WALLS,
     SCREE_ROWS_ONE
 } scree_field_rows;

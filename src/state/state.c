@@ -51,7 +51,7 @@ scree_status scree_state_create(scree_state *state, int dimension, size_t count,
         scree_state_destroy(state);
         return status;
     }
-    state->count = count;
+    state->count = state->grains = count;
     state->row_capacity = count + 1;
     state->force_quantum = state->torque_quantum = 1.0;
     for (size_t row = 0; row < count; row++) state->id[row] = state->row_of_id[row] = (uint32_t)row;
@@ -62,14 +62,31 @@ void scree_state_destroy(scree_state *state)
 {
     scree_loop *loop = &state->loop;
     scree_hull *hull = &state->hull;
-    void *const others[] = {&state->row_of_id, &state->contact, &state->booking, &state->rolling, &loop->id,
-                            &loop->loaded,     &loop->x,        &loop->y,        &loop->fx,       &loop->fy,
-                            &hull->id,         &hull->place,    &hull->force,    &hull->triangle, &hull->loaded};
+    scree_membrane *membrane = &state->membrane;
+    void *const others[] = {&state->row_of_id,   &state->contact, &state->booking,  &state->rolling, &loop->id,
+                            &loop->loaded,       &loop->x,        &loop->y,         &loop->fx,       &loop->fy,
+                            &hull->id,           &hull->place,    &hull->force,     &hull->triangle, &hull->loaded,
+                            &state->drive.force, &membrane->rest, &membrane->press, &membrane->force};
     body_array arrays[BODY_ARRAYS];
     size_t array_count = body_arrays(state, arrays);
     for (size_t k = 0; k < array_count; k++) scree_release(arrays[k].array);
     for (size_t k = 0; k < sizeof others / sizeof *others; k++) scree_release(others[k]);
     memset(state, 0, sizeof *state);
+}
+
+scree_status scree_state_append(scree_state *state, size_t more, scree_error *error)
+{
+    body_array arrays[BODY_ARRAYS];
+    size_t array_count = body_arrays(state, arrays), old = state->count, count = old + more;
+    scree_status status = SCREE_OK;
+    for (size_t k = 0; k < array_count && !status; k++)
+        status = scree_reallocate(arrays[k].array, old, count + 1, arrays[k].size, error);
+    if (!status) status = scree_reallocate(&state->row_of_id, old, count + 1, sizeof *state->row_of_id, error);
+    if (status) return status;
+    for (size_t row = old; row < count; row++) state->id[row] = state->row_of_id[row] = (uint32_t)row;
+    state->count = count;
+    state->row_capacity = count + 1;
+    return SCREE_OK;
 }
 
 double scree_state_time(const scree_state *state)
@@ -186,6 +203,25 @@ static uint64_t checksum_boundary(const scree_state *state, uint64_t c)
     return scree_checksum_word(scree_checksum_word(c, loop->updated), hull->updated);
 }
 
+/// What a boundary imposes, and the membrane.
+static uint64_t checksum_imposed(const scree_state *state, uint64_t c)
+{
+    const scree_drive *drive = &state->drive;
+    c = scree_checksum_bytes(c, drive->target, sizeof drive->target);
+    c = scree_checksum_bytes(c, drive->prescribed, sizeof drive->prescribed);
+    c = scree_checksum_bytes(c, drive->rate, sizeof drive->rate);
+    c = scree_checksum_bytes(c, drive->stress, sizeof drive->stress);
+    const double rates[] = {drive->viscosity, drive->achieved, drive->wanted};
+    c = scree_checksum_bytes(c, rates, sizeof rates);
+    c = scree_checksum_bytes(c, drive->force, drive->count * sizeof *drive->force);
+    const scree_membrane *membrane = &state->membrane;
+    const double numbers[] = {membrane->radius, membrane->ramp_time, membrane->share};
+    c = scree_checksum_bytes(c, membrane->rest, membrane->count * sizeof *membrane->rest);
+    c = scree_checksum_bytes(c, membrane->press, membrane->count * sizeof *membrane->press);
+    c = scree_checksum_bytes(c, membrane->force, membrane->count * sizeof *membrane->force);
+    return scree_checksum_word(scree_checksum_bytes(c, numbers, sizeof numbers), membrane->right);
+}
+
 uint64_t scree_state_checksum(const scree_state *state)
 {
     uint64_t c = checksum_bodies(state, scree_checksum_word(state->step, state->count));
@@ -195,7 +231,8 @@ uint64_t scree_state_checksum(const scree_state *state)
     c = scree_checksum_bytes(c, state->contact, state->contact_count * sizeof *state->contact);
     if (state->booking) c = scree_checksum_bytes(c, state->booking, state->contact_count * sizeof *state->booking);
     if (state->rolling) c = scree_checksum_bytes(c, state->rolling, state->contact_count * sizeof *state->rolling);
-    c = checksum_boundary(state, checksum_walls(state, c));
+    c = checksum_imposed(state, checksum_boundary(state, checksum_walls(state, c)));
+    c = scree_checksum_word(c, state->grains);
     c = scree_checksum_word(c, state->sampled_step);
     c = scree_checksum_bytes(c, &state->cell, sizeof state->cell);
     c = scree_checksum_bytes(c, &state->strain, sizeof state->strain);

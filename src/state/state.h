@@ -12,6 +12,7 @@
 #include "model/model.h"
 
 #include <math.h>
+#include <stdbool.h>
 
 /// Velocities are those of the scheme: position_verlet keeps v(n - 1/2), velocity_verlet v(n). `scree_body_velocity` in
 /// integrate.h gives the physical velocity at n.
@@ -71,8 +72,8 @@ typedef struct scree_history {
     double value[SCREE_HISTORY]; ///< meaning depends on the law: see the head of its file in src/contact/
 } scree_history;
 
-/// 3D only, with the ledger: damping forces at n - 1 that the ledger needs again. Single precision is enough: each
-/// enters a mean with the present force, and the rounding errors have no preferred sign.
+/// hertz_mindlin in 3D, for the ledger: damping forces at n - 1 that the ledger needs again. Single precision is
+/// enough: each enters a mean with the present force, and the rounding errors have no preferred sign.
 typedef struct scree_booking {
     float value[4]; ///< N: normal, tangential x, y, z
 } scree_booking;
@@ -112,14 +113,15 @@ enum {
 };
 
 /// Energy ledger, J. Work is done ON the bodies; dissipation is positive. Residual of the balance:
-/// kinetic + elastic - initial - (plates + pressure + cell + gravity) + damping + friction - stiffness, see
+/// kinetic + elastic - initial - (plates + pressure + boundary + cell + gravity) + damping + friction - stiffness, see
 /// measure/energy.c.
 typedef struct scree_ledger {
     double damping;   ///< dissipated by contact damping, normal and tangential
     double friction;  ///< dissipated by sliding
     double stiffness; ///< put into tangential springs by the change of their stiffness with indentation (hertz_mindlin)
     double plates;    ///< work of the walls
-    double pressure;  ///< work of the pressure on the Delaunay boundary
+    double pressure;  ///< work of the pressure on the Delaunay boundary or the membrane
+    double boundary;  ///< work of the other forces of the boundary: imposed rates, chain and ends of a membrane
     double cell;      ///< work of the deforming periodic cell
     double gravity;   ///< sum of m g . x when the ledger was opened
     double initial;   ///< kinetic + elastic energy when the ledger was opened
@@ -149,6 +151,40 @@ typedef struct scree_hull {
     size_t triangle_count, triangle_capacity;
     uint64_t updated; ///< step of the last update
 } scree_hull;
+
+/// What a boundary imposes through forces on its own bodies (boundary/minimal.c, affine.c).
+typedef struct scree_drive {
+    double target[9];      ///< 1/s, wanted velocity gradient (d v_row / d x_column), extension positive
+    int64_t prescribed[9]; ///< of each component: scree_prescription
+    double viscosity;      ///< Pa s, stress over error of the rate (INFINITY: no error is left)
+    double rate[9];        ///< 1/s, velocity gradient of the boundary at n - 1/2
+    double stress[9];      ///< Pa, uniform stress applied besides the pressure at n, tension positive
+    double achieved;       ///< 1/s, integral of target : rate over time since the last sample
+    double wanted;         ///< 1/s, the same of target : target
+    scree_vector *force;   ///< count, N, on the bodies of the boundary at n (scree_boundary_row in measure/facets.h)
+    size_t count, capacity;
+} scree_drive;
+
+/// How a component of the velocity gradient is prescribed.
+typedef enum scree_prescription {
+    SCREE_FREE,
+    SCREE_FULL,      ///< itself
+    SCREE_SYMMETRIC, ///< the mean of it and its mirror, which then says free: a strain rate, which leaves rotations
+                     ///< free
+} scree_prescription;
+
+/// Chain of discs on both sides of the sample (boundary/membrane.c, 2D). Its bodies have the ids from state.grains on:
+/// the right side from bottom to top, then the left side from top to bottom; count = 0: there is no membrane.
+typedef struct scree_membrane {
+    double *rest;        ///< count, m, unstressed length from this body to the next; 0 for the last of a side
+    scree_vector *press; ///< count, N, force of the pressure at n
+    scree_vector *force; ///< count, N, force of the chain, and of the plates on its ends, at n
+    size_t count, capacity;
+    uint64_t right;   ///< bodies of the right side
+    double radius;    ///< m
+    double ramp_time; ///< s, in which the membrane takes the pressure over
+    double share;     ///< 1, fraction of the time passed
+} scree_membrane;
 
 /// Strain accumulated from the Delaunay boundary (Bagi), see measure/strain.h; compression is NEGATIVE here (tensor).
 typedef struct scree_strain {
@@ -184,6 +220,7 @@ typedef struct scree_stage_state {
 typedef struct scree_state {
     int dimension; ///< 2 or 3
     size_t count;
+    size_t grains;            ///< bodies with ids below it are the assembly, those from it on belong to a membrane
     uint64_t step;            ///< of the whole run; time = stage.first_time + (step - stage.first_step) * dt
     double step_size;         ///< s, dt now
     size_t row_capacity;      ///< of row, turn, sum, torque, id: room for the images of a periodic cell (state/work.h)
@@ -205,14 +242,16 @@ typedef struct scree_state {
     uint32_t *row_of_id;            ///< derived
     // contacts: filled from `work` by scree_contacts_save, consumed by scree_contacts_load (contact/contact.h)
     scree_contact_memory *contact;
-    scree_booking *booking; ///< beside `contact` in 3D; NULL in 2D
+    scree_booking *booking; ///< beside `contact` where the law has booking rows; else NULL
     scree_rolling *rolling; ///< beside `contact` with rolling resistance; else NULL
     size_t contact_count, contact_capacity;
     scree_wall wall[SCREE_WALL_COUNT];
-    double pressure; ///< Pa, lateral pressure applied now
+    double pressure; ///< Pa, confining pressure applied now
     scree_loop loop; ///< 2D
     scree_hull hull; ///< 3D
     scree_cell cell; ///< periodic boundary
+    scree_drive drive;
+    scree_membrane membrane;
     scree_strain strain;
     scree_ledger ledger;
     scree_stage_state stage;
@@ -259,6 +298,23 @@ static inline double scree_body_inertia(const scree_state *state, size_t row)
     const scree_row *body = &state->row[row];
     return (state->dimension == 3 ? 0.4 : 0.5) * body->mass * body->radius * body->radius;
 }
+
+/// The body in `row` is of the assembly, not of a membrane.
+static inline bool scree_body_is_grain(const scree_state *state, size_t row)
+{
+    return state->id[row] < state->grains;
+}
+
+/// Pressure [Pa] that acts on the Delaunay boundary itself; a membrane takes it over smoothly.
+static inline double scree_direct_pressure(const scree_state *state)
+{
+    double share = state->membrane.share;
+    return state->pressure * (1 - share * share * (3 - 2 * share));
+}
+
+/// Adds `more` bodies behind those that there are, with the ids that follow, all zero. Everything that refers to rows
+/// stays valid, neighbour lists excepted: save the contacts before. Errors: memory, the state is unchanged then.
+scree_status scree_state_append(scree_state *state, size_t more, scree_error *error) SCREE_MUST_USE;
 
 /// s; never accumulated.
 double scree_state_time(const scree_state *state);

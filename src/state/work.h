@@ -17,7 +17,7 @@ enum {
 typedef struct scree_pair_list {
     uint32_t *first, *second; ///< rows; id[first] < id[second]
     scree_history *history;   ///< one a pair, seen from `first`
-    scree_booking *booking;   ///< 3D with ledger: one a pair; else NULL
+    scree_booking *booking;   ///< with scree_contacts_book: one a pair; else NULL
     scree_rolling *rolling;   ///< with rolling resistance: one a pair; else NULL
     size_t count, capacity;
     size_t touching_count;
@@ -45,6 +45,11 @@ typedef struct scree_ghost_list {
     double lattice_inverse[9]; ///< 1/m, at the last rebuild
     double largest_radius;     ///< m, of all bodies
 } scree_ghost_list;
+/// Whether contacts of this law have booking rows: those of hertz_mindlin in 3D, where the history row has no room.
+static inline bool scree_contacts_book(const scree_model *model, int dimension)
+{
+    return dimension == 3 && model->law == SCREE_LAW_HERTZ_MINDLIN;
+}
 
 typedef struct scree_search scree_search; ///< cell grid and scratch, private to search/
 

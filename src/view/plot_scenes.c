@@ -187,7 +187,7 @@ static scree_status draw_fluctuations(const scree_plot_run *run, const scree_sna
             (void)scree_cell_fluctuations(&from->cell, &to->cell, from->x, from->y, to->x, to->y, from->count, arrow,
                                           arrow_y);
         else
-            (void)scree_fluctuations(from->x, from->y, to->x, to->y, from->count, arrow, arrow_y, gradient);
+            (void)scree_fluctuations(from->x, from->y, to->x, to->y, from->grains, arrow, arrow_y, gradient);
         scree_scene scene = {.title = title, .arrow_x = arrow, .arrow_y = arrow + from->count, .plates = true};
         status = scree_scene_draw(path, from, &scene, error);
     }

@@ -90,6 +90,20 @@ static void draw_discs(const scree_scene_view *view, cairo_t *cairo)
     }
 }
 
+/// Discs of a membrane, dark over their colour.
+static void draw_membrane(const scree_scene_view *view, cairo_t *cairo)
+{
+    const scree_snapshot *s = view->snapshot;
+    if (s->grains == 0) return;
+    for (size_t k = s->grains; k < s->count; k++) {
+        cairo_new_sub_path(cairo);
+        cairo_arc(cairo, scree_scene_x(view, s->x[k]), scree_scene_y(view, s->y[k]), s->radius[k] * view->scale, 0,
+                  2 * M_PI);
+    }
+    scree_page_colour(cairo, scree_scene_quiet);
+    cairo_fill(cairo);
+}
+
 double scree_scene_force_width(const scree_scene_view *view, double ratio)
 {
     double diameter = 2 * view->mean_radius * view->scale;
@@ -247,6 +261,7 @@ void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo)
     }
     draw_plates(view, cairo);
     draw_discs(view, cairo);
+    draw_membrane(view, cairo);
     draw_boundary(view, cairo);
     draw_cell(view, cairo);
     draw_network(view, cairo);

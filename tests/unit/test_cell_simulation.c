@@ -30,15 +30,16 @@ static const char case_text[] =
     "  - {stage: prepare, method: gas, aspect_ratio: 1.5, solid_fraction: 58 %, velocity: 20 mm/s}\n"
     "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 5e-2}\n"
     "  - {stage: compress, strain: 1 %, rate: 0.2 1/s}\n"
-    "  - {stage: deform, rate_xy: 0.8 1/s, rate_yx: -0.2 1/s, pressure_x: 80 kPa, pressure_y: 100 kPa, strain: 70 %}\n"
+    "  - {stage: deform, velocity_gradient: {xy: 0.8 1/s, yx: -0.2 1/s}, stress: {xx: 80 kPa, yy: 100 kPa}, strain: 70 "
+    "%}\n"
     "measure: {samples: 20}\n"
     "output: {snapshots: 2, paraview: no, figures: no, checkpoint_steps: 700}\n";
 
 /// A lattice in rapid flow: few steps, all stages, a lattice of the cell that is remapped.
 #define SHORT                                                                                                          \
     "particles.distribution=equal", "particles.radius=0.75 mm", "stages.prepare.method=hexagonal",                     \
-        "stages.prepare.width=10.5 mm", "stages.compress.rate=1 1/s", "stages.deform.rate_xy=3 1/s",                   \
-        "stages.deform.rate_yx=-0.5 1/s", "stages.deform.strain=60 %"
+        "stages.prepare.width=10.5 mm", "stages.compress.rate=1 1/s", "stages.deform.velocity_gradient.xy=3 1/s",      \
+        "stages.deform.velocity_gradient.yx=-0.5 1/s", "stages.deform.strain=60 %"
 enum { OVERRIDES = 10 };
 static const char *const combinations[3][OVERRIDES] = {
     {SHORT, "contact.law=hertz_mindlin", "integrator.scheme=velocity_verlet"},
@@ -240,8 +241,8 @@ static void what_cannot_be_is_refused(void **unused)
     refuse("stages.prepare.method=drop_and_roll", "drop_and_roll needs side walls");
     refuse("boundary.periodic=x", "only a cell that is periodic in all directions can be deformed");
     refuse("boundary.periodic=xyz", "there is no z in two dimensions");
-    refuse("stages.deform.rate_xz=1 1/s", "there is no z in two dimensions");
-    refuse("stages.deform.rate_xx=1 1/s", "the same component has a rate");
+    refuse("stages.deform.velocity_gradient.xz=1 1/s", "there is no z in two dimensions");
+    refuse("stages.deform.velocity_gradient.xx=1 1/s", "the same component has a rate");
     refuse("gravity=[0, -9.81 m/s2]", "gravity has nothing to fall on");
 }
 

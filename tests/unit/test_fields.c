@@ -138,12 +138,16 @@ static void no_member_of_the_state_is_missing(void **unused)
     EXCEPT(hull.node_capacity);
     EXCEPT(hull.triangle_count);
     EXCEPT(hull.triangle_capacity);
+    EXCEPT(drive.count);
+    EXCEPT(drive.capacity);
+    EXCEPT(membrane.count);
+    EXCEPT(membrane.capacity);
     EXCEPT(booking); // beside `contact`
     EXCEPT(rolling);
     for (size_t k = 0; k < all_count(); k++) {
         const scree_field *field = all(k);
         size_t size = (size_t)scree_components(field->components, 3) * scree_field_size(field->type);
-        if (field->rows <= SCREE_ROWS_HULL_TRIANGLES) memset(covered + field->array_offset, 1, sizeof(void *));
+        if (field->rows <= SCREE_ROWS_MEMBRANE) memset(covered + field->array_offset, 1, sizeof(void *));
         if (field->rows == SCREE_ROWS_ONE) memset(covered + field->array_offset, 1, size);
         for (size_t w = 0; w < SCREE_WALL_COUNT && field->rows == SCREE_ROWS_WALLS; w++)
             memset(covered + field->array_offset + w * field->stride + field->offset, 1, size);
@@ -236,7 +240,7 @@ static void the_manual_lists_every_dataset(void **unused)
 {
     (void)unused;
     static char manual[1 << 16];
-    static const char *const rows[] = {"n", "c", "b", "h", "t", "6", "1"};
+    static const char *const rows[] = {"n", "c", "b", "h", "t", "b", "k", "6", "1"};
     FILE *file = fopen(SCREE_SOURCE_DIR "/docs/output.md", "r");
     assert_non_null(file);
     assert_true(fread(manual, 1, sizeof manual - 1, file) > 1000);

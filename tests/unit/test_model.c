@@ -116,7 +116,7 @@ static void test_errors_name_their_field(void **unused)
     expect_input_error(&c, "particles.radius_min", "above radius_max");
     biaxial_config_set(&c, 983);
     c.config.stage_count = 2;
-    expect_input_error(&c, "contact.reference_velocity", "compress");
+    expect_input_error(&c, "contact.reference_velocity", "loading stage");
     biaxial_config_set(&c, 983);
     c.stage[0].method = SCREE_PREPARE_HEXAGONAL;
     expect_input_error(&c, "stages.0.method", "equal");
@@ -336,7 +336,7 @@ static void test_critical_step_of_the_lattice(void **unused)
     prepare_assembly(SCREE_PREPARE_HEXAGONAL, 200, &state);
     for (size_t k = 0; k < sizeof TANGENTS / sizeof *TANGENTS; k++) {
         assembly a = assemble(&state, TANGENTS[k]);
-        double ratio = true_critical_step(&a) / scree_critical_step_lattice(&TANGENTS[k], 1);
+        double ratio = true_critical_step(&a) / scree_critical_step_lattice(2, &TANGENTS[k], 1);
         assert_true(ratio > 0.999 && ratio < 1.015);
         disassemble(&a);
     }
@@ -352,7 +352,7 @@ static void test_lattice_is_faster_than_a_random_packing(void **unused)
     prepare_assembly(SCREE_PREPARE_DROP_AND_ROLL, 300, &state);
     for (size_t k = 0; k < sizeof TANGENTS / sizeof *TANGENTS; k++) {
         assembly a = assemble(&state, TANGENTS[k]);
-        double ratio = true_critical_step(&a) / scree_critical_step_lattice(&TANGENTS[k], 1);
+        double ratio = true_critical_step(&a) / scree_critical_step_lattice(2, &TANGENTS[k], 1);
         assert_true(ratio > 1 && ratio < 2.5);
         disassemble(&a);
     }

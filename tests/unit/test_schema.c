@@ -63,7 +63,8 @@ static void check_key(const scree_section *section, const scree_key *key)
     check_limit(key, &key->least);
     check_limit(key, &key->most);
     if (key->when) check_when(section, key);
-    bool number = key->type == SCREE_KEY_NUMBER || key->type == SCREE_KEY_VECTOR || key->type == SCREE_KEY_PAIRS;
+    bool number = key->type == SCREE_KEY_NUMBER || key->type == SCREE_KEY_VECTOR || key->type == SCREE_KEY_PAIRS ||
+                  key->type == SCREE_KEY_TENSOR;
     assert_int_equal(key->unit != NULL, number);
     if (number) {
         double one;
@@ -77,6 +78,7 @@ static void check_key(const scree_section *section, const scree_key *key)
     if (number || key->type == SCREE_KEY_INTEGER) assert_true(key->least.text && key->most.text);
     if (key->type == SCREE_KEY_VECTOR) assert_string_equal(key->standard, "[0, 0]");
     if (key->type == SCREE_KEY_PAIRS) assert_string_equal(key->standard, "[]");
+    if (key->type == SCREE_KEY_TENSOR) assert_string_equal(key->standard, "{}");
     for (const scree_choice *choice = key->choices; choice && choice->name; choice++)
         assert_true(strlen(choice->meaning) > 8);
     bool value = key->type < SCREE_KEY_VECTOR;
@@ -124,8 +126,9 @@ static void compare_list(const scree_key *key, const char *a, const char *b)
 static void compare_section(const scree_section *section, const char *a, const char *b)
 {
     static const size_t sizes[] = {
-        [SCREE_KEY_NUMBER] = sizeof(double), [SCREE_KEY_INTEGER] = sizeof(int64_t),   [SCREE_KEY_FLAG] = sizeof(bool),
-        [SCREE_KEY_CHOICE] = sizeof(int),    [SCREE_KEY_VECTOR] = 2 * sizeof(double),
+        [SCREE_KEY_NUMBER] = sizeof(double),     [SCREE_KEY_INTEGER] = sizeof(int64_t),
+        [SCREE_KEY_FLAG] = sizeof(bool),         [SCREE_KEY_CHOICE] = sizeof(int),
+        [SCREE_KEY_VECTOR] = 2 * sizeof(double), [SCREE_KEY_TENSOR] = 9 * sizeof(double),
     };
     for (size_t i = 0; i < section->count; i++) {
         const scree_key *key = &section->keys[i];

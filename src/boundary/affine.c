@@ -1,0 +1,94 @@
+/// Affine boundary: every body of the Delaunay boundary moves with the wanted velocity gradient, v = L (x - centre),
+/// the centre being the mean of their places; spins stay free, and the pressure changes nothing. The stiffest of all
+/// boundaries, with which the others are compared: uniform displacement against uniform traction.
+///
+/// The velocity is imposed by the force m (v - v(n-1/2)) / dt - (all other forces), after which the kick leads to it up
+/// to the rounding of a quantum. Bodies that come onto the boundary when it is found anew are caught in one step, so
+/// the conditions are meant for small strains. Cost: O(boundary) a step.
+#include "base/fixed.h"
+#include "boundary/boundary.h"
+#include "boundary/drive.h"
+#include "measure/facets.h"
+
+#include <math.h>
+#include <string.h>
+
+static void find_centre(const scree_state *state, scree_vector centre)
+{
+    size_t count = scree_boundary_count(state);
+    scree_vector place;
+    memset(centre, 0, sizeof(scree_vector));
+    for (size_t k = 0; k < count; k++) {
+        scree_body_place(state, scree_boundary_row(state, k), place);
+        for (int i = 0; i < 3; i++) centre[i] += place[i] / (double)count;
+    }
+}
+
+/// Velocity that a body of the boundary shall have.
+static void wanted_velocity(const scree_state *state, size_t row, const scree_vector centre, scree_vector velocity)
+{
+    scree_vector place;
+    scree_body_place(state, row, place);
+    for (int i = 0; i < 3; i++) {
+        velocity[i] = 0;
+        for (int j = 0; j < 3; j++) velocity[i] += state->drive.target[3 * i + j] * (place[j] - centre[j]);
+    }
+}
+
+static void move_bodies(scree_state *state, const scree_vector centre)
+{
+    for (size_t k = 0; k < state->drive.count; k++) {
+        size_t row = scree_boundary_row(state, k);
+        const scree_sum_row *sum = &state->sum[row];
+        const int64_t others[3] = {sum->fx, sum->fy, state->dimension == 3 ? sum->fz : 0};
+        scree_vector wanted, velocity, spin;
+        int64_t quanta[3];
+        wanted_velocity(state, row, centre, wanted);
+        scree_body_motion(state, row, velocity, spin);
+        for (int i = 0; i < 3; i++) {
+            double force = state->row[row].mass * (wanted[i] - velocity[i]) / state->step_size;
+            quanta[i] = llrint(force / state->force_quantum) - others[i];
+        }
+        scree_drive_add(state, k, quanta);
+    }
+}
+
+static void forces(const scree_model *model, scree_state *state, scree_work *work)
+{
+    (void)work;
+    scree_drive *drive = &state->drive;
+    if (drive->count == 0) return;
+    double rate[9];
+    scree_vector centre;
+    scree_boundary_areas(model, state, drive->force);
+    scree_drive_measure(state, drive->force, scree_boundary_volume(model, state), rate);
+    scree_drive_record(state, rate);
+    memset(drive->force, 0, drive->count * sizeof *drive->force);
+    find_centre(state, centre);
+    move_bodies(state, centre);
+    scree_drive_work(state);
+}
+
+static double bound(const scree_model *model, const scree_state *state)
+{
+    (void)model;
+    scree_vector centre, wanted, velocity, spin;
+    double largest = 0;
+    find_centre(state, centre);
+    for (size_t k = 0; k < scree_boundary_count(state); k++) {
+        size_t row = scree_boundary_row(state, k);
+        wanted_velocity(state, row, centre, wanted);
+        scree_body_motion(state, row, velocity, spin);
+        double change = scree_length(wanted) + scree_length(velocity);
+        largest = fmax(largest, state->row[row].mass * change / state->step_size);
+    }
+    return largest;
+}
+
+const scree_boundary scree_boundary_affine = {.name = "affine",
+                                              .walls = 0,
+                                              .begin = scree_drive_begin,
+                                              .refresh = scree_drive_refresh,
+                                              .bound = bound,
+                                              .forces = forces,
+                                              .work = scree_drive_work};

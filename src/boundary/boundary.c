@@ -1,0 +1,99 @@
+/// Table of boundaries, and what all of them share: walls that come and go, the pressure.
+#include "boundary/boundary.h"
+
+#include "boundary/pressure.h"
+
+#include <math.h>
+
+enum {
+    AXIAL = 1U << SCREE_WALL_BOTTOM | 1U << SCREE_WALL_TOP,
+    LATERAL = 1U << SCREE_WALL_LEFT | 1U << SCREE_WALL_RIGHT | 1U << SCREE_WALL_FRONT | 1U << SCREE_WALL_BACK
+};
+
+const scree_boundary scree_boundary_pressure = {.name = "pressure", .walls = AXIAL};
+const scree_boundary scree_boundary_plates = {.name = "plates", .walls = AXIAL | LATERAL};
+
+// A periodic cell has no walls and no forces of its own (cell.c); a channel is periodic but for its plates.
+const scree_boundary scree_boundary_periodic = {.name = "periodic"};
+const scree_boundary scree_boundary_channel = {.name = "channel", .walls = AXIAL};
+
+const scree_boundary *scree_boundary_get(scree_boundary_kind kind)
+{
+    static const scree_boundary *const table[] = {
+        [SCREE_BOUNDARY_AUTO] = &scree_boundary_pressure,     [SCREE_BOUNDARY_PRESSURE] = &scree_boundary_pressure,
+        [SCREE_BOUNDARY_PLATES] = &scree_boundary_plates,     [SCREE_BOUNDARY_MEMBRANE] = &scree_boundary_membrane,
+        [SCREE_BOUNDARY_MINIMAL] = &scree_boundary_minimal,   [SCREE_BOUNDARY_AFFINE] = &scree_boundary_affine,
+        [SCREE_BOUNDARY_PERIODIC] = &scree_boundary_periodic, [SCREE_BOUNDARY_CHANNEL] = &scree_boundary_channel,
+    };
+    return table[kind];
+}
+
+bool scree_boundary_has_plates(const scree_boundary *boundary)
+{
+    return (boundary->walls & AXIAL) == AXIAL;
+}
+
+static double held_by_wall(const scree_contact_table *table, int wall)
+{
+    double energy = 0;
+    for (size_t c = 0; c < table->count; c++) {
+        const scree_contact *contact = &table->contact[c];
+        if (contact->wall && (int)contact->second == wall)
+            energy += contact->elastic_normal + contact->elastic_tangential;
+    }
+    return energy;
+}
+
+/// Makes the walls stand that `walls` says. True when any of them changed.
+static bool change_walls(scree_state *state, uint32_t walls, const scree_contact_table *table)
+{
+    bool changed = false;
+    for (int w = 0; w < 2 * state->dimension; w++) {
+        scree_wall *wall = &state->wall[w];
+        bool stands = walls >> w & 1;
+        if (stands == (wall->active != 0)) continue;
+        if (!stands) state->ledger.plates -= held_by_wall(table, w);
+        wall->active = stands;
+        wall->velocity = wall->force = 0;
+        for (int i = 0; i < 3; i++) wall->tangential_velocity[i] = wall->shear[i] = 0;
+        changed = true;
+    }
+    return changed;
+}
+
+scree_status scree_boundary_begin(const scree_boundary *boundary, const scree_model *model, scree_state *state,
+                                  const scree_contact_table *table, bool *changed, scree_error *error)
+{
+    size_t count = state->count;
+    *changed = change_walls(state, boundary->walls, table);
+    if (*changed) scree_boundary_mark_loaded(model, state);
+    scree_status status = boundary->begin ? boundary->begin(model, state, error) : SCREE_OK;
+    *changed = *changed || state->count != count;
+    return status;
+}
+
+void scree_boundary_finish_work(const scree_boundary *boundary, scree_state *state)
+{
+    scree_pressure_work(state);
+    if (boundary->work) boundary->work(state);
+}
+
+scree_status scree_boundary_prepare(const scree_boundary *boundary, const scree_model *model, scree_state *state,
+                                    scree_error *error)
+{
+    scree_status status = scree_boundary_refresh(model, state, error);
+    return status || !boundary->refresh ? status : boundary->refresh(model, state, error);
+}
+
+double scree_boundary_bound(const scree_boundary *boundary, const scree_model *model, const scree_state *state)
+{
+    double pressure = scree_pressure_bound(model, state);
+    return boundary->bound ? fmax(pressure, boundary->bound(model, state)) : pressure;
+}
+
+void scree_boundary_forces(const scree_boundary *boundary, const scree_model *model, scree_state *state,
+                           scree_work *work)
+{
+    scree_pressure_forces(model, state);
+    if (boundary->forces) boundary->forces(model, state, work);
+}

@@ -1,0 +1,137 @@
+/// Forces of an imposed motion, and their books.
+///
+/// Uniform stress S on a closed surface. Every corner of a facet gets S times its share of the facet's area vector. A
+/// share is a sum over the edges of the facet, or its ends in 2D, each of which belongs to the neighbouring facet with
+/// the opposite sign:
+///     2D  share = (t/2) (h(b) - h(a)),  h(x) = (y, -x);      3D  share = (a x b + b x c + c x a) / 6.
+/// Each term is rounded to an integer once for both facets (in 3D from the node with the lower number to the other), so
+/// the integers telescope and the forces of a closed surface add up to zero to the last bit. Rounding is half a quantum
+/// a term. Places are relative to a node, so the terms stay small. Cost: O(facets).
+#include "boundary/drive.h"
+
+#include "measure/facets.h"
+
+#include <math.h>
+#include <string.h>
+
+scree_status scree_drive_begin(const scree_model *model, scree_state *state, scree_error *error)
+{
+    scree_drive *drive = &state->drive;
+    (void)model, (void)error;
+    drive->count = 0;
+    drive->achieved = drive->wanted = 0;
+    memset(drive->rate, 0, sizeof drive->rate);
+    memset(drive->stress, 0, sizeof drive->stress);
+    return SCREE_OK;
+}
+
+scree_status scree_drive_refresh(const scree_model *model, scree_state *state, scree_error *error)
+{
+    (void)model;
+    scree_drive *drive = &state->drive;
+    size_t count = scree_boundary_count(state);
+    if (count > drive->capacity) {
+        size_t capacity = count + count / 2 + 16;
+        scree_status status = scree_reallocate(&drive->force, drive->count, capacity, sizeof *drive->force, error);
+        if (status) return status;
+        drive->capacity = capacity;
+    }
+    drive->count = count;
+    return SCREE_OK;
+}
+
+void scree_drive_add(scree_state *state, size_t node, const int64_t quanta[3])
+{
+    scree_sum_row *sum = &state->sum[scree_boundary_row(state, node)];
+    sum->fx += quanta[0];
+    sum->fy += quanta[1];
+    if (state->dimension == 3) sum->fz += quanta[2];
+    for (int i = 0; i < state->dimension; i++) state->drive.force[node][i] += (double)quanta[i] * state->force_quantum;
+}
+
+void scree_drive_work(scree_state *state)
+{
+    double work = 0;
+    scree_vector velocity, spin;
+    for (size_t k = 0; k < state->drive.count; k++) {
+        scree_body_motion(state, scree_boundary_row(state, k), velocity, spin);
+        for (int i = 0; i < 3; i++) work += 0.5 * state->step_size * state->drive.force[k][i] * velocity[i];
+    }
+    state->ledger.boundary += work;
+    state->ledger.turnover += fabs(work);
+}
+
+void scree_drive_measure(const scree_state *state, scree_vector *area, double volume, double rate[9])
+{
+    scree_vector velocity, spin;
+    memset(rate, 0, 9 * sizeof *rate);
+    for (size_t k = 0; k < scree_boundary_count(state); k++) {
+        scree_body_motion(state, scree_boundary_row(state, k), velocity, spin);
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++) rate[3 * i + j] += velocity[i] * area[k][j] / volume;
+    }
+}
+
+/// Mirror image of component c of a 3 x 3 tensor.
+static int mirror(int c)
+{
+    return 3 * (c % 3) + c / 3;
+}
+
+void scree_drive_record(scree_state *state, const double rate[9])
+{
+    scree_drive *drive = &state->drive;
+    memcpy(drive->rate, rate, sizeof drive->rate);
+    for (int c = 0; c < 9; c++) {
+        if (drive->prescribed[c] == SCREE_FREE) continue;
+        double actual = drive->prescribed[c] == SCREE_FULL ? rate[c] : 0.5 * (rate[c] + rate[mirror(c)]);
+        drive->achieved += state->step_size * drive->target[c] * actual;
+        drive->wanted += state->step_size * drive->target[c] * drive->target[c];
+    }
+}
+
+double scree_drive_take_ratio(scree_state *state)
+{
+    scree_drive *drive = &state->drive;
+    double ratio = drive->wanted > 0 ? drive->achieved / drive->wanted : NAN;
+    drive->achieved = drive->wanted = 0;
+    return ratio;
+}
+
+/// stress . vector / quantum, rounded.
+static void round_force(const double stress[9], const scree_vector vector, double scale, int64_t quanta[3])
+{
+    for (int i = 0; i < 3; i++)
+        quanta[i] =
+            llrint(scale * (stress[3 * i] * vector[0] + stress[3 * i + 1] * vector[1] + stress[3 * i + 2] * vector[2]));
+}
+
+/// Adds the term of the end or edge of a facet that goes from corner a to b.
+static void add_term(const scree_facet *facet, int a, int b, const double stress[9], double scale, int64_t total[3])
+{
+    const double *p = facet->place[a], *q = facet->place[b];
+    int64_t one[3], other[3] = {0};
+    if (facet->corners == 2) {
+        round_force(stress, (scree_vector){q[1], -q[0]}, scale, one);
+        round_force(stress, (scree_vector){p[1], -p[0]}, scale, other);
+    } else {
+        int64_t sign = facet->node[a] < facet->node[b] ? 1 : -1;
+        if (sign < 0) p = facet->place[b], q = facet->place[a];
+        scree_vector cross = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+        round_force(stress, cross, scale, one);
+        for (int i = 0; i < 3; i++) one[i] *= sign;
+    }
+    for (int i = 0; i < 3; i++) total[i] += one[i] - other[i];
+}
+
+void scree_drive_apply_stress(const scree_model *model, scree_state *state, const double stress[9])
+{
+    double scale = (state->dimension == 3 ? 1.0 / 6 : 0.5 * model->thickness) / state->force_quantum;
+    for (size_t f = 0; f < scree_facet_count(state); f++) {
+        scree_facet facet = scree_facet_get(state, f);
+        int64_t share[3] = {0};
+        int terms = facet.corners == 2 ? 1 : 3;
+        for (int t = 0; t < terms; t++) add_term(&facet, t, (t + 1) % facet.corners, stress, scale, share);
+        for (int c = 0; c < facet.corners; c++) scree_drive_add(state, facet.node[c], share);
+    }
+}

@@ -1,0 +1,33 @@
+/// What boundaries share that impose a motion through forces on the bodies of the Delaunay boundary (state.drive).
+#ifndef SCREE_BOUNDARY_DRIVE_H
+#define SCREE_BOUNDARY_DRIVE_H
+
+#include "state/work.h"
+
+/// Forgets the forces and rates of an earlier stage; target, prescribed components and viscosity stay.
+scree_status scree_drive_begin(const scree_model *model, scree_state *state, scree_error *error) SCREE_MUST_USE;
+
+/// Room for one force a node of the present boundary. Errors: memory.
+scree_status scree_drive_refresh(const scree_model *model, scree_state *state, scree_error *error) SCREE_MUST_USE;
+
+/// Adds a force in quanta to the sum of a node and keeps it in drive.force.
+void scree_drive_add(scree_state *state, size_t node, const int64_t quanta[3]);
+
+/// Books 1/2 F . v dt of the kept forces, with the velocities that rows hold now.
+void scree_drive_work(scree_state *state);
+
+/// Velocity gradient of the boundary [1/s] with the velocities that rows hold now. area: a node.
+void scree_drive_measure(const scree_state *state, scree_vector *area, double volume, double rate[9]);
+
+/// Books the rate of this step for the recorded ratio of actual and wanted rate.
+void scree_drive_record(scree_state *state, const double rate[9]);
+
+/// Actual over wanted rate since the last sample: integral of target : rate over that of target : target, both over the
+/// prescribed components. NAN when nothing was wanted. Begins the next interval.
+double scree_drive_take_ratio(scree_state *state);
+
+/// Forces f = stress . a on all nodes, whose integers add up to zero exactly (facets.h; drive.c tells how), added to
+/// the sums and to drive.force. stress [Pa], tension positive. quantum: that of the present step.
+void scree_drive_apply_stress(const scree_model *model, scree_state *state, const double stress[9]);
+
+#endif

@@ -1,0 +1,88 @@
+/// Places a membrane. The discs of a side stand at equal heights, the ends tangent to the plates, about two radii
+/// apart; each is pushed in from outside until it touches a grain. Where no grain is in reach, it stands on the
+/// straight line between the next ones below and above that touch. The unstressed lengths of the chain are the
+/// distances that this gives. Cost: O(grains x bodies of the membrane), once.
+#include "boundary/membrane.h"
+
+#include <math.h>
+
+/// The place at the height y, seen from the side with the outward direction `side` (+1 right, -1 left), where a disc
+/// touches the outermost grain in its way; NAN when none is.
+static double touching_place(const scree_state *state, double radius, double y, double side)
+{
+    double outermost = -INFINITY;
+    for (size_t id = 0; id < state->grains; id++) {
+        const scree_row *grain = &state->row[state->row_of_id[id]];
+        double reach = grain->radius + radius, dy = y - grain->y;
+        if (fabs(dy) < reach) outermost = fmax(outermost, side * grain->x + sqrt(reach * reach - dy * dy));
+    }
+    return isfinite(outermost) ? side * outermost : NAN;
+}
+
+/// Fills the gaps of x (NAN) from the next values on both sides.
+static void fill_gaps(double *x, size_t count)
+{
+    for (size_t k = 0; k < count; k++) {
+        if (!isnan(x[k])) continue;
+        size_t next = k;
+        while (next < count && isnan(x[next])) next++;
+        double before = k > 0 ? x[k - 1] : x[next], after = next < count ? x[next] : before;
+        double gap = (double)(next - k) + 1;
+        for (size_t j = k; j < next; j++) x[j] = before + (after - before) * (double)(j - k + 1) / gap;
+    }
+}
+
+/// One side: bodies [first, first + count) of the membrane.
+static void place_side(const scree_model *model, scree_state *state, size_t first, size_t count, double side, double *x)
+{
+    scree_membrane *membrane = &state->membrane;
+    double low = state->wall[SCREE_WALL_BOTTOM].position + membrane->radius;
+    double high = -state->wall[SCREE_WALL_TOP].position - membrane->radius;
+    double begin = side > 0 ? low : high, spacing = (side > 0 ? high - low : low - high) / (double)(count - 1);
+    for (size_t k = 0; k < count; k++)
+        x[k] = touching_place(state, membrane->radius, begin + spacing * (double)k, side);
+    fill_gaps(x, count);
+    for (size_t k = 0; k < count; k++) {
+        size_t row = scree_membrane_row(state, first + k);
+        state->row[row] = (scree_row){.x = x[k],
+                                      .y = begin + spacing * (double)k,
+                                      .material = model->membrane_material,
+                                      .radius = membrane->radius,
+                                      .mass = scree_model_mass(model, model->membrane_material, membrane->radius)};
+        scree_body_place(state, row, state->reference[row]);
+        membrane->rest[first + k] = k + 1 < count ? sqrt(spacing * spacing + (x[k + 1] - x[k]) * (x[k + 1] - x[k])) : 0;
+    }
+}
+
+static scree_status make_room(scree_state *state, size_t count, scree_error *error)
+{
+    scree_membrane *membrane = &state->membrane;
+    scree_status status = scree_reallocate(&membrane->rest, 0, count, sizeof *membrane->rest, error);
+    if (!status) status = scree_reallocate(&membrane->press, 0, count, sizeof *membrane->press, error);
+    if (!status) status = scree_reallocate(&membrane->force, 0, count, sizeof *membrane->force, error);
+    if (!status) status = scree_state_append(state, count, error);
+    if (!status) membrane->count = membrane->capacity = count;
+    return status;
+}
+
+scree_status scree_membrane_place(const scree_model *model, scree_state *state, scree_error *error)
+{
+    double radius = model->membrane_radius;
+    double height = -(state->wall[SCREE_WALL_BOTTOM].position + state->wall[SCREE_WALL_TOP].position);
+    if (!(height > 4 * radius))
+        return scree_error_set(error, SCREE_ERROR_GUARD,
+                               "a membrane of discs of radius %.3g m does not fit between plates %.3g m apart", radius,
+                               height);
+    size_t side = (size_t)round(height / (2 * radius)) < 2 ? 2 : (size_t)round(height / (2 * radius));
+    double *x = NULL;
+    scree_status status = scree_allocate(&x, side, sizeof *x, error);
+    if (!status) status = make_room(state, 2 * side, error);
+    if (!status) {
+        state->membrane.radius = radius;
+        state->membrane.right = side;
+        place_side(model, state, 0, side, 1, x);
+        place_side(model, state, side, side, -1, x);
+    }
+    scree_release(&x);
+    return status;
+}

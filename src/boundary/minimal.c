@@ -1,0 +1,167 @@
+/// Minimal kinematic conditions (Mesarovic and Padbidri 2005; P 3.1-3.5): pressure on all sides, and some components of
+/// the mean velocity gradient of the boundary imposed by a penalty on the error of the RATE; the boundary may deform as
+/// it likes otherwise.
+///
+/// With area vectors a_k of the boundary bodies (measure/facets.h), L = (1/V) sum v_k (x) a_k and one tensor C for
+/// every prescribed component (e_i e_j, or its symmetric part for a strain rate), the errors are e_C = C : L -
+/// target_C. P's functional Phi = 1/2 K sum e_C^2 gives F_k = - dPhi/dv_k = Lambda a_k with the uniform stress
+///     Lambda = sum lambda_C C,     lambda_C = - kappa e_C,     kappa = K / V.
+/// So the conditions are a uniform traction that adjusts itself; kappa is a viscosity [Pa s]. The forces add up to zero
+/// (to the last bit: drive.c), those of symmetric tensors C have no moment, and their power is V Lambda : L exactly.
+///
+/// Integration. Explicitly the penalty would demand kappa dt M < 2 with M_CC' = (1/V) C : (C' B), B = sum a (x) a /
+/// m_k: light boundary bodies. Instead lambda is taken at the end of the kick, e = e_0 + dt M lambda, where e_0 is what
+/// the velocities v(n-1/2) and all other forces at n would lead to: the small system
+///     (1/kappa + dt M) lambda = - e_0
+/// is symmetric and positive, and stable for any kappa; it leaves of an error the fraction 1 / (1 + kappa dt M) in one
+/// step. kappa = INFINITY is the constraint itself, nothing left.
+///
+/// In steady motion the error is e = - lambda / kappa: by default kappa is chosen so that the confining pressure, the
+/// scale of the contact forces, answers a relative error of one in a hundred (scree_minimal_viscosity).
+/// Cost: O(boundary) a step.
+#include "boundary/minimal.h"
+
+#include "base/fixed.h"
+#include "boundary/boundary.h"
+#include "boundary/drive.h"
+#include "measure/facets.h"
+
+#include <math.h>
+#include <string.h>
+
+#define RELATIVE_ERROR 0.01
+
+/// The prescribed components: tensors, and what they shall be [1/s].
+typedef struct conditions {
+    double tensor[9][9], target[9];
+    int count;
+} conditions;
+
+static conditions conditions_get(const scree_drive *drive)
+{
+    conditions all = {0};
+    for (int c = 0; c < 9; c++) {
+        if (drive->prescribed[c] == SCREE_FREE) continue;
+        all.tensor[all.count][c] += drive->prescribed[c] == SCREE_FULL ? 1 : 0.5;
+        if (drive->prescribed[c] == SCREE_SYMMETRIC) all.tensor[all.count][3 * (c % 3) + c / 3] += 0.5;
+        all.target[all.count++] = drive->target[c];
+    }
+    return all;
+}
+
+static double double_product(const double a[9], const double b[9])
+{
+    double sum = 0;
+    for (int i = 0; i < 9; i++) sum += a[i] * b[i];
+    return sum;
+}
+
+/// Velocity gradient that the next kick leads to without the penalty, and B / V.
+static void predict(const scree_state *state, scree_vector *area, double volume, double rate[9], double mobility[9])
+{
+    memset(rate, 0, 9 * sizeof *rate);
+    memset(mobility, 0, 9 * sizeof *mobility);
+    for (size_t k = 0; k < state->drive.count; k++) {
+        size_t row = scree_boundary_row(state, k);
+        const scree_sum_row *sum = &state->sum[row];
+        const int64_t force[3] = {sum->fx, sum->fy, state->dimension == 3 ? sum->fz : 0};
+        double inverse_mass = 1 / state->row[row].mass;
+        scree_vector velocity, spin;
+        scree_body_motion(state, row, velocity, spin);
+        for (int i = 0; i < 3; i++) {
+            double next =
+                velocity[i] + state->step_size * scree_fixed_to(force[i], state->force_quantum) * inverse_mass;
+            for (int j = 0; j < 3; j++) {
+                rate[3 * i + j] += next * area[k][j] / volume;
+                mobility[3 * i + j] += area[k][i] * area[k][j] * inverse_mass / volume;
+            }
+        }
+    }
+}
+
+/// Solves matrix x = right for a symmetric positive matrix (Cholesky, in place); x replaces `right`.
+static void solve(double matrix[9][9], double *right, int count)
+{
+    for (int i = 0; i < count; i++) {
+        for (int j = 0; j <= i; j++) {
+            double sum = matrix[i][j];
+            for (int k = 0; k < j; k++) sum -= matrix[i][k] * matrix[j][k];
+            matrix[i][j] = i == j ? sqrt(sum) : sum / matrix[j][j];
+        }
+        for (int k = 0; k < i; k++) right[i] -= matrix[i][k] * right[k];
+        right[i] /= matrix[i][i];
+    }
+    for (int i = count - 1; i >= 0; i--) {
+        for (int k = i + 1; k < count; k++) right[i] -= matrix[k][i] * right[k];
+        right[i] /= matrix[i][i];
+    }
+}
+
+/// The stress Lambda of this step.
+static void find_stress(const scree_drive *drive, const double rate[9], const double mobility[9], double step,
+                        double stress[9])
+{
+    conditions all = conditions_get(drive);
+    double matrix[9][9], lambda[9];
+    for (int a = 0; a < all.count; a++) {
+        lambda[a] = all.target[a] - double_product(all.tensor[a], rate);
+        for (int b = 0; b < all.count; b++) {
+            double product[9] = {0};
+            for (int i = 0; i < 9; i++)
+                for (int k = 0; k < 3; k++) product[i] += all.tensor[b][3 * (i / 3) + k] * mobility[3 * k + i % 3];
+            matrix[a][b] = step * double_product(all.tensor[a], product) + (a == b ? 1 / drive->viscosity : 0);
+        }
+    }
+    solve(matrix, lambda, all.count);
+    memset(stress, 0, 9 * sizeof *stress);
+    for (int a = 0; a < all.count; a++)
+        for (int i = 0; i < 9; i++) stress[i] += lambda[a] * all.tensor[a][i];
+}
+
+static void forces(const scree_model *model, scree_state *state, scree_work *work)
+{
+    (void)work;
+    scree_drive *drive = &state->drive;
+    if (drive->count == 0) return;
+    double actual[9], predicted[9], mobility[9], volume = scree_boundary_volume(model, state);
+    // The array of the forces holds the area vectors until they are known.
+    scree_boundary_areas(model, state, drive->force);
+    scree_drive_measure(state, drive->force, volume, actual);
+    scree_drive_record(state, actual);
+    predict(state, drive->force, volume, predicted, mobility);
+    find_stress(drive, predicted, mobility, state->step_size, drive->stress);
+    memset(drive->force, 0, drive->count * sizeof *drive->force);
+    scree_drive_apply_stress(model, state, drive->stress);
+    scree_drive_work(state);
+}
+
+static double bound(const scree_model *model, const scree_state *state)
+{
+    double stress = state->pressure, largest = 0;
+    for (int i = 0; i < 9; i++) stress = fmax(stress, fabs(state->drive.stress[i]));
+    for (size_t f = 0; f < scree_facet_count(state); f++) {
+        scree_facet facet = scree_facet_get(state, f);
+        for (int c = 1; c < facet.corners; c++) {
+            scree_vector edge;
+            for (int i = 0; i < 3; i++) edge[i] = facet.place[c][i] - facet.place[0][i];
+            largest = fmax(largest, scree_length(edge));
+        }
+    }
+    // A body has about 2 d facets, and each of them gives it at most stress times length to the power d - 1.
+    return 2 * state->dimension * stress * largest * (state->dimension == 3 ? largest : model->thickness);
+}
+
+double scree_minimal_viscosity(double pressure, const double target[9])
+{
+    double rate = 0;
+    for (int i = 0; i < 9; i++) rate = fmax(rate, fabs(target[i]));
+    return pressure > 0 && rate > 0 ? pressure / (RELATIVE_ERROR * rate) : INFINITY;
+}
+
+const scree_boundary scree_boundary_minimal = {.name = "minimal",
+                                               .walls = 0,
+                                               .begin = scree_drive_begin,
+                                               .refresh = scree_drive_refresh,
+                                               .bound = bound,
+                                               .forces = forces,
+                                               .work = scree_drive_work};

@@ -1,0 +1,145 @@
+/// Rules of the boundaries: which stage can have which, what can follow what, what a velocity gradient must say.
+#include "case/check.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/// Notes a problem at stages.INDEX.KEY.
+static void refuse(scree_reader *reader, int64_t index, const char *key, const char *message)
+{
+    char path[SCREE_PATH_BYTES];
+    const scree_node *stage = scree_node_at(scree_node_find(reader->root, "stages"), (size_t)index);
+    const scree_node *node = scree_node_find(stage, key);
+    (void)snprintf(path, sizeof path, "stages.%lld.%s", (long long)index, key);
+    scree_problem_add(reader, node ? node->place : stage->place, path, node ? node->text : NULL, NULL, "%s", message);
+}
+
+static bool is_periodic(scree_boundary_kind kind)
+{
+    return kind == SCREE_BOUNDARY_PERIODIC || kind == SCREE_BOUNDARY_CHANNEL;
+}
+
+/// What is wrong with a stage of a periodic sample, and under which key; NULL: nothing.
+static const char *wrong_in_cell(const scree_config *config, const scree_config_stage *stage, const char **key)
+{
+    scree_boundary_kind kind = scree_config_boundary_of(config, 0);
+    *key = "method";
+    if (stage->kind == SCREE_STAGE_PREPARE)
+        return stage->method == SCREE_PREPARE_DROP_AND_ROLL
+                   ? "drop_and_roll needs side walls and cannot fill a periodic cell: prepare with gas, hexagonal or "
+                     "square, and confine"
+                   : NULL;
+    *key = "boundary";
+    if (stage->boundary != SCREE_BOUNDARY_AUTO)
+        return "the sample is periodic from its preparation on (boundary.periodic) and can have no other boundary";
+    *key = "stage";
+    if (stage->kind == SCREE_STAGE_DEFORM && kind == SCREE_BOUNDARY_CHANNEL)
+        return "only a cell that is periodic in all directions can be deformed: set boundary.periodic";
+    return NULL;
+}
+
+static void check_periodic(scree_reader *reader, const scree_config *config)
+{
+    const scree_config_boundary *boundary = &config->boundary;
+    const scree_node *section = scree_node_find(reader->root, "boundary"), *node = scree_node_find(section, "periodic");
+    const char *wrong = NULL;
+    if (boundary->periodic > (1 << config->dimension) - 1)
+        wrong = "there is no z in two dimensions";
+    else if (config->dimension == 3 && boundary->periodic == SCREE_PERIODIC_X)
+        wrong = "in three dimensions a sample is periodic in x and y, or in all directions";
+    else if (scree_config_boundary_of(config, 0) == SCREE_BOUNDARY_PERIODIC &&
+             (config->gravity_x != 0 || config->gravity_y != 0))
+        wrong = "gravity has nothing to fall on: without a floor the sample would fall for ever";
+    if (wrong && node) scree_problem_add(reader, node->place, "boundary.periodic", node->text, NULL, "%s", wrong);
+}
+
+static bool is_free_of_plates(scree_boundary_kind kind)
+{
+    return kind == SCREE_BOUNDARY_MINIMAL || kind == SCREE_BOUNDARY_AFFINE;
+}
+
+/// What is wrong with `kind` after `before`; NULL: nothing.
+static const char *wrong_order(scree_boundary_kind kind, scree_boundary_kind before)
+{
+    if (kind == before) return NULL;
+    if (is_free_of_plates(before) && !is_free_of_plates(kind))
+        return "plates cannot come back to a sample that has deformed freely: only minimal or affine can follow";
+    if (before == SCREE_BOUNDARY_MEMBRANE) return "a membrane cannot be taken away: the stages after it must keep it";
+    if (kind == SCREE_BOUNDARY_PLATES) return "plates cannot come back to sides that have deformed freely";
+    return NULL;
+}
+
+/// What is wrong with `kind` in a stage; NULL: nothing.
+static const char *wrong_boundary(const scree_config *config, int stage, scree_boundary_kind kind)
+{
+    if (kind == SCREE_BOUNDARY_MEMBRANE && config->dimension == 3)
+        return "a membrane is a chain of discs: it needs dimension: 2; in 3D the others can be used";
+    if (is_free_of_plates(kind) && (config->gravity_x != 0 || config->gravity_y != 0))
+        return "without plates nothing holds the sample against gravity";
+    if (stage == SCREE_STAGE_DEFORM && !is_free_of_plates(kind))
+        return "deform imposes a velocity gradient on the boundary: give boundary: minimal or affine, or make the "
+               "sample "
+               "periodic";
+    if (stage != SCREE_STAGE_DEFORM && kind == SCREE_BOUNDARY_AFFINE)
+        return "affine needs all components of a velocity gradient: use a deform stage";
+    return NULL;
+}
+
+static bool is_given(const double tensor[9], int component)
+{
+    return !isnan(tensor[component]);
+}
+
+/// What is wrong with the prescribed components of a deform stage, and under which key; NULL: nothing.
+static const char *wrong_components(const scree_config_stage *stage, int dimension, scree_boundary_kind kind,
+                                    const char **key)
+{
+    const double *full = stage->velocity_gradient, *symmetric = stage->strain_rate;
+    double largest = 0;
+    for (int c = 0; c < 9; c++) {
+        int mirror = 3 * (c % 3) + c / 3;
+        bool outside = c / 3 >= dimension || c % 3 >= dimension;
+        *key = is_given(full, c) ? "velocity_gradient" : "strain_rate";
+        if (outside && (is_given(full, c) || is_given(symmetric, c))) return "there is no z in two dimensions";
+        if (is_given(symmetric, c) && (is_given(full, c) || is_given(full, mirror)))
+            return "a component is prescribed twice, by velocity_gradient and by strain_rate";
+        if (kind == SCREE_BOUNDARY_MINIMAL && c != mirror && is_given(full, c) && !is_given(full, mirror))
+            return "a rigid rotation would satisfy one component beside the diagonal without any strain: give its "
+                   "mirror too (0 for simple shear), or the strain_rate";
+        *key = "stress";
+        if (is_given(stage->stress, c)) {
+            if (kind != SCREE_BOUNDARY_PERIODIC) return "only a periodic cell can hold stresses: set boundary.periodic";
+            if (outside) return "there is no z in two dimensions";
+            if (is_given(full, c) || is_given(symmetric, c))
+                return "the same component has a rate: give one of the two";
+        }
+        *key = "velocity_gradient";
+        if (kind == SCREE_BOUNDARY_AFFINE && !outside && !is_given(full, c))
+            return "affine moves every body of the boundary: all components must be given";
+        if (is_given(full, c)) largest = fmax(largest, fabs(full[c]));
+        if (is_given(symmetric, c)) largest = fmax(largest, fabs(symmetric[c]));
+    }
+    *key = "strain";
+    return largest > 0 ? NULL : "no component of velocity_gradient or strain_rate moves, so it is never reached";
+}
+
+void scree_rules_check_boundaries(scree_reader *reader, const scree_config *config)
+{
+    scree_boundary_kind before = SCREE_BOUNDARY_AUTO;
+    for (int64_t i = 0; i < config->stage_count; i++)
+        if (config->stages[i].kind < 0 || config->stages[i].boundary < 0) return; // wrong, and noted
+    if (config->boundary.lateral < 0 || config->boundary.periodic < 0) return;
+    check_periodic(reader, config);
+    for (int64_t i = 0; i < config->stage_count; i++) {
+        const scree_config_stage *stage = &config->stages[i];
+        scree_boundary_kind kind = scree_config_boundary_of(config, i);
+        if (stage->kind == SCREE_STAGE_PREPARE && !is_periodic(kind)) continue;
+        const char *key = "boundary", *wrong = is_periodic(kind) ? wrong_in_cell(config, stage, &key)
+                                                                 : wrong_boundary(config, stage->kind, kind);
+        if (!wrong && before != SCREE_BOUNDARY_AUTO) wrong = wrong_order(kind, before);
+        if (!wrong && stage->kind == SCREE_STAGE_DEFORM)
+            wrong = wrong_components(stage, (int)config->dimension, kind, &key);
+        if (wrong) refuse(reader, i, key, wrong);
+        before = kind;
+    }
+}

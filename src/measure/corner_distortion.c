@@ -1,0 +1,76 @@
+/// Distortion of the corners of a sample under minimal kinematic conditions (P fig. 3.13): corners that deform more
+/// than the rest lose their shape.
+///
+/// The displacements since the begin of loading are compared with the affine field that fits all grains best
+/// (fluctuations.c). A corner is the grains that were within REACH mean diameters of a corner of the box around all
+/// centres; its distortion is the length of the mean of their non-affine displacements. The largest of the four over
+/// the width of that box is given: samples of different sizes that deform alike have the same number, whatever their
+/// number of grains. Cost: O(grains).
+#include "measure/measure.h"
+
+#include <math.h>
+
+#define REACH 4.0
+
+/// Columns of one allocation: places at the begin and now, non-affine displacements.
+typedef struct columns {
+    double *x0, *y0, *x1, *y1, *fx, *fy;
+    size_t count;
+} columns;
+
+static void fill(const scree_state *state, columns *c)
+{
+    for (size_t id = 0; id < c->count; id++) {
+        size_t row = state->row_of_id[id];
+        c->x0[id] = state->reference[row][0];
+        c->y0[id] = state->reference[row][1];
+        c->x1[id] = state->row[row].x;
+        c->y1[id] = state->row[row].y;
+    }
+}
+
+static void find_range(const double *values, size_t count, double range[2])
+{
+    range[0] = INFINITY;
+    range[1] = -INFINITY;
+    for (size_t k = 0; k < count; k++) {
+        range[0] = fmin(range[0], values[k]);
+        range[1] = fmax(range[1], values[k]);
+    }
+}
+
+/// Length of the mean non-affine displacement around one corner; 0 when no grain is near.
+static double corner_motion(const columns *c, double x, double y, double reach)
+{
+    double sum_x = 0, sum_y = 0;
+    size_t near = 0;
+    for (size_t k = 0; k < c->count; k++) {
+        double dx = c->x0[k] - x, dy = c->y0[k] - y;
+        if (dx * dx + dy * dy > reach * reach) continue;
+        sum_x += c->fx[k];
+        sum_y += c->fy[k];
+        near++;
+    }
+    return near > 0 ? hypot(sum_x, sum_y) / (double)near : 0;
+}
+
+scree_status scree_corner_distortion(const scree_model *model, const scree_state *state, double *distortion,
+                                     scree_error *error)
+{
+    *distortion = NAN;
+    if (state->dimension != 2) return SCREE_OK;
+    size_t n = state->grains;
+    double *room = NULL, gradient[4], x[2], y[2], largest = 0;
+    scree_status status = scree_allocate(&room, 6 * n, sizeof *room, error);
+    if (status) return status;
+    columns c = {room, room + n, room + 2 * n, room + 3 * n, room + 4 * n, room + 5 * n, n};
+    fill(state, &c);
+    (void)scree_fluctuations(c.x0, c.y0, c.x1, c.y1, n, c.fx, c.fy, gradient);
+    find_range(c.x0, n, x);
+    find_range(c.y0, n, y);
+    for (int k = 0; k < 4; k++)
+        largest = fmax(largest, corner_motion(&c, x[k % 2], y[k / 2], REACH * 2 * model->mean_radius));
+    *distortion = largest / (x[1] - x[0]);
+    scree_release(&room);
+    return SCREE_OK;
+}

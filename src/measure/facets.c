@@ -1,0 +1,73 @@
+/// Facets of the boundary: see facets.h. Cost: O(length of the loop), O(triangles of the hull).
+#include "measure/facets.h"
+
+size_t scree_boundary_count(const scree_state *state)
+{
+    return state->dimension == 3 ? state->hull.node_count : state->loop.count;
+}
+
+size_t scree_boundary_row(const scree_state *state, size_t node)
+{
+    return state->row_of_id[state->dimension == 3 ? state->hull.id[node] : state->loop.id[node]];
+}
+
+size_t scree_facet_count(const scree_state *state)
+{
+    return state->dimension == 3 ? state->hull.triangle_count : state->loop.count;
+}
+
+scree_facet scree_facet_get(const scree_state *state, size_t index)
+{
+    scree_facet facet = {.corners = state->dimension};
+    scree_vector origin;
+    scree_body_place(state, scree_boundary_row(state, 0), origin);
+    for (int c = 0; c < facet.corners; c++) {
+        size_t next = index + (size_t)c < state->loop.count ? index + (size_t)c : 0;
+        facet.node[c] = state->dimension == 3 ? state->hull.triangle[index][c] : next;
+        scree_body_place(state, scree_boundary_row(state, facet.node[c]), facet.place[c]);
+        for (int i = 0; i < 3; i++) facet.place[c][i] -= origin[i];
+    }
+    return facet;
+}
+
+/// Share of each corner in the area vector of the facet [m2].
+static void corner_area(const scree_model *model, const scree_facet *facet, scree_vector area)
+{
+    const double *a = facet->place[0], *b = facet->place[1], *c = facet->place[2];
+    if (facet->corners == 2) {
+        area[0] = 0.5 * model->thickness * (b[1] - a[1]);
+        area[1] = -0.5 * model->thickness * (b[0] - a[0]);
+        area[2] = 0;
+        return;
+    }
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        area[i] = ((b[j] - a[j]) * (c[k] - a[k]) - (b[k] - a[k]) * (c[j] - a[j])) / 6;
+    }
+}
+
+void scree_boundary_areas(const scree_model *model, const scree_state *state, scree_vector *area)
+{
+    for (size_t k = 0; k < scree_boundary_count(state); k++) area[k][0] = area[k][1] = area[k][2] = 0;
+    for (size_t f = 0; f < scree_facet_count(state); f++) {
+        scree_facet facet = scree_facet_get(state, f);
+        scree_vector share;
+        corner_area(model, &facet, share);
+        for (int c = 0; c < facet.corners; c++)
+            for (int i = 0; i < 3; i++) area[facet.node[c]][i] += share[i];
+    }
+}
+
+double scree_boundary_volume(const scree_model *model, const scree_state *state)
+{
+    double volume = 0;
+    // (1/d) sum x . a over the corners of all facets.
+    for (size_t f = 0; f < scree_facet_count(state); f++) {
+        scree_facet facet = scree_facet_get(state, f);
+        scree_vector share;
+        corner_area(model, &facet, share);
+        for (int c = 0; c < facet.corners; c++)
+            for (int i = 0; i < state->dimension; i++) volume += facet.place[c][i] * share[i] / state->dimension;
+    }
+    return volume;
+}

@@ -1,0 +1,33 @@
+/// The boundary of the assembly as a closed surface of facets with linear interpolation (P 3.1-3.3): edges of the
+/// Delaunay loop in 2D, triangles of the hull in 3D. Its nodes are bodies; one description for both dimensions.
+///
+/// Each node has an area vector a = integral of its interpolation function times the outward normal. Then, for any
+/// velocities v of the nodes,
+///     mean velocity gradient L = (1/V) sum v (x) a,     sum a = 0,     sum x (x) a = V times the unit tensor,
+/// and forces f = S a of a uniform stress S have the power sum f . v = V S : L, exactly.
+#ifndef SCREE_MEASURE_FACETS_H
+#define SCREE_MEASURE_FACETS_H
+
+#include "state/state.h"
+
+/// Number of nodes, and the row of one of them. Loop and hull list them in an order that does not depend on rows.
+size_t scree_boundary_count(const scree_state *state);
+size_t scree_boundary_row(const scree_state *state, size_t node);
+
+/// One facet: its nodes, in 2D counter-clockwise with the sample on the left, in 3D counter-clockwise from outside.
+typedef struct scree_facet {
+    size_t node[3];
+    scree_vector place[3]; ///< m, relative to the first node of the boundary
+    int corners;           ///< 2 in 2D, 3 in 3D
+} scree_facet;
+
+size_t scree_facet_count(const scree_state *state);
+scree_facet scree_facet_get(const scree_state *state, size_t index);
+
+/// Area vectors of all nodes [m2] (in 2D length times thickness); `area` has one element a node.
+void scree_boundary_areas(const scree_model *model, const scree_state *state, scree_vector *area);
+
+/// Volume inside [m3].
+double scree_boundary_volume(const scree_model *model, const scree_state *state);
+
+#endif

@@ -1,0 +1,79 @@
+/// What loading stages share: the numbers that they begin with, a rate that rises smoothly, the plan of samples.
+///
+/// The rate rises as the smooth step 3 f^2 - 2 f^3 of the fraction f of the rise time T, whose integral T (f^3 - f^4/2)
+/// loses half a rise time in the end.
+#include "boundary/minimal.h"
+#include "measure/measure.h"
+#include "run/simulation.h"
+
+#include <math.h>
+#include <string.h>
+
+#define RISE_WAVES 4.0
+/// A stage that takes this many times as long as planned does not follow its rate.
+#define LATE 2.0
+
+/// Distance between the plates; without them the extent of the bodies along the axis.
+static double present_height(const scree_state *state)
+{
+    const scree_wall *bottom = &state->wall[SCREE_WALL_BOTTOM], *top = &state->wall[SCREE_WALL_TOP];
+    if (bottom->active && top->active) return -(bottom->position + top->position);
+    double low = INFINITY, high = -INFINITY;
+    scree_vector place;
+    for (size_t id = 0; id < state->grains; id++) {
+        size_t row = state->row_of_id[id];
+        scree_body_place(state, row, place);
+        low = fmin(low, place[state->dimension - 1] - state->row[row].radius);
+        high = fmax(high, place[state->dimension - 1] + state->row[row].radius);
+    }
+    return high - low;
+}
+
+void scree_loading_begin(scree_simulation *s)
+{
+    scree_state *state = &s->state;
+    double *reference = state->stage.reference;
+    reference[SCREE_LOADING_HEIGHT] = present_height(state);
+    reference[SCREE_LOADING_WAVE] = scree_sample_wave_time(&s->model, state, state->pressure);
+    scree_strain_measure(state, &reference[SCREE_LOADING_STRAIN]);
+    scree_servo sides = scree_servo_for(&s->model, state, SCREE_WALL_LEFT, state->pressure);
+    reference[SCREE_LOADING_SIDES] = sides.impedance;
+    reference[SCREE_LOADING_SIDES + 1] = sides.mass;
+    for (size_t row = 0; row < state->count; row++) scree_body_place(state, row, state->reference[row]);
+    if (state->angle) memset(state->angle, 0, state->count * sizeof *state->angle);
+}
+
+scree_stage_plan scree_loading_plan(const scree_simulation *s, double time)
+{
+    const scree_config_stage *stage = scree_stage_config(s);
+    const double *reference = s->state.stage.reference;
+    // Without a confining pressure there is no wave time; a tenth of the loading is slow enough for anything.
+    double rise = fmin(RISE_WAVES * reference[SCREE_LOADING_WAVE], 0.1 * time);
+    if (!isnan(stage->rise_time)) rise = stage->rise_time;
+    uint64_t expected = (uint64_t)ceil((time + 0.5 * rise) / s->state.step_size);
+    uint64_t interval = expected / (uint64_t)s->model.config->measure.samples;
+    return (scree_stage_plan){
+        .interval = interval > 0 ? interval : 1,
+        .expected = expected,
+        .ramp_time = rise,
+        .sides = {.impedance = reference[SCREE_LOADING_SIDES], .mass = reference[SCREE_LOADING_SIDES + 1]}};
+}
+
+double scree_loading_rise(const scree_simulation *s, double *loaded)
+{
+    double elapsed = (double)(s->state.step - s->state.stage.first_step) * s->state.step_size;
+    double rise = s->plan.ramp_time, fraction = rise > 0 ? fmin(1, elapsed / rise) : 1;
+    *loaded = rise * fraction * fraction * fraction * (1 - 0.5 * fraction) + fmax(0, elapsed - rise);
+    return rise > 0 ? scree_smooth_ramp(elapsed / rise) : 1;
+}
+
+scree_status scree_loading_check(const scree_simulation *s, scree_error *error)
+{
+    uint64_t done = s->state.step - s->state.stage.first_step;
+    if ((double)done < LATE * (double)s->plan.expected) return SCREE_OK;
+    return scree_error_set(
+        error, SCREE_ERROR_GUARD,
+        "stage %lld (%s): strain %.4g after %.2g times the planned time: the boundary does not follow "
+        "the imposed rate; try a larger boundary.penalty",
+        (long long)s->state.stage.index, s->stage->name, scree_loading_strain(s), LATE);
+}

@@ -1,0 +1,337 @@
+/// Membrane around a plane sample: placement, pressure, chain, ends, what it is left out of.
+#include "testing.h"
+
+#include "base/random.h"
+#include "boundary/boundary.h"
+#include "boundary/membrane.h"
+#include "boundary/pressure.h"
+#include "measure/measure.h"
+#include "measure/outline.h"
+#include "search/neighbours.h"
+
+#include <math.h>
+#include <string.h>
+
+#define THICKNESS 1.5e-3
+#define RADIUS    0.75e-3
+#define PRESSURE  1e5
+#define QUANTUM   0x1p-50
+#define STEP      1e-5
+
+enum { COLUMNS = 8, ROWS = 14 };
+
+typedef struct bench {
+    scree_config config;
+    scree_model model;
+    scree_state state;
+    scree_work work;
+} bench;
+
+static double uniform(uint64_t counter)
+{
+    return scree_random_uniform(5, SCREE_RANDOM_TEST, counter);
+}
+
+static void bench_create(bench *b)
+{
+    memset(b, 0, sizeof *b);
+    b->config.boundary.every = 1000;
+    b->config.boundary.gap_limit = 0.5;
+    b->config.boundary.servo_gain = 1;
+    b->config.guard.overlap = 0.2;
+    b->model = (scree_model){.dimension = 2,
+                             .thickness = THICKNESS,
+                             .law = SCREE_LAW_HERTZ_MINDLIN,
+                             .scheme = SCREE_SCHEME_POSITION_VERLET,
+                             .mean_radius = RADIUS,
+                             .radius_min = 0.7 * RADIUS,
+                             .radius_max = RADIUS,
+                             .membrane = true,
+                             .membrane_material = 1,
+                             .membrane_radius = 1.25 * RADIUS,
+                             .membrane_stiffness = 1e4,
+                             .material_count = 1,
+                             .density = {2.675e8, 2.675e8},
+                             .config = &b->config};
+    for (int k = 0; k < 4; k++)
+        b->model.pairs[k / 2][k % 2] = (scree_pair_constants){
+            .normal_stiffness = 2e10, .tangential_stiffness = 2e10, .friction = k == 0 ? 0.45 : 0, .damping = 1};
+    b->model.walls[0] = b->model.pairs[0][0];
+    b->model.walls[1] = b->model.pairs[1][1];
+    assert_int_equal(scree_state_create(&b->state, 2, COLUMNS * ROWS, NULL), SCREE_OK);
+    scree_state *state = &b->state;
+    state->force_quantum = QUANTUM;
+    state->step_size = STEP;
+    double low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < state->count; i++) {
+        scree_row *row = &state->row[i];
+        row->radius = RADIUS * (0.7 + 0.3 * uniform(4 * i));
+        row->x = 2 * RADIUS * ((double)(i % COLUMNS) + 0.1 * uniform(4 * i + 1) + (i / COLUMNS % 2 ? 0.4 : 0));
+        row->y = 2 * RADIUS * ((double)(i / COLUMNS) + 0.1 * uniform(4 * i + 2));
+        row->mass = scree_model_mass(&b->model, 0, row->radius);
+        low = fmin(low, row->y - row->radius);
+        high = fmax(high, row->y + row->radius);
+    }
+    state->wall[SCREE_WALL_BOTTOM] = (scree_wall){.position = low, .normal = {0, 1}, .active = 1};
+    state->wall[SCREE_WALL_TOP] = (scree_wall){.position = -high, .normal = {0, -1}, .active = 1};
+    state->wall[SCREE_WALL_LEFT].normal[0] = 1;
+    state->wall[SCREE_WALL_RIGHT].normal[0] = -1;
+    assert_int_equal(scree_membrane_place(&b->model, state, NULL), SCREE_OK);
+    state->membrane.share = 1;
+    state->pressure = PRESSURE;
+}
+
+static scree_row *member(bench *b, size_t k)
+{
+    return &b->state.row[scree_membrane_row(&b->state, k)];
+}
+
+static void forces(bench *b)
+{
+    memset(b->state.sum, 0, b->state.count * sizeof *b->state.sum);
+    scree_boundary_get(SCREE_BOUNDARY_MEMBRANE)->forces(&b->model, &b->state, &b->work);
+}
+
+static void it_touches_and_does_not_press(void **unused)
+{
+    (void)unused;
+    bench b;
+    bench_create(&b);
+    scree_state *state = &b.state;
+    size_t count = state->membrane.count, side = state->membrane.right;
+    assert_int_equal(state->grains, COLUMNS * ROWS);
+    assert_int_equal(state->count, state->grains + count);
+    assert_int_equal(count, 2 * side);
+    size_t touching = 0;
+    for (size_t k = 0; k < count; k++) {
+        const scree_row *m = member(&b, k);
+        double gap = INFINITY;
+        for (size_t i = 0; i < state->count; i++) {
+            const scree_row *g = &state->row[i];
+            if (!scree_body_is_grain(state, i)) continue;
+            gap = fmin(gap, hypot(m->x - g->x, m->y - g->y) - m->radius - g->radius);
+            // Every grain lies inside of the discs at its height.
+            if (fabs(g->y - m->y) < g->radius) assert_true(k < side ? g->x < m->x : g->x > m->x);
+        }
+        assert_true(gap > -1e-15); // round-off of 0.02 m
+        touching += gap < 1e-15;
+        assert_true(m->material == 1 && m->mass > 0 && m->radius == 1.25 * RADIUS);
+        bool last = k + 1 == side || k + 1 == count;
+        double rest = last ? 0 : hypot(member(&b, k + 1)->x - m->x, member(&b, k + 1)->y - m->y);
+        assert_true(fabs(state->membrane.rest[k] - rest) < 1e-15);
+    }
+    assert_true(touching > count * 3 / 4);
+    double bottom = state->wall[SCREE_WALL_BOTTOM].position, top = -state->wall[SCREE_WALL_TOP].position;
+    for (size_t k = 0; k < count; k += side) {
+        bool right = k == 0;
+        assert_true(fabs(member(&b, k)->y - (right ? bottom + 1.25 * RADIUS : top - 1.25 * RADIUS)) < 1e-15);
+        assert_true(fabs(member(&b, k + side - 1)->y - (right ? top - 1.25 * RADIUS : bottom + 1.25 * RADIUS)) < 1e-15);
+    }
+    assert_true(scree_membrane_energy(&b.model, state) < 1e-20);
+    scree_state_destroy(state);
+}
+
+static void both_sides_press_alike(void **unused)
+{
+    (void)unused;
+    bench b;
+    bench_create(&b);
+    scree_state *state = &b.state;
+    for (size_t k = 0; k < state->membrane.count; k++) member(&b, k)->x += 1e-4 * uniform(1000 + k);
+    forces(&b);
+    double height = -(state->wall[SCREE_WALL_BOTTOM].position + state->wall[SCREE_WALL_TOP].position);
+    int64_t side[2] = {0};
+    double pressure = 0, chain_x = 0;
+    for (size_t k = 0; k < state->membrane.count; k++) {
+        side[k >= state->membrane.right] += state->sum[scree_membrane_row(state, k)].fx;
+        pressure += k < state->membrane.right ? state->membrane.press[k][0] : 0;
+        chain_x += state->membrane.force[k][0];
+    }
+    assert_true(side[0] < 0 && side[0] + side[1] == 0);
+    // Rounding of some ten forces to a quantum, and of the products.
+    double expected = PRESSURE * height * THICKNESS;
+    assert_true(fabs((double)side[0] * QUANTUM + expected) < 1e-12 * expected);
+    assert_true(fabs(pressure + expected) < 1e-12 * expected);
+    assert_true(fabs(chain_x) < 1e-12 * expected);
+    state->membrane.share = 0.5;
+    assert_true(fabs(scree_direct_pressure(state) - 0.5 * PRESSURE) < 1e-9);
+    scree_state_destroy(state);
+}
+
+/// Free discs of a chain that is pulled: the work is what the energy loses, and momentum along the plates is constant.
+static void the_chain_stores_what_it_takes(void **unused)
+{
+    (void)unused;
+    bench b;
+    bench_create(&b);
+    scree_state *state = &b.state;
+    const scree_boundary *membrane = scree_boundary_get(SCREE_BOUNDARY_MEMBRANE);
+    state->pressure = 0;
+    for (size_t k = 0; k < state->membrane.count; k++) {
+        member(&b, k)->x += 2e-4 * uniform(1000 + k);
+        member(&b, k)->vx = 0.02 * uniform(2000 + k);
+    }
+    double begin = scree_membrane_energy(&b.model, state), momentum = 0, after = 0, scale = 0, change = 0;
+    for (size_t k = 0; k < state->membrane.count; k++) momentum += member(&b, k)->mass * member(&b, k)->vx;
+    forces(&b);
+    state->ledger = (scree_ledger){0};
+    for (int step = 0; step < 400; step++) {
+        for (size_t k = 0; k < state->membrane.count; k++) {
+            scree_row *row = member(&b, k);
+            const scree_sum_row *sum = &state->sum[scree_membrane_row(state, k)];
+            row->vx += STEP * (double)sum->fx * QUANTUM / row->mass;
+            row->vy += STEP * (double)sum->fy * QUANTUM / row->mass;
+            row->x += STEP * row->vx;
+            row->y += STEP * row->vy;
+        }
+        membrane->work(state);
+        forces(&b);
+        change = fmax(change, fabs(scree_membrane_energy(&b.model, state) - begin));
+    }
+    for (size_t k = 0; k < state->membrane.count; k++) {
+        after += member(&b, k)->mass * member(&b, k)->vx;
+        scale += fabs(member(&b, k)->mass * member(&b, k)->vx);
+    }
+    // Rounding of 400 kicks.
+    assert_true(fabs(after - momentum) < 1e-12 * scale);
+    // The trapezoidal rule along straight segments that turn and fall slack: second order in omega dt = 2e-3.
+    double stored = scree_membrane_energy(&b.model, state) - begin;
+    assert_true(change > 0.1 * begin && begin > 0);
+    assert_true(fabs(stored + state->ledger.boundary) < 1e-4 * begin);
+    // Slack: all on one point along the plates.
+    for (size_t k = 0; k < state->membrane.count; k++) {
+        member(&b, k)->x = k < state->membrane.right ? 1 : 0;
+        member(&b, k)->y *= 0.5;
+    }
+    assert_true(scree_membrane_energy(&b.model, state) < 1e-20);
+    scree_state_destroy(state);
+}
+
+static void ends_move_with_the_plates(void **unused)
+{
+    (void)unused;
+    bench b;
+    bench_create(&b);
+    scree_state *state = &b.state;
+    state->wall[SCREE_WALL_BOTTOM].velocity = 3e-3;
+    state->wall[SCREE_WALL_TOP].velocity = 1e-3;
+    forces(&b);
+    size_t side = state->membrane.right, end[4] = {0, side - 1, side, 2 * side - 1};
+    for (int e = 0; e < 4; e++) {
+        const scree_row *row = member(&b, end[e]);
+        const scree_sum_row *sum = &state->sum[scree_membrane_row(state, end[e])];
+        double after = row->vy + STEP * (double)sum->fy * QUANTUM / row->mass;
+        double wanted = e == 0 || e == 3 ? 3e-3 : -1e-3;
+        assert_true(fabs(after - wanted) < 1e-15);
+        // Free along the plate; the chain is not stretched but for round-off.
+        assert_true(fabs(state->membrane.force[end[e]][0]) < 1e-12);
+    }
+    scree_state_destroy(state);
+}
+
+/// Discs of the membrane do not touch each other, and measures of the assembly leave them out.
+static void it_is_no_part_of_the_assembly(void **unused)
+{
+    (void)unused;
+    bench b;
+    bench_create(&b);
+    scree_state *state = &b.state;
+    scree_error error;
+    assert_int_equal(scree_work_create(&b.work, &b.model, 1, &error), SCREE_OK);
+    // Pushed together and inwards: they overlap each other and the grains.
+    for (size_t k = 0; k < state->membrane.count; k++) {
+        member(&b, k)->x += k < state->membrane.right ? -2e-6 : 2e-6;
+        member(&b, k)->y *= 0.9999;
+    }
+    assert_int_equal(scree_neighbours_refresh(&b.model, state, &b.work, &error), SCREE_OK);
+    size_t mixed = 0;
+    for (size_t k = 0; k < b.work.pairs.count; k++) {
+        bool first = scree_body_is_grain(state, b.work.pairs.first[k]);
+        bool second = scree_body_is_grain(state, b.work.pairs.second[k]);
+        assert_true(first || second);
+        mixed += first != second;
+    }
+    assert_true(mixed > 0);
+    scree_contact_set_quanta(&b.model, state, 1);
+    scree_contact_forces(&b.model, state, &b.work);
+    scree_contact_table table = {0};
+    assert_int_equal(scree_contact_table_build(&b.model, state, &b.work, &table, &error), SCREE_OK);
+    scree_coordination coordination;
+    assert_int_equal(scree_coordination_measure(&b.model, state, &table, &coordination, &error), SCREE_OK);
+    double contacts = 0, slip, sliding, stress[9], other[9];
+    size_t outer = 0, inner = 0;
+    double inner_slip = 0;
+    for (size_t c = 0; c < table.count; c++) {
+        const scree_contact *contact = &table.contact[c];
+        if (!scree_body_is_grain(state, contact->first)) continue; // an end and its plate
+        assert_true(contact->membrane == (!contact->wall && !scree_body_is_grain(state, contact->second)));
+        if (contact->membrane) assert_true(contact->tangential_force == 0 && contact->normal_force > 0);
+        contacts += scree_contact_is_outer(contact) ? 1 : 2;
+        outer += contact->membrane;
+        if (scree_contact_is_outer(contact)) continue;
+        inner++;
+        inner_slip += fabs(contact->slip);
+    }
+    assert_true(outer > 5);
+    assert_true(fabs(coordination.mean - contacts / (COLUMNS * ROWS)) < 1e-12);
+    assert_true(coordination.rattler_fraction >= 0 && coordination.rattler_fraction <= 1);
+    scree_slip_measure(&table, &slip, &sliding);
+    assert_true(inner > 0 && fabs(slip - inner_slip / (double)inner) <= 1e-12 * slip);
+    // The identity of stress.c, membrane included: contacts = boundary - (1/V) sum of resultants times places.
+    assert_int_equal(scree_boundary_refresh(&b.model, state, &error), SCREE_OK);
+    double centre[2], volume = scree_outline_area(state, centre) * THICKNESS;
+    scree_stress_from_contacts(&table, volume, stress);
+    scree_stress_from_boundary(&b.model, state, &table, other);
+    for (size_t k = 0; k < state->count; k++) {
+        if (!scree_body_is_grain(state, k)) continue;
+        const double force[2] = {(double)state->sum[k].fx, (double)state->sum[k].fy};
+        const double place[2] = {state->row[k].x - centre[0], state->row[k].y - centre[1]};
+        for (int i = 0; i < 4; i++)
+            other[3 * (i / 2) + i % 2] -= force[i / 2] * state->force_quantum * place[i % 2] / volume;
+    }
+    // Round-off of a few hundred contacts of 1e5 Pa and more, and half a quantum of 1e-11 of the largest force each.
+    for (int i = 0; i < 9; i++) assert_true(fabs(stress[i] - other[i]) < 1e-9 * fabs(stress[0]));
+    assert_true(stress[0] < 0);
+    scree_contact_table_destroy(&table);
+    scree_contact_scratch_destroy(&b.work);
+    scree_work_destroy(&b.work);
+    scree_state_destroy(state);
+}
+
+static void failures_leave_the_state(void **unused)
+{
+    (void)unused;
+    bench b;
+    bench_create(&b);
+    scree_state state;
+    assert_int_equal(scree_state_create(&state, 2, 4, NULL), SCREE_OK);
+    state.wall[SCREE_WALL_TOP] = (scree_wall){.position = -0.05, .normal = {0, -1}, .active = 1};
+    state.wall[SCREE_WALL_BOTTOM] = (scree_wall){.normal = {0, 1}, .active = 1};
+    for (size_t k = 0; k < 4; k++) state.row[k] = (scree_row){.y = 0.01 * (double)(k + 1), .radius = 1e-3, .mass = 1};
+    uint64_t before = scree_state_checksum(&state);
+    bool failed = true;
+    for (uint64_t n = 1; failed; n++) {
+        scree_error error;
+        scree_allocation_fail_after(n);
+        failed = scree_membrane_place(&b.model, &state, &error) != SCREE_OK;
+        scree_allocation_fail_after(0);
+        if (failed) assert_true(scree_state_checksum(&state) == before && error.status == SCREE_ERROR_IO);
+    }
+    assert_true(state.membrane.count > 20);
+    scree_state_destroy(&state);
+    // Plates too close.
+    b.state.wall[SCREE_WALL_TOP].position = -b.state.wall[SCREE_WALL_BOTTOM].position - 3 * RADIUS;
+    scree_error error;
+    assert_int_equal(scree_membrane_place(&b.model, &b.state, &error), SCREE_ERROR_GUARD);
+    scree_state_destroy(&b.state);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(it_touches_and_does_not_press),  cmocka_unit_test(both_sides_press_alike),
+        cmocka_unit_test(the_chain_stores_what_it_takes), cmocka_unit_test(ends_move_with_the_plates),
+        cmocka_unit_test(it_is_no_part_of_the_assembly),  cmocka_unit_test(failures_leave_the_state),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
