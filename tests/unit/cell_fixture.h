@@ -60,7 +60,6 @@ static inline void cell_create(cell_sample *s, int dimension, size_t count, cons
     memcpy(s->state.cell.lattice, lattice, sizeof s->state.cell.lattice);
     memcpy(s->state.cell.reference, lattice, sizeof s->state.cell.reference);
     cell_check(scree_work_create(&s->work, &s->model, 1, &error), &error);
-    s->work.ledger = dimension == 2;
 }
 
 static inline void cell_destroy(cell_sample *s)

@@ -212,7 +212,7 @@ static void energy_balance_closes(void **unused)
 {
     (void)unused;
     const double flows[3][9] = {{0, 300, 0}, {-100, 0, 0, 0, 60}, {20, 150, 0, -90, -50, 40, 30, 0, 10}};
-    for (int dimension = 2; dimension <= 2; dimension++)
+    for (int dimension = 2; dimension <= 3; dimension++)
         for (int flow = 0; flow < 3; flow++)
             for (int scheme = 0; scheme < 2; scheme++) {
                 double gradient[9];
@@ -332,7 +332,6 @@ static uint64_t flow_checksum(int dimension, int threads, int discard)
     scree_contact_scratch_destroy(&s.work);
     scree_work_destroy(&s.work);
     cell_check(scree_work_create(&s.work, &s.model, threads, &error), &error);
-    s.work.ledger = dimension == 2;
     for (int step = 1; step <= 600; step++) {
         cell_run(&s, gradient, 1);
         if (discard > 0 && step % discard == 0) scree_neighbours_invalidate(&s.work);

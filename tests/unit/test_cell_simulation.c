@@ -38,9 +38,9 @@ static const char case_text[] =
 /// A lattice in rapid flow: few steps, all stages, a lattice of the cell that is remapped.
 #define SHORT                                                                                                          \
     "particles.distribution=equal", "particles.radius=0.75 mm", "stages.prepare.method=hexagonal",                     \
-        "stages.prepare.width=10.5 mm", "stages.compress.rate=1 1/s", "stages.deform.velocity_gradient.xy=3 1/s",      \
-        "stages.deform.velocity_gradient.yx=-0.5 1/s", "stages.deform.strain=60 %"
-enum { OVERRIDES = 10 };
+        "stages.prepare.width=10.5 mm", "stages.compress.rate=1 1/s",                                                  \
+        "stages.deform.velocity_gradient={xy: 3 1/s, yx: -0.5 1/s}", "stages.deform.strain=60 %"
+enum { OVERRIDES = 9 };
 static const char *const combinations[3][OVERRIDES] = {
     {SHORT, "contact.law=hertz_mindlin", "integrator.scheme=velocity_verlet"},
     {SHORT, "contact.law=hertz_mindlin", "integrator.scheme=position_verlet"},
@@ -241,8 +241,8 @@ static void what_cannot_be_is_refused(void **unused)
     refuse("stages.prepare.method=drop_and_roll", "drop_and_roll needs side walls");
     refuse("boundary.periodic=x", "only a cell that is periodic in all directions can be deformed");
     refuse("boundary.periodic=xyz", "there is no z in two dimensions");
-    refuse("stages.deform.velocity_gradient.xz=1 1/s", "there is no z in two dimensions");
-    refuse("stages.deform.velocity_gradient.xx=1 1/s", "the same component has a rate");
+    refuse("stages.deform.velocity_gradient={xy: 1 1/s, xz: 1 1/s}", "there is no z in two dimensions");
+    refuse("stages.deform.velocity_gradient={xx: 1 1/s}", "the same component has a rate");
     refuse("gravity=[0, -9.81 m/s2]", "gravity has nothing to fall on");
 }
 
