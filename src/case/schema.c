@@ -273,6 +273,10 @@ static const scree_key measure_keys[] = {
     KEY(measure, windows, SCREE_KEY_PAIRS, .unit = "1", .standard = "[]", FROM("0 %"), TO("1000 %"),
         .count_offset = offsetof(measure, window_count), .element_size = sizeof(scree_config_window),
         .meaning = "Windows [from, to] of axial strain over which displacement fluctuations are taken."),
+    FLAG(measure, cells, .standard = "yes",
+         .meaning = "Fields of the Delaunay cells in snapshots; shear bands between them."),
+    NUMBER(measure, band_window, "1", .standard = "1 %", ABOVE("0 %"), TO("90 %"), .when = "cells=yes",
+           .meaning = "Shear bands are looked for between snapshots at least this far apart in axial strain."),
 };
 
 typedef scree_config_output output;

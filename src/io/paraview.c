@@ -5,10 +5,12 @@
 ///   boundary-000012.vtp  2D: a line an edge of the closed Delaunay boundary
 ///   hull-000012.vtp      3D: a triangle a face of the closed Delaunay hull
 ///   plates-000012.vtp    a line (3D: a quadrilateral) an active plate, as long as the sample
-///   cell-000012.vtp      the edges of the periodic cell, in a periodic run instead of boundary or hull
+///   lattice-000012.vtp   the edges of the periodic cell, in a periodic run instead of boundary or hull
+///   cells-000012.vtu     the Delaunay cells with their fields, when the snapshot has them
 ///   discs.pvd, ...       the collections of all snapshots with their times
 #include "io/paraview.h"
 
+#include "io/cell_file.h"
 #include "io/run_directory.h"
 #include "io/vtp.h"
 #include "state/cell.h"
@@ -26,6 +28,7 @@ typedef struct scene {
     const scree_model *model;
     const scree_state *state;
     const scree_contact_table *table;
+    const scree_cells *cells; ///< NULL: none
 } scene;
 
 // ---- the scenes ---------------------------------------------------------------------------------------------------
@@ -204,8 +207,8 @@ static scree_status build_plates(scree_vtp *vtp, const scene *from, scree_error 
     return status;
 }
 
-/// The edges of the cell, from the bottom to the top plate where it does not repeat.
-static scree_status build_cell(scree_vtp *vtp, const scene *from, scree_error *error)
+/// The edges of the periodic cell, from the bottom to the top plate where it does not repeat.
+static scree_status build_lattice(scree_vtp *vtp, const scene *from, scree_error *error)
 {
     const scree_state *state = from->state;
     scree_vector low, high, ends[2];
@@ -217,6 +220,43 @@ static scree_status build_cell(scree_vtp *vtp, const scene *from, scree_error *e
         scree_vtp_place(vtp, 2 * line, ends[0]);
         scree_vtp_place(vtp, 2 * line++ + 1, ends[1]);
     }
+    return status;
+}
+
+/// A tensor with all nine components, as ParaView wants it.
+static scree_status add_tensor(scree_vtp *vtp, const char *name, const char *unit, double (*value)[9], size_t count,
+                               scree_error *error)
+{
+    scree_array array = {.name = name, .rows = count, .components = 9, .unit = unit};
+    scree_status status = scree_array_allocate(&array, error);
+    if (status) return status;
+    memcpy(array.data, value, count * sizeof *value);
+    return scree_vtp_add(vtp, true, array, error);
+}
+
+static scree_status build_cells(scree_vtp *vtp, const scene *from, scree_error *error)
+{
+    const scree_state *state = from->state;
+    const scree_cells *cells = from->cells;
+    scree_status status = scree_vtu_create(vtp, state->count, cells->dimension, cells->count, error);
+    if (status) return status;
+    for (size_t id = 0; id < state->count; id++) {
+        scree_vector place;
+        scree_body_place(state, state->row_of_id[id], place);
+        scree_vtp_place(vtp, id, place);
+    }
+    for (size_t k = 0; k < cells->count; k++)
+        for (int n = 0; n <= cells->dimension; n++) scree_vtp_join(vtp, k, (size_t)n, cells->node[k][n]);
+    for (size_t k = 0; k < scree_cell_array_count() && !status; k++) {
+        scree_array array;
+        status = scree_cell_array(cells, k, &array, error);
+        if (!status && array.components == 1)
+            status = scree_vtp_add(vtp, true, array, error);
+        else
+            scree_array_destroy(&array);
+    }
+    if (!status) status = add_tensor(vtp, "velocity_gradient", "1/s", cells->gradient, cells->count, error);
+    if (!status) status = add_tensor(vtp, "stress", "Pa", cells->stress, cells->count, error);
     return status;
 }
 
@@ -234,8 +274,8 @@ static void copy_entries(FILE *old, FILE *file, const char *kind, int64_t index)
 }
 
 /// Renews KIND.pvd: entries of earlier snapshots stay, those from `index` on (before a restart) go.
-static scree_status renew_collection(const char *folder, const char *kind, int64_t index, double time,
-                                     scree_error *error)
+static scree_status renew_collection(const char *folder, const char *kind, const char *extension, int64_t index,
+                                     double time, scree_error *error)
 {
     char path[PATH_MAX], name[64];
     FILE *file;
@@ -249,7 +289,8 @@ static scree_status renew_collection(const char *folder, const char *kind, int64
         copy_entries(old, file, kind, index);
         (void)fclose(old);
     }
-    fprintf(file, "    <DataSet timestep=\"%.17g\" part=\"0\" file=\"%s-%06" PRId64 ".vtp\"/>\n", time, kind, index);
+    fprintf(file, "    <DataSet timestep=\"%.17g\" part=\"0\" file=\"%s-%06" PRId64 ".%s\"/>\n", time, kind, index,
+            extension);
     fputs("  </Collection>\n</VTKFile>\n", file);
     return scree_replace_finish(path, file, true, error);
 }
@@ -258,10 +299,11 @@ static scree_status write_scene(const scree_vtp *vtp, const char *folder, const 
                                 const scree_snapshot_info *info, scree_error *error)
 {
     char path[PATH_MAX], name[64];
-    (void)snprintf(name, sizeof name, "%s-%06" PRId64 ".vtp", kind, info->index);
+    const char *extension = vtp->types.data ? "vtu" : "vtp";
+    (void)snprintf(name, sizeof name, "%s-%06" PRId64 ".%s", kind, info->index, extension);
     scree_status status = scree_path_join(path, sizeof path, folder, name, error);
     if (!status) status = scree_vtp_write(vtp, path, info->time, error);
-    if (!status) status = renew_collection(folder, kind, info->index, info->time, error);
+    if (!status) status = renew_collection(folder, kind, extension, info->index, info->time, error);
     return status;
 }
 
@@ -279,14 +321,15 @@ scree_status scree_paraview_write(const char *directory, const scree_model *mode
         int only_dimension; ///< 0: both
     } scenes[] = {{"discs", build_bodies, 2},      {"spheres", build_bodies, 3}, {"contacts", build_contacts, 0},
                   {"boundary", build_boundary, 2}, {"hull", build_hull, 3},      {"plates", build_plates, 0},
-                  {"cell", build_cell, 0}};
-    const scene from = {model, state, table};
+                  {"lattice", build_lattice, 0},   {"cells", build_cells, 0}};
+    const scene from = {model, state, table, info->cells};
     for (size_t k = 0; k < sizeof scenes / sizeof *scenes && !status; k++) {
         if (scenes[k].only_dimension && scenes[k].only_dimension != state->dimension) continue;
+        if (scenes[k].build == build_cells && (!info->cells || info->cells->count == 0)) continue;
         scree_vtp vtp;
         // A cell has no boundary, and only a periodic sample has a cell.
         bool around = scenes[k].build == build_boundary || scenes[k].build == build_hull;
-        if (state->cell.periodic ? around : scenes[k].build == build_cell) continue;
+        if (state->cell.periodic ? around : scenes[k].build == build_lattice) continue;
         status = scenes[k].build(&vtp, &from, error);
         if (!status) status = write_scene(&vtp, folder, scenes[k].kind, info, error);
         scree_vtp_destroy(&vtp);

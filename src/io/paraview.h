@@ -6,8 +6,9 @@
 
 #include "io/snapshot.h"
 
-/// Writes paraview/discs-INDEX.vtp, contacts-, boundary-, plates-, and renews the collections; entries of snapshots
-/// from INDEX on that a run before a restart has left are dropped. Errors: SCREE_ERROR_IO.
+/// Writes paraview/discs-INDEX.vtp, contacts-, boundary-, plates-, with cells cells-INDEX.vtu, and renews the
+/// collections; entries of snapshots from INDEX on that a run before a restart has left are dropped. Errors:
+/// SCREE_ERROR_IO.
 scree_status scree_paraview_write(const char *directory, const scree_model *model, const scree_state *state,
                                   const scree_contact_table *table, const scree_snapshot_info *info,
                                   scree_error *error) SCREE_MUST_USE;

@@ -10,6 +10,8 @@
 #define SCREE_FILE_CASE       "case.yaml"
 #define SCREE_FILE_SUMMARY    "summary.json"
 #define SCREE_FILE_SERIES     "series.csv"
+#define SCREE_FILE_CELLS      "cells.csv"
+#define SCREE_FILE_BANDS      "bands.csv"
 #define SCREE_FILE_RUN        "run.h5"
 #define SCREE_FILE_LOG        "log.txt"
 #define SCREE_FOLDER_FIGURES  "figures"

@@ -3,6 +3,7 @@
 /// body and 100 a contact on disk; a few milliseconds for 5000 discs.
 #include "io/snapshot.h"
 
+#include "io/cell_file.h"
 #include "io/run_file.h"
 
 #include <limits.h>
@@ -69,6 +70,7 @@ scree_status scree_snapshot_write(const char *directory, const scree_model *mode
     write_bodies(&part, group, model, state);
     write_contacts(&part, group, state, table);
     write_members(&part, group, state);
+    if (info->cells) scree_cells_write(&part, group, info->cells);
     status = scree_hdf5_save(&part);
     const char *case_name = model->config && model->config->name ? model->config->name : "";
     return status ? status : scree_run_file_renew(directory, case_name, INT64_MAX, error);

@@ -5,7 +5,7 @@
 ///   /snapshots/000012/            attributes: step, dimension, time [s], stage, axial_strain, pressure [Pa]
 ///       position (n x 2), radius, velocity, spin, ... from the field table and io/array.h, in id order
 ///       contacts/ first, second (ids), normal, point, branch, normal_force, tangential_force, ...
-///       boundary/ id (the loop), loaded, ...; walls/ position, normal, force, ...
+///       boundary/ id (the loop), loaded, ...; walls/ position, normal, force, ...; cells/ (cell_file.h)
 ///   /checkpoints/000003/          everything in scree_state, bit for bit; attribute case_checksum
 /// Every dataset has the attributes `unit` and `description`; docs/output.md lists all of them.
 #ifndef SCREE_IO_SNAPSHOT_H
@@ -13,12 +13,14 @@
 
 #include "contact/contact.h"
 #include "integrate/integrate.h"
+#include "measure/cells.h"
 
 typedef struct scree_snapshot_info {
     int64_t index;       ///< running number, names the group
     double time;         ///< s
     double axial_strain; ///< NAN outside loading
     const char *stage;
+    const scree_cells *cells; ///< with all their fields; NULL: not written
 } scree_snapshot_info;
 
 /// Writes parts/snapshot-INDEX.h5 and renews run.h5's links.

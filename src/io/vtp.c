@@ -14,6 +14,9 @@
 #define BYTE_ORDER_NAME "BigEndian"
 #endif
 
+/// VTK's numbers of the kinds of cells of a grid.
+enum { VTK_TRIANGLE = 5, VTK_TETRA = 10 };
+
 // ---- building ----------------------------------------------------------------------------------------------------
 
 scree_status scree_vtp_create(scree_vtp *vtp, size_t points, scree_vtp_cells cells, size_t count, scree_error *error)
@@ -39,6 +42,20 @@ scree_status scree_vtp_create(scree_vtp *vtp, size_t points, scree_vtp_cells cel
     return SCREE_OK;
 }
 
+scree_status scree_vtu_create(scree_vtp *vtp, size_t points, int dimension, size_t count, scree_error *error)
+{
+    scree_vtp_cells cells = dimension == 3 ? SCREE_VTP_QUADRILATERALS : SCREE_VTP_TRIANGLES;
+    scree_status status = scree_vtp_create(vtp, points, cells, count, error);
+    if (status) return status;
+    vtp->types = (scree_array){.name = "types", .type = SCREE_FIELD_UINT8, .components = 1, .rows = count};
+    status = scree_array_allocate(&vtp->types, error);
+    if (status)
+        scree_vtp_destroy(vtp);
+    else if (count > 0)
+        memset(vtp->types.data, dimension == 3 ? VTK_TETRA : VTK_TRIANGLE, count);
+    return status;
+}
+
 void scree_vtp_join(scree_vtp *vtp, size_t cell, size_t corner, size_t point)
 {
     int64_t *connectivity = vtp->connectivity.data;
@@ -50,6 +67,7 @@ void scree_vtp_destroy(scree_vtp *vtp)
     scree_array_destroy(&vtp->points);
     scree_array_destroy(&vtp->connectivity);
     scree_array_destroy(&vtp->ends);
+    scree_array_destroy(&vtp->types);
     for (size_t k = 0; k < vtp->point_data_count; k++) scree_array_destroy(&vtp->point_data[k]);
     for (size_t k = 0; k < vtp->cell_data_count; k++) scree_array_destroy(&vtp->cell_data[k]);
     vtp->point_data_count = vtp->cell_data_count = 0;
@@ -151,24 +169,30 @@ static void write_head(FILE *file, const scree_vtp *vtp, double time)
     };
     const size_t count = vtp->ends.rows;
     const bool points = vtp->cells == SCREE_VTP_POINTS, lines = vtp->cells == SCREE_VTP_LINES;
-    const scree_array cells[] = {vtp->connectivity, vtp->ends};
+    const bool grid = vtp->types.data != NULL;
+    const char *kind = grid ? "UnstructuredGrid" : "PolyData";
+    const scree_array cells[] = {vtp->connectivity, vtp->ends, vtp->types};
     uint64_t offset = 0;
     fprintf(
         file,
         "<?xml version=\"1.0\"?>\n"
-        "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"" BYTE_ORDER_NAME "\" header_type=\"UInt64\">\n"
-        "  <PolyData>\n"
+        "<VTKFile type=\"%s\" version=\"1.0\" byte_order=\"" BYTE_ORDER_NAME "\" header_type=\"UInt64\">\n"
+        "  <%s>\n"
         "    <FieldData>\n"
         "      <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">%.17g</DataArray>\n"
         "    </FieldData>\n"
-        "    <Piece NumberOfPoints=\"%zu\" NumberOfVerts=\"%zu\" NumberOfLines=\"%zu\" NumberOfStrips=\"0\" "
-        "NumberOfPolys=\"%zu\">\n",
-        time, vtp->points.rows, points ? count : 0, lines ? count : 0, points || lines ? 0 : count);
+        "    <Piece NumberOfPoints=\"%zu\"",
+        kind, kind, time, vtp->points.rows);
+    if (grid)
+        fprintf(file, " NumberOfCells=\"%zu\">\n", count);
+    else
+        fprintf(file, " NumberOfVerts=\"%zu\" NumberOfLines=\"%zu\" NumberOfStrips=\"0\" NumberOfPolys=\"%zu\">\n",
+                points ? count : 0, lines ? count : 0, points || lines ? 0 : count);
     announce_section(file, "Points", &vtp->points, 1, &offset);
-    announce_section(file, sections[vtp->cells], cells, 2, &offset);
+    announce_section(file, grid ? "Cells" : sections[vtp->cells], cells, grid ? 3 : 2, &offset);
     announce_section(file, "PointData", vtp->point_data, vtp->point_data_count, &offset);
     announce_section(file, "CellData", vtp->cell_data, vtp->cell_data_count, &offset);
-    fputs("    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_", file);
+    fprintf(file, "    </Piece>\n  </%s>\n  <AppendedData encoding=\"raw\">\n_", kind);
 }
 
 static bool append(FILE *file, const scree_array *array)
@@ -185,6 +209,7 @@ scree_status scree_vtp_write(const scree_vtp *vtp, const char *path, double time
     if (status) return status;
     write_head(file, vtp, time);
     bool whole = append(file, &vtp->points) && append(file, &vtp->connectivity) && append(file, &vtp->ends);
+    if (vtp->types.data) whole = whole && append(file, &vtp->types);
     for (size_t k = 0; k < vtp->point_data_count && whole; k++) whole = append(file, &vtp->point_data[k]);
     for (size_t k = 0; k < vtp->cell_data_count && whole; k++) whole = append(file, &vtp->cell_data[k]);
     if (!whole) status = scree_error_set_errno(error, SCREE_ERROR_IO, "cannot write '%s'", path);

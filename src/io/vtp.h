@@ -1,6 +1,6 @@
-/// VTK's XML format for points, lines, triangles and quadrilaterals in space (.vtp), written without VTK: an XML head
-/// that says which arrays there are and at which byte they begin, and the arrays behind it as raw bytes, each after its
-/// length (UInt64) in bytes. Source: the VTK file formats,
+/// VTK's XML format for points, lines, triangles and quadrilaterals in space (.vtp), and for grids of triangles or
+/// tetrahedra (.vtu), written without VTK: an XML head that says which arrays there are and at which byte they begin,
+/// and the arrays behind it as raw bytes, each after its length (UInt64) in bytes. Source: the VTK file formats,
 /// https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
 #ifndef SCREE_IO_VTP_H
 #define SCREE_IO_VTP_H
@@ -14,19 +14,23 @@ typedef enum scree_vtp_cells {
     SCREE_VTP_POINTS = 1,
     SCREE_VTP_LINES = 2,
     SCREE_VTP_TRIANGLES = 3,
-    SCREE_VTP_QUADRILATERALS = 4
+    SCREE_VTP_QUADRILATERALS = 4 ///< in a grid: tetrahedra
 } scree_vtp_cells;
 
 typedef struct scree_vtp {
     scree_array points;             ///< x, y, z [m]
     scree_vtp_cells cells;          ///< what a cell is
     scree_array connectivity, ends; ///< points of all cells; index behind the last point of each cell
+    scree_array types;              ///< of grids: VTK's number of the kind of each cell; else no data
     scree_array point_data[SCREE_VTP_ARRAYS], cell_data[SCREE_VTP_ARRAYS];
     size_t point_data_count, cell_data_count;
 } scree_vtp;
 
 /// Points at the origin and `count` cells, the k-th of the c points from c k on. Errors: memory.
 scree_status scree_vtp_create(scree_vtp *vtp, size_t points, scree_vtp_cells cells, size_t count,
+                              scree_error *error) SCREE_MUST_USE;
+/// A grid of `count` triangles (dimension 2) or tetrahedra. Errors: memory.
+scree_status scree_vtu_create(scree_vtp *vtp, size_t points, int dimension, size_t count,
                               scree_error *error) SCREE_MUST_USE;
 void scree_vtp_destroy(scree_vtp *vtp);
 

@@ -83,10 +83,19 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
                                 .axial_strain = scree_loading_strain(s),
                                 .stage = s->stage->name};
     const scree_model *model = &s->stage_model;
-    scree_status status = scree_snapshot_write(recorder->directory, model, &s->state, &s->table, &info, error);
+    scree_cells cells = {0};
+    scree_status status = SCREE_OK;
+    if (s->model.config->measure.cells) {
+        status = scree_cells_measure(model, &s->state, &s->table, &cells, error);
+        // A few bodies, or bodies on a line, have no triangulation and so no cells.
+        if (!status) info.cells = &cells;
+        if (status == SCREE_ERROR_GUARD) status = SCREE_OK;
+    }
+    if (!status) status = scree_snapshot_write(recorder->directory, model, &s->state, &s->table, &info, error);
     if (!status && s->model.config->output.paraview)
         status = scree_paraview_write(recorder->directory, model, &s->state, &s->table, &info, error);
     if (!status) s->state.stage.snapshots++;
+    scree_cells_destroy(&cells);
     return status;
 }
 

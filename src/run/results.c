@@ -14,6 +14,7 @@
 #include "io/run_directory.h"
 #include "io/summary.h"
 #include "measure/measure.h"
+#include "run/cell_results.h"
 #include "run/sample.h"
 
 #include <inttypes.h>
@@ -191,9 +192,9 @@ scree_status scree_results_write(const scree_recorder *recorder, scree_simulatio
         summarise_series(&series, s->state.ledger.turnover, summary);
         result = summarise_corners(s, summary, error);
     }
-    if (!result) {
-        result = scree_path_join(path, sizeof path, recorder->directory, SCREE_FILE_SUMMARY, error);
-    }
+    if (!result && s->model.config->measure.cells)
+        result = scree_cell_results_write(recorder->directory, s->model.config, summary, error);
+    if (!result) result = scree_path_join(path, sizeof path, recorder->directory, SCREE_FILE_SUMMARY, error);
     if (!result) result = scree_summary_write(summary, path, error);
     scree_summary_destroy(summary);
     scree_series_destroy(&series);

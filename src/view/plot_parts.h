@@ -33,4 +33,22 @@ void scree_plot_report(scree_plot_run *run, const char *name, scree_status statu
 void scree_plot_charts(scree_plot_run *run);
 void scree_plot_scenes(scree_plot_run *run);
 
+typedef enum scree_cell_field { SCREE_CELL_NONE, SCREE_CELL_DISTORTION_RATE, SCREE_CELL_PRESSURE } scree_cell_field;
+
+/// A map of the cells of a snapshot.
+typedef struct scree_cell_map {
+    const char *name, *title;
+    scree_cell_field field;
+    double threshold; ///< shaded above so many times the mean; 0: coloured
+} scree_cell_map;
+
+/// Draws one figure of the cells (plot_cells.c). `which`, `first`, `second` number the snapshots of the run; the discs
+/// of `snapshot` and `from` are those. Errors: SCREE_ERROR_INPUT: the snapshots have no cells.
+scree_status scree_plot_cell_map(const scree_plot_run *run, const scree_snapshot *snapshot, size_t which,
+                                 const scree_cell_map *map, scree_error *error) SCREE_MUST_USE;
+scree_status scree_plot_distortion(const scree_plot_run *run, const scree_snapshot *from, size_t first, size_t second,
+                                   const char *name, const char *title, scree_error *error) SCREE_MUST_USE;
+scree_status scree_plot_circles(const scree_plot_run *run, size_t which, const char *name,
+                                scree_error *error) SCREE_MUST_USE;
+
 #endif

@@ -10,6 +10,9 @@
 #include <math.h>
 #include <stdio.h>
 
+/// Axial strain, as in run/results.c.
+#define PEAK_WINDOW 0.01
+
 enum { WHEN_START, WHEN_PEAK, WHEN_END };
 enum { FIELD_NONE, FIELD_ROTATION, FIELD_SPIN, FIELD_SPIN_MAGNITUDE, FIELD_SPEED, FIELD_DISPLACEMENT };
 enum { VIEW_PLANE, VIEW_SPACE, VIEW_SECTION }; // VIEW_PLANE is for discs, the others for spheres
@@ -31,18 +34,29 @@ static const struct scene_entry {
     int when, field;
     bool force_network, boundary;
     int view;
+    scree_cell_field cells;
+    double threshold; ///< cells are shaded above so many times the mean; 0: coloured
 } scenes[] = {
-    {"packing-start", "Packing at the start of loading", WHEN_START, FIELD_NONE, false, true, VIEW_PLANE},
-    {"packing-end", "Packing at the end: rotations", WHEN_END, FIELD_ROTATION, false, true, VIEW_PLANE},
-    {"forces-peak", "Force network at the peak of the stress ratio", WHEN_PEAK, FIELD_NONE, true, false, VIEW_PLANE},
-    {"forces-end", "Force network at the end", WHEN_END, FIELD_NONE, true, false, VIEW_PLANE},
-    {"speed-end", "Speed at the end", WHEN_END, FIELD_SPEED, false, false, VIEW_PLANE},
-    {"spin-end", "Spin at the end", WHEN_END, FIELD_SPIN, false, false, VIEW_PLANE},
-    {"packing-start", "Packing at the start of loading", WHEN_START, FIELD_NONE, false, false, VIEW_SPACE},
-    {"packing-end", "Packing at the end: displacements", WHEN_END, FIELD_DISPLACEMENT, false, false, VIEW_SPACE},
-    {"section-end", "Section at the end: displacements", WHEN_END, FIELD_DISPLACEMENT, false, false, VIEW_SECTION},
-    {"spin-section-end", "Section at the end: spin", WHEN_END, FIELD_SPIN_MAGNITUDE, false, false, VIEW_SECTION},
-    {"forces-end", "Force network at the end", WHEN_END, FIELD_NONE, true, false, VIEW_SPACE},
+    {"packing-start", "Packing at the start of loading", WHEN_START, .boundary = true},
+    {"packing-end", "Packing at the end: rotations", WHEN_END, .field = FIELD_ROTATION, .boundary = true},
+    {"forces-peak", "Force network at the peak of the stress ratio", WHEN_PEAK, .force_network = true},
+    {"forces-end", "Force network at the end", WHEN_END, .force_network = true},
+    {"speed-end", "Speed at the end", WHEN_END, .field = FIELD_SPEED},
+    {"spin-end", "Spin at the end", WHEN_END, .field = FIELD_SPIN},
+    {"distortion-rate-peak", "Rate of distortion at the peak of the stress ratio", WHEN_PEAK,
+     .cells = SCREE_CELL_DISTORTION_RATE, .threshold = 2},
+    {"distortion-rate-end", "Rate of distortion at the end", WHEN_END, .cells = SCREE_CELL_DISTORTION_RATE,
+     .threshold = 2},
+    {"distortion-rate-colour-end", "Rate of distortion at the end", WHEN_END, .cells = SCREE_CELL_DISTORTION_RATE},
+    {"pressure-peak", "Pressure at the peak of the stress ratio", WHEN_PEAK, .cells = SCREE_CELL_PRESSURE,
+     .threshold = 1.75},
+    {"pressure-end", "Pressure at the end", WHEN_END, .cells = SCREE_CELL_PRESSURE, .threshold = 1.75},
+    {"pressure-colour-end", "Pressure at the end", WHEN_END, .cells = SCREE_CELL_PRESSURE},
+    {"packing-start", "Packing at the start of loading", WHEN_START, .view = VIEW_SPACE},
+    {"packing-end", "Packing at the end: displacements", WHEN_END, .field = FIELD_DISPLACEMENT, .view = VIEW_SPACE},
+    {"section-end", "Section at the end: displacements", WHEN_END, .field = FIELD_DISPLACEMENT, .view = VIEW_SECTION},
+    {"spin-section-end", "Section at the end: spin", WHEN_END, .field = FIELD_SPIN_MAGNITUDE, .view = VIEW_SECTION},
+    {"forces-end", "Force network at the end", WHEN_END, .force_network = true, .view = VIEW_SPACE},
 };
 
 /// First, or last, snapshot of the loading stage; of all when nothing was loaded.
@@ -69,11 +83,15 @@ static scree_status find_snapshot(const scree_plot_run *run, int when, size_t *w
     if (when != WHEN_PEAK) return SCREE_OK;
     const double *strain = scree_series_get(&run->series, "axial_strain");
     const double *ratio = scree_series_get(&run->series, "stress_ratio");
-    double highest = -INFINITY;
-    for (size_t k = 0; strain && ratio && k < run->row_count; k++) {
-        if (!(ratio[run->row[k]] > highest)) continue;
-        highest = ratio[run->row[k]];
-        *which = nearest_snapshot(run, strain[run->row[k]]);
+    double highest = -INFINITY, sum = 0;
+    // Running mean over PEAK_WINDOW of strain: the plates' start and single samples make spikes.
+    for (size_t k = 0, from = 0, to = 0; strain && ratio && k < run->row_count; k++) {
+        double at = strain[run->row[k]];
+        for (; to < run->row_count && strain[run->row[to]] <= at + PEAK_WINDOW / 2; to++) sum += ratio[run->row[to]];
+        for (; strain[run->row[from]] < at - PEAK_WINDOW / 2; from++) sum -= ratio[run->row[from]];
+        if (!(sum / (double)(to - from) > highest)) continue;
+        highest = sum / (double)(to - from);
+        *which = nearest_snapshot(run, at);
     }
     if (isfinite(highest)) return SCREE_OK;
     return scree_error_set(error, SCREE_ERROR_INPUT, "%s has no stress ratio to find the peak of", SCREE_FILE_SERIES);
@@ -195,15 +213,29 @@ static scree_status draw_fluctuations(const scree_plot_run *run, const scree_sna
     return status;
 }
 
-/// The file is named after the window that was asked for; the title tells the strains of the snapshots next to it.
+/// The same window seen by the cells: what fluctuations show as shear between blocks is distortion here.
+static void plot_distortion(scree_plot_run *run, const scree_snapshot *from, const scree_snapshot *to, size_t first,
+                            size_t second, const char *window)
+{
+    char name[64], begin[16], end[16], title[160];
+    scree_error error = {0};
+    percent_text(begin, sizeof begin, from->axial_strain, false);
+    percent_text(end, sizeof end, to->axial_strain, false);
+    (void)snprintf(name, sizeof name, "distortion-%s", window);
+    (void)snprintf(title, sizeof title, "Distortion, axial strain %s to %s %%", begin, end);
+    scree_plot_report(run, name, scree_plot_distortion(run, from, first, second, name, title, &error), &error);
+}
+
+/// Files are named after the window that was asked for; titles tell the strains of the snapshots next to it.
 static void plot_window(scree_plot_run *run, double from, double to)
 {
     scree_snapshot a, b;
     scree_error error = {0};
-    char name[64], begin[16], end[16];
+    char name[64], window[40], begin[16], end[16];
     percent_text(begin, sizeof begin, from, true);
     percent_text(end, sizeof end, to, true);
-    (void)snprintf(name, sizeof name, "fluctuations-%s-%s", begin, end);
+    (void)snprintf(window, sizeof window, "%s-%s", begin, end);
+    (void)snprintf(name, sizeof name, "fluctuations-%s", window);
     size_t first = nearest_snapshot(run, from), second = nearest_snapshot(run, to);
     scree_status status;
     if (first == second || !isfinite(run->strain[first]) || !isfinite(run->strain[second])) {
@@ -212,6 +244,7 @@ static void plot_window(scree_plot_run *run, double from, double to)
         status = read_two(run, first, second, &a, &b, &error);
         if (!status) {
             status = draw_fluctuations(run, &a, &b, name, &error);
+            if (a.dimension == 2) plot_distortion(run, &a, &b, first, second, window);
             scree_snapshot_destroy(&a);
             scree_snapshot_destroy(&b);
         }
@@ -231,7 +264,10 @@ void scree_plot_scenes(scree_plot_run *run)
         if (!status) status = read_two(run, start, which, &first, &now, &error);
         if (!status) {
             bool meant = (scenes[k].view == VIEW_PLANE) == (now.dimension == 2);
-            if (meant) status = draw_scene(run, &scenes[k], &first, &now, &error);
+            const scree_cell_map map = {scenes[k].name, scenes[k].title, scenes[k].cells, scenes[k].threshold};
+            if (meant)
+                status = map.field ? scree_plot_cell_map(run, &now, which, &map, &error)
+                                   : draw_scene(run, &scenes[k], &first, &now, &error);
             scree_snapshot_destroy(&first);
             scree_snapshot_destroy(&now);
             if (!meant) continue;
@@ -239,4 +275,9 @@ void scree_plot_scenes(scree_plot_run *run)
         scree_plot_report(run, scenes[k].name, status, &error);
     }
     for (size_t k = 0; k < run->window_count; k++) plot_window(run, run->window[k].from, run->window[k].to);
+    scree_error error = {0};
+    size_t peak;
+    scree_status status = find_snapshot(run, WHEN_PEAK, &peak, &error);
+    if (!status) status = scree_plot_circles(run, peak, "pressure-circles", &error);
+    scree_plot_report(run, "pressure-circles", status, &error);
 }

@@ -114,7 +114,10 @@ static void order_by_depth(scree_scene_view *view)
 static scree_status order_discs(scree_scene_view *view, scree_error *error)
 {
     const scree_snapshot *s = view->snapshot;
+    const scree_scene *scene = view->scene;
     scree_status status = SCREE_OK;
+    if (scree_scene_coloured(scene))
+        status = scree_limits_find(scene->cell_field, scene->cells->count, false, &view->limits, error);
     if (view->scene->field)
         status = scree_limits_find(view->scene->field, s->count, view->scene->map == SCREE_COLOUR_DIVERGING,
                                    &view->limits, error);

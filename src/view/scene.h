@@ -1,9 +1,11 @@
 /// Scenes through Cairo, drawn for paper: discs coloured by a field with a colour bar, force network with line widths,
-/// displacement fluctuations as arrows, Delaunay boundary, plates. Each writes NAME.svg and NAME.png.
+/// displacement fluctuations as arrows, fields of the Delaunay cells, shear bands, Delaunay boundary, plates. Each
+/// writes NAME.svg and NAME.png.
 #ifndef SCREE_VIEW_SCENE_H
 #define SCREE_VIEW_SCENE_H
 
 #include "io/snapshot.h"
+#include "measure/localisation.h"
 #include "view/colour.h"
 
 #include <stdbool.h>
@@ -21,6 +23,11 @@ typedef struct scree_scene {
     const double *depth;             ///< per disc, m towards the viewer: discs are spheres, far ones first; NULL: flat
     const struct scree_projection *projection; ///< where the plates of a view in space lie; NULL: flat
     double arrow_scale;                        ///< drawn length over true length; 0: chosen, and told in the figure
+    const scree_cells *cells;                  ///< Delaunay cells of a plane sample, in place of the discs; NULL: none
+    const double *cell_place;                  ///< m, bodies x 3
+    const double *cell_field;                  ///< per cell, >= 0; labelled with field_name
+    double cell_threshold;  ///< > 0: cells above so many times the mean are shaded; 0: coloured by `map`
+    const scree_band *band; ///< its edges as lines; NULL: none
 } scree_scene;
 
 /// path without extension. Discs without a finite position or a positive radius are left out, and counted in the

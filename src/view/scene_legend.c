@@ -75,7 +75,7 @@ static void limits_text(const scree_limits *limits, bool symmetric, char *text, 
 static double draw_bar(const scree_scene_view *view, cairo_t *cairo, double x, double y)
 {
     const scree_scene *scene = view->scene;
-    if (!scene->field) return y;
+    if (!scene->field && !scree_scene_coloured(scene)) return y;
     scree_text_style name = scree_scene_text(9), note = scree_scene_text(7);
     note.colour = scree_scene_quiet;
     y = scree_text_paragraph(cairo, x, y, SCREE_SCENE_LEGEND_WIDTH, view->field_name, name);
@@ -167,6 +167,8 @@ static double draw_boundary_key(const scree_scene_view *view, cairo_t *cairo, do
 double scree_scene_legend(const scree_scene_view *view, cairo_t *cairo, double x, double y)
 {
     double below = draw_bar(view, cairo, x, y);
+    double cells = scree_scene_cell_legend(view, cairo, x, below);
+    below = cells > below ? cells + GAP : below;
     below = draw_widths(view, cairo, x, below);
     below = draw_reference_arrow(view, cairo, x, below);
     below = draw_boundary_key(view, cairo, x, below);

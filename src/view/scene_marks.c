@@ -260,7 +260,10 @@ void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo)
         return;
     }
     draw_plates(view, cairo);
-    draw_discs(view, cairo);
+    if (view->scene->cells)
+        scree_scene_cells(view, cairo);
+    else
+        draw_discs(view, cairo);
     draw_membrane(view, cairo);
     draw_boundary(view, cairo);
     draw_cell(view, cairo);

@@ -59,6 +59,16 @@ double scree_scene_force_width(const scree_scene_view *view, double ratio);
 /// One arrow from (x, y) by (dx, dy), all pt on the page; filled by the caller.
 void scree_scene_arrow(const scree_scene_view *view, cairo_t *cairo, double x, double y, double dx, double dy);
 
+/// Whether cells are coloured (and not shaded above a threshold).
+static inline bool scree_scene_coloured(const scree_scene *scene)
+{
+    return scene->cells && !(scene->cell_threshold > 0);
+}
+/// Cells, their outline, and the edges of a band.
+void scree_scene_cells(const scree_scene_view *view, cairo_t *cairo);
+/// What the shading and the lines mean; returns the y below it (y itself when there is nothing to explain).
+double scree_scene_cell_legend(const scree_scene_view *view, cairo_t *cairo, double x, double y);
+
 /// Everything that lies in the sample, bottom to top.
 void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo);
 

@@ -5,7 +5,9 @@
 
 #include "io/run_directory.h"
 #include "io/series.h"
+#include "measure/cells.h"
 #include "measure/measure.h"
+#include "run/cell_results.h"
 
 #include <scree/scree.h>
 
@@ -82,6 +84,8 @@ static void make_series(const char *directory, size_t columns, int rows)
     assert_int_equal(scree_series_close(&writer, NULL), SCREE_OK);
 }
 
+static const scree_config config = {.boundary = {.gap_limit = 1}, .measure = {.cells = true, .band_window = 0.01}};
+
 /// Writes `s` as snapshot `index` of the run.
 static void put_snapshot(const char *directory, const scree_snapshot *s, int64_t index)
 {
@@ -89,7 +93,12 @@ static void put_snapshot(const char *directory, const scree_snapshot *s, int64_t
     scree_error error = {0};
     scree_contact_table table = {.count = s->contact_count,
                                  .contact = hand_made_array(s->contact_count, sizeof(scree_contact))};
-    scree_model model = {.dimension = 2, .thickness = 1e-3, .scheme = SCREE_SCHEME_POSITION_VERLET};
+    scree_cells cells;
+    scree_model model = {.dimension = 2,
+                         .thickness = 1e-3,
+                         .mean_radius = 0.75e-3,
+                         .config = &config,
+                         .scheme = SCREE_SCHEME_POSITION_VERLET};
     assert_int_equal(scree_state_create(&state, 2, s->count, NULL), SCREE_OK);
     for (size_t k = 0; k < s->count; k++) {
         state.row[k] = (scree_row){.x = s->x[k],
@@ -101,12 +110,16 @@ static void put_snapshot(const char *directory, const scree_snapshot *s, int64_t
                                    .mass = 1};
         state.angle[k] = s->angle[k];
     }
-    for (size_t k = 0; k < s->contact_count; k++)
+    for (size_t k = 0; k < s->contact_count; k++) {
+        double dx = s->x[s->first[k]] - s->x[s->second[k]], dy = s->y[s->first[k]] - s->y[s->second[k]];
         table.contact[k] = (scree_contact){.first = s->first[k],
                                            .second = s->second[k],
+                                           .normal = {dx / hypot(dx, dy), dy / hypot(dx, dy)},
+                                           .branch = {dx, dy},
                                            .point = {s->contact_x[k], s->contact_y[k]},
                                            .normal_force = s->normal_force[k],
                                            .tangential_force = s->tangential_force[k]};
+    }
     memcpy(state.wall, s->wall, sizeof state.wall);
     state.loop.count = state.loop.capacity = s->loop_count;
     state.loop.id = hand_made_array(s->loop_count, sizeof *state.loop.id);
@@ -115,9 +128,12 @@ static void put_snapshot(const char *directory, const scree_snapshot *s, int64_t
     for (size_t k = 0; k < sizeof place / sizeof place[0]; k++)
         *place[k] = hand_made_array(s->loop_count, sizeof(double));
     memcpy(state.loop.id, s->loop, s->loop_count * sizeof *s->loop);
-    scree_snapshot_info info = {.index = index, .time = s->time, .axial_strain = s->axial_strain, .stage = s->stage};
+    if (scree_cells_measure(&model, &state, &table, &cells, &error)) fail_msg("%s", error.message);
+    const scree_snapshot_info info = {
+        .index = index, .time = s->time, .axial_strain = s->axial_strain, .stage = s->stage, .cells = &cells};
     scree_status status = scree_snapshot_write(directory, &model, &state, &table, &info, &error);
     if (status) fail_msg("%s", error.message);
+    scree_cells_destroy(&cells);
     scree_release(&table.contact);
     scree_state_destroy(&state);
 }
@@ -163,16 +179,41 @@ static void new_directory(const char *directory)
 static void every_figure_of_a_run_is_drawn(void **state)
 {
     (void)state;
-    static const char *const figures[] = {
-        "volumetric-strain",    "stress-ratio",        "slip",           "stress",           "energy",
-        "energy-stored",        "coordination",        "solid-fraction", "unbalanced-force", "packing-start",
-        "packing-end",          "forces-peak",         "forces-end",     "speed-end",        "spin-end",
-        "fluctuations-00-03.8", "fluctuations-11.2-15"};
+    static const char *const figures[] = {"volumetric-strain",
+                                          "stress-ratio",
+                                          "slip",
+                                          "stress",
+                                          "energy",
+                                          "energy-stored",
+                                          "coordination",
+                                          "solid-fraction",
+                                          "unbalanced-force",
+                                          "packing-start",
+                                          "packing-end",
+                                          "forces-peak",
+                                          "forces-end",
+                                          "speed-end",
+                                          "spin-end",
+                                          "fluctuations-00-03.8",
+                                          "fluctuations-11.2-15",
+                                          "distortion-rate-peak",
+                                          "distortion-rate-end",
+                                          "distortion-rate-colour-end",
+                                          "pressure-peak",
+                                          "pressure-end",
+                                          "pressure-colour-end",
+                                          "distortion-00-03.8",
+                                          "distortion-11.2-15",
+                                          "pressure-circles"};
+    scree_summary *summary;
     report r;
     scree_error error;
     new_directory("run");
     make_series("run", COLUMNS, 220);
     make_snapshots("run", SNAPSHOTS);
+    assert_int_equal(scree_summary_create(&summary, NULL), SCREE_OK);
+    assert_int_equal(scree_cell_results_write("run", &config, summary, NULL), SCREE_OK);
+    scree_summary_destroy(summary);
     scree_status status = plot("run", &r, &error);
     if (status) fail_msg("%s\n%s", error.message, r.text);
     for (size_t k = 0; k < sizeof figures / sizeof figures[0]; k++) {
@@ -230,8 +271,8 @@ static void empty_series_is_told(void **state)
     assert_non_null(strstr(r.text, "slip left out: series.csv has no rows of a loading stage"));
 }
 
-/// One snapshot, before any loading: nine charts, the peak and two windows are left out; start and end are that
-/// snapshot.
+/// One snapshot, before any loading: nine charts, the three scenes at the peak, two windows and the circles are left
+/// out; start and end are that snapshot.
 static void run_without_loading_has_its_packing_drawn(void **state)
 {
     (void)state;
@@ -242,8 +283,8 @@ static void run_without_loading_has_its_packing_drawn(void **state)
     make_snapshots("few", 1);
     scree_status status = plot("few", &r, &error);
     if (status) fail_msg("%s\n%s", error.message, r.text);
-    assert_int_equal(r.left_out, 12);
-    assert_int_equal(r.drawn, 5);
+    assert_int_equal(r.left_out, 15);
+    assert_int_equal(r.drawn, 9);
 }
 
 /// Two snapshots of loading, at 0 and 5 %: the windows that are the default without a case need more of them.
@@ -261,11 +302,12 @@ static void strain_windows_come_from_the_case(void **state)
     fprintf(file, "%.*s%s[[0 %%, 5 %%]]%s", (int)(windows - text), text, key, strchr(windows, '\n'));
     fclose(file);
     assert_int_equal(plot("windows", &r, &error), SCREE_ERROR_IO); // no series.csv
-    assert_int_equal(r.drawn, 6);
+    assert_int_equal(r.drawn, 11);
     assert_non_null(strstr(r.text, "fluctuations-00-05.svg"));
+    assert_non_null(strstr(r.text, "distortion-00-05.svg"));
     assert_int_equal(unlink("windows/case.yaml"), 0);
     assert_int_equal(plot("windows", &r, &error), SCREE_ERROR_IO);
-    assert_int_equal(r.drawn, 5);
+    assert_int_equal(r.drawn, 9);
 }
 
 static void no_run_is_an_error(void **state)
@@ -292,7 +334,7 @@ static void scenes_are_drawn_without_gnuplot(void **state)
     free(path);
     assert_non_null(strstr(error.message, "gnuplot"));
     assert_int_equal(r.failed, 9);
-    assert_int_equal(r.drawn, 6);
+    assert_int_equal(r.drawn, 12);
 }
 
 int main(void)

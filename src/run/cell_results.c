@@ -1,0 +1,287 @@
+/// Pressure over growing circles (P fig. 3.12) and shear bands, from the snapshots of the loading stages.
+///
+/// Circles (spheres in 3D) around three fixed places on the axis of the sample, at 1/8, 1/2 and 7/8 of the height of
+/// its cells, grow by a mean diameter until they are as wide as the sample. Strain windows run from a snapshot to the
+/// first one of the same stage that is at least measure.band_window of axial strain later, and the next from there on:
+/// cells and positions are those of the first instant, displacements lead to the second. A restarted run gives the same
+/// files: everything is read from run.h5. summary.json tells of the last loading stage.
+#include "run/cell_results.h"
+
+#include "io/cell_file.h"
+#include "io/run_directory.h"
+#include "io/series.h"
+#include "io/snapshot.h"
+#include "measure/localisation.h"
+
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { CIRCLE_COLUMNS = 9, BAND_COLUMNS = 24 };
+
+static const scree_series_column circle_columns[CIRCLE_COLUMNS] = {
+    {"snapshot", "1", "number of the snapshot"},
+    {"time", "s", "simulated time"},
+    {"axial_strain", "1", "axial strain of the snapshot"},
+    {"position", "1", "0 near the bottom, 1 centre, 2 near the top"},
+    {"diameter", "m", "diameter of the circle"},
+    {"diameter_ratio", "1", "the same over the mean diameter of the particles"},
+    {"volume", "m3", "volume of the cells in the circle"},
+    {"pressure", "Pa", "their mean pressure"},
+    {"pressure_ratio", "1", "the same over that of all cells"},
+};
+
+static const scree_series_column band_columns[BAND_COLUMNS] = {
+    {"window", "1", "number of the strain window in its stage"},
+    {"from_snapshot", "1", "snapshot at its begin"},
+    {"to_snapshot", "1", "snapshot at its end"},
+    {"from_strain", "1", "axial strain at its begin"},
+    {"to_strain", "1", "axial strain at its end"},
+    {"mean_distortion", "1", "distortion of the cells, mean over the volume"},
+    {"localisation_index", "1", "0 uniform, 1 all in vanishing volume; of the smoothed distortion"},
+    {"index_random", "1", "the same when the cells change places at random"},
+    {"significance", "1", "their difference over the scatter of the random ones"},
+    {"localised", "1", "1: index and significance are above their limits"},
+    {"band", "1", "1: a band is found"},
+    {"angle", "degree", "between band and axial direction"},
+    {"normal_x", "1", "unit normal of the band"},
+    {"normal_y", "1", "unit normal of the band"},
+    {"normal_z", "1", "unit normal of the band"},
+    {"offset", "m", "middle of the band, along the normal from the centre of the sample"},
+    {"thickness_diameters", "1", "thickness in mean diameters"},
+    {"volume_fraction", "1", "of the sample"},
+    {"share", "1", "of the distortion"},
+    {"contrast", "1", "mean distortion inside over outside"},
+    {"explained", "1", "share of the variance of the distortion that the band explains"},
+    {"percolation", "1", "length of the connected active part over the length of the band"},
+    {"correlation", "1", "of the distortion at the particles with the window before"},
+    {"overlap", "1", "particles in this and the last band over particles in either"},
+};
+
+/// The state of the walk through the snapshots.
+typedef struct walk {
+    const scree_config *config;
+    scree_series_writer circles, bands;
+    scree_cell_snapshot first; ///< begin of the present window; no bodies: none
+    scree_band_window *window; ///< of the present stage
+    size_t window_count, window_capacity;
+    double *field[2]; ///< at the bodies: the last window and this one
+    uint8_t *inside[2];
+    double diameter; ///< m, of the last window
+} walk;
+
+// ---- circles -----------------------------------------------------------------------------------------------------
+
+static double mean_diameter(const scree_assembly *assembly)
+{
+    double sum = 0;
+    for (size_t i = 0; i < assembly->count; i++) sum += 2 * assembly->radius[i];
+    return sum / (double)assembly->count;
+}
+
+/// Corners of the box around the bodies' centres.
+static void box_of(const scree_assembly *assembly, scree_vector low, scree_vector high)
+{
+    for (int i = 0; i < 3; i++) {
+        low[i] = INFINITY;
+        high[i] = -INFINITY;
+    }
+    for (size_t k = 0; k < 3 * assembly->count; k++) {
+        low[k % 3] = fmin(low[k % 3], assembly->place[k]);
+        high[k % 3] = fmax(high[k % 3], assembly->place[k]);
+    }
+}
+
+static scree_status write_circles(walk *w, const scree_cell_snapshot *snapshot, scree_error *error)
+{
+    const scree_assembly *assembly = &snapshot->assembly;
+    static const double height[3] = {1.0 / 8, 1.0 / 2, 7.0 / 8};
+    scree_vector low, high, centre;
+    box_of(assembly, low, high);
+    int axis = assembly->dimension - 1;
+    double step = mean_diameter(assembly), mean = scree_cells_mean(&snapshot->cells, snapshot->cells.pressure);
+    size_t count = (size_t)fmax(1, fmin(1e4, (high[0] - low[0]) / step));
+    double *pressure = NULL;
+    scree_status status = scree_allocate(&pressure, 2 * count, sizeof *pressure, error);
+    for (int p = 0; p < 3 && !status; p++) {
+        for (int i = 0; i < 3; i++) centre[i] = (low[i] + high[i]) / 2;
+        centre[axis] = low[axis] + height[p] * (high[axis] - low[axis]);
+        scree_cells_circles(&snapshot->cells, assembly->place, centre, step, count, pressure, pressure + count);
+        for (size_t c = 0; c < count && !status; c++) {
+            const double row[CIRCLE_COLUMNS] = {
+                (double)snapshot->index, snapshot->time,  snapshot->axial_strain, p,
+                (double)(c + 1) * step,  (double)(c + 1), pressure[count + c],    pressure[c],
+                pressure[c] / mean};
+            status = scree_series_append(&w->circles, row, error);
+        }
+    }
+    scree_release(&pressure);
+    return status;
+}
+
+// ---- bands -------------------------------------------------------------------------------------------------------
+
+static scree_status append_band(walk *w, const scree_cell_snapshot *second, scree_error *error)
+{
+    const scree_band_window *window = &w->window[w->window_count - 1];
+    const scree_localisation *l = &window->localisation;
+    const scree_band *b = &l->band;
+    const double row[BAND_COLUMNS] = {(double)(w->window_count - 1),
+                                      (double)w->first.index,
+                                      (double)second->index,
+                                      w->first.axial_strain,
+                                      second->axial_strain,
+                                      l->mean_distortion,
+                                      l->index,
+                                      l->index_random,
+                                      l->significance,
+                                      l->localised,
+                                      b->found,
+                                      b->angle,
+                                      b->normal[0],
+                                      b->normal[1],
+                                      b->normal[2],
+                                      b->offset,
+                                      b->thickness / w->diameter,
+                                      b->volume_fraction,
+                                      b->share,
+                                      b->contrast,
+                                      b->explained,
+                                      b->percolation,
+                                      window->correlation,
+                                      window->overlap};
+    return scree_series_append(&w->bands, row, error);
+}
+
+static scree_status reserve_window(walk *w, scree_error *error)
+{
+    if (w->window_count < w->window_capacity) return SCREE_OK;
+    size_t capacity = 2 * w->window_capacity + 16;
+    scree_status status = scree_reallocate(&w->window, w->window_count, capacity, sizeof *w->window, error);
+    if (!status) w->window_capacity = capacity;
+    return status;
+}
+
+/// The window from w->first to `second`.
+static scree_status close_window(walk *w, const scree_cell_snapshot *second, scree_error *error)
+{
+    size_t bodies = w->first.assembly.count, now = w->window_count % 2;
+    double *distortion = NULL;
+    scree_status status = reserve_window(w, error);
+    for (int k = 0; k < 2 && !status; k++) {
+        if (!w->field[k]) status = scree_allocate(&w->field[k], bodies, sizeof *w->field[k], error);
+        if (!status && !w->inside[k]) status = scree_allocate(&w->inside[k], bodies, 1, error);
+    }
+    if (!status)
+        status = scree_cells_window_distortion(&w->first.cells, w->first.assembly.place, second->assembly.place,
+                                               &distortion, error);
+    if (!status) {
+        scree_band_window *window = &w->window[w->window_count++];
+        w->diameter = mean_diameter(&w->first.assembly);
+        status = scree_localisation_measure(&w->first.cells, w->first.assembly.place, distortion, w->diameter,
+                                            &window->localisation, w->field[now], w->inside[now], error);
+        bool any = w->window_count > 1;
+        window->correlation = any ? scree_field_correlation(w->field[0], w->field[1], bodies) : NAN;
+        window->overlap = any ? scree_band_overlap(w->inside[0], w->inside[1], bodies) : NAN;
+    }
+    if (!status) status = append_band(w, second, error);
+    scree_release(&distortion);
+    return status;
+}
+
+/// Hands `snapshot` over as the begin of the next window.
+static void begin_window(walk *w, scree_cell_snapshot *snapshot)
+{
+    scree_cell_snapshot_destroy(&w->first);
+    w->first = *snapshot;
+    *snapshot = (scree_cell_snapshot){0};
+}
+
+static scree_status follow(walk *w, scree_cell_snapshot *snapshot, scree_error *error)
+{
+    scree_status status = write_circles(w, snapshot, error);
+    bool same = w->first.assembly.count == snapshot->assembly.count && strcmp(w->first.stage, snapshot->stage) == 0;
+    if (status) return status;
+    if (!same) {
+        w->window_count = 0;
+        begin_window(w, snapshot);
+        return SCREE_OK;
+    }
+    // Snapshots lie on samples: a window may miss its length by a little.
+    if (snapshot->axial_strain - w->first.axial_strain < 0.99 * w->config->measure.band_window) return SCREE_OK;
+    status = close_window(w, snapshot, error);
+    if (!status) begin_window(w, snapshot);
+    return status;
+}
+
+// ---- the run -----------------------------------------------------------------------------------------------------
+
+static scree_status open_files(walk *w, const char *directory, scree_error *error)
+{
+    char path[4096];
+    scree_status status = scree_path_join(path, sizeof path, directory, SCREE_FILE_CELLS, error);
+    if (!status) status = scree_series_open(&w->circles, path, circle_columns, CIRCLE_COLUMNS, -1, error);
+    if (!status) status = scree_path_join(path, sizeof path, directory, SCREE_FILE_BANDS, error);
+    if (!status) status = scree_series_open(&w->bands, path, band_columns, BAND_COLUMNS, -1, error);
+    return status;
+}
+
+static scree_status follow_all(walk *w, const char *directory, scree_error *error)
+{
+    char path[4096];
+    size_t count = 0;
+    scree_status status = scree_path_join(path, sizeof path, directory, SCREE_FILE_RUN, error);
+    if (!status && access(path, F_OK) == 0) status = scree_snapshot_count(directory, &count, error);
+    for (size_t k = 0; k < count && !status; k++) {
+        scree_cell_snapshot snapshot;
+        status = scree_cell_snapshot_read(directory, k, &snapshot, error);
+        if (status == SCREE_ERROR_INPUT) { // without cells
+            status = SCREE_OK;
+            continue;
+        }
+        if (!status && isfinite(snapshot.axial_strain)) status = follow(w, &snapshot, error);
+        scree_cell_snapshot_destroy(&snapshot);
+    }
+    return status;
+}
+
+static void summarise(const walk *w, scree_summary *summary)
+{
+    static const char *const kinds[] = {[SCREE_BANDS_NONE] = "none",
+                                        [SCREE_BANDS_INTERMITTENT] = "intermittent",
+                                        [SCREE_BANDS_PERSISTENT] = "persistent"};
+    if (w->window_count == 0) return;
+    double persistence;
+    scree_band_kind kind = scree_bands_classify(w->window, w->window_count, &persistence);
+    const scree_localisation *last = &w->window[w->window_count - 1].localisation;
+    bool found = last->band.found;
+    scree_summary_set_text(summary, "bands", kinds[kind]);
+    scree_summary_set_number(summary, "band_persistence", persistence);
+    scree_summary_set_number(summary, "localisation_index_last", last->index);
+    scree_summary_set_number(summary, "band_angle", found ? last->band.angle : NAN);
+    scree_summary_set_number(summary, "band_thickness_diameters", found ? last->band.thickness / w->diameter : NAN);
+    scree_summary_set_number(summary, "band_share", found ? last->band.share : NAN);
+    scree_summary_set_number(summary, "band_contrast", found ? last->band.contrast : NAN);
+    scree_summary_set_number(summary, "band_percolation", found ? last->band.percolation : NAN);
+}
+
+scree_status scree_cell_results_write(const char *directory, const scree_config *config, scree_summary *summary,
+                                      scree_error *error)
+{
+    walk w = {.config = config};
+    scree_status status = open_files(&w, directory, error);
+    if (!status) status = follow_all(&w, directory, error);
+    if (!status) summarise(&w, summary);
+    scree_error second;
+    scree_status closed = scree_series_close(&w.circles, status ? &second : error);
+    if (!status) status = closed;
+    closed = scree_series_close(&w.bands, status ? &second : error);
+    if (!status) status = closed;
+    scree_cell_snapshot_destroy(&w.first);
+    scree_release(&w.window);
+    for (int k = 0; k < 2; k++) {
+        scree_release(&w.field[k]);
+        scree_release(&w.inside[k]);
+    }
+    return status;
+}

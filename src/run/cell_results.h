@@ -1,0 +1,13 @@
+/// What is computed at the end of a run from the cells of its snapshots: cells.csv, bands.csv, names in summary.json.
+#ifndef SCREE_RUN_CELL_RESULTS_H
+#define SCREE_RUN_CELL_RESULTS_H
+
+#include "case/config.h"
+#include "io/summary.h"
+
+/// Reads the snapshots of the run directory; those without cells, or outside loading, do not count. Errors: disk,
+/// memory.
+scree_status scree_cell_results_write(const char *directory, const scree_config *config, scree_summary *summary,
+                                      scree_error *error) SCREE_MUST_USE;
+
+#endif

@@ -1,0 +1,155 @@
+/// Maps of the Delaunay cells of a run (P figs. 3.10, 3.11), the distortion of strain windows with their shear bands,
+/// and the pressure over growing circles (P fig. 3.12).
+#include "view/plot_parts.h"
+
+#include "base/memory.h"
+#include "io/cell_file.h"
+#include "io/run_directory.h"
+#include "measure/localisation.h"
+#include "view/chart.h"
+#include "view/scene.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <unistd.h>
+
+scree_status scree_plot_cell_map(const scree_plot_run *run, const scree_snapshot *snapshot, size_t which,
+                                 const scree_cell_map *map, scree_error *error)
+{
+    char path[PATH_MAX];
+    scree_cell_snapshot cells;
+    scree_status status = scree_path_join(path, sizeof path, run->figures, map->name, error);
+    if (!status) status = scree_cell_snapshot_read(run->directory, which, &cells, error);
+    if (status) return status;
+    scree_scene scene = {.title = map->title,
+                         .field_name = map->field == SCREE_CELL_PRESSURE ? "mean pressure p of the cells (Pa)"
+                                                                         : "rate of distortion L_II of the cells (1/s)",
+                         .cells = &cells.cells,
+                         .cell_place = cells.assembly.place,
+                         .cell_field =
+                             map->field == SCREE_CELL_PRESSURE ? cells.cells.pressure : cells.cells.distortion,
+                         .cell_threshold = map->threshold,
+                         .plates = true};
+    if (cells.cells.dimension != 2)
+        status = scree_error_set(error, SCREE_ERROR_INPUT, "cells in space are for ParaView: paraview/cells.pvd");
+    else
+        status = scree_scene_draw(path, snapshot, &scene, error);
+    scree_cell_snapshot_destroy(&cells);
+    return status;
+}
+
+/// Distortion of the cells of `first` on the way to `second`, in percent, and the band in it.
+static scree_status find_distortion(const scree_cell_snapshot *first, const scree_cell_snapshot *second,
+                                    double **distortion, scree_band *band, scree_error *error)
+{
+    scree_localisation found;
+    uint8_t *inside = NULL;
+    double *body = NULL, diameter = 0;
+    size_t bodies = first->assembly.count;
+    scree_status status =
+        scree_cells_window_distortion(&first->cells, first->assembly.place, second->assembly.place, distortion, error);
+    if (!status) status = scree_allocate(&body, bodies, sizeof *body, error);
+    if (!status) status = scree_allocate(&inside, bodies, 1, error);
+    for (size_t i = 0; i < bodies; i++) diameter += 2 * first->assembly.radius[i] / (double)bodies;
+    if (!status)
+        status = scree_localisation_measure(&first->cells, first->assembly.place, *distortion, diameter, &found, body,
+                                            inside, error);
+    if (!status) *band = found.band;
+    for (size_t k = 0; k < first->cells.count && !status; k++) (*distortion)[k] *= 100;
+    scree_release(&body);
+    scree_release(&inside);
+    return status;
+}
+
+scree_status scree_plot_distortion(const scree_plot_run *run, const scree_snapshot *from, size_t first, size_t second,
+                                   const char *name, const char *title, scree_error *error)
+{
+    char path[PATH_MAX];
+    scree_cell_snapshot a = {0}, b = {0};
+    scree_band band;
+    double *distortion = NULL;
+    scree_status status = scree_path_join(path, sizeof path, run->figures, name, error);
+    if (!status) status = scree_cell_snapshot_read(run->directory, first, &a, error);
+    if (!status) status = scree_cell_snapshot_read(run->directory, second, &b, error);
+    if (!status && (a.cells.dimension != 2 || a.assembly.count != b.assembly.count))
+        status = scree_error_set(error, SCREE_ERROR_INPUT, "no map of these cells in the plane");
+    if (!status) status = find_distortion(&a, &b, &distortion, &band, error);
+    if (!status) {
+        scree_scene scene = {.title = title,
+                             .field_name = "distortion of the cells (%)",
+                             .cells = &a.cells,
+                             .cell_place = a.assembly.place,
+                             .cell_field = distortion,
+                             .band = &band,
+                             .plates = true};
+        status = scree_scene_draw(path, from, &scene, error);
+    }
+    scree_release(&distortion);
+    scree_cell_snapshot_destroy(&a);
+    scree_cell_snapshot_destroy(&b);
+    return status;
+}
+
+// ---- circles -----------------------------------------------------------------------------------------------------
+
+enum { BOTTOM, CENTRE, TOP, MEAN, CIRCLE_LINES };
+
+/// Draws the rows of one snapshot; x and y have room for all of them.
+static scree_status draw_circles(const char *path, const scree_series *circles, double snapshot, double strain,
+                                 double *x, double *y, scree_error *error)
+{
+    static const char *const labels[CIRCLE_LINES] = {"near the bottom", "centre", "near the top", "whole sample"};
+    const double *column[4] = {scree_series_get(circles, "snapshot"), scree_series_get(circles, "position"),
+                               scree_series_get(circles, "diameter_ratio"),
+                               scree_series_get(circles, "pressure_ratio")};
+    char title[160];
+    scree_chart_line line[CIRCLE_LINES];
+    size_t used = 0;
+    for (int k = 0; k < 4; k++)
+        if (!column[k]) return scree_error_set(error, SCREE_ERROR_INPUT, "%s has other columns", SCREE_FILE_CELLS);
+    for (int p = BOTTOM; p <= TOP; p++) {
+        line[p] = (scree_chart_line){.x = x + used, .y = y + used, .label = labels[p], .colour = p + 1};
+        for (size_t k = 0; k < circles->row_count; k++) {
+            bool mine = fabs(column[0][k] - snapshot) < 0.5 && fabs(column[1][k] - p) < 0.5;
+            if (!mine || !isfinite(column[3][k])) continue;
+            x[used] = column[2][k];
+            y[used++] = column[3][k];
+            line[p].count++;
+        }
+        if (line[p].count < 2)
+            return scree_error_set(error, SCREE_ERROR_INPUT, "%s has no circles of this snapshot", SCREE_FILE_CELLS);
+    }
+    double ends[2] = {line[CENTRE].x[0], line[CENTRE].x[line[CENTRE].count - 1]}, one[2] = {1, 1};
+    line[MEAN] =
+        (scree_chart_line){.x = ends, .y = one, .count = 2, .label = labels[MEAN], .dashed = true, .colour = 7};
+    (void)snprintf(title, sizeof title, "Mean pressure over growing circles, axial strain %.1f %%", 100 * strain);
+    scree_chart chart = {.title = title,
+                         .x_label = "diameter of the circle / mean diameter (1)",
+                         .y_label = "pressure in the circle / pressure of the sample (1)",
+                         .line = line,
+                         .line_count = CIRCLE_LINES};
+    return scree_chart_draw(path, &chart, error);
+}
+
+scree_status scree_plot_circles(const scree_plot_run *run, size_t which, const char *name, scree_error *error)
+{
+    char source[PATH_MAX], path[PATH_MAX];
+    scree_series circles = {0};
+    scree_cell_snapshot snapshot;
+    double *value = NULL;
+    scree_status status = scree_path_join(source, sizeof source, run->directory, SCREE_FILE_CELLS, error);
+    if (!status) status = scree_path_join(path, sizeof path, run->figures, name, error);
+    if (!status) status = scree_cell_snapshot_read(run->directory, which, &snapshot, error);
+    if (status) return status;
+    if (access(source, F_OK) != 0)
+        status = scree_error_set(error, SCREE_ERROR_INPUT, "there is no %s", SCREE_FILE_CELLS);
+    if (!status) status = scree_series_read(&circles, source, error);
+    if (!status) status = scree_allocate(&value, 2 * circles.row_count, sizeof *value, error);
+    if (!status)
+        status = draw_circles(path, &circles, (double)snapshot.index, snapshot.axial_strain, value,
+                              value + circles.row_count, error);
+    scree_release(&value);
+    scree_series_destroy(&circles);
+    scree_cell_snapshot_destroy(&snapshot);
+    return status;
+}
