@@ -47,7 +47,7 @@ static void check_periodic(scree_reader *reader, const scree_config *config)
         wrong = "there is no z in two dimensions";
     else if (config->dimension == 3 && boundary->periodic == SCREE_PERIODIC_X)
         wrong = "in three dimensions a sample is periodic in x and y, or in all directions";
-    else if (scree_config_boundary_of(config, 0) == SCREE_BOUNDARY_PERIODIC &&
+    else if (boundary->periodic == (1 << config->dimension) - 1 &&
              (config->gravity_x != 0 || config->gravity_y != 0))
         wrong = "gravity has nothing to fall on: without a floor the sample would fall for ever";
     if (wrong && node) scree_problem_add(reader, node->place, "boundary.periodic", node->text, NULL, "%s", wrong);

@@ -274,7 +274,7 @@ static const scree_key measure_keys[] = {
         .count_offset = offsetof(measure, window_count), .element_size = sizeof(scree_config_window),
         .meaning = "Windows [from, to] of axial strain over which displacement fluctuations are taken."),
     FLAG(measure, cells, .standard = "yes",
-         .meaning = "Fields of the Delaunay cells in snapshots; shear bands between them."),
+         .meaning = "Fields of the Delaunay cells in snapshots; shear bands between them. Not in periodic samples."),
     NUMBER(measure, band_window, "1", .standard = "1 %", ABOVE("0 %"), TO("90 %"), .when = "cells=yes",
            .meaning = "Shear bands are looked for between snapshots at least this far apart in axial strain."),
 };
