@@ -77,9 +77,10 @@ static scree_status build_contacts(scree_vtp *vtp, const scene *from, scree_erro
         const scree_contact *contact = &table->contact[k];
         scree_vector first, second;
         scree_body_place(state, contact->first, first);
-        for (int i = 0; i < 3; i++) second[i] = first[i] - contact->branch[i];
+        if (!contact->wall) scree_body_place(state, contact->second, second);
+        for (int i = 0; i < 3 && contact->image; i++) second[i] = first[i] - contact->branch[i];
         scree_vtp_place(vtp, 2 * k, first);
-        scree_vtp_place(vtp, 2 * k + 1, second);
+        scree_vtp_place(vtp, 2 * k + 1, contact->wall ? contact->point : second);
     }
     for (size_t k = 0; k < scree_contact_array_count() && !status; k++) {
         scree_array array;
