@@ -20,6 +20,7 @@
 #include "run/cell_results.h"
 #include "run/rotation_results.h"
 #include "run/sample.h"
+#include "run/stage_collide.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -262,6 +263,7 @@ scree_status scree_results_write(const scree_recorder *recorder, scree_simulatio
     }
     if (!result && s->model.config->measure.cells)
         result = scree_cell_results_write(recorder->directory, s->model.config, &series, summary, error);
+    if (!result) result = scree_collide_results(s, summary, error);
     if (!result) result = scree_rotation_results(recorder->directory, s, summary, error);
     if (!result) result = scree_path_join(path, sizeof path, recorder->directory, SCREE_FILE_SUMMARY, error);
     if (!result) result = scree_summary_write(summary, path, error);
