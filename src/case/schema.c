@@ -210,7 +210,9 @@ static const scree_key boundary_keys[] = {
            .meaning = "Membrane: axial stiffness between two neighbours; 3D: of the sheet, tension per length over "
                       "strain. It bears no compression."),
     NUMBER(boundary, membrane_radius, "m", .standard = "auto", FROM("1 nm"), TO("100 m"),
-           .meaning = "Membrane: radius of its bodies; auto: 1.25 times the mean radius of the particles."),
+           .meaning =
+               "Membrane: radius of its bodies; auto: 1.25 times the mean radius of the particles; 3D: 0.75 times "
+               "it, at least the smallest."),
 };
 
 typedef scree_config_stage stage;

@@ -144,10 +144,10 @@ static double membrane_step(scree_model *model)
     return sqrt(mass / model->membrane_stiffness / (solid ? 2 : 1));
 }
 
-/// Three spheres of the sheet that touch leave a hole of (2 / sqrt(3) - 1) of their radius.
+/// Two spheres of the sheet that touch each other and their plate leave a hole of a quarter of their radius (sheet.c).
 static scree_status check_membrane_radius(const scree_model *model, scree_error *error)
 {
-    double hole = (2 / sqrt(3) - 1) * model->membrane_radius;
+    double hole = 0.25 * model->membrane_radius;
     if (model->dimension == 2 || hole < model->radius_min) return SCREE_OK;
     return FIELD_ERROR(error, "boundary.membrane_radius",
                        "between spheres of a membrane of radius %.3g m a sphere of %.3g m slips through, and the "
@@ -174,7 +174,11 @@ static scree_status resolve_membrane(scree_model *model, scree_error *error)
     model->density[m] = model->density[grains];
     make_frictionless(model);
     double radius = config->boundary.membrane_radius;
-    model->membrane_radius = isnan(radius) ? 1.25 * model->mean_radius : radius;
+    // A sheet needs no large bodies to be tight; a finer one lies closer to the grains and bears more stretch. But
+    // bodies smaller than every grain would need a smaller step.
+    double usual =
+        model->dimension == 3 ? fmax(0.75 * model->mean_radius, model->radius_min) : 1.25 * model->mean_radius;
+    model->membrane_radius = isnan(radius) ? usual : radius;
     double limit = membrane_step(model), step = (double)model->large_multiple * model->step;
     if (step <= limit) return check_membrane_radius(model, error);
     return FIELD_ERROR(
