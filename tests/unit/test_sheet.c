@@ -268,7 +268,8 @@ static void pressure_is_the_derivative_of_the_volume(void **unused)
         m->x += 0.5 * SHEET * uniform(10 * k);
         m->y += 0.5 * SHEET * uniform(10 * k + 1);
         if (!end) m->z += 0.5 * SHEET * uniform(10 * k + 2);
-        for (int i = 0; i < 3; i++) direction[k][i] = end && i == 2 ? 0 : scale * (uniform(10 * k + 3 + (uint64_t)i) - 0.5);
+        for (int i = 0; i < 3; i++)
+            direction[k][i] = end && i == 2 ? 0 : scale * (uniform(10 * k + 3 + (uint64_t)i) - 0.5);
     }
     forces(&b);
     int64_t total[3] = {0};
