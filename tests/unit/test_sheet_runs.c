@@ -21,7 +21,7 @@
     "gravity: [0, 0, 0]\n"                                                                                             \
     "materials:\n"                                                                                                     \
     "  - {name: quartz, young_modulus: 30 GPa, density: 2.675e8 kg/m3, friction: 0.45, restitution: 0.2}\n"            \
-    "particles: {shape: sphere, material: quartz, count: 150, radius_min: 0.5 mm, radius_max: 1 mm}\n"                 \
+    "particles: {shape: sphere, material: quartz, count: 60, radius_min: 0.6 mm, radius_max: 0.9 mm}\n"                \
     "contact: {law: hertz_mindlin, reference_velocity: 1e-4 m/s}\n"                                                    \
     "integrator: {scheme: velocity_verlet, step: 2e-5 s}\n"                                                            \
     "boundary: {every: 100}\n"                                                                                         \
@@ -29,8 +29,8 @@
     "output: {snapshots: 2, paraview: no, figures: no, checkpoint_steps: 0}\n"                                         \
     "stages:\n"                                                                                                        \
     "  - {stage: prepare, aspect_ratio: 1.5}\n"                                                                        \
-    "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 8e-2, friction: 0.05, boundary: membrane}\n"            \
-    "  - {stage: compress, strain: 2 %, rate: 0.2 1/s, boundary: membrane}\n"
+    "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 2e-1, ramp_time: 0.1 s}\n"                              \
+    "  - {stage: compress, strain: 0.5 %, rate: 0.2 1/s, boundary: membrane}\n"
 
 static scree_case *read_case(const char *const *overrides, size_t count)
 {
@@ -69,8 +69,6 @@ static void lose_work(scree_simulation *s, int threads)
     check(scree_work_create(&s->work, &s->model, threads, &error), &error);
 }
 
-static const char *const small[] = {"particles.count=60", "stages.confine.boundary=pressure"};
-
 /// Steps into the last stage.
 static uint64_t loaded_steps(const scree_simulation *s)
 {
@@ -80,7 +78,7 @@ static uint64_t loaded_steps(const scree_simulation *s)
 
 static uint64_t run_some(int threads, uint64_t steps, uint64_t discard)
 {
-    scree_case *c = read_case(small, 2);
+    scree_case *c = read_case(NULL, 0);
     scree_simulation s;
     scree_error error;
     check(scree_simulation_open(c, threads, &s, &error), &error);
@@ -98,9 +96,9 @@ static uint64_t run_some(int threads, uint64_t steps, uint64_t discard)
 static void threads_and_lost_work_give_the_same_bits(void **unused)
 {
     (void)unused;
-    uint64_t reference = run_some(1, 600, 0);
-    assert_true(run_some(3, 600, 0) == reference);
-    assert_true(run_some(1, 600, 321) == reference);
+    uint64_t reference = run_some(1, 400, 0);
+    assert_true(run_some(2, 400, 0) == reference);
+    assert_true(run_some(1, 400, 221) == reference);
 }
 
 static void a_checkpoint_in_the_middle_gives_the_same_bits(void **unused)
@@ -108,7 +106,7 @@ static void a_checkpoint_in_the_middle_gives_the_same_bits(void **unused)
     (void)unused;
     char folder[64];
     assert_true(scratch_create(folder));
-    scree_case *c = read_case(small, 2);
+    scree_case *c = read_case(NULL, 0);
     scree_simulation s[2];
     scree_error error;
     for (int i = 0; i < 2; i++) check(scree_simulation_open(c, 1, &s[i], &error), &error);
@@ -130,23 +128,27 @@ static void a_checkpoint_in_the_middle_gives_the_same_bits(void **unused)
 static void the_energy_balance_closes(void **unused)
 {
     (void)unused;
-    const char *const fine[] = {small[0], small[1], "integrator.step=4e-6 s", "stages.2.rise_time=5 ms",
-                                "stages.2.strain=0.3 %"};
-    scree_case *c = read_case(fine, 5);
+    const char *const fine[] = {"integrator.step=1e-5 s"};
+    scree_case *c = read_case(fine, 1);
     scree_simulation s;
     scree_error error;
-    double worst = 0;
+    double worst = 0, begin = 0, turnover = 0;
     check(scree_simulation_open(c, 1, &s, &error), &error);
     while (s.state.stage.index < 3) {
         step(&s);
-        if (s.sampled) worst = fmax(worst, s.sample.value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE]);
+        if (!s.sampled) continue;
+        double residual = s.sample.value[SCREE_SAMPLE_ENERGY_RESIDUAL];
+        if (s.state.stage.index < 2) begin = residual, turnover = s.state.ledger.turnover;
+        if (s.state.stage.index == 2) worst = fmax(worst, fabs(residual - begin));
     }
+    worst /= s.state.ledger.turnover - turnover;
     double stored = scree_membrane_energy(&s.stage_model, &s.state), work = s.state.ledger.boundary;
-    print_message("largest energy residual over work %.3g; springs hold %.3g J, the boundary's work is %.3g J\n", worst,
-                  stored, work);
+    print_message(
+        "energy residual over work of the last stage %.3g; springs hold %.3g J, the boundary's work is %.3g J\n", worst,
+        stored, work);
     // The bound that the program promises for history laws.
     assert_true(worst < 1e-6);
-    assert_true(stored > 0 && work != 0 && s.state.membrane.share == 1);
+    assert_true(stored > 0 && work != 0 && s.state.membrane.share > 0.5);
     scree_simulation_close(&s);
     scree_case_free(c);
 }
@@ -200,7 +202,8 @@ static void stress_with_membrane(scree_simulation *s, double stress[9], double i
 static void a_sample_is_held_by_its_membrane(void **unused)
 {
     (void)unused;
-    scree_case *c = read_case(NULL, 0);
+    const char *const large[] = {"particles.count=150", "stages.compress.strain=2 %"};
+    scree_case *c = read_case(large, 2);
     scree_simulation s;
     scree_error error;
     check(scree_simulation_open(c, 1, &s, &error), &error);
