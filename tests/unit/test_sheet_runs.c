@@ -101,20 +101,28 @@ static void threads_and_lost_work_give_the_same_bits(void **unused)
     assert_true(run_some(1, 400, 221) == reference);
 }
 
-static void a_checkpoint_in_the_middle_gives_the_same_bits(void **unused)
+/// From a state written in the middle of the last stage and read back: everything that contacts remember is in it.
+static void check_restart(const char *const *overrides, size_t count, int dimension, bool rolling)
 {
-    (void)unused;
     char folder[64];
     assert_true(scratch_create(folder));
-    scree_case *c = read_case(NULL, 0);
+    scree_case *c = read_case(overrides, count);
     scree_simulation s[2];
     scree_error error;
     for (int i = 0; i < 2; i++) check(scree_simulation_open(c, 1, &s[i], &error), &error);
-    while (loaded_steps(&s[0]) < 500) step(&s[0]);
-    check(scree_contacts_save(&s[0].state, &s[0].work, &error), &error);
-    check(scree_checkpoint_write(folder, &s[0].state, 1, &error), &error);
-    check(scree_checkpoint_read(folder, 3, &s[1].state, 1, &error), &error);
-    assert_true(scree_state_checksum(&s[0].state) == scree_state_checksum(&s[1].state));
+    while (loaded_steps(&s[0]) < 400) step(&s[0]);
+    scree_state *state = &s[0].state;
+    check(scree_contacts_save(state, &s[0].work, &error), &error);
+    double stretch = 0, booked = 0;
+    for (size_t k = 0; k < state->contact_count; k++) {
+        int twist = dimension == 3 ? 3 : 0;
+        if (rolling) stretch = fmax(stretch, fabs(state->rolling[k].value[twist]));
+        if (dimension == 3) booked = fmax(booked, fabs((double)state->booking[k].value[0]));
+    }
+    assert_true(state->membrane.count > 0 && (stretch > 0) == rolling && (booked > 0) == (dimension == 3));
+    check(scree_checkpoint_write(folder, state, 1, &error), &error);
+    check(scree_checkpoint_read(folder, dimension, &s[1].state, 1, &error), &error);
+    assert_true(scree_state_checksum(state) == scree_state_checksum(&s[1].state));
     check(scree_neighbours_refresh(&s[1].model, &s[1].state, &s[1].work, &error), &error);
     check(scree_stage_enter(&s[1], true, &error), &error);
     for (int n = 0; n < 300; n++)
@@ -123,6 +131,22 @@ static void a_checkpoint_in_the_middle_gives_the_same_bits(void **unused)
     for (int i = 0; i < 2; i++) scree_simulation_close(&s[i]);
     scree_case_free(c);
     scratch_destroy(folder);
+}
+
+static void a_checkpoint_in_the_middle_gives_the_same_bits(void **unused)
+{
+    (void)unused;
+    check_restart(NULL, 0, 3, false);
+}
+
+static void a_checkpoint_keeps_rolling_and_booking(void **unused)
+{
+    (void)unused;
+    static const char *const turning[] = {"materials.quartz.rolling_friction=0.1",
+                                          "materials.quartz.twisting_friction=0.1"};
+    check_restart(turning, 2, 3, true);
+    static const char *const plane[] = {"materials.quartz.rolling_friction=0.1", "dimension=2", "particles.shape=disc"};
+    check_restart(plane, 3, 2, true);
 }
 
 static void the_energy_balance_closes(void **unused)
@@ -270,6 +294,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_and_lost_work_give_the_same_bits),
         cmocka_unit_test(a_checkpoint_in_the_middle_gives_the_same_bits),
+        cmocka_unit_test(a_checkpoint_keeps_rolling_and_booking),
         cmocka_unit_test(the_energy_balance_closes),
         cmocka_unit_test(a_sample_is_held_by_its_membrane),
     };
