@@ -13,7 +13,7 @@ enum {
 const scree_boundary scree_boundary_pressure = {.name = "pressure", .walls = AXIAL};
 const scree_boundary scree_boundary_plates = {.name = "plates", .walls = AXIAL | LATERAL};
 
-// A periodic cell has no walls and no forces of its own (cell.c); a channel is periodic but for its plates.
+// A periodic cell has no walls and no forces of its own (periodic.c); a channel is periodic but for its plates.
 const scree_boundary scree_boundary_periodic = {.name = "periodic"};
 const scree_boundary scree_boundary_channel = {.name = "channel", .walls = AXIAL};
 

@@ -11,7 +11,7 @@
 #include "contact/images.h"
 
 #include "base/fixed.h"
-#include "state/cell.h"
+#include "state/periodic.h"
 
 #include <math.h>
 
@@ -100,11 +100,11 @@ static void sum_bodies(const scree_state *state, int threads, double product[9])
 
 void scree_images_fold(scree_state *state, scree_work *work)
 {
-    scree_cell *cell = &state->cell;
+    scree_periodic_cell *cell = &state->periodic;
     int64_t faces[9] = {0};
-    if (!cell->periodic) return;
+    if (!cell->directions) return;
     fold(state, &work->ghosts, faces);
-    if (!scree_cell_is_whole(state)) return;
+    if (!scree_periodic_is_whole(state)) return;
     sum_bodies(state, work->threads, cell->virial);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)

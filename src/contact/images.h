@@ -4,7 +4,7 @@
 
 #include "state/work.h"
 
-/// Adds the sums of all images to those of their bodies and, in a whole cell, sets state->cell.virial. Sums of all rows
+/// Adds the sums of all images to those of their bodies and, in a whole cell, sets state->periodic.virial. Sums of all rows
 /// (scree_row_count) are complete. Nothing without images.
 void scree_images_fold(scree_state *state, scree_work *work);
 

@@ -3,7 +3,7 @@
 #include "contact/contact.h"
 #include "contact/order.h"
 #include "contact/single.h"
-#include "state/cell.h"
+#include "state/periodic.h"
 
 /// A body with the velocity that the scheme keeps, at n - 1/2: velocity_verlet stores v(n), half a step of acceleration
 /// later (integrate/velocity_verlet.c).
@@ -34,12 +34,12 @@ static contact_body body_at_half_step(const scree_model *model, const scree_stat
                                       uint32_t k)
 {
     contact_body body = stored_body_at_half_step(model, state, scree_parent_row(state, work, k));
-    if (!state->cell.periodic) return body;
+    if (!state->periodic.directions) return body;
     scree_row *row = &body.row;
     bool solid = state->dimension == 3;
     scree_vector place, relative = {row->vx, row->vy, solid ? row->vz : 0}, velocity;
     scree_body_place(state, k, place);
-    scree_cell_full_velocity(state, place, relative, velocity);
+    scree_periodic_full_velocity(state, place, relative, velocity);
     row->x = place[0];
     row->y = place[1];
     row->vx = velocity[0];

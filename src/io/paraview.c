@@ -13,7 +13,7 @@
 #include "io/cell_file.h"
 #include "io/run_directory.h"
 #include "io/vtp.h"
-#include "state/cell.h"
+#include "state/periodic.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -213,11 +213,11 @@ static scree_status build_lattice(scree_vtp *vtp, const scene *from, scree_error
 {
     const scree_state *state = from->state;
     scree_vector low, high, ends[2];
-    scree_cell_box(state, low, high);
+    scree_periodic_box(state, low, high);
     size_t line = 0, edges = state->dimension == 2 ? 4 : 12;
     scree_status status = scree_vtp_create(vtp, 2 * edges, SCREE_VTP_LINES, edges, error);
-    for (int edge = 0; edge < SCREE_CELL_EDGES && !status; edge++) {
-        if (!scree_cell_edge(&state->cell, state->dimension, low, high, edge, ends)) continue;
+    for (int edge = 0; edge < SCREE_PERIODIC_EDGES && !status; edge++) {
+        if (!scree_periodic_edge(&state->periodic, state->dimension, low, high, edge, ends)) continue;
         scree_vtp_place(vtp, 2 * line, ends[0]);
         scree_vtp_place(vtp, 2 * line++ + 1, ends[1]);
     }
@@ -330,7 +330,7 @@ scree_status scree_paraview_write(const char *directory, const scree_model *mode
         scree_vtp vtp;
         // A cell has no boundary, and only a periodic sample has a cell.
         bool around = scenes[k].build == build_boundary || scenes[k].build == build_hull;
-        if (state->cell.periodic ? around : scenes[k].build == build_lattice) continue;
+        if (state->periodic.directions ? around : scenes[k].build == build_lattice) continue;
         status = scenes[k].build(&vtp, &from, error);
         if (!status) status = write_scene(&vtp, folder, scenes[k].kind, info, error);
         scree_vtp_destroy(&vtp);

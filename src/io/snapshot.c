@@ -181,7 +181,7 @@ static void read_members(scree_hdf5 *run, const char *group, scree_snapshot *sna
         scree_array_destroy(&array);
     }
     memcpy(snapshot->wall, members.wall, sizeof members.wall);
-    snapshot->cell = members.cell;
+    snapshot->periodic = members.periodic;
 }
 
 /// Every id names a body or a wall, so that a reader may index with them.

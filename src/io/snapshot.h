@@ -66,7 +66,7 @@ typedef struct scree_snapshot {
     size_t loop_count;
     uint32_t *loop;
     scree_wall wall[SCREE_WALL_COUNT];
-    scree_cell cell; ///< periodic 0: none
+    scree_periodic_cell periodic; ///< directions 0: none
 } scree_snapshot;
 scree_status scree_snapshot_count(const char *directory, size_t *count, scree_error *error) SCREE_MUST_USE;
 scree_status scree_snapshot_read(const char *directory, size_t which, scree_snapshot *snapshot,

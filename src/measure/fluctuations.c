@@ -77,14 +77,14 @@ double scree_fluctuations(int dimension, const double *const *from, const double
 }
 
 /// H H_0^-1, H_0 at the start of the loading stage.
-static void deformation_of(const scree_cell *cell, double deformation[9])
+static void deformation_of(const scree_periodic_cell *cell, double deformation[9])
 {
     double inverse[9];
     scree_matrix_invert(cell->reference, inverse);
     scree_matrix_multiply(cell->lattice, inverse, deformation);
 }
 
-double scree_cell_fluctuations(const scree_cell *from_cell, const scree_cell *to_cell, int dimension,
+double scree_periodic_fluctuations(const scree_periodic_cell *from_cell, const scree_periodic_cell *to_cell, int dimension,
                                const double *const *from, const double *const *to, size_t count,
                                double *const *fluctuation)
 {

@@ -33,7 +33,7 @@ void scree_stress_from_boundary(const scree_model *model, const scree_state *sta
 /// WHERE on a plate its forces act is missing: the plates' friction in the lateral stress, which so is exactly -p with
 /// pressed sides. [Pa], tension positive; normal components NAN where nothing is applied in that direction, shear
 /// components NAN with plates on all sides and otherwise taken to be symmetric. A whole periodic cell applies the
-/// stress of contacts and motion together (state/cell.h).
+/// stress of contacts and motion together (state/periodic.h).
 void scree_stress_from_plates(const scree_model *model, const scree_state *state, double stress[9]);
 
 /// Displacement gradient of the interior of a loop from the displacements of its vertices (Bagi 1996; P 3.1-3.3):
@@ -102,7 +102,7 @@ double scree_fluctuations(int dimension, const double *const *from, const double
 
 /// The same in a whole periodic cell, between two states of one loading stage: relative to the affine field of the cell
 /// itself and to the mean, between the images that are nearest after it. Fluctuations must be less than half the cell.
-double scree_cell_fluctuations(const scree_cell *from_cell, const scree_cell *to_cell, int dimension,
+double scree_periodic_fluctuations(const scree_periodic_cell *from_cell, const scree_periodic_cell *to_cell, int dimension,
                                const double *const *from, const double *const *to, size_t count,
                                double *const *fluctuation);
 

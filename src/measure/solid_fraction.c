@@ -6,7 +6,7 @@
 
 #include "measure/hull.h"
 #include "measure/outline.h"
-#include "state/cell.h"
+#include "state/periodic.h"
 
 #include <math.h>
 #include <string.h>
@@ -131,7 +131,7 @@ scree_status scree_solid_fraction(const scree_state *state, double *fraction, sc
     *fraction = NAN;
     double solid = 0;
     scree_status status = SCREE_OK;
-    if (state->cell.periodic) *fraction = solid_of_all(state) / scree_cell_extent(state);
+    if (state->periodic.directions) *fraction = solid_of_all(state) / scree_periodic_extent(state);
     if (state->dimension == 2 && state->loop.count > 0) *fraction = solid_in_loop(state) / scree_loop_area(state);
     if (state->dimension == 3 && state->hull.node_count > 0) {
         status = solid_in_hull(state, &solid, error);

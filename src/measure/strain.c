@@ -9,7 +9,7 @@
 #include "measure/outline.h"
 #include "measure/polygon.h"
 #include "measure/polyhedron.h"
-#include "state/cell.h"
+#include "state/periodic.h"
 
 #include <string.h>
 
@@ -71,8 +71,8 @@ static void hull_increment(const scree_state *state, double increment[9])
 
 void scree_strain_measure(const scree_state *state, double gradient[9])
 {
-    if (scree_cell_is_whole(state)) {
-        memcpy(gradient, state->cell.strain, sizeof state->cell.strain);
+    if (scree_periodic_is_whole(state)) {
+        memcpy(gradient, state->periodic.strain, sizeof state->periodic.strain);
         return;
     }
     for (int i = 0; i < 9; i++) gradient[i] = state->strain.gradient[i];

@@ -23,7 +23,7 @@
 #include "measure/facets.h"
 #include "measure/hull.h"
 #include "measure/outline.h"
-#include "state/cell.h"
+#include "state/periodic.h"
 
 #include <math.h>
 
@@ -152,8 +152,8 @@ static bool has_plates(const scree_state *state, int axis)
 
 void scree_stress_from_plates(const scree_model *model, const scree_state *state, double stress[9])
 {
-    if (scree_cell_is_whole(state)) {
-        scree_cell_stress(model, state, stress);
+    if (scree_periodic_is_whole(state)) {
+        scree_periodic_stress(model, state, stress);
         return;
     }
     pressure_sum pressure = sum_pressure(model, state, state->pressure);

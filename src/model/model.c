@@ -40,7 +40,7 @@ int scree_model_particle_material(const scree_model *model)
     return -1;
 }
 
-bool scree_model_is_whole_cell(const scree_model *model)
+bool scree_model_is_wholly_periodic(const scree_model *model)
 {
     return model->config->boundary.periodic == (1 << model->dimension) - 1;
 }

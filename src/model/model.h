@@ -57,7 +57,7 @@ typedef struct scree_model {
 scree_status scree_model_build(const scree_config *config, scree_model *model, scree_error *error) SCREE_MUST_USE;
 
 /// The sample is periodic in all directions of space.
-bool scree_model_is_whole_cell(const scree_model *model);
+bool scree_model_is_wholly_periodic(const scree_model *model);
 
 /// Largest normal stress that a stage holds [Pa, compression positive], NAN when it holds none.
 double scree_held_pressure(const scree_config_stage *stage);

@@ -5,7 +5,7 @@
 #include "prepare/methods.h"
 
 #include "base/random.h"
-#include "state/cell.h"
+#include "state/periodic.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -92,7 +92,7 @@ static void stand_walls(const scree_model *model, const scree_box *box, bool act
         if (box->periodic >> axis[w] & 1) wall->active = 0;
     }
     const double side[3] = {box->width, state->dimension == 3 ? box->depth : box->height, box->height};
-    if (box->periodic) scree_cell_set(&state->cell, box->periodic, side);
+    if (box->periodic) scree_periodic_set(&state->periodic, box->periodic, side);
 }
 
 scree_status scree_prepare(const scree_model *model, const scree_config_stage *stage, scree_state *state,

@@ -200,7 +200,7 @@ scree_status scree_results_write(const scree_recorder *recorder, scree_simulatio
         summarise_series(&series, s->state.ledger.turnover, summary);
         result = summarise_corners(s, summary, error);
     }
-    if (!result && s->model.config->measure.cells && !s->state.cell.periodic)
+    if (!result && s->model.config->measure.cells && !s->state.periodic.directions)
         result = scree_cell_results_write(recorder->directory, s->model.config, summary, error);
     if (!result) result = scree_rotation_results(recorder->directory, s, summary, error);
     if (!result) result = scree_path_join(path, sizeof path, recorder->directory, SCREE_FILE_SUMMARY, error);

@@ -6,7 +6,7 @@
 #include "measure/facets.h"
 #include "measure/measure.h"
 #include "run/guard.h"
-#include "state/cell.h"
+#include "state/periodic.h"
 
 #include <math.h>
 
@@ -78,7 +78,7 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
     [SCREE_SAMPLE_VOLUME] = {"volume", "m3",
                              "volume of the sample between plates and Delaunay boundary, or of the periodic cell"},
     [SCREE_SAMPLE_BOUNDARY_COUNT] = {"boundary_count", "1", "particles on the Delaunay boundary"},
-    [SCREE_SAMPLE_WORK_CELL] = {"work_cell", "J", "work of the deforming periodic cell"},
+    [SCREE_SAMPLE_WORK_PERIODIC] = {"work_periodic", "J", "work of the deforming periodic cell"},
     [SCREE_SAMPLE_SHEAR_RATIO] = {"shear_ratio", "1",
                                   "shear stress over axial normal stress from contacts, in a periodic cell"},
 };
@@ -123,7 +123,7 @@ static void sample_stress(const scree_simulation *s, double *value)
     value[SCREE_SAMPLE_LATERAL_CONTACTS] = -lateral_of(s, contacts);
     value[SCREE_SAMPLE_SHEAR_CONTACTS] = 0.5 * (contacts[shear] + contacts[3 * shear]);
     value[SCREE_SAMPLE_STRESS_RATIO_CONTACTS] = contacts[axial] / lateral_of(s, contacts);
-    if (scree_cell_is_whole(&s->state))
+    if (scree_periodic_is_whole(&s->state))
         value[SCREE_SAMPLE_SHEAR_RATIO] = value[SCREE_SAMPLE_SHEAR_CONTACTS] / value[SCREE_SAMPLE_AXIAL_CONTACTS];
 }
 
@@ -159,7 +159,7 @@ static void sample_energy(const scree_simulation *s, double *value)
     value[SCREE_SAMPLE_STIFFNESS_WORK] = ledger->stiffness;
     value[SCREE_SAMPLE_WORK_PLATES] = ledger->plates;
     value[SCREE_SAMPLE_WORK_PRESSURE] = ledger->pressure;
-    value[SCREE_SAMPLE_WORK_CELL] = ledger->cell;
+    value[SCREE_SAMPLE_WORK_PERIODIC] = ledger->periodic;
     value[SCREE_SAMPLE_WORK_BOUNDARY] = ledger->boundary;
     value[SCREE_SAMPLE_ELASTIC_MEMBRANE] = scree_membrane_energy(&s->stage_model, &s->state);
     value[SCREE_SAMPLE_WORK_GRAVITY] = energy.gravity;

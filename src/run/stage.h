@@ -2,7 +2,7 @@
 #ifndef SCREE_RUN_STAGE_H
 #define SCREE_RUN_STAGE_H
 
-#include "boundary/cell.h"
+#include "boundary/periodic.h"
 #include "boundary/plates.h"
 #include "state/work.h"
 
@@ -16,7 +16,7 @@ typedef struct scree_stage_plan {
     scree_servo plates; ///< bottom and top
     scree_servo sides;  ///< left and right, front and back
     double time_limit;  ///< s
-    scree_cell_drive cell;
+    scree_periodic_drive periodic;
 } scree_stage_plan;
 
 typedef struct scree_stage {
@@ -37,14 +37,14 @@ typedef struct scree_stage {
     double (*fraction)(const scree_simulation *s);
 } scree_stage;
 
-/// whole_cell: the sample is periodic in all directions (stage_cell.c).
-const scree_stage *scree_stage_get(scree_stage_kind kind, bool whole_cell);
+/// wholly_periodic: the sample is periodic in all directions (stage_periodic.c).
+const scree_stage *scree_stage_get(scree_stage_kind kind, bool wholly_periodic);
 extern const scree_stage scree_stage_prepare;
 extern const scree_stage scree_stage_confine;
 extern const scree_stage scree_stage_compress;
-extern const scree_stage scree_stage_confine_cell;
-extern const scree_stage scree_stage_compress_cell;
-extern const scree_stage scree_stage_deform_cell;
+extern const scree_stage scree_stage_confine_periodic;
+extern const scree_stage scree_stage_compress_periodic;
+extern const scree_stage scree_stage_deform_periodic;
 extern const scree_stage scree_stage_deform;
 extern const scree_stage scree_stage_rotate;
 

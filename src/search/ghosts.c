@@ -15,7 +15,7 @@
 #include "search/ghosts.h"
 
 #include "base/matrix.h"
-#include "state/cell.h"
+#include "state/periodic.h"
 
 #include <math.h>
 #include <string.h>
@@ -37,7 +37,7 @@ static void fraction_of(const scree_state *state, const scree_work *work, size_t
 static image_range measure_range(const scree_state *state, const scree_work *work)
 {
     image_range range = {.low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}};
-    scree_cell_widths(work->ghosts.lattice_inverse, range.width);
+    scree_periodic_widths(work->ghosts.lattice_inverse, range.width);
     for (size_t row = 0; row < state->count; row++) {
         double f[3];
         fraction_of(state, work, row, f);
@@ -54,7 +54,7 @@ static scree_status check_width(const scree_state *state, const image_range *ran
 {
     double needed = 4 * range->radius + 2 * skin;
     for (int k = 0; k < state->dimension; k++)
-        if (scree_cell_repeats(&state->cell, k) && !(range->width[k] >= needed))
+        if (scree_periodic_repeats(&state->periodic, k) && !(range->width[k] >= needed))
             return scree_error_set(
                 error, SCREE_ERROR_GUARD,
                 "step %llu: the periodic cell is only %.4g m wide along lattice vector %d; it must be "
@@ -91,7 +91,7 @@ static scree_status append_images(const scree_state *state, scree_work *work, co
     fraction_of(state, work, row, f);
     if (!isfinite(f[0] + f[1] + f[2])) return SCREE_OK;
     for (int k = 0; k < state->dimension; k++) {
-        if (!scree_cell_repeats(&state->cell, k)) continue;
+        if (!scree_periodic_repeats(&state->periodic, k)) continue;
         double margin = reach / range->width[k];
         least[k] = (int)ceil(range->low[k] - margin - f[k]);
         most[k] = (int)floor(range->high[k] + margin - f[k]);
@@ -107,8 +107,8 @@ scree_status scree_ghosts_make(scree_state *state, scree_work *work, scree_error
 {
     scree_ghost_list *list = &work->ghosts;
     list->count = 0;
-    if (!state->cell.periodic) return SCREE_OK;
-    scree_matrix_invert(state->cell.lattice, list->lattice_inverse);
+    if (!state->periodic.directions) return SCREE_OK;
+    scree_matrix_invert(state->periodic.lattice, list->lattice_inverse);
     image_range range = measure_range(state, work);
     list->largest_radius = range.radius;
     scree_status status = check_width(state, &range, work->skin, error);
@@ -128,14 +128,14 @@ void scree_ghosts_place(scree_state *state, scree_work *work)
 {
     const scree_ghost_list *list = &work->ghosts;
     double lattice_velocity[9];
-    scree_cell_lattice_velocity(state, lattice_velocity);
+    scree_periodic_lattice_velocity(state, lattice_velocity);
 #pragma omp parallel for num_threads(work->threads) schedule(static) if (work->threads > 1)
     for (size_t k = 0; k < list->count; k++) {
         const scree_ghost *ghost = &list->ghost[k];
         const double s[3] = {ghost->shift[0], ghost->shift[1], ghost->shift[2]};
         scree_row *image = &state->row[state->count + k];
         scree_vector place, velocity;
-        scree_matrix_apply(state->cell.lattice, s, place);
+        scree_matrix_apply(state->periodic.lattice, s, place);
         scree_matrix_apply(lattice_velocity, s, velocity);
         *image = state->row[ghost->parent];
         image->x += place[0];
@@ -151,7 +151,7 @@ void scree_ghosts_place(scree_state *state, scree_work *work)
 
 void scree_ghosts_deformation(const scree_state *state, const scree_work *work, double deformation[9])
 {
-    scree_matrix_multiply(state->cell.lattice, work->ghosts.lattice_inverse, deformation);
+    scree_matrix_multiply(state->periodic.lattice, work->ghosts.lattice_inverse, deformation);
 }
 
 // ---- the search --------------------------------------------------------------------------------------------------
@@ -258,7 +258,7 @@ static bool is_near_face(const scree_state *state, const scree_work *work, const
     fraction_of(state, work, row, f);
     if (!isfinite(f[0] + f[1] + f[2])) return false;
     for (int k = 0; k < state->dimension; k++)
-        if (scree_cell_repeats(&state->cell, k) && f[k] >= range->low[k] + 1 - reach / range->width[k]) return true;
+        if (scree_periodic_repeats(&state->periodic, k) && f[k] >= range->low[k] + 1 - reach / range->width[k]) return true;
     return false;
 }
 

@@ -271,7 +271,7 @@ static scree_status assemble(const scree_model *model, const scree_state *state,
     return SCREE_OK;
 }
 
-/// The velocities that boundary/cell.c keeps beside the rows go with them.
+/// The velocities that boundary/periodic.c keeps beside the rows go with them.
 static scree_status permute_relative(scree_work *work, size_t count, scree_error *error)
 {
     scree_vector *moved;
@@ -351,7 +351,7 @@ static scree_status check_list(const scree_model *model, scree_state *state, scr
 {
     double deformation[9], change[9], shrunk = 0;
     scree_matrix_unit(deformation);
-    if (state->cell.periodic) {
+    if (state->periodic.directions) {
         scree_ghosts_deformation(state, work, deformation);
         for (int k = 0; k < 9; k++) change[k] = deformation[k] - (k % 4 == 0);
         shrunk = scree_matrix_norm(change) * (work->ghosts.largest_radius + 0.5 * work->skin);

@@ -252,7 +252,7 @@ uint64_t scree_state_checksum(const scree_state *state)
     c = scree_checksum_word(c, state->grains);
     c = scree_checksum_word(c, state->sampled_step);
     c = scree_checksum_word(c, state->evaluations);
-    c = scree_checksum_bytes(c, &state->cell, sizeof state->cell);
+    c = scree_checksum_bytes(c, &state->periodic, sizeof state->periodic);
     c = scree_checksum_bytes(c, &state->strain, sizeof state->strain);
     c = scree_checksum_bytes(c, &state->forced, sizeof state->forced);
     c = scree_checksum_bytes(c, &state->ledger, sizeof state->ledger);

@@ -126,7 +126,7 @@ enum {
 };
 
 /// Energy ledger, J. Work is done ON the bodies; dissipation is positive. Residual of the balance:
-/// kinetic + elastic - initial - (plates + pressure + boundary + cell + gravity) + damping + friction - stiffness -
+/// kinetic + elastic - initial - (plates + pressure + boundary + periodic + gravity) + damping + friction - stiffness -
 /// scheme: measure/energy.c.
 typedef struct scree_ledger {
     double damping;   ///< dissipated by contact damping, normal and tangential
@@ -135,7 +135,7 @@ typedef struct scree_ledger {
     double plates;    ///< work of the walls
     double pressure;  ///< work of the pressure on the Delaunay boundary or the membrane
     double boundary;  ///< work of the other forces of the boundary: imposed rates, chain and ends of a membrane
-    double cell;      ///< work of the deforming periodic cell
+    double periodic;  ///< work of the deforming periodic cell
     double forced;    ///< work of the torque that keeps a body at a prescribed spin
     double gravity;   ///< sum of m g . x when the ledger was opened
     double initial;   ///< kinetic + elastic energy when the ledger was opened
@@ -221,10 +221,10 @@ typedef struct scree_strain {
     double gradient[9]; ///< accumulated displacement gradient, row-major (d u_row / d x_column)
 } scree_strain;
 
-/// The periodic cell; `periodic` zero: there is none. Geometry in state/cell.h, motion in boundary/cell.c. Velocities
+/// The periodic cell; `directions` zero: there is none. Geometry in state/periodic.h, motion in boundary/periodic.c. Velocities
 /// of bodies in a deforming cell are relative to the affine field gradient . x. Tensors are 3 x 3 by rows, tension and
 /// extension positive.
-typedef struct scree_cell {
+typedef struct scree_periodic_cell {
     double lattice[9];   ///< m, lattice vectors as columns; the unit vector where a direction is not periodic
     double reference[9]; ///< m, the same lattice vectors at the start of the loading stage
     double gradient[9];  ///< 1/s, velocity gradient of the last step, d v_row / d x_column
@@ -232,8 +232,8 @@ typedef struct scree_cell {
     double strain[9];    ///< 1, its integral over time
     double virial[9];    ///< J, at the present step: sum over contacts of force on first (x) branch
     double motion[9];    ///< J, in the last step: sum over bodies of mass velocity (x) velocity
-    uint64_t periodic;   ///< bits 0, 1, 2: x, y, z
-} scree_cell;
+    uint64_t directions; ///< bits 0, 1, 2: x, y, z
+} scree_periodic_cell;
 
 enum { SCREE_STAGE_REFERENCES = 24 };
 typedef struct scree_stage_state {
@@ -283,7 +283,7 @@ typedef struct scree_state {
     double pressure; ///< Pa, confining pressure applied now
     scree_loop loop; ///< 2D
     scree_hull hull; ///< 3D
-    scree_cell cell; ///< periodic boundary
+    scree_periodic_cell periodic; ///< periodic boundary
     scree_drive drive;
     scree_membrane membrane;
     scree_strain strain;

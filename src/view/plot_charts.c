@@ -44,7 +44,7 @@ static const struct chart_entry {
     {"energy", "Energy ledger", "energy (@J)", false, {
         {"work_plates", "work of plates", 1, BLUE, false},
         {"work_pressure", "work of pressure", 1, SKY, false},
-        {"work_cell", "work of the cell", 1, BLUE, true},
+        {"work_periodic", "work of the cell", 1, BLUE, true},
         {"work_gravity", "work of gravity", 1, GREEN, false},
         {"dissipated_friction", "lost to friction", 1, VERMILLION, false},
         {"dissipated_damping", "lost to damping", 1, ORANGE, false},

@@ -2,7 +2,7 @@
 #include "view/projection.h"
 
 #include "base/memory.h"
-#include "state/cell.h"
+#include "state/periodic.h"
 
 #include <math.h>
 #include <string.h>
@@ -56,15 +56,15 @@ static void place_plates(const scree_snapshot *solid, const axes *view, scree_pr
 }
 
 /// Edges of the cell along two axes of the page.
-static scree_cell_lines place_cell(const scree_snapshot *snapshot, const scree_vector right, const scree_vector up)
+static scree_periodic_edges place_edges(const scree_snapshot *snapshot, const scree_vector right, const scree_vector up)
 {
-    scree_cell_lines lines = {.count = 0};
-    scree_state state = {.dimension = snapshot->dimension, .cell = snapshot->cell};
+    scree_periodic_edges lines = {.count = 0};
+    scree_state state = {.dimension = snapshot->dimension, .periodic = snapshot->periodic};
     scree_vector low, high, ends[2];
     memcpy(state.wall, snapshot->wall, sizeof state.wall);
-    scree_cell_box(&state, low, high);
-    for (int edge = 0; edge < SCREE_CELL_EDGES && snapshot->cell.periodic; edge++) {
-        if (!scree_cell_edge(&snapshot->cell, snapshot->dimension, low, high, edge, ends)) continue;
+    scree_periodic_box(&state, low, high);
+    for (int edge = 0; edge < SCREE_PERIODIC_EDGES && snapshot->periodic.directions; edge++) {
+        if (!scree_periodic_edge(&snapshot->periodic, snapshot->dimension, low, high, edge, ends)) continue;
         for (int end = 0; end < 2; end++) {
             lines.end[lines.count][end][0] = along(right, ends[end][0], ends[end][1], ends[end][2]);
             lines.end[lines.count][end][1] = along(up, ends[end][0], ends[end][1], ends[end][2]);
@@ -74,10 +74,10 @@ static scree_cell_lines place_cell(const scree_snapshot *snapshot, const scree_v
     return lines;
 }
 
-scree_cell_lines scree_cell_lines_of(const scree_snapshot *snapshot)
+scree_periodic_edges scree_periodic_edges_of(const scree_snapshot *snapshot)
 {
     const scree_vector x = {1, 0, 0}, y = {0, 1, 0};
-    return place_cell(snapshot, x, y);
+    return place_edges(snapshot, x, y);
 }
 
 /// A plane snapshot with the same bodies, without positions.
@@ -141,7 +141,7 @@ scree_status scree_projection_create(const scree_snapshot *solid, scree_projecti
         projection->depth[k] = along(view.row[2], x, y, z);
     }
     place_plates(solid, &view, projection);
-    projection->cell = place_cell(solid, view.row[0], view.row[1]);
+    projection->periodic = place_edges(solid, view.row[0], view.row[1]);
     return SCREE_OK;
 }
 

@@ -56,10 +56,10 @@ static scree_status measure_extent(scree_scene_view *view, scree_error *error)
         view->mean_radius += (s->radius[k] - view->mean_radius) / (double)view->disc_count;
     }
     const scree_projection *projection = view->scene->projection;
-    view->cell = projection ? projection->cell : scree_cell_lines_of(s);
-    for (size_t k = 0; k < 2 * view->cell.count; k++)
+    view->periodic = projection ? projection->periodic : scree_periodic_edges_of(s);
+    for (size_t k = 0; k < 2 * view->periodic.count; k++)
         for (int axis = 0; axis < 2; axis++) {
-            double place = view->cell.end[k / 2][k % 2][axis];
+            double place = view->periodic.end[k / 2][k % 2][axis];
             extend(view, axis, place, place);
         }
     double size = fmax(view->high[0] - view->low[0], view->high[1] - view->low[1]);

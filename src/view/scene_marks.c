@@ -190,11 +190,11 @@ static void draw_plates(const scree_scene_view *view, cairo_t *cairo)
 }
 
 /// Edges of the periodic cell.
-static void draw_cell(const scree_scene_view *view, cairo_t *cairo)
+static void draw_periodic_edges(const scree_scene_view *view, cairo_t *cairo)
 {
-    if (view->cell.count == 0) return;
-    for (size_t k = 0; k < view->cell.count; k++) {
-        const double(*edge)[2] = view->cell.end[k];
+    if (view->periodic.count == 0) return;
+    for (size_t k = 0; k < view->periodic.count; k++) {
+        const double(*edge)[2] = view->periodic.end[k];
         cairo_move_to(cairo, scree_scene_x(view, edge[0][0]), scree_scene_y(view, edge[0][1]));
         cairo_line_to(cairo, scree_scene_x(view, edge[1][0]), scree_scene_y(view, edge[1][1]));
     }
@@ -256,7 +256,7 @@ void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo)
         else
             draw_spheres(view, cairo);
         draw_plate_in_space(view, cairo, 1);
-        draw_cell(view, cairo);
+        draw_periodic_edges(view, cairo);
         return;
     }
     draw_plates(view, cairo);
@@ -266,7 +266,7 @@ void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo)
         draw_discs(view, cairo);
     draw_membrane(view, cairo);
     draw_boundary(view, cairo);
-    draw_cell(view, cairo);
+    draw_periodic_edges(view, cairo);
     draw_network(view, cairo);
     draw_arrows(view, cairo);
 }

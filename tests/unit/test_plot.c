@@ -37,7 +37,7 @@ static const char *const names[] = {"step",
                                     "stiffness_work",
                                     "work_plates",
                                     "work_pressure",
-                                    "work_cell",
+                                    "work_periodic",
                                     "work_gravity",
                                     "energy_residual"};
 enum { COLUMNS = sizeof names / sizeof names[0], SNAPSHOTS = 5 };

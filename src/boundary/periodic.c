@@ -43,12 +43,12 @@
 ///
 /// Cost: two passes over the bodies a step in a deforming cell, one in a cell at rest. Limits: a cell that is not
 /// periodic in all directions does not deform.
-#include "boundary/cell.h"
+#include "boundary/periodic.h"
 
 #include "base/fixed.h"
 #include "base/matrix.h"
 #include "search/neighbours.h"
-#include "state/cell.h"
+#include "state/periodic.h"
 
 #include <math.h>
 #include <string.h>
@@ -58,7 +58,7 @@
 #define LEAST_RESISTANCE 0.1
 #define LEAN_LIMIT       0.51 // of a lattice vector over another: a little above half, where two lattices are as good
 
-static bool deforms(const scree_cell *cell)
+static bool deforms(const scree_periodic_cell *cell)
 {
     return scree_matrix_contract(cell->gradient, cell->gradient) > 0;
 }
@@ -69,7 +69,7 @@ static double density(const scree_model *model, const scree_state *state)
 {
     double mass = 0;
     for (size_t id = 0; id < state->count; id++) mass += state->row[state->row_of_id[id]].mass;
-    return mass / (scree_cell_extent(state) * model->thickness);
+    return mass / (scree_periodic_extent(state) * model->thickness);
 }
 
 /// Speed of longitudinal waves [m/s], see the head of plates.c.
@@ -83,8 +83,8 @@ static double wave_speed(const scree_model *model, const scree_state *state, dou
 static void widths(const scree_state *state, double width[3])
 {
     double inverse[9];
-    scree_matrix_invert(state->cell.lattice, inverse);
-    scree_cell_widths(inverse, width);
+    scree_matrix_invert(state->periodic.lattice, inverse);
+    scree_periodic_widths(inverse, width);
 }
 
 /// Geometric mean of the widths.
@@ -95,7 +95,7 @@ static double mean_width(const scree_state *state)
     return state->dimension == 2 ? sqrt(width[0] * width[1]) : cbrt(width[0] * width[1] * width[2]);
 }
 
-double scree_cell_wave_time(const scree_model *model, const scree_state *state, double pressure)
+double scree_periodic_wave_time(const scree_model *model, const scree_state *state, double pressure)
 {
     double width[3], longest = 0;
     widths(state, width);
@@ -103,7 +103,7 @@ double scree_cell_wave_time(const scree_model *model, const scree_state *state, 
     return longest / wave_speed(model, state, pressure);
 }
 
-void scree_cell_drive_fit(const scree_model *model, const scree_state *state, double pressure, scree_cell_drive *drive)
+void scree_periodic_drive_fit(const scree_model *model, const scree_state *state, double pressure, scree_periodic_drive *drive)
 {
     const scree_config_boundary *boundary = &model->config->boundary;
     double diameter = 2 * model->mean_radius;
@@ -115,7 +115,7 @@ void scree_cell_drive_fit(const scree_model *model, const scree_state *state, do
 }
 
 /// One step of the servo of a component.
-static void hold_stress(const scree_cell_drive *drive, double dt, double wanted, double stress, double *rate,
+static void hold_stress(const scree_periodic_drive *drive, double dt, double wanted, double stress, double *rate,
                         double *drift)
 {
     double reached = fmin(1, fabs(stress / wanted));
@@ -125,11 +125,11 @@ static void hold_stress(const scree_cell_drive *drive, double dt, double wanted,
     *drift += dt * drive->damping / MEAN_GRAINS * (*rate - *drift);
 }
 
-void scree_cell_control(const scree_model *model, scree_state *state, const scree_cell_drive *drive, double rise)
+void scree_periodic_control(const scree_model *model, scree_state *state, const scree_periodic_drive *drive, double rise)
 {
-    scree_cell *cell = &state->cell;
+    scree_periodic_cell *cell = &state->periodic;
     double stress[9];
-    scree_cell_stress(model, state, stress);
+    scree_periodic_stress(model, state, stress);
     for (int k = 0; k < 9; k++) {
         if (isnan(drive->stress[k]))
             cell->gradient[k] = cell->drift[k] = drive->rate[k] * rise;
@@ -151,8 +151,8 @@ static step_maps maps_of(const scree_state *state)
 {
     step_maps maps;
     double plus[9], minus[9], half = 0.5 * state->step_size;
-    scree_matrix_unit_plus(half, state->cell.gradient, plus);
-    scree_matrix_unit_plus(-half, state->cell.gradient, minus);
+    scree_matrix_unit_plus(half, state->periodic.gradient, plus);
+    scree_matrix_unit_plus(-half, state->periodic.gradient, minus);
     scree_matrix_invert(plus, maps.slow);
     scree_matrix_invert(minus, maps.forward);
     scree_matrix_multiply(maps.forward, plus, maps.map);
@@ -182,7 +182,7 @@ static void set_velocity(scree_state *state, size_t row, const scree_vector velo
 /// From a row after `first`, at x(n) + dt c- with the velocity c-, to x(n+1) and v; `relative` becomes c+.
 static void move_body(scree_state *state, const step_maps *maps, size_t row, scree_vector relative)
 {
-    const double dt = state->step_size, *gradient = state->cell.gradient;
+    const double dt = state->step_size, *gradient = state->periodic.gradient;
     scree_vector before, place, middle, affine, sum, velocity;
     velocity_of(state, row, before);
     scree_body_place(state, row, place);
@@ -209,7 +209,7 @@ static void move_bodies(scree_state *state, scree_work *work, const step_maps *m
 
 static void move_lattice(scree_state *state, const step_maps *maps)
 {
-    scree_cell *cell = &state->cell;
+    scree_periodic_cell *cell = &state->periodic;
     double before[9];
     memcpy(before, cell->lattice, sizeof before);
     scree_matrix_multiply(maps->map, before, cell->lattice);
@@ -263,14 +263,14 @@ static void measure_motion(const scree_model *model, scree_state *state, const s
             for (int j = 0; j < state->dimension; j++)
                 sum.value[3 * i + j] += scree_fixed_from(state->row[row].mass * c[i] * c[j], inverse);
     }
-    for (int k = 0; k < 9; k++) state->cell.motion[k] = (double)sum.value[k] * quantum;
+    for (int k = 0; k < 9; k++) state->periodic.motion[k] = (double)sum.value[k] * quantum;
 }
 
 /// Work of the cell on the bodies for a part of its stress times volume, sum over dt.
 static void book_work(scree_state *state, const double tensor[9], double factor)
 {
-    double work = -factor * state->step_size * scree_matrix_contract(tensor, state->cell.gradient);
-    state->ledger.cell += work;
+    double work = -factor * state->step_size * scree_matrix_contract(tensor, state->periodic.gradient);
+    state->ledger.periodic += work;
     state->ledger.turnover += fabs(work);
 }
 
@@ -282,7 +282,7 @@ static void column(const double m[9], int k, scree_vector v)
 }
 
 /// Takes multiples of lattice vector `other` from lattice vector `k` when it leans too far; true when it did.
-static bool straighten(scree_cell *cell, int k, int other)
+static bool straighten(scree_periodic_cell *cell, int k, int other)
 {
     scree_vector a, b;
     column(cell->lattice, k, a);
@@ -303,7 +303,7 @@ static bool straighten_all(scree_state *state)
     bool changed = false;
     for (int k = 0; k < state->dimension; k++)
         for (int other = 0; other < state->dimension; other++)
-            if (k != other && straighten(&state->cell, k, other)) changed = true;
+            if (k != other && straighten(&state->periodic, k, other)) changed = true;
     return changed;
 }
 
@@ -311,7 +311,7 @@ static bool straighten_all(scree_state *state)
 static double farthest_outside(const scree_state *state, const double inverse[9], int threads)
 {
     double width[3], largest = 0;
-    scree_cell_widths(inverse, width);
+    scree_periodic_widths(inverse, width);
 #pragma omp parallel for num_threads(threads) schedule(static) reduction(max : largest) if (threads > 1)
     for (size_t row = 0; row < state->count; row++) {
         scree_vector place, f;
@@ -319,7 +319,7 @@ static double farthest_outside(const scree_state *state, const double inverse[9]
         scree_matrix_apply(inverse, place, f);
         for (int k = 0; k < state->dimension; k++) {
             double outside = fmax(-f[k], f[k] - 1) * width[k];
-            if (scree_cell_repeats(&state->cell, k) && outside > largest) largest = outside;
+            if (scree_periodic_repeats(&state->periodic, k) && outside > largest) largest = outside;
         }
     }
     return largest;
@@ -334,13 +334,13 @@ static void put_back(const scree_model *model, scree_state *state, const double 
     scree_matrix_apply(inverse, place, f);
     bool moved = false;
     for (int k = 0; k < state->dimension; k++) {
-        if (scree_cell_repeats(&state->cell, k)) shift[k] = -floor(f[k]);
+        if (scree_periodic_repeats(&state->periodic, k)) shift[k] = -floor(f[k]);
         moved = moved || shift[k] != 0;
     }
     if (!moved || !isfinite(f[0] + f[1] + f[2])) return;
     velocity_of(state, row, speed);
-    scree_matrix_apply(state->cell.lattice, shift, by);
-    scree_matrix_apply(state->cell.reference, shift, reference);
+    scree_matrix_apply(state->periodic.lattice, shift, by);
+    scree_matrix_apply(state->periodic.reference, shift, reference);
     scree_matrix_apply(velocity, shift, faster);
     for (int k = 0; k < 3; k++) {
         place[k] += by[k];
@@ -356,10 +356,10 @@ static void put_back(const scree_model *model, scree_state *state, const double 
 static void put_all_back(const scree_model *model, scree_state *state, scree_work *work)
 {
     double inverse[9], velocity[9];
-    bool straightened = deforms(&state->cell) && straighten_all(state);
-    scree_matrix_invert(state->cell.lattice, inverse);
+    bool straightened = deforms(&state->periodic) && straighten_all(state);
+    scree_matrix_invert(state->periodic.lattice, inverse);
     if (!straightened && farthest_outside(state, inverse, work->threads) <= 2 * model->mean_radius) return;
-    scree_cell_lattice_velocity(state, velocity);
+    scree_periodic_lattice_velocity(state, velocity);
     for (size_t id = 0; id < state->count; id++) put_back(model, state, inverse, velocity, state->row_of_id[id]);
     scree_neighbours_invalidate(work);
 }
@@ -372,20 +372,20 @@ static void allow_for_gradient(const scree_model *model, scree_state *state, scr
     double change[9];
     for (int k = 0; k < 9; k++) change[k] = maps->map[k] - (k % 4 == 0);
     work->budget -= 1.25 * scree_matrix_norm(change) * (model->radius_max + 1.5 * work->skin);
-    state->largest_speed += 2 * model->radius_max * scree_matrix_norm(state->cell.gradient);
+    state->largest_speed += 2 * model->radius_max * scree_matrix_norm(state->periodic.gradient);
 }
 
-scree_status scree_cell_move(const scree_model *model, scree_state *state, scree_work *work, scree_error *error)
+scree_status scree_periodic_move(const scree_model *model, scree_state *state, scree_work *work, scree_error *error)
 {
-    if (!state->cell.periodic) return SCREE_OK;
-    if (scree_cell_is_whole(state)) {
+    if (!state->periodic.directions) return SCREE_OK;
+    if (scree_periodic_is_whole(state)) {
         step_maps maps = maps_of(state);
         measure_motion(model, state, work, &maps);
-        if (deforms(&state->cell)) {
+        if (deforms(&state->periodic)) {
             scree_status status = reserve_relative(work, state->count, error);
             if (status) return status;
-            book_work(state, state->cell.motion, 1);
-            book_work(state, state->cell.virial, 0.5);
+            book_work(state, state->periodic.motion, 1);
+            book_work(state, state->periodic.virial, 0.5);
             move_lattice(state, &maps);
             move_bodies(state, work, &maps);
             allow_for_gradient(model, state, work, &maps);
@@ -395,10 +395,10 @@ scree_status scree_cell_move(const scree_model *model, scree_state *state, scree
     return SCREE_OK;
 }
 
-void scree_cell_settle(scree_state *state, const scree_work *work)
+void scree_periodic_settle(scree_state *state, const scree_work *work)
 {
-    if (!scree_cell_is_whole(state) || !deforms(&state->cell)) return;
+    if (!scree_periodic_is_whole(state) || !deforms(&state->periodic)) return;
 #pragma omp parallel for num_threads(work->threads) schedule(static) if (work->threads > 1)
     for (size_t row = 0; row < state->count; row++) set_velocity(state, row, work->relative[row]);
-    book_work(state, state->cell.virial, 0.5);
+    book_work(state, state->periodic.virial, 0.5);
 }

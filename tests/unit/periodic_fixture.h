@@ -1,36 +1,36 @@
 /// Samples in a periodic cell, in 2D and 3D, stepped without a case.
-#ifndef SCREE_TESTS_CELL_FIXTURE_H
-#define SCREE_TESTS_CELL_FIXTURE_H
+#ifndef SCREE_TESTS_PERIODIC_FIXTURE_H
+#define SCREE_TESTS_PERIODIC_FIXTURE_H
 
 #include "testing.h"
 
 #include "base/fixed.h"
 #include "base/matrix.h"
 #include "base/random.h"
-#include "boundary/cell.h"
+#include "boundary/periodic.h"
 #include "contact/contact.h"
 #include "integrate/integrate.h"
 #include "measure/measure.h"
 #include "search/neighbours.h"
-#include "state/cell.h"
+#include "state/periodic.h"
 
 #include <math.h>
 #include <string.h>
 
-typedef struct cell_sample {
+typedef struct periodic_sample {
     scree_config config;
     scree_model model;
     scree_state state;
     scree_work work;
-} cell_sample;
+} periodic_sample;
 
-static inline void cell_check(scree_status status, const scree_error *error)
+static inline void periodic_check(scree_status status, const scree_error *error)
 {
     if (status) fail_msg("status %d: %s", (int)status, error->message);
 }
 
 /// Grains of about 1 mm at the origin, at rest, in a cell of the given lattice (columns; unit vector: not periodic).
-static inline void cell_create(cell_sample *s, int dimension, size_t count, const double lattice[9], scree_law law)
+static inline void periodic_create(periodic_sample *s, int dimension, size_t count, const double lattice[9], scree_law law)
 {
     scree_error error;
     memset(s, 0, sizeof *s);
@@ -53,24 +53,24 @@ static inline void cell_create(cell_sample *s, int dimension, size_t count, cons
     s->config.boundary.servo_velocity = NAN;
     s->model.pairs[0][0] = s->model.walls[0] =
         (scree_pair_constants){.normal_stiffness = 4e9, .tangential_stiffness = 5e9, .friction = 0.5, .damping = 0.3};
-    cell_check(scree_state_create(&s->state, dimension, count, &error), &error);
+    periodic_check(scree_state_create(&s->state, dimension, count, &error), &error);
     s->model.largest_step = s->model.large_multiple = 1;
     s->state.tick = s->state.step_size = s->state.kick_size = s->model.step;
     const double none[3] = {1, 1, 1};
-    scree_cell_set(&s->state.cell, dimension == 2 ? 3 : 7, none);
-    memcpy(s->state.cell.lattice, lattice, sizeof s->state.cell.lattice);
-    memcpy(s->state.cell.reference, lattice, sizeof s->state.cell.reference);
-    cell_check(scree_work_create(&s->work, &s->model, 1, &error), &error);
+    scree_periodic_set(&s->state.periodic, dimension == 2 ? 3 : 7, none);
+    memcpy(s->state.periodic.lattice, lattice, sizeof s->state.periodic.lattice);
+    memcpy(s->state.periodic.reference, lattice, sizeof s->state.periodic.reference);
+    periodic_check(scree_work_create(&s->work, &s->model, 1, &error), &error);
 }
 
-static inline void cell_destroy(cell_sample *s)
+static inline void periodic_destroy(periodic_sample *s)
 {
     scree_contact_scratch_destroy(&s->work);
     scree_work_destroy(&s->work);
     scree_state_destroy(&s->state);
 }
 
-static inline void cell_place(cell_sample *s, size_t row, const double place[3], const double velocity[3],
+static inline void periodic_place(periodic_sample *s, size_t row, const double place[3], const double velocity[3],
                               double radius)
 {
     scree_row *body = &s->state.row[row];
@@ -90,54 +90,54 @@ static inline void cell_place(cell_sample *s, size_t row, const double place[3],
 }
 
 /// Forces at the present positions.
-static inline void cell_forces(cell_sample *s)
+static inline void periodic_forces(periodic_sample *s)
 {
     scree_error error;
-    cell_check(scree_neighbours_refresh(&s->model, &s->state, &s->work, &error), &error);
+    periodic_check(scree_neighbours_refresh(&s->model, &s->state, &s->work, &error), &error);
     scree_contact_set_quanta(&s->model, &s->state, 0);
     scree_contact_forces(&s->model, &s->state, &s->work);
 }
 
 /// A step as run/step.c makes it, with the gradient that the cell has.
-static inline void cell_step(cell_sample *s)
+static inline void periodic_step(periodic_sample *s)
 {
     const scree_integrator *scheme = scree_integrator_get(s->model.scheme);
     scree_error error;
     scheme->first(&s->model, &s->state, &s->work);
-    cell_check(scree_cell_move(&s->model, &s->state, &s->work, &error), &error);
+    periodic_check(scree_periodic_move(&s->model, &s->state, &s->work, &error), &error);
     s->state.step++;
-    cell_forces(s);
-    scree_cell_settle(&s->state, &s->work);
+    periodic_forces(s);
+    scree_periodic_settle(&s->state, &s->work);
     if (scheme->second) scheme->second(&s->model, &s->state, &s->work);
     assert_int_equal(s->work.flags, 0);
 }
 
-static inline void cell_run(cell_sample *s, const double gradient[9], int steps)
+static inline void periodic_run(periodic_sample *s, const double gradient[9], int steps)
 {
-    memcpy(s->state.cell.gradient, gradient, sizeof s->state.cell.gradient);
-    for (int k = 0; k < steps; k++) cell_step(s);
+    memcpy(s->state.periodic.gradient, gradient, sizeof s->state.periodic.gradient);
+    for (int k = 0; k < steps; k++) periodic_step(s);
 }
 
-static inline double cell_random(uint64_t counter)
+static inline double periodic_random(uint64_t counter)
 {
     return scree_random_uniform(11, SCREE_RANDOM_TEST, counter) - 0.5;
 }
 
 /// Grains in contact on a cubic or square net of n places a side, shaken a little, with random velocities and sizes.
-static inline void cell_fill(cell_sample *s, int dimension, int n, scree_law law, double speed)
+static inline void periodic_fill(periodic_sample *s, int dimension, int n, scree_law law, double speed)
 {
     const double spacing = 1.97e-3, side = n * spacing;
     const double lattice[9] = {side, 0, 0, 0, side, 0, 0, 0, dimension == 3 ? side : 1};
     size_t count = (size_t)n * (size_t)n * (dimension == 3 ? (size_t)n : 1);
-    cell_create(s, dimension, count, lattice, law);
+    periodic_create(s, dimension, count, lattice, law);
     for (size_t k = 0; k < count; k++) {
         const size_t index[3] = {k % (size_t)n, k / (size_t)n % (size_t)n, k / (size_t)(n * n)};
         double place[3] = {0}, velocity[3] = {0};
         for (int i = 0; i < dimension; i++) {
-            place[i] = ((double)index[i] + 0.5 + 0.02 * cell_random(8 * k + (uint64_t)i)) * spacing;
-            velocity[i] = 2 * speed * cell_random(8 * k + 3 + (uint64_t)i);
+            place[i] = ((double)index[i] + 0.5 + 0.02 * periodic_random(8 * k + (uint64_t)i)) * spacing;
+            velocity[i] = 2 * speed * periodic_random(8 * k + 3 + (uint64_t)i);
         }
-        cell_place(s, k, place, velocity, 1e-3 * (1 + 0.02 * cell_random(8 * k + 6)));
+        periodic_place(s, k, place, velocity, 1e-3 * (1 + 0.02 * periodic_random(8 * k + 6)));
     }
 }
 

@@ -1,4 +1,4 @@
-/// Stages in a cell that is periodic in all directions (boundary/cell.c).
+/// Stages in a cell that is periodic in all directions (boundary/periodic.c).
 ///
 /// `confine`: all normal stresses rise smoothly to the pressure, the cell keeps its angles; ends when the assembly is
 /// at rest under it, by the rule of stage_confine.c with the three normal stresses in the place of the top plate.
@@ -14,7 +14,7 @@
 #include "base/matrix.h"
 #include "run/sample.h"
 #include "run/simulation.h"
-#include "state/cell.h"
+#include "state/periodic.h"
 
 #include <math.h>
 #include <string.h>
@@ -30,34 +30,34 @@ enum { CALM = 5, SAMPLES_A_WAVE = 4 };
 static void measure_sample(scree_simulation *s, double pressure)
 {
     double *reference = s->state.stage.reference;
-    scree_cell_drive drive;
-    scree_cell_drive_fit(&s->model, &s->state, pressure, &drive);
-    reference[WAVE_TIME] = scree_cell_wave_time(&s->model, &s->state, pressure);
+    scree_periodic_drive drive;
+    scree_periodic_drive_fit(&s->model, &s->state, pressure, &drive);
+    reference[WAVE_TIME] = scree_periodic_wave_time(&s->model, &s->state, pressure);
     reference[INERTIA] = drive.inertia;
     reference[DAMPING] = drive.damping;
     reference[LIMIT] = drive.limit;
-    memcpy(&reference[STRAIN], s->state.cell.strain, sizeof s->state.cell.strain);
+    memcpy(&reference[STRAIN], s->state.periodic.strain, sizeof s->state.periodic.strain);
 }
 
 /// Displacements and rotations count from here.
 static void set_reference(scree_state *state)
 {
     for (size_t row = 0; row < state->count; row++) scree_body_place(state, row, state->reference[row]);
-    memcpy(state->cell.reference, state->cell.lattice, sizeof state->cell.reference);
+    memcpy(state->periodic.reference, state->periodic.lattice, sizeof state->periodic.reference);
     if (state->angle) memset(state->angle, 0, state->count * sizeof *state->angle);
 }
 
 /// A cell that keeps its shape, with the servo of this stage.
-static scree_cell_drive drive_at_rest(const scree_simulation *s)
+static scree_periodic_drive drive_at_rest(const scree_simulation *s)
 {
     const double *reference = s->state.stage.reference;
-    scree_cell_drive drive = {.inertia = reference[INERTIA], .damping = reference[DAMPING], .limit = reference[LIMIT]};
+    scree_periodic_drive drive = {.inertia = reference[INERTIA], .damping = reference[DAMPING], .limit = reference[LIMIT]};
     for (int k = 0; k < 9; k++) drive.stress[k] = NAN;
     return drive;
 }
 
 /// Leaves the normal component of a direction to a pressure.
-static void hold_pressure(scree_cell_drive *drive, int direction, double pressure)
+static void hold_pressure(scree_periodic_drive *drive, int direction, double pressure)
 {
     drive->stress[4 * direction] = -pressure;
 }
@@ -80,7 +80,7 @@ static void plan_confine(scree_simulation *s)
         .interval = scree_stage_ticks(s, wave / SAMPLES_A_WAVE),
         .ramp_time = isnan(stage->ramp_time) ? RAMP_WAVES * wave : stage->ramp_time,
         .time_limit = isnan(stage->time_limit) ? LIMIT_WAVES * wave : stage->time_limit,
-        .cell = drive_at_rest(s),
+        .periodic = drive_at_rest(s),
     };
 }
 
@@ -89,15 +89,15 @@ static void control_confine(scree_simulation *s)
     double from = s->state.stage.reference[0], to = scree_stage_config(s)->pressure;
     double done = s->plan.ramp_time > 0 ? scree_stage_elapsed(s) / s->plan.ramp_time : 1;
     s->state.pressure = from + (to - from) * scree_smooth_ramp(done);
-    for (int k = 0; k < s->state.dimension; k++) hold_pressure(&s->plan.cell, k, s->state.pressure);
-    scree_cell_control(&s->stage_model, &s->state, &s->plan.cell, 1);
+    for (int k = 0; k < s->state.dimension; k++) hold_pressure(&s->plan.periodic, k, s->state.pressure);
+    scree_periodic_control(&s->stage_model, &s->state, &s->plan.periodic, 1);
 }
 
 static scree_status confine_finished(scree_simulation *s, bool *done, scree_error *error)
 {
     const scree_config_stage *stage = scree_stage_config(s);
     double unbalanced = s->sample.value[SCREE_SAMPLE_UNBALANCED_RATIO], stress[9], apart = 0;
-    scree_cell_stress(&s->stage_model, &s->state, stress);
+    scree_periodic_stress(&s->stage_model, &s->state, stress);
     for (int k = 0; k < s->state.dimension; k++) apart = fmax(apart, fabs(stress[4 * k] / stage->pressure + 1));
     bool calm =
         scree_stage_elapsed(s) > s->plan.ramp_time && unbalanced < stage->unbalanced_limit && apart < STRESS_TOLERANCE;
@@ -120,7 +120,7 @@ static double confine_fraction(const scree_simulation *s)
     return NAN;
 }
 
-const scree_stage scree_stage_confine_cell = {.name = "confine",
+const scree_stage scree_stage_confine_periodic = {.name = "confine",
                                               .begin = begin_confine,
                                               .plan = plan_confine,
                                               .control = control_confine,
@@ -141,7 +141,7 @@ static void plan_loading(scree_simulation *s, double rate)
     s->plan = (scree_stage_plan){.interval = interval > 0 ? interval : largest,
                                  .expected = expected,
                                  .ramp_time = rise,
-                                 .cell = drive_at_rest(s)};
+                                 .periodic = drive_at_rest(s)};
 }
 
 static double rise_now(const scree_simulation *s)
@@ -152,7 +152,7 @@ static double rise_now(const scree_simulation *s)
 static scree_status loading_finished(scree_simulation *s, bool *done, scree_error *error)
 {
     (void)error;
-    double strain = scree_loading_strain(s), gradient = scree_matrix_norm(s->state.cell.gradient);
+    double strain = scree_loading_strain(s), gradient = scree_matrix_norm(s->state.periodic.gradient);
     // The last sample lies on the planned last step; half a tick of strain covers round-off.
     *done = strain >= scree_stage_config(s)->strain - 0.5 * gradient * s->state.tick;
     (void)snprintf(s->reason, sizeof s->reason, "strain %.4g reached", strain);
@@ -176,18 +176,18 @@ static scree_status begin_compress(scree_simulation *s, scree_error *error)
 static void plan_compress(scree_simulation *s)
 {
     plan_loading(s, scree_stage_config(s)->rate);
-    for (int k = 0; k + 1 < s->state.dimension; k++) hold_pressure(&s->plan.cell, k, s->state.pressure);
+    for (int k = 0; k + 1 < s->state.dimension; k++) hold_pressure(&s->plan.periodic, k, s->state.pressure);
 }
 
 static void control_compress(scree_simulation *s)
 {
     int axial = 4 * (s->state.dimension - 1);
     double begin = s->state.stage.reference[0];
-    s->plan.cell.rate[axial] = -scree_stage_config(s)->rate * begin / scree_sample_height(s);
-    scree_cell_control(&s->stage_model, &s->state, &s->plan.cell, rise_now(s));
+    s->plan.periodic.rate[axial] = -scree_stage_config(s)->rate * begin / scree_sample_height(s);
+    scree_periodic_control(&s->stage_model, &s->state, &s->plan.periodic, rise_now(s));
 }
 
-const scree_stage scree_stage_compress_cell = {.name = "compress",
+const scree_stage scree_stage_compress_periodic = {.name = "compress",
                                                .loading = true,
                                                .strain = scree_axial_strain,
                                                .begin = begin_compress,
@@ -227,23 +227,23 @@ static void plan_deform(scree_simulation *s)
     const scree_config_stage *stage = scree_stage_config(s);
     double rate[9];
     plan_loading(s, fabs(rate[find_rates(stage, rate)]));
-    memcpy(s->plan.cell.rate, rate, sizeof rate);
-    for (int k = 0; k < 9; k++) s->plan.cell.stress[k] = k % 4 == 0 ? -stage->stress[k] : stage->stress[k];
+    memcpy(s->plan.periodic.rate, rate, sizeof rate);
+    for (int k = 0; k < 9; k++) s->plan.periodic.stress[k] = k % 4 == 0 ? -stage->stress[k] : stage->stress[k];
 }
 
 static void control_deform(scree_simulation *s)
 {
-    scree_cell_control(&s->stage_model, &s->state, &s->plan.cell, rise_now(s));
+    scree_periodic_control(&s->stage_model, &s->state, &s->plan.periodic, rise_now(s));
 }
 
 static double deform_strain(const scree_simulation *s)
 {
     // Asked for after the end of the stage too, when the config is that of the next.
     int leader = (int)s->state.stage.reference[LEADER];
-    return fabs(s->state.cell.strain[leader] - s->state.stage.reference[STRAIN + leader]);
+    return fabs(s->state.periodic.strain[leader] - s->state.stage.reference[STRAIN + leader]);
 }
 
-const scree_stage scree_stage_deform_cell = {.name = "deform",
+const scree_stage scree_stage_deform_periodic = {.name = "deform",
                                              .loading = true,
                                              .strain = deform_strain,
                                              .begin = begin_deform,

@@ -6,7 +6,7 @@
 #include "run/sample.h"
 #include "run/simulation.h"
 #include "search/neighbours.h"
-#include "state/cell.h"
+#include "state/periodic.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -168,7 +168,7 @@ static void stages_do_what_they_say(void **unused)
         check(scree_simulation_step(&s, &error), &error);
         if (s.sampled) worst = fmax(worst, s.sample.value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE]);
         if (stage == 1 && s.stage_ended) {
-            scree_cell_stress(&s.model, &s.state, stress);
+            scree_periodic_stress(&s.model, &s.state, stress);
             // The tolerance of the stop rule.
             for (int k = 0; k < 4; k += 3) assert_true(fabs(stress[4 * (k / 3)] / 1e5 + 1) < 0.02);
         }
@@ -179,14 +179,14 @@ static void stages_do_what_they_say(void **unused)
             rows++;
         }
     }
-    assert_true(fabs(s.state.cell.strain[1] / s.state.cell.strain[3] + 4) < 1e-9);
+    assert_true(fabs(s.state.periodic.strain[1] / s.state.periodic.strain[3] + 4) < 1e-9);
     print_message("largest energy residual over work: %.3g; mean stresses %.4g, %.4g\n", worst, held / rows,
                   lateral / rows);
     // Means of some 16 samples of rapid shear of 70 discs: they scatter by a fifth.
     assert_true(fabs(held / rows / 1e5 - 1) < 0.4 && fabs(lateral / rows / 8e4 - 1) < 0.4);
     // Trapezoids along Hertz springs (test_simulation.c), here with free flights and impacts.
     assert_true(worst < 1e-4);
-    assert_true(fabs(s.state.ledger.cell) > 0);
+    assert_true(fabs(s.state.ledger.periodic) > 0);
     scree_simulation_close(&s);
     scree_case_free(c);
 }
@@ -218,7 +218,7 @@ static void plates_close_the_other_direction(void **unused)
     // Contact stress and plates agree to the inertia of a fast compression.
     const double *v = s.sample.value;
     assert_true(fabs(v[SCREE_SAMPLE_AXIAL_CONTACTS] / v[SCREE_SAMPLE_AXIAL_PLATES] - 1) < 0.1);
-    assert_true(fabs(v[SCREE_SAMPLE_AREA] - s.state.cell.lattice[0] * v[SCREE_SAMPLE_HEIGHT]) < 1e-12);
+    assert_true(fabs(v[SCREE_SAMPLE_AREA] - s.state.periodic.lattice[0] * v[SCREE_SAMPLE_HEIGHT]) < 1e-12);
     scree_simulation_close(&s);
     scree_case_free(c);
 }
