@@ -142,6 +142,7 @@ void scree_ghosts_place(scree_state *state, scree_work *work)
         image->y += place[1];
         image->vx += velocity[0];
         image->vy += velocity[1];
+        if (state->foreseen) state->foreseen[state->count + k] = state->foreseen[ghost->parent];
         if (state->dimension == 2) continue;
         image->z += place[2];
         image->vz += velocity[2];
@@ -258,7 +259,8 @@ static bool is_near_face(const scree_state *state, const scree_work *work, const
     fraction_of(state, work, row, f);
     if (!isfinite(f[0] + f[1] + f[2])) return false;
     for (int k = 0; k < state->dimension; k++)
-        if (scree_periodic_repeats(&state->periodic, k) && f[k] >= range->low[k] + 1 - reach / range->width[k]) return true;
+        if (scree_periodic_repeats(&state->periodic, k) && f[k] >= range->low[k] + 1 - reach / range->width[k])
+            return true;
     return false;
 }
 

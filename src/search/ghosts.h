@@ -12,7 +12,8 @@
 scree_status scree_ghosts_make(scree_state *state, scree_work *work, scree_error *error) SCREE_MUST_USE;
 
 /// Brings all images to where their bodies are now, with their motion: position + H s, velocity + H' s, spin as the
-/// body's. Cost: one row a ghost.
+/// body's. What forces will change in it (state->foreseen) is the same for body and image, as forces leave H' alone.
+/// Cost: one row a ghost.
 void scree_ghosts_place(scree_state *state, scree_work *work);
 
 /// Refills `chunk` with the pairs of a body and an image, each physical pair once. Errors: memory.

@@ -78,7 +78,7 @@ void scree_state_destroy(scree_state *state)
 scree_status scree_state_foresee(scree_state *state, scree_error *error)
 {
     if (state->foreseen) return SCREE_OK;
-    return scree_allocate(&state->foreseen, state->count + 1, sizeof *state->foreseen, error);
+    return scree_allocate(&state->foreseen, state->row_capacity, sizeof *state->foreseen, error);
 }
 
 scree_status scree_state_append(scree_state *state, size_t more, scree_error *error)
@@ -150,6 +150,8 @@ scree_status scree_state_reserve_rows(scree_state *state, size_t count, scree_er
         status = scree_reallocate(&state->turn, before, capacity, sizeof *state->turn, error);
         if (!status) status = scree_reallocate(&state->torque, before, capacity, sizeof *state->torque, error);
     }
+    if (!status && state->foreseen)
+        status = scree_reallocate(&state->foreseen, before, capacity, sizeof *state->foreseen, error);
     // After a failure some arrays are larger than the capacity says, and the next call copies no more than it says.
     if (!status) state->row_capacity = capacity;
     return status;

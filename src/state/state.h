@@ -256,7 +256,7 @@ typedef struct scree_state {
     double tick;              ///< s, the small step of two_timescales, the step of all other schemes
     double step_size;         ///< s, the last step, from n - 1 to n
     double kick_size;         ///< s, what leapfrog velocities were advanced by in it: the mean of it and the one before
-    size_t row_capacity;      ///< of row, turn, sum, torque, id: room for the images of a periodic cell (state/work.h)
+    size_t row_capacity;      ///< of row, turn, sum, torque, id, foreseen: room for the images of a periodic cell (state/work.h)
     scree_row *row;           ///< count
     scree_turn_row *turn;     ///< 3D: count; NULL in 2D
     scree_sum_row *sum;       ///< count, forces at `step`
@@ -296,7 +296,7 @@ typedef struct scree_state {
 scree_status scree_state_create(scree_state *state, int dimension, size_t count, scree_error *error) SCREE_MUST_USE;
 void scree_state_destroy(scree_state *state);
 
-/// Grows the arrays that contacts read and write (row, turn, sum, torque, id) to hold `count` rows. Errors: memory.
+/// Grows the arrays that contacts read and write (row, turn, sum, torque, id, foreseen) to hold `count` rows. Errors: memory.
 scree_status scree_state_reserve_rows(scree_state *state, size_t count, scree_error *error) SCREE_MUST_USE;
 
 /// Position of the body in `row` [m]; z = 0 in 2D.
