@@ -47,6 +47,7 @@
 
 #include "base/fixed.h"
 #include "base/matrix.h"
+#include "base/wide_sum.h"
 #include "search/neighbours.h"
 #include "state/periodic.h"
 
@@ -103,7 +104,8 @@ double scree_periodic_wave_time(const scree_model *model, const scree_state *sta
     return longest / wave_speed(model, state, pressure);
 }
 
-void scree_periodic_drive_fit(const scree_model *model, const scree_state *state, double pressure, scree_periodic_drive *drive)
+void scree_periodic_drive_fit(const scree_model *model, const scree_state *state, double pressure,
+                              scree_periodic_drive *drive)
 {
     const scree_config_boundary *boundary = &model->config->boundary;
     double diameter = 2 * model->mean_radius;
@@ -125,7 +127,8 @@ static void hold_stress(const scree_periodic_drive *drive, double dt, double wan
     *drift += dt * drive->damping / MEAN_GRAINS * (*rate - *drift);
 }
 
-void scree_periodic_control(const scree_model *model, scree_state *state, const scree_periodic_drive *drive, double rise)
+void scree_periodic_control(const scree_model *model, scree_state *state, const scree_periodic_drive *drive,
+                            double rise)
 {
     scree_periodic_cell *cell = &state->periodic;
     double stress[9];
@@ -201,10 +204,28 @@ static void move_body(scree_state *state, const step_maps *maps, size_t row, scr
     set_velocity(state, row, velocity);
 }
 
-static void move_bodies(scree_state *state, scree_work *work, const step_maps *maps)
+/// What the members of the team share.
+typedef struct bodies_task {
+    scree_state *state;
+    const scree_work *work;
+    const step_maps *maps;
+    const double *inverse; ///< of the lattice
+    double quantum;        ///< J, of the sums
+    scree_wide_sum sum[SCREE_TEAM_MOST];
+    double largest[SCREE_TEAM_MOST]; ///< m
+} bodies_task;
+
+static void move_share(void *argument, int index, int count)
 {
-#pragma omp parallel for num_threads(work->threads) schedule(static) if (work->threads > 1)
-    for (size_t row = 0; row < state->count; row++) move_body(state, maps, row, work->relative[row]);
+    const bodies_task *task = argument;
+    size_t end = scree_team_begin(task->state->count, index + 1, count);
+    for (size_t row = scree_team_begin(task->state->count, index, count); row < end; row++)
+        move_body(task->state, task->maps, row, task->work->relative[row]);
+}
+
+static void run_shares(scree_work *work, scree_team_task *share, bodies_task *task)
+{
+    scree_team_run(&work->team, scree_work_shares(work), share, task);
 }
 
 static void move_lattice(scree_state *state, const step_maps *maps)
@@ -228,18 +249,6 @@ static scree_status reserve_relative(scree_work *work, size_t count, scree_error
 
 // ---- energy of the motion ----------------------------------------------------------------------------------------
 
-__extension__ typedef __int128 wide_integer;
-typedef struct wide_sum {
-    wide_integer value[9];
-} wide_sum;
-
-static void wide_add(wide_sum *into, const wide_sum *more)
-{
-    for (int k = 0; k < 9; k++) into->value[k] += more->value[k];
-}
-
-#pragma omp declare reduction(wide:wide_sum : wide_add(&omp_out, &omp_in)) initializer(omp_priv = (wide_sum){{0}})
-
 static double mass_bound(const scree_model *model)
 {
     double heaviest = 0;
@@ -248,22 +257,31 @@ static double mass_bound(const scree_model *model)
     return heaviest;
 }
 
-/// sum m c (x) c from rows that hold c-, rounded to integers so that it does not depend on the order of rows.
-static void measure_motion(const scree_model *model, scree_state *state, const scree_work *work, const step_maps *maps)
+static void motion_share(void *argument, int index, int count)
 {
-    const double bound = mass_bound(model) * state->largest_speed * state->largest_speed;
-    const double quantum = scree_fixed_quantum(4 * bound), inverse = 1 / quantum;
-    wide_sum sum = {{0}};
-#pragma omp parallel for num_threads(work->threads) schedule(static) reduction(wide : sum) if (work->threads > 1)
-    for (size_t row = 0; row < state->count; row++) {
+    bodies_task *task = argument;
+    const scree_state *state = task->state;
+    const double inverse = 1 / task->quantum;
+    scree_wide_sum sum = {{0}};
+    size_t end = scree_team_begin(state->count, index + 1, count);
+    for (size_t row = scree_team_begin(state->count, index, count); row < end; row++) {
         scree_vector before, c;
         velocity_of(state, row, before);
-        scree_matrix_apply(maps->slow, before, c);
+        scree_matrix_apply(task->maps->slow, before, c);
         for (int i = 0; i < state->dimension; i++)
             for (int j = 0; j < state->dimension; j++)
                 sum.value[3 * i + j] += scree_fixed_from(state->row[row].mass * c[i] * c[j], inverse);
     }
-    for (int k = 0; k < 9; k++) state->periodic.motion[k] = (double)sum.value[k] * quantum;
+    task->sum[index] = sum;
+}
+
+/// sum m c (x) c from rows that hold c-, rounded to integers so that it does not depend on the order of rows.
+static void measure_motion(const scree_model *model, scree_state *state, scree_work *work, const step_maps *maps)
+{
+    const double bound = mass_bound(model) * state->largest_speed * state->largest_speed;
+    bodies_task task = {.state = state, .maps = maps, .quantum = scree_fixed_quantum(4 * bound)};
+    run_shares(work, motion_share, &task);
+    scree_wide_total(task.sum, scree_work_shares(work), task.quantum, state->periodic.motion);
 }
 
 /// Work of the cell on the bodies for a part of its stress times volume, sum over dt.
@@ -307,21 +325,32 @@ static bool straighten_all(scree_state *state)
     return changed;
 }
 
-/// Largest distance [m] of a body from the cell it should be in.
-static double farthest_outside(const scree_state *state, const double inverse[9], int threads)
+static void outside_share(void *argument, int index, int count)
 {
+    bodies_task *task = argument;
+    const scree_state *state = task->state;
     double width[3], largest = 0;
-    scree_periodic_widths(inverse, width);
-#pragma omp parallel for num_threads(threads) schedule(static) reduction(max : largest) if (threads > 1)
-    for (size_t row = 0; row < state->count; row++) {
+    scree_periodic_widths(task->inverse, width);
+    size_t end = scree_team_begin(state->count, index + 1, count);
+    for (size_t row = scree_team_begin(state->count, index, count); row < end; row++) {
         scree_vector place, f;
         scree_body_place(state, row, place);
-        scree_matrix_apply(inverse, place, f);
+        scree_matrix_apply(task->inverse, place, f);
         for (int k = 0; k < state->dimension; k++) {
             double outside = fmax(-f[k], f[k] - 1) * width[k];
             if (scree_periodic_repeats(&state->periodic, k) && outside > largest) largest = outside;
         }
     }
+    task->largest[index] = largest;
+}
+
+/// Largest distance [m] of a body from the cell it should be in.
+static double farthest_outside(scree_state *state, scree_work *work, const double inverse[9])
+{
+    bodies_task task = {.state = state, .inverse = inverse};
+    double largest = 0;
+    run_shares(work, outside_share, &task);
+    for (int k = 0; k < scree_work_shares(work); k++) largest = fmax(largest, task.largest[k]);
     return largest;
 }
 
@@ -358,7 +387,7 @@ static void put_all_back(const scree_model *model, scree_state *state, scree_wor
     double inverse[9], velocity[9];
     bool straightened = deforms(&state->periodic) && straighten_all(state);
     scree_matrix_invert(state->periodic.lattice, inverse);
-    if (!straightened && farthest_outside(state, inverse, work->threads) <= 2 * model->mean_radius) return;
+    if (!straightened && farthest_outside(state, work, inverse) <= 2 * model->mean_radius) return;
     scree_periodic_lattice_velocity(state, velocity);
     for (size_t id = 0; id < state->count; id++) put_back(model, state, inverse, velocity, state->row_of_id[id]);
     scree_neighbours_invalidate(work);
@@ -387,7 +416,7 @@ scree_status scree_periodic_move(const scree_model *model, scree_state *state, s
             book_work(state, state->periodic.motion, 1);
             book_work(state, state->periodic.virial, 0.5);
             move_lattice(state, &maps);
-            move_bodies(state, work, &maps);
+            run_shares(work, move_share, &(bodies_task){.state = state, .work = work, .maps = &maps});
             allow_for_gradient(model, state, work, &maps);
         }
     }
@@ -395,10 +424,17 @@ scree_status scree_periodic_move(const scree_model *model, scree_state *state, s
     return SCREE_OK;
 }
 
-void scree_periodic_settle(scree_state *state, const scree_work *work)
+static void settle_share(void *argument, int index, int count)
+{
+    const bodies_task *task = argument;
+    size_t end = scree_team_begin(task->state->count, index + 1, count);
+    for (size_t row = scree_team_begin(task->state->count, index, count); row < end; row++)
+        set_velocity(task->state, row, task->work->relative[row]);
+}
+
+void scree_periodic_settle(scree_state *state, scree_work *work)
 {
     if (!scree_periodic_is_whole(state) || !deforms(&state->periodic)) return;
-#pragma omp parallel for num_threads(work->threads) schedule(static) if (work->threads > 1)
-    for (size_t row = 0; row < state->count; row++) set_velocity(state, row, work->relative[row]);
+    run_shares(work, settle_share, &(bodies_task){.state = state, .work = work});
     book_work(state, state->periodic.virial, 0.5);
 }

@@ -31,6 +31,6 @@ scree_status scree_periodic_move(const scree_model *model, scree_state *state, s
 
 /// Right after scree_contact_forces: rows get back the velocities relative to the affine field, and the second half of
 /// the work is booked.
-void scree_periodic_settle(scree_state *state, const scree_work *work);
+void scree_periodic_settle(scree_state *state, scree_work *work);
 
 #endif

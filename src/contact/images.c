@@ -10,7 +10,7 @@
 /// force times the size of the cell, a body. Cost: d^2 multiplications a body.
 #include "contact/images.h"
 
-#include "base/fixed.h"
+#include "base/wide_sum.h"
 #include "state/periodic.h"
 
 #include <math.h>
@@ -52,41 +52,34 @@ static void fold(scree_state *state, const scree_ghost_list *list, int64_t faces
     }
 }
 
-__extension__ typedef __int128 wide_integer;
+typedef struct virial_task {
+    const scree_state *state;
+    double bound;                    ///< m, power of two above the magnitude of every coordinate
+    double largest[SCREE_TEAM_MOST]; ///< m
+    scree_wide_sum sum[SCREE_TEAM_MOST];
+} virial_task;
 
-typedef struct wide_sum {
-    wide_integer value[9];
-} wide_sum;
-
-static void wide_add(wide_sum *into, const wide_sum *more)
+static void bound_share(void *argument, int index, int count)
 {
-    for (int k = 0; k < 9; k++) into->value[k] += more->value[k];
-}
-
-#pragma omp declare reduction(wide:wide_sum : wide_add(&omp_out, &omp_in)) initializer(omp_priv = (wide_sum){{0}})
-
-/// Power of two above the magnitude of every coordinate.
-static double coordinate_bound(const scree_state *state, int threads)
-{
+    virial_task *task = argument;
     double largest = 0;
-    int exponent;
-#pragma omp parallel for num_threads(threads) schedule(static) reduction(max : largest) if (threads > 1)
-    for (size_t row = 0; row < state->count; row++) {
+    size_t end = scree_team_begin(task->state->count, index + 1, count);
+    for (size_t row = scree_team_begin(task->state->count, index, count); row < end; row++) {
         scree_vector place;
-        scree_body_place(state, row, place);
+        scree_body_place(task->state, row, place);
         for (int k = 0; k < 3; k++) largest = fabs(place[k]) > largest ? fabs(place[k]) : largest;
     }
-    (void)frexp(largest, &exponent);
-    return ldexp(1.0, exponent);
+    task->largest[index] = largest;
 }
 
-/// sum over bodies of F (x) x [J].
-static void sum_bodies(const scree_state *state, int threads, double product[9])
+static void sum_share(void *argument, int index, int count)
 {
-    const double bound = coordinate_bound(state, threads), inverse = 1 / bound;
-    wide_sum sum = {{0}};
-#pragma omp parallel for num_threads(threads) schedule(static) reduction(wide : sum) if (threads > 1)
-    for (size_t row = 0; row < state->count; row++) {
+    virial_task *task = argument;
+    const scree_state *state = task->state;
+    const double inverse = 1 / task->bound;
+    scree_wide_sum sum = {{0}};
+    size_t end = scree_team_begin(state->count, index + 1, count);
+    for (size_t row = scree_team_begin(state->count, index, count); row < end; row++) {
         scree_vector place;
         int64_t force[3];
         scree_body_place(state, row, place);
@@ -95,7 +88,22 @@ static void sum_bodies(const scree_state *state, int threads, double product[9])
             for (int j = 0; j < state->dimension; j++)
                 sum.value[3 * i + j] += (int64_t)rint((double)force[i] * (place[j] * inverse));
     }
-    for (int k = 0; k < 9; k++) product[k] = (double)sum.value[k] * (state->force_quantum * bound);
+    task->sum[index] = sum;
+}
+
+/// sum over bodies of F (x) x [J].
+static void sum_bodies(const scree_state *state, scree_work *work, double product[9])
+{
+    virial_task task = {.state = state};
+    const int shares = scree_work_shares(work);
+    double largest = 0;
+    int exponent;
+    scree_team_run(&work->team, shares, bound_share, &task);
+    for (int k = 0; k < shares; k++) largest = fmax(largest, task.largest[k]);
+    (void)frexp(largest, &exponent);
+    task.bound = ldexp(1.0, exponent);
+    scree_team_run(&work->team, shares, sum_share, &task);
+    scree_wide_total(task.sum, shares, state->force_quantum * task.bound, product);
 }
 
 void scree_images_fold(scree_state *state, scree_work *work)
@@ -105,7 +113,7 @@ void scree_images_fold(scree_state *state, scree_work *work)
     if (!cell->directions) return;
     fold(state, &work->ghosts, faces);
     if (!scree_periodic_is_whole(state)) return;
-    sum_bodies(state, work->threads, cell->virial);
+    sum_bodies(state, work, cell->virial);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             for (int k = 0; k < 3; k++)

@@ -124,30 +124,45 @@ scree_status scree_ghosts_make(scree_state *state, scree_work *work, scree_error
     return SCREE_OK;
 }
 
+typedef struct place_task {
+    scree_state *state;
+    const scree_ghost_list *list;
+    double lattice_velocity[9];
+} place_task;
+
+static void place_image(const place_task *task, size_t k)
+{
+    scree_state *state = task->state;
+    const scree_ghost *ghost = &task->list->ghost[k];
+    const double s[3] = {ghost->shift[0], ghost->shift[1], ghost->shift[2]};
+    scree_row *image = &state->row[state->count + k];
+    scree_vector place, velocity;
+    scree_matrix_apply(state->periodic.lattice, s, place);
+    scree_matrix_apply(task->lattice_velocity, s, velocity);
+    *image = state->row[ghost->parent];
+    image->x += place[0];
+    image->y += place[1];
+    image->vx += velocity[0];
+    image->vy += velocity[1];
+    if (state->foreseen) state->foreseen[state->count + k] = state->foreseen[ghost->parent];
+    if (state->dimension == 2) return;
+    image->z += place[2];
+    image->vz += velocity[2];
+    state->turn[state->count + k] = state->turn[ghost->parent];
+}
+
+static void place_share(void *argument, int index, int count)
+{
+    const place_task *task = argument;
+    size_t end = scree_team_begin(task->list->count, index + 1, count);
+    for (size_t k = scree_team_begin(task->list->count, index, count); k < end; k++) place_image(task, k);
+}
+
 void scree_ghosts_place(scree_state *state, scree_work *work)
 {
-    const scree_ghost_list *list = &work->ghosts;
-    double lattice_velocity[9];
-    scree_periodic_lattice_velocity(state, lattice_velocity);
-#pragma omp parallel for num_threads(work->threads) schedule(static) if (work->threads > 1)
-    for (size_t k = 0; k < list->count; k++) {
-        const scree_ghost *ghost = &list->ghost[k];
-        const double s[3] = {ghost->shift[0], ghost->shift[1], ghost->shift[2]};
-        scree_row *image = &state->row[state->count + k];
-        scree_vector place, velocity;
-        scree_matrix_apply(state->periodic.lattice, s, place);
-        scree_matrix_apply(lattice_velocity, s, velocity);
-        *image = state->row[ghost->parent];
-        image->x += place[0];
-        image->y += place[1];
-        image->vx += velocity[0];
-        image->vy += velocity[1];
-        if (state->foreseen) state->foreseen[state->count + k] = state->foreseen[ghost->parent];
-        if (state->dimension == 2) continue;
-        image->z += place[2];
-        image->vz += velocity[2];
-        state->turn[state->count + k] = state->turn[ghost->parent];
-    }
+    place_task task = {.state = state, .list = &work->ghosts};
+    scree_periodic_lattice_velocity(state, task.lattice_velocity);
+    scree_team_run(&work->team, scree_work_shares(work), place_share, &task);
 }
 
 void scree_ghosts_deformation(const scree_state *state, const scree_work *work, double deformation[9])

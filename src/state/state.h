@@ -240,12 +240,19 @@ typedef struct scree_stage_state {
     int64_t index;                            ///< which stage of the case
     uint64_t first_step;                      ///< step at which it began
     double first_time;                        ///< s
+    uint64_t first_evaluations;               ///< state.evaluations when it began
     double reference[SCREE_STAGE_REFERENCES]; ///< stage-specific numbers (height at start, pressure at start, ...): see
                                               ///< the stage's file
     int64_t samples;                          ///< rows written in this stage
     int64_t snapshots;
     int64_t counter; ///< stage-specific
 } scree_stage_state;
+
+/// Time on the wall spent so far, all processes of the run together. Kept in checkpoints beside the state: it is no
+/// part of the checksum and nothing depends on it.
+typedef struct scree_wall_time {
+    double run, stage; ///< s, of the run and of its present or last stage
+} scree_wall_time;
 
 typedef struct scree_state {
     int dimension; ///< 2 or 3
@@ -290,6 +297,7 @@ typedef struct scree_state {
     scree_forced_spin forced;
     scree_ledger ledger;
     scree_stage_state stage;
+    scree_wall_time wall_time;
 } scree_state;
 
 /// Allocates arrays for `count` bodies of dimension 2 or 3, ids 0 .. count-1, everything else zero.

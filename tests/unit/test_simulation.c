@@ -124,6 +124,14 @@ static void read_checksum(const char *directory, char text[32])
     check(scree_result_get(directory, "state_checksum", text, 32, &error), &error);
 }
 
+static double read_number(const char *directory, const char *name)
+{
+    scree_error error;
+    char text[64];
+    check(scree_result_get(directory, name, text, sizeof text, &error), &error);
+    return strtod(text, NULL);
+}
+
 /// Uninterrupted run against one that is stopped and restarted, and one that lost everything after a checkpoint.
 static void restart_gives_the_same_bits(void **unused)
 {
@@ -150,10 +158,15 @@ static void restart_gives_the_same_bits(void **unused)
         read_checksum(whole, one);
         read_checksum(part, two);
         assert_string_equal(one, two);
-        // A finished run is at its end.
+        double cost = read_number(whole, "loading_force_evaluations"), time = read_number(whole, "loading_wall_time");
+        assert_true(cost > 0 && cost < read_number(whole, "force_evaluations"));
+        assert_true(read_number(part, "loading_force_evaluations") == cost);
+        assert_true(time > 0 && time < read_number(whole, "wall_time"));
+        // A finished run is at its end, and its time is kept.
         check(scree_restart(whole, &options, &error), &error);
         read_checksum(whole, two);
         assert_string_equal(one, two);
+        assert_true(read_number(whole, "loading_wall_time") == time);
         scree_case_free(c);
     }
     char command[128];
