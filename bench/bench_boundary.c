@@ -1,0 +1,107 @@
+/// Cost of the Delaunay boundary (discs: loop; spheres: hull), and its share of a run at the prescribed interval.
+///
+/// Built-in cases biaxial and triaxial: the time of one update on the confined sample, that of a step between updates,
+/// and update / (interval x step + update). Then one update of large packings as they were dropped. A figure is the
+/// best of several, in processor time of one thread. Arguments: none.
+#include "boundary/pressure.h"
+#include "run/simulation.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+enum { RUNS = 8 };
+
+static void require(scree_status status, const scree_error *error)
+{
+    if (!status) return;
+    (void)fprintf(stderr, "bench_boundary: %s\n", error->message);
+    exit(EXIT_FAILURE);
+}
+
+static double seconds(void)
+{
+    struct timespec now;
+    (void)clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void open_case(const char *name, long count, scree_case **c, scree_simulation *s)
+{
+    char path[512], number[64];
+    (void)snprintf(path, sizeof path, "%s/cases/%s.yaml", SCREE_SOURCE_DIR, name);
+    (void)snprintf(number, sizeof number, "particles.count=%ld", count);
+    const char *overrides[] = {number};
+    scree_case_options choice = {.overrides = overrides, .override_count = 1};
+    scree_problems *problems = NULL;
+    scree_error error;
+    if (scree_case_read(path, &choice, c, &problems)) require(SCREE_ERROR_INPUT, scree_problems_get(problems, 0));
+    require(scree_simulation_open(*c, 1, s, &error), &error);
+}
+
+/// One update of the boundary [s].
+static double measure_update(scree_simulation *s)
+{
+    double best = INFINITY;
+    for (int run = 0; run < RUNS; run++) {
+        scree_error error;
+        // Due again: as if the interval had passed.
+        s->state.step += (uint64_t)s->model.config->boundary.every * s->model.largest_step;
+        double begin = seconds();
+        require(scree_boundary_refresh(&s->model, &s->state, &error), &error);
+        best = fmin(best, seconds() - begin);
+    }
+    return best;
+}
+
+/// One step without an update [s].
+static double measure_step(scree_simulation *s)
+{
+    const int steps = (int)s->model.config->boundary.every / 2;
+    double best = INFINITY;
+    for (int run = 0; run < RUNS; run++) {
+        scree_error error;
+        require(scree_boundary_refresh(&s->model, &s->state, &error), &error);
+        double begin = seconds();
+        for (int k = 0; k < steps; k++) require(scree_simulation_step(s, &error), &error);
+        best = fmin(best, (seconds() - begin) / steps);
+    }
+    return best;
+}
+
+static void bench_confined(const char *name, long count)
+{
+    scree_case *c;
+    scree_simulation s;
+    scree_error error;
+    open_case(name, count, &c, &s);
+    while (!s.stage || !s.stage->loading) require(scree_simulation_step(&s, &error), &error);
+    double step = measure_step(&s), update = measure_update(&s), interval = (double)c->config.boundary.every;
+    printf("%-10s %8zu %12.2f %12.1f %10.0f %8.1f %%\n", name, s.state.count, 1e3 * update, 1e6 * step, interval,
+           100 * update / (interval * step + update));
+    scree_simulation_close(&s);
+    scree_case_free(c);
+}
+
+static void bench_packing(const char *name, long count)
+{
+    scree_case *c;
+    scree_simulation s;
+    scree_error error;
+    open_case(name, count, &c, &s);
+    while (s.state.stage.index == 0) require(scree_simulation_step(&s, &error), &error);
+    printf("%-10s %8zu %12.2f\n", name, s.state.count, 1e3 * measure_update(&s));
+    scree_simulation_close(&s);
+    scree_case_free(c);
+}
+
+int main(void)
+{
+    printf("%-10s %8s %12s %12s %10s %10s\n", "case", "bodies", "update, ms", "step, us", "interval", "share");
+    bench_confined("biaxial", 4000);
+    bench_confined("triaxial", 3413);
+    bench_packing("biaxial", 100000);
+    bench_packing("triaxial", 100000);
+    return EXIT_SUCCESS;
+}
