@@ -245,6 +245,51 @@ double scree_model_loading_rate(const scree_config_stage *stage)
     return rate;
 }
 
+/// Sides [m] of the box of a gas; in 2D the third is infinite.
+static void gas_sides(const scree_model *model, const scree_config_stage *stage, double side[3])
+{
+    int material = scree_model_particle_material(model);
+    double depth = model->dimension == 3 ? 1 : model->thickness;
+    double solid = (double)model->config->particles.count * mean_mass(model, material) / model->density[material];
+    double room = solid / depth / scree_model_gas_fraction(model, stage);
+    side[0] = stage->width;
+    side[1] = stage->depth;
+    side[2] = INFINITY;
+    if (model->dimension == 2) {
+        if (isnan(side[0])) side[0] = sqrt(room / stage->aspect_ratio);
+        side[1] = room / side[0];
+        return;
+    }
+    double face = room / stage->aspect_ratio;
+    if (isnan(side[0])) side[0] = isnan(side[1]) ? cbrt(face) : sqrt(face / side[1]);
+    if (isnan(side[1])) side[1] = side[0];
+    side[2] = room / (side[0] * side[1]);
+}
+
+/// A periodic gas must be wide enough when it is prepared, and when its cell has shrunk to the loosest packing that
+/// bears a pressure (solid fraction about 0.76 of discs, 0.55 of spheres). What happens later is not known here: the
+/// search for images says it then.
+static scree_status check_periods(const scree_model *model, int64_t index, bool confined, scree_error *error)
+{
+    const scree_config_stage *stage = &model->config->stages[index];
+    const int periodic = model->config->boundary.periodic;
+    if (!periodic || stage->method != SCREE_PREPARE_GAS) return SCREE_OK;
+    double side[3], loosest = model->dimension == 3 ? 0.55 : 0.76, needed = 4 * model->radius_max;
+    double shrunk = fmin(1, pow(scree_model_gas_fraction(model, stage) / loosest, 1.0 / model->dimension));
+    if (!confined || !scree_model_is_wholly_periodic(model)) shrunk = 1;
+    gas_sides(model, stage, side);
+    for (int k = 0; k < model->dimension; k++) {
+        if (!(periodic >> k & 1) || shrunk * side[k] > needed) continue;
+        char text[240];
+        (void)snprintf(text, sizeof text,
+                       "the periodic cell %s only %.3g m wide along %c, and must be wider than two of the largest "
+                       "particles side by side (%.3g m): take more particles or another aspect_ratio",
+                       shrunk < 1 ? "will be" : "is", shrunk * side[k], "xyz"[k], needed);
+        return indexed_error(error, "stages", index, "aspect_ratio", text);
+    }
+    return SCREE_OK;
+}
+
 /// Reference velocity, phi and psi: those of the first loading stage under the pressure that it holds or that of the
 /// last confine stage before it.
 static scree_status resolve_loading(scree_model *model, scree_error *error)
@@ -254,7 +299,9 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
     for (int64_t i = 0; i < config->stage_count && isnan(rate); i++) {
         const scree_config_stage *stage = &config->stages[i];
         if (stage->kind == SCREE_STAGE_PREPARE) {
+            bool confined = i + 1 < config->stage_count && config->stages[i + 1].kind == SCREE_STAGE_CONFINE;
             scree_status status = check_prepare(model, i, error);
+            if (!status) status = check_periods(model, i, confined, error);
             if (status) return status;
         }
         if (scree_held_pressure(stage) > 0) pressure = scree_held_pressure(stage);

@@ -57,10 +57,10 @@ static scree_status check_width(const scree_state *state, const image_range *ran
         if (scree_periodic_repeats(&state->periodic, k) && !(range->width[k] >= needed))
             return scree_error_set(
                 error, SCREE_ERROR_GUARD,
-                "step %llu: the periodic cell is only %.4g m wide along lattice vector %d; it must be "
+                "stage %lld, step %llu: the periodic cell is only %.4g m wide along lattice vector %d; it must be "
                 "wider than two of the largest particles (%.4g m), or a particle would meet the same "
                 "neighbour on both sides: try more particles or less strain",
-                (unsigned long long)state->step, range->width[k], k + 1, needed);
+                (long long)state->stage.index, (unsigned long long)state->step, range->width[k], k + 1, needed);
     return SCREE_OK;
 }
 

@@ -257,6 +257,18 @@ static void refuse(const char *override, const char *message)
     fail_msg("%s: expected \"%s\", got \"%s\"", override, message, scree_problems_get(problems, 0)->message);
 }
 
+/// Whether the model of the case can be built.
+static void accept(const char *override, bool expected)
+{
+    scree_case *c = read_case(&override, 1);
+    scree_model model;
+    scree_error error;
+    scree_status status = scree_model_build(&c->config, &model, &error);
+    assert_int_equal(status, expected ? SCREE_OK : SCREE_ERROR_INPUT);
+    if (!expected) assert_non_null(strstr(error.message, "wide along x"));
+    scree_case_free(c);
+}
+
 static void what_cannot_be_is_refused(void **unused)
 {
     (void)unused;
@@ -266,6 +278,11 @@ static void what_cannot_be_is_refused(void **unused)
     refuse("stages.deform.velocity_gradient={xy: 1 1/s, xz: 1 1/s}", "there is no z in two dimensions");
     refuse("stages.deform.velocity_gradient={xx: 1 1/s}", "the same component has a rate");
     refuse("gravity=[0, -9.81 m/s2]", "gravity has nothing to fall on");
+    refuse("stages.prepare.method=growth", "this method needs walls");
+    refuse("stages.prepare.outline=circle", "a round sample cannot repeat itself");
+    // 12 discs of 0.5 to 1 mm, 23 mm2 at 0.76: 4.5 mm wide at an aspect ratio of 1.5, less than 4 mm at 2.
+    accept("particles.count=12", true);
+    accept("particles.count=8", false);
 }
 
 int main(void)
