@@ -12,6 +12,7 @@ enum {
 
 const scree_boundary scree_boundary_pressure = {.name = "pressure", .walls = AXIAL};
 const scree_boundary scree_boundary_plates = {.name = "plates", .walls = AXIAL | LATERAL};
+const scree_boundary scree_boundary_walls = {.name = "walls", .open = true};
 
 const scree_boundary *scree_boundary_get(scree_boundary_kind kind)
 {
@@ -19,6 +20,7 @@ const scree_boundary *scree_boundary_get(scree_boundary_kind kind)
         [SCREE_BOUNDARY_AUTO] = &scree_boundary_pressure,   [SCREE_BOUNDARY_PRESSURE] = &scree_boundary_pressure,
         [SCREE_BOUNDARY_PLATES] = &scree_boundary_plates,   [SCREE_BOUNDARY_MEMBRANE] = &scree_boundary_membrane,
         [SCREE_BOUNDARY_MINIMAL] = &scree_boundary_minimal, [SCREE_BOUNDARY_AFFINE] = &scree_boundary_affine,
+        [SCREE_BOUNDARY_WALLS] = &scree_boundary_walls,
     };
     return table[kind];
 }
@@ -61,7 +63,8 @@ scree_status scree_boundary_begin(const scree_boundary *boundary, const scree_mo
 {
     size_t count = state->count;
     *changed = change_walls(state, boundary->walls, table);
-    scree_status status = *changed ? scree_boundary_mark_loaded(model, state, error) : SCREE_OK;
+    scree_status status = SCREE_OK;
+    if (*changed && !boundary->open) status = scree_boundary_mark_loaded(model, state, error);
     if (!status && boundary->begin) status = boundary->begin(model, state, error);
     *changed = *changed || state->count != count;
     return status;
@@ -76,6 +79,7 @@ void scree_boundary_finish_work(const scree_boundary *boundary, scree_state *sta
 scree_status scree_boundary_prepare(const scree_boundary *boundary, const scree_model *model, scree_state *state,
                                     scree_error *error)
 {
+    if (boundary->open) return SCREE_OK;
     scree_status status = scree_boundary_refresh(model, state, error);
     return status || !boundary->refresh ? status : boundary->refresh(model, state, error);
 }

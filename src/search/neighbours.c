@@ -18,6 +18,7 @@
 #include "search/neighbours.h"
 
 #include "search/search.h"
+#include "shape/container.h"
 
 #include <float.h>
 #include <math.h>
@@ -50,9 +51,19 @@ static double largest_displacement(const scree_state *state, int threads)
     return sqrt(largest);
 }
 
-/// A wall has come up, turned, or moved by half the skin. Walls that go away do no harm.
-static bool walls_need_rebuild(const scree_state *state, const scree_work *work)
+static double surface_time(const scree_state *state, uint64_t ticks)
 {
+    return (double)ticks * state->tick;
+}
+
+/// A wall has come up, turned, or moved by half the skin. Walls that go away do no harm.
+static bool walls_need_rebuild(const scree_model *model, const scree_state *state, const scree_work *work)
+{
+    if (work->container) {
+        double time = surface_time(state, state->surface_ticks) - surface_time(state, work->search->surface_ticks);
+        double margin = scree_model_largest_radius(model) + work->skin;
+        if (!(scree_container_way(work->container, time, margin) < half_skin(work))) return true;
+    }
     for (int w = 0; w < SCREE_WALL_COUNT; w++) {
         const scree_wall *now = &state->wall[w], *then = &work->search->wall[w];
         if (!now->active) continue;
@@ -95,8 +106,10 @@ static void release_list(const list_arrays *list)
 void scree_pair_lists_destroy(scree_work *work)
 {
     list_arrays pairs = arrays_of_pairs(&work->pairs), walls = arrays_of_wall_pairs(&work->wall_pairs);
+    list_arrays elements = arrays_of_wall_pairs(&work->element_pairs);
     release_list(&pairs);
     release_list(&walls);
+    release_list(&elements);
 }
 
 /// Makes room for `count` pairs and the padding, with the rows that the law needs; contents are lost when it grows.
@@ -134,10 +147,13 @@ static scree_status search_pairs(const scree_state *state, scree_work *work, scr
     const size_t chunks = (size_t)search->chunks;
     size_t failed = chunks;
 #pragma omp parallel for num_threads(search->chunks) schedule(static, 1) reduction(min : failed) if (search->chunks > 1)
-    for (size_t c = 0; c < chunks; c++)
-        if (find(&search->grid, state, state->count * c / chunks, state->count * (c + 1) / chunks, &search->chunk[c],
-                 NULL))
+    for (size_t c = 0; c < chunks; c++) {
+        size_t begin = state->count * c / chunks, end = state->count * (c + 1) / chunks;
+        search->chunk[c].element.count = 0;
+        if (find(&search->grid, state, begin, end, &search->chunk[c], NULL) ||
+            scree_elements_search(work->container, state, begin, end, work->skin, &search->chunk[c].element, NULL))
             failed = c < failed ? c : failed;
+    }
     for (size_t c = 0; c < chunks && state->membrane.count > 0; c++) {
         drop_membrane_pairs(state, &search->chunk[c].touching);
         drop_membrane_pairs(state, &search->chunk[c].near);
@@ -178,14 +194,20 @@ static void list_pairs(scree_search *search, scree_pair_list *pairs, bool touchi
     }
 }
 
-static void list_wall_pairs(const scree_search *search, scree_wall_pair_list *walls)
+static void list_wall_pairs(const scree_search *search, scree_work *work)
 {
-    size_t at = 0;
-    for (int c = 0; c < search->chunks; c++)
-        for (size_t k = 0; k < search->chunk[c].wall.count; k++, at++) {
-            walls->body[at] = search->chunk[c].wall.pair[k].first;
-            walls->wall[at] = search->chunk[c].wall.pair[k].second;
+    size_t wall = 0, element = 0;
+    for (int c = 0; c < search->chunks; c++) {
+        const scree_pair_chunk *chunk = &search->chunk[c];
+        for (size_t k = 0; k < chunk->wall.count; k++, wall++) {
+            work->wall_pairs.body[wall] = chunk->wall.pair[k].first;
+            work->wall_pairs.wall[wall] = chunk->wall.pair[k].second;
         }
+        for (size_t k = 0; k < chunk->element.count; k++, element++) {
+            work->element_pairs.body[element] = chunk->element.pair[k].first;
+            work->element_pairs.wall[element] = chunk->element.pair[k].second;
+        }
+    }
 }
 
 /// Gives entry `k` of a list the rows of contact `from` of the state, or clear ones if it has none.
@@ -203,8 +225,9 @@ static void attach_histories(const scree_state *state, scree_work *work)
 {
     const scree_search *search = work->search;
     scree_pair_list *pairs = &work->pairs;
-    scree_wall_pair_list *walls = &work->wall_pairs;
+    scree_wall_pair_list *walls = &work->wall_pairs, *elements = &work->element_pairs;
     const list_arrays of_pairs = arrays_of_pairs(pairs), of_walls = arrays_of_wall_pairs(walls);
+    const list_arrays of_elements = arrays_of_wall_pairs(elements);
 #pragma omp parallel for num_threads(work->threads) schedule(static) if (work->threads > 1)
     for (size_t k = 0; k < pairs->count; k++) {
         uint32_t first = pairs->first[k], second = pairs->second[k], lower = first < second ? first : second;
@@ -214,6 +237,10 @@ static void attach_histories(const scree_state *state, scree_work *work)
         attach_rows(state, &of_walls, k,
                     scree_history_find(search, state, walls->body[k], state->id[walls->body[k]],
                                        SCREE_WALL_ID + walls->wall[k]));
+    for (size_t k = 0; k < elements->count; k++)
+        attach_rows(state, &of_elements, k,
+                    scree_history_find(search, state, elements->body[k], state->id[elements->body[k]],
+                                       SCREE_ELEMENT_ID + elements->wall[k]));
 }
 
 /// Row 0 (wall 0) and clear rows behind the last pair.
@@ -230,25 +257,29 @@ static scree_status assemble(const scree_model *model, const scree_state *state,
 {
     scree_search *search = work->search;
     scree_pair_list *pairs = &work->pairs;
-    scree_wall_pair_list *walls = &work->wall_pairs;
-    size_t touching = 0, near = 0, wall = 0;
+    scree_wall_pair_list *walls = &work->wall_pairs, *elements = &work->element_pairs;
+    size_t touching = 0, near = 0, wall = 0, element = 0;
     for (int c = 0; c < search->chunks; c++) {
         touching += search->chunk[c].touching.count;
         near += search->chunk[c].near.count;
         wall += search->chunk[c].wall.count;
+        element += search->chunk[c].element.count;
     }
-    pairs->count = pairs->touching_count = walls->count = 0;
+    pairs->count = pairs->touching_count = walls->count = elements->count = 0;
     const list_arrays of_pairs = arrays_of_pairs(pairs), of_walls = arrays_of_wall_pairs(walls);
+    const list_arrays of_elements = arrays_of_wall_pairs(elements);
     bool books = scree_contacts_book(model, state->dimension), rolls = model->rolling;
     scree_status status = reserve_list(&of_pairs, touching + near, books, rolls, error);
     if (!status) status = reserve_list(&of_walls, wall, books, rolls, error);
+    if (!status && work->container) status = reserve_list(&of_elements, element, books, rolls, error);
     if (status) return status;
     pairs->count = touching + near;
     pairs->touching_count = touching;
     walls->count = wall;
+    elements->count = element;
     list_pairs(search, pairs, true, 0);
     list_pairs(search, pairs, false, touching);
-    list_wall_pairs(search, walls);
+    list_wall_pairs(search, work);
     attach_histories(state, work);
     pad_list(state, &of_pairs, pairs->count);
     pad_list(state, &of_walls, walls->count);
@@ -269,7 +300,9 @@ static void release_scratch(scree_search *search, scree_state *state)
         scree_release(&search->chunk[c].touching.pair);
         scree_release(&search->chunk[c].near.pair);
         scree_release(&search->chunk[c].wall.pair);
+        scree_release(&search->chunk[c].element.pair);
         search->chunk[c].touching.capacity = search->chunk[c].near.capacity = search->chunk[c].wall.capacity = 0;
+        search->chunk[c].element.capacity = 0;
     }
     scree_release(&search->entry_begin);
     scree_release(&search->entry);
@@ -287,7 +320,7 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     if (status) return status;
     search->listed = false;
     search->bodies = state->count;
-    work->pairs.count = work->pairs.touching_count = work->wall_pairs.count = 0;
+    work->pairs.count = work->pairs.touching_count = work->wall_pairs.count = work->element_pairs.count = 0;
     if (state->count >= LARGE) scree_pair_lists_destroy(work);
 
     scree_cell_grid_fit(&search->grid, state, work->skin, work->threads);
@@ -306,6 +339,7 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
 #pragma omp parallel for num_threads(work->threads) schedule(static) if (work->threads > 1)
     for (size_t k = 0; k < state->count; k++) scree_body_place(state, k, state->rebuild[k]);
     memcpy(search->wall, state->wall, sizeof search->wall);
+    search->surface_ticks = state->surface_ticks;
     release_scratch(search, state);
     search->listed = work->valid = true;
     work->budget = half_skin(work);
@@ -316,7 +350,11 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
 scree_status scree_neighbours_refresh(const scree_model *model, scree_state *state, scree_work *work,
                                       scree_error *error)
 {
-    if (!work->valid || work->search->bodies != state->count || walls_need_rebuild(state, work))
+    if (work->container) {
+        scree_container_place(work->container, surface_time(state, state->surface_ticks));
+        state->surface_speed = state->surface_moving ? scree_container_speed(work->container) : 0;
+    }
+    if (!work->valid || work->search->bodies != state->count || walls_need_rebuild(model, state, work))
         return rebuild(model, state, work, error);
     if (work->budget >= 0) return SCREE_OK;
     double moved = largest_displacement(state, work->threads);
