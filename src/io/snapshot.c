@@ -184,7 +184,7 @@ static void check_ids(scree_hdf5 *run, const scree_snapshot *snapshot)
 {
     size_t bad = 0;
     for (size_t k = 0; k < snapshot->contact_count && !run->status; k++) {
-        bool wall = snapshot->second[k] >= SCREE_WALL_ID && snapshot->second[k] < SCREE_WALL_ID + SCREE_WALL_COUNT;
+        bool wall = snapshot->second[k] >= SCREE_ELEMENT_ID && snapshot->second[k] < SCREE_WALL_ID + SCREE_WALL_COUNT;
         bad += snapshot->first[k] >= snapshot->count || (snapshot->second[k] >= snapshot->count && !wall);
     }
     for (size_t k = 0; k < snapshot->loop_count && !run->status; k++) bad += snapshot->loop[k] >= snapshot->count;

@@ -58,7 +58,7 @@ typedef struct scree_snapshot {
     double *x, *y, *radius, *angle, *vx, *vy, *spin; ///< in 3D no angle (NULL), and spin is the magnitude
     double *z, *vz;                                  ///< 3D only, else NULL
     size_t contact_count;
-    uint32_t *first, *second;                ///< ids; second >= SCREE_WALL_ID is a wall
+    uint32_t *first, *second;                ///< ids; second >= SCREE_ELEMENT_ID is a wall
     double *normal_force, *tangential_force; ///< N
     double *contact_x, *contact_y;           ///< m
     double *contact_z;                       ///< m, 3D only, else NULL

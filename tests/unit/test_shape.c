@@ -92,7 +92,10 @@ static void test_random_bytes(void **state)
             assert_int_equal(scree_allocate(&copy, size + 1, 1, &error), SCREE_OK);
             memcpy(copy, bytes, size);
             for (int k = 0; k < trial % 5 && size > 0; k++)
-                copy[(size_t)(fixture_random(draw++) * (double)size) % size] = (char)(256 * fixture_random(draw++));
+{
+                    size_t at = (size_t)(fixture_random(draw++) * (double)size) % size;
+                    copy[at] = (char)(256 * fixture_random(draw++));
+                }
             double(*corner)[3];
             scree_mesh mesh;
             if (!scree_stl_parse(copy, size, &corner, &count, &error)) {

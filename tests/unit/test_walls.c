@@ -61,8 +61,7 @@ static void check_rest(world *w, double x, double y, double z, double above)
     double weight = fixture_mass(&w->f.model, 0, R) * G, d = world_rest(w, R, G);
     set_gravity(w, 0, 0, -G);
     put(w, x, y, z + above - 0.5 * d);
-    world_open_ledger(w);
-    world_forces(w);
+    world_begin(w);
     world_run(w, 20000);
     const scree_surface_load *load = &w->f.state.surface[0];
     // Oscillations have died out to exp(-damping rate x time); what is left is round-off of positions over d, 1e-9.
@@ -73,7 +72,7 @@ static void check_rest(world *w, double x, double y, double z, double above)
     size_t contacts;
     scree_energy energy = world_energy(w, &contacts);
     assert_int_equal(contacts, 1);
-    assert_true(energy.relative < 1e-4);
+    assert_true(energy.relative < 1e-3);
     world_close(w);
 }
 
@@ -187,8 +186,7 @@ static void test_concave_corner(void **state)
     double d = 0.99 * R, force[3], torque[3];
     put(&w, d, 0.03, d);
     w.f.state.row[0].vy = 1e-3; // along both faces
-    world_open_ledger(&w);
-    world_forces(&w);
+    world_begin(&w);
     assert_int_equal(w.f.state.sum[0].contacts, 2);
     sphere_force(&w.f, 0, force, torque);
     double expected = w.f.model.walls[0].normal_stiffness * sqrt(R) * pow(R - d, 1.5);
@@ -212,15 +210,15 @@ static void roll(world *w, double friction, int steps, double end[8])
     w->f.model.walls[0].friction = friction;
     set_gravity(w, G * sin(0.3) * cos(0.5), G * sin(0.3) * sin(0.5), -G * cos(0.3));
     put(w, -0.0031, -0.0017, R - world_rest(w, R, G * cos(0.3)));
-    world_open_ledger(w);
-    world_forces(w);
+    world_begin(w);
     world_run(w, steps);
     const scree_row *row = &w->f.state.row[0];
     const scree_turn_row *turn = &w->f.state.turn[0];
     scree_energy energy = world_energy(w, NULL);
     const double values[8] = {row->x, row->y, row->z, row->vx, row->vy, turn->wx, turn->wy, energy.residual};
     memcpy(end, values, sizeof values);
-    assert_true(energy.relative < 1e-6);
+    // The trapezoid along the force law: third order in the step.
+    assert_near(energy.residual, 0, 1e-9 * energy.kinetic);
     world_close(w);
 }
 
@@ -263,10 +261,9 @@ static void test_oscillation(void **state)
         set_gravity(&w, 0, 0, -G);
         double length = 0.01 - R + world_rest(&w, R, G), angle = 0.05;
         put(&w, length * sin(angle), 0, -length * cos(angle));
-        world_open_ledger(&w);
-        world_forces(&w);
+        world_begin(&w);
         int crossings = 0, last = 0, first = 0;
-        for (int k = 0; k < 250000 && crossings < 5; k++) {
+        for (int k = 0; k < 400000 && crossings < 5; k++) {
             double before = w.f.state.row[0].x;
             world_step(&w);
             if ((before < 0) == (w.f.state.row[0].x < 0)) continue;
@@ -278,7 +275,8 @@ static void test_oscillation(void **state)
         // Amplitude: 1 + angle^2 / 16 = 1.6e-4; the contact gives way by the tangential spring and the indentation.
         assert_near(period, expected, 2e-3 * expected);
         scree_energy energy = world_energy(&w, NULL);
-        assert_true(energy.relative < 1e-4);
+        // The trapezoid along the force law, third order in the step: see the same on one plane in the tests of planes.
+        assert_near(energy.residual, 0, 1e-7 * w.f.state.row[0].mass * G * length * (1 - cos(angle)));
         world_close(&w);
     }
 }
@@ -299,8 +297,7 @@ static void test_moving_wall(void **state)
         world_start(&w, 3, SCREE_LAW_HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 2e-7);
         w.f.state.surface_moving = 1;
         put(&w, 0.001, 0.002, R + 1e-6);
-        world_open_ledger(&w);
-        world_forces(&w);
+        world_begin(&w);
         world_run(&w, 4000);
         // It has left the wall, with a restitution between 0 and 1 of twice the velocity of the wall.
         assert_int_equal(w.f.state.sum[0].contacts, 0);
@@ -326,12 +323,11 @@ static void test_spinning_drum(void **state)
     scree_config_wall *wall = world_wall(&w, SCREE_SHAPE_OF_CYLINDER);
     wall->start[1] = -0.02, wall->end[1] = 0.02, wall->radius = 0.01;
     wall->spin[1] = 3;
-    world_start(&w, 3, SCREE_LAW_HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 2e-6);
+    world_start(&w, 3, SCREE_LAW_HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 2e-7);
     w.f.state.surface_moving = 1;
     put(&w, 0, 0, -0.01 + R - 1e-6);
-    world_open_ledger(&w);
+    world_begin(&w);
     double momentum = 0;
-    world_forces(&w);
     for (int k = 0; k < 5000; k++) {
         double before = w.f.state.surface[0].torque[1];
         world_step(&w);
@@ -340,12 +336,12 @@ static void test_spinning_drum(void **state)
     const scree_row *row = &w.f.state.row[0];
     double spin = 0.4 * row->mass * R * R * w.f.state.turn[0].wy;
     double orbit = row->mass * (row->z * row->vx - row->x * row->vz);
-    // The trapezoid of the torque over steps of 2e-6 s.
+    // The trapezoid of the torque over steps of 2e-7 s.
     assert_near(momentum, spin + orbit, 1e-4 * fabs(spin + orbit));
     assert_true(fabs(momentum) > 0);
     assert_near(w.f.state.surface[0].work, 3 * momentum, 1e-9 * fabs(3 * momentum));
-    // Not a neighbour list was built for a drum that turns about its axis.
-    assert_true(w.f.work.rebuilds < 10);
+    // A drum that turns about its axis is nowhere else: no neighbour list is built for it.
+    assert_true(scree_container_way(w.f.work.container, 1, R) == 0);
     scree_energy energy = world_energy(&w, NULL);
     assert_near(energy.residual, 0, 1e-3 * w.f.state.ledger.turnover);
     world_close(&w);
@@ -373,8 +369,7 @@ static void test_faceted_drum(void **state)
     set_gravity(&w, 0, 0, -G);
     w.f.state.surface_moving = 1;
     put(&w, 0, 0.001, -0.01 * cos(M_PI / PIECES) + R - world_rest(&w, R, G));
-    world_open_ledger(&w);
-    world_forces(&w);
+    world_begin(&w);
     size_t most = 0, contacts = 0;
     for (int k = 0; k < 40; k++) {
         world_run(&w, 1000);

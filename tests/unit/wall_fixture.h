@@ -71,13 +71,20 @@ static inline void world_forces(world *w)
     assert_int_equal(f->work.flags, 0);
 }
 
-static inline void world_open_ledger(world *w)
+/// Evaluates the first forces and opens the ledger with what there is then.
+static inline void world_begin(world *w)
 {
+    scree_error error;
     scree_energy energy;
-    scree_contact_table empty = {0};
+    scree_contact_table table = {0};
+    world_forces(w);
     w->f.state.ledger = (scree_ledger){0};
-    scree_energy_measure(&w->f.model, &w->f.state, &empty, &energy);
-    w->f.state.ledger.initial = energy.kinetic + energy.kinetic_rotation;
+    w->f.state.surface[0].work = 0;
+    assert_int_equal(scree_contact_table_build(&w->f.model, &w->f.state, &w->f.work, &table, &error), SCREE_OK);
+    scree_energy_measure(&w->f.model, &w->f.state, &table, &energy);
+    scree_contact_table_destroy(&table);
+    w->f.state.ledger.initial =
+        energy.kinetic + energy.kinetic_rotation + energy.elastic_normal + energy.elastic_tangential;
     w->f.state.ledger.gravity = energy.gravity;
 }
 
