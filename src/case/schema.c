@@ -350,11 +350,11 @@ static const scree_choice ends[] = {
 #define WALL_TAIL                                                                                                      \
     NUMBER(wall, friction, "1", .standard = "auto", FROM("0"), TO("10"),                                               \
            .meaning = "Friction of particles on it; auto: their material's wall_friction."),                           \
-        KEY(wall, velocity, SCREE_KEY_VECTOR, .unit = "m/s", .standard = "[0, 0, 0]", FROM("-1000 m/s"),               \
+        KEY(wall, velocity, SCREE_KEY_VECTOR, .unit = "m/s", .standard = "[0, 0]", FROM("-1000 m/s"),               \
             TO("1000 m/s"), .meaning = "Constant velocity."),                                                          \
-        KEY(wall, spin, SCREE_KEY_VECTOR, .unit = "rad/s", .standard = "[0, 0, 0]", FROM("-1e6 rad/s"),                \
+        KEY(wall, spin, SCREE_KEY_VECTOR, .unit = "rad/s", .standard = "[0, 0]", FROM("-1e6 rad/s"),                \
             TO("1e6 rad/s"), .meaning = "Constant angular velocity; none for planes."),                                \
-        PLACE(wall, centre, .standard = "[0, 0, 0]", .meaning = "Point that it turns about, at the begin.")
+        PLACE(wall, centre, .standard = "[0, 0]", .meaning = "Point that it turns about, at the begin.")
 #define WALL_SIDE CHOICE(wall, side, sides, .standard = "inside", .meaning = "Where the particles are.")
 #define WALL_AXIS                                                                                                      \
     PLACE(wall, start, .meaning = "One end of the axis."), PLACE(wall, end, .meaning = "The other end of the axis.")
@@ -398,7 +398,7 @@ static const scree_key mesh_keys[] = {
         .meaning = "Of the content of the file: another one is refused; auto: any."),
     NUMBER(wall, scale, "m", .standard = "1 m", ABOVE("0 m"), TO("1e6 m"),
            .meaning = "Length of one unit of the file, e.g. 1 mm."),
-    PLACE(wall, at, .standard = "[0, 0, 0]", .meaning = "Where the origin of the file lies."),
+    PLACE(wall, at, .standard = "[0, 0]", .meaning = "Where the origin of the file lies."),
     NUMBER(wall, smooth, "rad", .standard = "15 degrees", FROM("0.1 degrees"), TO("60 degrees"),
            .meaning = "Triangles that meet at less than this angle are one smooth surface."),
     WALL_TAIL,
