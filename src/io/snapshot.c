@@ -47,6 +47,30 @@ static void write_members(scree_hdf5 *part, const char *group, const scree_state
     }
 }
 
+/// The walls of the case as triangles.
+static void write_wall_triangles(scree_hdf5 *part, const char *group, const scree_wall_triangles *walls)
+{
+    size_t count = walls ? walls->count : 0;
+    scree_hdf5_set_integer(part, group, "wall_triangles", count);
+    if (count == 0) return;
+    const scree_array corner = {.name = "case_walls/triangle",
+                                .type = SCREE_FIELD_DOUBLE,
+                                .rows = count,
+                                .components = 9,
+                                .unit = "m",
+                                .meaning = "three corners of each triangle; in 2D lines, the last two the same",
+                                .data = walls->corner};
+    const scree_array wall = {.name = "case_walls/wall",
+                              .type = SCREE_FIELD_INT32,
+                              .rows = count,
+                              .components = 1,
+                              .unit = "1",
+                              .meaning = "number of the wall that each triangle is of, in the case",
+                              .data = walls->wall};
+    scree_hdf5_write(part, group, &corner);
+    scree_hdf5_write(part, group, &wall);
+}
+
 scree_status scree_snapshot_write(const char *directory, const scree_model *model, const scree_state *state,
                                   const scree_contact_table *table, const scree_snapshot_info *info, scree_error *error)
 {
@@ -66,10 +90,11 @@ scree_status scree_snapshot_write(const char *directory, const scree_model *mode
     scree_hdf5_set_integer(&part, group, "grains", state->grains);
     scree_hdf5_set_number(&part, group, "pressure", state->pressure);
     scree_hdf5_set_text(&part, group, "attribute_units",
-                        "step 1, dimension 1, grains 1, time s, axial_strain 1, pressure Pa");
+                        "step 1, dimension 1, grains 1, time s, axial_strain 1, pressure Pa, wall_triangles 1");
     write_bodies(&part, group, model, state);
     write_contacts(&part, group, state, table);
     write_members(&part, group, state);
+    write_wall_triangles(&part, group, info->walls);
     if (info->cells) scree_cells_write(&part, group, info->cells);
     status = scree_hdf5_save(&part);
     const char *case_name = model->config && model->config->name ? model->config->name : "";
@@ -179,6 +204,16 @@ static void read_walls(scree_hdf5 *run, const char *group, scree_snapshot *snaps
     memcpy(snapshot->wall, walls.wall, sizeof walls.wall);
 }
 
+static void read_wall_triangles(scree_hdf5 *run, const char *group, scree_snapshot *snapshot)
+{
+    uint64_t count = 0;
+    scree_hdf5_get_integer(run, group, "wall_triangles", &count);
+    size_t rows = count;
+    if (!run->status && count > 0)
+        snapshot->wall_triangle = read_column(run, group, "case_walls/triangle", SCREE_FIELD_DOUBLE, 9, &rows);
+    snapshot->wall_triangle_count = snapshot->wall_triangle ? rows : 0;
+}
+
 /// Every id names a body or a wall, so that a reader may index with them.
 static void check_ids(scree_hdf5 *run, const scree_snapshot *snapshot)
 {
@@ -220,6 +255,7 @@ scree_status scree_snapshot_read(const char *directory, size_t which, scree_snap
         snapshot->loop = read_column(&run, group, "boundary/id", SCREE_FIELD_UINT32, 1, &snapshot->loop_count);
     }
     read_walls(&run, group, snapshot);
+    read_wall_triangles(&run, group, snapshot);
     check_ids(&run, snapshot);
     status = scree_hdf5_close(&run);
     if (status) scree_snapshot_destroy(snapshot);
@@ -244,7 +280,9 @@ void scree_snapshot_destroy(scree_snapshot *snapshot)
                             &snapshot->contact_y,
                             &snapshot->z,
                             &snapshot->vz,
-                            &snapshot->contact_z};
+                            &snapshot->contact_z,
+                            &snapshot->wall_triangle,
+                            &snapshot->wall_line};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
     *snapshot = (scree_snapshot){0};
 }

@@ -6,6 +6,7 @@
 ///       position (n x 2), radius, velocity, spin, ... from the field table and io/array.h, in id order
 ///       contacts/ first, second (ids), normal, point, branch, normal_force, tangential_force, ...
 ///       boundary/ id (the loop), loaded, ...; walls/ position, normal, force, ...; cells/ (cell_file.h)
+///       case_walls/ force, torque, work; triangle (n x 9) and wall, where there are some (attribute wall_triangles)
 ///   /checkpoints/000003/          everything in scree_state, bit for bit; attribute case_checksum
 /// Every dataset has the attributes `unit` and `description`; docs/output.md lists all of them.
 #ifndef SCREE_IO_SNAPSHOT_H
@@ -14,6 +15,7 @@
 #include "contact/contact.h"
 #include "integrate/integrate.h"
 #include "measure/cells.h"
+#include "shape/container.h"
 
 typedef struct scree_snapshot_info {
     int64_t index;       ///< running number, names the group
@@ -21,6 +23,7 @@ typedef struct scree_snapshot_info {
     double axial_strain; ///< NAN outside loading
     const char *stage;
     const scree_cells *cells; ///< with all their fields; NULL: not written
+    const scree_wall_triangles *walls; ///< of the case; NULL: none
 } scree_snapshot_info;
 
 /// Writes parts/snapshot-INDEX.h5 and renews run.h5's links.
@@ -65,6 +68,10 @@ typedef struct scree_snapshot {
     size_t loop_count;
     uint32_t *loop;
     scree_wall wall[SCREE_WALL_COUNT];
+    size_t wall_triangle_count;
+    double *wall_triangle; ///< m, walls of the case: 9 each, three corners; in 2D lines, the last two corners the same
+    size_t wall_line_count;
+    double *wall_line; ///< m, of a projection or section: 4 each, the ends of a line on the page
 } scree_snapshot;
 scree_status scree_snapshot_count(const char *directory, size_t *count, scree_error *error) SCREE_MUST_USE;
 scree_status scree_snapshot_read(const char *directory, size_t which, scree_snapshot *snapshot,

@@ -78,6 +78,21 @@ static bool snapshot_due(const scree_simulation *s)
     return done * wanted / s->plan.expected != before * wanted / s->plan.expected;
 }
 
+/// The walls of the case as triangles, planes as far as the bodies reach.
+static scree_status picture_walls(const scree_simulation *s, scree_wall_triangles *walls, scree_error *error)
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (size_t row = 0; row < s->state.count; row++) {
+        scree_vector place;
+        scree_body_place(&s->state, row, place);
+        for (int k = 0; k < 3; k++) {
+            low[k] = fmin(low[k], place[k] - s->state.row[row].radius);
+            high[k] = fmax(high[k], place[k] + s->state.row[row].radius);
+        }
+    }
+    return scree_container_triangles(s->work.container, low, high, walls, error);
+}
+
 static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s, scree_error *error)
 {
     scree_snapshot_info info = {.index = s->state.stage.snapshots,
@@ -86,8 +101,10 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
                                 .stage = s->stage->name};
     const scree_model *model = &s->stage_model;
     scree_cells cells = {0};
-    scree_status status = SCREE_OK;
-    if (s->model.config->measure.cells) {
+    scree_wall_triangles walls = {0};
+    scree_status status = picture_walls(s, &walls, error);
+    info.walls = &walls;
+    if (!status && s->model.config->measure.cells) {
         status = scree_cells_measure(model, &s->state, &s->table, &cells, error);
         // A few bodies, or bodies on a line, have no triangulation and so no cells.
         if (!status) info.cells = &cells;
@@ -98,6 +115,7 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
         status = scree_paraview_write(recorder->directory, model, &s->state, &s->table, &info, error);
     if (!status) s->state.stage.snapshots++;
     scree_cells_destroy(&cells);
+    scree_wall_triangles_destroy(&walls);
     return status;
 }
 

@@ -92,4 +92,17 @@ scree_status scree_container_near(const scree_container *container, const scree_
 /// wall has sides only beside it.
 double scree_surface_clearance(const scree_container *container, int k, const scree_vector place, double reach);
 
+/// Walls as triangles, for pictures: three corners each; in 2D lines, whose last two corners are the same.
+typedef struct scree_wall_triangles {
+    double (*corner)[9]; ///< m
+    int32_t *wall;       ///< index of the wall
+    size_t count;
+} scree_wall_triangles;
+
+/// All walls at their present poses, round ones in facets; planes as far as `low` and `high` (a box that holds all
+/// bodies) reach. container may be NULL: nothing. Errors: memory.
+scree_status scree_container_triangles(const scree_container *container, const double low[3], const double high[3],
+                                       scree_wall_triangles *triangles, scree_error *error) SCREE_MUST_USE;
+void scree_wall_triangles_destroy(scree_wall_triangles *triangles);
+
 #endif

@@ -230,6 +230,31 @@ static void draw_arrows(const scree_scene_view *view, cairo_t *cairo)
     cairo_restore(cairo);
 }
 
+/// Walls of the case, as far as the page goes.
+static void draw_walls(const scree_scene_view *view, cairo_t *cairo)
+{
+    const scree_snapshot *s = view->snapshot;
+    if (s->wall_line_count + s->wall_triangle_count == 0) return;
+    cairo_save(cairo);
+    cairo_rectangle(cairo, view->left - 2, view->top - 2, view->width + 4, view->height + 4);
+    cairo_clip(cairo);
+    for (size_t k = 0; k < s->wall_line_count; k++) {
+        const double *line = &s->wall_line[4 * k];
+        cairo_move_to(cairo, scree_scene_x(view, line[0]), scree_scene_y(view, line[1]));
+        cairo_line_to(cairo, scree_scene_x(view, line[2]), scree_scene_y(view, line[3]));
+    }
+    for (size_t k = 0; k < s->wall_triangle_count && s->dimension == 2; k++) {
+        const double *corner = &s->wall_triangle[9 * k];
+        cairo_move_to(cairo, scree_scene_x(view, corner[0]), scree_scene_y(view, corner[1]));
+        cairo_line_to(cairo, scree_scene_x(view, corner[3]), scree_scene_y(view, corner[4]));
+    }
+    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_width(cairo, 1.4);
+    scree_page_colour(cairo, scree_scene_quiet);
+    cairo_stroke(cairo);
+    cairo_restore(cairo);
+}
+
 void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo)
 {
     if (view->scene->depth) {
@@ -240,9 +265,11 @@ void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo)
         else
             draw_spheres(view, cairo);
         draw_plate_in_space(view, cairo, 1);
+        draw_walls(view, cairo);
         return;
     }
     draw_plates(view, cairo);
+    draw_walls(view, cairo);
     if (view->scene->cells)
         scree_scene_cells(view, cairo);
     else
