@@ -42,10 +42,12 @@ static const char *wrong_shape(const scree_config_wall *wall, int dimension, con
     if (wall->shape == SCREE_SHAPE_OF_PLANE && !(length_of(wall->normal) > 0)) return "a normal needs a length";
     *key = "upper";
     for (int k = 0; k < dimension && wall->shape == SCREE_SHAPE_OF_BOX; k++)
-        if (!(wall->upper[k] > wall->lower[k])) return "every coordinate of `upper` must be larger than that of `lower`";
+        if (!(wall->upper[k] > wall->lower[k]))
+            return "every coordinate of `upper` must be larger than that of `lower`";
     if (wall->shape != SCREE_SHAPE_OF_CYLINDER && wall->shape != SCREE_SHAPE_OF_CONE) return NULL;
     *key = "end";
-    const double axis[3] = {wall->end[0] - wall->start[0], wall->end[1] - wall->start[1], wall->end[2] - wall->start[2]};
+    const double axis[3] = {wall->end[0] - wall->start[0], wall->end[1] - wall->start[1],
+                            wall->end[2] - wall->start[2]};
     if (!(length_of(axis) > 0)) return "`start` and `end` are the same point: there is no axis";
     *key = "radius_end";
     if (wall->shape == SCREE_SHAPE_OF_CONE && !(wall->radius_start > 0) && !(wall->radius_end > 0))

@@ -1,5 +1,5 @@
-/// One contact of a job, in one lane: the law, the memory, the sums. What the scalar reference, the plates and the walls
-/// of the case share.
+/// One contact of a job, in one lane: the law, the memory, the sums. What the scalar reference, the plates and the
+/// walls of the case share.
 #ifndef SCREE_CONTACT_ADVANCE_H
 #define SCREE_CONTACT_ADVANCE_H
 
@@ -7,7 +7,7 @@
 
 /// Evaluates the law, advances the memory and books energies, overlap and range.
 SCREE_INLINE contact_quanta contact_advance(contact_job *job, variant v, const scree_pair_constants *constants,
-                                     const motion *m, bool touching, const memory_rows *rows)
+                                            const motion *m, bool touching, const memory_rows *rows)
 {
     law_constants c = constants_get(constants);
     law_memory before = memory_get(v, rows), after;

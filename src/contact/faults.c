@@ -51,7 +51,8 @@ static void check_elements(const scree_model *model, const scree_state *state, c
             size_t p = touches.touch[k].pair;
             memory_rows memory = contact_memory_of(work, CONTACT_ELEMENT, p);
             contact_of_element(model, state, work, &body, pairs->wall[p], &memory, &c);
-            check_contact(&c, contact_overlap_limit(model) * body.row.radius, force_limit, state->id[pairs->body[p]], f);
+            check_contact(&c, contact_overlap_limit(model) * body.row.radius, force_limit, state->id[pairs->body[p]],
+                          f);
         }
     }
 }

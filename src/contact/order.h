@@ -17,8 +17,8 @@ static inline contact_list contact_reference_list(const contact_reference *r)
     return r->second >= SCREE_WALL_ID ? CONTACT_PLATE : r->second >= SCREE_ELEMENT_ID ? CONTACT_ELEMENT : CONTACT_PAIR;
 }
 
-/// All pairs, wall pairs and element pairs that touch at the present positions, ordered by (first, second): walls come last for each
-/// first. *list is allocated here and released by the caller. Errors: memory. Cost: linear.
+/// All pairs, wall pairs and element pairs that touch at the present positions, ordered by (first, second): walls come
+/// last for each first. *list is allocated here and released by the caller. Errors: memory. Cost: linear.
 scree_status contact_order(const scree_state *state, const scree_work *work, contact_reference **list, size_t *count,
                            scree_error *error) SCREE_MUST_USE;
 

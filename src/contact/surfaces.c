@@ -82,8 +82,7 @@ void contact_elements_mark(const scree_state *state, const scree_work *work, uin
 scree_pair_constants contact_surface_constants(const scree_model *model, const scree_surface *surface, int material)
 {
     scree_pair_constants constants = model->walls[material];
-    if (!isnan(surface->config->friction) && !model->friction_of_stage)
-        constants.friction = surface->config->friction;
+    if (!isnan(surface->config->friction) && !model->friction_of_stage) constants.friction = surface->config->friction;
     return constants;
 }
 
@@ -189,8 +188,7 @@ static void add_to_surface(contact_job *job, int surface, const scree_vector hub
         int i = (k + 1) % 3, j = (k + 2) % 3;
         double torque = lever[i] * f[j] - lever[j] * f[i] + scree_fixed_to(couple[k], torque_quantum);
         job->totals.surface_force[surface][k] -= force[k];
-        job->totals.surface_torque[surface][k] -=
-            (uint64_t)scree_fixed_from(torque, job->scale.inverse_surface_torque);
+        job->totals.surface_torque[surface][k] -= (uint64_t)scree_fixed_from(torque, job->scale.inverse_surface_torque);
     }
 }
 
@@ -205,8 +203,7 @@ SCREE_INLINE void evaluate_group(contact_job *job, variant v, const scree_state 
         const scree_surface *surface = contact_surface_of(g->container, g->pairs->wall[p]);
         scree_site site;
         scree_element_site(g->container, g->pairs->wall[p], g->place, &site);
-        motion m =
-            motion_of_surface(v.dimension, &one, surface, &site, state->surface_moving != 0, job->settings.step);
+        motion m = motion_of_surface(v.dimension, &one, surface, &site, state->surface_moving != 0, job->settings.step);
         if (law_foresees(v)) {
             foresight ahead = foresight_get(v.dimension, &job->foreseen[row]);
             motion_foresee(v.dimension, &m, &one, &ahead, NULL, NULL);

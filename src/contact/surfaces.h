@@ -7,7 +7,8 @@
 /// Which elements. Those of one wall that are local minima of the distance and closer than the radius, the closest
 /// first; one whose normal differs from that of a closer one by less than the angle `smooth` is the same contact seen
 /// twice (round-off between neighbours; facets of a concave round surface) and does not count. So the elastic energy of
-/// a body is a continuous function of its place wherever faces meet at a smaller angle than `smooth` or at convex edges.
+/// a body is a continuous function of its place wherever faces meet at a smaller angle than `smooth` or at convex
+/// edges.
 ///
 /// What contacts remember goes with their element. When a body touches an element anew and has just left another one of
 /// the same wall whose normal is nearly the same, it takes the memory along: a spring survives the change of the

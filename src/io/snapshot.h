@@ -22,7 +22,7 @@ typedef struct scree_snapshot_info {
     double time;         ///< s
     double axial_strain; ///< NAN outside loading
     const char *stage;
-    const scree_cells *cells; ///< with all their fields; NULL: not written
+    const scree_cells *cells;          ///< with all their fields; NULL: not written
     const scree_wall_triangles *walls; ///< of the case; NULL: none
 } scree_snapshot_info;
 

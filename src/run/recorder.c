@@ -6,6 +6,7 @@
 #include "io/run_directory.h"
 #include "io/snapshot.h"
 #include "run/sample.h"
+#include "run/wall_series.h"
 
 #include <math.h>
 #include <string.h>
@@ -41,6 +42,7 @@ scree_status scree_recorder_open(scree_recorder *recorder, const scree_simulatio
     if ((status = scree_path_join(path, sizeof path, directory, SCREE_FILE_SERIES, error))) return status;
     status = scree_series_open(&recorder->series, path, scree_sample_columns, SCREE_SAMPLE_COUNT,
                                restart ? s->state.stage.samples : -1, error);
+    if (!status) status = scree_wall_series_open(&recorder->walls, s, directory, restart, error);
     recorder->started = recorder->last_checkpoint = recorder->last_progress = scree_clock();
     recorder->progress_step = s->state.step;
     recorder->first_evaluations = recorder->progress_evaluations = recorder->checkpoint_evaluations =
@@ -52,6 +54,7 @@ void scree_recorder_close(scree_recorder *recorder)
 {
     scree_error ignored;
     if (recorder->series.file) (void)!scree_series_close(&recorder->series, &ignored);
+    if (recorder->walls.file) (void)!scree_series_close(&recorder->walls, &ignored);
     if (recorder->log.file) fclose(recorder->log.file);
     recorder->log.file = NULL;
 }
@@ -126,7 +129,8 @@ static double ticks_left(const scree_simulation *s)
     double left = (double)s->plan.expected - (double)(s->state.step - s->state.stage.first_step);
     for (int64_t k = s->state.stage.index + 1; k < s->model.config->stage_count; k++) {
         const scree_config_stage *stage = &s->model.config->stages[k];
-        left += stage->kind == SCREE_STAGE_RELAX ? stage->duration / s->state.tick : stage->strain / scree_model_loading_rate(stage) / s->state.tick;
+        left += stage->kind == SCREE_STAGE_RELAX ? stage->duration / s->state.tick
+                                                 : stage->strain / scree_model_loading_rate(stage) / s->state.tick;
     }
     return left;
 }
@@ -162,6 +166,7 @@ scree_status scree_recorder_follow(scree_recorder *recorder, scree_simulation *s
     scree_status status = SCREE_OK;
     if (s->sampled) {
         if ((status = scree_series_append(&recorder->series, s->sample.value, error))) return status;
+        if ((status = scree_wall_series_append(&recorder->walls, s, error))) return status;
         s->state.stage.samples++;
     }
     if (snapshot_due(s) && (status = write_snapshot(recorder, s, error))) return status;

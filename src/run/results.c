@@ -9,7 +9,8 @@
 /// axis; with imposed rates, mean, least and largest ratio of actual and imposed rate (`rate_ratio_...`, of the
 /// intervals between two samples) from STARTED of the strain on. Over the loading, from the bodies: `corner_distortion`
 /// (measure/corner_distortion.c). Over the whole run: largest residual of the energy
-/// balance over the work turned over by the end (`energy_residual`).
+/// balance over the work turned over by the end (`energy_residual`). Of each wall of the case `NAME_work`, `NAME_force`,
+/// `NAME_torque`.
 #include "run/results.h"
 
 #include "io/run_directory.h"
@@ -171,6 +172,22 @@ static void summarise_run(const scree_recorder *recorder, scree_simulation *s, s
     scree_summary_set_integer(summary, "neighbour_rebuilds", (int64_t)s->work.rebuilds);
 }
 
+/// Work and last force and torque, in magnitude, of each wall of the case.
+static void summarise_walls(const scree_simulation *s, scree_summary *summary)
+{
+    const scree_config *config = s->model.config;
+    for (int64_t w = 0; w < config->wall_count; w++) {
+        const scree_surface_load *load = &s->state.surface[w];
+        char name[96];
+        (void)snprintf(name, sizeof name, "%s_work", config->walls[w].name);
+        scree_summary_set_number(summary, name, load->work);
+        (void)snprintf(name, sizeof name, "%s_force", config->walls[w].name);
+        scree_summary_set_number(summary, name, scree_length(load->force));
+        (void)snprintf(name, sizeof name, "%s_torque", config->walls[w].name);
+        scree_summary_set_number(summary, name, scree_length(load->torque));
+    }
+}
+
 /// Of the last stage, when it loaded the sample without plates.
 static scree_status summarise_corners(const scree_simulation *s, scree_summary *summary, scree_error *error)
 {
@@ -198,6 +215,7 @@ scree_status scree_results_write(const scree_recorder *recorder, scree_simulatio
     if (!result) {
         summarise_run(recorder, s, status, summary);
         summarise_series(&series, s->state.ledger.turnover, summary);
+        summarise_walls(s, summary);
         result = summarise_corners(s, summary, error);
     }
     if (!result && s->model.config->measure.cells)

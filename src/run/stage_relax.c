@@ -1,5 +1,5 @@
-/// Stage `relax`: time passes under gravity. Plates stand where they are; the walls of the case move or stand. Ends after
-/// `duration`, or before when the unbalanced force ratio has been below `unbalanced_limit` for CALM samples.
+/// Stage `relax`: time passes under gravity. Plates stand where they are; the walls of the case move or stand. Ends
+/// after `duration`, or before when the unbalanced force ratio has been below `unbalanced_limit` for CALM samples.
 ///
 /// The first such stage looks whether the bodies are where the walls of the case leave room: none may be closer to a
 /// wall than its radius less the overlap that the guard allows.
@@ -78,9 +78,5 @@ static double fraction(const scree_simulation *s)
     return (double)(s->state.step - s->state.stage.first_step) / (double)s->plan.expected;
 }
 
-const scree_stage scree_stage_relax = {.name = "relax",
-                                       .loading = true,
-                                       .begin = begin,
-                                       .plan = plan,
-                                       .finished = finished,
-                                       .fraction = fraction};
+const scree_stage scree_stage_relax = {
+    .name = "relax", .loading = true, .begin = begin, .plan = plan, .finished = finished, .fraction = fraction};

@@ -17,8 +17,7 @@ static scree_status collect(void *context, size_t element)
     scree_pair_buffer *buffer = c->buffer;
     if (buffer->count == buffer->capacity) {
         size_t capacity = 2 * buffer->capacity + 64;
-        scree_status status =
-            scree_reallocate(&buffer->pair, buffer->count, capacity, sizeof *buffer->pair, c->error);
+        scree_status status = scree_reallocate(&buffer->pair, buffer->count, capacity, sizeof *buffer->pair, c->error);
         if (status) return status;
         buffer->capacity = capacity;
     }

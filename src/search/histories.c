@@ -59,7 +59,8 @@ static entry entry_get(const scree_state *state, const scree_work *work, size_t 
 static bool entry_holds_something(const scree_state *state, const scree_work *work, size_t k)
 {
     entry e = entry_get(state, work, k);
-    return holds_something(e.history, sizeof *e.history) || (e.booking && holds_something(e.booking, sizeof *e.booking)) ||
+    return holds_something(e.history, sizeof *e.history) ||
+           (e.booking && holds_something(e.booking, sizeof *e.booking)) ||
            (e.rolling && holds_something(e.rolling, sizeof *e.rolling));
 }
 

@@ -31,9 +31,8 @@ static void make_box(int dimension, const scree_config_wall *config, scree_surfa
 static scree_profile make_line(double s0, double r0, double s1, double r1, double sign)
 {
     double length = hypot(s1 - s0, r1 - r0);
-    return (scree_profile){.s = {s0, s1},
-                           .r = {r0, r1},
-                           .normal = {sign * (r1 - r0) / length, -sign * (s1 - s0) / length}};
+    return (scree_profile){
+        .s = {s0, s1}, .r = {r0, r1}, .normal = {sign * (r1 - r0) / length, -sign * (s1 - s0) / length}};
 }
 
 static void make_round(const scree_config_wall *config, scree_surface *surface)

@@ -1,9 +1,9 @@
 /// The walls of a case beside the six plates: planes, boxes, cylinders, cones and triangle meshes, fixed or moving.
 ///
 /// A wall consists of elements, each of which can touch a sphere at one point at most: a plane is one; a box seen from
-/// inside has six planes, a closed cylinder or cone its side and two ends; what is convex seen from outside (box, rod) is
-/// one; a mesh has its triangles, edges and vertices. Elements of all walls are numbered through. Contacts are the local
-/// minima of the distance to a wall (shape/mesh.h); walls that meet each other do not know of each other.
+/// inside has six planes, a closed cylinder or cone its side and two ends; what is convex seen from outside (box, rod)
+/// is one; a mesh has its triangles, edges and vertices. Elements of all walls are numbered through. Contacts are the
+/// local minima of the distance to a wall (shape/mesh.h); walls that meet each other do not know of each other.
 ///
 /// Motion. A wall turns with a constant spin w about a centre that moves with a constant velocity v: with its time t
 /// (state->surface_ticks x tick, never accumulated), x(t) = c + v t + R(w t) (x(0) - c), R a rotation by |w| t about w
@@ -34,7 +34,7 @@ typedef struct scree_surface {
     scree_profile profile[3];
     int profile_count;
     scree_mesh mesh;
-    double smooth;     ///< cosine: contacts whose normals are closer than this are one
+    double smooth; ///< cosine: contacts whose normals are closer than this are one
     // motion
     bool turns, shifts; ///< the geometry does
     double reach;       ///< m, no point of it is farther from the centre; 0 of a plane, which cannot spin

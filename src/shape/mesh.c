@@ -13,9 +13,9 @@ enum { DEEPEST = 64 };
 
 void scree_mesh_destroy(scree_mesh *mesh)
 {
-    void *const arrays[] = {&mesh->vertex,     &mesh->edge,      &mesh->triangle,     &mesh->triangle_edge, &mesh->normal,
-                            &mesh->edge_begin, &mesh->edge_list, &mesh->vertex_begin, &mesh->vertex_list,   &mesh->node,
-                            &mesh->order};
+    void *const arrays[] = {&mesh->vertex,      &mesh->edge,       &mesh->triangle,  &mesh->triangle_edge,
+                            &mesh->normal,      &mesh->edge_begin, &mesh->edge_list, &mesh->vertex_begin,
+                            &mesh->vertex_list, &mesh->node,       &mesh->order};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
     *mesh = (scree_mesh){0};
 }
@@ -122,8 +122,8 @@ double scree_mesh_distance(const scree_mesh *mesh, size_t element, const scree_v
     double fraction, from[3];
     if (element < mesh->triangle_count) return sqrt(triangle_distance(mesh, element, place, &inside));
     if (edge < mesh->edge_count)
-        return sqrt(segment_distance(mesh->vertex[mesh->edge[edge][0]], mesh->vertex[mesh->edge[edge][1]], place,
-                                     &fraction));
+        return sqrt(
+            segment_distance(mesh->vertex[mesh->edge[edge][0]], mesh->vertex[mesh->edge[edge][1]], place, &fraction));
     subtract(place, mesh->vertex[vertex], from);
     return sqrt(dot(from, from));
 }

@@ -1,14 +1,14 @@
 /// A triangle mesh as a wall: topology, closest points, a tree of boxes.
 ///
 /// Contacts of a sphere with a mesh are the local minima of the distance from its centre to the surface. A triangle is
-/// convex, so a point of it is a local minimum on that triangle exactly if it is its closest point; hence a point inside
-/// a face is a minimum when it is the foot of the centre, a point of an edge when it is the closest point of both
-/// triangles beside it, a vertex when it is that of all triangles around it. So an edge between two faces of which one
-/// is touched does not count, a sphere on a convex edge has one contact and one in a concave corner two, whatever the
-/// order in which triangles are looked at. Distances are compared with a tolerance (MINIMUM_TOLERANCE in mesh.c), so that
-/// no contact is lost to round-off where regions meet; two features that claim the same contact there have the same
-/// normal, and the contact code keeps one of them (contact/surfaces.h).
-/// Both sides of a triangle are wall. Meshes may be open.
+/// convex, so a point of it is a local minimum on that triangle exactly if it is its closest point; hence a point
+/// inside a face is a minimum when it is the foot of the centre, a point of an edge when it is the closest point of
+/// both triangles beside it, a vertex when it is that of all triangles around it. So an edge between two faces of which
+/// one is touched does not count, a sphere on a convex edge has one contact and one in a concave corner two, whatever
+/// the order in which triangles are looked at. Distances are compared with a tolerance (MINIMUM_TOLERANCE in mesh.c),
+/// so that no contact is lost to round-off where regions meet; two features that claim the same contact there have the
+/// same normal, and the contact code keeps one of them (contact/surfaces.h). Both sides of a triangle are wall. Meshes
+/// may be open.
 #ifndef SCREE_SHAPE_MESH_H
 #define SCREE_SHAPE_MESH_H
 
@@ -45,8 +45,8 @@ typedef struct scree_site {
     bool minimum;        ///< a local minimum of the distance: a contact if the sphere reaches it
 } scree_site;
 
-/// Builds topology and tree from `count` triangles of three corners each [m]; corners closer than 1e-6 of the extent are
-/// one vertex. Errors: no triangle with an area, memory. Cost: n log n.
+/// Builds topology and tree from `count` triangles of three corners each [m]; corners closer than 1e-6 of the extent
+/// are one vertex. Errors: no triangle with an area, memory. Cost: n log n.
 scree_status scree_mesh_build(scree_mesh *mesh, size_t count, const double (*corner)[3],
                               scree_error *error) SCREE_MUST_USE;
 void scree_mesh_destroy(scree_mesh *mesh);

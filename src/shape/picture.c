@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-enum { FACETS = 48, MOST_FLAT = 12 };
+enum { FACETS = 96, MOST_FLAT = 12 };
 
 /// Adds a triangle given in the frame of the wall.
 static void add(scree_wall_triangles *triangles, const scree_surface *surface, int wall, const double *const corner[3])

@@ -148,7 +148,8 @@ static double solid_profile(const scree_surface *surface, double s, double r, do
 static void round_site(const scree_surface *surface, size_t element, const double place[3], scree_site *site)
 {
     double from[3], radial[3], normal[2];
-    bool inner = true, solid = surface->config->side == SCREE_SIDE_OUTSIDE && surface->config->ends == SCREE_ENDS_CLOSED;
+    bool inner = true,
+         solid = surface->config->side == SCREE_SIDE_OUTSIDE && surface->config->ends == SCREE_ENDS_CLOSED;
     subtract(place, surface->config->start, from);
     double s = dot(from, surface->axis);
     along(from, -s, surface->axis, radial);
@@ -267,8 +268,8 @@ double scree_surface_clearance(const scree_container *container, int k, const sc
             subtract(inner, surface->config->start, from);
             double s = dot(from, surface->axis);
             along(from, -s, surface->axis, radial);
-            site.distance = (s - line->s[0]) * line->normal[0] +
-                            (sqrt(dot(radial, radial)) - line->r[0]) * line->normal[1];
+            site.distance =
+                (s - line->s[0]) * line->normal[0] + (sqrt(dot(radial, radial)) - line->r[0]) * line->normal[1];
         }
         least = fmin(least, site.distance);
     }

@@ -1,6 +1,6 @@
 /// A file is binary when its length is the one that its header announces, 84 + 50 triangles bytes; else it must be text
-/// that begins with "solid" (binary files may begin so too). Text is words between white space: line breaks and the case
-/// of letters do not count.
+/// that begins with "solid" (binary files may begin so too). Text is words between white space: line breaks and the
+/// case of letters do not count.
 #include "shape/stl.h"
 
 #include "base/memory.h"
@@ -179,10 +179,11 @@ scree_status scree_stl_parse(const char *bytes, size_t length, double (**corner)
                                  "byte %zu: the file ends; expected 'solid', or %d bytes of header and count", length,
                                  COUNTED);
     else
-        status = scree_error_set(error, SCREE_ERROR_INPUT,
-                                 "byte %zu: the file ends; expected %zu bytes for the %zu triangles that bytes %d to %d "
-                                 "announce",
-                                 length, COUNTED + RECORD * announced, announced, HEADER, COUNTED - 1);
+        status =
+            scree_error_set(error, SCREE_ERROR_INPUT,
+                            "byte %zu: the file ends; expected %zu bytes for the %zu triangles that bytes %d to %d "
+                            "announce",
+                            length, COUNTED + RECORD * announced, announced, HEADER, COUNTED - 1);
     if (!status && *count == 0) status = scree_error_set(error, SCREE_ERROR_INPUT, "the file holds no triangle");
     if (!status) return SCREE_OK;
     scree_release(corner);
@@ -206,8 +207,7 @@ scree_status scree_stl_load(const char *path, char **bytes, size_t *length, scre
     if (!status) *length = fread(*bytes, 1, (size_t)size, file);
     if (!status && *length != (size_t)size)
         status = scree_error_set_errno(error, SCREE_ERROR_IO, "cannot read '%s'", path);
-    if (fclose(file) != 0 && !status)
-        status = scree_error_set_errno(error, SCREE_ERROR_IO, "cannot read '%s'", path);
+    if (fclose(file) != 0 && !status) status = scree_error_set_errno(error, SCREE_ERROR_IO, "cannot read '%s'", path);
     if (status) scree_release(bytes);
     return status;
 }

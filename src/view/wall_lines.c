@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/// Facets of round walls meet at 7.5 degrees.
+/// Facets of round walls meet at 4 degrees.
 #define SHARP 0.9 /* cosine */
 
 static bool is_sharp(const scree_mesh *mesh, size_t e)

@@ -91,11 +91,10 @@ static void test_random_bytes(void **state)
             if (trial % 2) size = length;
             assert_int_equal(scree_allocate(&copy, size + 1, 1, &error), SCREE_OK);
             memcpy(copy, bytes, size);
-            for (int k = 0; k < trial % 5 && size > 0; k++)
-{
-                    size_t at = (size_t)(fixture_random(draw++) * (double)size) % size;
-                    copy[at] = (char)(256 * fixture_random(draw++));
-                }
+            for (int k = 0; k < trial % 5 && size > 0; k++) {
+                size_t at = (size_t)(fixture_random(draw++) * (double)size) % size;
+                copy[at] = (char)(256 * fixture_random(draw++));
+            }
             double(*corner)[3];
             scree_mesh mesh;
             if (!scree_stl_parse(copy, size, &corner, &count, &error)) {
@@ -169,7 +168,8 @@ static void make_rough(scree_mesh *mesh, int rows)
     assert_int_equal(scree_mesh_build(mesh, count / 3, (const double(*)[3])corner, &error), SCREE_OK);
 }
 
-/// The tree finds what brute force finds; and the closest of the minima is the closest point of the mesh, from anywhere.
+/// The tree finds what brute force finds; and the closest of the minima is the closest point of the mesh, from
+/// anywhere.
 static void test_search_and_minima(void **state)
 {
     (void)state;
@@ -206,8 +206,9 @@ static void test_search_and_minima(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_binary_is_ascii), cmocka_unit_test(test_errors),           cmocka_unit_test(test_random_bytes),
-        cmocka_unit_test(test_topology),        cmocka_unit_test(test_search_and_minima),
+        cmocka_unit_test(test_binary_is_ascii),   cmocka_unit_test(test_errors),
+        cmocka_unit_test(test_random_bytes),      cmocka_unit_test(test_topology),
+        cmocka_unit_test(test_search_and_minima),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -223,9 +223,7 @@ static void test_messages(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_same_bits),
-        cmocka_unit_test(test_power),
-        cmocka_unit_test(test_messages),
+        cmocka_unit_test(test_same_bits), cmocka_unit_test(test_power), cmocka_unit_test(test_messages),
         cmocka_unit_test(test_restart), // changes the file of the mesh at its end
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

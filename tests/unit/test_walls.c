@@ -28,8 +28,8 @@ static size_t make_floor(triangle_corners *triangle, int cells, double width, do
                 x[e] = width * (i + e - 0.5 * cells + 0.3 * sin(3.0 * (i + e)));
                 y[e] = width * (j + e - 0.5 * cells + 0.3 * sin(5.0 * (j + e)));
             }
-            const double corner[4][3] = {{x[0], y[0], height}, {x[1], y[0], height}, {x[1], y[1], height},
-                                         {x[0], y[1], height}};
+            const double corner[4][3] = {
+                {x[0], y[0], height}, {x[1], y[0], height}, {x[1], y[1], height}, {x[0], y[1], height}};
             const int order[2][3] = {{0, 1, 2}, {0, 2, 3}};
             for (int t = 0; t < 2; t++, count++)
                 for (int c = 0; c < 3; c++) memcpy(triangle[count][c], corner[order[t][c]], sizeof corner[0]);
@@ -193,7 +193,8 @@ static void test_concave_corner(void **state)
     assert_near(force[0], expected, 1e-9 * expected);
     assert_near(force[2], expected, 1e-9 * expected);
     int springs = 0;
-    for (size_t p = 0; p < w.f.work.element_pairs.count; p++) springs += w.f.work.element_pairs.history[p].value[1] != 0;
+    for (size_t p = 0; p < w.f.work.element_pairs.count; p++)
+        springs += w.f.work.element_pairs.history[p].value[1] != 0;
     assert_int_equal(springs, 2);
     // The vertex of three faces.
     put(&w, d, d, d);
@@ -203,7 +204,8 @@ static void test_concave_corner(void **state)
     world_close(&w);
 }
 
-/// Trajectory of a sphere on an inclined plane, as a plane or as triangles; friction decides whether it rolls or slides.
+/// Trajectory of a sphere on an inclined plane, as a plane or as triangles; friction decides whether it rolls or
+/// slides.
 static void roll(world *w, double friction, int steps, double end[8])
 {
     world_start(w, 3, SCREE_LAW_HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 2e-6);
@@ -288,8 +290,9 @@ static void test_moving_wall(void **state)
     for (int mesh = 0; mesh < 2; mesh++) {
         world w = {0};
         static triangle_corners triangle[64];
-        scree_config_wall *wall = mesh ? world_mesh(&w, (const triangle_corners *)triangle, make_floor(triangle, 3, 0.01, 0))
-                                       : world_wall(&w, SCREE_SHAPE_OF_PLANE);
+        scree_config_wall *wall =
+            mesh ? world_mesh(&w, (const triangle_corners *)triangle, make_floor(triangle, 3, 0.01, 0))
+                 : world_wall(&w, SCREE_SHAPE_OF_PLANE);
         wall->normal[2] = 1;
         wall->velocity[2] = 0.05;
         wall->velocity[0] = 0.02; // drags, too
@@ -356,8 +359,10 @@ static void test_faceted_drum(void **state)
     static triangle_corners triangle[2 * PIECES];
     for (int k = 0; k < PIECES; k++) {
         const double a = 2 * M_PI * k / PIECES, b = 2 * M_PI * (k + 1) / PIECES;
-        const double corner[4][3] = {{0.01 * sin(a), -0.02, 0.01 * cos(a)}, {0.01 * sin(b), -0.02, 0.01 * cos(b)},
-                                     {0.01 * sin(b), 0.02, 0.01 * cos(b)},  {0.01 * sin(a), 0.02, 0.01 * cos(a)}};
+        const double corner[4][3] = {{0.01 * sin(a), -0.02, 0.01 * cos(a)},
+                                     {0.01 * sin(b), -0.02, 0.01 * cos(b)},
+                                     {0.01 * sin(b), 0.02, 0.01 * cos(b)},
+                                     {0.01 * sin(a), 0.02, 0.01 * cos(a)}};
         const int order[2][3] = {{0, 1, 2}, {0, 2, 3}};
         for (int t = 0; t < 2; t++)
             for (int c = 0; c < 3; c++) memcpy(triangle[2 * k + t][c], corner[order[t][c]], sizeof corner[0]);

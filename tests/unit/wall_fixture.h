@@ -29,8 +29,13 @@ typedef struct world {
 static inline scree_config_wall *world_wall(world *w, scree_surface_shape shape)
 {
     scree_config_wall *wall = &w->wall[w->config.wall_count++];
-    *wall = (scree_config_wall){.shape = (int)shape, .name = "wall", .side = SCREE_SIDE_INSIDE,
-                                .ends = SCREE_ENDS_CLOSED, .scale = 1, .smooth = M_PI / 12, .friction = NAN};
+    *wall = (scree_config_wall){.shape = (int)shape,
+                                .name = "wall",
+                                .side = SCREE_SIDE_INSIDE,
+                                .ends = SCREE_ENDS_CLOSED,
+                                .scale = 1,
+                                .smooth = M_PI / 12,
+                                .friction = NAN};
     return wall;
 }
 
