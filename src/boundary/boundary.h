@@ -12,7 +12,7 @@
 typedef struct scree_boundary {
     const char *name;
     uint32_t walls; ///< bit w: wall w stands (those of the state's dimension)
-    bool open;      ///< the bodies need not hang together: there is no Delaunay boundary and no pressure
+    bool open;      ///< the bodies need not hang together: no Delaunay boundary or hull is kept, and no pressure
     /// When a stage begins with it: bodies of its own, resets. NULL: nothing to do.
     scree_status (*begin)(const scree_model *model, scree_state *state, scree_error *error);
     /// In every step, after the Delaunay boundary: memory for what it keeps a body. NULL: nothing to do.
@@ -28,6 +28,7 @@ typedef struct scree_boundary {
 } scree_boundary;
 
 const scree_boundary *scree_boundary_get(scree_boundary_kind kind);
+extern const scree_boundary scree_boundary_none;
 extern const scree_boundary scree_boundary_pressure;
 extern const scree_boundary scree_boundary_plates;
 extern const scree_boundary scree_boundary_membrane;

@@ -79,6 +79,7 @@ typedef enum scree_boundary_kind {
     SCREE_BOUNDARY_MINIMAL,  ///< pressure on all sides, mean velocity gradient imposed (minimal kinematic conditions)
     SCREE_BOUNDARY_AFFINE,   ///< every body of the boundary moves with the velocity gradient
     SCREE_BOUNDARY_WALLS,    ///< no plates: only the walls of the case
+    SCREE_BOUNDARY_NONE,     ///< nothing stands around two bodies that collide; no choice of a case
 } scree_boundary_kind;
 
 typedef struct scree_config_boundary {
@@ -88,8 +89,8 @@ typedef struct scree_config_boundary {
     double servo_gain;         ///< 1, admittance of a plate under servo over that of the sample (1: absorbs waves)
     double servo_velocity;     ///< m/s, largest plate velocity under servo; auto
     double penalty;            ///< Pa s, stress over error of the rate of minimal conditions; auto
-    double membrane_stiffness; ///< N/m, of the chain between two neighbours
-    double membrane_radius;    ///< m, of its discs; auto: 1.25 mean radii of the grains
+    double membrane_stiffness; ///< N/m, 2D: between two neighbours; 3D: of the sheet, tension over strain
+    double membrane_radius;    ///< m, of its bodies; auto: 1.25 mean radii of the grains, 3D: 0.75
 } scree_config_boundary;
 
 typedef enum scree_stage_kind {
@@ -98,6 +99,7 @@ typedef enum scree_stage_kind {
     SCREE_STAGE_COMPRESS,
     SCREE_STAGE_DEFORM,
     SCREE_STAGE_ROTATE,
+    SCREE_STAGE_COLLIDE,
     SCREE_STAGE_RELAX
 } scree_stage_kind;
 typedef enum scree_axis { SCREE_AXIS_X, SCREE_AXIS_Y, SCREE_AXIS_Z } scree_axis;
@@ -108,7 +110,8 @@ typedef enum scree_prepare_method {
     SCREE_PREPARE_FACE_CENTRED,
     SCREE_PREPARE_CUBIC,
     SCREE_PREPARE_GAS,
-    SCREE_PREPARE_GROWTH
+    SCREE_PREPARE_GROWTH,
+    SCREE_PREPARE_PAIR
 } scree_prepare_method;
 
 /// Whether the walls of the case move in a stage.
@@ -129,6 +132,8 @@ typedef struct scree_config_stage {
     double depth;          ///< m, 3D only; auto: the width
     double solid_fraction; ///< 1, gas and growth only; auto: see the schema
     double velocity;       ///< m/s, gas only: root-mean-square velocity component
+    double gap;            ///< m, pair only: between the surfaces; auto: see prepare/pair.c
+    double speed;          ///< m/s, pair only: at which they approach; auto: v_R
     // confine
     double pressure;         ///< Pa, compression positive
     double ramp_time;        ///< s; auto
@@ -146,10 +151,10 @@ typedef struct scree_config_stage {
     int axis;         ///< scree_axis, about which it turns
     double hold_time; ///< s, at that spin
     double cutoff;    ///< mean diameters, of the force network around it
-    // relax
-    double duration; ///< s
-    int walls;       ///< scree_wall_motion
-    // all but prepare
+    // collide and relax
+    double duration; ///< s, after which it ends in any case; of collide auto
+    int walls;       ///< relax: scree_wall_motion
+    // all but prepare and collide
     int boundary;    ///< scree_boundary_kind
     double friction; ///< 1, friction during this stage; auto: the material's
 } scree_config_stage;
@@ -240,6 +245,7 @@ typedef struct scree_config {
 /// case, or `lateral`.
 static inline scree_boundary_kind scree_config_boundary_of(const scree_config *config, int64_t index)
 {
+    if (config->stages[index].kind == SCREE_STAGE_COLLIDE) return SCREE_BOUNDARY_NONE;
     while (index >= 0 && config->stages[index].boundary == SCREE_BOUNDARY_AUTO) index--;
     int kind = index >= 0 ? config->stages[index].boundary : config->boundary.lateral;
     if (config->wall_count > 0 && index < 0) return SCREE_BOUNDARY_WALLS;

@@ -57,15 +57,17 @@ static const scree_choice schemes[] = {
 static const scree_choice laterals[] = {
     {"pressure", SCREE_BOUNDARY_PRESSURE, "traction on the Delaunay boundary of the assembly"},
     {"plates", SCREE_BOUNDARY_PLATES, "rigid side plates that a servo holds at the pressure"},
-    {"membrane", SCREE_BOUNDARY_MEMBRANE, "pressure on a chain of discs around the assembly (2D)"},
+    {"membrane", SCREE_BOUNDARY_MEMBRANE, "pressure on a membrane around the assembly"},
     {0},
 };
 static const scree_choice boundaries[] = {
-    {"auto", SCREE_BOUNDARY_AUTO, "that of the stage before, at first the `walls` of the case, or as `boundary.lateral` says"},
+    {"auto", SCREE_BOUNDARY_AUTO,
+     "that of the stage before, at first the `walls` of the case, or as `boundary.lateral` says"},
     {"pressure", SCREE_BOUNDARY_PRESSURE, "plates below and above, pressure on the Delaunay boundary of the sides"},
     {"plates", SCREE_BOUNDARY_PLATES, "rigid plates on all sides, those beside the sample under servo"},
     {"membrane", SCREE_BOUNDARY_MEMBRANE,
-     "plates below and above; at the sides a chain of frictionless discs carries the pressure (2D)"},
+     "plates below and above; at the sides a chain of frictionless discs (3D: a sheet of spheres) carries the "
+     "pressure"},
     {"minimal", SCREE_BOUNDARY_MINIMAL,
      "no plates: pressure on all sides, and minimal kinematic conditions impose the strain rate"},
     {"affine", SCREE_BOUNDARY_AFFINE, "no plates: every body of the boundary moves with the velocity gradient"},
@@ -100,6 +102,7 @@ static const scree_choice methods[] = {
     {"gas", SCREE_PREPARE_GAS, "loose random places without contacts"},
     {"growth", SCREE_PREPARE_GROWTH,
      "particles grow at random places and push each other away: dense and isotropic, without contacts"},
+    {"pair", SCREE_PREPARE_PAIR, "two particles on the x axis that approach each other, for the stage collide"},
     {0},
 };
 static const scree_choice outlines[] = {
@@ -115,6 +118,7 @@ static const scree_choice stage_kinds[] = {
     {"deform", SCREE_STAGE_DEFORM, "imposes any components of the velocity gradient, to a strain"},
     {"rotate_particle", SCREE_STAGE_ROTATE, "turns one particle and watches how rotations spread"},
     {"relax", SCREE_STAGE_RELAX, "lets time pass: gravity, standing plates, walls of the case that stand or move"},
+    {"collide", SCREE_STAGE_COLLIDE, "lets two particles meet and part"},
     {0},
 };
 
@@ -208,9 +212,12 @@ static const scree_key boundary_keys[] = {
            .meaning = "Minimal conditions: stress over the error of the rate; auto: the pressure answers an error of "
                       "1 %."),
     NUMBER(boundary, membrane_stiffness, "N/m", .standard = "10 N/mm", FROM("0 N/m"), TO("1e12 N/m"),
-           .meaning = "Membrane: axial stiffness between two neighbours; a slack chain bears nothing."),
+           .meaning = "Membrane: axial stiffness between two neighbours; 3D: of the sheet, tension per length over "
+                      "strain. It bears no compression."),
     NUMBER(boundary, membrane_radius, "m", .standard = "auto", FROM("1 nm"), TO("100 m"),
-           .meaning = "Membrane: radius of its discs; auto: 1.25 times the mean radius of the particles."),
+           .meaning =
+               "Membrane: radius of its bodies; auto: 1.25 times the mean radius of the particles; 3D: 0.75 times "
+               "it, at least the smallest."),
 };
 
 typedef scree_config_stage stage;
@@ -245,6 +252,10 @@ static const scree_key prepare_keys[] = {
                       "a gas; with growth 80 % and 60 %, less what the walls take."),
     NUMBER(stage, velocity, "m/s", .standard = "0 m/s", FROM("0 m/s"), TO("1000 m/s"), .when = "method=gas",
            .meaning = "Root-mean-square velocity component."),
+    NUMBER(stage, gap, "m", .standard = "auto", FROM("0 m"), TO("1 km"), .when = "method=pair",
+           .meaning = "Between the surfaces of the two; auto: about their indentation in the impact."),
+    NUMBER(stage, speed, "m/s", .standard = "auto", ABOVE("0 m/s"), TO("1e5 m/s"), .when = "method=pair",
+           .meaning = "Relative speed at which they approach; auto: contact.reference_velocity."),
 };
 static const scree_key confine_keys[] = {
     STAGE_HEAD,
@@ -350,10 +361,10 @@ static const scree_choice ends[] = {
 #define WALL_TAIL                                                                                                      \
     NUMBER(wall, friction, "1", .standard = "auto", FROM("0"), TO("10"),                                               \
            .meaning = "Friction of particles on it; auto: their material's wall_friction."),                           \
-        KEY(wall, velocity, SCREE_KEY_VECTOR, .unit = "m/s", .standard = "[0, 0]", FROM("-1000 m/s"),               \
-            TO("1000 m/s"), .meaning = "Constant velocity."),                                                          \
-        KEY(wall, spin, SCREE_KEY_VECTOR, .unit = "rad/s", .standard = "[0, 0]", FROM("-1e6 rad/s"),                \
-            TO("1e6 rad/s"), .meaning = "Constant angular velocity; none for planes."),                                \
+        KEY(wall, velocity, SCREE_KEY_VECTOR, .unit = "m/s", .standard = "[0, 0]", FROM("-1000 m/s"), TO("1000 m/s"),  \
+            .meaning = "Constant velocity."),                                                                          \
+        KEY(wall, spin, SCREE_KEY_VECTOR, .unit = "rad/s", .standard = "[0, 0]", FROM("-1e6 rad/s"), TO("1e6 rad/s"),  \
+            .meaning = "Constant angular velocity; none for planes."),                                                 \
         PLACE(wall, centre, .standard = "[0, 0]", .meaning = "Point that it turns about, at the begin.")
 #define WALL_SIDE CHOICE(wall, side, sides, .standard = "inside", .meaning = "Where the particles are.")
 #define WALL_AXIS                                                                                                      \
@@ -374,12 +385,8 @@ static const scree_key box_keys[] = {
     WALL_TAIL,
 };
 static const scree_key cylinder_keys[] = {
-    WALL_HEAD,
-    WALL_AXIS,
-    NUMBER(wall, radius, "m", ABOVE("0 m"), TO("1e6 m"), .meaning = "Radius of the cylinder."),
-    WALL_SIDE,
-    WALL_ENDS,
-    WALL_TAIL,
+    WALL_HEAD, WALL_AXIS, NUMBER(wall, radius, "m", ABOVE("0 m"), TO("1e6 m"), .meaning = "Radius of the cylinder."),
+    WALL_SIDE, WALL_ENDS, WALL_TAIL,
 };
 static const scree_key cone_keys[] = {
     WALL_HEAD,
@@ -402,6 +409,12 @@ static const scree_key mesh_keys[] = {
     NUMBER(wall, smooth, "rad", .standard = "15 degrees", FROM("0.1 degrees"), TO("60 degrees"),
            .meaning = "Triangles that meet at less than this angle are one smooth surface."),
     WALL_TAIL,
+};
+
+static const scree_key collide_keys[] = {
+    STAGE_HEAD,
+    NUMBER(stage, duration, "s", .standard = "auto", ABOVE("0 s"), TO("1e9 s"),
+           .meaning = "The stage ends when the two have parted, or after this; auto: twice as long as it should take."),
 };
 
 typedef scree_config_measure measure;
@@ -465,6 +478,7 @@ static const scree_section stage_tables[] = {
     TABLE("relax",
           "Lets time pass under gravity, between plates that stand or the `walls` of the case, which move or stand.",
           relax_keys),
+    TABLE("collide", "Two particles, prepared as a `pair`, meet and part; nothing else acts on them.", collide_keys),
 };
 static const scree_section wall_tables[] = {
     TABLE("plane", "A half-space; in 2D a half-plane.", plane_keys),

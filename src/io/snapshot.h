@@ -67,6 +67,8 @@ typedef struct scree_snapshot {
     double *contact_z;                       ///< m, 3D only, else NULL
     size_t loop_count;
     uint32_t *loop;
+    size_t triangle_count;   ///< of the membrane in 3D
+    uint32_t (*triangle)[3]; ///< ids, counter-clockwise seen from outside
     scree_wall wall[SCREE_WALL_COUNT];
     size_t wall_triangle_count;
     double *wall_triangle; ///< m, walls of the case: 9 each, three corners; in 2D lines, the last two corners the same

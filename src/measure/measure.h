@@ -77,6 +77,11 @@ scree_status scree_solid_fraction(const scree_state *state, double *fraction, sc
 scree_status scree_corner_distortion(const scree_model *model, const scree_state *state, double *distortion,
                                      scree_error *error) SCREE_MUST_USE;
 
+/// How far the boundary of a round sample leaves the affine image of what it was at the begin of the loading stage
+/// (state->reference): root mean square in mean diameters (boundary_roughness.c). NAN in 3D. Errors: memory.
+scree_status scree_boundary_roughness(const scree_model *model, const scree_state *state, double *roughness,
+                                      scree_error *error) SCREE_MUST_USE;
+
 typedef struct scree_energy {
     double kinetic, kinetic_rotation; ///< J
     double elastic_normal, elastic_tangential;

@@ -43,7 +43,7 @@ scree_status scree_recorder_open(scree_recorder *recorder, const scree_simulatio
     status = scree_series_open(&recorder->series, path, scree_sample_columns, SCREE_SAMPLE_COUNT,
                                restart ? s->state.stage.samples : -1, error);
     if (!status) status = scree_wall_series_open(&recorder->walls, s, directory, restart, error);
-    recorder->started = recorder->last_checkpoint = recorder->last_progress = scree_clock();
+    recorder->started = recorder->clocked = recorder->last_checkpoint = recorder->last_progress = scree_clock();
     recorder->progress_step = s->state.step;
     recorder->first_evaluations = recorder->progress_evaluations = recorder->checkpoint_evaluations =
         s->state.evaluations;
@@ -59,8 +59,17 @@ void scree_recorder_close(scree_recorder *recorder)
     recorder->log.file = NULL;
 }
 
+void scree_recorder_clock(scree_recorder *recorder, scree_simulation *s)
+{
+    double now = scree_clock();
+    s->state.wall_time.run += now - recorder->clocked;
+    s->state.wall_time.stage += now - recorder->clocked;
+    recorder->clocked = now;
+}
+
 scree_status scree_recorder_checkpoint(scree_recorder *recorder, scree_simulation *s, scree_error *error)
 {
+    scree_recorder_clock(recorder, s);
     scree_status status = scree_contacts_save(&s->state, &s->work, error);
     if (!status) status = scree_checkpoint_write(recorder->directory, &s->state, recorder->case_checksum, error);
     recorder->last_checkpoint = scree_clock();

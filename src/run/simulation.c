@@ -1,6 +1,7 @@
 /// Stages one after the other, a step at a time; the public simulation handle.
 #include "run/simulation.h"
 
+#include "base/processor.h"
 #include "boundary/forced_spin.h"
 #include "measure/measure.h"
 #include "run/sample.h"
@@ -9,7 +10,6 @@
 #include "shape/container.h"
 
 #include <math.h>
-#include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -30,7 +30,8 @@ scree_status scree_simulation_open(const scree_case *c, int threads, scree_simul
     s->stage_model = s->model;
     s->integrator = scree_integrator_get(s->model.scheme);
     // A thread pays from a few thousand bodies on; below, its barriers cost more than it does (docs/performance.md).
-    if (threads <= 0) threads = (int)fmin(omp_get_num_procs(), 1 + (double)c->config.particles.count / BODIES_A_THREAD);
+    if (threads <= 0)
+        threads = (int)fmin(scree_processor_count(), 1 + (double)c->config.particles.count / BODIES_A_THREAD);
     status = scree_work_create(&s->work, &s->model, threads, error);
     if (!status && (status = scree_container_create(&c->config, &s->work.container, error)))
         scree_case_locate(c, error);
@@ -88,7 +89,9 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
     if (!restart || stage->counter == NOT_BEGUN) {
         stage->first_time = scree_state_time(&s->state);
         stage->first_step = s->state.step;
+        stage->first_evaluations = s->state.evaluations;
         stage->counter = 0;
+        s->state.wall_time.stage = 0;
         scree_forced_spin_end(&s->state);
         scree_status status = s->stage->begin(s, error);
         if (status) return status;

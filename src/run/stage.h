@@ -42,6 +42,7 @@ extern const scree_stage scree_stage_compress;
 extern const scree_stage scree_stage_deform;
 extern const scree_stage scree_stage_rotate;
 extern const scree_stage scree_stage_relax;
+extern const scree_stage scree_stage_collide;
 
 /// s since the begin of the stage.
 double scree_stage_elapsed(const scree_simulation *s);
@@ -77,6 +78,9 @@ double scree_loading_rise(const scree_simulation *s, double *loaded);
 
 /// A stage without plates ends when its strain is reached; the error when it falls too far behind its rate.
 scree_status scree_loading_check(const scree_simulation *s, scree_error *error) SCREE_MUST_USE;
+
+/// Angle [rad] that the particle of a stage rotate_particle has turned by, `elapsed` s after its begin.
+double scree_rotate_turned(const scree_simulation *s, double elapsed);
 
 /// Smooth step from 0 to 1 (cubic), for pressures and velocities that must not shock the sample.
 double scree_smooth_ramp(double fraction);

@@ -61,10 +61,21 @@ static scree_status begin(scree_simulation *s, scree_error *error)
     return SCREE_OK;
 }
 
+static double rise_of(const scree_simulation *s, const scree_config_stage *stage)
+{
+    return isnan(stage->ramp_time) ? RAMP_WAVES * s->state.stage.reference[SCREE_LOADING_WAVE] : stage->ramp_time;
+}
+
 static double ramp(const scree_simulation *s)
 {
-    double time = scree_stage_config(s)->ramp_time;
-    return isnan(time) ? RAMP_WAVES * s->state.stage.reference[SCREE_LOADING_WAVE] : time;
+    return rise_of(s, scree_stage_config(s));
+}
+
+double scree_rotate_turned(const scree_simulation *s, double elapsed)
+{
+    const scree_config_stage *stage = &s->model.config->stages[s->model.config->stage_count - 1];
+    double rise = rise_of(s, stage), raised = fmin(elapsed, rise);
+    return stage->spin * ((rise > 0 ? 0.5 * raised * raised / rise : 0) + fmax(0, elapsed - rise));
 }
 
 static void plan(scree_simulation *s)

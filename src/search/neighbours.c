@@ -12,9 +12,9 @@
 /// search by ranges of rows, a thread each; the ranges one after the other into the list, touching pairs first, each
 /// with its history. The list depends on positions and ids alone, not on threads or on the order before. Cost, like
 /// discs in a dense packing, one core: about 230 cycles a disc (3 ms for 32,768 discs at 2.4 GHz; measured with
-/// bench/bench_neighbours), a third of it the search. Cells and sorts are not shared among threads, the rest is.
-/// Memory: 40 bytes a pair for the list (56 in 3D), during a rebuild 40 (56) a contact for state->contact and about 150
-/// a disc, 250 a sphere, for cells and buffers, which only small samples keep.
+/// bench/bench_neighbours), a third of it the search. Cells and sorts are not shared among threads; search and
+/// histories are. Memory: 40 bytes a pair for the list (56 in 3D), during a rebuild 40 (56) a contact for
+/// state->contact and about 150 a disc, 250 a sphere, for cells and buffers, which only small samples keep.
 #include "search/neighbours.h"
 
 #include "search/search.h"
@@ -22,7 +22,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <omp.h>
 #include <string.h>
 
 static double half_skin(const scree_work *work)
@@ -35,12 +34,18 @@ void scree_neighbours_invalidate(scree_work *work)
     work->valid = false;
 }
 
-/// Largest displacement of a body since the last rebuild [m]; infinite if a position is not finite.
-static double largest_displacement(const scree_state *state, int threads)
+typedef struct displacement_task {
+    const scree_state *state;
+    double square[SCREE_TEAM_MOST];
+} displacement_task;
+
+static void displacement_share(void *argument, int index, int count)
 {
+    displacement_task *task = argument;
+    const scree_state *state = task->state;
     double largest = 0;
-#pragma omp parallel for num_threads(threads) schedule(static) reduction(max : largest) if (threads > 1)
-    for (size_t k = 0; k < state->count; k++) {
+    size_t end = scree_team_begin(state->count, index + 1, count);
+    for (size_t k = scree_team_begin(state->count, index, count); k < end; k++) {
         const double *then = state->rebuild[k];
         double dx = state->row[k].x - then[0], dy = state->row[k].y - then[1];
         double dz = state->dimension == 3 ? state->row[k].z - then[2] : 0;
@@ -48,6 +53,17 @@ static double largest_displacement(const scree_state *state, int threads)
         square = square <= DBL_MAX ? square : (double)INFINITY;
         largest = square > largest ? square : largest;
     }
+    task->square[index] = largest;
+}
+
+/// Largest displacement of a body since the last rebuild [m]; infinite if a position is not finite.
+static double largest_displacement(const scree_state *state, scree_work *work)
+{
+    displacement_task task = {.state = state};
+    const int shares = scree_work_shares(work);
+    scree_team_run(&work->team, shares, displacement_share, &task);
+    double largest = 0;
+    for (int k = 0; k < shares; k++) largest = fmax(largest, task.square[k]);
     return sqrt(largest);
 }
 
@@ -140,26 +156,39 @@ static void drop_membrane_pairs(const scree_state *state, scree_pair_buffer *buf
     buffer->count = kept;
 }
 
+typedef struct pairs_task {
+    const scree_state *state;
+    const scree_work *work;
+    scree_search *search;
+    scree_pair_search *find;
+    bool failed[SCREE_TEAM_MOST];
+} pairs_task;
+
+static void pairs_share(void *argument, int index, int count)
+{
+    pairs_task *task = argument;
+    const scree_state *state = task->state;
+    scree_pair_chunk *chunk = &task->search->chunk[index];
+    size_t begin = scree_team_begin(state->count, index, count), end = scree_team_begin(state->count, index + 1, count);
+    chunk->element.count = 0;
+    task->failed[index] =
+        task->find(&task->search->grid, state, begin, end, chunk, NULL) ||
+        scree_elements_search(task->work->container, state, begin, end, task->work->skin, &chunk->element, NULL);
+    if (state->membrane.count == 0) return;
+    drop_membrane_pairs(state, &chunk->touching);
+    drop_membrane_pairs(state, &chunk->near);
+}
+
 static scree_status search_pairs(const scree_state *state, scree_work *work, scree_error *error)
 {
     scree_search *search = work->search;
-    scree_pair_search *find = scree_pair_search_get(work->instruction_set);
-    const size_t chunks = (size_t)search->chunks;
-    size_t failed = chunks;
-#pragma omp parallel for num_threads(search->chunks) schedule(static, 1) reduction(min : failed) if (search->chunks > 1)
-    for (size_t c = 0; c < chunks; c++) {
-        size_t begin = state->count * c / chunks, end = state->count * (c + 1) / chunks;
-        search->chunk[c].element.count = 0;
-        if (find(&search->grid, state, begin, end, &search->chunk[c], NULL) ||
-            scree_elements_search(work->container, state, begin, end, work->skin, &search->chunk[c].element, NULL))
-            failed = c < failed ? c : failed;
-    }
-    for (size_t c = 0; c < chunks && state->membrane.count > 0; c++) {
-        drop_membrane_pairs(state, &search->chunk[c].touching);
-        drop_membrane_pairs(state, &search->chunk[c].near);
-    }
-    if (failed == chunks) return SCREE_OK;
-    return scree_error_set_memory(error, search->chunk[failed].touching.capacity * sizeof(scree_row_pair));
+    pairs_task task = {
+        .state = state, .work = work, .search = search, .find = scree_pair_search_get(work->instruction_set)};
+    scree_team_run(&work->team, search->chunks, pairs_share, &task);
+    for (int c = 0; c < search->chunks; c++)
+        if (task.failed[c])
+            return scree_error_set_memory(error, search->chunk[c].touching.capacity * sizeof(scree_row_pair));
+    return SCREE_OK;
 }
 
 static uint32_t lower_row(scree_row_pair pair)
@@ -220,19 +249,33 @@ static void attach_rows(const scree_state *state, const list_arrays *list, size_
         (*list->rolling)[k] = known && state->rolling ? state->rolling[from] : (scree_rolling){{0}, {0}};
 }
 
+typedef struct attach_task {
+    scree_state *state;
+    scree_work *work;
+} attach_task;
+
+static void attach_share(void *argument, int index, int count)
+{
+    const attach_task *task = argument;
+    const scree_state *state = task->state;
+    scree_pair_list *pairs = &task->work->pairs;
+    const list_arrays of_pairs = arrays_of_pairs(pairs);
+    size_t end = scree_team_begin(pairs->count, index + 1, count);
+    for (size_t k = scree_team_begin(pairs->count, index, count); k < end; k++) {
+        uint32_t first = pairs->first[k], second = pairs->second[k], lower = first < second ? first : second;
+        attach_rows(state, &of_pairs, k,
+                    scree_history_find(task->work->search, state, lower, state->id[first], state->id[second]));
+    }
+}
+
 /// Gives every pair of the new list what its contact remembers.
-static void attach_histories(const scree_state *state, scree_work *work)
+static void attach_histories(scree_state *state, scree_work *work)
 {
     const scree_search *search = work->search;
-    scree_pair_list *pairs = &work->pairs;
     scree_wall_pair_list *walls = &work->wall_pairs, *elements = &work->element_pairs;
-    const list_arrays of_pairs = arrays_of_pairs(pairs), of_walls = arrays_of_wall_pairs(walls);
-    const list_arrays of_elements = arrays_of_wall_pairs(elements);
-#pragma omp parallel for num_threads(work->threads) schedule(static) if (work->threads > 1)
-    for (size_t k = 0; k < pairs->count; k++) {
-        uint32_t first = pairs->first[k], second = pairs->second[k], lower = first < second ? first : second;
-        attach_rows(state, &of_pairs, k, scree_history_find(search, state, lower, state->id[first], state->id[second]));
-    }
+    const list_arrays of_walls = arrays_of_wall_pairs(walls), of_elements = arrays_of_wall_pairs(elements);
+    attach_task task = {state, work};
+    scree_team_run(&work->team, search->chunks, attach_share, &task);
     for (size_t k = 0; k < walls->count; k++)
         attach_rows(state, &of_walls, k,
                     scree_history_find(search, state, walls->body[k], state->id[walls->body[k]],
@@ -253,7 +296,7 @@ static void pad_list(const scree_state *state, const list_arrays *list, size_t c
 }
 
 /// The chunks' pairs one after the other: the same list however many chunks there are.
-static scree_status assemble(const scree_model *model, const scree_state *state, scree_work *work, scree_error *error)
+static scree_status assemble(const scree_model *model, scree_state *state, scree_work *work, scree_error *error)
 {
     scree_search *search = work->search;
     scree_pair_list *pairs = &work->pairs;
@@ -323,12 +366,12 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     work->pairs.count = work->pairs.touching_count = work->wall_pairs.count = work->element_pairs.count = 0;
     if (state->count >= LARGE) scree_pair_lists_destroy(work);
 
-    scree_cell_grid_fit(&search->grid, state, work->skin, work->threads);
+    scree_cell_grid_fit(&search->grid, state, work->skin);
     if (!search->grid.finite) {
         work->flags |= SCREE_FLAG_NAN;
         work->flagged_id = search->grid.odd_id;
     }
-    status = scree_cell_grid_order(&search->grid, state, work->threads, error);
+    status = scree_cell_grid_order(&search->grid, state, error);
     if (!status) status = scree_state_permute(state, search->grid.order, error);
     if (!status) status = scree_cell_grid_fill(&search->grid, state, error);
     if (!status) status = scree_histories_index(search, state, error);
@@ -336,7 +379,6 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     if (!status) status = assemble(model, state, work, error);
     if (status) return status;
 
-#pragma omp parallel for num_threads(work->threads) schedule(static) if (work->threads > 1)
     for (size_t k = 0; k < state->count; k++) scree_body_place(state, k, state->rebuild[k]);
     memcpy(search->wall, state->wall, sizeof search->wall);
     search->surface_ticks = state->surface_ticks;
@@ -357,7 +399,7 @@ scree_status scree_neighbours_refresh(const scree_model *model, scree_state *sta
     if (!work->valid || work->search->bodies != state->count || walls_need_rebuild(model, state, work))
         return rebuild(model, state, work, error);
     if (work->budget >= 0) return SCREE_OK;
-    double moved = largest_displacement(state, work->threads);
+    double moved = largest_displacement(state, work);
     if (!(moved < half_skin(work))) return rebuild(model, state, work, error);
     work->budget = half_skin(work) - moved;
     return SCREE_OK;

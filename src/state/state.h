@@ -144,7 +144,7 @@ typedef struct scree_ledger {
     double stiffness; ///< put into tangential springs by the change of their stiffness with indentation (hertz_mindlin)
     double plates;    ///< work of the walls
     double pressure;  ///< work of the pressure on the Delaunay boundary or the membrane
-    double boundary;  ///< work of the other forces of the boundary: imposed rates, chain and ends of a membrane
+    double boundary;  ///< work of the other forces of the boundary: imposed rates, springs and ends of a membrane
     double forced;    ///< work of the torque that keeps a body at a prescribed spin
     double gravity;   ///< sum of m g . x when the ledger was opened
     double initial;   ///< kinetic + elastic energy when the ledger was opened
@@ -154,7 +154,7 @@ typedef struct scree_ledger {
 
 /// A body whose spin is prescribed (boundary/forced_spin.h).
 typedef struct scree_forced_spin {
-    int64_t active;      ///< 0: there is none
+    int64_t active; ///< 0: there is none
     int64_t id;
     scree_vector spin;   ///< rad/s, at n - 1/2
     scree_vector torque; ///< N m, by its contacts at n
@@ -212,14 +212,17 @@ typedef enum scree_prescription {
                      ///< free
 } scree_prescription;
 
-/// Chain of discs on both sides of the sample (boundary/membrane.c, 2D). Its bodies have the ids from state.grains on:
-/// the right side from bottom to top, then the left side from top to bottom; count = 0: there is no membrane.
+/// Membrane around the sides of the sample (boundary/membrane.c). Its bodies have the ids from state.grains on; count =
+/// 0: there is no membrane. 2D: two chains of discs, the right side from bottom to top, then the left side from top to
+/// bottom. 3D: a triangulated tube of spheres (boundary/sheet.h), ring by ring from bottom to top.
 typedef struct scree_membrane {
-    double *rest;        ///< count, m, unstressed length from this body to the next; 0 for the last of a side
+    scree_vector *rest;  ///< count, m, unstressed lengths of the springs that begin at this body; 0: no spring. 2D: one,
+                         ///< to the next body; 3D: to the next of its ring and to two of the ring above
     scree_vector *press; ///< count, N, force of the pressure at n
-    scree_vector *force; ///< count, N, force of the chain, and of the plates on its ends, at n
+    scree_vector *force; ///< count, N, force of the springs, and of the plates on its ends, at n
     size_t count, capacity;
-    uint64_t right;   ///< bodies of the right side
+    uint64_t right;   ///< 2D: bodies of the right side
+    uint64_t around;  ///< 3D: bodies of a ring
     double radius;    ///< m
     double ramp_time; ///< s, in which the membrane takes the pressure over
     double share;     ///< 1, fraction of the time passed
@@ -235,12 +238,19 @@ typedef struct scree_stage_state {
     int64_t index;                            ///< which stage of the case
     uint64_t first_step;                      ///< step at which it began
     double first_time;                        ///< s
+    uint64_t first_evaluations;               ///< state.evaluations when it began
     double reference[SCREE_STAGE_REFERENCES]; ///< stage-specific numbers (height at start, pressure at start, ...): see
                                               ///< the stage's file
     int64_t samples;                          ///< rows written in this stage
     int64_t snapshots;
     int64_t counter; ///< stage-specific
 } scree_stage_state;
+
+/// Time on the wall spent so far, all processes of the run together. Kept in checkpoints beside the state: it is no
+/// part of the checksum and nothing depends on it.
+typedef struct scree_wall_time {
+    double run, stage; ///< s, of the run and of its present or last stage
+} scree_wall_time;
 
 typedef struct scree_state {
     int dimension; ///< 2 or 3
@@ -287,6 +297,7 @@ typedef struct scree_state {
     scree_forced_spin forced;
     scree_ledger ledger;
     scree_stage_state stage;
+    scree_wall_time wall_time;
 } scree_state;
 
 /// Allocates arrays for `count` bodies of dimension 2 or 3, ids 0 .. count-1, everything else zero.
