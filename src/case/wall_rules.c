@@ -152,6 +152,10 @@ void scree_rules_check_walls(scree_reader *reader, scree_config *config)
 {
     for (int64_t i = 0; i < config->wall_count; i++)
         if (config->walls[i].shape < 0) return; // wrong, and noted
+    if (config->wall_count > 0 && config->boundary.periodic > 0) {
+        refuse(reader, 0, "shape", NULL, "a periodic cell has no walls: leave one of `walls` and boundary.periodic out");
+        return;
+    }
     name_walls(reader, config);
     for (int64_t i = 0; i < config->wall_count; i++) {
         scree_config_wall *wall = &config->walls[i];

@@ -116,7 +116,7 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
     scree_wall_triangles walls = {0};
     scree_status status = picture_walls(s, &walls, error);
     info.walls = &walls;
-    if (!status && s->model.config->measure.cells) {
+    if (!status && s->model.config->measure.cells && !s->state.periodic.directions) {
         status = scree_cells_measure(model, &s->state, &s->table, &cells, error);
         // A few bodies, or bodies on a line, have no triangulation and so no cells.
         if (!status) info.cells = &cells;
