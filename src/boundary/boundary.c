@@ -13,6 +13,7 @@ enum {
 const scree_boundary scree_boundary_pressure = {.name = "pressure", .walls = AXIAL};
 const scree_boundary scree_boundary_none = {.name = "none", .open = true};
 const scree_boundary scree_boundary_plates = {.name = "plates", .walls = AXIAL | LATERAL};
+const scree_boundary scree_boundary_walls = {.name = "walls", .open = true};
 
 // A periodic cell has no walls and no forces of its own (periodic.c); a channel is periodic but for its plates.
 const scree_boundary scree_boundary_periodic = {.name = "periodic"};
@@ -25,6 +26,7 @@ const scree_boundary *scree_boundary_get(scree_boundary_kind kind)
         [SCREE_BOUNDARY_PLATES] = &scree_boundary_plates,     [SCREE_BOUNDARY_MEMBRANE] = &scree_boundary_membrane,
         [SCREE_BOUNDARY_MINIMAL] = &scree_boundary_minimal,   [SCREE_BOUNDARY_AFFINE] = &scree_boundary_affine,
         [SCREE_BOUNDARY_PERIODIC] = &scree_boundary_periodic, [SCREE_BOUNDARY_CHANNEL] = &scree_boundary_channel,
+        [SCREE_BOUNDARY_WALLS] = &scree_boundary_walls,
         [SCREE_BOUNDARY_NONE] = &scree_boundary_none,
     };
     return table[kind];
@@ -68,7 +70,8 @@ scree_status scree_boundary_begin(const scree_boundary *boundary, const scree_mo
 {
     size_t count = state->count;
     *changed = change_walls(state, boundary->walls, table);
-    scree_status status = *changed ? scree_boundary_mark_loaded(model, state, error) : SCREE_OK;
+    scree_status status = SCREE_OK;
+    if (*changed && !boundary->open) status = scree_boundary_mark_loaded(model, state, error);
     if (!status && boundary->begin) status = boundary->begin(model, state, error);
     *changed = *changed || state->count != count;
     return status;

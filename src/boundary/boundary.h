@@ -11,8 +11,8 @@
 
 typedef struct scree_boundary {
     const char *name;
-    bool open;      ///< bodies have no boundary at all, and no hull is kept
     uint32_t walls; ///< bit w: wall w stands (those of the state's dimension)
+    bool open;      ///< the bodies need not hang together: no Delaunay boundary or hull is kept, and no pressure
     /// When a stage begins with it: bodies of its own, resets. NULL: nothing to do.
     scree_status (*begin)(const scree_model *model, scree_state *state, scree_error *error);
     /// In every step, after the Delaunay boundary: memory for what it keeps a body. NULL: nothing to do.
@@ -34,6 +34,7 @@ extern const scree_boundary scree_boundary_plates;
 extern const scree_boundary scree_boundary_membrane;
 extern const scree_boundary scree_boundary_minimal;
 extern const scree_boundary scree_boundary_affine;
+extern const scree_boundary scree_boundary_walls;
 extern const scree_boundary scree_boundary_periodic;
 extern const scree_boundary scree_boundary_channel;
 

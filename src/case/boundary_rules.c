@@ -70,6 +70,7 @@ static bool is_free_of_plates(scree_boundary_kind kind)
 static const char *wrong_order(scree_boundary_kind kind, scree_boundary_kind before)
 {
     if (kind == before) return NULL;
+    if (before == SCREE_BOUNDARY_WALLS) return "plates cannot come back among grains that have moved freely";
     if (is_free_of_plates(before) && !is_free_of_plates(kind))
         return "plates cannot come back to a sample that has deformed freely: only minimal or affine can follow";
     if (before == SCREE_BOUNDARY_MEMBRANE) return "a membrane cannot be taken away: the stages after it must keep it";
@@ -81,6 +82,11 @@ static const char *wrong_order(scree_boundary_kind kind, scree_boundary_kind bef
 static const char *wrong_boundary(const scree_config *config, int stage, scree_boundary_kind kind)
 {
     const double *gravity = config->gravity;
+    if (stage != SCREE_STAGE_RELAX && config->wall_count > 0)
+        return "in a case with walls only relax can follow: the other stages need plates or a free surface of the sample";
+    if (kind == SCREE_BOUNDARY_WALLS && config->wall_count == 0) return "this case has no walls";
+    if (stage == SCREE_STAGE_RELAX && kind != SCREE_BOUNDARY_WALLS && kind != SCREE_BOUNDARY_PLATES)
+        return "relax needs something that stands: give boundary: plates, or walls and boundary: walls";
     if (is_free_of_plates(kind) && (gravity[0] != 0 || gravity[1] != 0 || gravity[2] != 0))
         return "without plates nothing holds the sample against gravity";
     if (stage == SCREE_STAGE_DEFORM && !is_free_of_plates(kind))
@@ -144,7 +150,7 @@ void scree_rules_check_boundaries(scree_reader *reader, const scree_config *conf
         if (stage->kind == SCREE_STAGE_PREPARE && !is_periodic(kind)) continue;
         const char *key = "boundary", *wrong = is_periodic(kind) ? wrong_in_cell(config, stage, &key)
                                                                  : wrong_boundary(config, stage->kind, kind);
-        if (round && !is_periodic(kind) && !is_free_of_plates(kind))
+        if (round && !is_periodic(kind) && !is_free_of_plates(kind) && kind != SCREE_BOUNDARY_WALLS)
             wrong = "a round sample has no plates: give boundary: minimal or affine";
         if (!wrong && before != SCREE_BOUNDARY_AUTO) wrong = wrong_order(kind, before);
         if (!wrong && stage->kind == SCREE_STAGE_DEFORM)

@@ -60,4 +60,8 @@ void scree_rules_check(scree_reader *reader, scree_config *config);
 /// Those of the boundaries of stages, and of the velocity gradients that they impose (boundary_rules.c).
 void scree_rules_check_boundaries(scree_reader *reader, const scree_config *config);
 
+/// Those of the walls of the case, and of the stages that they can be used in (wall_rules.c). Finds the files of
+/// meshes: their paths become absolute, and the case holds the checksum of their content.
+void scree_rules_check_walls(scree_reader *reader, scree_config *config);
+
 #endif

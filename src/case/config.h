@@ -80,6 +80,7 @@ typedef enum scree_boundary_kind {
     SCREE_BOUNDARY_AFFINE,   ///< every body of the boundary moves with the velocity gradient
     SCREE_BOUNDARY_PERIODIC, ///< a cell that repeats itself in all directions (boundary.periodic)
     SCREE_BOUNDARY_CHANNEL,  ///< the same in all but the last, with plates below and above
+    SCREE_BOUNDARY_WALLS,    ///< no plates: only the walls of the case
     SCREE_BOUNDARY_NONE,     ///< nothing stands around two bodies that collide; no choice of a case
 } scree_boundary_kind;
 
@@ -104,7 +105,8 @@ typedef enum scree_stage_kind {
     SCREE_STAGE_COMPRESS,
     SCREE_STAGE_DEFORM,
     SCREE_STAGE_ROTATE,
-    SCREE_STAGE_COLLIDE
+    SCREE_STAGE_COLLIDE,
+    SCREE_STAGE_RELAX
 } scree_stage_kind;
 typedef enum scree_axis { SCREE_AXIS_X, SCREE_AXIS_Y, SCREE_AXIS_Z } scree_axis;
 typedef enum scree_prepare_method {
@@ -117,6 +119,9 @@ typedef enum scree_prepare_method {
     SCREE_PREPARE_GROWTH,
     SCREE_PREPARE_PAIR
 } scree_prepare_method;
+
+/// Whether the walls of the case move in a stage.
+typedef enum scree_wall_motion { SCREE_WALLS_MOVE, SCREE_WALLS_STAND } scree_wall_motion;
 
 /// What the sample looks like: it fills its box, or has been cut out of a larger packing.
 typedef enum scree_sample_outline { SCREE_SAMPLE_BOX, SCREE_SAMPLE_CIRCLE, SCREE_SAMPLE_BALL } scree_sample_outline;
@@ -154,12 +159,47 @@ typedef struct scree_config_stage {
     int axis;         ///< scree_axis, about which it turns
     double hold_time; ///< s, at that spin
     double cutoff;    ///< mean diameters, of the force network around it
-    // collide
-    double duration; ///< s, after which it ends in any case; auto
-    // confine, compress, deform and rotate_particle
+    // collide and relax
+    double duration; ///< s, after which it ends in any case; of collide auto
+    int walls;       ///< relax: scree_wall_motion
+    // all but prepare and collide
     int boundary;    ///< scree_boundary_kind
     double friction; ///< 1, friction during this stage; auto: the material's
 } scree_config_stage;
+
+/// A wall beside the six plates (shape/container.h). Which members its keys fill depends on the shape.
+typedef enum scree_surface_shape {
+    SCREE_SHAPE_OF_PLANE,
+    SCREE_SHAPE_OF_BOX,
+    SCREE_SHAPE_OF_CYLINDER,
+    SCREE_SHAPE_OF_CONE,
+    SCREE_SHAPE_OF_MESH
+} scree_surface_shape;
+typedef enum scree_side { SCREE_SIDE_INSIDE, SCREE_SIDE_OUTSIDE } scree_side;
+typedef enum scree_ends { SCREE_ENDS_OPEN, SCREE_ENDS_CLOSED } scree_ends;
+
+typedef struct scree_config_wall {
+    int shape;  ///< scree_surface_shape
+    char *name; ///< unique among the walls
+    double point[3], normal[3];      ///< m, 1: plane
+    double lower[3], upper[3];       ///< m: box
+    double start[3], end[3];         ///< m: axis of a cylinder or cone
+    double radius;                   ///< m: cylinder
+    double radius_start, radius_end; ///< m: cone
+    int side;                        ///< scree_side, where the bodies are: box, cylinder, cone
+    int ends;                        ///< scree_ends: cylinder, cone
+    char *file;                      ///< mesh: path of an STL file, relative to the case file until the case is read
+    char *checksum;                  ///< mesh: content of that file; auto: whatever it is
+    double scale;                    ///< mesh: m per unit of the file
+    double at[3];                    ///< m, mesh: where the origin of the file lies
+    double smooth;                   ///< rad, mesh: contacts whose normals differ by less are one
+    double friction;                 ///< 1; auto: the material's friction on plates
+    double velocity[3];              ///< m/s
+    double spin[3];                  ///< rad/s
+    double centre[3];                ///< m, about which it turns, at the begin
+} scree_config_wall;
+
+enum { SCREE_SURFACES = 16 }; ///< walls of a case
 
 typedef struct scree_config_window {
     double from; ///< axial strain
@@ -200,6 +240,8 @@ typedef struct scree_config {
     scree_config_contact contact;
     scree_config_integrator integrator;
     scree_config_boundary boundary;
+    scree_config_wall *walls;
+    int64_t wall_count;
     scree_config_stage *stages;
     int64_t stage_count;
     scree_config_measure measure;
@@ -208,7 +250,7 @@ typedef struct scree_config {
 } scree_config;
 
 /// The boundary of stage `index`: periodic as the case says, else its own choice, or that of the last stage before it
-/// that made one, or `lateral`.
+/// that made one, or the walls of the case, or `lateral`.
 static inline scree_boundary_kind scree_config_boundary_of(const scree_config *config, int64_t index)
 {
     if (config->stages[index].kind == SCREE_STAGE_COLLIDE) return SCREE_BOUNDARY_NONE;
@@ -218,6 +260,7 @@ static inline scree_boundary_kind scree_config_boundary_of(const scree_config *c
     }
     while (index >= 0 && config->stages[index].boundary == SCREE_BOUNDARY_AUTO) index--;
     int kind = index >= 0 ? config->stages[index].boundary : config->boundary.lateral;
+    if (config->wall_count > 0 && index < 0) return SCREE_BOUNDARY_WALLS;
     return kind == SCREE_BOUNDARY_AUTO ? SCREE_BOUNDARY_PRESSURE : (scree_boundary_kind)kind;
 }
 

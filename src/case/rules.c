@@ -249,7 +249,9 @@ static void check_timescales(scree_reader *reader, const scree_config *config)
     for (int64_t i = 0; i < config->stage_count; i++) {
         scree_boundary_kind kind = scree_config_boundary_of(config, i);
         // A periodic cell moves bodies by its gradient in every step, whatever its size.
-        if (config->boundary.periodic > 0 || kind == SCREE_BOUNDARY_PRESSURE || kind == SCREE_BOUNDARY_PLATES) continue;
+        if (config->boundary.periodic > 0 || kind == SCREE_BOUNDARY_PRESSURE || kind == SCREE_BOUNDARY_PLATES ||
+            kind == SCREE_BOUNDARY_WALLS)
+            continue;
         scree_problem_add(reader, place, "integrator.scheme", text, "position_verlet, velocity_verlet",
                           "the boundary of stages.%lld imposes velocities and needs equal steps", (long long)i);
         return;
@@ -269,4 +271,5 @@ void scree_rules_check(scree_reader *reader, scree_config *config)
     check_windows(reader, config);
     check_timescales(reader, config);
     scree_rules_check_boundaries(reader, config);
+    scree_rules_check_walls(reader, config);
 }

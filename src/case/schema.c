@@ -68,7 +68,8 @@ static const scree_choice laterals[] = {
     {0},
 };
 static const scree_choice boundaries[] = {
-    {"auto", SCREE_BOUNDARY_AUTO, "that of the stage before, at first as `boundary.lateral` says"},
+    {"auto", SCREE_BOUNDARY_AUTO,
+     "that of the stage before, at first the `walls` of the case, or as `boundary.lateral` says"},
     {"pressure", SCREE_BOUNDARY_PRESSURE, "plates below and above, pressure on the Delaunay boundary of the sides"},
     {"plates", SCREE_BOUNDARY_PLATES, "rigid plates on all sides, those beside the sample under servo"},
     {"membrane", SCREE_BOUNDARY_MEMBRANE,
@@ -77,6 +78,7 @@ static const scree_choice boundaries[] = {
     {"minimal", SCREE_BOUNDARY_MINIMAL,
      "no plates: pressure on all sides, and minimal kinematic conditions impose the strain rate"},
     {"affine", SCREE_BOUNDARY_AFFINE, "no plates: every body of the boundary moves with the velocity gradient"},
+    {"walls", SCREE_BOUNDARY_WALLS, "no plates: only the `walls` of the case"},
     {0},
 };
 // Component ij is the derivative of velocity i by coordinate j; its value is its place in a 3 x 3 tensor by rows.
@@ -131,6 +133,7 @@ static const scree_choice stage_kinds[] = {
     {"compress", SCREE_STAGE_COMPRESS, "shortens the sample along its axis to a strain"},
     {"deform", SCREE_STAGE_DEFORM, "imposes any components of the velocity gradient, to a strain"},
     {"rotate_particle", SCREE_STAGE_ROTATE, "turns one particle and watches how rotations spread"},
+    {"relax", SCREE_STAGE_RELAX, "lets time pass: gravity, standing plates, walls of the case that stand or move"},
     {"collide", SCREE_STAGE_COLLIDE, "lets two particles meet and part"},
     {0},
 };
@@ -333,6 +336,103 @@ static const scree_key rotate_keys[] = {
     STAGE_FRICTION,
 };
 
+static const scree_choice wall_motions[] = {
+    {"move", SCREE_WALLS_MOVE, "with the velocities and spins that the case gives them"},
+    {"stand", SCREE_WALLS_STAND, "all of them stand where they have come to"},
+    {0},
+};
+static const scree_key relax_keys[] = {
+    STAGE_HEAD,
+    NUMBER(stage, duration, "s", ABOVE("0 s"), TO("1e9 s"), .meaning = "Time after which the stage ends."),
+    NUMBER(stage, unbalanced_limit, "1", .standard = "auto", FROM("1e-9"), BELOW("1"),
+           .meaning = "It ends before when the unbalanced force ratio stays below this; auto: never."),
+    CHOICE(stage, walls, wall_motions, .standard = "move", .meaning = "What the walls of the case do."),
+    STAGE_BOUNDARY,
+    STAGE_FRICTION,
+};
+
+typedef scree_config_wall wall;
+static const scree_choice surface_shapes[] = {
+    {"plane", SCREE_SHAPE_OF_PLANE, "a half-space"},
+    {"box", SCREE_SHAPE_OF_BOX, "with sides along the axes"},
+    {"cylinder", SCREE_SHAPE_OF_CYLINDER, "round, with any axis (3D)"},
+    {"cone", SCREE_SHAPE_OF_CONE, "a truncated or a pointed cone (3D)"},
+    {"mesh", SCREE_SHAPE_OF_MESH, "triangles of an STL file, both sides of them (3D)"},
+    {0},
+};
+static const scree_choice sides[] = {
+    {"inside", SCREE_SIDE_INSIDE, "the particles are inside: a container"},
+    {"outside", SCREE_SIDE_OUTSIDE, "the particles are outside: a solid body, or a tube"},
+    {0},
+};
+static const scree_choice ends[] = {
+    {"open", SCREE_ENDS_OPEN, "particles can pass, and touch the rims"},
+    {"closed", SCREE_ENDS_CLOSED, "by planes"},
+    {0},
+};
+#define PLACE(owner, member, ...)                                                                                      \
+    KEY(owner, member, SCREE_KEY_VECTOR, .unit = "m", FROM("-1e6 m"), TO("1e6 m"), __VA_ARGS__)
+#define WALL_HEAD                                                                                                      \
+    {.name = "shape",                                                                                                  \
+     .type = SCREE_KEY_CHOICE,                                                                                         \
+     .choices = surface_shapes,                                                                                        \
+     .offset = offsetof(wall, shape),                                                                                  \
+     .meaning = "Shape of the wall."},                                                                                 \
+        KEY(wall, name, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),                                       \
+            .meaning = "Name in tables and for --set; auto: the shape, numbered from 1 if there are several.")
+#define WALL_TAIL                                                                                                      \
+    NUMBER(wall, friction, "1", .standard = "auto", FROM("0"), TO("10"),                                               \
+           .meaning = "Friction of particles on it; auto: their material's wall_friction."),                           \
+        KEY(wall, velocity, SCREE_KEY_VECTOR, .unit = "m/s", .standard = "[0, 0]", FROM("-1000 m/s"), TO("1000 m/s"),  \
+            .meaning = "Constant velocity."),                                                                          \
+        KEY(wall, spin, SCREE_KEY_VECTOR, .unit = "rad/s", .standard = "[0, 0]", FROM("-1e6 rad/s"), TO("1e6 rad/s"),  \
+            .meaning = "Constant angular velocity; none for planes."),                                                 \
+        PLACE(wall, centre, .standard = "[0, 0]", .meaning = "Point that it turns about, at the begin.")
+#define WALL_SIDE CHOICE(wall, side, sides, .standard = "inside", .meaning = "Where the particles are.")
+#define WALL_AXIS                                                                                                      \
+    PLACE(wall, start, .meaning = "One end of the axis."), PLACE(wall, end, .meaning = "The other end of the axis.")
+#define WALL_ENDS CHOICE(wall, ends, ends, .standard = "closed", .meaning = "What is at both ends of the axis.")
+static const scree_key plane_keys[] = {
+    WALL_HEAD,
+    PLACE(wall, point, .meaning = "A point of the plane."),
+    KEY(wall, normal, SCREE_KEY_VECTOR, .unit = "1", FROM("-1e6"), TO("1e6"),
+        .meaning = "Normal, towards the particles; any length."),
+    WALL_TAIL,
+};
+static const scree_key box_keys[] = {
+    WALL_HEAD,
+    PLACE(wall, lower, .meaning = "Corner with the smallest coordinates."),
+    PLACE(wall, upper, .meaning = "Corner with the largest coordinates."),
+    WALL_SIDE,
+    WALL_TAIL,
+};
+static const scree_key cylinder_keys[] = {
+    WALL_HEAD, WALL_AXIS, NUMBER(wall, radius, "m", ABOVE("0 m"), TO("1e6 m"), .meaning = "Radius of the cylinder."),
+    WALL_SIDE, WALL_ENDS, WALL_TAIL,
+};
+static const scree_key cone_keys[] = {
+    WALL_HEAD,
+    WALL_AXIS,
+    NUMBER(wall, radius_start, "m", FROM("0 m"), TO("1e6 m"), .meaning = "Radius at `start`."),
+    NUMBER(wall, radius_end, "m", FROM("0 m"), TO("1e6 m"), .meaning = "Radius at `end`."),
+    WALL_SIDE,
+    WALL_ENDS,
+    WALL_TAIL,
+};
+static const scree_key mesh_keys[] = {
+    WALL_HEAD,
+    KEY(wall, file, SCREE_KEY_TEXT, FROM("1"), TO("4000"),
+        .meaning = "STL file, binary or ASCII, relative to the case file."),
+    KEY(wall, checksum, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),
+        .meaning = "Of the content of the file: another one is refused; auto: any."),
+    NUMBER(wall, scale, "m", .standard = "1 m", ABOVE("0 m"), TO("1e6 m"),
+           .meaning = "Length of one unit of the file, e.g. 1 mm."),
+    PLACE(wall, at, .standard = "[0, 0]", .meaning = "Where the origin of the file lies."),
+    NUMBER(wall, smooth, "rad", .standard = "15 degrees", FROM("0.1 degrees"), TO("60 degrees"),
+           .meaning = "Triangles that meet at less than this angle are one smooth surface."),
+    WALL_TAIL,
+};
+
 static const scree_key collide_keys[] = {
     STAGE_HEAD,
     NUMBER(stage, duration, "s", .standard = "auto", ABOVE("0 s"), TO("1e9 s"),
@@ -399,7 +499,17 @@ static const scree_section stage_tables[] = {
           "whole is "
           "kept from turning.",
           rotate_keys),
+    TABLE("relax",
+          "Lets time pass under gravity, between plates that stand or the `walls` of the case, which move or stand.",
+          relax_keys),
     TABLE("collide", "Two particles, prepared as a `pair`, meet and part; nothing else acts on them.", collide_keys),
+};
+static const scree_section wall_tables[] = {
+    TABLE("plane", "A half-space; in 2D a half-plane.", plane_keys),
+    TABLE("box", "A box with sides along the axes; in 2D a rectangle.", box_keys),
+    TABLE("cylinder", "A cylinder with any axis.", cylinder_keys),
+    TABLE("cone", "A truncated or pointed cone with any axis.", cone_keys),
+    TABLE("mesh", "Triangles of an STL file; contacts on both sides.", mesh_keys),
 };
 static const scree_section measure_table[] = {TABLE("measure", "What is recorded.", measure_keys)};
 static const scree_section output_table[] = {TABLE("output", "What is written, and how often.", output_keys)};
@@ -435,6 +545,9 @@ static const scree_key root_keys[] = {
     SECTION(contact, contact_table, .meaning = "Force law."),
     SECTION(integrator, integrator_table, .meaning = "Integration in time."),
     SECTION(boundary, boundary_table, .meaning = "What holds the sample."),
+    KEY(scree_config, walls, SCREE_KEY_LIST, .standard = "[]", FROM("0"), TO("16"), .sections = wall_tables,
+        .section_count = COUNT(wall_tables), .count_offset = offsetof(scree_config, wall_count),
+        .element_size = sizeof(wall), .meaning = "Rigid walls beside the plates, fixed or moving; for `relax`."),
     KEY(scree_config, stages, SCREE_KEY_LIST, FROM("1"), TO("100"), .sections = stage_tables,
         .section_count = COUNT(stage_tables), .count_offset = offsetof(scree_config, stage_count),
         .element_size = sizeof(stage), .meaning = "What happens, one stage after the other."),

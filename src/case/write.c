@@ -119,6 +119,7 @@ static void write_key(writer *w, const scree_key *key)
 {
     if (key->type != SCREE_KEY_SECTION && key->type != SCREE_KEY_LIST) return;
     const scree_node *node = scree_node_find(w->root, key->name);
+    if (key->type == SCREE_KEY_LIST && (!node || !node->first)) return;
     end_line(w, NULL);
     put(w, key->name);
     put(w, ":");

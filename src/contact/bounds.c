@@ -45,6 +45,8 @@ static extremes extremes_get(const scree_model *model)
         extend(&e, &model->walls[a]);
         for (int b = 0; b <= a; b++) extend(&e, &model->pairs[a][b]);
     }
+    for (int w = 0; model->config && w < model->config->wall_count; w++)
+        e.friction = fmax(e.friction, model->config->walls[w].friction);
     return e;
 }
 
@@ -57,7 +59,7 @@ static double largest_mass(const scree_model *model)
 
 static double largest_speed(const scree_state *state)
 {
-    double speed = state->largest_speed;
+    double speed = fmax(state->largest_speed, state->surface_speed);
     for (int k = 0; k < SCREE_WALL_COUNT; k++) {
         const scree_wall *wall = &state->wall[k];
         if (wall->active) speed = fmax(speed, fabs(wall->velocity) + scree_length(wall->tangential_velocity));

@@ -25,7 +25,8 @@ int scree_contact_instruction_set(int wanted);
 /// Frees what scree_contact_forces keeps in work->contact_scratch. Call before scree_work_destroy.
 void scree_contact_scratch_destroy(scree_work *work);
 
-/// One touching contact, everything a measure needs. Second is a wall index when `wall` is set.
+/// One touching contact, everything a measure needs. With `wall` second is the index of a plate, or SCREE_ELEMENT_ID +
+/// element of the walls of the case.
 typedef struct scree_contact {
     uint32_t first, second; ///< rows (not ids)
     bool wall;
@@ -48,6 +49,13 @@ typedef struct scree_contact {
 static inline bool scree_contact_is_outer(const scree_contact *contact)
 {
     return contact->wall || contact->membrane;
+}
+
+/// Id of the second of a contact, as files have it.
+static inline uint32_t scree_contact_second_id(const scree_state *state, const scree_contact *contact)
+{
+    if (!contact->wall) return state->id[contact->second];
+    return contact->second >= SCREE_ELEMENT_ID ? contact->second : SCREE_WALL_ID + contact->second;
 }
 
 typedef struct scree_contact_table {

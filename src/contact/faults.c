@@ -4,6 +4,7 @@
 
 #include "contact/bounds.h"
 #include "contact/single.h"
+#include "contact/surfaces.h"
 
 #include <math.h>
 
@@ -35,6 +36,27 @@ static void check_contact(const scree_contact *c, double overlap_limit, double f
     if (!(c->normal_force + fabs(c->tangential_force) <= force_limit)) lower(&f->force, id);
 }
 
+static void check_elements(const scree_model *model, const scree_state *state, const scree_work *work,
+                           double force_limit, faults *f)
+{
+    const scree_wall_pair_list *pairs = &work->element_pairs;
+    element_touches touches;
+    scree_contact c;
+    for (size_t begin = 0, end; begin < pairs->count; begin = end) {
+        end = contact_group_end(pairs, begin);
+        contact_elements_touching(work->container, state->dimension, &state->row[pairs->body[begin]], pairs, begin, end,
+                                  &touches);
+        contact_body body = contact_body_get(state, pairs->body[begin]);
+        for (int k = 0; k < touches.count; k++) {
+            size_t p = touches.touch[k].pair;
+            memory_rows memory = contact_memory_of(work, CONTACT_ELEMENT, p);
+            contact_of_element(model, state, work, &body, pairs->wall[p], &memory, &c);
+            check_contact(&c, contact_overlap_limit(model) * body.row.radius, force_limit, state->id[pairs->body[p]],
+                          f);
+        }
+    }
+}
+
 void contact_find_faults(const scree_model *model, const scree_state *state, scree_work *work, double force_limit)
 {
     faults f = {UINT64_MAX, UINT64_MAX, UINT64_MAX};
@@ -45,7 +67,7 @@ void contact_find_faults(const scree_model *model, const scree_state *state, scr
     for (size_t p = 0; p < pairs->count; p++) {
         contact_body first = contact_body_get(state, pairs->first[p]),
                      second = contact_body_get(state, pairs->second[p]);
-        memory_rows memory = contact_memory_of(work, false, p);
+        memory_rows memory = contact_memory_of(work, CONTACT_PAIR, p);
         double radius = fmin(first.row.radius, second.row.radius);
         if (contact_of_pair(model, state->dimension, &first, &second, &memory, &c))
             check_contact(&c, limit * radius, force_limit, state->id[pairs->first[p]], &f);
@@ -53,10 +75,11 @@ void contact_find_faults(const scree_model *model, const scree_state *state, scr
     const scree_wall_pair_list *walls = &work->wall_pairs;
     for (size_t p = 0; p < walls->count; p++) {
         contact_body body = contact_body_get(state, walls->body[p]);
-        memory_rows memory = contact_memory_of(work, true, p);
+        memory_rows memory = contact_memory_of(work, CONTACT_PLATE, p);
         if (contact_of_wall(model, state->dimension, &body, &state->wall[walls->wall[p]], &memory, &c))
             check_contact(&c, limit * body.row.radius, force_limit, state->id[walls->body[p]], &f);
     }
+    check_elements(model, state, work, force_limit, &f);
 
     uint64_t id = f.not_finite < UINT64_MAX ? f.not_finite : f.overlap < UINT64_MAX ? f.overlap : f.force;
     if (id == UINT64_MAX) return;

@@ -11,6 +11,7 @@
 #include "contact/laws.h"
 #include "contact/partition.h"
 #include "contact/reference.h"
+#include "contact/surfaces.h"
 
 int scree_contact_instruction_set(int wanted)
 {
@@ -62,7 +63,8 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
                   .inverse_torque = 1 / state->torque_quantum,
                   .inverse_damping = 1 / (scree_fixed_quantum(bounds.damping) * room),
                   .inverse_friction = 1 / (scree_fixed_quantum(bounds.friction) * room),
-                  .force_limit = ldexp(state->force_quantum, SCREE_FIXED_RANGE_BITS)},
+                  .force_limit = ldexp(state->force_quantum, SCREE_FIXED_RANGE_BITS),
+                  .inverse_surface_torque = 1 / contact_surface_torque_quantum(model, state, work->container)},
     };
 }
 
@@ -71,6 +73,7 @@ static contact_totals evaluate_serially(contact_job *job, scree_state *state, co
     contact_clear_rows(state, 0, scree_row_count(state, work));
     contact_pairs_reference(job);
     contact_walls(job, state->wall, &work->wall_pairs, 0, state->count);
+    contact_surfaces(job, state, work, 0, state->count);
     return job->totals;
 }
 
@@ -117,6 +120,7 @@ static void finish_share(void *argument, int index, int count)
     job->sum = state->sum;
     job->torque = state->torque;
     contact_walls(job, state->wall, &task->work->wall_pairs, begin, end);
+    contact_surfaces(job, state, task->work, begin, end);
 }
 
 static contact_totals evaluate_parts(contact_kernel *kernel, contact_scratch *scratch, const contact_job *common,
@@ -181,7 +185,7 @@ void scree_contact_forces(const scree_model *model, scree_state *state, scree_wo
         scratch ? evaluate_parts(kernel, scratch, &job, state, work) : evaluate_serially(&job, state, work);
 
     scree_images_fold(state, work);
-    double plates = settle_walls(state, &totals);
+    double plates = settle_walls(state, &totals) + contact_surfaces_settle(state, work, &totals, &job.scale);
     if (work->ledger) settle_ledger(&state->ledger, &totals, &job.scale, plates);
     state->largest_overlap = totals.largest_overlap;
     if (!totals.in_range || totals.largest_overlap > contact_overlap_limit(model) * model->radius_min)

@@ -11,6 +11,7 @@ typedef struct contact_scale {
     double inverse_force, inverse_torque;     ///< 1/N, 1/(N m)
     double inverse_damping, inverse_friction; ///< 1/J, of the ledger's damping and of its friction and stiffness
     double force_limit;                       ///< N
+    double inverse_surface_torque;            ///< 1/(N m), of the torques on the walls of the case
 } contact_scale;
 
 typedef struct contact_totals {
@@ -19,6 +20,7 @@ typedef struct contact_totals {
     bool in_range;                            ///< no force is NaN or above the limit of the quanta
     uint64_t wall_force[SCREE_WALL_COUNT];    ///< force quanta, normal, by the bodies
     uint64_t wall_shear[SCREE_WALL_COUNT][3]; ///< the same in the plane of the wall; 2D: the first, along t
+    uint64_t surface_force[SCREE_SURFACES][3], surface_torque[SCREE_SURFACES][3]; ///< quanta, on the walls of the case
 } contact_totals;
 
 typedef struct contact_job {

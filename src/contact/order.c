@@ -2,9 +2,12 @@
 #include "contact/order.h"
 
 #include "contact/scalar.h"
+#include "contact/surfaces.h"
 
-/// Contact number k of all pairs and then all wall pairs; false when it does not touch.
-static bool reference_get(const scree_state *state, const scree_work *work, size_t k, contact_reference *r)
+/// Contact number k of all pairs, then all wall pairs, then all element pairs, of which `touching` tells which touch;
+/// false when it does not touch.
+static bool reference_get(const scree_state *state, const scree_work *work, const uint8_t *touching, size_t k,
+                          contact_reference *r)
 {
     const scree_pair_list *pairs = &work->pairs;
     if (k < pairs->count) {
@@ -13,6 +16,12 @@ static bool reference_get(const scree_state *state, const scree_work *work, size
         return pair_touches(state->dimension, &state->row[a], &state->row[b]);
     }
     k -= pairs->count;
+    if (k >= work->wall_pairs.count) {
+        k -= work->wall_pairs.count;
+        *r = (contact_reference){state->id[work->element_pairs.body[k]], SCREE_ELEMENT_ID + work->element_pairs.wall[k],
+                                 (uint32_t)k};
+        return touching[k];
+    }
     uint32_t body = work->wall_pairs.body[k], wall = work->wall_pairs.wall[k];
     *r = (contact_reference){state->id[body], SCREE_WALL_ID + wall, (uint32_t)k};
     return wall_touches(state->dimension, &state->row[body], &state->wall[wall]);
@@ -29,23 +38,30 @@ static void insert(contact_reference *list, size_t begin, size_t k)
 scree_status contact_order(const scree_state *state, const scree_work *work, contact_reference **list, size_t *count,
                            scree_error *error)
 {
-    size_t candidates = work->pairs.count + work->wall_pairs.count;
+    size_t candidates = work->pairs.count + work->wall_pairs.count + work->element_pairs.count;
     contact_reference r;
     size_t *begin;
+    uint8_t *touching = NULL;
     *list = NULL;
     scree_status status = scree_allocate(&begin, state->count + 2, sizeof *begin, error);
-    if (status) return status;
+    if (!status) status = scree_allocate(&touching, work->element_pairs.count, sizeof *touching, error);
+    if (status) {
+        scree_release(&begin);
+        return status;
+    }
+    contact_elements_mark(state, work, touching);
 
     // begin[id + 2] counts, begin[id + 1] becomes the place where the contacts of id are put, and in the end their end.
     for (size_t k = 0; k < candidates; k++)
-        if (reference_get(state, work, k, &r)) begin[r.first + 2]++;
+        if (reference_get(state, work, touching, k, &r)) begin[r.first + 2]++;
     for (size_t id = 0; id < state->count; id++) begin[id + 2] += begin[id + 1];
     *count = begin[state->count + 1];
     if (!(status = scree_allocate(list, *count, sizeof **list, error)))
         for (size_t k = 0; k < candidates; k++)
-            if (reference_get(state, work, k, &r)) (*list)[begin[r.first + 1]++] = r;
+            if (reference_get(state, work, touching, k, &r)) (*list)[begin[r.first + 1]++] = r;
     for (size_t id = 0; id < state->count && !status; id++)
         for (size_t k = begin[id]; k < begin[id + 1]; k++) insert(*list, begin[id], k);
     scree_release(&begin);
+    scree_release(&touching);
     return status;
 }

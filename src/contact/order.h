@@ -5,17 +5,20 @@
 #include "state/work.h"
 
 typedef struct contact_reference {
-    uint32_t first, second; ///< ids; a wall is SCREE_WALL_ID + its index
-    uint32_t pair;          ///< in work->pairs, or in work->wall_pairs
+    uint32_t first, second; ///< ids; a wall is SCREE_WALL_ID + its index, an element SCREE_ELEMENT_ID + its number
+    uint32_t pair;          ///< in work->pairs, work->wall_pairs or work->element_pairs
 } contact_reference;
 
-static inline bool contact_reference_is_wall(const contact_reference *r)
+/// The list that a contact is in.
+typedef enum contact_list { CONTACT_PAIR, CONTACT_PLATE, CONTACT_ELEMENT } contact_list;
+
+static inline contact_list contact_reference_list(const contact_reference *r)
 {
-    return r->second >= SCREE_WALL_ID;
+    return r->second >= SCREE_WALL_ID ? CONTACT_PLATE : r->second >= SCREE_ELEMENT_ID ? CONTACT_ELEMENT : CONTACT_PAIR;
 }
 
-/// All pairs and wall pairs that touch at the present positions, ordered by (first, second): walls come last for each
-/// first. *list is allocated here and released by the caller. Errors: memory. Cost: linear.
+/// All pairs, wall pairs and element pairs that touch at the present positions, ordered by (first, second): walls come
+/// last for each first. *list is allocated here and released by the caller. Errors: memory. Cost: linear.
 scree_status contact_order(const scree_state *state, const scree_work *work, contact_reference **list, size_t *count,
                            scree_error *error) SCREE_MUST_USE;
 

@@ -2,7 +2,7 @@
 /// around it (loops, loads, sums) is written plainly, so that a comparison tests the machinery of the kernels.
 #include "contact/reference.h"
 
-#include "contact/scalar.h"
+#include "contact/advance.h"
 
 contact_totals contact_totals_none(void)
 {
@@ -20,39 +20,11 @@ void contact_totals_add(contact_totals *into, const contact_totals *more)
         into->wall_force[w] += more->wall_force[w];
         for (int k = 0; k < 3; k++) into->wall_shear[w][k] += more->wall_shear[w][k];
     }
-}
-
-/// Evaluates the law, advances the memory and books energies, overlap and range.
-SCREE_INLINE contact_quanta evaluate(contact_job *job, variant v, const scree_pair_constants *constants,
-                                     const motion *m, bool touching, const memory_rows *rows)
-{
-    law_constants c = constants_get(constants);
-    law_memory before = memory_get(v, rows), after;
-    contact_quanta q = contact_evaluate(v, &c, &job->settings, &job->scale, m, -(lanes_bits)touching, &before, &after);
-    memory_set(v, rows, &after);
-    contact_totals *totals = &job->totals;
-    totals->damping += q.damping;
-    totals->friction += q.friction;
-    totals->stiffness += q.stiffness;
-    totals->in_range &= q.in_range != 0;
-    if (touching) totals->largest_overlap = lanes_at_least(totals->largest_overlap, m->indentation);
-    return q;
-}
-
-static bodies body_at(const contact_job *job, size_t row)
-{
-    return body_get(job->variant.dimension, &job->row[row], job->turn ? &job->turn[row] : NULL);
-}
-
-/// Adds to the sums of a row, modulo 2^64.
-static void add_to_sums(const contact_job *job, size_t row, quanta force, quanta torque, uint64_t count)
-{
-    if (job->variant.dimension == 2) {
-        sum_row_add(&job->sum[row], force.x, force.y, torque.x, count);
-        return;
-    }
-    sum_row_add(&job->sum[row], force.x, force.y, force.z, count);
-    torque_row_add(&job->torque[row], torque.x, torque.y, torque.z);
+    for (int w = 0; w < SCREE_SURFACES; w++)
+        for (int k = 0; k < 3; k++) {
+            into->surface_force[w][k] += more->surface_force[w][k];
+            into->surface_torque[w][k] += more->surface_torque[w][k];
+        }
 }
 
 static void evaluate_pair(contact_job *job, size_t p)
@@ -62,7 +34,7 @@ static void evaluate_pair(contact_job *job, size_t p)
     memory_rows rows = memory_rows_at(job->history, job->booking, job->rolling, p);
     bool touching = pair_touches(dimension, &job->row[first], &job->row[second]);
     if (!touching && memory_is_clear(&rows)) return;
-    bodies one = body_at(job, first), other = body_at(job, second);
+    bodies one = contact_body_at(job, first), other = contact_body_at(job, second);
     motion m = motion_of_pair(dimension, &one, &other, job->settings.step);
     if (law_foresees(job->variant)) {
         foresight ahead = foresight_get(dimension, &job->foreseen[first]);
@@ -70,9 +42,9 @@ static void evaluate_pair(contact_job *job, size_t p)
         motion_foresee(dimension, &m, &one, &ahead, &other, &ahead_second);
     }
     const scree_pair_constants *constants = &job->model->pairs[(int)one.material][(int)other.material];
-    contact_quanta q = evaluate(job, job->variant, constants, &m, touching, &rows);
-    add_to_sums(job, first, q.force, q.torque_first, q.count);
-    add_to_sums(job, second, quanta_opposite(q.force), q.torque_second, q.count);
+    contact_quanta q = contact_advance(job, job->variant, constants, &m, touching, &rows);
+    contact_add_to_sums(job, first, q.force, q.torque_first, q.count);
+    contact_add_to_sums(job, second, quanta_opposite(q.force), q.torque_second, q.count);
 }
 
 void contact_pairs_reference(contact_job *job)
@@ -99,8 +71,8 @@ SCREE_INLINE void evaluate_walls(contact_job *job, variant v, const scree_wall *
             foresight ahead = foresight_get(v.dimension, &job->foreseen[row]);
             motion_foresee(v.dimension, &m, &one, &ahead, NULL, NULL);
         }
-        contact_quanta q = evaluate(job, v, &job->model->walls[(int)one.material], &m, touching, &rows);
-        add_to_sums(job, row, q.force, q.torque_first, q.count);
+        contact_quanta q = contact_advance(job, v, &job->model->walls[(int)one.material], &m, touching, &rows);
+        contact_add_to_sums(job, row, q.force, q.torque_first, q.count);
         job->totals.wall_force[w] += q.normal;
         job->totals.wall_shear[w][0] -= q.tangential.x;
         job->totals.wall_shear[w][1] -= q.tangential.y;

@@ -2,6 +2,8 @@
 /// A contact slides when its tangential force has reached mu f_n; for hertz_brilliantov that is a slip speed of v_R.
 #include "contact/single.h"
 
+#include "contact/surfaces.h"
+
 /// Round-off of a tangential force that is computed again from the spring it left.
 #define SLIDING_TOLERANCE 1e-9
 
@@ -66,18 +68,36 @@ bool contact_of_pair(const scree_model *model, int dimension, const contact_body
     return true;
 }
 
+/// Between a body and anything that is not one.
+static void describe_wall(const scree_model *model, int dimension, const scree_pair_constants *constants,
+                          const bodies *one, const motion *m, const memory_rows *memory, scree_contact *contact)
+{
+    describe(model, dimension, constants, m, memory, contact);
+    place(dimension, one, m, contact);
+    contact->wall = true;
+    const double centre[3] = {one->place.x, one->place.y, one->place.z};
+    for (int k = 0; k < 3; k++) contact->branch[k] = centre[k] - contact->point[k];
+}
+
 bool contact_of_wall(const scree_model *model, int dimension, const contact_body *body, const scree_wall *wall,
                      const memory_rows *memory, scree_contact *contact)
 {
     if (!wall_touches(dimension, &body->row, wall)) return false;
     bodies one = body_get(dimension, &body->row, &body->turn);
     motion m = motion_of_wall(dimension, &one, wall, 0);
-    describe(model, dimension, &model->walls[(int)one.material], &m, memory, contact);
-    place(dimension, &one, &m, contact);
-    contact->wall = true;
-    for (int k = 0; k < 3; k++) {
-        const double centre[3] = {one.place.x, one.place.y, one.place.z};
-        contact->branch[k] = centre[k] - contact->point[k];
-    }
+    describe_wall(model, dimension, &model->walls[(int)one.material], &one, &m, memory, contact);
     return true;
+}
+
+void contact_of_element(const scree_model *model, const scree_state *state, const scree_work *work,
+                        const contact_body *body, uint32_t element, const memory_rows *memory, scree_contact *contact)
+{
+    const int dimension = state->dimension;
+    bodies one = body_get(dimension, &body->row, &body->turn);
+    scree_site site;
+    scree_element_site(work->container, element, (const double[3]){one.place.x, one.place.y, one.place.z}, &site);
+    const scree_surface *surface = contact_surface_of(work->container, element);
+    motion m = motion_of_surface(dimension, &one, surface, &site, state->surface_moving != 0, 0);
+    scree_pair_constants constants = contact_surface_constants(model, surface, (int)one.material);
+    describe_wall(model, dimension, &constants, &one, &m, memory, contact);
 }

@@ -3,6 +3,7 @@
 #define SCREE_CONTACT_SINGLE_H
 
 #include "contact/contact.h"
+#include "contact/order.h"
 #include "contact/scalar.h"
 
 /// A body with v(n - 1/2).
@@ -19,13 +20,13 @@ static inline contact_body contact_body_get(const scree_state *state, size_t row
     return body;
 }
 
-/// Memory of pair or wall pair `k`.
-static inline memory_rows contact_memory_of(const scree_work *work, bool wall, size_t k)
+/// Memory of number `k` of a list.
+static inline memory_rows contact_memory_of(const scree_work *work, contact_list list, size_t k)
 {
     const scree_pair_list *pairs = &work->pairs;
-    const scree_wall_pair_list *walls = &work->wall_pairs;
-    return wall ? memory_rows_at(walls->history, walls->booking, walls->rolling, k)
-                : memory_rows_at(pairs->history, pairs->booking, pairs->rolling, k);
+    const scree_wall_pair_list *walls = list == CONTACT_PLATE ? &work->wall_pairs : &work->element_pairs;
+    return list == CONTACT_PAIR ? memory_rows_at(pairs->history, pairs->booking, pairs->rolling, k)
+                                : memory_rows_at(walls->history, walls->booking, walls->rolling, k);
 }
 
 /// Two bodies; false when they do not touch. Leaves `first` and `second` of the contact alone.
@@ -35,5 +36,9 @@ bool contact_of_pair(const scree_model *model, int dimension, const contact_body
 /// A body and a wall.
 bool contact_of_wall(const scree_model *model, int dimension, const contact_body *body, const scree_wall *wall,
                      const memory_rows *memory, scree_contact *contact);
+
+/// A body and an element of the walls of the case that it touches, as the state has them now.
+void contact_of_element(const scree_model *model, const scree_state *state, const scree_work *work,
+                        const contact_body *body, uint32_t element, const memory_rows *memory, scree_contact *contact);
 
 #endif

@@ -73,17 +73,23 @@ static void fill(const scree_model *model, const scree_state *state, const scree
                  const contact_reference *reference, scree_contact *contact)
 {
     size_t p = reference->pair;
-    bool wall = contact_reference_is_wall(reference);
-    memory_rows memory = contact_memory_of(work, wall, p);
-    uint32_t one = wall ? work->wall_pairs.body[p] : work->pairs.first[p];
-    uint32_t other = wall ? work->wall_pairs.wall[p] : work->pairs.second[p];
+    contact_list list = contact_reference_list(reference);
+    const scree_wall_pair_list *walls = list == CONTACT_PLATE ? &work->wall_pairs : &work->element_pairs;
+    memory_rows memory = contact_memory_of(work, list, p);
+    uint32_t one = list == CONTACT_PAIR ? work->pairs.first[p] : walls->body[p];
+    uint32_t other = list == CONTACT_PAIR ? work->pairs.second[p] : walls->wall[p];
     contact->first = scree_parent_row(state, work, one);
-    contact->second = wall ? other : scree_parent_row(state, work, other);
-    contact->image = one != contact->first || other != contact->second;
+    contact->second = list == CONTACT_PAIR ? scree_parent_row(state, work, other) : other;
+    contact->image = one != contact->first || (list == CONTACT_PAIR && other != contact->second);
     contact->membrane = !scree_body_is_grain(state, contact->first);
     contact_body first = body_at_half_step(model, state, work, one);
-    if (wall) {
+    if (list == CONTACT_PLATE) {
         contact_of_wall(model, state->dimension, &first, &state->wall[other], &memory, contact);
+        return;
+    }
+    if (list == CONTACT_ELEMENT) {
+        contact_of_element(model, state, work, &first, other, &memory, contact);
+        contact->second += SCREE_ELEMENT_ID;
         return;
     }
     contact_body second = body_at_half_step(model, state, work, other);
@@ -122,7 +128,7 @@ scree_status scree_contacts_save(scree_state *state, const scree_work *work, scr
     state->contact_count = status ? 0 : count;
     for (size_t k = 0; k < state->contact_count; k++) {
         const contact_reference *r = &order[k];
-        memory_rows memory = contact_memory_of(work, contact_reference_is_wall(r), r->pair);
+        memory_rows memory = contact_memory_of(work, contact_reference_list(r), r->pair);
         state->contact[k] = (scree_contact_memory){r->first, r->second, *memory.history};
         if (memory.booking) state->booking[k] = *memory.booking;
         if (memory.rolling) state->rolling[k] = *memory.rolling;

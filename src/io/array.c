@@ -167,7 +167,7 @@ typedef struct contact_member {
 /// Rows of `first` and `second` become ids when they are packed.
 static const contact_member contact_members[] = {
     {"first", SCREE_FIELD_UINT32, 1, "1", "id of the first body", offsetof(scree_contact, first)},
-    {"second", SCREE_FIELD_UINT32, 1, "1", "id of the second body; 4294967280 + index for a wall",
+    {"second", SCREE_FIELD_UINT32, 1, "1", "id of the second body; 4294967280 + index for a plate, 2147483648 + element for a wall of the case",
      offsetof(scree_contact, second)},
     {"normal", SCREE_FIELD_DOUBLE, SCREE_VECTOR, "1", "unit normal n, from the second to the first",
      offsetof(scree_contact, normal)},
@@ -214,7 +214,7 @@ scree_status scree_contact_array(const scree_state *state, const scree_contact_t
     for (size_t k = 0; k < table->count; k++, target += size) {
         const scree_contact *contact = &table->contact[k];
         uint32_t first = state->id[contact->first];
-        uint32_t second = contact->wall ? SCREE_WALL_ID + contact->second : state->id[contact->second];
+        uint32_t second = scree_contact_second_id(state, contact);
         const void *source = (const unsigned char *)contact + member->offset;
         if (member->offset == offsetof(scree_contact, first)) source = &first;
         if (member->offset == offsetof(scree_contact, second)) source = &second;

@@ -32,6 +32,7 @@ typedef struct scene {
     const scree_state *state;
     const scree_contact_table *table;
     const scree_cells *cells; ///< NULL: none
+    const scree_wall_triangles *walls;
 } scene;
 
 // ---- the scenes ---------------------------------------------------------------------------------------------------
@@ -231,6 +232,21 @@ static scree_status build_plates(scree_vtp *vtp, const scene *from, scree_error 
     return status;
 }
 
+static scree_status build_walls(scree_vtp *vtp, const scene *from, scree_error *error)
+{
+    const scree_wall_triangles *walls = from->walls;
+    const size_t corners = from->state->dimension == 3 ? 3 : 2;
+    const scree_vtp_cells cells = corners == 3 ? SCREE_VTP_TRIANGLES : SCREE_VTP_LINES;
+    scree_status status = scree_vtp_create(vtp, corners * walls->count, cells, walls->count, error);
+    if (status) return status;
+    for (size_t t = 0; t < walls->count; t++)
+        for (size_t c = 0; c < corners; c++) scree_vtp_place(vtp, corners * t + c, &walls->corner[t][3 * c]);
+    scree_array array = {.name = "wall", .type = SCREE_FIELD_INT32, .rows = walls->count, .components = 1, .unit = "1"};
+    if ((status = scree_array_allocate(&array, error))) return status;
+    memcpy(array.data, walls->wall, walls->count * sizeof *walls->wall);
+    return scree_vtp_add(vtp, true, array, error);
+}
+
 /// The edges of the periodic cell, from the bottom to the top plate where it does not repeat.
 static scree_status build_lattice(scree_vtp *vtp, const scene *from, scree_error *error)
 {
@@ -345,12 +361,14 @@ scree_status scree_paraview_write(const char *directory, const scree_model *mode
         int only_dimension; ///< 0: both
     } scenes[] = {{"discs", build_bodies, 2},      {"spheres", build_bodies, 3},  {"contacts", build_contacts, 0},
                   {"boundary", build_boundary, 2}, {"hull", build_hull, 3},       {"membrane", build_membrane, 3},
-                  {"plates", build_plates, 0},     {"lattice", build_lattice, 0}, {"cells", build_cells, 0}};
-    const scene from = {model, state, table, info->cells};
+                  {"plates", build_plates, 0},     {"lattice", build_lattice, 0}, {"walls", build_walls, 0},
+                  {"cells", build_cells, 0}};
+    const scene from = {model, state, table, info->cells, info->walls};
     for (size_t k = 0; k < sizeof scenes / sizeof *scenes && !status; k++) {
         if (scenes[k].only_dimension && scenes[k].only_dimension != state->dimension) continue;
         if (scenes[k].build == build_cells && (!info->cells || info->cells->count == 0)) continue;
         if (scenes[k].build == build_membrane && state->membrane.count == 0) continue;
+        if (scenes[k].build == build_walls && (!info->walls || info->walls->count == 0)) continue;
         scree_vtp vtp;
         // A cell has no boundary, and only a periodic sample has a cell.
         bool around = scenes[k].build == build_boundary || scenes[k].build == build_hull;

@@ -18,7 +18,8 @@
 enum { LONGEST_FILE_NAME = 64 }; ///< below the run directory, with its subfolder
 
 static const char *const own_files[] = {SCREE_FILE_CASE,  SCREE_FILE_SUMMARY, SCREE_FILE_SERIES, SCREE_FILE_CELLS,
-                                        SCREE_FILE_BANDS, SCREE_FILE_RUN,     SCREE_FILE_LOG};
+                                        SCREE_FILE_BANDS, SCREE_FILE_RUN,     SCREE_FILE_LOG,
+                                        SCREE_FILE_WALLS};
 enum { OWN_FILE_COUNT = sizeof own_files / sizeof own_files[0] };
 
 static const struct folder {

@@ -48,6 +48,30 @@ static void write_members(scree_hdf5 *part, const char *group, const scree_state
     }
 }
 
+/// The walls of the case as triangles.
+static void write_wall_triangles(scree_hdf5 *part, const char *group, const scree_wall_triangles *walls)
+{
+    size_t count = walls ? walls->count : 0;
+    scree_hdf5_set_integer(part, group, "wall_triangles", count);
+    if (count == 0) return;
+    const scree_array corner = {.name = "case_walls/triangle",
+                                .type = SCREE_FIELD_DOUBLE,
+                                .rows = count,
+                                .components = 9,
+                                .unit = "m",
+                                .meaning = "three corners of each triangle; in 2D lines, the last two the same",
+                                .data = walls->corner};
+    const scree_array wall = {.name = "case_walls/wall",
+                              .type = SCREE_FIELD_INT32,
+                              .rows = count,
+                              .components = 1,
+                              .unit = "1",
+                              .meaning = "number of the wall that each triangle is of, in the case",
+                              .data = walls->wall};
+    scree_hdf5_write(part, group, &corner);
+    scree_hdf5_write(part, group, &wall);
+}
+
 /// The triangles of the sheet of a membrane, by ids of bodies.
 static void write_sheet(scree_hdf5 *part, const char *group, const scree_state *state)
 {
@@ -88,10 +112,11 @@ scree_status scree_snapshot_write(const char *directory, const scree_model *mode
     scree_hdf5_set_integer(&part, group, "grains", state->grains);
     scree_hdf5_set_number(&part, group, "pressure", state->pressure);
     scree_hdf5_set_text(&part, group, "attribute_units",
-                        "step 1, dimension 1, grains 1, time s, axial_strain 1, pressure Pa");
+                        "step 1, dimension 1, grains 1, time s, axial_strain 1, pressure Pa, wall_triangles 1");
     write_bodies(&part, group, model, state);
     write_contacts(&part, group, state, table);
     write_members(&part, group, state);
+    write_wall_triangles(&part, group, info->walls);
     write_sheet(&part, group, state);
     if (info->cells) scree_cells_write(&part, group, info->cells);
     status = scree_hdf5_save(&part);
@@ -207,6 +232,16 @@ static void read_members(scree_hdf5 *run, const char *group, scree_snapshot *sna
     snapshot->periodic = members.periodic;
 }
 
+static void read_wall_triangles(scree_hdf5 *run, const char *group, scree_snapshot *snapshot)
+{
+    uint64_t count = 0;
+    scree_hdf5_get_integer(run, group, "wall_triangles", &count);
+    size_t rows = count;
+    if (!run->status && count > 0)
+        snapshot->wall_triangle = read_column(run, group, "case_walls/triangle", SCREE_FIELD_DOUBLE, 9, &rows);
+    snapshot->wall_triangle_count = snapshot->wall_triangle ? rows : 0;
+}
+
 /// The sheet of a membrane, where there is one.
 static void read_sheet(scree_hdf5 *run, const char *group, scree_snapshot *snapshot)
 {
@@ -223,7 +258,7 @@ static void check_ids(scree_hdf5 *run, const scree_snapshot *snapshot)
 {
     size_t bad = 0;
     for (size_t k = 0; k < snapshot->contact_count && !run->status; k++) {
-        bool wall = snapshot->second[k] >= SCREE_WALL_ID && snapshot->second[k] < SCREE_WALL_ID + SCREE_WALL_COUNT;
+        bool wall = snapshot->second[k] >= SCREE_ELEMENT_ID && snapshot->second[k] < SCREE_WALL_ID + SCREE_WALL_COUNT;
         bad += snapshot->first[k] >= snapshot->count || (snapshot->second[k] >= snapshot->count && !wall);
     }
     for (size_t k = 0; k < snapshot->loop_count && !run->status; k++) bad += snapshot->loop[k] >= snapshot->count;
@@ -261,6 +296,7 @@ scree_status scree_snapshot_read(const char *directory, size_t which, scree_snap
         snapshot->loop = read_column(&run, group, "boundary/id", SCREE_FIELD_UINT32, 1, &snapshot->loop_count);
     }
     read_members(&run, group, snapshot);
+    read_wall_triangles(&run, group, snapshot);
     read_sheet(&run, group, snapshot);
     check_ids(&run, snapshot);
     status = scree_hdf5_close(&run);
@@ -288,6 +324,8 @@ void scree_snapshot_destroy(scree_snapshot *snapshot)
                             &snapshot->z,
                             &snapshot->vz,
                             &snapshot->contact_z,
+                            &snapshot->wall_triangle,
+                            &snapshot->wall_line,
                             &snapshot->branch_x,
                             &snapshot->branch_y,
                             &snapshot->branch_z};

@@ -6,6 +6,7 @@
 ///       position (n x 2), radius, velocity, spin, ... from the field table and io/array.h, in id order
 ///       contacts/ first, second (ids), normal, point, branch, normal_force, tangential_force, ...
 ///       boundary/ id (the loop), loaded, ...; walls/ position, normal, force, ...; cells/ (cell_file.h)
+///       case_walls/ force, torque, work; triangle (n x 9) and wall, where there are some (attribute wall_triangles)
 ///   /checkpoints/000003/          everything in scree_state, bit for bit; attribute case_checksum
 /// Every dataset has the attributes `unit` and `description`; docs/output.md lists all of them.
 #ifndef SCREE_IO_SNAPSHOT_H
@@ -14,13 +15,15 @@
 #include "contact/contact.h"
 #include "integrate/integrate.h"
 #include "measure/cells.h"
+#include "shape/container.h"
 
 typedef struct scree_snapshot_info {
     int64_t index;       ///< running number, names the group
     double time;         ///< s
     double axial_strain; ///< NAN outside loading
     const char *stage;
-    const scree_cells *cells; ///< with all their fields; NULL: not written
+    const scree_cells *cells;          ///< with all their fields; NULL: not written
+    const scree_wall_triangles *walls; ///< of the case; NULL: none
 } scree_snapshot_info;
 
 /// Writes parts/snapshot-INDEX.h5 and renews run.h5's links.
@@ -58,7 +61,7 @@ typedef struct scree_snapshot {
     double *x, *y, *radius, *angle, *vx, *vy, *spin; ///< in 3D no angle (NULL), and spin is the magnitude
     double *z, *vz;                                  ///< 3D only, else NULL
     size_t contact_count;
-    uint32_t *first, *second;                ///< ids; second >= SCREE_WALL_ID is a wall
+    uint32_t *first, *second;                ///< ids; second >= SCREE_ELEMENT_ID is a wall
     double *normal_force, *tangential_force; ///< N
     double *contact_x, *contact_y;           ///< m
     double *contact_z;                       ///< m, 3D only, else NULL
@@ -68,6 +71,10 @@ typedef struct scree_snapshot {
     size_t triangle_count;   ///< of the membrane in 3D
     uint32_t (*triangle)[3]; ///< ids, counter-clockwise seen from outside
     scree_wall wall[SCREE_WALL_COUNT];
+    size_t wall_triangle_count;
+    double *wall_triangle; ///< m, walls of the case: 9 each, three corners; in 2D lines, the last two corners the same
+    size_t wall_line_count;
+    double *wall_line; ///< m, of a projection or section: 4 each, the ends of a line on the page
     scree_periodic_cell periodic; ///< directions 0: none
 } scree_snapshot;
 scree_status scree_snapshot_count(const char *directory, size_t *count, scree_error *error) SCREE_MUST_USE;

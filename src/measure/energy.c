@@ -85,5 +85,6 @@ void scree_energy_measure(const scree_model *model, const scree_state *state, co
         (stored - ledger->initial) -
         (ledger->plates + ledger->pressure + ledger->boundary + ledger->periodic + ledger->forced + energy->gravity) +
         ledger->damping + ledger->friction - ledger->stiffness - ledger->scheme;
-    energy->relative = ledger->turnover > 0 ? fabs(energy->residual) / ledger->turnover : 0;
+    double turnover = ledger->turnover + fabs(energy->gravity);
+    energy->relative = turnover > 0 ? fabs(energy->residual) / turnover : 0;
 }

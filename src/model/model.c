@@ -395,6 +395,7 @@ scree_model scree_model_with_friction(const scree_model *model, double friction)
 {
     scree_model copy = *model;
     if (isnan(friction)) return copy;
+    copy.friction_of_stage = true;
     for (int i = 0; i < SCREE_MAX_MATERIALS; i++) {
         copy.walls[i].friction = friction;
         for (int j = 0; j < SCREE_MAX_MATERIALS; j++) copy.pairs[i][j].friction = friction;

@@ -47,6 +47,7 @@ typedef struct scree_model {
     int material_count;
     scree_pair_constants pairs[SCREE_MAX_MATERIALS][SCREE_MAX_MATERIALS]; ///< grain on grain
     scree_pair_constants walls[SCREE_MAX_MATERIALS];                      ///< grain on a plate of the same material
+    bool friction_of_stage; ///< the stage's own friction holds for all contacts, the walls of the case included
     double density[SCREE_MAX_MATERIALS];
     const scree_config *config; ///< what the user said; outlives the model
 } scree_model;

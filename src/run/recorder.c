@@ -6,6 +6,7 @@
 #include "io/run_directory.h"
 #include "io/snapshot.h"
 #include "run/sample.h"
+#include "run/wall_series.h"
 
 #include <math.h>
 #include <string.h>
@@ -41,6 +42,7 @@ scree_status scree_recorder_open(scree_recorder *recorder, const scree_simulatio
     if ((status = scree_path_join(path, sizeof path, directory, SCREE_FILE_SERIES, error))) return status;
     status = scree_series_open(&recorder->series, path, scree_sample_columns, SCREE_SAMPLE_COUNT,
                                restart ? s->state.stage.samples : -1, error);
+    if (!status) status = scree_wall_series_open(&recorder->walls, s, directory, restart, error);
     recorder->started = recorder->clocked = recorder->last_checkpoint = recorder->last_progress = scree_clock();
     recorder->progress_step = s->state.step;
     recorder->first_evaluations = recorder->progress_evaluations = recorder->checkpoint_evaluations =
@@ -52,6 +54,7 @@ void scree_recorder_close(scree_recorder *recorder)
 {
     scree_error ignored;
     if (recorder->series.file) (void)!scree_series_close(&recorder->series, &ignored);
+    if (recorder->walls.file) (void)!scree_series_close(&recorder->walls, &ignored);
     if (recorder->log.file) fclose(recorder->log.file);
     recorder->log.file = NULL;
 }
@@ -87,6 +90,21 @@ static bool snapshot_due(const scree_simulation *s)
     return done * wanted / s->plan.expected != before * wanted / s->plan.expected;
 }
 
+/// The walls of the case as triangles, planes as far as the bodies reach.
+static scree_status picture_walls(const scree_simulation *s, scree_wall_triangles *walls, scree_error *error)
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (size_t row = 0; row < s->state.count; row++) {
+        scree_vector place;
+        scree_body_place(&s->state, row, place);
+        for (int k = 0; k < 3; k++) {
+            low[k] = fmin(low[k], place[k] - s->state.row[row].radius);
+            high[k] = fmax(high[k], place[k] + s->state.row[row].radius);
+        }
+    }
+    return scree_container_triangles(s->work.container, low, high, walls, error);
+}
+
 static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s, scree_error *error)
 {
     scree_snapshot_info info = {.index = s->state.stage.snapshots,
@@ -95,8 +113,10 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
                                 .stage = s->stage->name};
     const scree_model *model = &s->stage_model;
     scree_cells cells = {0};
-    scree_status status = SCREE_OK;
-    if (s->model.config->measure.cells && !s->state.periodic.directions) {
+    scree_wall_triangles walls = {0};
+    scree_status status = picture_walls(s, &walls, error);
+    info.walls = &walls;
+    if (!status && s->model.config->measure.cells && !s->state.periodic.directions) {
         status = scree_cells_measure(model, &s->state, &s->table, &cells, error);
         // A few bodies, or bodies on a line, have no triangulation and so no cells.
         if (!status) info.cells = &cells;
@@ -107,6 +127,7 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
         status = scree_paraview_write(recorder->directory, model, &s->state, &s->table, &info, error);
     if (!status) s->state.stage.snapshots++;
     scree_cells_destroy(&cells);
+    scree_wall_triangles_destroy(&walls);
     return status;
 }
 
@@ -117,7 +138,8 @@ static double ticks_left(const scree_simulation *s)
     double left = (double)s->plan.expected - (double)(s->state.step - s->state.stage.first_step);
     for (int64_t k = s->state.stage.index + 1; k < s->model.config->stage_count; k++) {
         const scree_config_stage *stage = &s->model.config->stages[k];
-        left += stage->strain / scree_model_loading_rate(stage) / s->state.tick;
+        left += stage->kind == SCREE_STAGE_RELAX ? stage->duration / s->state.tick
+                                                 : stage->strain / scree_model_loading_rate(stage) / s->state.tick;
     }
     return left;
 }
@@ -153,6 +175,7 @@ scree_status scree_recorder_follow(scree_recorder *recorder, scree_simulation *s
     scree_status status = SCREE_OK;
     if (s->sampled) {
         if ((status = scree_series_append(&recorder->series, s->sample.value, error))) return status;
+        if ((status = scree_wall_series_append(&recorder->walls, s, error))) return status;
         s->state.stage.samples++;
     }
     if (snapshot_due(s) && (status = write_snapshot(recorder, s, error))) return status;

@@ -12,7 +12,7 @@
 /// `corner_distortion`, `boundary_roughness` (files of these names in measure/), `rigid_rotation_ratio`; and what it
 /// cost. Over the whole run: largest residual of the energy balance over the energy at the begin and the work turned
 /// over by the end
-/// (`energy_residual`).
+/// (`energy_residual`). Of each wall of the case `NAME_work`, `NAME_force`, `NAME_torque`.
 #include "run/results.h"
 
 #include "io/run_directory.h"
@@ -196,6 +196,22 @@ static void summarise_run(const scree_recorder *recorder, scree_simulation *s, s
     scree_summary_set_integer(summary, "neighbour_rebuilds", (int64_t)s->work.rebuilds);
 }
 
+/// Work and last force and torque, in magnitude, of each wall of the case.
+static void summarise_walls(const scree_simulation *s, scree_summary *summary)
+{
+    const scree_config *config = s->model.config;
+    for (int64_t w = 0; w < config->wall_count; w++) {
+        const scree_surface_load *load = &s->state.surface[w];
+        char name[96];
+        (void)snprintf(name, sizeof name, "%s_work", config->walls[w].name);
+        scree_summary_set_number(summary, name, load->work);
+        (void)snprintf(name, sizeof name, "%s_force", config->walls[w].name);
+        scree_summary_set_number(summary, name, scree_length(load->force));
+        (void)snprintf(name, sizeof name, "%s_torque", config->walls[w].name);
+        scree_summary_set_number(summary, name, scree_length(load->torque));
+    }
+}
+
 /// What the last stage cost.
 static void summarise_cost(const scree_simulation *s, scree_summary *summary)
 {
@@ -262,6 +278,7 @@ scree_status scree_results_write(const scree_recorder *recorder, scree_simulatio
     if (!result) {
         summarise_run(recorder, s, status, summary);
         summarise_series(&series, s->state.ledger.turnover + s->state.ledger.initial, summary);
+        summarise_walls(s, summary);
         result = summarise_stage(s, &series, summary, error);
     }
     if (!result && s->model.config->measure.cells && !s->state.periodic.directions)

@@ -4,6 +4,7 @@
 #include "run/recorder.h"
 #include "run/results.h"
 #include "search/neighbours.h"
+#include "shape/container.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -89,6 +90,20 @@ static void draw_figures(const scree_recorder *recorder, const scree_simulation 
         scree_log_write(&log, SCREE_LOG_WARNING, "figures: %s", error.message);
 }
 
+/// What the files of meshes held.
+static void log_meshes(const scree_recorder *recorder, const scree_container *container)
+{
+    scree_log log = recorder->log;
+    for (int k = 0; container && k < container->count; k++) {
+        const scree_surface *surface = &container->surface[k];
+        const scree_mesh *mesh = &surface->mesh;
+        if (mesh->triangle_count == 0) continue;
+        scree_log_write(
+            &log, SCREE_LOG_INFO, "wall %s: %zu triangles, %zu edges, %zu vertices; dropped %zu triangles without area",
+            surface->config->name, mesh->triangle_count, mesh->edge_count, mesh->vertex_count, mesh->degenerate);
+    }
+}
+
 /// Common part of a new and a restarted run: `s` is open and at the point where stepping begins. `restarted` is NULL
 /// for a new run, else a warning for the log, empty when there is none.
 static scree_status record(scree_simulation *s, const scree_run_options *options, const char *directory,
@@ -104,6 +119,7 @@ static scree_status record(scree_simulation *s, const scree_run_options *options
         scree_log_write(&recorder.log, SCREE_LOG_INFO, "step %.4g s (N_S %llu, critical %.4g s), phi %.4g, psi %.4g",
                         s->model.step, (unsigned long long)s->model.largest_step, s->model.critical_step, s->model.phi,
                         s->model.psi);
+        log_meshes(&recorder, s->work.container);
         status = drive(&recorder, s, error);
         status = finish(&recorder, s, status, error);
         if (!status) draw_figures(&recorder, s);

@@ -7,6 +7,7 @@
 #include "run/sample.h"
 #include "run/step.h"
 #include "search/neighbours.h"
+#include "shape/container.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -31,7 +32,10 @@ scree_status scree_simulation_open(const scree_case *c, int threads, scree_simul
     // A thread pays from a few thousand bodies on; below, its barriers cost more than it does (docs/performance.md).
     if (threads <= 0)
         threads = (int)fmin(scree_processor_count(), 1 + (double)c->config.particles.count / BODIES_A_THREAD);
-    return scree_work_create(&s->work, &s->model, threads, error);
+    status = scree_work_create(&s->work, &s->model, threads, error);
+    if (!status && (status = scree_container_create(&c->config, &s->work.container, error)))
+        scree_case_locate(c, error);
+    return status;
 }
 
 void scree_simulation_close(scree_simulation *s)

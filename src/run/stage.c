@@ -17,6 +17,7 @@ const scree_stage *scree_stage_get(scree_stage_kind kind, bool wholly_periodic)
         [SCREE_STAGE_DEFORM] = {&scree_stage_deform, &scree_stage_deform_periodic},
         [SCREE_STAGE_ROTATE] = {&scree_stage_rotate, &scree_stage_rotate},
         [SCREE_STAGE_COLLIDE] = {&scree_stage_collide, &scree_stage_collide},
+        [SCREE_STAGE_RELAX] = {&scree_stage_relax, &scree_stage_relax},
     };
     return table[kind][wholly_periodic];
 }

@@ -47,6 +47,7 @@ extern const scree_stage scree_stage_compress_periodic;
 extern const scree_stage scree_stage_deform_periodic;
 extern const scree_stage scree_stage_deform;
 extern const scree_stage scree_stage_rotate;
+extern const scree_stage scree_stage_relax;
 extern const scree_stage scree_stage_collide;
 
 /// s since the begin of the stage.

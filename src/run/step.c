@@ -35,6 +35,7 @@ scree_status scree_step(scree_simulation *s, scree_error *error)
     scree_boundary_finish_work(s->boundary, state);
     if ((status = scree_periodic_move(model, state, work, error))) return status;
     state->step += ticks;
+    if (state->surface_moving) state->surface_ticks += ticks;
     state->evaluations++;
 
     // Forces at n + 1: contacts of bodies and plates, then the pressure and what else the boundary applies.

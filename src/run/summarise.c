@@ -10,6 +10,7 @@
 #include "integrate/integrate.h"
 #include "run/recorder.h"
 #include "search/neighbours.h"
+#include "shape/container.h"
 
 #include <math.h>
 #include <string.h>
@@ -91,6 +92,7 @@ static double expected_steps(const scree_model *model)
             steps += CONFINE_WAVES * wave / model->step / (double)model->largest_step;
         }
         double rate = scree_model_loading_rate(stage);
+        if (stage->kind == SCREE_STAGE_RELAX) steps += stage->duration / model->step * evaluations_a_tick(model);
         if (!isnan(rate)) steps += stage->strain / rate / model->step * evaluations_a_tick(model);
     }
     return steps;
@@ -115,6 +117,13 @@ scree_status scree_case_summarise(const scree_case *c, scree_case_summary *summa
                                     .reference_velocity = model.reference_velocity,
                                     .steps = expected_steps(&model)};
     (void)snprintf(summary->name, sizeof summary->name, "%s", c->config.name);
+    // Walls that cannot be made are found here.
+    scree_container *container;
+    if ((status = scree_container_create(&c->config, &container, error))) {
+        scree_case_locate(c, error);
+        return status;
+    }
+    scree_container_destroy(&container);
     status = measure_rate(&model, &summary->rate, error);
     summary->seconds = summary->steps * (double)summary->particles / summary->rate;
     summary->memory = BYTES_A_DISC * (double)summary->particles;

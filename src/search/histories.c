@@ -23,41 +23,53 @@ static bool holds_something(const void *row, size_t bytes)
     return any != 0;
 }
 
-/// The pairs of bodies and then those with walls are one sequence: the list that number `*k` lies in, and its number
-/// there.
-static bool is_wall_entry(const scree_work *work, size_t *k)
+/// The pairs of bodies, those with plates and those with the walls of the case are one sequence: what belongs to number
+/// `k` of it.
+typedef struct entry {
+    uint32_t first, second; ///< ids
+    const scree_history *history;
+    const scree_booking *booking;
+    const scree_rolling *rolling;
+} entry;
+
+static size_t entry_count(const scree_work *work)
 {
-    if (*k < work->pairs.count) return false;
-    *k -= work->pairs.count;
-    return true;
+    return work->pairs.count + work->wall_pairs.count + work->element_pairs.count;
 }
 
-static bool entry_holds_something(const scree_work *work, size_t k)
+static entry entry_get(const scree_state *state, const scree_work *work, size_t k)
 {
-    bool wall = is_wall_entry(work, &k);
-    const scree_history *history = wall ? work->wall_pairs.history : work->pairs.history;
-    const scree_booking *booking = wall ? work->wall_pairs.booking : work->pairs.booking;
-    const scree_rolling *rolling = wall ? work->wall_pairs.rolling : work->pairs.rolling;
-    return holds_something(&history[k], sizeof *history) ||
-           (booking && holds_something(&booking[k], sizeof *booking)) ||
-           (rolling && holds_something(&rolling[k], sizeof *rolling));
+    const scree_pair_list *pairs = &work->pairs;
+    const scree_wall_pair_list *walls = &work->wall_pairs;
+    if (k < pairs->count)
+        return (entry){state->id[pairs->first[k]], state->id[pairs->second[k]], &pairs->history[k],
+                       pairs->booking ? &pairs->booking[k] : NULL, pairs->rolling ? &pairs->rolling[k] : NULL};
+    k -= pairs->count;
+    uint32_t base = SCREE_WALL_ID;
+    if (k >= walls->count) {
+        k -= walls->count;
+        walls = &work->element_pairs;
+        base = SCREE_ELEMENT_ID;
+    }
+    return (entry){state->id[walls->body[k]], base + walls->wall[k], &walls->history[k],
+                   walls->booking ? &walls->booking[k] : NULL, walls->rolling ? &walls->rolling[k] : NULL};
+}
+
+static bool entry_holds_something(const scree_state *state, const scree_work *work, size_t k)
+{
+    entry e = entry_get(state, work, k);
+    return holds_something(e.history, sizeof *e.history) ||
+           (e.booking && holds_something(e.booking, sizeof *e.booking)) ||
+           (e.rolling && holds_something(e.rolling, sizeof *e.rolling));
 }
 
 /// Copies ids and rows of number `k` to the contact memory `to`.
 static void pack_entry(scree_state *state, const scree_work *work, size_t k, size_t to)
 {
-    const scree_pair_list *pairs = &work->pairs;
-    const scree_wall_pair_list *walls = &work->wall_pairs;
-    scree_contact_memory *memory = &state->contact[to];
-    if (is_wall_entry(work, &k)) {
-        *memory = (scree_contact_memory){state->id[walls->body[k]], SCREE_WALL_ID + walls->wall[k], walls->history[k]};
-        if (walls->booking) state->booking[to] = walls->booking[k];
-        if (walls->rolling) state->rolling[to] = walls->rolling[k];
-    } else {
-        *memory = (scree_contact_memory){state->id[pairs->first[k]], state->id[pairs->second[k]], pairs->history[k]};
-        if (pairs->booking) state->booking[to] = pairs->booking[k];
-        if (pairs->rolling) state->rolling[to] = pairs->rolling[k];
-    }
+    entry e = entry_get(state, work, k);
+    state->contact[to] = (scree_contact_memory){e.first, e.second, *e.history};
+    if (e.booking) state->booking[to] = *e.booking;
+    if (e.rolling) state->rolling[to] = *e.rolling;
 }
 
 typedef struct collect_task {
@@ -71,7 +83,7 @@ static void count_share(void *argument, int index, int count)
     const collect_task *task = argument;
     size_t carried = 0, end = scree_team_begin(task->entries, index + 1, count);
     for (size_t k = scree_team_begin(task->entries, index, count); k < end; k++)
-        carried += entry_holds_something(task->work, k);
+        carried += entry_holds_something(task->state, task->work, k);
     task->work->search->chunk[index].carried = carried;
 }
 
@@ -81,13 +93,13 @@ static void pack_share(void *argument, int index, int count)
     size_t to = 0, end = scree_team_begin(task->entries, index + 1, count);
     for (int before = 0; before < index; before++) to += task->work->search->chunk[before].carried;
     for (size_t k = scree_team_begin(task->entries, index, count); k < end; k++)
-        if (entry_holds_something(task->work, k)) pack_entry(task->state, task->work, k, to++);
+        if (entry_holds_something(task->state, task->work, k)) pack_entry(task->state, task->work, k, to++);
 }
 
 scree_status scree_histories_collect(scree_state *state, scree_work *work, scree_error *error)
 {
     scree_search *search = work->search;
-    collect_task task = {state, work, work->pairs.count + work->wall_pairs.count};
+    collect_task task = {state, work, entry_count(work)};
     // Each chunk counts its entries, so that all chunks can write theirs at once.
     scree_team_run(&work->team, search->chunks, count_share, &task);
     size_t total = 0;
@@ -107,7 +119,7 @@ static uint32_t lower_row(const scree_state *state, const scree_contact_memory *
 {
     if (memory->first >= state->count) return (uint32_t)state->count;
     uint32_t first = state->row_of_id[memory->first];
-    if (memory->second >= SCREE_WALL_ID) return first;
+    if (memory->second >= SCREE_ELEMENT_ID) return first;
     if (memory->second >= state->count) return (uint32_t)state->count;
     uint32_t second = state->row_of_id[memory->second];
     return first < second ? first : second;

@@ -20,6 +20,7 @@
 #include "base/matrix.h"
 #include "search/ghosts.h"
 #include "search/search.h"
+#include "shape/container.h"
 
 #include <float.h>
 #include <math.h>
@@ -71,9 +72,19 @@ static double largest_displacement(const scree_state *state, const double deform
     return sqrt(largest);
 }
 
-/// A wall has come up, turned, or moved by half the skin. Walls that go away do no harm.
-static bool walls_need_rebuild(const scree_state *state, const scree_work *work)
+static double surface_time(const scree_state *state, uint64_t ticks)
 {
+    return (double)ticks * state->tick;
+}
+
+/// A wall has come up, turned, or moved by half the skin. Walls that go away do no harm.
+static bool walls_need_rebuild(const scree_model *model, const scree_state *state, const scree_work *work)
+{
+    if (work->container) {
+        double time = surface_time(state, state->surface_ticks) - surface_time(state, work->search->surface_ticks);
+        double margin = scree_model_largest_radius(model) + work->skin;
+        if (!(scree_container_way(work->container, time, margin) < half_skin(work))) return true;
+    }
     for (int w = 0; w < SCREE_WALL_COUNT; w++) {
         const scree_wall *now = &state->wall[w], *then = &work->search->wall[w];
         if (!now->active) continue;
@@ -116,8 +127,10 @@ static void release_list(const list_arrays *list)
 void scree_pair_lists_destroy(scree_work *work)
 {
     list_arrays pairs = arrays_of_pairs(&work->pairs), walls = arrays_of_wall_pairs(&work->wall_pairs);
+    list_arrays elements = arrays_of_wall_pairs(&work->element_pairs);
     release_list(&pairs);
     release_list(&walls);
+    release_list(&elements);
 }
 
 /// Makes room for `count` pairs and the padding, with the rows that the law needs; contents are lost when it grows.
@@ -150,6 +163,7 @@ static void drop_membrane_pairs(const scree_state *state, scree_pair_buffer *buf
 
 typedef struct pairs_task {
     const scree_state *state;
+    const scree_work *work;
     scree_search *search;
     scree_pair_search *find;
     bool failed[SCREE_TEAM_MOST];
@@ -160,8 +174,11 @@ static void pairs_share(void *argument, int index, int count)
     pairs_task *task = argument;
     const scree_state *state = task->state;
     scree_pair_chunk *chunk = &task->search->chunk[index];
-    task->failed[index] = task->find(&task->search->grid, state, scree_team_begin(state->count, index, count),
-                                     scree_team_begin(state->count, index + 1, count), chunk, NULL) != SCREE_OK;
+    size_t begin = scree_team_begin(state->count, index, count), end = scree_team_begin(state->count, index + 1, count);
+    chunk->element.count = 0;
+    task->failed[index] =
+        task->find(&task->search->grid, state, begin, end, chunk, NULL) ||
+        scree_elements_search(task->work->container, state, begin, end, task->work->skin, &chunk->element, NULL);
     if (state->membrane.count == 0) return;
     drop_membrane_pairs(state, &chunk->touching);
     drop_membrane_pairs(state, &chunk->near);
@@ -170,7 +187,8 @@ static void pairs_share(void *argument, int index, int count)
 static scree_status search_pairs(const scree_state *state, scree_work *work, scree_error *error)
 {
     scree_search *search = work->search;
-    pairs_task task = {.state = state, .search = search, .find = scree_pair_search_get(work->instruction_set)};
+    pairs_task task = {
+        .state = state, .work = work, .search = search, .find = scree_pair_search_get(work->instruction_set)};
     scree_team_run(&work->team, search->chunks, pairs_share, &task);
     for (int c = 0; c < search->chunks; c++)
         if (task.failed[c])
@@ -219,14 +237,20 @@ static void list_image_pairs(const scree_pair_buffer *from, scree_pair_list *pai
     }
 }
 
-static void list_wall_pairs(const scree_search *search, scree_wall_pair_list *walls)
+static void list_wall_pairs(const scree_search *search, scree_work *work)
 {
-    size_t at = 0;
-    for (int c = 0; c < search->chunks; c++)
-        for (size_t k = 0; k < search->chunk[c].wall.count; k++, at++) {
-            walls->body[at] = search->chunk[c].wall.pair[k].first;
-            walls->wall[at] = search->chunk[c].wall.pair[k].second;
+    size_t wall = 0, element = 0;
+    for (int c = 0; c < search->chunks; c++) {
+        const scree_pair_chunk *chunk = &search->chunk[c];
+        for (size_t k = 0; k < chunk->wall.count; k++, wall++) {
+            work->wall_pairs.body[wall] = chunk->wall.pair[k].first;
+            work->wall_pairs.wall[wall] = chunk->wall.pair[k].second;
         }
+        for (size_t k = 0; k < chunk->element.count; k++, element++) {
+            work->element_pairs.body[element] = chunk->element.pair[k].first;
+            work->element_pairs.wall[element] = chunk->element.pair[k].second;
+        }
+    }
 }
 
 /// Gives entry `k` of a list the rows of contact `from` of the state, or clear ones if it has none.
@@ -264,14 +288,18 @@ static void attach_share(void *argument, int index, int count)
 static void attach_histories(scree_state *state, scree_work *work)
 {
     const scree_search *search = work->search;
-    scree_wall_pair_list *walls = &work->wall_pairs;
-    const list_arrays of_walls = arrays_of_wall_pairs(walls);
+    scree_wall_pair_list *walls = &work->wall_pairs, *elements = &work->element_pairs;
+    const list_arrays of_walls = arrays_of_wall_pairs(walls), of_elements = arrays_of_wall_pairs(elements);
     attach_task task = {state, work};
     scree_team_run(&work->team, search->chunks, attach_share, &task);
     for (size_t k = 0; k < walls->count; k++)
         attach_rows(state, &of_walls, k,
                     scree_history_find(search, state, walls->body[k], state->id[walls->body[k]],
                                        SCREE_WALL_ID + walls->wall[k]));
+    for (size_t k = 0; k < elements->count; k++)
+        attach_rows(state, &of_elements, k,
+                    scree_history_find(search, state, elements->body[k], state->id[elements->body[k]],
+                                       SCREE_ELEMENT_ID + elements->wall[k]));
 }
 
 /// Row 0 (wall 0) and clear rows behind the last pair.
@@ -288,27 +316,31 @@ static scree_status assemble(const scree_model *model, scree_state *state, scree
 {
     scree_search *search = work->search;
     scree_pair_list *pairs = &work->pairs;
-    scree_wall_pair_list *walls = &work->wall_pairs;
-    size_t touching = search->images.touching.count, near = search->images.near.count, wall = 0;
+    scree_wall_pair_list *walls = &work->wall_pairs, *elements = &work->element_pairs;
+    size_t touching = search->images.touching.count, near = search->images.near.count, wall = 0, element = 0;
     for (int c = 0; c < search->chunks; c++) {
         touching += search->chunk[c].touching.count;
         near += search->chunk[c].near.count;
         wall += search->chunk[c].wall.count;
+        element += search->chunk[c].element.count;
     }
-    pairs->count = pairs->touching_count = walls->count = 0;
+    pairs->count = pairs->touching_count = walls->count = elements->count = 0;
     const list_arrays of_pairs = arrays_of_pairs(pairs), of_walls = arrays_of_wall_pairs(walls);
+    const list_arrays of_elements = arrays_of_wall_pairs(elements);
     bool books = scree_contacts_book(model, state->dimension), rolls = model->rolling;
     scree_status status = reserve_list(&of_pairs, touching + near, books, rolls, error);
     if (!status) status = reserve_list(&of_walls, wall, books, rolls, error);
+    if (!status && work->container) status = reserve_list(&of_elements, element, books, rolls, error);
     if (status) return status;
     pairs->count = touching + near;
     pairs->touching_count = touching;
     walls->count = wall;
+    elements->count = element;
     list_pairs(search, pairs, true, 0);
     list_image_pairs(&search->images.touching, pairs, touching - search->images.touching.count);
     list_pairs(search, pairs, false, touching);
     list_image_pairs(&search->images.near, pairs, touching + near - search->images.near.count);
-    list_wall_pairs(search, walls);
+    list_wall_pairs(search, work);
     attach_histories(state, work);
     pad_list(state, &of_pairs, pairs->count);
     pad_list(state, &of_walls, walls->count);
@@ -342,7 +374,9 @@ static void release_scratch(scree_search *search, scree_state *state)
         scree_release(&search->chunk[c].touching.pair);
         scree_release(&search->chunk[c].near.pair);
         scree_release(&search->chunk[c].wall.pair);
+        scree_release(&search->chunk[c].element.pair);
         search->chunk[c].touching.capacity = search->chunk[c].near.capacity = search->chunk[c].wall.capacity = 0;
+        search->chunk[c].element.capacity = 0;
     }
     scree_release(&search->entry_begin);
     scree_release(&search->entry);
@@ -360,7 +394,8 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     if (status) return status;
     search->listed = false;
     search->bodies = state->count;
-    work->pairs.count = work->pairs.touching_count = work->wall_pairs.count = work->ghosts.count = 0;
+    work->pairs.count = work->pairs.touching_count = work->wall_pairs.count = work->element_pairs.count = 0;
+    work->ghosts.count = 0;
     if (state->count >= LARGE) scree_pair_lists_destroy(work);
 
     scree_cell_grid_fit(&search->grid, state, work->skin);
@@ -381,6 +416,7 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
 
     for (size_t k = 0; k < state->count; k++) scree_body_place(state, k, state->rebuild[k]);
     memcpy(search->wall, state->wall, sizeof search->wall);
+    search->surface_ticks = state->surface_ticks;
     release_scratch(search, state);
     search->listed = work->valid = true;
     work->budget = half_skin(work);
@@ -408,7 +444,11 @@ static scree_status check_list(const scree_model *model, scree_state *state, scr
 scree_status scree_neighbours_refresh(const scree_model *model, scree_state *state, scree_work *work,
                                       scree_error *error)
 {
-    if (!work->valid || work->search->bodies != state->count || walls_need_rebuild(state, work))
+    if (work->container) {
+        scree_container_place(work->container, surface_time(state, state->surface_ticks));
+        state->surface_speed = state->surface_moving ? scree_container_speed(work->container) : 0;
+    }
+    if (!work->valid || work->search->bodies != state->count || walls_need_rebuild(model, state, work))
         return rebuild(model, state, work, error);
     scree_status status = work->budget >= 0 ? SCREE_OK : check_list(model, state, work, error);
     if (!status && work->ghosts.count > 0) scree_ghosts_place(state, work);

@@ -21,5 +21,6 @@ void scree_pair_chunk_destroy(scree_pair_chunk *chunk)
     scree_release(&chunk->touching.pair);
     scree_release(&chunk->near.pair);
     scree_release(&chunk->wall.pair);
+    scree_release(&chunk->element.pair);
     *chunk = (scree_pair_chunk){0};
 }

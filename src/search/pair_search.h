@@ -18,6 +18,7 @@ typedef struct scree_pair_chunk {
     scree_pair_buffer touching; ///< |x_i - x_j| < R_i + R_j
     scree_pair_buffer near;     ///< the others with |x_i - x_j| < R_i + R_j + skin
     scree_pair_buffer wall;     ///< distance < R + skin
+    scree_pair_buffer element;  ///< the same of the walls of the case
     uint64_t candidates;        ///< slots looked at
     uint64_t carried;           ///< histories of this chunk of the old list
 } scree_pair_chunk;

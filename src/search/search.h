@@ -16,11 +16,17 @@ struct scree_search {
     bool listed;                       ///< the list in `work` is whole and holds the contact histories
     size_t bodies;                     ///< in the list
     scree_wall wall[SCREE_WALL_COUNT]; ///< as they were at the last rebuild
+    uint64_t surface_ticks;            ///< of the walls of the case, then
     // histories on their way to the new list: entries of state->contact by the lower of their two rows
     uint32_t *entry_begin; ///< bodies + 1
     uint32_t *entry;
     size_t entry_begin_capacity, entry_capacity;
 };
+
+/// Appends the bodies of rows [begin, end) with the elements of the walls of the case that are closer than R + skin, by
+/// row, then element. `container` may be NULL. Errors: memory.
+scree_status scree_elements_search(const scree_container *container, const scree_state *state, size_t begin, size_t end,
+                                   double skin, scree_pair_buffer *buffer, scree_error *error) SCREE_MUST_USE;
 
 /// Frees the lists of pairs and of wall pairs.
 void scree_pair_lists_destroy(scree_work *work);

@@ -8,6 +8,7 @@
 /// and 0.08 for u = 1e-4, as in a slow one. At 0.15 either costs below 0.5 ns a body and step more than at its best.
 #include "search/neighbours.h"
 #include "search/search.h"
+#include "shape/container.h"
 
 #include <string.h>
 
@@ -47,5 +48,6 @@ void scree_work_destroy(scree_work *work)
     scree_release(&work->ghosts.ghost);
     scree_release(&work->relative);
     scree_pair_lists_destroy(work);
+    scree_container_destroy(&work->container);
     memset(work, 0, sizeof *work);
 }

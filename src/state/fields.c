@@ -87,6 +87,12 @@ const size_t scree_field_count = sizeof scree_fields / sizeof *scree_fields;
             .array_offset = offsetof(scree_state, wall), .stride = sizeof(scree_wall),                                 \
             .offset = offsetof(scree_wall, member), .rows = SCREE_ROWS_WALLS                                           \
     }
+#define SURFACE(name_, components_, unit_, member, meaning_)                                                           \
+    {                                                                                                                  \
+        "case_walls/" name_, SCREE_FIELD_DOUBLE, components_, unit_, SCREE_FIELD_STATE, true, meaning_,                \
+            .array_offset = offsetof(scree_state, surface), .stride = sizeof(scree_surface_load),                      \
+            .offset = offsetof(scree_surface_load, member), .rows = SCREE_ROWS_SURFACES                                \
+    }
 #define ONE(name_, type_, components_, unit_, member, meaning_)                                                        \
     {                                                                                                                  \
         name_, type_, components_, unit_, SCREE_FIELD_STATE, false, meaning_,                                          \
@@ -103,7 +109,8 @@ const size_t scree_field_count = sizeof scree_fields / sizeof *scree_fields;
 const scree_field scree_members[] = {
     CONTACT("first", SCREE_FIELD_UINT32, 1, "1", first, "id of the first body"),
     CONTACT("second", SCREE_FIELD_UINT32, 1, "1", second,
-            "id of the second body, larger than the first; 4294967280 + index for a wall"),
+            "id of the second body, larger than the first; 4294967280 + index for a plate, 2147483648 + element for a wall "
+            "of the case"),
     CONTACT("history", SCREE_FIELD_DOUBLE, SCREE_HISTORY, "1", history, "memory of the contact law, in its own units"),
     BESIDE_CONTACT("booking", SCREE_FIELD_FLOAT, booking, scree_booking, "N", value,
                    "damping force and dashpot x, y, z that the ledger needs again (hertz_mindlin in 3D)",
@@ -169,6 +176,15 @@ const scree_field scree_members[] = {
     WALL("shear", SCREE_FIELD_DOUBLE, 3, "N", shear, "tangential force of the bodies on the wall"),
     WALL("active", SCREE_FIELD_INT32, 1, "1", active, "1: the wall exists in this stage"),
     WALL("material", SCREE_FIELD_INT32, 1, "1", material, "index of the material in the case"),
+
+    SURFACE("force", 3, "N", force, "force of the bodies on each wall of the case"),
+    SURFACE("torque", 3, "N m", torque, "torque of the bodies on each wall of the case, about its centre"),
+    SURFACE("work", 1, "J", work, "work of each wall of the case on the bodies"),
+    ONE("scalars/surface_ticks", SCREE_FIELD_UINT64, 1, "1", surface_ticks,
+        "ticks for which the walls of the case have been moving"),
+    ONE("scalars/surface_moving", SCREE_FIELD_UINT64, 1, "1", surface_moving, "1: the walls of the case move now"),
+    ONE("scalars/surface_speed", SCREE_FIELD_DOUBLE, 1, "m/s", surface_speed,
+        "bound of the velocity of the walls of the case"),
 
     ONE("scalars/step", SCREE_FIELD_UINT64, 1, "1", step, "time since the start of the run, in ticks"),
     ONE("scalars/evaluations", SCREE_FIELD_UINT64, 1, "1", evaluations,
@@ -291,6 +307,8 @@ size_t scree_field_rows_count(const scree_state *state, const scree_field *field
         return state->membrane.count;
     case SCREE_ROWS_WALLS:
         return SCREE_WALL_COUNT;
+    case SCREE_ROWS_SURFACES:
+        return SCREE_SURFACES;
     case SCREE_ROWS_ONE:
         break;
     }

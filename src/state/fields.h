@@ -33,6 +33,7 @@ typedef enum scree_field_rows {
     SCREE_ROWS_DRIVE,
     SCREE_ROWS_MEMBRANE,
     SCREE_ROWS_WALLS,
+    SCREE_ROWS_SURFACES, ///< walls of the case: as many as there can be
     SCREE_ROWS_ONE
 } scree_field_rows;
 

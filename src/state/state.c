@@ -202,7 +202,9 @@ static uint64_t checksum_walls(const scree_state *state, uint64_t c)
         c = scree_checksum_bytes(c, &wall->position, offsetof(scree_wall, active) - offsetof(scree_wall, position));
         c = scree_checksum_word(c, (uint64_t)(uint32_t)wall->active << 32 | (uint32_t)wall->material);
     }
-    return c;
+    c = scree_checksum_bytes(c, state->surface, sizeof state->surface);
+    c = scree_checksum_bytes(c, &state->surface_speed, sizeof state->surface_speed);
+    return scree_checksum_word(scree_checksum_word(c, state->surface_moving), state->surface_ticks);
 }
 
 static uint64_t checksum_boundary(const scree_state *state, uint64_t c)

@@ -78,8 +78,11 @@ static inline double scree_length(const scree_vector a)
 }
 
 /// Memory of one contact between the bodies (or body and wall) with ids first < second. Signs are those of the contact
-/// seen from `first` (n from second to first); a wall is always `second`, with id SCREE_WALL_ID + wall index.
-#define SCREE_WALL_ID UINT32_C(0xfffffff0)
+/// seen from `first` (n from second to first); a wall is always `second`, with id SCREE_WALL_ID + wall index; an element
+/// of the walls of a case (shape/container.h) with id SCREE_ELEMENT_ID + its number.
+#define SCREE_WALL_ID    UINT32_C(0xfffffff0)
+#define SCREE_ELEMENT_ID UINT32_C(0x80000000)
+#define SCREE_ELEMENTS   (SCREE_WALL_ID - SCREE_ELEMENT_ID) /* most elements */
 #define SCREE_HISTORY 4
 typedef struct scree_history {
     double value[SCREE_HISTORY]; ///< meaning depends on the law: see the head of its file in src/contact/
@@ -124,6 +127,13 @@ enum {
     SCREE_WALL_BACK,
     SCREE_WALL_COUNT
 };
+
+/// What the bodies do to a wall of the case.
+typedef struct scree_surface_load {
+    scree_vector force;  ///< N, by the bodies on the wall at n
+    scree_vector torque; ///< N m, the same about its centre at n
+    double work;         ///< J, of the wall on the bodies since the begin of the run
+} scree_surface_load;
 
 /// Energy ledger, J. Work is done ON the bodies; dissipation is positive. Residual of the balance:
 /// kinetic + elastic - initial - (plates + pressure + boundary + periodic + gravity) + damping + friction - stiffness -
@@ -290,6 +300,10 @@ typedef struct scree_state {
     scree_rolling *rolling; ///< beside `contact` with rolling resistance; else NULL
     size_t contact_count, contact_capacity;
     scree_wall wall[SCREE_WALL_COUNT];
+    scree_surface_load surface[SCREE_SURFACES]; ///< walls of the case, in its order
+    uint64_t surface_ticks;                     ///< for which they have been moving
+    uint64_t surface_moving;                    ///< 1: they move now
+    double surface_speed;                       ///< m/s, bound of their velocity now
     double pressure; ///< Pa, confining pressure applied now
     scree_loop loop; ///< 2D
     scree_hull hull; ///< 3D

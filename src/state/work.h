@@ -26,7 +26,7 @@ typedef struct scree_pair_list {
 
 typedef struct scree_wall_pair_list {
     uint32_t *body; ///< rows
-    uint32_t *wall; ///< wall index
+    uint32_t *wall; ///< wall index, or element of the walls of the case
     scree_history *history;
     scree_booking *booking; ///< as in scree_pair_list
     scree_rolling *rolling;
@@ -53,10 +53,13 @@ static inline bool scree_contacts_book(const scree_model *model, int dimension)
 }
 
 typedef struct scree_search scree_search; ///< cell grid and scratch, private to search/
+typedef struct scree_container scree_container; ///< walls of the case: shape/container.h
 
 typedef struct scree_work {
     scree_pair_list pairs;
     scree_wall_pair_list wall_pairs;
+    scree_wall_pair_list element_pairs; ///< bodies near the walls of the case, by row, then element
+    scree_container *container;         ///< these walls; NULL: none. Owned; outlives nothing but a rebuild
     scree_ghost_list ghosts;
     scree_vector *relative; ///< deforming cell: velocities relative to the affine field while rows hold whole ones
     size_t relative_capacity;

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "state/periodic.h"
+#include "view/wall_lines.h"
 
 #include <math.h>
 #include <string.h>
@@ -141,6 +142,7 @@ scree_status scree_projection_create(const scree_snapshot *solid, scree_projecti
     scree_status status = start_plane(solid, plane, error);
     if (!status) status = scree_allocate(&projection->depth, solid->count, sizeof *projection->depth, error);
     if (!status) status = project_contacts(solid, &view, plane, error);
+    if (!status) status = scree_wall_edges(solid, view.row[0], view.row[1], plane, error);
     if (!status) status = copy_sheet(solid, plane, error);
     if (status) {
         scree_projection_destroy(projection);
@@ -166,14 +168,15 @@ void scree_projection_destroy(scree_projection *projection)
 
 scree_status scree_section_create(const scree_snapshot *solid, scree_snapshot *plane, scree_error *error)
 {
+    double low[2], high[2];
+    find_extent(solid, low, high);
+    double cut = 0.5 * (low[1] + high[1]);
     scree_status status = start_plane(solid, plane, error);
+    if (!status) status = scree_wall_cuts(solid, cut, plane, error);
     if (status) {
         scree_snapshot_destroy(plane);
         return status;
     }
-    double low[2], high[2];
-    find_extent(solid, low, high);
-    double cut = 0.5 * (low[1] + high[1]);
     for (size_t k = 0; k < solid->count; k++) {
         double off = solid->y[k] - cut, square = solid->radius[k] * solid->radius[k] - off * off;
         plane->x[k] = solid->x[k];

@@ -141,7 +141,7 @@ double scree_scene_force_width(const scree_scene_view *view, double ratio)
 static bool contact_end(const scree_snapshot *s, size_t k, double *x, double *y)
 {
     if (s->first[k] >= s->count || !scree_scene_drawn(s, s->first[k])) return false;
-    if (s->second[k] >= SCREE_WALL_ID) {
+    if (s->second[k] >= SCREE_ELEMENT_ID) {
         *x = s->contact_x[k];
         *y = s->contact_y[k];
         return isfinite(*x) && isfinite(*y);
@@ -272,6 +272,31 @@ static void draw_arrows(const scree_scene_view *view, cairo_t *cairo)
     cairo_restore(cairo);
 }
 
+/// Walls of the case, as far as the page goes.
+static void draw_walls(const scree_scene_view *view, cairo_t *cairo)
+{
+    const scree_snapshot *s = view->snapshot;
+    if (s->wall_line_count + s->wall_triangle_count == 0) return;
+    cairo_save(cairo);
+    cairo_rectangle(cairo, view->left - 2, view->top - 2, view->width + 4, view->height + 4);
+    cairo_clip(cairo);
+    for (size_t k = 0; k < s->wall_line_count; k++) {
+        const double *line = &s->wall_line[4 * k];
+        cairo_move_to(cairo, scree_scene_x(view, line[0]), scree_scene_y(view, line[1]));
+        cairo_line_to(cairo, scree_scene_x(view, line[2]), scree_scene_y(view, line[3]));
+    }
+    for (size_t k = 0; k < s->wall_triangle_count && s->dimension == 2; k++) {
+        const double *corner = &s->wall_triangle[9 * k];
+        cairo_move_to(cairo, scree_scene_x(view, corner[0]), scree_scene_y(view, corner[1]));
+        cairo_line_to(cairo, scree_scene_x(view, corner[3]), scree_scene_y(view, corner[4]));
+    }
+    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_width(cairo, 1.4);
+    scree_page_colour(cairo, scree_scene_quiet);
+    cairo_stroke(cairo);
+    cairo_restore(cairo);
+}
+
 void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo)
 {
     if (view->scene->depth) {
@@ -284,10 +309,12 @@ void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo)
             draw_spheres(view, cairo);
         draw_net(view, cairo, true);
         draw_plate_in_space(view, cairo, 1);
+        draw_walls(view, cairo);
         draw_periodic_edges(view, cairo);
         return;
     }
     draw_plates(view, cairo);
+    draw_walls(view, cairo);
     if (view->scene->cells)
         scree_scene_cells(view, cairo);
     else

@@ -1,0 +1,41 @@
+/// One contact of a job, in one lane: the law, the memory, the sums. What the scalar reference, the plates and the
+/// walls of the case share.
+#ifndef SCREE_CONTACT_ADVANCE_H
+#define SCREE_CONTACT_ADVANCE_H
+
+#include "contact/scalar.h"
+
+/// Evaluates the law, advances the memory and books energies, overlap and range.
+SCREE_INLINE contact_quanta contact_advance(contact_job *job, variant v, const scree_pair_constants *constants,
+                                            const motion *m, bool touching, const memory_rows *rows)
+{
+    law_constants c = constants_get(constants);
+    law_memory before = memory_get(v, rows), after;
+    contact_quanta q = contact_evaluate(v, &c, &job->settings, &job->scale, m, -(lanes_bits)touching, &before, &after);
+    memory_set(v, rows, &after);
+    contact_totals *totals = &job->totals;
+    totals->damping += q.damping;
+    totals->friction += q.friction;
+    totals->stiffness += q.stiffness;
+    totals->in_range &= q.in_range != 0;
+    if (touching) totals->largest_overlap = lanes_at_least(totals->largest_overlap, m->indentation);
+    return q;
+}
+
+static inline bodies contact_body_at(const contact_job *job, size_t row)
+{
+    return body_get(job->variant.dimension, &job->row[row], job->turn ? &job->turn[row] : NULL);
+}
+
+/// Adds to the sums of a row, modulo 2^64.
+static inline void contact_add_to_sums(const contact_job *job, size_t row, quanta force, quanta torque, uint64_t count)
+{
+    if (job->variant.dimension == 2) {
+        sum_row_add(&job->sum[row], force.x, force.y, torque.x, count);
+        return;
+    }
+    sum_row_add(&job->sum[row], force.x, force.y, force.z, count);
+    torque_row_add(&job->torque[row], torque.x, torque.y, torque.z);
+}
+
+#endif

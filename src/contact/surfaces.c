@@ -1,0 +1,282 @@
+/// Scalar, one body after the other. Cost: linear in the pairs of bodies and elements.
+#include "contact/surfaces.h"
+
+#include "base/fixed.h"
+#include "contact/advance.h"
+
+/// A memory passes between normals closer than this, where the wall has no larger angle `smooth`.
+#define PASSING 0.05 /* rad */
+/// Levers of forces on planes, which have no extent, are shorter than this many radii.
+#define PLANE_REACH 1048576.0
+
+// ---- which elements ----------------------------------------------------------------------------------------------
+
+static void place_of(int dimension, const scree_row *body, scree_vector place)
+{
+    place[0] = body->x;
+    place[1] = body->y;
+    place[2] = dimension == 3 ? body->z : 0;
+}
+
+/// Puts a touch in its place by distance; the last one of a full list falls out.
+static void insert(element_touches *touches, const element_touch *touch)
+{
+    bool full = touches->count == CONTACT_TOUCHES;
+    if (full && touches->touch[CONTACT_TOUCHES - 1].site.distance <= touch->site.distance) return;
+    int at = full ? CONTACT_TOUCHES - 1 : touches->count++;
+    for (; at > 0 && touches->touch[at - 1].site.distance > touch->site.distance; at--)
+        touches->touch[at] = touches->touch[at - 1];
+    touches->touch[at] = *touch;
+}
+
+static double cosine(const scree_vector a, const scree_vector b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// Drops what is the same contact as a closer one.
+static void merge(const scree_container *container, element_touches *touches)
+{
+    int kept = 0;
+    for (int k = 0; k < touches->count; k++) {
+        element_touch touch = touches->touch[k];
+        bool same = false;
+        for (int i = 0; i < kept; i++)
+            same = same || (touches->touch[i].surface == touch.surface &&
+                            cosine(touches->touch[i].site.normal, touch.site.normal) >
+                                container->surface[touch.surface].smooth);
+        if (!same) touches->touch[kept++] = touch;
+    }
+    touches->count = kept;
+}
+
+void contact_elements_touching(const scree_container *container, int dimension, const scree_row *body,
+                               const scree_wall_pair_list *pairs, size_t begin, size_t end, element_touches *touches)
+{
+    scree_vector place;
+    place_of(dimension, body, place);
+    touches->count = 0;
+    for (size_t p = begin; p < end; p++) {
+        element_touch touch = {.pair = p, .surface = scree_element_surface(container, pairs->wall[p])};
+        scree_element_site(container, pairs->wall[p], place, &touch.site);
+        if (scree_site_touches(container, pairs->wall[p], &touch.site, body->radius)) insert(touches, &touch);
+    }
+    merge(container, touches);
+}
+
+void contact_elements_mark(const scree_state *state, const scree_work *work, uint8_t *touching)
+{
+    const scree_wall_pair_list *pairs = &work->element_pairs;
+    element_touches touches;
+    for (size_t begin = 0, end; begin < pairs->count; begin = end) {
+        end = contact_group_end(pairs, begin);
+        for (size_t p = begin; p < end; p++) touching[p] = 0;
+        contact_elements_touching(work->container, state->dimension, &state->row[pairs->body[begin]], pairs, begin, end,
+                                  &touches);
+        for (int k = 0; k < touches.count; k++) touching[touches.touch[k].pair] = 1;
+    }
+}
+
+// ---- one contact -------------------------------------------------------------------------------------------------
+
+scree_pair_constants contact_surface_constants(const scree_model *model, const scree_surface *surface, int material)
+{
+    scree_pair_constants constants = model->walls[material];
+    if (!isnan(surface->config->friction) && !model->friction_of_stage) constants.friction = surface->config->friction;
+    return constants;
+}
+
+motion motion_of_surface(int dimension, const bodies *body, const scree_surface *surface, const scree_site *site,
+                         bool moving, double step)
+{
+    const int count = tangential_count(dimension);
+    motion m = {.normal = {site->normal[0], site->normal[1], site->normal[2]}};
+    m.indentation = body->radius - site->distance;
+    m.arm_first = body->radius - 0.5 * m.indentation;
+    m.reduced_radius = body->radius;
+    m.reduced_mass = body->mass;
+    vector velocity = body->velocity, spin = vector_none();
+    if (moving) {
+        vector at = vector_minus(dimension, body->place, vector_times(dimension, m.normal, m.arm_first));
+        scree_vector moved;
+        scree_surface_velocity(surface, (const double[3]){at.x, at.y, dimension == 3 ? at.z : 0}, moved);
+        velocity = vector_minus(dimension, velocity, (vector){moved[0], moved[1], moved[2]});
+        const double *turning = surface->config->spin;
+        spin = dimension == 3 ? (vector){turning[0], turning[1], turning[2]} : (vector){.x = turning[2]};
+    }
+    motion_advance(dimension, &m, velocity, vector_times(count, body->spin, m.arm_first), body->spin, spin, 0, step);
+    return m;
+}
+
+// ---- evaluation --------------------------------------------------------------------------------------------------
+
+/// The evaluation of one body: its pairs with elements and those of them that touch.
+typedef struct group {
+    const scree_container *container;
+    const scree_wall_pair_list *pairs;
+    size_t begin, end;
+    scree_vector place;
+    element_touches touches;
+} group;
+
+static memory_rows memory_at(const group *g, size_t p)
+{
+    return memory_rows_at(g->pairs->history, g->pairs->booking, g->pairs->rolling, p);
+}
+
+static const element_touch *touch_of(const group *g, size_t p)
+{
+    for (int k = 0; k < g->touches.count; k++)
+        if (g->touches.touch[k].pair == p) return &g->touches.touch[k];
+    return NULL;
+}
+
+/// The pair that the body has just left, of the same wall, whose normal is nearest to that of `touch`; SIZE_MAX: none.
+static size_t find_former(const group *g, const element_touch *touch)
+{
+    double nearest = fmin(g->container->surface[touch->surface].smooth, cos(PASSING));
+    size_t former = SIZE_MAX;
+    for (size_t p = g->begin; p < g->end; p++) {
+        memory_rows rows = memory_at(g, p);
+        if (memory_is_clear(&rows) || touch_of(g, p)) continue;
+        if (scree_element_surface(g->container, g->pairs->wall[p]) != touch->surface) continue;
+        scree_site site;
+        scree_element_site(g->container, g->pairs->wall[p], g->place, &site);
+        double alike = cosine(site.normal, touch->site.normal);
+        if (!(alike > nearest)) continue;
+        nearest = alike;
+        former = p;
+    }
+    return former;
+}
+
+/// Hands the memory of elements that the body has left to those that it touches anew.
+static void pass_memory(group *g)
+{
+    for (int k = 0; k < g->touches.count; k++) {
+        size_t to = g->touches.touch[k].pair;
+        memory_rows rows = memory_at(g, to);
+        if (!memory_is_clear(&rows)) continue;
+        size_t from = find_former(g, &g->touches.touch[k]);
+        if (from == SIZE_MAX) continue;
+        memory_rows old = memory_at(g, from);
+        *rows.history = *old.history;
+        *old.history = (scree_history){{0}};
+        if (rows.booking) {
+            *rows.booking = *old.booking;
+            *old.booking = (scree_booking){{0}};
+        }
+        if (rows.rolling) {
+            *rows.rolling = *old.rolling;
+            *old.rolling = (scree_rolling){{0}, {0}};
+        }
+    }
+}
+
+/// Force and torque about the centre of the wall: the opposite of what the body gets, F at its centre and its torque.
+static void add_to_surface(contact_job *job, int surface, const scree_vector hub, const bodies *body,
+                           const contact_quanta *q, double quantum, double torque_quantum)
+{
+    const bool solid = job->variant.dimension == 3;
+    const double f[3] = {scree_fixed_to((int64_t)q->force.x, quantum), scree_fixed_to((int64_t)q->force.y, quantum),
+                         solid ? scree_fixed_to((int64_t)q->force.z, quantum) : 0};
+    const double lever[3] = {body->place.x - hub[0], body->place.y - hub[1], solid ? body->place.z - hub[2] : 0};
+    const int64_t couple[3] = {solid ? (int64_t)q->torque_first.x : 0, solid ? (int64_t)q->torque_first.y : 0,
+                               (int64_t)(solid ? q->torque_first.z : q->torque_first.x)};
+    const uint64_t force[3] = {q->force.x, q->force.y, solid ? q->force.z : 0};
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        double torque = lever[i] * f[j] - lever[j] * f[i] + scree_fixed_to(couple[k], torque_quantum);
+        job->totals.surface_force[surface][k] -= force[k];
+        job->totals.surface_torque[surface][k] -= (uint64_t)scree_fixed_from(torque, job->scale.inverse_surface_torque);
+    }
+}
+
+SCREE_INLINE void evaluate_group(contact_job *job, variant v, const scree_state *state, group *g)
+{
+    const size_t row = g->pairs->body[g->begin];
+    bodies one = contact_body_at(job, row);
+    for (size_t p = g->begin; p < g->end; p++) {
+        const element_touch *touch = touch_of(g, p);
+        memory_rows rows = memory_at(g, p);
+        if (!touch && memory_is_clear(&rows)) continue;
+        const scree_surface *surface = contact_surface_of(g->container, g->pairs->wall[p]);
+        scree_site site;
+        scree_element_site(g->container, g->pairs->wall[p], g->place, &site);
+        motion m = motion_of_surface(v.dimension, &one, surface, &site, state->surface_moving != 0, job->settings.step);
+        if (law_foresees(v)) {
+            foresight ahead = foresight_get(v.dimension, &job->foreseen[row]);
+            motion_foresee(v.dimension, &m, &one, &ahead, NULL, NULL);
+        }
+        scree_pair_constants constants = contact_surface_constants(job->model, surface, (int)one.material);
+        contact_quanta q = contact_advance(job, v, &constants, &m, touch != NULL, &rows);
+        contact_add_to_sums(job, row, q.force, q.torque_first, q.count);
+        add_to_surface(job, (int)(surface - g->container->surface), surface->hub, &one, &q, state->force_quantum,
+                       state->torque_quantum);
+    }
+}
+
+static bool holds_memory(const group *g)
+{
+    for (size_t p = g->begin; p < g->end; p++) {
+        memory_rows rows = memory_at(g, p);
+        if (!memory_is_clear(&rows)) return true;
+    }
+    return false;
+}
+
+void contact_surfaces(contact_job *job, const scree_state *state, const scree_work *work, size_t begin, size_t end)
+{
+    const variant v = job->variant;
+    group g = {.container = work->container, .pairs = &work->element_pairs};
+    for (g.begin = 0; g.begin < g.pairs->count; g.begin = g.end) {
+        g.end = contact_group_end(g.pairs, g.begin);
+        size_t row = g.pairs->body[g.begin];
+        if (row < begin || row >= end) continue;
+        contact_elements_touching(g.container, v.dimension, &job->row[row], g.pairs, g.begin, g.end, &g.touches);
+        if (g.touches.count == 0 && !holds_memory(&g)) continue;
+        place_of(v.dimension, &job->row[row], g.place);
+        pass_memory(&g);
+        if (v.dimension == 3 && v.law == SCREE_LAW_HERTZ_MINDLIN)
+            evaluate_group(job, (variant){3, SCREE_LAW_HERTZ_MINDLIN, true, v.ledger, v.rolling}, state, &g);
+        else
+            evaluate_group(job, (variant){v.dimension, v.law, true, v.ledger, v.rolling}, state, &g);
+    }
+}
+
+// ---- the walls ---------------------------------------------------------------------------------------------------
+
+double contact_surface_torque_quantum(const scree_model *model, const scree_state *state,
+                                      const scree_container *container)
+{
+    double radius = scree_model_largest_radius(model), reach = 0;
+    int exponent = 0;
+    for (int k = 0; container && k < container->count; k++) {
+        const scree_surface *surface = &container->surface[k];
+        reach = fmax(reach, surface->reach > 0 ? surface->reach : PLANE_REACH * radius);
+    }
+    if (container) (void)frexp(2 * (reach + 2 * radius), &exponent);
+    return ldexp(state->force_quantum, exponent);
+}
+
+double contact_surfaces_settle(scree_state *state, const scree_work *work, const contact_totals *totals,
+                               const contact_scale *scale)
+{
+    double whole = 0;
+    for (int w = 0; work->container && w < work->container->count; w++) {
+        const scree_config_wall *config = work->container->surface[w].config;
+        scree_surface_load *load = &state->surface[w];
+        double power = 0;
+        for (int k = 0; k < 3; k++) {
+            double force = scree_fixed_to((int64_t)totals->surface_force[w][k], state->force_quantum);
+            double torque = (double)(int64_t)totals->surface_torque[w][k] / scale->inverse_surface_torque;
+            power -= (force + load->force[k]) * config->velocity[k] + (torque + load->torque[k]) * config->spin[k];
+            load->force[k] = force;
+            load->torque[k] = torque;
+        }
+        double done = state->surface_moving ? 0.5 * state->step_size * power : 0;
+        load->work += done;
+        whole += done;
+    }
+    return whole;
+}

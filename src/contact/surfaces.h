@@ -1,0 +1,77 @@
+/// Contacts with the walls of the case (shape/container.h): which elements a body touches, what passes from one to the
+/// next as it moves on, forces on the walls.
+///
+/// A wall is a body of infinite radius and mass that moves as its points do: R_eff = R, m_eff = m. Curvature of a
+/// cylinder, cone or edge does not enter the law.
+///
+/// Which elements. Those of one wall that are local minima of the distance and closer than the radius, the closest
+/// first; one whose normal differs from that of a closer one by less than the angle `smooth` is the same contact seen
+/// twice (round-off between neighbours; facets of a concave round surface) and does not count. So the elastic energy of
+/// a body is a continuous function of its place wherever faces meet at a smaller angle than `smooth` or at convex
+/// edges.
+///
+/// What contacts remember goes with their element. When a body touches an element anew and has just left another one of
+/// the same wall whose normal is nearly the same, it takes the memory along: a spring survives the change of the
+/// triangle, and the ledger books what it would have booked on one plane.
+#ifndef SCREE_CONTACT_SURFACES_H
+#define SCREE_CONTACT_SURFACES_H
+
+#include "contact/job.h"
+#include "contact/scalar.h"
+#include "shape/container.h"
+#include "state/work.h"
+
+enum { CONTACT_TOUCHES = 64 };
+
+typedef struct element_touch {
+    size_t pair; ///< in work->element_pairs
+    int surface;
+    scree_site site;
+} element_touch;
+
+/// Contacts of one body, by distance; of more than CONTACT_TOUCHES the deepest.
+typedef struct element_touches {
+    int count;
+    element_touch touch[CONTACT_TOUCHES];
+} element_touches;
+
+static inline const scree_surface *contact_surface_of(const scree_container *container, size_t element)
+{
+    return &container->surface[scree_element_surface(container, element)];
+}
+
+/// Where the pairs of the body of pair `begin` end.
+static inline size_t contact_group_end(const scree_wall_pair_list *pairs, size_t begin)
+{
+    size_t end = begin + 1;
+    while (end < pairs->count && pairs->body[end] == pairs->body[begin]) end++;
+    return end;
+}
+
+/// Which of the pairs [begin, end) of one body touch.
+void contact_elements_touching(const scree_container *container, int dimension, const scree_row *body,
+                               const scree_wall_pair_list *pairs, size_t begin, size_t end, element_touches *touches);
+
+/// Sets touching[k] to 1 for each of work->element_pairs that touches, else to 0.
+void contact_elements_mark(const scree_state *state, const scree_work *work, uint8_t *touching);
+
+/// Constants of a body of `material` on a wall: those of its plates, with the wall's own friction.
+scree_pair_constants contact_surface_constants(const scree_model *model, const scree_surface *surface, int material);
+
+/// Motion of a body against the element of a wall at `site`.
+motion motion_of_surface(int dimension, const bodies *body, const scree_surface *surface, const scree_site *site,
+                         bool moving, double step);
+
+/// All contacts of bodies in rows [begin, end) with the walls of the case: memory, sums, totals.
+void contact_surfaces(contact_job *job, const scree_state *state, const scree_work *work, size_t begin, size_t end);
+
+/// Quantum of the torques on the walls [N m], a power of two.
+double contact_surface_torque_quantum(const scree_model *model, const scree_state *state,
+                                      const scree_container *container);
+
+/// Keeps forces, torques and work of the walls in the state; returns their work on the bodies in this step [J], the
+/// trapezoid of measure/energy.c.
+double contact_surfaces_settle(scree_state *state, const scree_work *work, const contact_totals *totals,
+                               const contact_scale *scale);
+
+#endif

@@ -1,0 +1,108 @@
+/// The walls of a case beside the six plates: planes, boxes, cylinders, cones and triangle meshes, fixed or moving.
+///
+/// A wall consists of elements, each of which can touch a sphere at one point at most: a plane is one; a box seen from
+/// inside has six planes, a closed cylinder or cone its side and two ends; what is convex seen from outside (box, rod)
+/// is one; a mesh has its triangles, edges and vertices. Elements of all walls are numbered through. Contacts are the
+/// local minima of the distance to a wall (shape/mesh.h); walls that meet each other do not know of each other.
+///
+/// Motion. A wall turns with a constant spin w about a centre that moves with a constant velocity v: with its time t
+/// (state->surface_ticks x tick, never accumulated), x(t) = c + v t + R(w t) (x(0) - c), R a rotation by |w| t about w
+/// (Rodrigues). Geometry stays in the frame of t = 0, into which the centre of the sphere is brought. A wall that moves
+/// in itself (a drum about its axis, a plane along itself) is not moved at all: only its points are.
+///
+/// A surface with an inside counts up to one radius behind it, a plane without limit.
+#ifndef SCREE_SHAPE_CONTAINER_H
+#define SCREE_SHAPE_CONTAINER_H
+
+#include "shape/mesh.h"
+
+/// A line in the half-plane of coordinate `s` along the axis and distance `r` from it, m.
+typedef struct scree_profile {
+    double s[2], r[2];
+    double normal[2]; ///< towards the bodies
+    bool free_ends;   ///< its ends are edges of the wall; else another element goes on from there
+} scree_profile;
+
+/// One wall.
+typedef struct scree_surface {
+    const scree_config_wall *config;
+    size_t first, count; ///< its elements
+    // plane, and box seen from inside: half-spaces normal . x >= offset
+    scree_vector normal[6];
+    double offset[6];
+    scree_vector axis; ///< cylinder, cone: unit vector from start to end
+    scree_profile profile[3];
+    int profile_count;
+    scree_mesh mesh;
+    double smooth; ///< cosine: contacts whose normals are closer than this are one
+    // motion
+    bool turns, shifts; ///< the geometry does
+    double reach;       ///< m, no point of it is farther from the centre; 0 of a plane, which cannot spin
+    double rotation[9]; ///< now, 3 x 3 by rows
+    scree_vector shift; ///< m, now
+    scree_vector hub;   ///< m, the centre now
+} scree_surface;
+
+typedef struct scree_container {
+    int dimension;
+    int count;
+    scree_surface surface[SCREE_SURFACES];
+    size_t elements;
+    double time; ///< s, of the present poses
+} scree_container;
+
+/// Makes the walls of `config`; *container is NULL when it has none. Errors: SCREE_ERROR_INPUT or SCREE_ERROR_IO with
+/// the field (walls.N.key), memory.
+scree_status scree_container_create(const scree_config *config, scree_container **container,
+                                    scree_error *error) SCREE_MUST_USE;
+void scree_container_destroy(scree_container **container);
+
+/// Brings all walls to their poses at `time`.
+void scree_container_place(scree_container *container, double time);
+
+/// Bound of the way that a point of any wall, or of its frame beside a body within `margin`, goes in `time` [m].
+double scree_container_way(const scree_container *container, double time, double margin);
+
+/// Bound of the velocity of a point of any wall [m/s].
+double scree_container_speed(const scree_container *container);
+
+/// The wall that an element belongs to.
+static inline int scree_element_surface(const scree_container *container, size_t element)
+{
+    int k = 0;
+    while (element >= container->surface[k].first + container->surface[k].count) k++;
+    return k;
+}
+
+/// Where a sphere with its centre at `place` may touch an element, now.
+void scree_element_site(const scree_container *container, size_t element, const scree_vector place, scree_site *site);
+
+/// Whether a sphere of this radius reaches a site. NaN counts as touching, so that it is noticed.
+bool scree_site_touches(const scree_container *container, size_t element, const scree_site *site, double radius);
+
+/// Velocity of the point of wall `surface` that is at `point` now.
+void scree_surface_velocity(const scree_surface *surface, const scree_vector point, scree_vector velocity);
+
+/// Calls `found(context, element)` for the elements of all walls within `reach` of `place`, each once.
+scree_status scree_container_near(const scree_container *container, const scree_vector place, double reach,
+                                  scree_status (*found)(void *context, size_t element), void *context) SCREE_MUST_USE;
+
+/// How far a sphere with its centre at `place` stands inside of what wall `k` bounds now: the distance of the centre
+/// from it, negative where it is on the wrong side. A mesh has no sides, and is looked for within `reach` only; an open
+/// wall has sides only beside it.
+double scree_surface_clearance(const scree_container *container, int k, const scree_vector place, double reach);
+
+/// Walls as triangles, for pictures: three corners each; in 2D lines, whose last two corners are the same.
+typedef struct scree_wall_triangles {
+    double (*corner)[9]; ///< m
+    int32_t *wall;       ///< index of the wall
+    size_t count;
+} scree_wall_triangles;
+
+/// All walls at their present poses, round ones in facets; planes as far as `low` and `high` (a box that holds all
+/// bodies) reach. container may be NULL: nothing. Errors: memory.
+scree_status scree_container_triangles(const scree_container *container, const double low[3], const double high[3],
+                                       scree_wall_triangles *triangles, scree_error *error) SCREE_MUST_USE;
+void scree_wall_triangles_destroy(scree_wall_triangles *triangles);
+
+#endif

@@ -1,0 +1,135 @@
+/// Walls as triangles, for scenes and ParaView.
+#include "shape/container.h"
+#include "shape/vectors.h"
+
+#include <string.h>
+
+enum { FACETS = 96, MOST_FLAT = 12 };
+
+/// Adds a triangle given in the frame of the wall.
+static void add(scree_wall_triangles *triangles, const scree_surface *surface, int wall, const double *const corner[3])
+{
+    double *to = triangles->corner[triangles->count];
+    triangles->wall[triangles->count++] = wall;
+    for (int c = 0; c < 3; c++) {
+        double lever[3];
+        subtract(corner[c], surface->config->centre, lever);
+        for (int i = 0; i < 3; i++)
+            to[3 * c + i] = surface->hub[i] + (surface->turns ? dot(&surface->rotation[3 * i], lever) : lever[i]);
+        // A wall that moves in itself stays where it is in the picture.
+        for (int i = 0; i < 3 && !surface->shifts; i++) to[3 * c + i] -= surface->shift[i];
+    }
+}
+
+static void add_square(scree_wall_triangles *triangles, const scree_surface *surface, int wall,
+                       const double corner[4][3])
+{
+    add(triangles, surface, wall, (const double *const[3]){corner[0], corner[1], corner[2]});
+    add(triangles, surface, wall, (const double *const[3]){corner[0], corner[2], corner[3]});
+}
+
+/// A plane: a square around the middle of the bodies; in 2D a line.
+static void add_plane(scree_wall_triangles *triangles, const scree_surface *surface, int wall, int dimension,
+                      const double low[3], const double high[3])
+{
+    const double *n = surface->normal[0];
+    double middle[3], foot[3], size[3], along_plane[3] = {-n[1], n[0], 0}, across[3], corner[4][3];
+    subtract(high, low, size);
+    along(low, 0.5, size, middle);
+    double half = 0.6 * sqrt(dot(size, size));
+    along(middle, surface->offset[0] - dot(n, middle), n, foot);
+    if (!(normalise(along_plane) > 0)) along_plane[0] = 1;
+    cross(n, along_plane, across);
+    for (int c = 0; c < 4; c++) {
+        along(foot, c == 1 || c == 2 ? half : -half, along_plane, corner[c]);
+        along(corner[c], c >= 2 ? half : -half, across, corner[c]);
+    }
+    if (dimension == 3) {
+        add_square(triangles, surface, wall, (const double(*)[3])corner);
+        return;
+    }
+    for (int c = 0; c < 2; c++) along(foot, c ? half : -half, along_plane, corner[c]);
+    add(triangles, surface, wall, (const double *const[3]){corner[0], corner[1], corner[1]});
+}
+
+static void add_box(scree_wall_triangles *triangles, const scree_surface *surface, int wall, int dimension)
+{
+    const double *end[2] = {surface->config->lower, surface->config->upper};
+    for (int side = 0; side < 2 * dimension; side++) {
+        int axis = side / 2, a = (axis + 1) % 3, b = (axis + 2) % 3;
+        double corner[4][3];
+        if (dimension == 2) {
+            a = 1 - axis;
+            b = 2;
+        }
+        for (int c = 0; c < 4; c++) {
+            corner[c][axis] = end[side % 2][axis];
+            corner[c][a] = end[c == 1 || c == 2][a];
+            corner[c][b] = dimension == 2 ? 0 : end[c >= 2][b];
+        }
+        if (dimension == 3)
+            add_square(triangles, surface, wall, (const double(*)[3])corner);
+        else
+            add(triangles, surface, wall, (const double *const[3]){corner[0], corner[1], corner[1]});
+    }
+}
+
+static void add_round(scree_wall_triangles *triangles, const scree_surface *surface, int wall)
+{
+    const double *axis = surface->axis;
+    double side[2][3] = {{axis[1], -axis[0], 0}, {0}};
+    if (!(normalise(side[0]) > 0)) side[0][0] = 1;
+    cross(axis, side[0], side[1]);
+    for (int k = 0; k < surface->profile_count; k++)
+        for (int f = 0; f < FACETS; f++) {
+            const scree_profile *line = &surface->profile[k];
+            double corner[4][3];
+            for (int c = 0; c < 4; c++) {
+                int end = c == 1 || c == 2;
+                double angle = 2 * M_PI * (f + (c >= 2)) / FACETS;
+                along(surface->config->start, line->s[end], axis, corner[c]);
+                along(corner[c], line->r[end] * cos(angle), side[0], corner[c]);
+                along(corner[c], line->r[end] * sin(angle), side[1], corner[c]);
+            }
+            add_square(triangles, surface, wall, (const double(*)[3])corner);
+        }
+}
+
+static void add_mesh(scree_wall_triangles *triangles, const scree_surface *surface, int wall)
+{
+    const scree_mesh *mesh = &surface->mesh;
+    for (size_t t = 0; t < mesh->triangle_count; t++) {
+        const uint32_t *corner = mesh->triangle[t];
+        add(triangles, surface, wall,
+            (const double *const[3]){mesh->vertex[corner[0]], mesh->vertex[corner[1]], mesh->vertex[corner[2]]});
+    }
+}
+
+scree_status scree_container_triangles(const scree_container *container, const double low[3], const double high[3],
+                                       scree_wall_triangles *triangles, scree_error *error)
+{
+    size_t room = 0;
+    *triangles = (scree_wall_triangles){0};
+    for (int k = 0; container && k < container->count; k++)
+        room += container->surface[k].mesh.triangle_count + (size_t)container->surface[k].profile_count * 2 * FACETS +
+                MOST_FLAT;
+    scree_status status = scree_allocate(&triangles->corner, room, sizeof *triangles->corner, error);
+    if (!status) status = scree_allocate(&triangles->wall, room, sizeof *triangles->wall, error);
+    for (int k = 0; !status && container && k < container->count; k++) {
+        const scree_surface *surface = &container->surface[k];
+        int shape = surface->config->shape;
+        if (shape == SCREE_SHAPE_OF_PLANE) add_plane(triangles, surface, k, container->dimension, low, high);
+        if (shape == SCREE_SHAPE_OF_BOX) add_box(triangles, surface, k, container->dimension);
+        if (shape == SCREE_SHAPE_OF_MESH) add_mesh(triangles, surface, k);
+        add_round(triangles, surface, k);
+    }
+    if (status) scree_wall_triangles_destroy(triangles);
+    return status;
+}
+
+void scree_wall_triangles_destroy(scree_wall_triangles *triangles)
+{
+    scree_release(&triangles->corner);
+    scree_release(&triangles->wall);
+    triangles->count = 0;
+}

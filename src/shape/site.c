@@ -1,0 +1,277 @@
+/// Closest points of the walls of a case, and their motion.
+#include "shape/container.h"
+#include "shape/vectors.h"
+
+#include <string.h>
+
+// ---- motion ------------------------------------------------------------------------------------------------------
+
+void scree_container_place(scree_container *container, double time)
+{
+    container->time = time;
+    for (int k = 0; k < container->count; k++) {
+        scree_surface *surface = &container->surface[k];
+        const scree_config_wall *config = surface->config;
+        double axis[3] = {config->spin[0], config->spin[1], config->spin[2]};
+        double angle = normalise(axis) * time, sine = sin(angle), rest = 1 - cos(angle);
+        const double generator[9] = {0, -axis[2], axis[1], axis[2], 0, -axis[0], -axis[1], axis[0], 0};
+        for (int i = 0; i < 9; i++) {
+            double square = axis[i / 3] * axis[i % 3] - (i % 4 == 0 ? dot(axis, axis) : 0);
+            surface->rotation[i] = (i % 4 == 0 ? 1 : 0) + sine * generator[i] + rest * square;
+        }
+        for (int i = 0; i < 3; i++) surface->shift[i] = config->velocity[i] * time;
+        along(config->centre, 1, surface->shift, surface->hub);
+    }
+}
+
+double scree_container_way(const scree_container *container, double time, double margin)
+{
+    double longest = 0;
+    for (int k = 0; k < container->count; k++) {
+        const scree_surface *surface = &container->surface[k];
+        const double *v = surface->config->velocity, *w = surface->config->spin;
+        double speed = surface->shifts ? sqrt(dot(v, v)) : 0;
+        if (surface->turns) speed += sqrt(dot(w, w)) * (surface->reach + margin);
+        longest = fmax(longest, speed * fabs(time));
+    }
+    return longest;
+}
+
+double scree_container_speed(const scree_container *container)
+{
+    double largest = 0;
+    for (int k = 0; k < container->count; k++) {
+        const scree_config_wall *config = container->surface[k].config;
+        double spin = sqrt(dot(config->spin, config->spin));
+        largest = fmax(largest, sqrt(dot(config->velocity, config->velocity)) + spin * container->surface[k].reach);
+    }
+    return largest;
+}
+
+void scree_surface_velocity(const scree_surface *surface, const scree_vector point, scree_vector velocity)
+{
+    double lever[3], turning[3];
+    subtract(point, surface->hub, lever);
+    cross(surface->config->spin, lever, turning);
+    along(surface->config->velocity, 1, turning, velocity);
+}
+
+/// From where a body is to where it is in the frame of the wall at time zero.
+static void enter_frame(const scree_surface *surface, const double place[3], double inner[3])
+{
+    memcpy(inner, place, 3 * sizeof *inner);
+    if (surface->shifts) subtract(inner, surface->shift, inner);
+    if (!surface->turns) return;
+    double lever[3];
+    subtract(inner, surface->config->centre, lever);
+    const double *r = surface->rotation;
+    for (int i = 0; i < 3; i++)
+        inner[i] = surface->config->centre[i] + r[i] * lever[0] + r[3 + i] * lever[1] + r[6 + i] * lever[2];
+}
+
+static void leave_frame(const scree_surface *surface, double direction[3])
+{
+    if (!surface->turns) return;
+    const double old[3] = {direction[0], direction[1], direction[2]};
+    for (int i = 0; i < 3; i++) direction[i] = dot(&surface->rotation[3 * i], old);
+}
+
+// ---- shapes ------------------------------------------------------------------------------------------------------
+
+static void plane_site(const scree_surface *surface, size_t k, const double place[3], scree_site *site)
+{
+    memcpy(site->normal, surface->normal[k], sizeof site->normal);
+    site->distance = dot(surface->normal[k], place) - surface->offset[k];
+    site->minimum = true;
+}
+
+/// A solid box: its nearest face, edge or corner; inside it the nearest face.
+static void solid_box_site(int dimension, const scree_config_wall *config, const double place[3], scree_site *site)
+{
+    double nearest = -INFINITY;
+    int face = 0;
+    *site = (scree_site){.minimum = true};
+    for (int i = 0; i < dimension; i++) {
+        double below = config->lower[i] - place[i], above = place[i] - config->upper[i], out = fmax(below, above);
+        site->normal[i] = out > 0 ? (below > above ? -out : out) : 0;
+        if (out > nearest) {
+            nearest = out;
+            face = below > above ? 2 * i : 2 * i + 1;
+        }
+    }
+    site->distance = normalise(site->normal);
+    if (nearest > 0) return;
+    site->distance = nearest;
+    site->normal[face / 2] = face % 2 ? 1 : -1;
+}
+
+/// A point (s, r) against a line of the half-plane. *inner: its foot lies on the line. The normal of the line is taken
+/// there, at an end the direction from it.
+static double profile_distance(const scree_profile *line, double s, double r, double normal[2], bool *inner)
+{
+    double ds = line->s[1] - line->s[0], dr = line->r[1] - line->r[0];
+    double t = ((s - line->s[0]) * ds + (r - line->r[0]) * dr) / (ds * ds + dr * dr);
+    *inner = t >= 0 && t <= 1;
+    memcpy(normal, line->normal, 2 * sizeof *normal);
+    if (*inner) return (s - line->s[0]) * normal[0] + (r - line->r[0]) * normal[1];
+    int end = t > 1;
+    double from[2] = {s - line->s[end], r - line->r[end]}, distance = hypot(from[0], from[1]);
+    for (int i = 0; i < 2 && distance > 0; i++) normal[i] = from[i] / distance;
+    return distance;
+}
+
+/// A solid of revolution seen from outside: its nearest line; inside it the nearest by depth.
+static double solid_profile(const scree_surface *surface, double s, double r, double normal[2])
+{
+    double nearest = INFINITY, deepest = -INFINITY, found[2][2] = {{0}};
+    bool outside = false;
+    for (int k = 0; k < surface->profile_count; k++) {
+        const scree_profile *line = &surface->profile[k];
+        double direction[2], distance;
+        bool inner;
+        double height = (s - line->s[0]) * line->normal[0] + (r - line->r[0]) * line->normal[1];
+        distance = profile_distance(line, s, r, direction, &inner);
+        outside = outside || height > 0;
+        if (fabs(distance) < nearest && (!inner || distance > 0)) {
+            nearest = fabs(distance);
+            memcpy(found[0], direction, sizeof direction);
+        }
+        if (height > deepest) {
+            deepest = height;
+            memcpy(found[1], line->normal, sizeof line->normal);
+        }
+    }
+    memcpy(normal, found[outside ? 0 : 1], 2 * sizeof *normal);
+    return outside ? nearest : deepest;
+}
+
+static void round_site(const scree_surface *surface, size_t element, const double place[3], scree_site *site)
+{
+    double from[3], radial[3], normal[2];
+    bool inner = true,
+         solid = surface->config->side == SCREE_SIDE_OUTSIDE && surface->config->ends == SCREE_ENDS_CLOSED;
+    subtract(place, surface->config->start, from);
+    double s = dot(from, surface->axis);
+    along(from, -s, surface->axis, radial);
+    double r = normalise(radial);
+    // On the axis every direction is as good as another.
+    if (!(r > 0)) {
+        int least = 0;
+        for (int i = 1; i < 3; i++)
+            if (fabs(surface->axis[i]) < fabs(surface->axis[least])) least = i;
+        const double unit[3] = {least == 0, least == 1, least == 2};
+        cross(surface->axis, unit, radial);
+        (void)normalise(radial);
+    }
+    site->distance = solid ? solid_profile(surface, s, r, normal)
+                           : profile_distance(&surface->profile[element], s, r, normal, &inner);
+    site->minimum = solid || inner || surface->profile[element].free_ends;
+    for (int i = 0; i < 3; i++) site->normal[i] = normal[0] * surface->axis[i] + normal[1] * radial[i];
+}
+
+void scree_element_site(const scree_container *container, size_t element, const scree_vector place, scree_site *site)
+{
+    const scree_surface *surface = &container->surface[scree_element_surface(container, element)];
+    const scree_config_wall *config = surface->config;
+    double inner[3];
+    element -= surface->first;
+    enter_frame(surface, place, inner);
+    if (config->shape == SCREE_SHAPE_OF_MESH)
+        scree_mesh_site(&surface->mesh, element, inner, site);
+    else if (surface->profile_count > 0)
+        round_site(surface, element, inner, site);
+    else if (config->shape == SCREE_SHAPE_OF_BOX && config->side == SCREE_SIDE_OUTSIDE)
+        solid_box_site(container->dimension, config, inner, site);
+    else
+        plane_site(surface, element, inner, site);
+    leave_frame(surface, site->normal);
+}
+
+bool scree_site_touches(const scree_container *container, size_t element, const scree_site *site, double radius)
+{
+    const scree_surface *surface = &container->surface[scree_element_surface(container, element)];
+    bool plane = surface->config->shape == SCREE_SHAPE_OF_PLANE;
+    return site->minimum && !(site->distance >= radius) && (plane || !(site->distance <= -radius));
+}
+
+// ---- search ------------------------------------------------------------------------------------------------------
+
+/// What a search in the mesh of one wall passes on.
+typedef struct numbered {
+    size_t first;
+    scree_status (*found)(void *context, size_t element);
+    void *context;
+} numbered;
+
+static scree_status pass_on(void *context, size_t element)
+{
+    const numbered *n = context;
+    return n->found(n->context, n->first + element);
+}
+
+scree_status scree_container_near(const scree_container *container, const scree_vector place, double reach,
+                                  scree_status (*found)(void *context, size_t element), void *context)
+{
+    scree_status status = SCREE_OK;
+    for (int k = 0; k < container->count && !status; k++) {
+        const scree_surface *surface = &container->surface[k];
+        double inner[3];
+        if (surface->config->shape == SCREE_SHAPE_OF_MESH) {
+            numbered pass = {surface->first, found, context};
+            enter_frame(surface, place, inner);
+            status = scree_mesh_near(&surface->mesh, inner, reach, pass_on, &pass);
+            continue;
+        }
+        // Elements that are not minima now may become some before the next search.
+        for (size_t e = surface->first; e < surface->first + surface->count && !status; e++) {
+            scree_site site;
+            scree_element_site(container, e, place, &site);
+            if (!(site.distance >= reach)) status = found(context, e);
+        }
+    }
+    return status;
+}
+
+// ---- clearance ---------------------------------------------------------------------------------------------------
+
+/// What a search for the closest point of one mesh passes on.
+typedef struct nearest_point {
+    const scree_mesh *mesh;
+    const double *place;
+    double distance;
+} nearest_point;
+
+static scree_status lower_distance(void *context, size_t element)
+{
+    nearest_point *n = context;
+    n->distance = fmin(n->distance, scree_mesh_distance(n->mesh, element, n->place));
+    return SCREE_OK;
+}
+
+double scree_surface_clearance(const scree_container *container, int k, const scree_vector place, double reach)
+{
+    const scree_surface *surface = &container->surface[k];
+    double least = INFINITY, inner[3];
+    enter_frame(surface, place, inner);
+    if (surface->config->shape == SCREE_SHAPE_OF_MESH) {
+        nearest_point nearest = {&surface->mesh, inner, INFINITY};
+        return scree_mesh_near(&surface->mesh, inner, reach, lower_distance, &nearest) ? NAN : nearest.distance;
+    }
+    bool convex = surface->config->side == SCREE_SIDE_INSIDE && surface->config->ends == SCREE_ENDS_CLOSED;
+    for (size_t e = surface->first; e < surface->first + surface->count; e++) {
+        scree_site site;
+        scree_element_site(container, e, place, &site);
+        // Behind the end of a closed round wall its lines go on.
+        if (!site.minimum && surface->profile_count > 0 && convex) {
+            const scree_profile *line = &surface->profile[e - surface->first];
+            double from[3], radial[3];
+            subtract(inner, surface->config->start, from);
+            double s = dot(from, surface->axis);
+            along(from, -s, surface->axis, radial);
+            site.distance =
+                (s - line->s[0]) * line->normal[0] + (sqrt(dot(radial, radial)) - line->r[0]) * line->normal[1];
+        }
+        least = fmin(least, site.distance);
+    }
+    return least;
+}
