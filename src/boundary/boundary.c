@@ -11,6 +11,7 @@ enum {
 };
 
 const scree_boundary scree_boundary_pressure = {.name = "pressure", .walls = AXIAL};
+const scree_boundary scree_boundary_none = {.name = "none", .open = true};
 const scree_boundary scree_boundary_plates = {.name = "plates", .walls = AXIAL | LATERAL};
 
 const scree_boundary *scree_boundary_get(scree_boundary_kind kind)
@@ -19,6 +20,7 @@ const scree_boundary *scree_boundary_get(scree_boundary_kind kind)
         [SCREE_BOUNDARY_AUTO] = &scree_boundary_pressure,   [SCREE_BOUNDARY_PRESSURE] = &scree_boundary_pressure,
         [SCREE_BOUNDARY_PLATES] = &scree_boundary_plates,   [SCREE_BOUNDARY_MEMBRANE] = &scree_boundary_membrane,
         [SCREE_BOUNDARY_MINIMAL] = &scree_boundary_minimal, [SCREE_BOUNDARY_AFFINE] = &scree_boundary_affine,
+        [SCREE_BOUNDARY_NONE] = &scree_boundary_none,
     };
     return table[kind];
 }
@@ -76,7 +78,7 @@ void scree_boundary_finish_work(const scree_boundary *boundary, scree_state *sta
 scree_status scree_boundary_prepare(const scree_boundary *boundary, const scree_model *model, scree_state *state,
                                     scree_error *error)
 {
-    scree_status status = scree_boundary_refresh(model, state, error);
+    scree_status status = boundary->open ? SCREE_OK : scree_boundary_refresh(model, state, error);
     return status || !boundary->refresh ? status : boundary->refresh(model, state, error);
 }
 

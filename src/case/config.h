@@ -78,6 +78,7 @@ typedef enum scree_boundary_kind {
     SCREE_BOUNDARY_MEMBRANE, ///< plates below and above, pressure on a membrane around the sides
     SCREE_BOUNDARY_MINIMAL,  ///< pressure on all sides, mean velocity gradient imposed (minimal kinematic conditions)
     SCREE_BOUNDARY_AFFINE,   ///< every body of the boundary moves with the velocity gradient
+    SCREE_BOUNDARY_NONE,     ///< nothing stands around two bodies that collide; no choice of a case
 } scree_boundary_kind;
 
 typedef struct scree_config_boundary {
@@ -96,7 +97,8 @@ typedef enum scree_stage_kind {
     SCREE_STAGE_CONFINE,
     SCREE_STAGE_COMPRESS,
     SCREE_STAGE_DEFORM,
-    SCREE_STAGE_ROTATE
+    SCREE_STAGE_ROTATE,
+    SCREE_STAGE_COLLIDE
 } scree_stage_kind;
 typedef enum scree_axis { SCREE_AXIS_X, SCREE_AXIS_Y, SCREE_AXIS_Z } scree_axis;
 typedef enum scree_prepare_method {
@@ -106,7 +108,8 @@ typedef enum scree_prepare_method {
     SCREE_PREPARE_FACE_CENTRED,
     SCREE_PREPARE_CUBIC,
     SCREE_PREPARE_GAS,
-    SCREE_PREPARE_GROWTH
+    SCREE_PREPARE_GROWTH,
+    SCREE_PREPARE_PAIR
 } scree_prepare_method;
 
 /// What the sample looks like: it fills its box, or has been cut out of a larger packing.
@@ -124,6 +127,8 @@ typedef struct scree_config_stage {
     double depth;          ///< m, 3D only; auto: the width
     double solid_fraction; ///< 1, gas and growth only; auto: see the schema
     double velocity;       ///< m/s, gas only: root-mean-square velocity component
+    double gap;            ///< m, pair only: between the surfaces; auto: see prepare/pair.c
+    double speed;          ///< m/s, pair only: at which they approach; auto: v_R
     // confine
     double pressure;         ///< Pa, compression positive
     double ramp_time;        ///< s; auto
@@ -141,6 +146,8 @@ typedef struct scree_config_stage {
     int axis;         ///< scree_axis, about which it turns
     double hold_time; ///< s, at that spin
     double cutoff;    ///< mean diameters, of the force network around it
+    // collide
+    double duration; ///< s, after which it ends in any case; auto
     // confine, compress, deform and rotate_particle
     int boundary;    ///< scree_boundary_kind
     double friction; ///< 1, friction during this stage; auto: the material's
@@ -195,6 +202,7 @@ typedef struct scree_config {
 /// The boundary of stage `index`: its own choice, or that of the last stage before it that made one, or `lateral`.
 static inline scree_boundary_kind scree_config_boundary_of(const scree_config *config, int64_t index)
 {
+    if (config->stages[index].kind == SCREE_STAGE_COLLIDE) return SCREE_BOUNDARY_NONE;
     while (index >= 0 && config->stages[index].boundary == SCREE_BOUNDARY_AUTO) index--;
     int kind = index >= 0 ? config->stages[index].boundary : config->boundary.lateral;
     return kind == SCREE_BOUNDARY_AUTO ? SCREE_BOUNDARY_PRESSURE : (scree_boundary_kind)kind;

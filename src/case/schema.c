@@ -100,6 +100,7 @@ static const scree_choice methods[] = {
     {"gas", SCREE_PREPARE_GAS, "loose random places without contacts"},
     {"growth", SCREE_PREPARE_GROWTH,
      "particles grow at random places and push each other away: dense and isotropic, without contacts"},
+    {"pair", SCREE_PREPARE_PAIR, "two particles on the x axis that approach each other, for the stage collide"},
     {0},
 };
 static const scree_choice outlines[] = {
@@ -114,6 +115,7 @@ static const scree_choice stage_kinds[] = {
     {"compress", SCREE_STAGE_COMPRESS, "shortens the sample along its axis to a strain"},
     {"deform", SCREE_STAGE_DEFORM, "imposes any components of the velocity gradient, to a strain"},
     {"rotate_particle", SCREE_STAGE_ROTATE, "turns one particle and watches how rotations spread"},
+    {"collide", SCREE_STAGE_COLLIDE, "lets two particles meet and part"},
     {0},
 };
 
@@ -247,6 +249,10 @@ static const scree_key prepare_keys[] = {
                       "a gas; with growth 80 % and 60 %, less what the walls take."),
     NUMBER(stage, velocity, "m/s", .standard = "0 m/s", FROM("0 m/s"), TO("1000 m/s"), .when = "method=gas",
            .meaning = "Root-mean-square velocity component."),
+    NUMBER(stage, gap, "m", .standard = "auto", FROM("0 m"), TO("1 km"), .when = "method=pair",
+           .meaning = "Between the surfaces of the two; auto: about their indentation in the impact."),
+    NUMBER(stage, speed, "m/s", .standard = "auto", ABOVE("0 m/s"), TO("1e5 m/s"), .when = "method=pair",
+           .meaning = "Relative speed at which they approach; auto: contact.reference_velocity."),
 };
 static const scree_key confine_keys[] = {
     STAGE_HEAD,
@@ -303,6 +309,12 @@ static const scree_key rotate_keys[] = {
            .meaning = "Radius around the particle, in mean diameters, of the force network that is measured."),
     STAGE_BOUNDARY,
     STAGE_FRICTION,
+};
+
+static const scree_key collide_keys[] = {
+    STAGE_HEAD,
+    NUMBER(stage, duration, "s", .standard = "auto", ABOVE("0 s"), TO("1e9 s"),
+           .meaning = "The stage ends when the two have parted, or after this; auto: twice as long as it should take."),
 };
 
 typedef scree_config_measure measure;
@@ -363,6 +375,7 @@ static const scree_section stage_tables[] = {
           "whole is "
           "kept from turning.",
           rotate_keys),
+    TABLE("collide", "Two particles, prepared as a `pair`, meet and part; nothing else acts on them.", collide_keys),
 };
 static const scree_section measure_table[] = {TABLE("measure", "What is recorded.", measure_keys)};
 static const scree_section output_table[] = {TABLE("output", "What is written, and how often.", output_keys)};

@@ -156,6 +156,8 @@ double scree_critical_step_estimate(const scree_model *model)
         double fall = sqrt(2 * gravity_of(model) * height);
         force = fmax(force, impact_force(stiffness, effective_mass, fmax(FAST * stage->velocity, fall)));
     }
+    if (stage && stage->method == SCREE_PREPARE_PAIR)
+        force = impact_force(stiffness, effective_mass, isnan(stage->speed) ? model->reference_velocity : stage->speed);
     double guard = stiffness * pow(model->config->guard.overlap * model->radius_min, 1.5);
     if (!(force > 0 && force < guard)) force = guard;
 

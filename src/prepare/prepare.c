@@ -26,6 +26,8 @@ const scree_preparation *scree_preparation_get(scree_prepare_method method)
         return &scree_prepare_gas;
     case SCREE_PREPARE_GROWTH:
         return &scree_prepare_growth;
+    case SCREE_PREPARE_PAIR:
+        return &scree_prepare_pair;
     }
     return NULL;
 }

@@ -10,7 +10,8 @@
 /// axis; with imposed rates, mean, least and largest ratio of actual and imposed rate (`rate_ratio_...`, of the
 /// intervals between two samples) from STARTED of the strain on. Over the loading, from the bodies:
 /// `corner_distortion`, `boundary_roughness` (files of these names in measure/), `rigid_rotation_ratio`; and what it
-/// cost. Over the whole run: largest residual of the energy balance over the work turned over by the end
+/// cost. Over the whole run: largest residual of the energy balance over the energy at the begin and the work turned
+/// over by the end
 /// (`energy_residual`).
 #include "run/results.h"
 
@@ -20,6 +21,7 @@
 #include "run/cell_results.h"
 #include "run/rotation_results.h"
 #include "run/sample.h"
+#include "run/stage_collide.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -154,7 +156,7 @@ static void summarise_series(const scree_series *series, double turnover, scree_
     const double *residual = scree_series_get(series, "energy_residual");
     double largest = 0;
     for (size_t k = 0; k < series->row_count; k++) largest = fmax(largest, fabs(residual[k]));
-    scree_summary_set_number(summary, "energy_residual", largest / turnover);
+    if (turnover > 0) scree_summary_set_number(summary, "energy_residual", largest / turnover);
     if (series->row_count == 0) return;
     static const char *const finals[] = {"coordination", "coordination_without_rattlers", "rattler_fraction",
                                          "solid_fraction", "unbalanced_ratio"};
@@ -257,11 +259,12 @@ scree_status scree_results_write(const scree_recorder *recorder, scree_simulatio
     if (!result) result = scree_summary_create(&summary, error);
     if (!result) {
         summarise_run(recorder, s, status, summary);
-        summarise_series(&series, s->state.ledger.turnover, summary);
+        summarise_series(&series, s->state.ledger.turnover + s->state.ledger.initial, summary);
         result = summarise_stage(s, &series, summary, error);
     }
     if (!result && s->model.config->measure.cells)
         result = scree_cell_results_write(recorder->directory, s->model.config, &series, summary, error);
+    if (!result) result = scree_collide_results(s, summary, error);
     if (!result) result = scree_rotation_results(recorder->directory, s, summary, error);
     if (!result) result = scree_path_join(path, sizeof path, recorder->directory, SCREE_FILE_SUMMARY, error);
     if (!result) result = scree_summary_write(summary, path, error);

@@ -11,7 +11,7 @@ const scree_stage *scree_stage_get(scree_stage_kind kind)
     static const scree_stage *const table[] = {
         [SCREE_STAGE_PREPARE] = &scree_stage_prepare,   [SCREE_STAGE_CONFINE] = &scree_stage_confine,
         [SCREE_STAGE_COMPRESS] = &scree_stage_compress, [SCREE_STAGE_DEFORM] = &scree_stage_deform,
-        [SCREE_STAGE_ROTATE] = &scree_stage_rotate,
+        [SCREE_STAGE_ROTATE] = &scree_stage_rotate,     [SCREE_STAGE_COLLIDE] = &scree_stage_collide,
     };
     return table[kind];
 }

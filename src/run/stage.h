@@ -41,6 +41,7 @@ extern const scree_stage scree_stage_confine;
 extern const scree_stage scree_stage_compress;
 extern const scree_stage scree_stage_deform;
 extern const scree_stage scree_stage_rotate;
+extern const scree_stage scree_stage_collide;
 
 /// s since the begin of the stage.
 double scree_stage_elapsed(const scree_simulation *s);
