@@ -345,10 +345,10 @@ static void criteria_judge_as_they_say(void **state)
                        "  - {id: a, statement: s, source: p%s%s%s, %s}\n",
                        given ? "" : ", given: 4", value ? "" : ", value: c.r",
                        criterion ? "" : ", criterion: within 10 %", wrong[i]);
-        scree_arena arena = {0};
-        if (scree_statements_read("t", bad, strlen(bad), &arena, &table, NULL) != SCREE_ERROR_INPUT)
+        scree_arena failing = {0};
+        if (scree_statements_read("t", bad, strlen(bad), &failing, &table, NULL) != SCREE_ERROR_INPUT)
             fail_msg("%s is accepted", wrong[i]);
-        scree_arena_release(&arena);
+        scree_arena_release(&failing);
     }
 }
 
