@@ -376,9 +376,58 @@ static void test_stability_limit_of_the_scheme(void **unused)
     scree_state_destroy(&state);
 }
 
+/// Radius, stiffness of the springs and the largest step of a membrane.
+static void test_membrane(void **unused)
+{
+    (void)unused;
+    biaxial_config c;
+    scree_model model;
+    scree_error error;
+    biaxial_config_set(&c, 983);
+    c.stage[2].boundary = SCREE_BOUNDARY_MEMBRANE;
+    c.config.boundary.membrane_radius = NAN;
+    c.config.boundary.membrane_stiffness = 1e4;
+    assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
+    assert_close(model.membrane_radius, 1.25 * 0.75e-3);
+    assert_close(model.membrane_stiffness, 1e4);
+    c.config.dimension = 3;
+    assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
+    // A triangular net of springs k is a sheet of 2 k / sqrt(3).
+    assert_close(model.membrane_radius, 0.75 * 0.75e-3);
+    assert_close(2 / sqrt(3) * model.membrane_stiffness, 1e4);
+    // Not smaller than every grain.
+    c.config.particles.radius_min = 0.9e-3;
+    assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
+    assert_close(model.membrane_radius, 0.9e-3);
+    c.config.particles.radius_min = 0.5e-3;
+    // A quarter of the radius of spheres that touch each other and a plate passes between them.
+    c.config.boundary.membrane_radius = 1.99e-3;
+    assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
+    c.config.boundary.membrane_radius = 2.01e-3;
+    assert_int_equal(scree_model_build(&c.config, &model, &error), SCREE_ERROR_INPUT);
+    assert_string_equal(error.field, "boundary.membrane_radius");
+    // The fastest oscillation; the large step of two timescales counts.
+    c.config.boundary.membrane_radius = NAN;
+    c.config.integrator.step = 1e-6;
+    double mass = model.density[0] * 4 / 3 * M_PI * pow(0.5625e-3, 3), limit = mass / 2 / (1e-6 * 1e-6);
+    c.config.boundary.membrane_stiffness = 0.99 * limit * 2 / sqrt(3);
+    assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
+    c.config.boundary.membrane_stiffness *= 1.02;
+    assert_int_equal(scree_model_build(&c.config, &model, &error), SCREE_ERROR_INPUT);
+    assert_string_equal(error.field, "boundary.membrane_stiffness");
+    c.config.boundary.membrane_stiffness /= 1.02;
+    c.config.integrator.scheme = SCREE_SCHEME_TWO_TIMESCALES;
+    c.config.integrator.repeats = 1;
+    c.config.integrator.large_multiple = 2;
+    c.config.integrator.small_steps = 1;
+    assert_int_equal(scree_model_build(&c.config, &model, &error), SCREE_ERROR_INPUT);
+    assert_string_equal(error.field, "boundary.membrane_stiffness");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_membrane),
         cmocka_unit_test(test_pair_constants),
         cmocka_unit_test(test_resolved_defaults),
         cmocka_unit_test(test_model_with_friction),

@@ -3,6 +3,7 @@
 #include "view_testing.h"
 
 #include "base/random.h"
+#include "boundary/sheet.h"
 #include "io/paraview.h"
 #include "io/snapshot.h"
 #include "io_sample.h"
@@ -228,6 +229,74 @@ static void spheres_are_drawn(void **unused)
     destroy(&s);
 }
 
+/// The last 30 spheres as a sheet of three rings.
+static void wrap(solid *s)
+{
+    scree_membrane *membrane = &s->state.membrane;
+    s->state.grains = COUNT - 30;
+    membrane->around = 10;
+    membrane->count = membrane->capacity = 30;
+    assert_int_equal(scree_allocate(&membrane->rest, 30, sizeof *membrane->rest, NULL), SCREE_OK);
+    assert_int_equal(scree_allocate(&membrane->press, 30, sizeof *membrane->press, NULL), SCREE_OK);
+    assert_int_equal(scree_allocate(&membrane->force, 30, sizeof *membrane->force, NULL), SCREE_OK);
+    for (size_t k = 0; k < 30; k++) membrane->rest[k][2] = uniform(300 + k);
+}
+
+static void a_sheet_is_written_and_drawn(void **unused)
+{
+    (void)unused;
+    solid s = {0};
+    scree_snapshot snapshot, plane;
+    scree_projection projection;
+    scree_state copy;
+    create(&s);
+    wrap(&s);
+    write_snapshot(&s);
+    assert_int_equal(scree_snapshot_read(scratch, 0, &snapshot, NULL), SCREE_OK);
+    assert_int_equal(snapshot.grains, COUNT - 30);
+    assert_int_equal(snapshot.triangle_count, 40);
+    for (size_t t = 0; t < 40; t++)
+        for (int c = 0; c < 3; c++) {
+            size_t corner[3];
+            scree_sheet_triangle(10, 30, t, corner);
+            assert_int_equal(snapshot.triangle[t][c], COUNT - 30 + corner[c]);
+        }
+    char *file = read_whole("paraview/membrane-000000.vtp");
+    assert_non_null(strstr(file, "NumberOfPoints=\"30\""));
+    assert_non_null(strstr(file, "NumberOfPolys=\"40\""));
+    free(file);
+    // As a net, not as spheres: the grains alone are counted and seen.
+    assert_int_equal(scree_projection_create(&snapshot, &projection, NULL), SCREE_OK);
+    assert_int_equal(projection.plane.triangle_count, 40);
+    scree_scene scene = {.title = "Sheet", .depth = projection.depth, .projection = &projection, .plates = true};
+    draw("net", &projection.plane, &scene);
+    picture net = picture_read("net.png");
+    projection.plane.triangle_count = 0;
+    draw("spheres", &projection.plane, &scene);
+    picture spheres = picture_read("spheres.png");
+    projection.plane.triangle_count = 40;
+    assert_true(net.width == spheres.width && net.height == spheres.height);
+    size_t stride = (size_t)cairo_image_surface_get_stride(net.surface) * (size_t)net.height;
+    assert_true(
+        memcmp(cairo_image_surface_get_data(net.surface), cairo_image_surface_get_data(spheres.surface), stride) != 0);
+    cairo_surface_destroy(net.surface);
+    cairo_surface_destroy(spheres.surface);
+    assert_int_equal(scree_section_create(&snapshot, &plane, NULL), SCREE_OK);
+    assert_int_equal(plane.grains, COUNT - 30);
+    draw("cut", &plane, &(scree_scene){.title = "Section", .section = true, .plates = true});
+    scree_snapshot_destroy(&plane);
+    scree_projection_destroy(&projection);
+    scree_snapshot_destroy(&snapshot);
+    // And it is part of a checkpoint.
+    assert_int_equal(scree_checkpoint_write(scratch, &s.state, 1, NULL), SCREE_OK);
+    assert_int_equal(scree_checkpoint_read(scratch, 3, &copy, 1, NULL), SCREE_OK);
+    assert_true(scree_state_checksum(&copy) == scree_state_checksum(&s.state) && copy.membrane.around == 10);
+    s.state.membrane.rest[7][2] += 1;
+    assert_true(scree_state_checksum(&copy) != scree_state_checksum(&s.state));
+    scree_state_destroy(&copy);
+    destroy(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -235,6 +304,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(paraview_files_of_spheres_are_written, enter_scratch, leave_scratch),
         cmocka_unit_test_setup_teardown(a_checkpoint_of_spheres_comes_back, enter_scratch, leave_scratch),
         cmocka_unit_test_setup_teardown(spheres_are_drawn, enter_scratch, leave_scratch),
+        cmocka_unit_test_setup_teardown(a_sheet_is_written_and_drawn, enter_scratch, leave_scratch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
