@@ -12,7 +12,7 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 
-enum { SPINS = 2000, SPINS_BEFORE_YIELD = 20000 };
+enum { SPINS = 2000, SPINS_BEFORE_YIELD = 1000 };
 
 typedef struct member {
     scree_team *team;

@@ -33,8 +33,6 @@ static const char *wrong_order(scree_boundary_kind kind, scree_boundary_kind bef
 /// What is wrong with `kind` in a stage; NULL: nothing.
 static const char *wrong_boundary(const scree_config *config, int stage, scree_boundary_kind kind)
 {
-    if (kind == SCREE_BOUNDARY_MEMBRANE && config->dimension == 3)
-        return "a membrane is a chain of discs: it needs dimension: 2; in 3D the others can be used";
     const double *gravity = config->gravity;
     if (is_free_of_plates(kind) && (gravity[0] != 0 || gravity[1] != 0 || gravity[2] != 0))
         return "without plates nothing holds the sample against gravity";

@@ -88,8 +88,8 @@ typedef struct scree_config_boundary {
     double servo_gain;         ///< 1, admittance of a plate under servo over that of the sample (1: absorbs waves)
     double servo_velocity;     ///< m/s, largest plate velocity under servo; auto
     double penalty;            ///< Pa s, stress over error of the rate of minimal conditions; auto
-    double membrane_stiffness; ///< N/m, of the chain between two neighbours
-    double membrane_radius;    ///< m, of its discs; auto: 1.25 mean radii of the grains
+    double membrane_stiffness; ///< N/m, 2D: between two neighbours; 3D: of the sheet, tension over strain
+    double membrane_radius;    ///< m, of its bodies; auto: 1.25 mean radii of the grains, 3D: 0.75
 } scree_config_boundary;
 
 typedef enum scree_stage_kind {

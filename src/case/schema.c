@@ -57,7 +57,7 @@ static const scree_choice schemes[] = {
 static const scree_choice laterals[] = {
     {"pressure", SCREE_BOUNDARY_PRESSURE, "traction on the Delaunay boundary of the assembly"},
     {"plates", SCREE_BOUNDARY_PLATES, "rigid side plates that a servo holds at the pressure"},
-    {"membrane", SCREE_BOUNDARY_MEMBRANE, "pressure on a chain of discs around the assembly (2D)"},
+    {"membrane", SCREE_BOUNDARY_MEMBRANE, "pressure on a membrane around the assembly"},
     {0},
 };
 static const scree_choice boundaries[] = {
@@ -65,7 +65,8 @@ static const scree_choice boundaries[] = {
     {"pressure", SCREE_BOUNDARY_PRESSURE, "plates below and above, pressure on the Delaunay boundary of the sides"},
     {"plates", SCREE_BOUNDARY_PLATES, "rigid plates on all sides, those beside the sample under servo"},
     {"membrane", SCREE_BOUNDARY_MEMBRANE,
-     "plates below and above; at the sides a chain of frictionless discs carries the pressure (2D)"},
+     "plates below and above; at the sides a chain of frictionless discs (3D: a sheet of spheres) carries the "
+     "pressure"},
     {"minimal", SCREE_BOUNDARY_MINIMAL,
      "no plates: pressure on all sides, and minimal kinematic conditions impose the strain rate"},
     {"affine", SCREE_BOUNDARY_AFFINE, "no plates: every body of the boundary moves with the velocity gradient"},
@@ -208,9 +209,12 @@ static const scree_key boundary_keys[] = {
            .meaning = "Minimal conditions: stress over the error of the rate; auto: the pressure answers an error of "
                       "1 %."),
     NUMBER(boundary, membrane_stiffness, "N/m", .standard = "10 N/mm", FROM("0 N/m"), TO("1e12 N/m"),
-           .meaning = "Membrane: axial stiffness between two neighbours; a slack chain bears nothing."),
+           .meaning = "Membrane: axial stiffness between two neighbours; 3D: of the sheet, tension per length over "
+                      "strain. It bears no compression."),
     NUMBER(boundary, membrane_radius, "m", .standard = "auto", FROM("1 nm"), TO("100 m"),
-           .meaning = "Membrane: radius of its discs; auto: 1.25 times the mean radius of the particles."),
+           .meaning =
+               "Membrane: radius of its bodies; auto: 1.25 times the mean radius of the particles; 3D: 0.75 times "
+               "it, at least the smallest."),
 };
 
 typedef scree_config_stage stage;

@@ -4,11 +4,14 @@
 ///   contacts-000012.vtp  a line a contact, between centres (a wall: from the centre to the contact point)
 ///   boundary-000012.vtp  2D: a line an edge of the closed Delaunay boundary
 ///   hull-000012.vtp      3D: a triangle a face of the closed Delaunay hull
+///   membrane-000012.vtp  3D: a triangle a face of the sheet of a membrane, when there is one
 ///   plates-000012.vtp    a line (3D: a quadrilateral) an active plate, as long as the sample
 ///   cells-000012.vtu     the Delaunay cells with their fields, when the snapshot has them
 ///   discs.pvd, ...       the collections of all snapshots with their times
 #include "io/paraview.h"
 
+#include "boundary/membrane.h"
+#include "boundary/sheet.h"
 #include "io/cell_file.h"
 #include "io/run_directory.h"
 #include "io/vtp.h"
@@ -136,6 +139,26 @@ static scree_status build_hull(scree_vtp *vtp, const scene *from, scree_error *e
     for (size_t k = 0; k < hull->triangle_count; k++)
         for (size_t c = 0; c < 3; c++) scree_vtp_join(vtp, k, c, hull->triangle[k][c]);
     return add_members(vtp, state, SCREE_ROWS_HULL_NODES, SCREE_ROWS_HULL_TRIANGLES, error);
+}
+
+/// The sheet of a membrane.
+static scree_status build_membrane(scree_vtp *vtp, const scene *from, scree_error *error)
+{
+    const scree_state *state = from->state;
+    const scree_membrane *membrane = &state->membrane;
+    size_t triangles = scree_sheet_triangle_count(membrane->around, membrane->count), corner[3];
+    scree_status status = scree_vtp_create(vtp, membrane->count, SCREE_VTP_TRIANGLES, triangles, error);
+    if (status) return status;
+    for (size_t k = 0; k < membrane->count; k++) {
+        scree_vector place;
+        scree_body_place(state, scree_membrane_row(state, k), place);
+        scree_vtp_place(vtp, k, place);
+    }
+    for (size_t t = 0; t < triangles; t++) {
+        scree_sheet_triangle(membrane->around, membrane->count, t, corner);
+        for (size_t c = 0; c < 3; c++) scree_vtp_join(vtp, t, c, corner[c]);
+    }
+    return add_members(vtp, state, SCREE_ROWS_MEMBRANE, SCREE_ROWS_MEMBRANE, error);
 }
 
 /// Extent of the bodies along a direction.
@@ -302,12 +325,13 @@ scree_status scree_paraview_write(const char *directory, const scree_model *mode
         scree_status (*build)(scree_vtp *vtp, const scene *from, scree_error *error);
         int only_dimension; ///< 0: both
     } scenes[] = {{"discs", build_bodies, 2},      {"spheres", build_bodies, 3}, {"contacts", build_contacts, 0},
-                  {"boundary", build_boundary, 2}, {"hull", build_hull, 3},      {"plates", build_plates, 0},
-                  {"cells", build_cells, 0}};
+                  {"boundary", build_boundary, 2}, {"hull", build_hull, 3},      {"membrane", build_membrane, 3},
+                  {"plates", build_plates, 0},     {"cells", build_cells, 0}};
     const scene from = {model, state, table, info->cells};
     for (size_t k = 0; k < sizeof scenes / sizeof *scenes && !status; k++) {
         if (scenes[k].only_dimension && scenes[k].only_dimension != state->dimension) continue;
         if (scenes[k].build == build_cells && (!info->cells || info->cells->count == 0)) continue;
+        if (scenes[k].build == build_membrane && state->membrane.count == 0) continue;
         scree_vtp vtp;
         status = scenes[k].build(&vtp, &from, error);
         if (!status) status = write_scene(&vtp, folder, scenes[k].kind, info, error);

@@ -3,6 +3,7 @@
 /// body and 100 a contact on disk; a few milliseconds for 5000 discs.
 #include "io/snapshot.h"
 
+#include "boundary/sheet.h"
 #include "io/cell_file.h"
 #include "io/run_file.h"
 
@@ -47,6 +48,27 @@ static void write_members(scree_hdf5 *part, const char *group, const scree_state
     }
 }
 
+/// The triangles of the sheet of a membrane, by ids of bodies.
+static void write_sheet(scree_hdf5 *part, const char *group, const scree_state *state)
+{
+    const scree_membrane *membrane = &state->membrane;
+    if (membrane->around == 0 || part->status) return;
+    scree_array array = {.name = "membrane/triangle",
+                         .type = SCREE_FIELD_UINT32,
+                         .rows = scree_sheet_triangle_count(membrane->around, membrane->count),
+                         .components = 3,
+                         .unit = "1",
+                         .meaning = "triangles of the membrane, by ids of bodies, counter-clockwise seen from outside"};
+    part->status = scree_array_allocate(&array, part->error);
+    for (size_t t = 0; t < array.rows && !part->status; t++) {
+        size_t corner[3];
+        scree_sheet_triangle(membrane->around, membrane->count, t, corner);
+        for (size_t c = 0; c < 3; c++) ((uint32_t *)array.data)[3 * t + c] = (uint32_t)(state->grains + corner[c]);
+    }
+    scree_hdf5_write(part, group, &array);
+    scree_array_destroy(&array);
+}
+
 scree_status scree_snapshot_write(const char *directory, const scree_model *model, const scree_state *state,
                                   const scree_contact_table *table, const scree_snapshot_info *info, scree_error *error)
 {
@@ -70,6 +92,7 @@ scree_status scree_snapshot_write(const char *directory, const scree_model *mode
     write_bodies(&part, group, model, state);
     write_contacts(&part, group, state, table);
     write_members(&part, group, state);
+    write_sheet(&part, group, state);
     if (info->cells) scree_cells_write(&part, group, info->cells);
     status = scree_hdf5_save(&part);
     const char *case_name = model->config && model->config->name ? model->config->name : "";
@@ -179,6 +202,17 @@ static void read_walls(scree_hdf5 *run, const char *group, scree_snapshot *snaps
     memcpy(snapshot->wall, walls.wall, sizeof walls.wall);
 }
 
+/// The sheet of a membrane, where there is one.
+static void read_sheet(scree_hdf5 *run, const char *group, scree_snapshot *snapshot)
+{
+    char name[80];
+    (void)snprintf(name, sizeof name, "%s/membrane", group);
+    if (run->status || H5Lexists(run->file, name, H5P_DEFAULT) <= 0) return;
+    snapshot->triangle_count = SIZE_MAX;
+    snapshot->triangle = read_column(run, group, "membrane/triangle", SCREE_FIELD_UINT32, 3, &snapshot->triangle_count);
+    if (run->status) snapshot->triangle_count = 0;
+}
+
 /// Every id names a body or a wall, so that a reader may index with them.
 static void check_ids(scree_hdf5 *run, const scree_snapshot *snapshot)
 {
@@ -188,7 +222,9 @@ static void check_ids(scree_hdf5 *run, const scree_snapshot *snapshot)
         bad += snapshot->first[k] >= snapshot->count || (snapshot->second[k] >= snapshot->count && !wall);
     }
     for (size_t k = 0; k < snapshot->loop_count && !run->status; k++) bad += snapshot->loop[k] >= snapshot->count;
-    if (bad > 0) scree_hdf5_damaged(run, "a contact or the boundary names a body that does not exist");
+    for (size_t k = 0; k < 3 * snapshot->triangle_count && !run->status; k++)
+        bad += snapshot->triangle[k / 3][k % 3] >= snapshot->count;
+    if (bad > 0) scree_hdf5_damaged(run, "a contact, the boundary or a membrane names a body that does not exist");
 }
 
 scree_status scree_snapshot_read(const char *directory, size_t which, scree_snapshot *snapshot, scree_error *error)
@@ -220,6 +256,7 @@ scree_status scree_snapshot_read(const char *directory, size_t which, scree_snap
         snapshot->loop = read_column(&run, group, "boundary/id", SCREE_FIELD_UINT32, 1, &snapshot->loop_count);
     }
     read_walls(&run, group, snapshot);
+    read_sheet(&run, group, snapshot);
     check_ids(&run, snapshot);
     status = scree_hdf5_close(&run);
     if (status) scree_snapshot_destroy(snapshot);
@@ -238,6 +275,7 @@ void scree_snapshot_destroy(scree_snapshot *snapshot)
                             &snapshot->first,
                             &snapshot->second,
                             &snapshot->loop,
+                            &snapshot->triangle,
                             &snapshot->normal_force,
                             &snapshot->tangential_force,
                             &snapshot->contact_x,

@@ -64,6 +64,8 @@ typedef struct scree_snapshot {
     double *contact_z;                       ///< m, 3D only, else NULL
     size_t loop_count;
     uint32_t *loop;
+    size_t triangle_count;   ///< of the membrane in 3D
+    uint32_t (*triangle)[3]; ///< ids, counter-clockwise seen from outside
     scree_wall wall[SCREE_WALL_COUNT];
 } scree_snapshot;
 scree_status scree_snapshot_count(const char *directory, size_t *count, scree_error *error) SCREE_MUST_USE;

@@ -43,7 +43,7 @@ typedef struct scree_model {
     bool membrane;             ///< some stage has one
     int membrane_material;     ///< index of its constants below, frictionless, else those of the particles
     double membrane_radius;    ///< m; 0 without a membrane
-    double membrane_stiffness; ///< N/m
+    double membrane_stiffness; ///< N/m, of one spring
     int material_count;
     scree_pair_constants pairs[SCREE_MAX_MATERIALS][SCREE_MAX_MATERIALS]; ///< grain on grain
     scree_pair_constants walls[SCREE_MAX_MATERIALS];                      ///< grain on a plate of the same material

@@ -60,10 +60,11 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
     [SCREE_SAMPLE_DISSIPATED_FRICTION] = {"dissipated_friction", "J", "dissipated by sliding"},
     [SCREE_SAMPLE_STIFFNESS_WORK] = {"stiffness_work", "J", "put into tangential springs by their change of stiffness"},
     [SCREE_SAMPLE_WORK_PLATES] = {"work_plates", "J", "work of the plates on the particles"},
-    [SCREE_SAMPLE_WORK_PRESSURE] = {"work_pressure", "J", "work of the pressure on the Delaunay boundary"},
+    [SCREE_SAMPLE_WORK_PRESSURE] = {"work_pressure", "J",
+                                    "work of the pressure on the Delaunay boundary or the membrane"},
     [SCREE_SAMPLE_WORK_BOUNDARY] = {"work_boundary", "J",
-                                    "work of imposed rates, or of the chain of a membrane and its ends"},
-    [SCREE_SAMPLE_ELASTIC_MEMBRANE] = {"elastic_membrane", "J", "stored in the chain of a membrane"},
+                                    "work of imposed rates, or of the springs of a membrane and its ends"},
+    [SCREE_SAMPLE_ELASTIC_MEMBRANE] = {"elastic_membrane", "J", "stored in the springs of a membrane"},
     [SCREE_SAMPLE_WORK_GRAVITY] = {"work_gravity", "J", "work of gravity"},
     [SCREE_SAMPLE_SCHEME_WORK] = {"scheme_work", "J", "put into the kinetic energy by changes of the step"},
     [SCREE_SAMPLE_ENERGY_RESIDUAL] = {"energy_residual", "J", "what the energy balance leaves open"},
@@ -73,6 +74,9 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
     [SCREE_SAMPLE_AREA] = {"area", "m2",
                            "area of the sample between plates and Delaunay boundary; in 3D its mean section"},
     [SCREE_SAMPLE_VOLUME] = {"volume", "m3", "volume of the sample between plates and Delaunay boundary"},
+    [SCREE_SAMPLE_MEMBRANE_VOLUME] = {"membrane_volume", "m3",
+                                      "volume between the plates inside a membrane, through the centres of its bodies; "
+                                      "not a number without one"},
     [SCREE_SAMPLE_BOUNDARY_COUNT] = {"boundary_count", "1", "particles on the Delaunay boundary"},
 };
 
@@ -108,6 +112,7 @@ static void sample_stress(const scree_simulation *s, double *value)
     scree_stress_from_plates(model, &s->state, plates);
     scree_stress_from_contacts(&s->table, volume, contacts);
     value[SCREE_SAMPLE_VOLUME] = volume;
+    value[SCREE_SAMPLE_MEMBRANE_VOLUME] = s->state.membrane.count > 0 ? scree_membrane_volume(model, &s->state) : NAN;
     value[SCREE_SAMPLE_AREA] = s->state.dimension == 3 ? volume / scree_sample_height(s) : scree_sample_area(&s->state);
     value[SCREE_SAMPLE_AXIAL_PLATES] = -plates[axial];
     value[SCREE_SAMPLE_LATERAL_APPLIED] = -lateral_of(s, plates);

@@ -47,6 +47,7 @@ typedef enum scree_sample_index {
     SCREE_SAMPLE_HEIGHT,
     SCREE_SAMPLE_AREA,
     SCREE_SAMPLE_VOLUME,
+    SCREE_SAMPLE_MEMBRANE_VOLUME,
     SCREE_SAMPLE_BOUNDARY_COUNT,
     SCREE_SAMPLE_COUNT
 } scree_sample_index;

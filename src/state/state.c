@@ -218,7 +218,8 @@ static uint64_t checksum_imposed(const scree_state *state, uint64_t c)
     c = scree_checksum_bytes(c, membrane->rest, membrane->count * sizeof *membrane->rest);
     c = scree_checksum_bytes(c, membrane->press, membrane->count * sizeof *membrane->press);
     c = scree_checksum_bytes(c, membrane->force, membrane->count * sizeof *membrane->force);
-    return scree_checksum_word(scree_checksum_bytes(c, numbers, sizeof numbers), membrane->right);
+    const uint64_t bodies[] = {membrane->right, membrane->around};
+    return scree_checksum_bytes(scree_checksum_bytes(c, numbers, sizeof numbers), bodies, sizeof bodies);
 }
 
 uint64_t scree_state_checksum(const scree_state *state)

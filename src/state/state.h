@@ -134,7 +134,7 @@ typedef struct scree_ledger {
     double stiffness; ///< put into tangential springs by the change of their stiffness with indentation (hertz_mindlin)
     double plates;    ///< work of the walls
     double pressure;  ///< work of the pressure on the Delaunay boundary or the membrane
-    double boundary;  ///< work of the other forces of the boundary: imposed rates, chain and ends of a membrane
+    double boundary;  ///< work of the other forces of the boundary: imposed rates, springs and ends of a membrane
     double forced;    ///< work of the torque that keeps a body at a prescribed spin
     double gravity;   ///< sum of m g . x when the ledger was opened
     double initial;   ///< kinetic + elastic energy when the ledger was opened
@@ -202,14 +202,17 @@ typedef enum scree_prescription {
                      ///< free
 } scree_prescription;
 
-/// Chain of discs on both sides of the sample (boundary/membrane.c, 2D). Its bodies have the ids from state.grains on:
-/// the right side from bottom to top, then the left side from top to bottom; count = 0: there is no membrane.
+/// Membrane around the sides of the sample (boundary/membrane.c). Its bodies have the ids from state.grains on; count =
+/// 0: there is no membrane. 2D: two chains of discs, the right side from bottom to top, then the left side from top to
+/// bottom. 3D: a triangulated tube of spheres (boundary/sheet.h), ring by ring from bottom to top.
 typedef struct scree_membrane {
-    double *rest;        ///< count, m, unstressed length from this body to the next; 0 for the last of a side
+    scree_vector *rest;  ///< count, m, unstressed lengths of the springs that begin at this body; 0: no spring. 2D: one,
+                         ///< to the next body; 3D: to the next of its ring and to two of the ring above
     scree_vector *press; ///< count, N, force of the pressure at n
-    scree_vector *force; ///< count, N, force of the chain, and of the plates on its ends, at n
+    scree_vector *force; ///< count, N, force of the springs, and of the plates on its ends, at n
     size_t count, capacity;
-    uint64_t right;   ///< bodies of the right side
+    uint64_t right;   ///< 2D: bodies of the right side
+    uint64_t around;  ///< 3D: bodies of a ring
     double radius;    ///< m
     double ramp_time; ///< s, in which the membrane takes the pressure over
     double share;     ///< 1, fraction of the time passed

@@ -61,7 +61,8 @@ static scree_status start_plane(const scree_snapshot *solid, scree_snapshot *pla
                               .dimension = 2,
                               .time = solid->time,
                               .axial_strain = solid->axial_strain,
-                              .count = solid->count};
+                              .count = solid->count,
+                              .grains = solid->grains};
     memcpy(plane->stage, solid->stage, sizeof plane->stage);
     scree_status status = scree_allocate(&plane->x, solid->count, sizeof *plane->x, error);
     if (!status) status = scree_allocate(&plane->y, solid->count, sizeof *plane->y, error);
@@ -91,6 +92,17 @@ static scree_status project_contacts(const scree_snapshot *solid, const axes *vi
     return SCREE_OK;
 }
 
+/// The sheet of a membrane, whose corners are bodies.
+static scree_status copy_sheet(const scree_snapshot *solid, scree_snapshot *plane, scree_error *error)
+{
+    size_t count = solid->triangle_count;
+    scree_status status = scree_allocate(&plane->triangle, count, sizeof *plane->triangle, error);
+    if (status || count == 0) return status;
+    plane->triangle_count = count;
+    memcpy(plane->triangle, solid->triangle, count * sizeof *plane->triangle);
+    return SCREE_OK;
+}
+
 scree_status scree_projection_create(const scree_snapshot *solid, scree_projection *projection, scree_error *error)
 {
     const axes view = axes_of_view();
@@ -99,6 +111,7 @@ scree_status scree_projection_create(const scree_snapshot *solid, scree_projecti
     scree_status status = start_plane(solid, plane, error);
     if (!status) status = scree_allocate(&projection->depth, solid->count, sizeof *projection->depth, error);
     if (!status) status = project_contacts(solid, &view, plane, error);
+    if (!status) status = copy_sheet(solid, plane, error);
     if (status) {
         scree_projection_destroy(projection);
         return status;

@@ -196,7 +196,8 @@ static void write_caption(scree_scene_view *view)
     if (view->disc_count < s->count && !view->scene->section)
         (void)snprintf(left_out, sizeof left_out, ", %zu without a position", s->count - view->disc_count);
     // The bodies of a membrane are drawn too, but are no grains.
-    size_t grains = view->disc_count - (s->grains > 0 ? s->count - s->grains : 0);
+    size_t grains = 0;
+    for (size_t k = 0; k < (s->grains > 0 ? s->grains : s->count); k++) grains += scree_scene_drawn(s, k);
     (void)snprintf(view->caption, sizeof view->caption, "%zu %s%s%s%s%s", grains,
                    view->scene->depth || view->scene->section ? "sphere" : "disc", grains == 1 ? "" : "s", left_out,
                    strain, time);

@@ -32,6 +32,8 @@ static void draw_spheres(const scree_scene_view *view, cairo_t *cairo)
     double line = fmin(0.5, fmax(0.08, 0.035 * 2 * view->mean_radius * view->scale));
     for (size_t k = 0; k < view->disc_count; k++) {
         uint32_t disc = view->order[k];
+        // A membrane is drawn as a net, through which the grains are seen.
+        if (s->triangle_count > 0 && disc >= s->grains) continue;
         double radius = s->radius[disc] * view->scale;
         double x = scree_scene_x(view, s->x[disc]), y = scree_scene_y(view, s->y[disc]);
         scree_colour colour = scree_scene_disc_colour(view, disc);
@@ -51,6 +53,30 @@ static void draw_spheres(const scree_scene_view *view, cairo_t *cairo)
             cairo_stroke(cairo);
         }
     }
+}
+
+/// The net of a membrane: the triangles that the viewer sees from inside, behind the grains, or from outside.
+static void draw_net(const scree_scene_view *view, cairo_t *cairo, bool outside)
+{
+    const scree_snapshot *s = view->snapshot;
+    for (size_t t = 0; t < s->triangle_count; t++) {
+        double x[3], y[3];
+        for (int c = 0; c < 3; c++) {
+            x[c] = scree_scene_x(view, s->x[s->triangle[t][c]]);
+            y[c] = scree_scene_y(view, s->y[s->triangle[t][c]]);
+        }
+        // Page coordinates grow downwards: counter-clockwise is negative.
+        double turn = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
+        if (!isfinite(turn) || (turn < 0) != outside) continue;
+        cairo_new_sub_path(cairo);
+        for (int c = 0; c < 3; c++) cairo_line_to(cairo, x[c], y[c]);
+        cairo_close_path(cairo);
+    }
+    scree_colour colour = outside ? scree_scene_ink : scree_scene_quiet;
+    cairo_set_source_rgba(cairo, colour.red, colour.green, colour.blue, outside ? 0.4 : 0.6);
+    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_line_width(cairo, 0.3);
+    cairo_stroke(cairo);
 }
 
 /// The bottom (0) or top (1) plate of a view in space.
@@ -234,11 +260,13 @@ void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo)
 {
     if (view->scene->depth) {
         draw_plate_in_space(view, cairo, 0);
+        draw_net(view, cairo, false);
         // The network of the inside would be hidden.
         if (view->scene->force_network)
             draw_network(view, cairo);
         else
             draw_spheres(view, cairo);
+        draw_net(view, cairo, true);
         draw_plate_in_space(view, cairo, 1);
         return;
     }

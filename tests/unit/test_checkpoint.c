@@ -9,22 +9,6 @@
 
 enum { BODIES = 40, CASE = 77 };
 
-static char scratch[64];
-
-static int make_scratch(void **unused)
-{
-    (void)unused;
-    return scratch_create(scratch) ? 0 : -1;
-}
-
-static int remove_scratch(void **unused)
-{
-    (void)unused;
-    bool closed = H5Fget_obj_count((hid_t)H5F_OBJ_ALL, H5F_OBJ_ALL) == 0;
-    scratch_destroy(scratch);
-    return closed ? 0 : -1;
-}
-
 /// A whole state whose every stored byte is random: many are NaN of all kinds, infinite, denormal or negative zero.
 static void create_state(scree_state *state, uint64_t seed)
 {

@@ -3,6 +3,7 @@
 
 #include "base/random.h"
 #include "io/run_directory.h"
+#include "io_scratch.h"
 #include "measure/measure.h"
 #include "run/sample.h"
 #include "run/simulation.h"
@@ -136,8 +137,8 @@ static double read_number(const char *directory, const char *name)
 static void restart_gives_the_same_bits(void **unused)
 {
     (void)unused;
-    char folder[64] = "/tmp/scree-test-XXXXXX", whole[96], part[96], one[32], two[32];
-    assert_non_null(mkdtemp(folder));
+    char folder[64], whole[96], part[96], one[32], two[32];
+    assert_true(scratch_create(folder));
     snprintf(whole, sizeof whole, "%s/whole", folder);
     snprintf(part, sizeof part, "%s/part", folder);
     for (int k = 0; k < COMBINATIONS; k++) {
@@ -170,8 +171,7 @@ static void restart_gives_the_same_bits(void **unused)
         scree_case_free(c);
     }
     char command[128];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    assert_int_equal(system(command), 0);
+    scratch_destroy(folder);
 }
 
 /// History laws close the energy balance; second order in the step.

@@ -12,22 +12,6 @@
 
 enum { BODIES = 24, LOOP = 10 };
 
-static char scratch[64];
-
-static int make_scratch(void **unused)
-{
-    (void)unused;
-    return scratch_create(scratch) ? 0 : -1;
-}
-
-static int remove_scratch(void **unused)
-{
-    (void)unused;
-    bool closed = H5Fget_obj_count((hid_t)H5F_OBJ_ALL, H5F_OBJ_ALL) == 0;
-    scratch_destroy(scratch);
-    return closed ? 0 : -1;
-}
-
 /// The sample of `seed` as snapshot `index`.
 static scree_status try_write(int64_t index, uint64_t seed, scree_error *error)
 {
