@@ -34,6 +34,8 @@ extern const scree_boundary scree_boundary_plates;
 extern const scree_boundary scree_boundary_membrane;
 extern const scree_boundary scree_boundary_minimal;
 extern const scree_boundary scree_boundary_affine;
+extern const scree_boundary scree_boundary_periodic;
+extern const scree_boundary scree_boundary_channel;
 
 /// Both axial plates, bottom and top, stand.
 bool scree_boundary_has_plates(const scree_boundary *boundary);

@@ -78,10 +78,16 @@ typedef enum scree_boundary_kind {
     SCREE_BOUNDARY_MEMBRANE, ///< plates below and above, pressure on a membrane around the sides
     SCREE_BOUNDARY_MINIMAL,  ///< pressure on all sides, mean velocity gradient imposed (minimal kinematic conditions)
     SCREE_BOUNDARY_AFFINE,   ///< every body of the boundary moves with the velocity gradient
+    SCREE_BOUNDARY_PERIODIC, ///< a cell that repeats itself in all directions (boundary.periodic)
+    SCREE_BOUNDARY_CHANNEL,  ///< the same in all but the last, with plates below and above
     SCREE_BOUNDARY_NONE,     ///< nothing stands around two bodies that collide; no choice of a case
 } scree_boundary_kind;
 
+/// Mask of periodic directions.
+enum { SCREE_PERIODIC_NONE = 0, SCREE_PERIODIC_X = 1, SCREE_PERIODIC_XY = 3, SCREE_PERIODIC_XYZ = 7 };
+
 typedef struct scree_config_boundary {
+    int periodic;              ///< SCREE_PERIODIC_...
     int lateral;               ///< scree_boundary_kind, of what holds the sides until a stage chooses its own boundary
     int64_t every;             ///< steps between two updates of the Delaunay boundary
     double gap_limit;          ///< 1, boundary edges with a free gap above this many mean diameters are cut
@@ -141,6 +147,8 @@ typedef struct scree_config_stage {
     // deform; extension positive, row the direction of the velocity, NAN where free
     double velocity_gradient[9]; ///< 1/s
     double strain_rate[9];       ///< 1/s, symmetric: only components on and above the diagonal are given
+    double stress[9];            ///< Pa, held by a periodic cell, given like strain_rate; compression positive, shear
+                                 ///< stress in the sense of the shear rate
     // rotate_particle
     double spin;      ///< rad/s, that the particle is brought to
     int axis;         ///< scree_axis, about which it turns
@@ -199,10 +207,15 @@ typedef struct scree_config {
     scree_config_guard guard;
 } scree_config;
 
-/// The boundary of stage `index`: its own choice, or that of the last stage before it that made one, or `lateral`.
+/// The boundary of stage `index`: periodic as the case says, else its own choice, or that of the last stage before it
+/// that made one, or `lateral`.
 static inline scree_boundary_kind scree_config_boundary_of(const scree_config *config, int64_t index)
 {
     if (config->stages[index].kind == SCREE_STAGE_COLLIDE) return SCREE_BOUNDARY_NONE;
+    if (config->boundary.periodic > 0) {
+        bool whole = config->boundary.periodic == (1 << config->dimension) - 1;
+        return whole ? SCREE_BOUNDARY_PERIODIC : SCREE_BOUNDARY_CHANNEL;
+    }
     while (index >= 0 && config->stages[index].boundary == SCREE_BOUNDARY_AUTO) index--;
     int kind = index >= 0 ? config->stages[index].boundary : config->boundary.lateral;
     return kind == SCREE_BOUNDARY_AUTO ? SCREE_BOUNDARY_PRESSURE : (scree_boundary_kind)kind;

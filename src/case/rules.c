@@ -248,7 +248,8 @@ static void check_timescales(scree_reader *reader, const scree_config *config)
                           "choose another scheme, or small_steps: 0");
     for (int64_t i = 0; i < config->stage_count; i++) {
         scree_boundary_kind kind = scree_config_boundary_of(config, i);
-        if (kind == SCREE_BOUNDARY_PRESSURE || kind == SCREE_BOUNDARY_PLATES) continue;
+        // A periodic cell moves bodies by its gradient in every step, whatever its size.
+        if (config->boundary.periodic > 0 || kind == SCREE_BOUNDARY_PRESSURE || kind == SCREE_BOUNDARY_PLATES) continue;
         scree_problem_add(reader, place, "integrator.scheme", text, "position_verlet, velocity_verlet",
                           "the boundary of stages.%lld imposes velocities and needs equal steps", (long long)i);
         return;

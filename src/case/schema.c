@@ -54,6 +54,13 @@ static const scree_choice schemes[] = {
      "position_verlet that repeats one large and several small steps while loading (Padbidri 2010, 2.4)"},
     {0},
 };
+static const scree_choice periodics[] = {
+    {"no", SCREE_PERIODIC_NONE, "not periodic: plates and what `lateral` says"},
+    {"x", SCREE_PERIODIC_X, "2D: periodic in x, between plates below and above"},
+    {"xy", SCREE_PERIODIC_XY, "periodic in x and y: in 2D without any boundary, in 3D between plates below and above"},
+    {"xyz", SCREE_PERIODIC_XYZ, "periodic in all directions of space"},
+    {0},
+};
 static const scree_choice laterals[] = {
     {"pressure", SCREE_BOUNDARY_PRESSURE, "traction on the Delaunay boundary of the assembly"},
     {"plates", SCREE_BOUNDARY_PLATES, "rigid side plates that a servo holds at the pressure"},
@@ -87,6 +94,15 @@ static const scree_choice symmetric_components[] = {
     {"xy", 1, "shear rate, mean of xy and yx"},
     {"xz", 2, "shear rate, mean of xz and zx"},
     {"yz", 5, "shear rate, mean of yz and zy"},
+    {0},
+};
+static const scree_choice symmetric_stresses[] = {
+    {"xx", 0, "normal stress on x"},
+    {"yy", 4, "normal stress on y"},
+    {"zz", 8, "normal stress on z"},
+    {"xy", 1, "shear stress xy"},
+    {"xz", 2, "shear stress xz"},
+    {"yz", 5, "shear stress yz"},
     {0},
 };
 static const scree_choice methods[] = {
@@ -194,8 +210,10 @@ static const scree_key integrator_keys[] = {
 
 typedef scree_config_boundary boundary;
 static const scree_key boundary_keys[] = {
+    CHOICE(boundary, periodic, periodics, .standard = "no", .meaning = "Directions in which the sample repeats."),
     CHOICE(boundary, lateral, laterals, .standard = "pressure",
-           .meaning = "What holds the sides, beside plates below and above, until a stage chooses its `boundary`."),
+           .meaning = "What holds the sides, beside plates below and above, until a stage chooses its `boundary`. Not "
+                      "asked for where the sample is periodic."),
     INTEGER(boundary, every, .standard = "250", FROM("1"), TO("1e9"),
             .meaning =
                 "Steps between two updates of the Delaunay boundary; with two_timescales steps of N_S small ones."),
@@ -279,12 +297,16 @@ static const scree_key deform_keys[] = {
     STAGE_HEAD,
     TENSOR(stage, velocity_gradient, components, "1/s", FROM("-1e6 1/s"), TO("1e6 1/s"),
            .meaning = "Prescribed components of the velocity gradient, e.g. {xy: 5e-3 1/s, yx: 0}; extension positive; "
-                      "the others are free."),
+                      "the others are free, in a periodic cell zero."),
     TENSOR(stage, strain_rate, symmetric_components, "1/s", FROM("-1e6 1/s"), TO("1e6 1/s"),
            .meaning = "Prescribed components of its symmetric part, e.g. {xy: 5e-3 1/s}; rotations stay free."),
-    NUMBER(stage, strain, "1", ABOVE("0 %"), TO("1000 %"),
+    TENSOR(stage, stress, symmetric_stresses, "Pa", FROM("-1000 GPa"), TO("1000 GPa"),
            .meaning =
-               "The stage ends when the largest prescribed component has reached this, measured on the boundary."),
+               "Stresses that a periodic cell holds by the same component of its velocity gradient, e.g. {yy: 100 "
+               "kPa}; compression positive, shear stress in the sense of the rate."),
+    NUMBER(stage, strain, "1", ABOVE("0 %"), TO("1000000 %"),
+           .meaning = "The stage ends when the largest prescribed component has reached this, measured on the boundary "
+                      "or the cell."),
     NUMBER(stage, rise_time, "s", .standard = "auto", FROM("0 s"), TO("1e9 s"),
            .meaning = "Time in which the rates are reached; auto: four wave times of the sample."),
     STAGE_BOUNDARY,
@@ -321,11 +343,11 @@ typedef scree_config_measure measure;
 static const scree_key measure_keys[] = {
     INTEGER(measure, samples, .standard = "200", FROM("1"), TO("1e6"),
             .meaning = "Rows of series.csv for each loading stage."),
-    KEY(measure, windows, SCREE_KEY_PAIRS, .unit = "1", .standard = "[]", FROM("0 %"), TO("90 %"),
+    KEY(measure, windows, SCREE_KEY_PAIRS, .unit = "1", .standard = "[]", FROM("0 %"), TO("1000 %"),
         .count_offset = offsetof(measure, window_count), .element_size = sizeof(scree_config_window),
         .meaning = "Windows [from, to] of axial strain over which displacement fluctuations are taken."),
     FLAG(measure, cells, .standard = "yes",
-         .meaning = "Fields of the Delaunay cells in snapshots; shear bands between them."),
+         .meaning = "Fields of the Delaunay cells in snapshots; shear bands between them. Not in periodic samples."),
     NUMBER(measure, band_window, "1", .standard = "1 %", ABOVE("0 %"), TO("90 %"), .when = "cells=yes",
            .meaning = "Shear bands are looked for between snapshots at least this far apart in axial strain."),
 };
@@ -366,9 +388,11 @@ static const scree_section stage_tables[] = {
     TABLE(
         "compress",
         "Shortens the sample along its axis at a constant rate under the pressure reached before: plates approach each "
-        "other, or minimal conditions impose the rate.",
+        "other, or minimal conditions or a periodic cell impose the rate.",
         compress_keys),
-    TABLE("deform", "Imposes components of the velocity gradient on the boundary; needs `minimal` or `affine`.",
+    TABLE("deform",
+          "Imposes components of the velocity gradient on the boundary; needs `minimal`, `affine` or a "
+          "periodic cell.",
           deform_keys),
     TABLE("rotate_particle",
           "Turns one particle at a prescribed spin under the pressure reached before; with `minimal` the sample as a "

@@ -178,28 +178,33 @@ static void read_contacts(scree_hdf5 *run, const char *group, scree_snapshot *sn
 {
     size_t *rows = &snapshot->contact_count;
     double **const point[3] = {&snapshot->contact_x, &snapshot->contact_y, &snapshot->contact_z};
+    double **const branch[3] = {&snapshot->branch_x, &snapshot->branch_y, &snapshot->branch_z};
     *rows = SIZE_MAX;
     snapshot->first = read_column(run, group, "contacts/first", SCREE_FIELD_UINT32, 1, rows);
     snapshot->second = read_column(run, group, "contacts/second", SCREE_FIELD_UINT32, 1, rows);
     snapshot->normal_force = read_column(run, group, "contacts/normal_force", SCREE_FIELD_DOUBLE, 1, rows);
     snapshot->tangential_force = read_column(run, group, "contacts/tangential_force", SCREE_FIELD_DOUBLE, 1, rows);
     read_vectors(run, group, "contacts/point", snapshot->dimension, rows, point);
+    read_vectors(run, group, "contacts/branch", snapshot->dimension, rows, branch);
 }
 
-/// Walls, through the table of members: they are read into an otherwise empty state.
-static void read_walls(scree_hdf5 *run, const char *group, scree_snapshot *snapshot)
+/// Walls and cell, through the table of members: they are read into an otherwise empty state.
+static void read_members(scree_hdf5 *run, const char *group, scree_snapshot *snapshot)
 {
-    scree_state walls = {0};
+    scree_state members = {.dimension = 2};
     for (size_t k = 0; k < scree_member_count && !run->status; k++) {
         const scree_field *field = &scree_members[k];
-        if (field->rows != SCREE_ROWS_WALLS) continue;
-        size_t rows = SCREE_WALL_COUNT;
-        scree_array array = scree_array_of_field(&walls, field);
-        array.data = read_column(run, group, field->name, field->type, field->components, &rows);
-        if (!run->status) scree_array_to_field(&array, field, &walls);
+        bool wanted = field->rows == SCREE_ROWS_WALLS || (field->rows == SCREE_ROWS_ONE && field->snapshot);
+        if (!wanted) continue;
+        scree_array array = scree_array_of_field(&members, field);
+        scree_hdf5_read(run, group, &array);
+        if (!run->status && array.rows != scree_field_rows_count(&members, field))
+            scree_hdf5_damaged(run, "it has another number of walls");
+        if (!run->status) scree_array_to_field(&array, field, &members);
         scree_array_destroy(&array);
     }
-    memcpy(snapshot->wall, walls.wall, sizeof walls.wall);
+    memcpy(snapshot->wall, members.wall, sizeof members.wall);
+    snapshot->periodic = members.periodic;
 }
 
 /// The sheet of a membrane, where there is one.
@@ -255,7 +260,7 @@ scree_status scree_snapshot_read(const char *directory, size_t which, scree_snap
         snapshot->loop_count = SIZE_MAX;
         snapshot->loop = read_column(&run, group, "boundary/id", SCREE_FIELD_UINT32, 1, &snapshot->loop_count);
     }
-    read_walls(&run, group, snapshot);
+    read_members(&run, group, snapshot);
     read_sheet(&run, group, snapshot);
     check_ids(&run, snapshot);
     status = scree_hdf5_close(&run);
@@ -282,7 +287,10 @@ void scree_snapshot_destroy(scree_snapshot *snapshot)
                             &snapshot->contact_y,
                             &snapshot->z,
                             &snapshot->vz,
-                            &snapshot->contact_z};
+                            &snapshot->contact_z,
+                            &snapshot->branch_x,
+                            &snapshot->branch_y,
+                            &snapshot->branch_z};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
     *snapshot = (scree_snapshot){0};
 }

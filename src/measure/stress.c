@@ -23,6 +23,7 @@
 #include "measure/facets.h"
 #include "measure/hull.h"
 #include "measure/outline.h"
+#include "state/periodic.h"
 
 #include <math.h>
 
@@ -156,6 +157,10 @@ static bool has_plates(const scree_state *state, int axis)
 
 void scree_stress_from_plates(const scree_model *model, const scree_state *state, double stress[9])
 {
+    if (scree_periodic_is_whole(state)) {
+        scree_periodic_stress(model, state, stress);
+        return;
+    }
     pressure_sum pressure = sum_pressure(model, state, state->pressure);
     const scree_wall *wall = state->wall;
     for (int w = 0; w < SCREE_WALL_COUNT; w++)

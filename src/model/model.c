@@ -40,6 +40,11 @@ int scree_model_particle_material(const scree_model *model)
     return -1;
 }
 
+bool scree_model_is_wholly_periodic(const scree_model *model)
+{
+    return model->config->boundary.periodic == (1 << model->dimension) - 1;
+}
+
 static double shear_modulus(const scree_config_material *m)
 {
     return m->young_modulus / (2 * (1 + m->poisson_ratio));
@@ -220,6 +225,14 @@ static double mean_mass(const scree_model *model, int material)
     return at_ends / 3 + scree_model_mass(model, material, (a + b) / 2) * 2 / 3;
 }
 
+double scree_held_pressure(const scree_config_stage *stage)
+{
+    if (stage->kind == SCREE_STAGE_CONFINE) return stage->pressure;
+    double largest = NAN;
+    for (int k = 0; k < 9 && stage->kind == SCREE_STAGE_DEFORM; k += 4) largest = fmax(largest, stage->stress[k]);
+    return largest;
+}
+
 double scree_model_loading_rate(const scree_config_stage *stage)
 {
     if (stage->kind == SCREE_STAGE_COMPRESS) return fabs(stage->rate);
@@ -232,8 +245,8 @@ double scree_model_loading_rate(const scree_config_stage *stage)
     return rate;
 }
 
-/// Reference velocity, phi and psi: those of the first loading stage under the pressure of the last confine stage
-/// before it.
+/// Reference velocity, phi and psi: those of the first loading stage under the pressure that it holds or that of the
+/// last confine stage before it.
 static scree_status resolve_loading(scree_model *model, scree_error *error)
 {
     const scree_config *config = model->config;
@@ -244,7 +257,7 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
             scree_status status = check_prepare(model, i, error);
             if (status) return status;
         }
-        if (stage->kind == SCREE_STAGE_CONFINE) pressure = stage->pressure;
+        if (scree_held_pressure(stage) > 0) pressure = scree_held_pressure(stage);
         rate = scree_model_loading_rate(stage);
     }
     model->reference_velocity = config->contact.reference_velocity;
@@ -254,7 +267,7 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
                            "hertz_brilliantov needs a reference slip velocity: without a loading stage (2 rate <R>) "
                            "give contact.reference_velocity");
     model->phi = model->psi = NAN;
-    if (isnan(rate)) return SCREE_OK;
+    if (isnan(rate) || isnan(pressure)) return SCREE_OK;
     double mass = mean_mass(model, scree_model_particle_material(model));
     scree_quasistatic_numbers(model->dimension, (double)config->particles.count, mass, model->mean_radius,
                               model->thickness, rate, pressure, &model->phi, &model->psi);

@@ -56,6 +56,12 @@ typedef struct scree_model {
 /// exist.
 scree_status scree_model_build(const scree_config *config, scree_model *model, scree_error *error) SCREE_MUST_USE;
 
+/// The sample is periodic in all directions of space.
+bool scree_model_is_wholly_periodic(const scree_model *model);
+
+/// Largest normal stress that a stage holds [Pa, compression positive], NAN when it holds none.
+double scree_held_pressure(const scree_config_stage *stage);
+
 /// Whether the law looks ahead by a step and needs scree_state_foresee.
 static inline bool scree_model_foresees(const scree_model *model)
 {

@@ -96,7 +96,7 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
     const scree_model *model = &s->stage_model;
     scree_cells cells = {0};
     scree_status status = SCREE_OK;
-    if (s->model.config->measure.cells) {
+    if (s->model.config->measure.cells && !s->state.periodic.directions) {
         status = scree_cells_measure(model, &s->state, &s->table, &cells, error);
         // A few bodies, or bodies on a line, have no triangulation and so no cells.
         if (!status) info.cells = &cells;

@@ -238,14 +238,16 @@ static scree_status summarise_stage(const scree_simulation *s, const scree_serie
 {
     const scree_config *config = s->model.config;
     int64_t last = config->stage_count - 1;
-    const scree_stage *stage = scree_stage_get((scree_stage_kind)config->stages[last].kind);
+    const scree_stage *stage =
+        scree_stage_get((scree_stage_kind)config->stages[last].kind, scree_model_is_wholly_periodic(&s->model));
     loading l;
     if (s->state.stage.index < last || s->state.count == 0 || !stage->loading) return SCREE_OK;
     summarise_cost(s, summary);
     if (stage == &scree_stage_rotate && find_rows(series, &l)) summarise_rotation(s, &l, summary);
     bool plates = scree_boundary_has_plates(scree_boundary_get(scree_config_boundary_of(config, last)));
     bool strained = !isnan(scree_model_loading_rate(&config->stages[last]));
-    return strained && !plates ? summarise_shape(s, summary, error) : SCREE_OK;
+    bool cornered = strained && !plates && !s->state.periodic.directions;
+    return cornered ? summarise_shape(s, summary, error) : SCREE_OK;
 }
 
 scree_status scree_results_write(const scree_recorder *recorder, scree_simulation *s, scree_status status,
@@ -262,7 +264,7 @@ scree_status scree_results_write(const scree_recorder *recorder, scree_simulatio
         summarise_series(&series, s->state.ledger.turnover + s->state.ledger.initial, summary);
         result = summarise_stage(s, &series, summary, error);
     }
-    if (!result && s->model.config->measure.cells)
+    if (!result && s->model.config->measure.cells && !s->state.periodic.directions)
         result = scree_cell_results_write(recorder->directory, s->model.config, &series, summary, error);
     if (!result) result = scree_collide_results(s, summary, error);
     if (!result) result = scree_rotation_results(recorder->directory, s, summary, error);

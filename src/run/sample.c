@@ -6,6 +6,7 @@
 #include "measure/facets.h"
 #include "measure/measure.h"
 #include "run/guard.h"
+#include "state/periodic.h"
 
 #include <math.h>
 
@@ -70,14 +71,20 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
     [SCREE_SAMPLE_ENERGY_RESIDUAL] = {"energy_residual", "J", "what the energy balance leaves open"},
     [SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE] = {"energy_residual_relative", "1", "the same over the work done"},
     [SCREE_SAMPLE_HEIGHT] = {"height", "m",
-                             "distance of bottom and top plate, or height as the Delaunay boundary is strained"},
+                             "distance of bottom and top plate or of the faces of the periodic cell, or height as the "
+                             "Delaunay boundary is strained"},
     [SCREE_SAMPLE_AREA] = {"area", "m2",
-                           "area of the sample between plates and Delaunay boundary; in 3D its mean section"},
-    [SCREE_SAMPLE_VOLUME] = {"volume", "m3", "volume of the sample between plates and Delaunay boundary"},
+                           "area of the sample between plates and Delaunay boundary, or of the periodic cell; in 3D "
+                           "its mean section"},
+    [SCREE_SAMPLE_VOLUME] = {"volume", "m3",
+                             "volume of the sample between plates and Delaunay boundary, or of the periodic cell"},
     [SCREE_SAMPLE_MEMBRANE_VOLUME] = {"membrane_volume", "m3",
                                       "volume between the plates inside a membrane, through the centres of its bodies; "
                                       "not a number without one"},
     [SCREE_SAMPLE_BOUNDARY_COUNT] = {"boundary_count", "1", "particles on the Delaunay boundary"},
+    [SCREE_SAMPLE_WORK_PERIODIC] = {"work_periodic", "J", "work of the deforming periodic cell"},
+    [SCREE_SAMPLE_SHEAR_RATIO] = {"shear_ratio", "1",
+                                  "shear stress over axial normal stress from contacts, in a periodic cell"},
 };
 
 static void sample_strain(const scree_simulation *s, double *value)
@@ -121,6 +128,8 @@ static void sample_stress(const scree_simulation *s, double *value)
     value[SCREE_SAMPLE_LATERAL_CONTACTS] = -lateral_of(s, contacts);
     value[SCREE_SAMPLE_SHEAR_CONTACTS] = 0.5 * (contacts[shear] + contacts[3 * shear]);
     value[SCREE_SAMPLE_STRESS_RATIO_CONTACTS] = contacts[axial] / lateral_of(s, contacts);
+    if (scree_periodic_is_whole(&s->state))
+        value[SCREE_SAMPLE_SHEAR_RATIO] = value[SCREE_SAMPLE_SHEAR_CONTACTS] / value[SCREE_SAMPLE_AXIAL_CONTACTS];
 }
 
 static scree_status sample_structure(const scree_simulation *s, double *value, scree_error *error)
@@ -155,6 +164,7 @@ static void sample_energy(const scree_simulation *s, double *value)
     value[SCREE_SAMPLE_STIFFNESS_WORK] = ledger->stiffness;
     value[SCREE_SAMPLE_WORK_PLATES] = ledger->plates;
     value[SCREE_SAMPLE_WORK_PRESSURE] = ledger->pressure;
+    value[SCREE_SAMPLE_WORK_PERIODIC] = ledger->periodic;
     value[SCREE_SAMPLE_WORK_BOUNDARY] = ledger->boundary;
     value[SCREE_SAMPLE_ELASTIC_MEMBRANE] = scree_membrane_energy(&s->stage_model, &s->state);
     value[SCREE_SAMPLE_WORK_GRAVITY] = energy.gravity;

@@ -17,6 +17,8 @@
 /// state->contact and about 150 a disc, 250 a sphere, for cells and buffers, which only small samples keep.
 #include "search/neighbours.h"
 
+#include "base/matrix.h"
+#include "search/ghosts.h"
 #include "search/search.h"
 
 #include <float.h>
@@ -35,6 +37,7 @@ void scree_neighbours_invalidate(scree_work *work)
 
 typedef struct displacement_task {
     const scree_state *state;
+    const double *deformation;
     double square[SCREE_TEAM_MOST];
 } displacement_task;
 
@@ -45,20 +48,22 @@ static void displacement_share(void *argument, int index, int count)
     double largest = 0;
     size_t end = scree_team_begin(state->count, index + 1, count);
     for (size_t k = scree_team_begin(state->count, index, count); k < end; k++) {
-        const double *then = state->rebuild[k];
-        double dx = state->row[k].x - then[0], dy = state->row[k].y - then[1];
-        double dz = state->dimension == 3 ? state->row[k].z - then[2] : 0;
-        double square = dx * dx + dy * dy + dz * dz;
+        scree_vector now, then;
+        scree_body_place(state, k, now);
+        scree_matrix_apply(task->deformation, state->rebuild[k], then);
+        double square = 0;
+        for (int i = 0; i < 3; i++) square += (now[i] - then[i]) * (now[i] - then[i]);
         square = square <= DBL_MAX ? square : (double)INFINITY;
         largest = square > largest ? square : largest;
     }
     task->square[index] = largest;
 }
 
-/// Largest displacement of a body since the last rebuild [m]; infinite if a position is not finite.
-static double largest_displacement(const scree_state *state, scree_work *work)
+/// Largest displacement of a body since the last rebuild [m], relative to the affine field that follows a periodic
+/// cell; infinite if a position is not finite.
+static double largest_displacement(const scree_state *state, const double deformation[9], scree_work *work)
 {
-    displacement_task task = {.state = state};
+    displacement_task task = {.state = state, .deformation = deformation};
     const int shares = scree_work_shares(work);
     scree_team_run(&work->team, shares, displacement_share, &task);
     double largest = 0;
@@ -205,6 +210,15 @@ static void list_pairs(scree_search *search, scree_pair_list *pairs, bool touchi
     }
 }
 
+/// Puts the pairs with images into the list from number `at` on.
+static void list_image_pairs(const scree_pair_buffer *from, scree_pair_list *pairs, size_t at)
+{
+    for (size_t k = 0; k < from->count; k++, at++) {
+        pairs->first[at] = from->pair[k].first;
+        pairs->second[at] = from->pair[k].second;
+    }
+}
+
 static void list_wall_pairs(const scree_search *search, scree_wall_pair_list *walls)
 {
     size_t at = 0;
@@ -238,7 +252,9 @@ static void attach_share(void *argument, int index, int count)
     const list_arrays of_pairs = arrays_of_pairs(pairs);
     size_t end = scree_team_begin(pairs->count, index + 1, count);
     for (size_t k = scree_team_begin(pairs->count, index, count); k < end; k++) {
-        uint32_t first = pairs->first[k], second = pairs->second[k], lower = first < second ? first : second;
+        uint32_t first = scree_parent_row(state, task->work, pairs->first[k]);
+        uint32_t second = scree_parent_row(state, task->work, pairs->second[k]),
+                 lower = first < second ? first : second;
         attach_rows(state, &of_pairs, k,
                     scree_history_find(task->work->search, state, lower, state->id[first], state->id[second]));
     }
@@ -273,7 +289,7 @@ static scree_status assemble(const scree_model *model, scree_state *state, scree
     scree_search *search = work->search;
     scree_pair_list *pairs = &work->pairs;
     scree_wall_pair_list *walls = &work->wall_pairs;
-    size_t touching = 0, near = 0, wall = 0;
+    size_t touching = search->images.touching.count, near = search->images.near.count, wall = 0;
     for (int c = 0; c < search->chunks; c++) {
         touching += search->chunk[c].touching.count;
         near += search->chunk[c].near.count;
@@ -289,11 +305,26 @@ static scree_status assemble(const scree_model *model, scree_state *state, scree
     pairs->touching_count = touching;
     walls->count = wall;
     list_pairs(search, pairs, true, 0);
+    list_image_pairs(&search->images.touching, pairs, touching - search->images.touching.count);
     list_pairs(search, pairs, false, touching);
+    list_image_pairs(&search->images.near, pairs, touching + near - search->images.near.count);
     list_wall_pairs(search, walls);
     attach_histories(state, work);
     pad_list(state, &of_pairs, pairs->count);
     pad_list(state, &of_walls, walls->count);
+    return SCREE_OK;
+}
+
+/// The velocities that boundary/periodic.c keeps beside the rows go with them.
+static scree_status permute_relative(scree_work *work, size_t count, scree_error *error)
+{
+    scree_vector *moved;
+    if (work->relative_capacity < count || count == 0) return SCREE_OK;
+    scree_status status = scree_allocate(&moved, work->relative_capacity, sizeof *moved, error);
+    if (status) return status;
+    for (size_t k = 0; k < count; k++) memcpy(moved[k], work->relative[work->search->grid.order[k]], sizeof *moved);
+    scree_release(&work->relative);
+    work->relative = moved;
     return SCREE_OK;
 }
 
@@ -329,7 +360,7 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     if (status) return status;
     search->listed = false;
     search->bodies = state->count;
-    work->pairs.count = work->pairs.touching_count = work->wall_pairs.count = 0;
+    work->pairs.count = work->pairs.touching_count = work->wall_pairs.count = work->ghosts.count = 0;
     if (state->count >= LARGE) scree_pair_lists_destroy(work);
 
     scree_cell_grid_fit(&search->grid, state, work->skin);
@@ -338,10 +369,13 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
         work->flagged_id = search->grid.odd_id;
     }
     status = scree_cell_grid_order(&search->grid, state, error);
+    if (!status) status = permute_relative(work, state->count, error);
     if (!status) status = scree_state_permute(state, search->grid.order, error);
     if (!status) status = scree_cell_grid_fill(&search->grid, state, error);
     if (!status) status = scree_histories_index(search, state, error);
     if (!status) status = search_pairs(state, work, error);
+    if (!status) status = scree_ghosts_make(state, work, error);
+    if (!status) status = scree_ghosts_search(state, work, &search->images, error);
     if (!status) status = assemble(model, state, work, error);
     if (status) return status;
 
@@ -354,14 +388,29 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     return SCREE_OK;
 }
 
+/// Looks at the displacements when the budget is used up. What a periodic cell has been compressed or sheared by brings
+/// bodies nearer too: by at most |F - 1| times the width of a list that still has all of its skin.
+static scree_status check_list(const scree_model *model, scree_state *state, scree_work *work, scree_error *error)
+{
+    double deformation[9], change[9], shrunk = 0;
+    scree_matrix_unit(deformation);
+    if (state->periodic.directions) {
+        scree_ghosts_deformation(state, work, deformation);
+        for (int k = 0; k < 9; k++) change[k] = deformation[k] - (k % 4 == 0);
+        shrunk = scree_matrix_norm(change) * (work->ghosts.largest_radius + 0.5 * work->skin);
+    }
+    double moved = largest_displacement(state, deformation, work) + shrunk;
+    if (!(moved < half_skin(work))) return rebuild(model, state, work, error);
+    work->budget = half_skin(work) - moved;
+    return SCREE_OK;
+}
+
 scree_status scree_neighbours_refresh(const scree_model *model, scree_state *state, scree_work *work,
                                       scree_error *error)
 {
     if (!work->valid || work->search->bodies != state->count || walls_need_rebuild(state, work))
         return rebuild(model, state, work, error);
-    if (work->budget >= 0) return SCREE_OK;
-    double moved = largest_displacement(state, work);
-    if (!(moved < half_skin(work))) return rebuild(model, state, work, error);
-    work->budget = half_skin(work) - moved;
-    return SCREE_OK;
+    scree_status status = work->budget >= 0 ? SCREE_OK : check_list(model, state, work, error);
+    if (!status && work->ghosts.count > 0) scree_ghosts_place(state, work);
+    return status;
 }

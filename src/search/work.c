@@ -38,11 +38,14 @@ void scree_work_destroy(scree_work *work)
     if (search) {
         for (int c = 0; c < search->chunks; c++) scree_pair_chunk_destroy(&search->chunk[c]);
         scree_release(&search->chunk);
+        scree_pair_chunk_destroy(&search->images);
         scree_cell_grid_destroy(&search->grid);
         scree_release(&search->entry_begin);
         scree_release(&search->entry);
     }
     scree_release(&work->search);
+    scree_release(&work->ghosts.ghost);
+    scree_release(&work->relative);
     scree_pair_lists_destroy(work);
     memset(work, 0, sizeof *work);
 }

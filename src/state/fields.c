@@ -93,6 +93,12 @@ const size_t scree_field_count = sizeof scree_fields / sizeof *scree_fields;
             .array_offset = offsetof(scree_state, member), .stride = sizeof(((scree_state *)0)->member), .offset = 0,  \
             .rows = SCREE_ROWS_ONE                                                                                     \
     }
+#define PERIODIC(name_, type_, components_, unit_, member, meaning_)                                                       \
+    {                                                                                                                  \
+        "periodic/" name_, type_, components_, unit_, SCREE_FIELD_STATE, true, meaning_,                                   \
+            .array_offset = offsetof(scree_state, periodic.member), .stride = sizeof(((scree_state *)0)->periodic.member),     \
+            .offset = 0, .rows = SCREE_ROWS_ONE                                                                        \
+    }
 
 const scree_field scree_members[] = {
     CONTACT("first", SCREE_FIELD_UINT32, 1, "1", first, "id of the first body"),
@@ -182,6 +188,19 @@ const scree_field scree_members[] = {
 
     ONE("scalars/hull_updated", SCREE_FIELD_UINT64, 1, "1", hull.updated, "step at which the hull was last found"),
 
+    PERIODIC("lattice", SCREE_FIELD_DOUBLE, 9, "m", lattice,
+         "lattice vectors of the periodic cell as columns, 3 x 3 by rows; unit vectors where it is not periodic"),
+    PERIODIC("reference", SCREE_FIELD_DOUBLE, 9, "m", reference,
+         "the same lattice vectors at the start of the loading stage"),
+    PERIODIC("gradient", SCREE_FIELD_DOUBLE, 9, "1/s", gradient,
+         "velocity gradient of the last step, 3 x 3 by rows, extension positive"),
+    PERIODIC("drift", SCREE_FIELD_DOUBLE, 9, "1/s", drift, "running mean of the velocity gradient, for the servo"),
+    PERIODIC("strain", SCREE_FIELD_DOUBLE, 9, "1", strain, "integral of the velocity gradient over time"),
+    PERIODIC("virial", SCREE_FIELD_DOUBLE, 9, "J", virial, "sum over contacts of force on the first (x) branch"),
+    PERIODIC("motion", SCREE_FIELD_DOUBLE, 9, "J", motion,
+         "sum over bodies of mass velocity (x) velocity, relative to the affine field"),
+    PERIODIC("directions", SCREE_FIELD_UINT64, 1, "1", directions, "periodic directions: 1 x, 2 y, 4 z, added up"),
+
     ONE("strain/gradient", SCREE_FIELD_DOUBLE, 9, "1", strain.gradient,
         "displacement gradient accumulated from the boundary, 3 x 3 by rows, extension positive"),
 
@@ -196,6 +215,7 @@ const scree_field scree_members[] = {
         "energy put into tangential springs by the change of their stiffness"),
     ONE("ledger/plates", SCREE_FIELD_DOUBLE, 1, "J", ledger.plates, "work of the walls on the bodies"),
     ONE("ledger/pressure", SCREE_FIELD_DOUBLE, 1, "J", ledger.pressure, "work of the pressure on the bodies"),
+    ONE("ledger/periodic", SCREE_FIELD_DOUBLE, 1, "J", ledger.periodic, "work of the deforming periodic cell on the bodies"),
     ONE("ledger/boundary", SCREE_FIELD_DOUBLE, 1, "J", ledger.boundary,
         "work of the other forces of the boundary on the bodies"),
     ONE("ledger/forced", SCREE_FIELD_DOUBLE, 1, "J", ledger.forced,

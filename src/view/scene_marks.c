@@ -136,8 +136,8 @@ double scree_scene_force_width(const scree_scene_view *view, double ratio)
     return fmax(0.1, fmin(ratio, SCREE_SCENE_FORCE_LIMIT) * SCREE_SCENE_FORCE_WIDTH * diameter);
 }
 
-/// Where the line of a contact ends: the centre of the other disc, or the contact point on a wall. False: not to be
-/// drawn.
+/// Where the line of a contact ends: the centre of the other disc (of its image in a periodic cell), or the contact
+/// point on a wall. False: not to be drawn.
 static bool contact_end(const scree_snapshot *s, size_t k, double *x, double *y)
 {
     if (s->first[k] >= s->count || !scree_scene_drawn(s, s->first[k])) return false;
@@ -147,9 +147,9 @@ static bool contact_end(const scree_snapshot *s, size_t k, double *x, double *y)
         return isfinite(*x) && isfinite(*y);
     }
     if (s->second[k] >= s->count || !scree_scene_drawn(s, s->second[k])) return false;
-    *x = s->x[s->second[k]];
-    *y = s->y[s->second[k]];
-    return true;
+    *x = s->x[s->first[k]] - s->branch_x[k];
+    *y = s->y[s->first[k]] - s->branch_y[k];
+    return isfinite(*x) && isfinite(*y);
 }
 
 static int width_level(const scree_scene_view *view, double force)
@@ -215,6 +215,22 @@ static void draw_plates(const scree_scene_view *view, cairo_t *cairo)
     }
 }
 
+/// Edges of the periodic cell.
+static void draw_periodic_edges(const scree_scene_view *view, cairo_t *cairo)
+{
+    if (view->periodic.count == 0) return;
+    for (size_t k = 0; k < view->periodic.count; k++) {
+        const double(*edge)[2] = view->periodic.end[k];
+        cairo_move_to(cairo, scree_scene_x(view, edge[0][0]), scree_scene_y(view, edge[0][1]));
+        cairo_line_to(cairo, scree_scene_x(view, edge[1][0]), scree_scene_y(view, edge[1][1]));
+    }
+    cairo_set_dash(cairo, (const double[]){4, 2.5}, 2, 0);
+    cairo_set_line_width(cairo, 0.9);
+    scree_page_colour(cairo, scree_scene_boundary);
+    cairo_stroke(cairo);
+    cairo_set_dash(cairo, NULL, 0, 0);
+}
+
 void scree_scene_arrow(const scree_scene_view *view, cairo_t *cairo, double x, double y, double dx, double dy)
 {
     double length = hypot(dx, dy);
@@ -268,6 +284,7 @@ void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo)
             draw_spheres(view, cairo);
         draw_net(view, cairo, true);
         draw_plate_in_space(view, cairo, 1);
+        draw_periodic_edges(view, cairo);
         return;
     }
     draw_plates(view, cairo);
@@ -277,6 +294,7 @@ void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo)
         draw_discs(view, cairo);
     draw_membrane(view, cairo);
     draw_boundary(view, cairo);
+    draw_periodic_edges(view, cairo);
     draw_network(view, cairo);
     draw_arrows(view, cairo);
 }

@@ -142,6 +142,7 @@ static void no_member_of_the_state_is_missing(void **unused)
     EXCEPT(drive.capacity);
     EXCEPT(membrane.count);
     EXCEPT(membrane.capacity);
+    EXCEPT(row_capacity);
     EXCEPT(booking); // beside `contact`
     EXCEPT(rolling);
     EXCEPT(foreseen);  // made anew in every step

@@ -170,7 +170,6 @@ static void restart_gives_the_same_bits(void **unused)
         assert_true(read_number(whole, "loading_wall_time") == time);
         scree_case_free(c);
     }
-    char command[128];
     scratch_destroy(folder);
 }
 
