@@ -311,7 +311,7 @@ static void strain_windows_come_from_the_case(void **state)
     assert_non_null(strstr(r.text, "distortion-00-05.svg"));
     assert_int_equal(unlink("windows/case.yaml"), 0);
     assert_int_equal(plot("windows", &r, &error), SCREE_ERROR_IO);
-    assert_int_equal(r.drawn, 9);
+    assert_int_equal(r.drawn, 11);
 }
 
 static void no_run_is_an_error(void **state)
