@@ -200,6 +200,9 @@ static void check_pair(scree_reader *reader, const scree_config *config)
     scree_place place = place_of(scree_node_find(reader->root, "particles"), "count", &text);
     if (config->particles.count != 2)
         scree_problem_add(reader, place, "particles.count", text, "2", "a pair is two particles");
+    place = place_of(scree_node_find(reader->root, "boundary"), "periodic", &text);
+    if (config->boundary.periodic > 0)
+        scree_problem_add(reader, place, "boundary.periodic", text, "none", "two particles that collide have no cell");
     place = place_of(reader->root, "gravity", &text);
     if (config->gravity[0] != 0 || config->gravity[1] != 0 || config->gravity[2] != 0)
         scree_problem_add(reader, place, "gravity", NULL, "0",

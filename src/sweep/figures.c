@@ -34,6 +34,13 @@ static double axis_label(char label[LABEL], const char *name, const char *unit)
     return percent ? 100 : 1;
 }
 
+/// Unit of a named result: those of summary.json are numbers or SI.
+static const char *unit_of(const char *name)
+{
+    const char *tail = strstr(name, "_time");
+    return tail && strcmp(tail, "_time") == 0 ? "s" : NULL;
+}
+
 /// Labels are plain text: what gnuplot's enhanced text would interpret is escaped.
 static void plain(char label[LABEL], const char *text)
 {
@@ -188,6 +195,7 @@ static bool is_theory(const scree_sweep *sweep, size_t k)
 static void contrast(scree_chart_line *simulation, scree_chart_line *theory)
 {
     simulation->points = simulation->bare = true;
+    simulation->colour = 1;
     simulation->label = "simulation";
     theory->label = "closed form";
     theory->points = theory->bare = false;
@@ -219,6 +227,7 @@ static void draw_measure(const scree_sweep_results *results, size_t k, size_t di
     sheet s[MOST_LINES] = {0};
     scree_error error;
     size_t count = 0, lines = sweep->point_count / d->count;
+    bool several = sweep->realisations > 1;
     if (lines > MOST_LINES) lines = MOST_LINES;
     for (size_t point = 0; point < sweep->point_count && count < MOST_LINES; point++) {
         if (scree_point_setting(sweep, point, dimension) != 0 || take_sheet(&s[count], d->count, &error)) continue;
@@ -227,8 +236,8 @@ static void draw_measure(const scree_sweep_results *results, size_t k, size_t di
         plain(label[count], text);
         line[count] = (scree_chart_line){.x = s[count].x,
                                          .y = s[count].y,
-                                         .low = s[count].low,
-                                         .high = s[count].high,
+                                         .low = several ? s[count].low : NULL,
+                                         .high = several ? s[count].high : NULL,
                                          .count = d->count,
                                          .label = text[0] ? label[count] : NULL,
                                          .points = true,
@@ -238,15 +247,16 @@ static void draw_measure(const scree_sweep_results *results, size_t k, size_t di
     size_t theory = theory_of(sweep, k);
     if (count == 1 && theory < sweep->measure_count && !take_sheet(&s[1], d->count, &error)) {
         trace(results, theory, dimension, 0, 0, &s[1]);
+        // The curve first: the points lie on it.
         line[1] = line[0];
-        line[1].x = s[1].x;
-        line[1].y = s[1].y;
-        contrast(&line[0], &line[1]);
+        line[0].x = s[1].x;
+        line[0].y = s[1].y;
+        contrast(&line[1], &line[0]);
         count++;
     }
     for (size_t i = 0; i < d->count && i < 1000; i++) names[i] = d->setting[i].label;
     (void)axis_label(x_label, d->name, axis ? axis->unit : NULL);
-    (void)axis_label(y_label, sweep->measure[k], NULL);
+    (void)axis_label(y_label, sweep->measure[k], unit_of(sweep->measure[k]));
     scree_chart chart = {.title = title_of(sweep),
                          .x_label = x_label,
                          .y_label = y_label,
@@ -299,11 +309,12 @@ static void draw_relation(const scree_sweep_results *results, const char *name_x
                                  .points = true}};
     if (theory && !take_sheet(&s[1], sweep->point_count, &error)) {
         relate(results, other_x, other_y, &s[1]);
-        line[1] = (scree_chart_line){.x = s[1].x, .y = s[1].y, .count = sweep->point_count};
-        contrast(&line[0], &line[1]);
+        line[1] = line[0];
+        line[0] = (scree_chart_line){.x = s[1].x, .y = s[1].y, .count = sweep->point_count};
+        contrast(&line[1], &line[0]);
     }
-    (void)axis_label(x_label, name_x, NULL);
-    (void)axis_label(y_label, name_y, NULL);
+    (void)axis_label(x_label, name_x, unit_of(name_x));
+    (void)axis_label(y_label, name_y, unit_of(name_y));
     scree_chart chart = {
         .title = title_of(sweep), .x_label = x_label, .y_label = y_label, .line = line, .line_count = s[1].x ? 2 : 1};
     (void)snprintf(name, sizeof name, "%s-over-%s", name_y, name_x);

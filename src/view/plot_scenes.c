@@ -13,7 +13,7 @@
 /// Axial strain, as in run/results.c.
 #define PEAK_WINDOW 0.01
 
-enum { WHEN_START, WHEN_PEAK, WHEN_END };
+enum { WHEN_START, WHEN_PEAK, WHEN_WINDOW, WHEN_END }; // WHEN_WINDOW: in the middle of the first strain window
 enum { FIELD_NONE, FIELD_ROTATION, FIELD_SPIN, FIELD_SPIN_MAGNITUDE, FIELD_SPEED, FIELD_DISPLACEMENT };
 enum { VIEW_PLANE, VIEW_SPACE, VIEW_SECTION }; // VIEW_PLANE is for discs, the others for spheres
 
@@ -45,10 +45,14 @@ static const struct scene_entry {
     {"spin-end", "Spin at the end", WHEN_END, .field = FIELD_SPIN},
     {"distortion-rate-peak", "Rate of distortion at the peak of the stress ratio", WHEN_PEAK,
      .cells = SCREE_CELL_DISTORTION_RATE, .threshold = 2},
+    {"distortion-rate-window", "Rate of distortion in the first strain window", WHEN_WINDOW,
+     .cells = SCREE_CELL_DISTORTION_RATE, .threshold = 2},
     {"distortion-rate-end", "Rate of distortion at the end", WHEN_END, .cells = SCREE_CELL_DISTORTION_RATE,
      .threshold = 2},
     {"distortion-rate-colour-end", "Rate of distortion at the end", WHEN_END, .cells = SCREE_CELL_DISTORTION_RATE},
     {"pressure-peak", "Pressure at the peak of the stress ratio", WHEN_PEAK, .cells = SCREE_CELL_PRESSURE,
+     .threshold = 1.75},
+    {"pressure-window", "Pressure in the first strain window", WHEN_WINDOW, .cells = SCREE_CELL_PRESSURE,
      .threshold = 1.75},
     {"pressure-end", "Pressure at the end", WHEN_END, .cells = SCREE_CELL_PRESSURE, .threshold = 1.75},
     {"pressure-colour-end", "Pressure at the end", WHEN_END, .cells = SCREE_CELL_PRESSURE},
@@ -80,6 +84,8 @@ static size_t nearest_snapshot(const scree_plot_run *run, double strain)
 static scree_status find_snapshot(const scree_plot_run *run, int when, size_t *which, scree_error *error)
 {
     *which = end_snapshot(run, when == WHEN_END);
+    if (when == WHEN_WINDOW && run->window_count > 0)
+        *which = nearest_snapshot(run, 0.5 * (run->window[0].from + run->window[0].to));
     if (when != WHEN_PEAK) return SCREE_OK;
     const double *strain = scree_series_get(&run->series, "axial_strain");
     const double *ratio = scree_series_get(&run->series, "stress_ratio");
@@ -276,8 +282,8 @@ void scree_plot_scenes(scree_plot_run *run)
     }
     for (size_t k = 0; k < run->window_count; k++) plot_window(run, run->window[k].from, run->window[k].to);
     scree_error error = {0};
-    size_t peak;
-    scree_status status = find_snapshot(run, WHEN_PEAK, &peak, &error);
-    if (!status) status = scree_plot_circles(run, peak, "pressure-circles", &error);
+    size_t which;
+    scree_status status = find_snapshot(run, WHEN_WINDOW, &which, &error);
+    if (!status) status = scree_plot_circles(run, which, "pressure-circles", &error);
     scree_plot_report(run, "pressure-circles", status, &error);
 }

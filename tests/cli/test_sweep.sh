@@ -67,6 +67,21 @@ same "$(sums one)" "$(sums s)" "checksums with one job and with two"
 expect 0 '' cmp one/curves/stress_ratio-over-axial_strain.csv s/curves/stress_ratio-over-axial_strain.csv
 [ -e one/figures/stress_ratio-over-axial_strain.png ] && complain "figures in spite of --no-figures"
 
+# --- a closed form beside the simulation, and one measure over another
+expect 0 '' "$scree" sweep restitution --quick -o r -q --jobs 2
+for file in restitution-over-damping_time.png relaxation_time-over-restitution.svg; do
+    [ -s "r/figures/$file" ] || complain "no r/figures/$file"
+    grep -q 'closed form' "r/figures/${file%.*}.gp" || complain "no closed form in $file"
+done
+[ -e r/figures/restitution_theory-over-damping_time.png ] && complain "a closed form has a figure of its own"
+awk -F, 'NR > 1 && ($5 / $10 - 1)^2 > 1e-6 { exit 1 }' r/table.csv || complain "restitution is not that of the closed form: $(cat r/table.csv)"
+sed 's/friction, values/friction, quick_values: [0.1, 0.3], names: [a, b], values/' tiny.yaml >quick.yaml
+expect 0 '^001-b-seed=1: .*friction=0.3' "$scree" sweep quick.yaml --dry-run
+sed 's/, names: .a, b.//' quick.yaml >wrong.yaml
+expect 2 "'quick_values' need" "$scree" sweep wrong.yaml --dry-run
+sed 's/^curves.*/relations: [{x: steps, y: peak_stress}]/' tiny.yaml >wrong.yaml
+expect 2 "'peak_stress' is none of the measures" "$scree" sweep wrong.yaml --dry-run
+
 # --- more realisations beside those that are there
 expect 0 '4 of 6 members are done' "$scree" sweep tiny.yaml -o one --realisations 3 --no-figures
 same "$(grep -c ',done,' one/members.csv)" 6

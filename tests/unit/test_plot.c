@@ -199,9 +199,11 @@ static void every_figure_of_a_run_is_drawn(void **state)
                                           "fluctuations-00-03.8",
                                           "fluctuations-11.2-15",
                                           "distortion-rate-peak",
+                                          "distortion-rate-window",
                                           "distortion-rate-end",
                                           "distortion-rate-colour-end",
                                           "pressure-peak",
+                                          "pressure-window",
                                           "pressure-end",
                                           "pressure-colour-end",
                                           "distortion-00-03.8",
@@ -286,7 +288,7 @@ static void run_without_loading_has_its_packing_drawn(void **state)
     scree_status status = plot("few", &r, &error);
     if (status) fail_msg("%s\n%s", error.message, r.text);
     assert_int_equal(r.left_out, 15);
-    assert_int_equal(r.drawn, 9);
+    assert_int_equal(r.drawn, 11);
 }
 
 /// Two snapshots of loading, at 0 and 5 %: the windows that are the default without a case need more of them.
@@ -304,12 +306,12 @@ static void strain_windows_come_from_the_case(void **state)
     fprintf(file, "%.*s%s[[0 %%, 5 %%]]%s", (int)(windows - text), text, key, strchr(windows, '\n'));
     fclose(file);
     assert_int_equal(plot("windows", &r, &error), SCREE_ERROR_IO); // no series.csv
-    assert_int_equal(r.drawn, 11);
+    assert_int_equal(r.drawn, 13);
     assert_non_null(strstr(r.text, "fluctuations-00-05.svg"));
     assert_non_null(strstr(r.text, "distortion-00-05.svg"));
     assert_int_equal(unlink("windows/case.yaml"), 0);
     assert_int_equal(plot("windows", &r, &error), SCREE_ERROR_IO);
-    assert_int_equal(r.drawn, 9);
+    assert_int_equal(r.drawn, 11);
 }
 
 static void no_run_is_an_error(void **state)
@@ -336,7 +338,7 @@ static void scenes_are_drawn_without_gnuplot(void **state)
     free(path);
     assert_non_null(strstr(error.message, "gnuplot"));
     assert_int_equal(r.failed, 9);
-    assert_int_equal(r.drawn, 12);
+    assert_int_equal(r.drawn, 14);
 }
 
 int main(void)
