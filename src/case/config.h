@@ -139,7 +139,9 @@ typedef struct scree_config_stage {
     // rotate_particle
     double spin;      ///< rad/s, that the particle is brought to
     int axis;         ///< scree_axis, about which it turns
-    double hold_time; ///< s, at that spin
+    double particle;  ///< id of the particle; auto: of those near the centre the one that bears most
+    double rest_time; ///< s, before, in which it is held still and the spins that there are anyway are measured
+    double hold_time; ///< s, at that spin, in which the others are measured
     double cutoff;    ///< mean diameters, of the force network around it
     // confine, compress, deform and rotate_particle
     int boundary;    ///< scree_boundary_kind

@@ -68,6 +68,12 @@ enum {
     SCREE_LOADING_OTHERS = 13, ///< free for the stage
 };
 
+/// state.stage.reference of rotate_particle.
+enum {
+    SCREE_ROTATE_BACKGROUND = SCREE_LOADING_OTHERS, ///< 1, spins at rest over the prescribed one; NAN: no rest
+    SCREE_ROTATE_TURN,                              ///< rad, that the particle turns by in the whole stage
+};
+
 /// Plan of a loading stage that lasts `time` [s] at its full rate: samples, rise of the rate, steps.
 scree_stage_plan scree_loading_plan(const scree_simulation *s, double time);
 
