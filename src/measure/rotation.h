@@ -27,6 +27,7 @@ double scree_rotation_mean_amount(const scree_state *state, size_t forced);
 /// Bodies whose distance from the forced one lies in [lower, lower + width).
 typedef struct scree_rotation_bin {
     double lower;          ///< mean diameters
+    double distance;       ///< mean diameters, mean of the bodies'
     double mean;           ///< 1, of the amount of rotation over that of the forced body
     double standard_error; ///< 1, of the mean; NAN with fewer than two bodies
     size_t count;

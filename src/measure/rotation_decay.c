@@ -58,8 +58,10 @@ static void fill_bins(const scree_model *model, const scree_state *state, size_t
         size_t row = state->row_of_id[id];
         if (row == forced || !scree_rotation_counts(state, row)) continue;
         double ratio = scree_rotation_amount(state, row) / driven;
-        size_t b = scree_rotation_bin_at(distance_between(model, state, forced, row));
+        double distance = distance_between(model, state, forced, row);
+        size_t b = scree_rotation_bin_at(distance);
         if (b >= SCREE_ROTATION_BINS) continue;
+        decay->bin[b].distance += distance;
         decay->bin[b].mean += ratio;
         square[b] += ratio * ratio;
         decay->bin[b].count++;
@@ -69,6 +71,7 @@ static void fill_bins(const scree_model *model, const scree_state *state, size_t
         scree_rotation_bin *bin = &decay->bin[b];
         double count = (double)bin->count;
         bin->lower = FIRST + BIN_WIDTH * (double)b;
+        bin->distance = bin->count > 0 ? bin->distance / count : NAN;
         bin->mean = bin->count > 0 ? bin->mean / count : NAN;
         double variance = fmax(0, square[b] / count - bin->mean * bin->mean) * count / (count - 1);
         bin->standard_error = bin->count > 1 ? sqrt(variance / count) : NAN;
@@ -107,7 +110,7 @@ void scree_rotation_decay_measure(const scree_model *model, const scree_state *s
     decay->fitted = last - first;
     decay->reach = last > first ? decay->bin[last - 1].lower + BIN_WIDTH : 0;
     for (size_t b = first; b < last; b++) {
-        x[b - first] = decay->bin[b].lower + 0.5 * BIN_WIDTH;
+        x[b - first] = decay->bin[b].distance;
         y[b - first] = log(decay->bin[b].mean);
         weight[b - first] = (double)decay->bin[b].count;
     }

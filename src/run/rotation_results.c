@@ -29,10 +29,9 @@ static void write_decay(FILE *file, const scree_simulation *s, const findings *f
     fputs("distance [1],rotation_ratio [1],standard_error [1],count [1],fit [1]\n", file);
     for (size_t b = 0; b < decay->bin_count; b++) {
         const scree_rotation_bin *bin = &decay->bin[b];
-        double middle = bin->lower + 0.5 * decay->bin_width;
         if (bin->count > 0)
-            fprintf(file, "%.9g,%.9g,%.9g,%zu,%.9g\n", middle, bin->mean, bin->standard_error, bin->count,
-                    middle < decay->reach ? fitted(decay, middle) : NAN);
+            fprintf(file, "%.9g,%.9g,%.9g,%zu,%.9g\n", bin->distance, bin->mean, bin->standard_error, bin->count,
+                    bin->distance < decay->reach ? fitted(decay, bin->distance) : NAN);
     }
 }
 
