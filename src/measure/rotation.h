@@ -48,12 +48,11 @@ typedef struct scree_rotation_decay {
 } scree_rotation_decay;
 
 /// Shells of one mean diameter around the forced body, the first from half a diameter on (its neighbours), of the
-/// bodies that count. Felt is a mean rotation of at least FELT of that of the forced body (what can be seen in P figure
-/// 4.5, whose axis is linear), and of FLOOR_FACTOR times both `background` (what there is without forcing, over the
-/// forced one; NAN: not known) and the median over the outer half of the shells (what the sample does as a whole).
-/// Reach: the outer edge of the last shell of the unbroken run that feels it. The fit over this run is least squares of
-/// the logarithms of the means, weighted by the counts. forced: row. Errors: none.
-#define SCREE_ROTATION_FELT         0.01
+/// bodies that count. Felt is a mean rotation of at least FLOOR_FACTOR times both `background` (what there is without
+/// forcing, over the forced one; NAN: not known) and the median over the outer half of the shells (what the sample does
+/// as a whole). Reach: the outer edge of the last shell of the unbroken run that feels it. The fit over this run is
+/// least squares of the logarithms of the means, weighted by the counts. forced: row. Errors: none. Source: P figure
+/// 4.5.
 #define SCREE_ROTATION_FLOOR_FACTOR 2.0
 void scree_rotation_decay_measure(const scree_model *model, const scree_state *state, size_t forced, double background,
                                   scree_rotation_decay *decay);

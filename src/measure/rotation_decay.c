@@ -103,7 +103,7 @@ void scree_rotation_decay_measure(const scree_model *model, const scree_state *s
     *decay = (scree_rotation_decay){.bin_width = BIN_WIDTH, .first = FIRST, .amplitude = NAN, .length = NAN};
     decay->length_low = decay->length_high = NAN;
     fill_bins(model, state, forced, decay);
-    decay->limit = fmax(SCREE_ROTATION_FELT, SCREE_ROTATION_FLOOR_FACTOR * fmax(background, far_level(decay)));
+    decay->limit = SCREE_ROTATION_FLOOR_FACTOR * fmax(background, far_level(decay));
     double x[SCREE_ROTATION_BINS], y[SCREE_ROTATION_BINS], weight[SCREE_ROTATION_BINS];
     size_t first, last;
     find_run(decay, &first, &last);

@@ -158,7 +158,7 @@ static void write_line(FILE *file, const scree_chart_line *line, size_t x, size_
             line->bare     ? ""
             : line->dashed ? "(7,4)"
                            : "solid");
-    if (line->points) fprintf(file, " pointtype 7 pointsize %s", line->low ? "1" : "0.5");
+    if (line->points) fprintf(file, " pointtype 7 pointsize %s", line->faint ? "0.22" : line->low ? "1" : "0.5");
     if (line->label) {
         fputs(" title ", file);
         write_quoted(file, line->label);
