@@ -17,7 +17,6 @@
 #include "search/neighbours.h"
 
 #include <math.h>
-#include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -153,9 +152,9 @@ static void make_lattice(sample *s, const char *law, long count)
         row->y = half + spacing * sqrt(0.75) * j;
     }
     double width = spacing * ((double)side + 0.5), height = spacing * (sqrt(0.75) * (double)(side - 1) + 1);
-    const double normal[SCREE_WALL_COUNT][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
-    const double position[SCREE_WALL_COUNT] = {0, -height, 0, -width};
-    for (int w = 0; w < SCREE_WALL_COUNT; w++)
+    const double normal[][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
+    const double position[] = {0, -height, 0, -width};
+    for (int w = 0; w <= SCREE_WALL_RIGHT; w++)
         s->state.wall[w] = (scree_wall){.position = position[w], .normal = {normal[w][0], normal[w][1]}, .active = 1};
     for (int k = 0; k < LATTICE_STEPS; k++) step(s);
 }
@@ -282,7 +281,7 @@ static void bench_cell(const options *o)
         sample s = {0};
         make_cell(&s, laws[law], o->count);
         for (int ledger = 1; ledger >= 0; ledger--)
-            for (int threads = 1; threads <= omp_get_num_procs() && threads <= 4; threads *= 2)
+            for (int threads = 1; threads <= scree_processor_count() && threads <= 4; threads *= 2)
                 print_line(&s, laws[law], threads, ledger, measure(&s, threads, ledger));
         if (law == 0 && o->peer) compare_with_peer(&s, o);
         close_sample(&s);

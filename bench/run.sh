@@ -8,7 +8,6 @@ mkdir -p "$folder"
 peer=()
 if command -v lmp >/dev/null; then peer=(--peer lmp --folder "$folder"); else echo "lmp is not installed: no peer"; fi
 
-export OMP_WAIT_POLICY=active
 for bench in "$build"/bench/bench_*; do
   [ -x "$bench" ] && [ -f "$bench" ] || continue
   echo "== $(basename "$bench")"

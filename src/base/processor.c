@@ -1,6 +1,7 @@
-/// The instruction set that kernels are chosen for, from the features that tell the levels apart.
+/// The instruction set from the features that tell the levels apart; processors from the affinity of the process.
 #include "base/processor.h"
 
+#include <sched.h>
 #include <stdbool.h>
 
 int scree_processor_level(void)
@@ -16,4 +17,10 @@ int scree_processor_level(void)
 #else
     return 0;
 #endif
+}
+
+int scree_processor_count(void)
+{
+    cpu_set_t allowed;
+    return sched_getaffinity(0, sizeof allowed, &allowed) == 0 ? CPU_COUNT(&allowed) : 1;
 }

@@ -12,7 +12,7 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 
-enum { SPINS = 2000, SPINS_BEFORE_YIELD = 20000 };
+enum { SPINS = 2000, SPINS_BEFORE_YIELD = 1000 };
 
 typedef struct member {
     scree_team *team;
@@ -21,7 +21,8 @@ typedef struct member {
 } member;
 
 struct scree_team {
-    int count, started; ///< shares; threads that run, count - 1 when all could be started
+    int count, started; ///< threads with the caller's; those that were started, count - 1 when all could be
+    int shares;         ///< of the present task, at most count
     member members[SCREE_TEAM_MOST];
     scree_team_task *task; ///< NULL: end
     void *argument;
@@ -61,14 +62,15 @@ static void *serve(void *argument)
         }
         if (spins == SPINS) sleep_until_called(team, seen);
         if (!team->task) return NULL;
-        team->task(team->argument, self->index, team->count);
+        if (self->index < team->shares) team->task(team->argument, self->index, team->shares);
         atomic_fetch_sub_explicit(&team->unfinished, 1, memory_order_release);
     }
 }
 
 /// Tells the members that there is something new.
-static void call(scree_team *team, scree_team_task *task, void *argument)
+static void call(scree_team *team, int shares, scree_team_task *task, void *argument)
 {
+    team->shares = shares;
     team->task = task;
     team->argument = argument;
     atomic_store(&team->unfinished, team->started);
@@ -98,7 +100,7 @@ void scree_team_destroy(scree_team **team)
 {
     scree_team *t = *team;
     if (!t) return;
-    call(t, NULL, NULL);
+    call(t, 0, NULL, NULL);
     for (int k = 1; k <= t->started; k++) pthread_join(t->members[k].thread, NULL);
     pthread_cond_destroy(&t->called);
     pthread_mutex_destroy(&t->mutex);
@@ -107,10 +109,10 @@ void scree_team_destroy(scree_team **team)
 
 void scree_team_run(scree_team **team, int count, scree_team_task *task, void *argument)
 {
-    if (*team && (*team)->count != count) scree_team_destroy(team);
+    if (*team && (*team)->count < count) scree_team_destroy(team);
     if (!*team && count > 1) *team = create(count);
-    scree_team *t = *team;
-    if (t) call(t, task, argument);
+    scree_team *t = count > 1 ? *team : NULL;
+    if (t) call(t, count, task, argument);
     task(argument, 0, count);
     for (int k = t ? t->started + 1 : 1; k < count; k++) task(argument, k, count);
     // A member may have lost its processor to another program.

@@ -1,10 +1,13 @@
-/// A team of threads that wait for the next task by spinning, for work that lasts some microseconds.
+/// A team of threads that wait for the next task by spinning, for work that lasts some microseconds. All threads of a
+/// run are this one team: two of them (OpenMP's beside it) would spin on each other's processors.
 ///
 /// A step of a small sample takes 20 to 50 us and is cut three times; starting and joining threads with OpenMP cost 3
 /// to 10 us each time on the machine of docs/performance.md, a task of this team about 1. A member that has found
 /// nothing to do for some 50 us sleeps, so that a team does not hold a processor between its runs.
 #ifndef SCREE_BASE_TEAM_H
 #define SCREE_BASE_TEAM_H
+
+#include <stddef.h>
 
 enum { SCREE_TEAM_MOST = 64 };
 
@@ -14,9 +17,15 @@ typedef struct scree_team scree_team;
 typedef void scree_team_task(void *argument, int index, int count);
 
 /// Calls task(argument, k, count) for every k < count, each in its own thread (k = 0 in the caller's), and returns when
-/// all have. *team is NULL at first and made when it is needed, anew for another count; without memory or threads for
+/// all have. *team is NULL at first and made when it is needed, anew for a larger count; without memory or threads for
 /// it the caller does all shares itself, one after the other. count: 1 to SCREE_TEAM_MOST. One caller at a time.
 void scree_team_run(scree_team **team, int count, scree_team_task *task, void *argument);
+
+/// Where the share `index` of `count` begins among `items` things; it ends where the next one begins.
+static inline size_t scree_team_begin(size_t items, int index, int count)
+{
+    return items * (size_t)index / (size_t)count;
+}
 
 /// Ends the threads; *team becomes NULL.
 void scree_team_destroy(scree_team **team);

@@ -11,14 +11,21 @@ enum {
 };
 
 const scree_boundary scree_boundary_pressure = {.name = "pressure", .walls = AXIAL};
+const scree_boundary scree_boundary_none = {.name = "none", .open = true};
 const scree_boundary scree_boundary_plates = {.name = "plates", .walls = AXIAL | LATERAL};
+
+// A periodic cell has no walls and no forces of its own (periodic.c); a channel is periodic but for its plates.
+const scree_boundary scree_boundary_periodic = {.name = "periodic"};
+const scree_boundary scree_boundary_channel = {.name = "channel", .walls = AXIAL};
 
 const scree_boundary *scree_boundary_get(scree_boundary_kind kind)
 {
     static const scree_boundary *const table[] = {
-        [SCREE_BOUNDARY_AUTO] = &scree_boundary_pressure,   [SCREE_BOUNDARY_PRESSURE] = &scree_boundary_pressure,
-        [SCREE_BOUNDARY_PLATES] = &scree_boundary_plates,   [SCREE_BOUNDARY_MEMBRANE] = &scree_boundary_membrane,
-        [SCREE_BOUNDARY_MINIMAL] = &scree_boundary_minimal, [SCREE_BOUNDARY_AFFINE] = &scree_boundary_affine,
+        [SCREE_BOUNDARY_AUTO] = &scree_boundary_pressure,     [SCREE_BOUNDARY_PRESSURE] = &scree_boundary_pressure,
+        [SCREE_BOUNDARY_PLATES] = &scree_boundary_plates,     [SCREE_BOUNDARY_MEMBRANE] = &scree_boundary_membrane,
+        [SCREE_BOUNDARY_MINIMAL] = &scree_boundary_minimal,   [SCREE_BOUNDARY_AFFINE] = &scree_boundary_affine,
+        [SCREE_BOUNDARY_PERIODIC] = &scree_boundary_periodic, [SCREE_BOUNDARY_CHANNEL] = &scree_boundary_channel,
+        [SCREE_BOUNDARY_NONE] = &scree_boundary_none,
     };
     return table[kind];
 }
@@ -76,7 +83,7 @@ void scree_boundary_finish_work(const scree_boundary *boundary, scree_state *sta
 scree_status scree_boundary_prepare(const scree_boundary *boundary, const scree_model *model, scree_state *state,
                                     scree_error *error)
 {
-    scree_status status = scree_boundary_refresh(model, state, error);
+    scree_status status = boundary->open ? SCREE_OK : scree_boundary_refresh(model, state, error);
     return status || !boundary->refresh ? status : boundary->refresh(model, state, error);
 }
 

@@ -11,6 +11,7 @@
 
 typedef struct scree_boundary {
     const char *name;
+    bool open;      ///< bodies have no boundary at all, and no hull is kept
     uint32_t walls; ///< bit w: wall w stands (those of the state's dimension)
     /// When a stage begins with it: bodies of its own, resets. NULL: nothing to do.
     scree_status (*begin)(const scree_model *model, scree_state *state, scree_error *error);
@@ -27,11 +28,14 @@ typedef struct scree_boundary {
 } scree_boundary;
 
 const scree_boundary *scree_boundary_get(scree_boundary_kind kind);
+extern const scree_boundary scree_boundary_none;
 extern const scree_boundary scree_boundary_pressure;
 extern const scree_boundary scree_boundary_plates;
 extern const scree_boundary scree_boundary_membrane;
 extern const scree_boundary scree_boundary_minimal;
 extern const scree_boundary scree_boundary_affine;
+extern const scree_boundary scree_boundary_periodic;
+extern const scree_boundary scree_boundary_channel;
 
 /// Both axial plates, bottom and top, stand.
 bool scree_boundary_has_plates(const scree_boundary *boundary);

@@ -1,17 +1,9 @@
 /// Pressure applied directly to the triangulated hull (P 2.5; Bagi 1996), at the present positions every step.
 ///
-/// A loaded triangle a, b, c gives each of its bodies a third of -p A, A = (a x b + b x c + c x a) / 2 the outward area
-/// vector. A triangle that faces a plate gives what the upright walls of its prism carry (measure/hull.h): the wall
-/// below its edge a - b has the horizontal area
-///     W = (h_a + h_b) / 2 (a_y - b_y, b_x - a_x),
-/// h the heights above the plate (below it negative), and its force goes to a and b as 2 h_a + h_b to h_a + 2 h_b, by
-/// the moment of the uniform pressure. Walls between two such triangles cancel.
-///
-/// Conservation. All is built from integers that belong to directed edges and change sign with them: E(a, b) =
-/// round(p / 6 a x b / quantum), and for walls 3 E(a, b) + U(a) - U(b) with U(a) = round(p / 2 (a_z - 2 z_plate) a_y
-/// / quantum) (and the same with a_x), which is W without remainder. Over a closed hull the E cancel edge by edge and
-/// the U corner by corner. So, to the last bit, the forces on a closed hull add up to zero, and with plates the
-/// horizontal ones do: whatever the shape of the sides, they only press against each other.
+/// A loaded triangle presses its bodies; a triangle that faces a plate gives what the upright walls of its prism carry
+/// (measure/hull.h); walls between two such triangles cancel. Equations and integers: pressed_facet.h. So, to the last
+/// bit, the forces on a closed hull add up to zero, and with plates the horizontal ones do: whatever the shape of the
+/// sides, they only press against each other.
 ///
 /// Bodies are handed to the triangulation in the order of their ids: neither the order of rows nor the number of
 /// threads shows. Cost: O(triangles) a step, 10 ns each; a refresh 20 to 50 microseconds a body near the outside
@@ -19,6 +11,7 @@
 #include "boundary/hull.h"
 
 #include "boundary/facing.h"
+#include "boundary/pressed_facet.h"
 #include "measure/hull.h"
 #include "measure/measure.h"
 #include "search/tetrahedra.h"
@@ -122,41 +115,23 @@ static void add_force(scree_state *state, size_t node, const int64_t force[3])
     for (int k = 0; k < 3; k++) state->hull.force[node][k] += (double)force[k] * state->force_quantum;
 }
 
-/// E(a, b); `scale` is p / 6 / quantum.
-static void edge_quanta(double scale, const scree_vector a, const scree_vector b, int64_t quanta[3])
-{
-    for (int k = 0; k < 3; k++) {
-        int i = (k + 1) % 3, j = (k + 2) % 3;
-        quanta[k] = llrint(scale * (a[i] * b[j] - a[j] * b[i]));
-    }
-}
-
 static void press_triangle(scree_state *state, size_t t, double scale, scree_vector corner[3])
 {
-    int64_t edge[3][3], force[3];
-    for (int c = 0; c < 3; c++) edge_quanta(scale, corner[c], corner[(c + 1) % 3], edge[c]);
-    for (int k = 0; k < 3; k++) force[k] = -(edge[0][k] + edge[1][k] + edge[2][k]);
+    int64_t force[3];
+    scree_triangle_press(scale, corner, force);
     for (int c = 0; c < 3; c++) add_force(state, state->hull.triangle[t][c], force);
 }
 
-/// The wall between the edge from `a` to `b` and the plate at height `plate`; first is the node of a.
-static void press_wall(scree_state *state, double scale, double plate, const scree_vector a, const scree_vector b,
-                       size_t first, size_t second)
+/// The walls between the edges of a triangle and the plate at height `plate`.
+static void press_walls(scree_state *state, size_t t, double scale, double plate, scree_vector corner[3])
 {
-    int64_t edge[3], share[3] = {0}, rest[3] = {0};
-    edge_quanta(scale, a, b, edge);
-    // What is rounded must not depend on the sense of the edge: the share of the lower node is.
-    const double *low = first < second ? a : b, *high = first < second ? b : a;
-    double height = 2 * (low[2] - plate) + (high[2] - plate);
-    for (int k = 0; k < 2; k++) {
-        int across = 1 - k, sign = k == 0 ? 1 : -1;
-        int64_t at_a = llrint(3 * scale * (a[2] - 2 * plate) * a[across]);
-        int64_t at_b = llrint(3 * scale * (b[2] - 2 * plate) * b[across]);
-        share[k] = -sign * llrint(scale * height * (a[across] - b[across]));
-        rest[k] = -(3 * edge[k] + sign * (at_a - at_b)) - share[k];
+    for (int c = 0; c < 3; c++) {
+        int64_t at_a[3], at_b[3];
+        size_t a = state->hull.triangle[t][c], b = state->hull.triangle[t][(c + 1) % 3];
+        scree_wall_press(scale, plate, corner[c], corner[(c + 1) % 3], a < b, at_a, at_b);
+        add_force(state, a, at_a);
+        add_force(state, b, at_b);
     }
-    add_force(state, first < second ? first : second, share);
-    add_force(state, first < second ? second : first, rest);
 }
 
 void scree_hull_press(scree_state *state)
@@ -177,9 +152,7 @@ void scree_hull_press(scree_state *state)
         }
         const scree_wall *wall = &state->wall[index];
         double plate = wall->normal[2] * wall->position - origin[2];
-        for (int c = 0; c < 3; c++)
-            press_wall(state, scale, plate, corner[c], corner[(c + 1) % 3], hull->triangle[t][c],
-                       hull->triangle[t][(c + 1) % 3]);
+        press_walls(state, t, scale, plate, corner);
     }
 }
 

@@ -1,28 +1,34 @@
-/// Membrane (P 3.2; Iwashita and Oda 2000): on either side of a plane sample a chain of frictionless discs between the
-/// bottom and the top plate, larger than the mean grain so that no grain escapes between them. The law of all contacts
-/// holds them and the grains apart; their own contacts are left out, the chain holds them together.
+/// Membrane (P 3.2; Iwashita and Oda 2000): around the sides of a sample frictionless bodies between the bottom and the
+/// top plate, larger than the mean grain so that no grain escapes between them. In 2D a chain of discs on either side,
+/// in 3D a triangulated tube of spheres (sheet.h). The law of all contacts holds them and the grains apart; their own
+/// contacts are left out, springs hold them together.
 ///
-/// Chain. Two neighbours at the distance l with the unstressed length l0 pull with k (l - l0) when l > l0; a slack
-/// chain bears nothing, as rubber wrinkles. Equal integers of opposite sign: momentum is exact.
+/// Springs. Two neighbours at the distance l with the unstressed length l0 pull with k (l - l0) when l > l0; a slack
+/// spring bears nothing, as rubber wrinkles: no bending, no compression. Equal integers of opposite sign: momentum is
+/// exact. In 2D k is `boundary.membrane_stiffness` itself. In 3D that is the stiffness Y of a sheet: tension per length
+/// over strain in uniaxial tension, Young's modulus times thickness of the rubber. Each triangle gives its three edges
+/// half a spring, so that an edge between two triangles has k and one of the rim k / 2; a regular triangular net of
+/// springs k has Lame's constants lambda = mu = sqrt(3) k / 4 (Seung and Nelson 1988), hence Poisson's ratio 1/3,
+///     Y = 4 mu (lambda + mu) / (lambda + 2 mu) = 2 k / sqrt(3),      k = sqrt(3) Y / 2,
+/// and the bulk modulus sqrt(3) k / 2. That holds for small strains and tension everywhere.
 ///
-/// Pressure. Every segment between two centres carries p t rot(b - a) along the inward normal of the deformed chain,
-/// shared equally; the gap between an end and its plate is loaded too, all of it on the end. The integers telescope as
-/// in pressure.c, so the two sides press against each other with equal forces p t (distance of the plates).
+/// Pressure: membrane_press.c.
 ///
-/// Ends. Each moves vertically with its plate and is free horizontally: a force along the normal of the plate gives it
+/// Ends. Each moves with its plate along the axis and is free across it: a force along the normal of the plate gives it
 /// the plate's velocity after the kick. It acts from the plate, but does not count as a force on the sample.
 ///
-/// Hand-over. The pressure passes from the grains of the Delaunay boundary to the chain smoothly within RAMP_WAVES wave
-/// times (scree_direct_pressure), so that a sample confined directly can be wrapped at any time.
+/// Hand-over. The pressure passes from the grains of the Delaunay boundary to the membrane smoothly within RAMP_WAVES
+/// wave times (scree_direct_pressure), so that a sample confined directly can be wrapped at any time.
 ///
-/// Books. Pressure in ledger.pressure; chain and ends, which are the boundary's own, as work in ledger.boundary. The
-/// energy that the chain stores is the negative of the chain's part of it, up to the third order in the step.
+/// Books. Pressure in ledger.pressure; springs and ends, which are the boundary's own, as work in ledger.boundary. The
+/// energy that the springs store is the negative of their part of it, up to the third order in the step.
 /// Cost: O(bodies of the membrane) a step.
 #include "boundary/membrane.h"
 
 #include "base/fixed.h"
 #include "boundary/boundary.h"
 #include "boundary/plates.h"
+#include "boundary/sheet.h"
 
 #include <math.h>
 #include <string.h>
@@ -41,127 +47,130 @@ static scree_status begin(const scree_model *model, scree_state *state, scree_er
 
 static scree_status refresh(const scree_model *model, scree_state *state, scree_error *error)
 {
-    (void)model, (void)error;
     scree_membrane *membrane = &state->membrane;
     if (membrane->share < 1) membrane->share = fmin(1, membrane->share + state->step_size / membrane->ramp_time);
-    return SCREE_OK;
+    // As often as the Delaunay boundary is found anew.
+    if (state->dimension == 2 || state->hull.updated != state->step) return SCREE_OK;
+    double hole = scree_sheet_hole(state);
+    if (hole < model->radius_min) return SCREE_OK;
+    return scree_error_set(error, SCREE_ERROR_GUARD,
+                           "the membrane has stretched so far that a sphere of radius %.3g m can slip through, and the "
+                           "smallest has %.3g m: give a larger boundary.membrane_radius or membrane_stiffness",
+                           hole, model->radius_min);
 }
 
-static const scree_row *row_of(const scree_state *state, size_t k)
+typedef struct spring {
+    size_t other; ///< body at the other end
+    double force; ///< N, tension; 0 when slack
+    double stiffness;
+    scree_vector direction; ///< to the other end
+} spring;
+
+/// Spring `s` of body `k`; false: there is none.
+static bool find_spring(const scree_model *model, const scree_state *state, size_t k, int s, spring *found)
 {
-    return &state->row[scree_membrane_row(state, k)];
+    const scree_membrane *membrane = &state->membrane;
+    double rest = membrane->rest[k][s];
+    if (!(rest > 0)) return false;
+    bool solid = state->dimension == 3;
+    found->other = solid ? scree_sheet_neighbour(membrane->around, membrane->count, k, s) : k + 1;
+    bool rim = solid && s == 0 && scree_membrane_plate(state, k) >= 0;
+    found->stiffness = rim ? 0.5 * model->membrane_stiffness : model->membrane_stiffness;
+    scree_vector from;
+    scree_body_place(state, scree_membrane_row(state, k), from);
+    scree_body_place(state, scree_membrane_row(state, found->other), found->direction);
+    for (int i = 0; i < 3; i++) found->direction[i] -= from[i];
+    double length = scree_length(found->direction);
+    for (int i = 0; i < 3; i++) found->direction[i] /= length;
+    found->force = length > rest ? found->stiffness * (length - rest) : 0;
+    return true;
 }
 
-/// Force of the chain from body k to the next [N], and its direction; zero when slack.
-static double chain_force(const scree_model *model, const scree_state *state, size_t k, double direction[2])
+static int springs_of_body(const scree_state *state)
 {
-    double rest = state->membrane.rest[k];
-    if (!(rest > 0)) return 0;
-    const scree_row *a = row_of(state, k), *b = row_of(state, k + 1);
-    double dx = b->x - a->x, dy = b->y - a->y, length = sqrt(dx * dx + dy * dy);
-    direction[0] = dx / length;
-    direction[1] = dy / length;
-    return length > rest ? model->membrane_stiffness * (length - rest) : 0;
+    return state->dimension == 3 ? SCREE_SHEET_SPRINGS : 1;
 }
 
 double scree_membrane_energy(const scree_model *model, const scree_state *state)
 {
-    double energy = 0, direction[2];
-    for (size_t k = 0; k < state->membrane.count; k++) {
-        double force = chain_force(model, state, k, direction);
-        if (force > 0) energy += 0.5 * force * force / model->membrane_stiffness;
-    }
+    double energy = 0;
+    spring found;
+    for (size_t k = 0; k < state->membrane.count; k++)
+        for (int s = 0; s < springs_of_body(state); s++)
+            if (find_spring(model, state, k, s, &found) && found.force > 0)
+                energy += 0.5 * found.force * found.force / found.stiffness;
     return energy;
 }
 
-static void add_force(scree_state *state, scree_vector *kept, size_t k, int64_t fx, int64_t fy)
+static void add_force(scree_state *state, size_t k, const int64_t force[3])
 {
     scree_sum_row *sum = &state->sum[scree_membrane_row(state, k)];
-    sum->fx += fx;
-    sum->fy += fy;
-    kept[k][0] += (double)fx * state->force_quantum;
-    kept[k][1] += (double)fy * state->force_quantum;
+    sum->fx += force[0];
+    sum->fy += force[1];
+    if (state->dimension == 3) sum->fz += force[2];
+    for (int i = 0; i < 3; i++) state->membrane.force[k][i] += (double)force[i] * state->force_quantum;
 }
 
-static void add_chain(const scree_model *model, scree_state *state)
+static void add_springs(const scree_model *model, scree_state *state)
 {
-    double direction[2];
-    for (size_t k = 0; k < state->membrane.count; k++) {
-        double force = chain_force(model, state, k, direction) / state->force_quantum;
-        if (!(force > 0)) continue;
-        int64_t fx = llrint(force * direction[0]), fy = llrint(force * direction[1]);
-        add_force(state, state->membrane.force, k, fx, fy);
-        add_force(state, state->membrane.force, k + 1, -fx, -fy);
-    }
-}
-
-/// The plate of an end; -1 for the bodies between.
-static int plate_of(const scree_membrane *membrane, size_t k)
-{
-    if (k == 0 || k + 1 == membrane->count) return SCREE_WALL_BOTTOM;
-    return k + 1 == membrane->right || k == membrane->right ? SCREE_WALL_TOP : -1;
-}
-
-/// Pressure on one side: bodies [first, last], the sample on the left.
-static void press_side(scree_state *state, size_t first, size_t last, double scale)
-{
-    const scree_row *begin = row_of(state, first), *end = row_of(state, last);
-    int from = plate_of(&state->membrane, first), to = plate_of(&state->membrane, last);
-    const double start[2] = {begin->x, state->wall[from].position * state->wall[from].normal[1]};
-    const double finish[2] = {end->x, state->wall[to].position * state->wall[to].normal[1]};
-    const double origin[2] = {row_of(state, 0)->x, row_of(state, 0)->y};
-    int64_t before[2];
-    for (int i = 0; i < 2; i++) before[i] = llrint((start[i] - origin[i]) * scale);
-    for (size_t k = first; k <= last + 1; k++) {
-        const double place[2] = {k > last ? finish[0] : row_of(state, k)->x,
-                                 k > last ? finish[1] : row_of(state, k)->y};
-        int64_t half[2];
-        for (int i = 0; i < 2; i++) {
-            int64_t now = llrint((place[i] - origin[i]) * scale);
-            half[i] = now - before[i];
-            before[i] = now;
+    spring found;
+    for (size_t k = 0; k < state->membrane.count; k++)
+        for (int s = 0; s < springs_of_body(state); s++) {
+            if (!find_spring(model, state, k, s, &found) || !(found.force > 0)) continue;
+            int64_t pull[3], back[3];
+            for (int i = 0; i < 3; i++) {
+                pull[i] = llrint(found.force / state->force_quantum * found.direction[i]);
+                back[i] = -pull[i];
+            }
+            add_force(state, k, pull);
+            add_force(state, found.other, back);
         }
-        add_force(state, state->membrane.press, k > first ? k - 1 : first, -half[1], half[0]);
-        add_force(state, state->membrane.press, k > last ? last : k, -half[1], half[0]);
-    }
+}
+
+/// Velocity of a body of the membrane along the axis of the sample less that of its plate [m/s].
+static double axial_velocity_error(const scree_state *state, size_t k, const scree_wall *wall)
+{
+    int axis = state->dimension - 1;
+    scree_vector velocity, spin;
+    scree_body_motion(state, scree_membrane_row(state, k), velocity, spin);
+    return velocity[axis] - wall->velocity * wall->normal[axis];
 }
 
 /// Gives every end the velocity of its plate along the plate's normal.
-static void hold_ends(scree_state *state, double kick)
+static void hold_ends(const scree_model *model, scree_state *state, double kick)
 {
+    int axis = state->dimension - 1;
     for (size_t k = 0; k < state->membrane.count; k++) {
-        int plate = plate_of(&state->membrane, k);
+        int plate = scree_membrane_plate(state, k);
         if (plate < 0) continue;
-        const scree_wall *wall = &state->wall[plate];
-        const scree_row *row = row_of(state, k);
-        double force = row->mass * (wall->velocity * wall->normal[1] - row->vy) / kick;
-        int64_t others = state->sum[scree_membrane_row(state, k)].fy;
-        add_force(state, state->membrane.force, k, 0, llrint(force / state->force_quantum) - others);
+        size_t row = scree_membrane_row(state, k);
+        double change = -axial_velocity_error(state, k, &state->wall[plate]);
+        double force = state->row[row].mass * (change / kick - model->gravity[axis]);
+        int64_t others = axis == 2 ? state->sum[row].fz : state->sum[row].fy, holding[3] = {0};
+        holding[axis] = llrint(force / state->force_quantum) - others;
+        add_force(state, k, holding);
     }
 }
 
 static double half_work(const scree_state *state, scree_vector *force)
 {
     double work = 0;
+    scree_vector velocity, spin;
     for (size_t k = 0; k < state->membrane.count; k++) {
-        const scree_row *row = row_of(state, k);
-        work += 0.5 * state->step_size * (force[k][0] * row->vx + force[k][1] * row->vy);
+        scree_body_motion(state, scree_membrane_row(state, k), velocity, spin);
+        double power = force[k][0] * velocity[0] + force[k][1] * velocity[1];
+        if (state->dimension == 3) power += force[k][2] * velocity[2];
+        work += 0.5 * state->step_size * power;
     }
     return work;
 }
 
 static void book_half_work(scree_state *state)
 {
-    double pressure = half_work(state, state->membrane.press), chain = half_work(state, state->membrane.force);
+    double pressure = half_work(state, state->membrane.press), springs = half_work(state, state->membrane.force);
     state->ledger.pressure += pressure;
-    state->ledger.boundary += chain;
-    state->ledger.turnover += fabs(pressure) + fabs(chain);
-}
-
-/// Pressure that the chain carries [Pa].
-static double carried_pressure(const scree_state *state)
-{
-    return state->pressure - scree_direct_pressure(state);
+    state->ledger.boundary += springs;
+    state->ledger.turnover += fabs(pressure) + fabs(springs);
 }
 
 static void forces(const scree_model *model, scree_state *state, scree_work *work)
@@ -169,27 +178,51 @@ static void forces(const scree_model *model, scree_state *state, scree_work *wor
     scree_membrane *membrane = &state->membrane;
     memset(membrane->press, 0, membrane->count * sizeof *membrane->press);
     memset(membrane->force, 0, membrane->count * sizeof *membrane->force);
-    double scale = 0.5 * carried_pressure(state) * model->thickness / state->force_quantum;
-    press_side(state, 0, membrane->right - 1, scale);
-    press_side(state, membrane->right, membrane->count - 1, scale);
-    add_chain(model, state);
-    hold_ends(state, work->next_kick);
+    scree_membrane_press(model, state, state->pressure - scree_direct_pressure(state));
+    add_springs(model, state);
+    hold_ends(model, state, work->next_kick);
     book_half_work(state);
+}
+
+/// Area [m2] on which the pressure loads one body, at most. 3D: two thirds of the six triangles around a body with
+/// edges of this length are less than its square; the integers of the edges, up to p / 6 x the square of the extent,
+/// stay below 2^8 times that.
+static double loaded_area(const scree_model *model, const scree_state *state, double length)
+{
+    if (state->dimension == 2) return 2 * model->thickness * length;
+    double square = 0;
+    for (int i = 0; i < 3; i++) {
+        double low = INFINITY, high = -INFINITY;
+        scree_vector place;
+        for (size_t k = 0; k < state->membrane.count; k++) {
+            scree_body_place(state, scree_membrane_row(state, k), place);
+            low = fmin(low, place[i]);
+            high = fmax(high, place[i]);
+        }
+        square += (high - low) * (high - low);
+    }
+    return fmax(2 * length * length, square / 256);
 }
 
 static double bound(const scree_model *model, const scree_state *state)
 {
-    double largest = 0, direction[2];
+    double force = 0, length = 0, holding = 0;
+    bool solid = state->dimension == 3;
+    spring found;
     for (size_t k = 0; k < state->membrane.count; k++) {
-        int plate = plate_of(&state->membrane, k);
-        double length = state->membrane.rest[k] + 2 * state->membrane.radius;
-        double force = chain_force(model, state, k, direction);
-        largest = fmax(largest, 2 * (force + state->pressure * model->thickness * length));
+        for (int s = 0; s < springs_of_body(state); s++) {
+            if (!find_spring(model, state, k, s, &found)) continue;
+            force = fmax(force, found.force);
+            length = fmax(length, state->membrane.rest[k][s] + found.force / found.stiffness);
+        }
+        int plate = scree_membrane_plate(state, k);
         if (plate < 0) continue;
-        double change = fabs(state->wall[plate].velocity) + fabs(row_of(state, k)->vy);
-        largest = fmax(largest, row_of(state, k)->mass * change / state->step_size);
+        const scree_wall *wall = &state->wall[plate];
+        double change = fabs(axial_velocity_error(state, k, wall)) + fabs(wall->velocity);
+        holding = fmax(holding, state->row[scree_membrane_row(state, k)].mass * change / state->step_size);
     }
-    return largest;
+    double pressure = state->pressure * loaded_area(model, state, length + 2 * state->membrane.radius);
+    return fmax(holding, (solid ? 6 : 2) * force + pressure);
 }
 
 const scree_boundary scree_boundary_membrane = {.name = "membrane",

@@ -1,21 +1,48 @@
-/// Membrane of discs around the sides of a sample; the descriptor is scree_boundary_membrane.
+/// Membrane around the sides of a sample; the descriptor is scree_boundary_membrane.
 #ifndef SCREE_BOUNDARY_MEMBRANE_H
 #define SCREE_BOUNDARY_MEMBRANE_H
 
 #include "state/state.h"
 
-/// Places the chain around the grains between the bottom and the top plate (membrane_place.c): the bodies are appended
-/// to the state, unstressed, touching the grains without indentation. Errors: memory; SCREE_ERROR_GUARD when the plates
-/// are too close for two discs.
+/// Places the membrane around the grains between the bottom and the top plate (membrane_place.c, sheet_place.c): the
+/// bodies are appended to the state, unstressed, against the grains without indentation. Errors: memory;
+/// SCREE_ERROR_GUARD when the plates are too close for two bodies, or (3D) a grain could slip through.
 scree_status scree_membrane_place(const scree_model *model, scree_state *state, scree_error *error) SCREE_MUST_USE;
 
-/// Energy [J] stored in the chain.
+/// Room for a membrane of `count` bodies, which are appended to the state. Errors: memory; the state has no membrane
+/// then.
+scree_status scree_membrane_make_room(scree_state *state, size_t count, scree_error *error) SCREE_MUST_USE;
+
+/// Forces of a pressure [Pa] on the membrane at the present positions, added to the sums and to membrane.press
+/// (membrane_press.c).
+void scree_membrane_press(const scree_model *model, scree_state *state, double pressure);
+
+/// Energy [J] stored in the springs.
 double scree_membrane_energy(const scree_model *model, const scree_state *state);
+
+/// Volume [m3] between the plates and inside the membrane (through the centres of its bodies).
+double scree_membrane_volume(const scree_model *model, const scree_state *state);
 
 /// Row of the k-th body of the membrane.
 static inline size_t scree_membrane_row(const scree_state *state, size_t k)
 {
     return state->row_of_id[state->grains + k];
+}
+
+/// The plate of an end; -1 for the bodies between.
+static inline int scree_membrane_plate(const scree_state *state, size_t k)
+{
+    const scree_membrane *membrane = &state->membrane;
+    if (state->dimension == 3)
+        return k < membrane->around ? SCREE_WALL_BOTTOM : k + membrane->around >= membrane->count ? SCREE_WALL_TOP : -1;
+    if (k == 0 || k + 1 == membrane->count) return SCREE_WALL_BOTTOM;
+    return k + 1 == membrane->right || k == membrane->right ? SCREE_WALL_TOP : -1;
+}
+
+/// Height of the bottom or top plate [m].
+static inline double scree_plate_height(const scree_state *state, int wall)
+{
+    return state->wall[wall].position * state->wall[wall].normal[state->dimension - 1];
 }
 
 #endif

@@ -1,8 +1,10 @@
-/// Places a membrane. The discs of a side stand at equal heights, the ends tangent to the plates, about two radii
-/// apart; each is pushed in from outside until it touches a grain. Where no grain is in reach, it stands on the
-/// straight line between the next ones below and above that touch. The unstressed lengths of the chain are the
-/// distances that this gives. Cost: O(grains x bodies of the membrane), once.
+/// Places a membrane; here the chains of 2D, sheet_place.c has the sheet of 3D. The discs of a side stand at equal
+/// heights, the ends tangent to the plates, about two radii apart; each is pushed in from outside until it touches a
+/// grain. Where no grain is in reach, it stands on the straight line between the next ones below and above that touch.
+/// The unstressed lengths of the chain are the distances that this gives. Cost: O(grains x bodies of the membrane),
+/// once.
 #include "boundary/membrane.h"
+#include "boundary/sheet.h"
 
 #include <math.h>
 
@@ -50,11 +52,12 @@ static void place_side(const scree_model *model, scree_state *state, size_t firs
                                       .radius = membrane->radius,
                                       .mass = scree_model_mass(model, model->membrane_material, membrane->radius)};
         scree_body_place(state, row, state->reference[row]);
-        membrane->rest[first + k] = k + 1 < count ? sqrt(spacing * spacing + (x[k + 1] - x[k]) * (x[k + 1] - x[k])) : 0;
+        membrane->rest[first + k][0] =
+            k + 1 < count ? sqrt(spacing * spacing + (x[k + 1] - x[k]) * (x[k + 1] - x[k])) : 0;
     }
 }
 
-static scree_status make_room(scree_state *state, size_t count, scree_error *error)
+scree_status scree_membrane_make_room(scree_state *state, size_t count, scree_error *error)
 {
     scree_membrane *membrane = &state->membrane;
     scree_status status = scree_reallocate(&membrane->rest, 0, count, sizeof *membrane->rest, error);
@@ -65,18 +68,14 @@ static scree_status make_room(scree_state *state, size_t count, scree_error *err
     return status;
 }
 
-scree_status scree_membrane_place(const scree_model *model, scree_state *state, scree_error *error)
+/// The chains of 2D.
+static scree_status place_chains(const scree_model *model, scree_state *state, double height, scree_error *error)
 {
     double radius = model->membrane_radius;
-    double height = -(state->wall[SCREE_WALL_BOTTOM].position + state->wall[SCREE_WALL_TOP].position);
-    if (!(height > 4 * radius))
-        return scree_error_set(error, SCREE_ERROR_GUARD,
-                               "a membrane of discs of radius %.3g m does not fit between plates %.3g m apart", radius,
-                               height);
     size_t side = (size_t)round(height / (2 * radius)) < 2 ? 2 : (size_t)round(height / (2 * radius));
     double *x = NULL;
     scree_status status = scree_allocate(&x, side, sizeof *x, error);
-    if (!status) status = make_room(state, 2 * side, error);
+    if (!status) status = scree_membrane_make_room(state, 2 * side, error);
     if (!status) {
         state->membrane.radius = radius;
         state->membrane.right = side;
@@ -85,4 +84,15 @@ scree_status scree_membrane_place(const scree_model *model, scree_state *state, 
     }
     scree_release(&x);
     return status;
+}
+
+scree_status scree_membrane_place(const scree_model *model, scree_state *state, scree_error *error)
+{
+    double radius = model->membrane_radius;
+    double height = scree_plate_height(state, SCREE_WALL_TOP) - scree_plate_height(state, SCREE_WALL_BOTTOM);
+    if (!(height > 4 * radius))
+        return scree_error_set(error, SCREE_ERROR_GUARD,
+                               "a membrane of bodies of radius %.3g m does not fit between plates %.3g m apart", radius,
+                               height);
+    return state->dimension == 3 ? scree_sheet_place(model, state, error) : place_chains(model, state, height, error);
 }

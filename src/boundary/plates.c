@@ -15,6 +15,7 @@
 #include "measure/hull.h"
 #include "measure/measure.h"
 #include "measure/outline.h"
+#include "state/periodic.h"
 
 #include <math.h>
 
@@ -45,6 +46,7 @@ double scree_plate_area(const scree_model *model, const scree_state *state, int 
     double depth = state->dimension == 3 ? distance(state, SCREE_WALL_FRONT, SCREE_WALL_BACK) : model->thickness;
     if (index == SCREE_WALL_LEFT || index == SCREE_WALL_RIGHT) return height * depth;
     if (index == SCREE_WALL_FRONT || index == SCREE_WALL_BACK) return height * width;
+    if (state->periodic.directions) return scree_sample_volume(model, state) / height;
     if (state->wall[SCREE_WALL_LEFT].active && state->wall[SCREE_WALL_RIGHT].active) return width * depth;
     double area = covered_area(model, state, index);
     return area > 0 ? area : scree_sample_volume(model, state) / height;

@@ -101,7 +101,7 @@ static bool is_fresh(const scree_model *model, const scree_state *state)
 
 scree_status scree_boundary_refresh(const scree_model *model, scree_state *state, scree_error *error)
 {
-    if (is_fresh(model, state)) return SCREE_OK;
+    if (state->periodic.directions || is_fresh(model, state)) return SCREE_OK;
     if (state->dimension == 3) return scree_hull_renew(model, state, error);
     uint32_t *ids = NULL;
     size_t count = 0;

@@ -78,17 +78,24 @@ typedef enum scree_boundary_kind {
     SCREE_BOUNDARY_MEMBRANE, ///< plates below and above, pressure on a membrane around the sides
     SCREE_BOUNDARY_MINIMAL,  ///< pressure on all sides, mean velocity gradient imposed (minimal kinematic conditions)
     SCREE_BOUNDARY_AFFINE,   ///< every body of the boundary moves with the velocity gradient
+    SCREE_BOUNDARY_PERIODIC, ///< a cell that repeats itself in all directions (boundary.periodic)
+    SCREE_BOUNDARY_CHANNEL,  ///< the same in all but the last, with plates below and above
+    SCREE_BOUNDARY_NONE,     ///< nothing stands around two bodies that collide; no choice of a case
 } scree_boundary_kind;
 
+/// Mask of periodic directions.
+enum { SCREE_PERIODIC_NONE = 0, SCREE_PERIODIC_X = 1, SCREE_PERIODIC_XY = 3, SCREE_PERIODIC_XYZ = 7 };
+
 typedef struct scree_config_boundary {
+    int periodic;              ///< SCREE_PERIODIC_...
     int lateral;               ///< scree_boundary_kind, of what holds the sides until a stage chooses its own boundary
     int64_t every;             ///< steps between two updates of the Delaunay boundary
     double gap_limit;          ///< 1, boundary edges with a free gap above this many mean diameters are cut
     double servo_gain;         ///< 1, admittance of a plate under servo over that of the sample (1: absorbs waves)
     double servo_velocity;     ///< m/s, largest plate velocity under servo; auto
     double penalty;            ///< Pa s, stress over error of the rate of minimal conditions; auto
-    double membrane_stiffness; ///< N/m, of the chain between two neighbours
-    double membrane_radius;    ///< m, of its discs; auto: 1.25 mean radii of the grains
+    double membrane_stiffness; ///< N/m, 2D: between two neighbours; 3D: of the sheet, tension over strain
+    double membrane_radius;    ///< m, of its bodies; auto: 1.25 mean radii of the grains, 3D: 0.75
 } scree_config_boundary;
 
 typedef enum scree_stage_kind {
@@ -96,7 +103,8 @@ typedef enum scree_stage_kind {
     SCREE_STAGE_CONFINE,
     SCREE_STAGE_COMPRESS,
     SCREE_STAGE_DEFORM,
-    SCREE_STAGE_ROTATE
+    SCREE_STAGE_ROTATE,
+    SCREE_STAGE_COLLIDE
 } scree_stage_kind;
 typedef enum scree_axis { SCREE_AXIS_X, SCREE_AXIS_Y, SCREE_AXIS_Z } scree_axis;
 typedef enum scree_prepare_method {
@@ -106,7 +114,8 @@ typedef enum scree_prepare_method {
     SCREE_PREPARE_FACE_CENTRED,
     SCREE_PREPARE_CUBIC,
     SCREE_PREPARE_GAS,
-    SCREE_PREPARE_GROWTH
+    SCREE_PREPARE_GROWTH,
+    SCREE_PREPARE_PAIR
 } scree_prepare_method;
 
 /// What the sample looks like: it fills its box, or has been cut out of a larger packing.
@@ -124,6 +133,8 @@ typedef struct scree_config_stage {
     double depth;          ///< m, 3D only; auto: the width
     double solid_fraction; ///< 1, gas and growth only; auto: see the schema
     double velocity;       ///< m/s, gas only: root-mean-square velocity component
+    double gap;            ///< m, pair only: between the surfaces; auto: see prepare/pair.c
+    double speed;          ///< m/s, pair only: at which they approach; auto: v_R
     // confine
     double pressure;         ///< Pa, compression positive
     double ramp_time;        ///< s; auto
@@ -136,6 +147,8 @@ typedef struct scree_config_stage {
     // deform; extension positive, row the direction of the velocity, NAN where free
     double velocity_gradient[9]; ///< 1/s
     double strain_rate[9];       ///< 1/s, symmetric: only components on and above the diagonal are given
+    double stress[9];            ///< Pa, held by a periodic cell, given like strain_rate; compression positive, shear
+                                 ///< stress in the sense of the shear rate
     // rotate_particle
     double spin;      ///< rad/s, that the particle is brought to
     int axis;         ///< scree_axis, about which it turns
@@ -143,6 +156,8 @@ typedef struct scree_config_stage {
     double rest_time; ///< s, before, in which it is held still and the spins that there are anyway are measured
     double hold_time; ///< s, at that spin, in which the others are measured
     double cutoff;    ///< mean diameters, of the force network around it
+    // collide
+    double duration; ///< s, after which it ends in any case; auto
     // confine, compress, deform and rotate_particle
     int boundary;    ///< scree_boundary_kind
     double friction; ///< 1, friction during this stage; auto: the material's
@@ -194,9 +209,15 @@ typedef struct scree_config {
     scree_config_guard guard;
 } scree_config;
 
-/// The boundary of stage `index`: its own choice, or that of the last stage before it that made one, or `lateral`.
+/// The boundary of stage `index`: periodic as the case says, else its own choice, or that of the last stage before it
+/// that made one, or `lateral`.
 static inline scree_boundary_kind scree_config_boundary_of(const scree_config *config, int64_t index)
 {
+    if (config->stages[index].kind == SCREE_STAGE_COLLIDE) return SCREE_BOUNDARY_NONE;
+    if (config->boundary.periodic > 0) {
+        bool whole = config->boundary.periodic == (1 << config->dimension) - 1;
+        return whole ? SCREE_BOUNDARY_PERIODIC : SCREE_BOUNDARY_CHANNEL;
+    }
     while (index >= 0 && config->stages[index].boundary == SCREE_BOUNDARY_AUTO) index--;
     int kind = index >= 0 ? config->stages[index].boundary : config->boundary.lateral;
     return kind == SCREE_BOUNDARY_AUTO ? SCREE_BOUNDARY_PRESSURE : (scree_boundary_kind)kind;

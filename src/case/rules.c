@@ -121,6 +121,9 @@ static void check_stage_order(scree_reader *reader, const scree_config *config)
             wrong = "a confine stage must come before: deform keeps its pressure";
         else if (kind == SCREE_STAGE_ROTATE && !confined)
             wrong = "a confine stage must come before: rotate_particle keeps its pressure";
+        else if (i > 0 && (kind == SCREE_STAGE_COLLIDE) != (config->stages[0].method == SCREE_PREPARE_PAIR))
+            wrong = kind == SCREE_STAGE_COLLIDE ? "collide needs two particles that approach: prepare method pair"
+                                                : "two particles can only collide";
         confined = confined || kind == SCREE_STAGE_CONFINE;
         if (!wrong) continue;
         char path[SCREE_PATH_BYTES];
@@ -189,6 +192,20 @@ static void check_preparation(scree_reader *reader, const scree_config *config)
     }
 }
 
+/// A pair is two particles, and gravity would be nobody's to bear.
+static void check_pair(scree_reader *reader, const scree_config *config)
+{
+    const char *text;
+    if (config->stage_count == 0 || config->stages[0].method != SCREE_PREPARE_PAIR) return;
+    scree_place place = place_of(scree_node_find(reader->root, "particles"), "count", &text);
+    if (config->particles.count != 2)
+        scree_problem_add(reader, place, "particles.count", text, "2", "a pair is two particles");
+    place = place_of(reader->root, "gravity", &text);
+    if (config->gravity[0] != 0 || config->gravity[1] != 0 || config->gravity[2] != 0)
+        scree_problem_add(reader, place, "gravity", NULL, "0",
+                          "two particles that collide fall freely: leave gravity out");
+}
+
 static void check_windows(scree_reader *reader, const scree_config *config)
 {
     double largest = 0;
@@ -231,7 +248,8 @@ static void check_timescales(scree_reader *reader, const scree_config *config)
                           "choose another scheme, or small_steps: 0");
     for (int64_t i = 0; i < config->stage_count; i++) {
         scree_boundary_kind kind = scree_config_boundary_of(config, i);
-        if (kind == SCREE_BOUNDARY_PRESSURE || kind == SCREE_BOUNDARY_PLATES) continue;
+        // A periodic cell moves bodies by its gradient in every step, whatever its size.
+        if (config->boundary.periodic > 0 || kind == SCREE_BOUNDARY_PRESSURE || kind == SCREE_BOUNDARY_PLATES) continue;
         scree_problem_add(reader, place, "integrator.scheme", text, "position_verlet, velocity_verlet",
                           "the boundary of stages.%lld imposes velocities and needs equal steps", (long long)i);
         return;
@@ -247,6 +265,7 @@ void scree_rules_check(scree_reader *reader, scree_config *config)
     check_stage_order(reader, config);
     check_dimension(reader, config);
     check_preparation(reader, config);
+    check_pair(reader, config);
     check_windows(reader, config);
     check_timescales(reader, config);
     scree_rules_check_boundaries(reader, config);

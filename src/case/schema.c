@@ -54,10 +54,17 @@ static const scree_choice schemes[] = {
      "position_verlet that repeats one large and several small steps while loading (Padbidri 2010, 2.4)"},
     {0},
 };
+static const scree_choice periodics[] = {
+    {"no", SCREE_PERIODIC_NONE, "not periodic: plates and what `lateral` says"},
+    {"x", SCREE_PERIODIC_X, "2D: periodic in x, between plates below and above"},
+    {"xy", SCREE_PERIODIC_XY, "periodic in x and y: in 2D without any boundary, in 3D between plates below and above"},
+    {"xyz", SCREE_PERIODIC_XYZ, "periodic in all directions of space"},
+    {0},
+};
 static const scree_choice laterals[] = {
     {"pressure", SCREE_BOUNDARY_PRESSURE, "traction on the Delaunay boundary of the assembly"},
     {"plates", SCREE_BOUNDARY_PLATES, "rigid side plates that a servo holds at the pressure"},
-    {"membrane", SCREE_BOUNDARY_MEMBRANE, "pressure on a chain of discs around the assembly (2D)"},
+    {"membrane", SCREE_BOUNDARY_MEMBRANE, "pressure on a membrane around the assembly"},
     {0},
 };
 static const scree_choice boundaries[] = {
@@ -65,7 +72,8 @@ static const scree_choice boundaries[] = {
     {"pressure", SCREE_BOUNDARY_PRESSURE, "plates below and above, pressure on the Delaunay boundary of the sides"},
     {"plates", SCREE_BOUNDARY_PLATES, "rigid plates on all sides, those beside the sample under servo"},
     {"membrane", SCREE_BOUNDARY_MEMBRANE,
-     "plates below and above; at the sides a chain of frictionless discs carries the pressure (2D)"},
+     "plates below and above; at the sides a chain of frictionless discs (3D: a sheet of spheres) carries the "
+     "pressure"},
     {"minimal", SCREE_BOUNDARY_MINIMAL,
      "no plates: pressure on all sides, and minimal kinematic conditions impose the strain rate"},
     {"affine", SCREE_BOUNDARY_AFFINE, "no plates: every body of the boundary moves with the velocity gradient"},
@@ -88,6 +96,15 @@ static const scree_choice symmetric_components[] = {
     {"yz", 5, "shear rate, mean of yz and zy"},
     {0},
 };
+static const scree_choice symmetric_stresses[] = {
+    {"xx", 0, "normal stress on x"},
+    {"yy", 4, "normal stress on y"},
+    {"zz", 8, "normal stress on z"},
+    {"xy", 1, "shear stress xy"},
+    {"xz", 2, "shear stress xz"},
+    {"yz", 5, "shear stress yz"},
+    {0},
+};
 static const scree_choice methods[] = {
     {"drop_and_roll", SCREE_PREPARE_DROP_AND_ROLL,
      "each particle falls and rolls on those below until it is stable (Jodrey and Tory 1979)"},
@@ -99,6 +116,7 @@ static const scree_choice methods[] = {
     {"gas", SCREE_PREPARE_GAS, "loose random places without contacts"},
     {"growth", SCREE_PREPARE_GROWTH,
      "particles grow at random places and push each other away: dense and isotropic, without contacts"},
+    {"pair", SCREE_PREPARE_PAIR, "two particles on the x axis that approach each other, for the stage collide"},
     {0},
 };
 static const scree_choice outlines[] = {
@@ -113,6 +131,7 @@ static const scree_choice stage_kinds[] = {
     {"compress", SCREE_STAGE_COMPRESS, "shortens the sample along its axis to a strain"},
     {"deform", SCREE_STAGE_DEFORM, "imposes any components of the velocity gradient, to a strain"},
     {"rotate_particle", SCREE_STAGE_ROTATE, "turns one particle and watches how rotations spread"},
+    {"collide", SCREE_STAGE_COLLIDE, "lets two particles meet and part"},
     {0},
 };
 
@@ -191,8 +210,10 @@ static const scree_key integrator_keys[] = {
 
 typedef scree_config_boundary boundary;
 static const scree_key boundary_keys[] = {
+    CHOICE(boundary, periodic, periodics, .standard = "no", .meaning = "Directions in which the sample repeats."),
     CHOICE(boundary, lateral, laterals, .standard = "pressure",
-           .meaning = "What holds the sides, beside plates below and above, until a stage chooses its `boundary`."),
+           .meaning = "What holds the sides, beside plates below and above, until a stage chooses its `boundary`. Not "
+                      "asked for where the sample is periodic."),
     INTEGER(boundary, every, .standard = "250", FROM("1"), TO("1e9"),
             .meaning =
                 "Steps between two updates of the Delaunay boundary; with two_timescales steps of N_S small ones."),
@@ -206,9 +227,12 @@ static const scree_key boundary_keys[] = {
            .meaning = "Minimal conditions: stress over the error of the rate; auto: the pressure answers an error of "
                       "1 %."),
     NUMBER(boundary, membrane_stiffness, "N/m", .standard = "10 N/mm", FROM("0 N/m"), TO("1e12 N/m"),
-           .meaning = "Membrane: axial stiffness between two neighbours; a slack chain bears nothing."),
+           .meaning = "Membrane: axial stiffness between two neighbours; 3D: of the sheet, tension per length over "
+                      "strain. It bears no compression."),
     NUMBER(boundary, membrane_radius, "m", .standard = "auto", FROM("1 nm"), TO("100 m"),
-           .meaning = "Membrane: radius of its discs; auto: 1.25 times the mean radius of the particles."),
+           .meaning =
+               "Membrane: radius of its bodies; auto: 1.25 times the mean radius of the particles; 3D: 0.75 times "
+               "it, at least the smallest."),
 };
 
 typedef scree_config_stage stage;
@@ -243,6 +267,10 @@ static const scree_key prepare_keys[] = {
                       "a gas; with growth 80 % and 60 %, less what the walls take."),
     NUMBER(stage, velocity, "m/s", .standard = "0 m/s", FROM("0 m/s"), TO("1000 m/s"), .when = "method=gas",
            .meaning = "Root-mean-square velocity component."),
+    NUMBER(stage, gap, "m", .standard = "auto", FROM("0 m"), TO("1 km"), .when = "method=pair",
+           .meaning = "Between the surfaces of the two; auto: about their indentation in the impact."),
+    NUMBER(stage, speed, "m/s", .standard = "auto", ABOVE("0 m/s"), TO("1e5 m/s"), .when = "method=pair",
+           .meaning = "Relative speed at which they approach; auto: contact.reference_velocity."),
 };
 static const scree_key confine_keys[] = {
     STAGE_HEAD,
@@ -269,12 +297,16 @@ static const scree_key deform_keys[] = {
     STAGE_HEAD,
     TENSOR(stage, velocity_gradient, components, "1/s", FROM("-1e6 1/s"), TO("1e6 1/s"),
            .meaning = "Prescribed components of the velocity gradient, e.g. {xy: 5e-3 1/s, yx: 0}; extension positive; "
-                      "the others are free."),
+                      "the others are free, in a periodic cell zero."),
     TENSOR(stage, strain_rate, symmetric_components, "1/s", FROM("-1e6 1/s"), TO("1e6 1/s"),
            .meaning = "Prescribed components of its symmetric part, e.g. {xy: 5e-3 1/s}; rotations stay free."),
-    NUMBER(stage, strain, "1", ABOVE("0 %"), TO("1000 %"),
+    TENSOR(stage, stress, symmetric_stresses, "Pa", FROM("-1000 GPa"), TO("1000 GPa"),
            .meaning =
-               "The stage ends when the largest prescribed component has reached this, measured on the boundary."),
+               "Stresses that a periodic cell holds by the same component of its velocity gradient, e.g. {yy: 100 "
+               "kPa}; compression positive, shear stress in the sense of the rate."),
+    NUMBER(stage, strain, "1", ABOVE("0 %"), TO("1000000 %"),
+           .meaning = "The stage ends when the largest prescribed component has reached this, measured on the boundary "
+                      "or the cell."),
     NUMBER(stage, rise_time, "s", .standard = "auto", FROM("0 s"), TO("1e9 s"),
            .meaning = "Time in which the rates are reached; auto: four wave times of the sample."),
     STAGE_BOUNDARY,
@@ -306,15 +338,21 @@ static const scree_key rotate_keys[] = {
     STAGE_FRICTION,
 };
 
+static const scree_key collide_keys[] = {
+    STAGE_HEAD,
+    NUMBER(stage, duration, "s", .standard = "auto", ABOVE("0 s"), TO("1e9 s"),
+           .meaning = "The stage ends when the two have parted, or after this; auto: twice as long as it should take."),
+};
+
 typedef scree_config_measure measure;
 static const scree_key measure_keys[] = {
     INTEGER(measure, samples, .standard = "200", FROM("1"), TO("1e6"),
             .meaning = "Rows of series.csv for each loading stage."),
-    KEY(measure, windows, SCREE_KEY_PAIRS, .unit = "1", .standard = "[]", FROM("0 %"), TO("90 %"),
+    KEY(measure, windows, SCREE_KEY_PAIRS, .unit = "1", .standard = "[]", FROM("0 %"), TO("1000 %"),
         .count_offset = offsetof(measure, window_count), .element_size = sizeof(scree_config_window),
         .meaning = "Windows [from, to] of axial strain over which displacement fluctuations are taken."),
     FLAG(measure, cells, .standard = "yes",
-         .meaning = "Fields of the Delaunay cells in snapshots; shear bands between them."),
+         .meaning = "Fields of the Delaunay cells in snapshots; shear bands between them. Not in periodic samples."),
     NUMBER(measure, band_window, "1", .standard = "1 %", ABOVE("0 %"), TO("90 %"), .when = "cells=yes",
            .meaning = "Shear bands are looked for between snapshots at least this far apart in axial strain."),
 };
@@ -355,15 +393,18 @@ static const scree_section stage_tables[] = {
     TABLE(
         "compress",
         "Shortens the sample along its axis at a constant rate under the pressure reached before: plates approach each "
-        "other, or minimal conditions impose the rate.",
+        "other, or minimal conditions or a periodic cell impose the rate.",
         compress_keys),
-    TABLE("deform", "Imposes components of the velocity gradient on the boundary; needs `minimal` or `affine`.",
+    TABLE("deform",
+          "Imposes components of the velocity gradient on the boundary; needs `minimal`, `affine` or a "
+          "periodic cell.",
           deform_keys),
     TABLE("rotate_particle",
           "Turns one particle at a prescribed spin under the pressure reached before; with `minimal` the sample as a "
           "whole is "
           "kept from turning.",
           rotate_keys),
+    TABLE("collide", "Two particles, prepared as a `pair`, meet and part; nothing else acts on them.", collide_keys),
 };
 static const scree_section measure_table[] = {TABLE("measure", "What is recorded.", measure_keys)};
 static const scree_section output_table[] = {TABLE("output", "What is written, and how often.", output_keys)};

@@ -29,6 +29,7 @@ void scree_contact_scratch_destroy(scree_work *work);
 typedef struct scree_contact {
     uint32_t first, second; ///< rows (not ids)
     bool wall;
+    bool image; ///< across a face of the periodic cell: of `first` and `second` one is where its image is
     bool membrane; ///< one of the two is a body of a membrane
     bool sliding;
     scree_vector normal;       ///< from second to first

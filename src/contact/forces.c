@@ -7,6 +7,7 @@
 #include "contact/bounds.h"
 #include "contact/contact.h"
 #include "contact/faults.h"
+#include "contact/images.h"
 #include "contact/laws.h"
 #include "contact/partition.h"
 #include "contact/reference.h"
@@ -67,7 +68,7 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
 
 static contact_totals evaluate_serially(contact_job *job, scree_state *state, const scree_work *work)
 {
-    contact_clear_rows(state, 0, state->count);
+    contact_clear_rows(state, 0, scree_row_count(state, work));
     contact_pairs_reference(job);
     contact_walls(job, state->wall, &work->wall_pairs, 0, state->count);
     return job->totals;
@@ -111,7 +112,7 @@ static void finish_share(void *argument, int index, int count)
     contact_job *job = &task->scratch->part[index].job;
     size_t begin, end;
     (void)count;
-    contact_merge_range(task->scratch, state->count, index, &begin, &end);
+    contact_merge_range(task->scratch, task->scratch->rows, index, &begin, &end);
     contact_merge(task->scratch, state, begin, end);
     job->sum = state->sum;
     job->torque = state->torque;
@@ -179,6 +180,7 @@ void scree_contact_forces(const scree_model *model, scree_state *state, scree_wo
     contact_totals totals =
         scratch ? evaluate_parts(kernel, scratch, &job, state, work) : evaluate_serially(&job, state, work);
 
+    scree_images_fold(state, work);
     double plates = settle_walls(state, &totals);
     if (work->ledger) settle_ledger(&state->ledger, &totals, &job.scale, plates);
     state->largest_overlap = totals.largest_overlap;

@@ -60,7 +60,7 @@ static size_t share(size_t count, int k, int parts)
     return k == parts ? count : count / (size_t)parts * (size_t)k / 8 * 8;
 }
 
-static scree_status cut_part(contact_scratch *scratch, const scree_pair_list *pairs, const scree_state *state, int k)
+static scree_status cut_part(contact_scratch *scratch, const scree_pair_list *pairs, bool solid, size_t rows, int k)
 {
     contact_part *part = &scratch->part[k];
     size_t touching = pairs->touching_count, near = pairs->count - touching;
@@ -71,10 +71,10 @@ static scree_status cut_part(contact_scratch *scratch, const scree_pair_list *pa
     job->touching_end = share(touching, k + 1, parts);
     job->near_begin = touching + share(near, k, parts);
     job->near_end = touching + share(near, k + 1, parts);
-    part->low = 0, part->high = state->count;
+    part->low = 0, part->high = rows;
     if (parts == 1) return SCREE_OK;
 
-    part->low = state->count, part->high = 0;
+    part->low = rows, part->high = 0;
     extend_window(part, pairs, job->touching_begin, job->touching_end);
     extend_window(part, pairs, job->near_begin, job->near_end);
     if (part->high == 0) part->low = 0;
@@ -84,7 +84,7 @@ static scree_status cut_part(contact_scratch *scratch, const scree_pair_list *pa
     scree_release(&part->torque);
     part->capacity = 0;
     scree_status status = scree_allocate(&part->buffer, window, sizeof *part->buffer, NULL);
-    if (!status && state->dimension == 3) status = scree_allocate(&part->torque, window, sizeof *part->torque, NULL);
+    if (!status && solid) status = scree_allocate(&part->torque, window, sizeof *part->torque, NULL);
     if (!status) part->capacity = window;
     return status;
 }
@@ -100,7 +100,8 @@ static scree_status cut(contact_scratch *scratch, const scree_work *work, const 
     }
     scratch->part_count = parts;
     scree_status status = mark_near(scratch, &work->pairs);
-    for (int k = 0; k < parts && !status; k++) status = cut_part(scratch, &work->pairs, state, k);
+    for (int k = 0; k < parts && !status; k++)
+        status = cut_part(scratch, &work->pairs, state->dimension == 3, scree_row_count(state, work), k);
     return status;
 }
 
@@ -114,7 +115,7 @@ static bool is_current(const contact_scratch *scratch, const scree_work *work, s
 contact_scratch *contact_scratch_refresh(scree_work *work, const scree_state *state)
 {
     contact_scratch *scratch = work->contact_scratch;
-    if (scratch && is_current(scratch, work, state->count)) return scratch;
+    if (scratch && is_current(scratch, work, scree_row_count(state, work))) return scratch;
     if (!scratch) {
         if (scree_allocate(&scratch, 1, sizeof *scratch, NULL)) return NULL;
         work->contact_scratch = scratch;
@@ -128,7 +129,7 @@ contact_scratch *contact_scratch_refresh(scree_work *work, const scree_state *st
     scratch->count = work->pairs.count;
     scratch->touching_count = work->pairs.touching_count;
     scratch->threads = work->threads;
-    scratch->rows = state->count;
+    scratch->rows = scree_row_count(state, work);
     return scratch;
 }
 

@@ -3,10 +3,11 @@
 #include "contact/contact.h"
 #include "contact/order.h"
 #include "contact/single.h"
+#include "state/periodic.h"
 
-/// A body with v(n - 1/2), with which the forces at n were evaluated: velocity_verlet stores v(n), half a step of
-/// acceleration later (integrate/velocity_verlet.c).
-static contact_body body_at_half_step(const scree_model *model, const scree_state *state, size_t k)
+/// A body with the velocity that the scheme keeps, at n - 1/2: velocity_verlet stores v(n), half a step of acceleration
+/// later (integrate/velocity_verlet.c).
+static contact_body stored_body_at_half_step(const scree_model *model, const scree_state *state, size_t k)
 {
     contact_body body = contact_body_get(state, k);
     if (model->scheme != SCREE_SCHEME_VELOCITY_VERLET) return body;
@@ -27,6 +28,28 @@ static contact_body body_at_half_step(const scree_model *model, const scree_stat
     return body;
 }
 
+/// A body or an image with v(n - 1/2), with which the forces at n were evaluated; in a periodic cell with the affine
+/// field, and an image where it is.
+static contact_body body_at_half_step(const scree_model *model, const scree_state *state, const scree_work *work,
+                                      uint32_t k)
+{
+    contact_body body = stored_body_at_half_step(model, state, scree_parent_row(state, work, k));
+    if (!state->periodic.directions) return body;
+    scree_row *row = &body.row;
+    bool solid = state->dimension == 3;
+    scree_vector place, relative = {row->vx, row->vy, solid ? row->vz : 0}, velocity;
+    scree_body_place(state, k, place);
+    scree_periodic_full_velocity(state, place, relative, velocity);
+    row->x = place[0];
+    row->y = place[1];
+    row->vx = velocity[0];
+    row->vy = velocity[1];
+    if (!solid) return body;
+    row->z = place[2];
+    row->vz = velocity[2];
+    return body;
+}
+
 static scree_status reserve(scree_contact_table *table, size_t count, scree_error *error)
 {
     if (count <= table->capacity) return SCREE_OK;
@@ -36,6 +59,15 @@ static scree_status reserve(scree_contact_table *table, size_t count, scree_erro
     return status;
 }
 
+/// The first body is the image: its contact is told where the body itself is.
+static void move_point(const scree_state *state, uint32_t image, scree_contact *contact)
+{
+    scree_vector there, here;
+    scree_body_place(state, image, there);
+    scree_body_place(state, contact->first, here);
+    for (int k = 0; k < 3; k++) contact->point[k] += here[k] - there[k];
+}
+
 /// The contact of `reference`, which touches.
 static void fill(const scree_model *model, const scree_state *state, const scree_work *work,
                  const contact_reference *reference, scree_contact *contact)
@@ -43,16 +75,20 @@ static void fill(const scree_model *model, const scree_state *state, const scree
     size_t p = reference->pair;
     bool wall = contact_reference_is_wall(reference);
     memory_rows memory = contact_memory_of(work, wall, p);
-    contact->first = wall ? work->wall_pairs.body[p] : work->pairs.first[p];
-    contact->second = wall ? work->wall_pairs.wall[p] : work->pairs.second[p];
+    uint32_t one = wall ? work->wall_pairs.body[p] : work->pairs.first[p];
+    uint32_t other = wall ? work->wall_pairs.wall[p] : work->pairs.second[p];
+    contact->first = scree_parent_row(state, work, one);
+    contact->second = wall ? other : scree_parent_row(state, work, other);
+    contact->image = one != contact->first || other != contact->second;
     contact->membrane = !scree_body_is_grain(state, contact->first);
-    contact_body first = body_at_half_step(model, state, contact->first);
+    contact_body first = body_at_half_step(model, state, work, one);
     if (wall) {
-        contact_of_wall(model, state->dimension, &first, &state->wall[contact->second], &memory, contact);
+        contact_of_wall(model, state->dimension, &first, &state->wall[other], &memory, contact);
         return;
     }
-    contact_body second = body_at_half_step(model, state, contact->second);
+    contact_body second = body_at_half_step(model, state, work, other);
     contact_of_pair(model, state->dimension, &first, &second, &memory, contact);
+    if (one != contact->first) move_point(state, one, contact);
     contact->membrane = contact->membrane || !scree_body_is_grain(state, contact->second);
 }
 

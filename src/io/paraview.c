@@ -4,14 +4,19 @@
 ///   contacts-000012.vtp  a line a contact, between centres (a wall: from the centre to the contact point)
 ///   boundary-000012.vtp  2D: a line an edge of the closed Delaunay boundary
 ///   hull-000012.vtp      3D: a triangle a face of the closed Delaunay hull
+///   membrane-000012.vtp  3D: a triangle a face of the sheet of a membrane, when there is one
 ///   plates-000012.vtp    a line (3D: a quadrilateral) an active plate, as long as the sample
+///   lattice-000012.vtp   the edges of the periodic cell, in a periodic run instead of boundary or hull
 ///   cells-000012.vtu     the Delaunay cells with their fields, when the snapshot has them
 ///   discs.pvd, ...       the collections of all snapshots with their times
 #include "io/paraview.h"
 
+#include "boundary/membrane.h"
+#include "boundary/sheet.h"
 #include "io/cell_file.h"
 #include "io/run_directory.h"
 #include "io/vtp.h"
+#include "state/periodic.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -73,11 +78,12 @@ static scree_status build_contacts(scree_vtp *vtp, const scene *from, scree_erro
     if (status) return status;
     for (size_t k = 0; k < table->count; k++) {
         const scree_contact *contact = &table->contact[k];
-        scree_vector end;
-        scree_body_place(state, contact->first, end);
-        scree_vtp_place(vtp, 2 * k, end);
-        if (!contact->wall) scree_body_place(state, contact->second, end);
-        scree_vtp_place(vtp, 2 * k + 1, contact->wall ? contact->point : end);
+        scree_vector first, second;
+        scree_body_place(state, contact->first, first);
+        if (!contact->wall) scree_body_place(state, contact->second, second);
+        for (int i = 0; i < 3 && contact->image; i++) second[i] = first[i] - contact->branch[i];
+        scree_vtp_place(vtp, 2 * k, first);
+        scree_vtp_place(vtp, 2 * k + 1, contact->wall ? contact->point : second);
     }
     for (size_t k = 0; k < scree_contact_array_count() && !status; k++) {
         scree_array array;
@@ -136,6 +142,26 @@ static scree_status build_hull(scree_vtp *vtp, const scene *from, scree_error *e
     for (size_t k = 0; k < hull->triangle_count; k++)
         for (size_t c = 0; c < 3; c++) scree_vtp_join(vtp, k, c, hull->triangle[k][c]);
     return add_members(vtp, state, SCREE_ROWS_HULL_NODES, SCREE_ROWS_HULL_TRIANGLES, error);
+}
+
+/// The sheet of a membrane.
+static scree_status build_membrane(scree_vtp *vtp, const scene *from, scree_error *error)
+{
+    const scree_state *state = from->state;
+    const scree_membrane *membrane = &state->membrane;
+    size_t triangles = scree_sheet_triangle_count(membrane->around, membrane->count), corner[3];
+    scree_status status = scree_vtp_create(vtp, membrane->count, SCREE_VTP_TRIANGLES, triangles, error);
+    if (status) return status;
+    for (size_t k = 0; k < membrane->count; k++) {
+        scree_vector place;
+        scree_body_place(state, scree_membrane_row(state, k), place);
+        scree_vtp_place(vtp, k, place);
+    }
+    for (size_t t = 0; t < triangles; t++) {
+        scree_sheet_triangle(membrane->around, membrane->count, t, corner);
+        for (size_t c = 0; c < 3; c++) scree_vtp_join(vtp, t, c, corner[c]);
+    }
+    return add_members(vtp, state, SCREE_ROWS_MEMBRANE, SCREE_ROWS_MEMBRANE, error);
 }
 
 /// Extent of the bodies along a direction.
@@ -201,6 +227,22 @@ static scree_status build_plates(scree_vtp *vtp, const scene *from, scree_error 
         if (status) break;
         keep_active(&array, state);
         status = scree_vtp_add(vtp, true, array, error);
+    }
+    return status;
+}
+
+/// The edges of the periodic cell, from the bottom to the top plate where it does not repeat.
+static scree_status build_lattice(scree_vtp *vtp, const scene *from, scree_error *error)
+{
+    const scree_state *state = from->state;
+    scree_vector low, high, ends[2];
+    scree_periodic_box(state, low, high);
+    size_t line = 0, edges = state->dimension == 2 ? 4 : 12;
+    scree_status status = scree_vtp_create(vtp, 2 * edges, SCREE_VTP_LINES, edges, error);
+    for (int edge = 0; edge < SCREE_PERIODIC_EDGES && !status; edge++) {
+        if (!scree_periodic_edge(&state->periodic, state->dimension, low, high, edge, ends)) continue;
+        scree_vtp_place(vtp, 2 * line, ends[0]);
+        scree_vtp_place(vtp, 2 * line++ + 1, ends[1]);
     }
     return status;
 }
@@ -301,14 +343,18 @@ scree_status scree_paraview_write(const char *directory, const scree_model *mode
         const char *kind;
         scree_status (*build)(scree_vtp *vtp, const scene *from, scree_error *error);
         int only_dimension; ///< 0: both
-    } scenes[] = {{"discs", build_bodies, 2},      {"spheres", build_bodies, 3}, {"contacts", build_contacts, 0},
-                  {"boundary", build_boundary, 2}, {"hull", build_hull, 3},      {"plates", build_plates, 0},
-                  {"cells", build_cells, 0}};
+    } scenes[] = {{"discs", build_bodies, 2},      {"spheres", build_bodies, 3},  {"contacts", build_contacts, 0},
+                  {"boundary", build_boundary, 2}, {"hull", build_hull, 3},       {"membrane", build_membrane, 3},
+                  {"plates", build_plates, 0},     {"lattice", build_lattice, 0}, {"cells", build_cells, 0}};
     const scene from = {model, state, table, info->cells};
     for (size_t k = 0; k < sizeof scenes / sizeof *scenes && !status; k++) {
         if (scenes[k].only_dimension && scenes[k].only_dimension != state->dimension) continue;
         if (scenes[k].build == build_cells && (!info->cells || info->cells->count == 0)) continue;
+        if (scenes[k].build == build_membrane && state->membrane.count == 0) continue;
         scree_vtp vtp;
+        // A cell has no boundary, and only a periodic sample has a cell.
+        bool around = scenes[k].build == build_boundary || scenes[k].build == build_hull;
+        if (state->periodic.directions ? around : scenes[k].build == build_lattice) continue;
         status = scenes[k].build(&vtp, &from, error);
         if (!status) status = write_scene(&vtp, folder, scenes[k].kind, info, error);
         scree_vtp_destroy(&vtp);

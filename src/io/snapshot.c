@@ -3,6 +3,7 @@
 /// body and 100 a contact on disk; a few milliseconds for 5000 discs.
 #include "io/snapshot.h"
 
+#include "boundary/sheet.h"
 #include "io/cell_file.h"
 #include "io/run_file.h"
 
@@ -47,6 +48,27 @@ static void write_members(scree_hdf5 *part, const char *group, const scree_state
     }
 }
 
+/// The triangles of the sheet of a membrane, by ids of bodies.
+static void write_sheet(scree_hdf5 *part, const char *group, const scree_state *state)
+{
+    const scree_membrane *membrane = &state->membrane;
+    if (membrane->around == 0 || part->status) return;
+    scree_array array = {.name = "membrane/triangle",
+                         .type = SCREE_FIELD_UINT32,
+                         .rows = scree_sheet_triangle_count(membrane->around, membrane->count),
+                         .components = 3,
+                         .unit = "1",
+                         .meaning = "triangles of the membrane, by ids of bodies, counter-clockwise seen from outside"};
+    part->status = scree_array_allocate(&array, part->error);
+    for (size_t t = 0; t < array.rows && !part->status; t++) {
+        size_t corner[3];
+        scree_sheet_triangle(membrane->around, membrane->count, t, corner);
+        for (size_t c = 0; c < 3; c++) ((uint32_t *)array.data)[3 * t + c] = (uint32_t)(state->grains + corner[c]);
+    }
+    scree_hdf5_write(part, group, &array);
+    scree_array_destroy(&array);
+}
+
 scree_status scree_snapshot_write(const char *directory, const scree_model *model, const scree_state *state,
                                   const scree_contact_table *table, const scree_snapshot_info *info, scree_error *error)
 {
@@ -70,6 +92,7 @@ scree_status scree_snapshot_write(const char *directory, const scree_model *mode
     write_bodies(&part, group, model, state);
     write_contacts(&part, group, state, table);
     write_members(&part, group, state);
+    write_sheet(&part, group, state);
     if (info->cells) scree_cells_write(&part, group, info->cells);
     status = scree_hdf5_save(&part);
     const char *case_name = model->config && model->config->name ? model->config->name : "";
@@ -155,28 +178,44 @@ static void read_contacts(scree_hdf5 *run, const char *group, scree_snapshot *sn
 {
     size_t *rows = &snapshot->contact_count;
     double **const point[3] = {&snapshot->contact_x, &snapshot->contact_y, &snapshot->contact_z};
+    double **const branch[3] = {&snapshot->branch_x, &snapshot->branch_y, &snapshot->branch_z};
     *rows = SIZE_MAX;
     snapshot->first = read_column(run, group, "contacts/first", SCREE_FIELD_UINT32, 1, rows);
     snapshot->second = read_column(run, group, "contacts/second", SCREE_FIELD_UINT32, 1, rows);
     snapshot->normal_force = read_column(run, group, "contacts/normal_force", SCREE_FIELD_DOUBLE, 1, rows);
     snapshot->tangential_force = read_column(run, group, "contacts/tangential_force", SCREE_FIELD_DOUBLE, 1, rows);
     read_vectors(run, group, "contacts/point", snapshot->dimension, rows, point);
+    read_vectors(run, group, "contacts/branch", snapshot->dimension, rows, branch);
 }
 
-/// Walls, through the table of members: they are read into an otherwise empty state.
-static void read_walls(scree_hdf5 *run, const char *group, scree_snapshot *snapshot)
+/// Walls and cell, through the table of members: they are read into an otherwise empty state.
+static void read_members(scree_hdf5 *run, const char *group, scree_snapshot *snapshot)
 {
-    scree_state walls = {0};
+    scree_state members = {.dimension = 2};
     for (size_t k = 0; k < scree_member_count && !run->status; k++) {
         const scree_field *field = &scree_members[k];
-        if (field->rows != SCREE_ROWS_WALLS) continue;
-        size_t rows = SCREE_WALL_COUNT;
-        scree_array array = scree_array_of_field(&walls, field);
-        array.data = read_column(run, group, field->name, field->type, field->components, &rows);
-        if (!run->status) scree_array_to_field(&array, field, &walls);
+        bool wanted = field->rows == SCREE_ROWS_WALLS || (field->rows == SCREE_ROWS_ONE && field->snapshot);
+        if (!wanted) continue;
+        scree_array array = scree_array_of_field(&members, field);
+        scree_hdf5_read(run, group, &array);
+        if (!run->status && array.rows != scree_field_rows_count(&members, field))
+            scree_hdf5_damaged(run, "it has another number of walls");
+        if (!run->status) scree_array_to_field(&array, field, &members);
         scree_array_destroy(&array);
     }
-    memcpy(snapshot->wall, walls.wall, sizeof walls.wall);
+    memcpy(snapshot->wall, members.wall, sizeof members.wall);
+    snapshot->periodic = members.periodic;
+}
+
+/// The sheet of a membrane, where there is one.
+static void read_sheet(scree_hdf5 *run, const char *group, scree_snapshot *snapshot)
+{
+    char name[80];
+    (void)snprintf(name, sizeof name, "%s/membrane", group);
+    if (run->status || H5Lexists(run->file, name, H5P_DEFAULT) <= 0) return;
+    snapshot->triangle_count = SIZE_MAX;
+    snapshot->triangle = read_column(run, group, "membrane/triangle", SCREE_FIELD_UINT32, 3, &snapshot->triangle_count);
+    if (run->status) snapshot->triangle_count = 0;
 }
 
 /// Every id names a body or a wall, so that a reader may index with them.
@@ -188,7 +227,9 @@ static void check_ids(scree_hdf5 *run, const scree_snapshot *snapshot)
         bad += snapshot->first[k] >= snapshot->count || (snapshot->second[k] >= snapshot->count && !wall);
     }
     for (size_t k = 0; k < snapshot->loop_count && !run->status; k++) bad += snapshot->loop[k] >= snapshot->count;
-    if (bad > 0) scree_hdf5_damaged(run, "a contact or the boundary names a body that does not exist");
+    for (size_t k = 0; k < 3 * snapshot->triangle_count && !run->status; k++)
+        bad += snapshot->triangle[k / 3][k % 3] >= snapshot->count;
+    if (bad > 0) scree_hdf5_damaged(run, "a contact, the boundary or a membrane names a body that does not exist");
 }
 
 scree_status scree_snapshot_read(const char *directory, size_t which, scree_snapshot *snapshot, scree_error *error)
@@ -219,7 +260,8 @@ scree_status scree_snapshot_read(const char *directory, size_t which, scree_snap
         snapshot->loop_count = SIZE_MAX;
         snapshot->loop = read_column(&run, group, "boundary/id", SCREE_FIELD_UINT32, 1, &snapshot->loop_count);
     }
-    read_walls(&run, group, snapshot);
+    read_members(&run, group, snapshot);
+    read_sheet(&run, group, snapshot);
     check_ids(&run, snapshot);
     status = scree_hdf5_close(&run);
     if (status) scree_snapshot_destroy(snapshot);
@@ -238,13 +280,17 @@ void scree_snapshot_destroy(scree_snapshot *snapshot)
                             &snapshot->first,
                             &snapshot->second,
                             &snapshot->loop,
+                            &snapshot->triangle,
                             &snapshot->normal_force,
                             &snapshot->tangential_force,
                             &snapshot->contact_x,
                             &snapshot->contact_y,
                             &snapshot->z,
                             &snapshot->vz,
-                            &snapshot->contact_z};
+                            &snapshot->contact_z,
+                            &snapshot->branch_x,
+                            &snapshot->branch_y,
+                            &snapshot->branch_z};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
     *snapshot = (scree_snapshot){0};
 }

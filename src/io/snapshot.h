@@ -62,9 +62,13 @@ typedef struct scree_snapshot {
     double *normal_force, *tangential_force; ///< N
     double *contact_x, *contact_y;           ///< m
     double *contact_z;                       ///< m, 3D only, else NULL
+    double *branch_x, *branch_y, *branch_z; ///< m, from the second (its image in a periodic cell) to the first; z in 3D
     size_t loop_count;
     uint32_t *loop;
+    size_t triangle_count;   ///< of the membrane in 3D
+    uint32_t (*triangle)[3]; ///< ids, counter-clockwise seen from outside
     scree_wall wall[SCREE_WALL_COUNT];
+    scree_periodic_cell periodic; ///< directions 0: none
 } scree_snapshot;
 scree_status scree_snapshot_count(const char *directory, size_t *count, scree_error *error) SCREE_MUST_USE;
 scree_status scree_snapshot_read(const char *directory, size_t which, scree_snapshot *snapshot,

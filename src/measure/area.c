@@ -4,6 +4,7 @@
 
 #include "measure/hull.h"
 #include "measure/outline.h"
+#include "state/periodic.h"
 
 double scree_loop_area(const scree_state *state)
 {
@@ -25,6 +26,7 @@ static double distance(const scree_wall *wall, int one, int other)
 
 double scree_sample_area(const scree_state *state)
 {
+    if (state->periodic.directions) return scree_periodic_extent(state);
     const scree_wall *wall = state->wall;
     bool closed = true;
     for (int w = 0; w <= SCREE_WALL_RIGHT; w++) closed = closed && wall[w].active;
@@ -37,6 +39,7 @@ double scree_sample_volume(const scree_model *model, const scree_state *state)
 {
     const scree_wall *wall = state->wall;
     if (state->dimension == 2) return scree_sample_area(state) * model->thickness;
+    if (state->periodic.directions) return scree_periodic_extent(state);
     bool closed = true;
     for (int w = 0; w < SCREE_WALL_COUNT; w++) closed = closed && wall[w].active;
     scree_vector centre;

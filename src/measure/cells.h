@@ -105,4 +105,17 @@ void scree_node_cells_destroy(scree_node_cells *list);
 void scree_cells_circles(const scree_cells *cells, const double *place, const scree_vector centre, double step,
                          size_t count, double *pressure, double *volume);
 
+/// Parts of a sample: near the plates, near the sides, the core; the rest (cell_regions.c).
+typedef enum scree_cell_region {
+    SCREE_REGION_ELSEWHERE,
+    SCREE_REGION_PLATES,
+    SCREE_REGION_SIDES,
+    SCREE_REGION_CORE,
+    SCREE_REGION_COUNT
+} scree_cell_region;
+
+/// Mean over the volume of the cells of each part; NAN for a part without cells. Cost: O(cells).
+void scree_cells_region_means(const scree_cells *cells, const double *place, const double *value,
+                              double mean[SCREE_REGION_COUNT]);
+
 #endif

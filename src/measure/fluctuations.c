@@ -4,6 +4,8 @@
 /// across it: then G = 0. Cost: O(count).
 #include "measure/measure.h"
 
+#include "base/matrix.h"
+
 #include <math.h>
 
 /// Square of a diagonal Cholesky factor over the trace of M below which all points count as lying on one line or plane.
@@ -72,4 +74,43 @@ double scree_fluctuations(int dimension, const double *const *from, const double
             square += rest * rest;
         }
     return sqrt(square / (double)count);
+}
+
+/// H H_0^-1, H_0 at the start of the loading stage.
+static void deformation_of(const scree_periodic_cell *cell, double deformation[9])
+{
+    double inverse[9];
+    scree_matrix_invert(cell->reference, inverse);
+    scree_matrix_multiply(cell->lattice, inverse, deformation);
+}
+
+double scree_periodic_fluctuations(const scree_periodic_cell *from_cell, const scree_periodic_cell *to_cell, int dimension,
+                               const double *const *from, const double *const *to, size_t count,
+                               double *const *fluctuation)
+{
+    double before[9], back[9], after[9], deformation[9], inverse[9], mean[3] = {0}, square = 0;
+    deformation_of(from_cell, before);
+    deformation_of(to_cell, after);
+    scree_matrix_invert(before, back);
+    scree_matrix_multiply(after, back, deformation);
+    scree_matrix_invert(to_cell->lattice, inverse);
+    for (size_t n = 0; n < count; n++) {
+        double begin[3] = {0}, carried[3], u[3] = {0}, whole[3], fraction[3];
+        for (int k = 0; k < dimension; k++) begin[k] = from[k][n];
+        scree_matrix_apply(deformation, begin, carried);
+        for (int k = 0; k < dimension; k++) u[k] = to[k][n] - carried[k];
+        scree_matrix_apply(inverse, u, fraction);
+        for (int k = 0; k < 3; k++) fraction[k] = rint(fraction[k]);
+        scree_matrix_apply(to_cell->lattice, fraction, whole);
+        for (int k = 0; k < dimension; k++) {
+            fluctuation[k][n] = u[k] - whole[k];
+            mean[k] += fluctuation[k][n] / (double)count;
+        }
+    }
+    for (size_t n = 0; n < count; n++)
+        for (int k = 0; k < dimension; k++) {
+            fluctuation[k][n] -= mean[k];
+            square += fluctuation[k][n] * fluctuation[k][n];
+        }
+    return count > 0 ? sqrt(square / (double)count) : 0;
 }

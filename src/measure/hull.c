@@ -68,6 +68,43 @@ double scree_hull_sample_volume(const scree_state *state, scree_vector centre)
     return volume;
 }
 
+/// moment_ij -= area_i x_j
+static void take_product(const scree_vector area, const scree_vector place, double factor, double moment[9])
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) moment[3 * i + j] -= factor * area[i] * place[j];
+}
+
+void scree_hull_pressure_moment(const scree_state *state, const scree_vector centre, double moment[9])
+{
+    const scree_hull *hull = &state->hull;
+    scree_vector corner[3];
+    for (int i = 0; i < 9; i++) moment[i] = 0;
+    for (size_t t = 0; t < hull->triangle_count; t++) {
+        if (hull->loaded[t] == SCREE_HULL_BARE) continue;
+        scree_hull_corners(state, t, centre, corner);
+        int w = scree_hull_wall(hull, t);
+        for (int c = 0; c < 3; c++) {
+            const double *a = corner[c], *b = corner[(c + 1) % 3];
+            if (w < 0) {
+                // A third of the area, which is half the sum of the products of the edges, at each corner.
+                for (int e = 0; e < 3; e++) {
+                    const double *p = corner[e], *q = corner[(e + 1) % 3];
+                    scree_vector product = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2],
+                                            p[0] * q[1] - p[1] * q[0]};
+                    take_product(product, a, 1.0 / 6, moment);
+                }
+                continue;
+            }
+            double plate = state->wall[w].position * state->wall[w].normal[2] - centre[2];
+            double at_a = a[2] - plate, at_b = b[2] - plate;
+            scree_vector across = {a[1] - b[1], b[0] - a[0], 0};
+            take_product(across, a, (2 * at_a + at_b) / 6, moment);
+            take_product(across, b, (at_a + 2 * at_b) / 6, moment);
+        }
+    }
+}
+
 double scree_hull_plate_area(const scree_state *state, int wall)
 {
     double area = 0;

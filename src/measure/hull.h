@@ -28,6 +28,10 @@ double scree_hull_volume(const scree_state *state);
 /// Volume [m3] of the sample, prisms included, and a point in its middle (centre of the polyhedron) [m].
 double scree_hull_sample_volume(const scree_state *state, scree_vector centre);
 
+/// moment: 3 x 3 out [J/Pa = m3], sum f_i x_j over the bodies of the hull of a lateral pressure of 1 Pa, the walls
+/// between the rims and the plates included; x from `centre`.
+void scree_hull_pressure_moment(const scree_state *state, const scree_vector centre, double moment[9]);
+
 /// Area [m2] of the bottom or top plate that the sample covers: what the plate has to carry under an all-round pressure
 /// p is p x this area, and with that the sample is in equilibrium.
 double scree_hull_plate_area(const scree_state *state, int wall);

@@ -11,7 +11,7 @@ double scree_loop_area(const scree_state *state);
 
 /// Area of the sample [m2]: bounded by the active plates where there are any (where their forces act) and by the loaded
 /// edges of the Delaunay boundary elsewhere (through the centres, where the pressure acts). Without a loop: the box of
-/// the plates. Outline in outline.h. With all four plates active: their box.
+/// the plates. Of a periodic cell: its own. Outline in outline.h. With all four plates active: their box.
 double scree_sample_area(const scree_state *state);
 
 /// Volume of the sample [m3]: in 2D scree_sample_area * thickness; in 3D the same between plates and hull (hull.h).
@@ -32,7 +32,8 @@ void scree_stress_from_boundary(const scree_model *model, const scree_state *sta
 /// normal of a plate it is exact (the vertical part of the pressure on inclined edges included); what needs to know
 /// WHERE on a plate its forces act is missing: the plates' friction in the lateral stress, which so is exactly -p with
 /// pressed sides. [Pa], tension positive; normal components NAN where nothing is applied in that direction, shear
-/// components NAN with plates on all sides and otherwise taken to be symmetric.
+/// components NAN with plates on all sides and otherwise taken to be symmetric. A whole periodic cell applies the
+/// stress of contacts and motion together (state/periodic.h).
 void scree_stress_from_plates(const scree_model *model, const scree_state *state, double stress[9]);
 
 /// Displacement gradient of the interior of a loop from the displacements of its vertices (Bagi 1996; P 3.1-3.3):
@@ -43,7 +44,8 @@ void scree_loop_gradient(const double *x, const double *y, const double *ux, con
                          double gradient[4]);
 
 /// Displacement gradient accumulated up to now (sum of increments over the current configuration, so its trace is the
-/// logarithmic volume change): the closed increments in state->strain plus that of the present loop. Tension positive.
+/// logarithmic volume change): the closed increments in state->strain plus that of the present loop. Of a whole
+/// periodic cell the integral of its velocity gradient. Tension positive.
 void scree_strain_measure(const scree_state *state, double gradient[9]);
 
 typedef struct scree_coordination {
@@ -68,7 +70,7 @@ double scree_mean_unbalanced_ratio(const scree_model *model, const scree_state *
                                    const scree_contact_table *table);
 
 /// Solid fraction inside the Delaunay boundary: disc areas (partial ones at the boundary by angle) over loop area,
-/// sphere volumes over hull volume. NAN without a boundary. Errors: memory.
+/// sphere volumes over hull volume; of a periodic cell, all bodies over the cell. NAN without either. Errors: memory.
 scree_status scree_solid_fraction(const scree_state *state, double *fraction, scree_error *error) SCREE_MUST_USE;
 
 /// How far the corners of the sample leave the affine motion of all grains, since the begin of the loading stage
@@ -76,6 +78,11 @@ scree_status scree_solid_fraction(const scree_state *state, double *fraction, sc
 /// (corner_distortion.c). NAN in 3D. Errors: memory.
 scree_status scree_corner_distortion(const scree_model *model, const scree_state *state, double *distortion,
                                      scree_error *error) SCREE_MUST_USE;
+
+/// How far the boundary of a round sample leaves the affine image of what it was at the begin of the loading stage
+/// (state->reference): root mean square in mean diameters (boundary_roughness.c). NAN in 3D. Errors: memory.
+scree_status scree_boundary_roughness(const scree_model *model, const scree_state *state, double *roughness,
+                                      scree_error *error) SCREE_MUST_USE;
 
 typedef struct scree_energy {
     double kinetic, kinetic_rotation; ///< J
@@ -97,5 +104,11 @@ void scree_energy_measure(const scree_model *model, const scree_state *state, co
 /// out: dimension x dimension of the affine part; returns rms fluctuation [m].
 double scree_fluctuations(int dimension, const double *const *from, const double *const *to, size_t count,
                           double *const *fluctuation, double *gradient);
+
+/// The same in a whole periodic cell, between two states of one loading stage: relative to the affine field of the cell
+/// itself and to the mean, between the images that are nearest after it. Fluctuations must be less than half the cell.
+double scree_periodic_fluctuations(const scree_periodic_cell *from_cell, const scree_periodic_cell *to_cell, int dimension,
+                               const double *const *from, const double *const *to, size_t count,
+                               double *const *fluctuation);
 
 #endif

@@ -1,11 +1,12 @@
 /// Solid fraction inside the Delaunay boundary. A disc inside counts whole, a disc on the boundary as the sector of the
 /// interior angle that its two edges leave (exact as long as the disc meets no other edge of the loop), a sphere on the
 /// hull as the interior solid angle of its triangles. Overlaps at contacts are counted twice: a relative error of the
-/// order of (indentation / radius)^1.5. Cost: O(bodies).
+/// order of (indentation / radius)^1.5. In a periodic cell all bodies count whole. Cost: O(bodies).
 #include "measure/measure.h"
 
 #include "measure/hull.h"
 #include "measure/outline.h"
+#include "state/periodic.h"
 
 #include <math.h>
 #include <string.h>
@@ -82,6 +83,17 @@ static void add_solid_angles(const scree_state *state, scree_vector *inward, dou
         }
 }
 
+/// Area (2D) or volume of all grains.
+static double solid_of_all(const scree_state *state)
+{
+    double solid = 0;
+    for (size_t id = 0; id < state->grains; id++) {
+        double radius = state->row[state->row_of_id[id]].radius;
+        solid += state->dimension == 2 ? M_PI * radius * radius : 4 * M_PI / 3 * radius * radius * radius;
+    }
+    return solid;
+}
+
 /// Sphere volume inside the hull: whole ones less what the boundary cuts off.
 static scree_status solid_in_hull(const scree_state *state, double *solid, scree_error *error)
 {
@@ -92,8 +104,7 @@ static scree_status solid_in_hull(const scree_state *state, double *solid, scree
     if (!status) status = scree_allocate(&angle, hull->node_count, sizeof *angle, error);
     if (!status) {
         add_solid_angles(state, inward, angle);
-        for (size_t id = 0; id < state->grains; id++)
-            *solid += 4 * M_PI / 3 * pow(state->row[state->row_of_id[id]].radius, 3);
+        *solid = solid_of_all(state);
         for (size_t k = 0; k < hull->node_count; k++) {
             double inside = angle[k] - 4 * M_PI * floor(angle[k] / (4 * M_PI));
             *solid -= (4 * M_PI - inside) / 3 * pow(state->row[state->row_of_id[hull->id[k]]].radius, 3);
@@ -107,11 +118,7 @@ static scree_status solid_in_hull(const scree_state *state, double *solid, scree
 /// Disc area inside the loop.
 static double solid_in_loop(const scree_state *state)
 {
-    double solid = 0;
-    for (size_t id = 0; id < state->grains; id++) {
-        double radius = state->row[state->row_of_id[id]].radius;
-        solid += M_PI * radius * radius;
-    }
+    double solid = solid_of_all(state);
     for (size_t k = 0; k < state->loop.count; k++) {
         double radius = state->row[state->row_of_id[state->loop.id[k]]].radius;
         solid -= (M_PI - interior_angle(state, k) / 2) * radius * radius;
@@ -124,6 +131,7 @@ scree_status scree_solid_fraction(const scree_state *state, double *fraction, sc
     *fraction = NAN;
     double solid = 0;
     scree_status status = SCREE_OK;
+    if (state->periodic.directions) *fraction = solid_of_all(state) / scree_periodic_extent(state);
     if (state->dimension == 2 && state->loop.count > 0) *fraction = solid_in_loop(state) / scree_loop_area(state);
     if (state->dimension == 3 && state->hull.node_count > 0) {
         status = solid_in_hull(state, &solid, error);

@@ -9,6 +9,9 @@
 #include "measure/outline.h"
 #include "measure/polygon.h"
 #include "measure/polyhedron.h"
+#include "state/periodic.h"
+
+#include <string.h>
 
 void scree_loop_gradient(const double *x, const double *y, const double *ux, const double *uy, size_t count,
                          double gradient[4])
@@ -68,6 +71,10 @@ static void hull_increment(const scree_state *state, double increment[9])
 
 void scree_strain_measure(const scree_state *state, double gradient[9])
 {
+    if (scree_periodic_is_whole(state)) {
+        memcpy(gradient, state->periodic.strain, sizeof state->periodic.strain);
+        return;
+    }
     for (int i = 0; i < 9; i++) gradient[i] = state->strain.gradient[i];
     if (state->dimension == 3) {
         double increment[9];

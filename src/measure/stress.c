@@ -23,6 +23,7 @@
 #include "measure/facets.h"
 #include "measure/hull.h"
 #include "measure/outline.h"
+#include "state/periodic.h"
 
 #include <math.h>
 
@@ -74,10 +75,15 @@ static void add_pressure(void *user, const scree_outline_segment *segment)
     add_product(pressure->sum, force, middle);
 }
 
-/// The same of the hull, whose forces at its bodies are kept.
-static void add_hull_pressure(const scree_state *state, pressure_sum *pressure)
+/// The same of the hull, whose forces at its bodies are kept; a membrane has taken a part of the pressure from them.
+static void add_hull_pressure(const scree_state *state, pressure_sum *pressure, double applied)
 {
     (void)scree_hull_sample_volume(state, pressure->centre);
+    double carried = applied - scree_direct_pressure(state), moment[9];
+    if (carried > 0) {
+        scree_hull_pressure_moment(state, pressure->centre, moment);
+        for (int i = 0; i < 9; i++) pressure->sum[i] += carried * moment[i];
+    }
     for (size_t k = 0; k < state->hull.node_count; k++) {
         scree_vector place;
         scree_hull_position(state, k, place);
@@ -102,7 +108,7 @@ static pressure_sum sum_pressure(const scree_model *model, const scree_state *st
 {
     pressure_sum pressure = {.state = state, .traction = applied * model->thickness};
     if (state->dimension == 3) {
-        add_hull_pressure(state, &pressure);
+        add_hull_pressure(state, &pressure, applied);
         return pressure;
     }
     scree_outline_area(state, pressure.centre);
@@ -151,6 +157,10 @@ static bool has_plates(const scree_state *state, int axis)
 
 void scree_stress_from_plates(const scree_model *model, const scree_state *state, double stress[9])
 {
+    if (scree_periodic_is_whole(state)) {
+        scree_periodic_stress(model, state, stress);
+        return;
+    }
     pressure_sum pressure = sum_pressure(model, state, state->pressure);
     const scree_wall *wall = state->wall;
     for (int w = 0; w < SCREE_WALL_COUNT; w++)

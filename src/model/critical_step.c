@@ -130,9 +130,18 @@ static double strong_static_force(const scree_model *model, double height, int m
     const scree_config *config = model->config;
     double pressure = gravity_of(model) * model->density[material] * solid_fraction(model) * height;
     for (int64_t i = 0; i < config->stage_count; i++)
-        if (config->stages[i].kind == SCREE_STAGE_CONFINE) pressure = fmax(pressure, config->stages[i].pressure);
+        pressure = fmax(pressure, scree_held_pressure(&config->stages[i]));
     double diameter = 2 * model->mean_radius;
     return STRONG * pressure * diameter * (model->dimension == 3 ? diameter : model->thickness);
+}
+
+/// Speed [m/s] at which neighbours pass each other in the fastest loading.
+static double shear_speed(const scree_model *model)
+{
+    double fastest = 0;
+    for (int64_t i = 0; i < model->config->stage_count; i++)
+        fastest = fmax(fastest, scree_model_loading_rate(&model->config->stages[i]));
+    return 2 * model->mean_radius * fastest;
 }
 
 /// Largest force of an elastic impact: m v^2 / 2 = (2/5) K d^2.5 and f = K d^1.5.
@@ -153,9 +162,11 @@ double scree_critical_step_estimate(const scree_model *model)
     double height = sample_height(model, stage);
     double force = strong_static_force(model, height, material);
     if (stage && stage->method == SCREE_PREPARE_GAS) {
-        double fall = sqrt(2 * gravity_of(model) * height);
-        force = fmax(force, impact_force(stiffness, effective_mass, fmax(FAST * stage->velocity, fall)));
+        double fall = sqrt(2 * gravity_of(model) * height), speed = fmax(stage->velocity, shear_speed(model));
+        force = fmax(force, impact_force(stiffness, effective_mass, fmax(FAST * speed, fall)));
     }
+    if (stage && stage->method == SCREE_PREPARE_PAIR)
+        force = impact_force(stiffness, effective_mass, isnan(stage->speed) ? model->reference_velocity : stage->speed);
     double guard = stiffness * pow(model->config->guard.overlap * model->radius_min, 1.5);
     if (!(force > 0 && force < guard)) force = guard;
 

@@ -40,6 +40,11 @@ int scree_model_particle_material(const scree_model *model)
     return -1;
 }
 
+bool scree_model_is_wholly_periodic(const scree_model *model)
+{
+    return model->config->boundary.periodic == (1 << model->dimension) - 1;
+}
+
 static double shear_modulus(const scree_config_material *m)
 {
     return m->young_modulus / (2 * (1 + m->poisson_ratio));
@@ -133,8 +138,30 @@ static void make_frictionless(scree_model *model)
     }
 }
 
-/// A membrane is made of the particles' material without friction, as one more material. Its chain must not swing
-/// faster than the step can follow: omega = 2 sqrt(k / m), step 2 / omega.
+/// Stiffness of the springs of a membrane and the step that follows them: 2 / omega of the fastest oscillation. A chain
+/// has omega^2 = 4 k / m; a triangular sheet 6 k / m when it is regular, and less than 8 k / m as long as no direction
+/// has more than four thirds of its springs. Boundary/membrane.c has the stiffness of the sheet.
+static double membrane_step(scree_model *model)
+{
+    bool solid = model->dimension == 3;
+    model->membrane_stiffness = (solid ? sqrt(0.75) : 1) * model->config->boundary.membrane_stiffness;
+    double mass = scree_model_mass(model, model->membrane_material, model->membrane_radius);
+    return sqrt(mass / model->membrane_stiffness / (solid ? 2 : 1));
+}
+
+/// Two spheres of the sheet that touch each other and their plate leave a hole of a quarter of their radius (sheet.c).
+static scree_status check_membrane_radius(const scree_model *model, scree_error *error)
+{
+    double hole = 0.25 * model->membrane_radius;
+    if (model->dimension == 2 || hole < model->radius_min) return SCREE_OK;
+    return FIELD_ERROR(error, "boundary.membrane_radius",
+                       "between spheres of a membrane of radius %.3g m a sphere of %.3g m slips through, and the "
+                       "smallest has %.3g m: give a smaller radius",
+                       model->membrane_radius, hole, model->radius_min);
+}
+
+/// A membrane is made of the particles' material without friction, as one more material. Its springs must not swing
+/// faster than the step can follow.
 static scree_status resolve_membrane(scree_model *model, scree_error *error)
 {
     const scree_config *config = model->config;
@@ -152,14 +179,18 @@ static scree_status resolve_membrane(scree_model *model, scree_error *error)
     model->density[m] = model->density[grains];
     make_frictionless(model);
     double radius = config->boundary.membrane_radius;
-    model->membrane_radius = isnan(radius) ? 1.25 * model->mean_radius : radius;
-    model->membrane_stiffness = config->boundary.membrane_stiffness;
-    double limit = sqrt(scree_model_mass(model, m, model->membrane_radius) / model->membrane_stiffness);
-    if (model->step <= limit) return SCREE_OK;
-    return FIELD_ERROR(error, "boundary.membrane_stiffness",
-                       "the chain of the membrane needs a step of at most %.2g s, this case has %.2g s: give a smaller "
-                       "stiffness or step",
-                       limit, model->step);
+    // A sheet needs no large bodies to be tight; a finer one lies closer to the grains and bears more stretch. But
+    // bodies smaller than every grain would need a smaller step.
+    double usual =
+        model->dimension == 3 ? fmax(0.75 * model->mean_radius, model->radius_min) : 1.25 * model->mean_radius;
+    model->membrane_radius = isnan(radius) ? usual : radius;
+    double limit = membrane_step(model), step = (double)model->large_multiple * model->step;
+    if (step <= limit) return check_membrane_radius(model, error);
+    return FIELD_ERROR(
+        error, "boundary.membrane_stiffness",
+        "the springs of the membrane need a step of at most %.2g s, this case has %.2g s: give a smaller "
+        "stiffness or step",
+        limit, step);
 }
 
 /// Does the packing of a prepare stage exist?
@@ -194,6 +225,14 @@ static double mean_mass(const scree_model *model, int material)
     return at_ends / 3 + scree_model_mass(model, material, (a + b) / 2) * 2 / 3;
 }
 
+double scree_held_pressure(const scree_config_stage *stage)
+{
+    if (stage->kind == SCREE_STAGE_CONFINE) return stage->pressure;
+    double largest = NAN;
+    for (int k = 0; k < 9 && stage->kind == SCREE_STAGE_DEFORM; k += 4) largest = fmax(largest, stage->stress[k]);
+    return largest;
+}
+
 double scree_model_loading_rate(const scree_config_stage *stage)
 {
     if (stage->kind == SCREE_STAGE_COMPRESS) return fabs(stage->rate);
@@ -206,8 +245,8 @@ double scree_model_loading_rate(const scree_config_stage *stage)
     return rate;
 }
 
-/// Reference velocity, phi and psi: those of the first loading stage under the pressure of the last confine stage
-/// before it.
+/// Reference velocity, phi and psi: those of the first loading stage under the pressure that it holds or that of the
+/// last confine stage before it.
 static scree_status resolve_loading(scree_model *model, scree_error *error)
 {
     const scree_config *config = model->config;
@@ -218,7 +257,7 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
             scree_status status = check_prepare(model, i, error);
             if (status) return status;
         }
-        if (stage->kind == SCREE_STAGE_CONFINE) pressure = stage->pressure;
+        if (scree_held_pressure(stage) > 0) pressure = scree_held_pressure(stage);
         rate = scree_model_loading_rate(stage);
     }
     model->reference_velocity = config->contact.reference_velocity;
@@ -228,7 +267,7 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
                            "hertz_brilliantov needs a reference slip velocity: without a loading stage (2 rate <R>) "
                            "give contact.reference_velocity");
     model->phi = model->psi = NAN;
-    if (isnan(rate)) return SCREE_OK;
+    if (isnan(rate) || isnan(pressure)) return SCREE_OK;
     double mass = mean_mass(model, scree_model_particle_material(model));
     scree_quasistatic_numbers(model->dimension, (double)config->particles.count, mass, model->mean_radius,
                               model->thickness, rate, pressure, &model->phi, &model->psi);

@@ -43,7 +43,7 @@ typedef struct scree_model {
     bool membrane;             ///< some stage has one
     int membrane_material;     ///< index of its constants below, frictionless, else those of the particles
     double membrane_radius;    ///< m; 0 without a membrane
-    double membrane_stiffness; ///< N/m
+    double membrane_stiffness; ///< N/m, of one spring
     int material_count;
     scree_pair_constants pairs[SCREE_MAX_MATERIALS][SCREE_MAX_MATERIALS]; ///< grain on grain
     scree_pair_constants walls[SCREE_MAX_MATERIALS];                      ///< grain on a plate of the same material
@@ -55,6 +55,12 @@ typedef struct scree_model {
 /// meet: a step above the critical one (names it and offers it), a packing that cannot fit, a material that does not
 /// exist.
 scree_status scree_model_build(const scree_config *config, scree_model *model, scree_error *error) SCREE_MUST_USE;
+
+/// The sample is periodic in all directions of space.
+bool scree_model_is_wholly_periodic(const scree_model *model);
+
+/// Largest normal stress that a stage holds [Pa, compression positive], NAN when it holds none.
+double scree_held_pressure(const scree_config_stage *stage);
 
 /// Whether the law looks ahead by a step and needs scree_state_foresee.
 static inline bool scree_model_foresees(const scree_model *model)

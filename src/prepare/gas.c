@@ -5,6 +5,8 @@
 /// and Tarjus 1991), and needs ever more trials towards it; MOST_TRIALS for one disc carry 100,000 equal discs to 0.51,
 /// and discs of 1:2, the small between the large, to 0.62. Above that is an error.
 ///
+/// In directions in which the box repeats itself there are no walls, and images are kept clear of too.
+///
 /// Velocities: normal components of equal variance (Maxwell; the same temperature for all only if masses are equal),
 /// without the drift of the centre of mass, scaled so that the root mean square of a component is exactly the one asked
 /// for. They go through log and cos, whose last bit may differ between mathematical libraries; places do not.
@@ -54,24 +56,62 @@ static bool is_clear(const gas_grid *grid, uint32_t first, const double at[3], d
     return true;
 }
 
-static bool is_free(const gas_grid *grid, const double at[3], double radius)
+/// No body of the box is within reach of one at a place that may lie outside.
+static bool is_free_at(const gas_grid *grid, const double at[3], double radius)
 {
-    size_t column = (size_t)(at[0] / grid->cell), row = (size_t)(at[1] / grid->cell);
-    size_t layer = (size_t)(at[2] / grid->cell);
-    for (size_t l = layer - (layer > 0); l <= layer + 1 && l < grid->layers; l++)
-        for (size_t r = row - (row > 0); r <= row + 1 && r < grid->rows; r++)
-            for (size_t c = column - (column > 0); c <= column + 1 && c < grid->columns; c++)
+    size_t first[3];
+    double last[3];
+    for (int c = 0; c < 3; c++) {
+        double index = floor(at[c] / grid->cell);
+        first[c] = index > 1 ? (size_t)index - 1 : 0;
+        last[c] = index + 1;
+    }
+    for (size_t l = first[2]; (double)l <= last[2] && l < grid->layers; l++)
+        for (size_t r = first[1]; (double)r <= last[1] && r < grid->rows; r++)
+            for (size_t c = first[0]; (double)c <= last[0] && c < grid->columns; c++)
                 if (!is_clear(grid, grid->head[(l * grid->rows + r) * grid->columns + c], at, radius)) return false;
     return true;
+}
+
+/// Sides of the box along the axes.
+static void sides_of(const scree_packing *packing, double side[3])
+{
+    const scree_box *box = &packing->box;
+    side[0] = box->width;
+    side[1] = packing->dimension == 3 ? box->depth : box->height;
+    side[2] = box->height;
+}
+
+/// Nor is an image.
+static bool is_free(const gas_grid *grid, const double at[3], double radius)
+{
+    const unsigned periodic = grid->packing->box.periodic;
+    const int reach[3] = {periodic & 1 ? 1 : 0, periodic & 2 ? 1 : 0, periodic & 4 ? 1 : 0};
+    double side[3];
+    sides_of(grid->packing, side);
+    for (int i = -reach[0]; i <= reach[0]; i++)
+        for (int j = -reach[1]; j <= reach[1]; j++)
+            for (int k = -reach[2]; k <= reach[2]; k++) {
+                const double image[3] = {at[0] + i * side[0], at[1] + j * side[1], at[2] + k * side[2]};
+                if (!is_free_at(grid, image, radius)) return false;
+            }
+    return true;
+}
+
+/// Coordinate of a centre: anywhere in a direction that repeats itself, else a radius from both walls.
+static double random_coordinate(uint64_t seed, uint64_t counter, double side, bool periodic, double radius)
+{
+    double u = scree_random_uniform(seed, SCREE_RANDOM_POSITION, counter);
+    return periodic ? u * side : radius + u * (side - 2 * radius);
 }
 
 /// Places bodies in `order` until one finds no room; returns how many found one.
 static size_t add_bodies(gas_grid *grid, uint64_t seed, const uint32_t *order, scree_packing *packing)
 {
-    const scree_box *box = &packing->box;
-    const bool solid = packing->dimension == 3;
-    const double side[3] = {box->width, solid ? box->depth : box->height, box->height};
+    const unsigned periodic = packing->box.periodic;
+    double side[3];
     uint64_t trials = 0;
+    sides_of(packing, side);
     for (size_t placed = 0; placed < packing->count; placed++) {
         uint32_t i = order[placed];
         double radius = packing->radius[i], at[3] = {0};
@@ -79,7 +119,7 @@ static size_t add_bodies(gas_grid *grid, uint64_t seed, const uint32_t *order, s
         do {
             if (trial++ == MOST_TRIALS) return placed;
             for (int c = 0; c < packing->dimension; c++)
-                at[c] = radius + scree_random_uniform(seed, SCREE_RANDOM_POSITION, trials++) * (side[c] - 2 * radius);
+                at[c] = random_coordinate(seed, trials++, side[c], periodic >> c & 1, radius);
         } while (!is_free(grid, at, radius));
         for (int c = 0; c < packing->dimension; c++) packing->place[c][i] = at[c];
         uint32_t *head = &grid->head[cell_of(grid, at)];
@@ -184,6 +224,7 @@ static void set_moving(const scree_model *model, const scree_config_stage *stage
 const scree_preparation scree_prepare_gas = {
     .name = "gas",
     .meaning = "particles at random places without contact, with random velocities",
+    .periodic = true,
     .place = place,
     .set_moving = set_moving,
 };

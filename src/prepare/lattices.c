@@ -6,6 +6,10 @@
 /// Width auto: the number n whose height over width comes nearest to the aspect ratio (m = n where the depth is auto
 /// too); a given width or depth is lowered to the next that the lattice fills. The model has checked that radii are
 /// equal.
+///
+/// Periodic in the horizontal directions, all layers have n (n x m) bodies. Periodic in the last direction too, the
+/// layers have to be whole, and even in number where they alternate: then width (or aspect ratio) and number of bodies
+/// have to suit each other.
 #include "prepare/methods.h"
 
 #include <math.h>
@@ -13,6 +17,7 @@
 typedef struct lattice {
     size_t missing; ///< by how many bodies every second layer is shorter, along each side
     double rise;    ///< distance of layers in radii
+    bool staggered; ///< every second layer is shifted by a radius along each side
 } lattice;
 
 /// Layers (rows in 2D) of a lattice that is n bodies wide and m deep.
@@ -61,17 +66,33 @@ static void place_body(scree_packing *packing, size_t i, const lattice *kind, co
     size_t pair = of->full + of->shorter, within = i % pair, layer = 2 * (i / pair) + (within >= of->full);
     bool shorter = within >= of->full;
     size_t number = shorter ? within - of->full : within, across = shorter ? of->n - kind->missing : of->n;
-    double shift = shorter && kind->missing ? 1 : 0;
+    double shift = shorter && kind->staggered ? 1 : 0;
     packing->place[0][i] = r * (1 + 2 * (double)(packing->dimension == 3 ? number % across : number) + shift);
     if (packing->dimension == 3) packing->place[1][i] = r * (1 + 2 * (double)(number / across) + shift);
     packing->place[packing->dimension - 1][i] = r * (1 + kind->rise * (double)layer);
 }
 
+/// Layers of a lattice that repeats itself upwards must be whole and close with the first.
+static scree_status check_layers(const scree_model *model, const scree_config_stage *stage, size_t count,
+                                 const lattice *kind, const layers *of, scree_error *error)
+{
+    size_t whole = kind->staggered ? of->full + of->shorter : of->full, fewer = count / whole * whole;
+    if (count % whole == 0) return SCREE_OK;
+    return scree_prepare_error(error, model, stage, "method",
+                               "%zu particles do not fill a periodic lattice of %slayers with %zu particles: set "
+                               "particles.count to %zu or %zu, or another width",
+                               count, kind->staggered ? "pairs of " : "", of->full, fewer > 0 ? fewer : whole,
+                               fewer + whole);
+}
+
 static scree_status place_lattice(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
-                                  const lattice *kind, scree_error *error)
+                                  lattice alone, scree_error *error)
 {
     size_t count = packing->count;
     scree_box *box = &packing->box;
+    const bool around = box->periodic & 1, upwards = box->periodic >> (packing->dimension - 1) & 1;
+    lattice *kind = &alone;
+    if (around) kind->missing = 0;
     if (count == 0) return SCREE_OK;
     double r = packing->radius[0];
     const bool solid = packing->dimension == 3, deep = solid && !isnan(box->depth);
@@ -84,38 +105,48 @@ static scree_status place_lattice(const scree_model *model, const scree_config_s
         return scree_prepare_error(error, model, stage, "width", "a row of the lattice needs at least %g m",
                                    2 * (double)(1 + kind->missing) * r);
     layers of = layers_of(kind, packing->dimension, n, deep ? m : n);
+    scree_status status = upwards ? check_layers(model, stage, count, kind, &of, error) : SCREE_OK;
+    if (status) return status;
     for (size_t i = 0; i < count; i++) place_body(packing, i, kind, &of);
     box->width = 2 * (double)of.n * r;
     box->depth = 2 * (double)of.m * r;
-    box->height = r * (2 + kind->rise * (double)(layers_needed(&of, count) - 1));
+    double needed = (double)layers_needed(&of, count);
+    box->height = r * (upwards ? kind->rise * needed : 2 + kind->rise * (needed - 1));
     return SCREE_OK;
 }
 
 static scree_status place_hexagonal(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
                                     scree_error *error)
 {
-    return place_lattice(model, stage, packing, &(lattice){1, sqrt(3.0)}, error);
+    return place_lattice(model, stage, packing, (lattice){1, sqrt(3.0), true}, error);
 }
 
 static scree_status place_upright(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
                                   scree_error *error)
 {
-    return place_lattice(model, stage, packing, &(lattice){0, 2}, error);
+    return place_lattice(model, stage, packing, (lattice){0, 2, false}, error);
 }
 
 static scree_status place_face_centred(const scree_model *model, const scree_config_stage *stage,
                                        scree_packing *packing, scree_error *error)
 {
-    return place_lattice(model, stage, packing, &(lattice){1, sqrt(2.0)}, error);
+    return place_lattice(model, stage, packing, (lattice){1, sqrt(2.0), true}, error);
 }
 
-const scree_preparation scree_prepare_hexagonal = {
-    .name = "hexagonal", .meaning = "equal discs on a triangular lattice, just touching", .place = place_hexagonal};
-const scree_preparation scree_prepare_square = {
-    .name = "square", .meaning = "equal discs on a square lattice, just touching", .place = place_upright};
+const scree_preparation scree_prepare_hexagonal = {.name = "hexagonal",
+                                                   .meaning = "equal discs on a triangular lattice, just touching",
+                                                   .periodic = true,
+                                                   .place = place_hexagonal};
+const scree_preparation scree_prepare_square = {.name = "square",
+                                                .meaning = "equal discs on a square lattice, just touching",
+                                                .periodic = true,
+                                                .place = place_upright};
 const scree_preparation scree_prepare_face_centred = {.name = "face_centred",
                                                       .meaning =
                                                           "equal spheres on a face-centred lattice, just touching",
+                                                      .periodic = true,
                                                       .place = place_face_centred};
-const scree_preparation scree_prepare_cubic = {
-    .name = "cubic", .meaning = "equal spheres on a simple cubic lattice, just touching", .place = place_upright};
+const scree_preparation scree_prepare_cubic = {.name = "cubic",
+                                               .meaning = "equal spheres on a simple cubic lattice, just touching",
+                                               .periodic = true,
+                                               .place = place_upright};

@@ -114,7 +114,7 @@ static bool keep_middle(const scree_packing *larger, candidate *of, scree_packin
         for (int c = 0; c < packing->dimension; c++)
             packing->place[c][i] = larger->place[c][of[i].index] - centre[c] + reach;
     }
-    packing->box = (scree_box){2 * reach, 2 * reach, 2 * reach};
+    packing->box = (scree_box){.width = 2 * reach, .depth = 2 * reach, .height = 2 * reach};
     return true;
 }
 

@@ -5,6 +5,7 @@
 #include "prepare/methods.h"
 
 #include "base/random.h"
+#include "state/periodic.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -26,6 +27,8 @@ const scree_preparation *scree_preparation_get(scree_prepare_method method)
         return &scree_prepare_gas;
     case SCREE_PREPARE_GROWTH:
         return &scree_prepare_growth;
+    case SCREE_PREPARE_PAIR:
+        return &scree_prepare_pair;
     }
     return NULL;
 }
@@ -87,7 +90,11 @@ static void stand_walls(const scree_model *model, const scree_box *box, bool act
         *wall = (scree_wall){
             .position = w % 2 ? -far[w / 2] : 0, .active = active, .material = scree_model_particle_material(model)};
         wall->normal[axis[w]] = w % 2 ? -1 : 1;
+        // No walls where the sample repeats itself.
+        if (box->periodic >> axis[w] & 1) wall->active = 0;
     }
+    const double side[3] = {box->width, state->dimension == 3 ? box->depth : box->height, box->height};
+    if (box->periodic) scree_periodic_set(&state->periodic, box->periodic, side);
 }
 
 scree_status scree_prepare(const scree_model *model, const scree_config_stage *stage, scree_state *state,
@@ -96,6 +103,12 @@ scree_status scree_prepare(const scree_model *model, const scree_config_stage *s
     const scree_preparation *method = scree_preparation_get((scree_prepare_method)stage->method);
     const bool round = stage->outline != SCREE_SAMPLE_BOX;
     size_t count = (size_t)model->config->particles.count;
+    unsigned periodic = (unsigned)model->config->boundary.periodic;
+    if (periodic && !method->periodic)
+        return scree_prepare_error(error, model, stage, "method",
+                                   "%s needs walls and cannot fill a periodic cell: prepare with gas or on a lattice, "
+                                   "and confine",
+                                   method->name);
     scree_status status = scree_state_create(state, model->dimension, count, error);
     if (status) return status;
     scree_packing packing;
@@ -103,7 +116,7 @@ scree_status scree_prepare(const scree_model *model, const scree_config_stage *s
     if (!status && round)
         status = scree_packing_cut_round(model, stage, method, &packing, error);
     else if (!status) {
-        packing.box = (scree_box){.width = stage->width, .depth = stage->depth};
+        packing.box = (scree_box){.width = stage->width, .depth = stage->depth, .periodic = periodic};
         packing.aspect_ratio = stage->aspect_ratio;
         scree_draw_radii(model, packing.radius, count);
         status = method->place(model, stage, &packing, error);

@@ -8,6 +8,7 @@
 /// in 3D. `height` is set by the method to the top of the packing.
 typedef struct scree_box {
     double width, depth, height;
+    unsigned periodic; ///< mask of axes along which the box repeats itself: 1 x, 2 y, 4 z
 } scree_box;
 
 /// A packing in the making: radii, and centres in the box, in the order of placement.
@@ -23,6 +24,7 @@ typedef struct scree_packing {
 typedef struct scree_preparation {
     const char *name;
     const char *meaning;
+    bool periodic; ///< can fill a box that repeats itself
     /// Places the bodies of `packing` (radii drawn; width and depth of its box given, or NAN for auto) and sets the
     /// box. A method may draw other radii from the same distribution. Errors: does not fit, memory.
     scree_status (*place)(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,

@@ -9,9 +9,9 @@
 
 #include "io/cell_file.h"
 #include "io/run_directory.h"
-#include "io/series.h"
 #include "io/snapshot.h"
 #include "measure/localisation.h"
+#include "run/cell_averages.h"
 
 #include <math.h>
 #include <string.h>
@@ -68,6 +68,9 @@ typedef struct walk {
     double *field[2]; ///< at the bodies: the last window and this one
     uint8_t *inside[2];
     double diameter; ///< m, of the last window
+    const scree_series *series;
+    scree_cell_averages averages; ///< of the present stage
+    int dimension;
 } walk;
 
 // ---- circles -----------------------------------------------------------------------------------------------------
@@ -95,26 +98,30 @@ static void box_of(const scree_assembly *assembly, scree_vector low, scree_vecto
 static scree_status write_circles(walk *w, const scree_cell_snapshot *snapshot, scree_error *error)
 {
     const scree_assembly *assembly = &snapshot->assembly;
-    static const double height[3] = {1.0 / 8, 1.0 / 2, 7.0 / 8};
+    static const double height[SCREE_CIRCLES] = {1.0 / 8, 1.0 / 2, 7.0 / 8};
     scree_vector low, high, centre;
     box_of(assembly, low, high);
     int axis = assembly->dimension - 1;
     double step = mean_diameter(assembly), mean = scree_cells_mean(&snapshot->cells, snapshot->cells.pressure);
     size_t count = (size_t)fmax(1, fmin(1e4, (high[0] - low[0]) / step));
-    double *pressure = NULL;
-    scree_status status = scree_allocate(&pressure, 2 * count, sizeof *pressure, error);
-    for (int p = 0; p < 3 && !status; p++) {
+    double *pressure = NULL, *ratio;
+    scree_status status = scree_allocate(&pressure, (2 + SCREE_CIRCLES) * count, sizeof *pressure, error);
+    if (status) return status;
+    ratio = pressure + 2 * count;
+    for (size_t p = 0; p < SCREE_CIRCLES && !status; p++) {
         for (int i = 0; i < 3; i++) centre[i] = (low[i] + high[i]) / 2;
         centre[axis] = low[axis] + height[p] * (high[axis] - low[axis]);
         scree_cells_circles(&snapshot->cells, assembly->place, centre, step, count, pressure, pressure + count);
         for (size_t c = 0; c < count && !status; c++) {
+            ratio[p * count + c] = pressure[c] / mean;
             const double row[CIRCLE_COLUMNS] = {
-                (double)snapshot->index, snapshot->time,  snapshot->axial_strain, p,
+                (double)snapshot->index, snapshot->time,  snapshot->axial_strain, (double)p,
                 (double)(c + 1) * step,  (double)(c + 1), pressure[count + c],    pressure[c],
                 pressure[c] / mean};
             status = scree_series_append(&w->circles, row, error);
         }
     }
+    if (!status) scree_cell_averages_add(&w->averages, snapshot, ratio, count);
     scree_release(&pressure);
     return status;
 }
@@ -185,6 +192,7 @@ static scree_status close_window(walk *w, const scree_cell_snapshot *second, scr
         window->overlap = any ? scree_band_overlap(w->inside[0], w->inside[1], bodies) : NAN;
     }
     if (!status) status = append_band(w, second, error);
+    if (!status) status = scree_cell_averages_strain(&w->averages, &w->first, second, error);
     scree_release(&distortion);
     return status;
 }
@@ -199,8 +207,10 @@ static void begin_window(walk *w, scree_cell_snapshot *snapshot)
 
 static scree_status follow(walk *w, scree_cell_snapshot *snapshot, scree_error *error)
 {
-    scree_status status = write_circles(w, snapshot, error);
     bool same = w->first.assembly.count == snapshot->assembly.count && strcmp(w->first.stage, snapshot->stage) == 0;
+    if (!same) scree_cell_averages_begin(&w->averages, w->config, w->series);
+    w->dimension = snapshot->assembly.dimension;
+    scree_status status = write_circles(w, snapshot, error);
     if (status) return status;
     if (!same) {
         w->window_count = 0;
@@ -250,6 +260,7 @@ static void summarise(const walk *w, scree_summary *summary)
     static const char *const kinds[] = {[SCREE_BANDS_NONE] = "none",
                                         [SCREE_BANDS_INTERMITTENT] = "intermittent",
                                         [SCREE_BANDS_PERSISTENT] = "persistent"};
+    scree_cell_averages_summarise(&w->averages, w->dimension, summary);
     if (w->window_count == 0) return;
     double persistence;
     scree_band_kind kind = scree_bands_classify(w->window, w->window_count, &persistence);
@@ -265,10 +276,10 @@ static void summarise(const walk *w, scree_summary *summary)
     scree_summary_set_number(summary, "band_percolation", found ? last->band.percolation : NAN);
 }
 
-scree_status scree_cell_results_write(const char *directory, const scree_config *config, scree_summary *summary,
-                                      scree_error *error)
+scree_status scree_cell_results_write(const char *directory, const scree_config *config, const scree_series *series,
+                                      scree_summary *summary, scree_error *error)
 {
-    walk w = {.config = config};
+    walk w = {.config = config, .series = series};
     scree_status status = open_files(&w, directory, error);
     if (!status) status = follow_all(&w, directory, error);
     if (!status) summarise(&w, summary);

@@ -41,7 +41,7 @@ scree_status scree_recorder_open(scree_recorder *recorder, const scree_simulatio
     if ((status = scree_path_join(path, sizeof path, directory, SCREE_FILE_SERIES, error))) return status;
     status = scree_series_open(&recorder->series, path, scree_sample_columns, SCREE_SAMPLE_COUNT,
                                restart ? s->state.stage.samples : -1, error);
-    recorder->started = recorder->last_checkpoint = recorder->last_progress = scree_clock();
+    recorder->started = recorder->clocked = recorder->last_checkpoint = recorder->last_progress = scree_clock();
     recorder->progress_step = s->state.step;
     recorder->first_evaluations = recorder->progress_evaluations = recorder->checkpoint_evaluations =
         s->state.evaluations;
@@ -56,8 +56,17 @@ void scree_recorder_close(scree_recorder *recorder)
     recorder->log.file = NULL;
 }
 
+void scree_recorder_clock(scree_recorder *recorder, scree_simulation *s)
+{
+    double now = scree_clock();
+    s->state.wall_time.run += now - recorder->clocked;
+    s->state.wall_time.stage += now - recorder->clocked;
+    recorder->clocked = now;
+}
+
 scree_status scree_recorder_checkpoint(scree_recorder *recorder, scree_simulation *s, scree_error *error)
 {
+    scree_recorder_clock(recorder, s);
     scree_status status = scree_contacts_save(&s->state, &s->work, error);
     if (!status) status = scree_checkpoint_write(recorder->directory, &s->state, recorder->case_checksum, error);
     recorder->last_checkpoint = scree_clock();
@@ -87,7 +96,7 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
     const scree_model *model = &s->stage_model;
     scree_cells cells = {0};
     scree_status status = SCREE_OK;
-    if (s->model.config->measure.cells) {
+    if (s->model.config->measure.cells && !s->state.periodic.directions) {
         status = scree_cells_measure(model, &s->state, &s->table, &cells, error);
         // A few bodies, or bodies on a line, have no triangulation and so no cells.
         if (!status) info.cells = &cells;

@@ -13,6 +13,7 @@ typedef struct scree_recorder {
     scree_series_writer series;
     uint64_t case_checksum;
     double started; ///< s, monotonic clock at the begin of this process's part of the run
+    double clocked; ///< s, until when the state's wall time is counted
     double last_progress, last_checkpoint;
     uint64_t progress_step, progress_evaluations, checkpoint_evaluations;
     uint64_t first_evaluations; ///< at `started`
@@ -26,6 +27,9 @@ void scree_recorder_close(scree_recorder *recorder);
 
 /// After every step: writes what is due.
 scree_status scree_recorder_follow(scree_recorder *recorder, scree_simulation *s, scree_error *error) SCREE_MUST_USE;
+
+/// Counts the wall time since the last call into the state.
+void scree_recorder_clock(scree_recorder *recorder, scree_simulation *s);
 
 /// Writes a checkpoint now.
 scree_status scree_recorder_checkpoint(scree_recorder *recorder, scree_simulation *s,

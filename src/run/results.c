@@ -2,14 +2,17 @@
 ///
 /// Over the last loading stage: peak of the stress ratio, as a running mean over SMOOTHING of axial strain, and its
 /// strain; mean stress ratio over the last fifth of the strain; largest compaction and dilation relative to the begin
-/// of loading (dilation positive), and the strain of the latter; disagreement of the axial stress of plates and
-/// contacts, of the means over the stage
+/// of loading (dilation positive), and their strains; mean slip, and that of the begin, up to a strain of INITIAL
+/// without the sample at rest (`initial_slip_ratio`); disagreement of the axial stress of plates and contacts, of the
+/// means over the stage
 /// (`stress_disagreement`) and as the mean of the instantaneous differences, which holds the inertia of the waves
 /// (`stress_disagreement_instant`); `shear_strain_reached`, the engineering shear strain of the first and the last
 /// axis; with imposed rates, mean, least and largest ratio of actual and imposed rate (`rate_ratio_...`, of the
-/// intervals between two samples) from STARTED of the strain on. Over the loading, from the bodies: `corner_distortion`
-/// (measure/corner_distortion.c). Over the whole run: largest residual of the energy
-/// balance over the work turned over by the end (`energy_residual`).
+/// intervals between two samples) from STARTED of the strain on. Over the loading, from the bodies:
+/// `corner_distortion`, `boundary_roughness` (files of these names in measure/); and what it
+/// cost. Over the whole run: largest residual of the energy balance over the energy at the begin and the work turned
+/// over by the end
+/// (`energy_residual`).
 #include "run/results.h"
 
 #include "io/run_directory.h"
@@ -18,6 +21,7 @@
 #include "run/cell_results.h"
 #include "run/rotation_results.h"
 #include "run/sample.h"
+#include "run/stage_collide.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -25,17 +29,20 @@
 
 #define SMOOTHING 0.01
 #define STARTED   0.05
+#define INITIAL   0.01
 
 /// The rows of the last loading stage.
 typedef struct loading {
-    const double *strain, *ratio, *volumetric, *plates, *contacts, *slip, *coordination, *rate, *shear;
+    const double *time, *strain, *ratio, *volumetric, *plates, *contacts, *slip, *coordination, *rate, *shear;
     size_t first, last; ///< rows [first, last)
 } loading;
 
-static bool find_loading(const scree_series *series, loading *l)
+/// The rows of the last stage; false when there are less than two.
+static bool find_rows(const scree_series *series, loading *l)
 {
     const double *stage = scree_series_get(series, "stage");
-    *l = (loading){.strain = scree_series_get(series, "axial_strain"),
+    *l = (loading){.time = scree_series_get(series, "time"),
+                   .strain = scree_series_get(series, "axial_strain"),
                    .ratio = scree_series_get(series, "stress_ratio"),
                    .volumetric = scree_series_get(series, "volumetric_strain"),
                    .plates = scree_series_get(series, "stress_axial_plates"),
@@ -45,9 +52,13 @@ static bool find_loading(const scree_series *series, loading *l)
                    .rate = scree_series_get(series, "rate_ratio"),
                    .shear = scree_series_get(series, "boundary_shear_strain"),
                    .last = series->row_count};
-    if (series->row_count == 0 || isnan(l->strain[series->row_count - 1])) return false;
     for (l->first = l->last; l->first > 0 && stage[l->first - 1] == stage[l->last - 1]; l->first--) continue;
     return l->last - l->first > 1;
+}
+
+static bool find_loading(const scree_series *series, loading *l)
+{
+    return find_rows(series, l) && !isnan(l->strain[l->last - 1]);
 }
 
 /// Mean of the stress ratio over the rows whose strain lies within half of SMOOTHING of row k.
@@ -96,12 +107,24 @@ static void summarise_rate(const loading *l, scree_summary *summary)
     scree_summary_set_number(summary, "rate_ratio_max", most);
 }
 
+/// Mean over the begin of loading: strains up to INITIAL, the sample at rest left out.
+static double initial_slip(const loading *l)
+{
+    double sum = 0, rows = 0;
+    for (size_t k = l->first + 1; k < l->last && (rows == 0 || l->strain[k] <= INITIAL); k++, rows++) sum += l->slip[k];
+    return sum / rows;
+}
+
 static void summarise_loading(const loading *l, scree_summary *summary)
 {
-    double compaction = 0, dilation = 0, strain_at_dilation = NAN, slip = 0, plates = 0, contacts = 0, apart = 0;
+    double compaction = 0, dilation = 0, strain_at_compaction = NAN, strain_at_dilation = NAN;
+    double slip = 0, plates = 0, contacts = 0, apart = 0;
     double rows = (double)(l->last - l->first);
     for (size_t k = l->first; k < l->last; k++) {
-        compaction = fmax(compaction, l->volumetric[k]);
+        if (l->volumetric[k] > compaction) {
+            compaction = l->volumetric[k];
+            strain_at_compaction = l->strain[k];
+        }
         if (-l->volumetric[k] > dilation) {
             dilation = -l->volumetric[k];
             strain_at_dilation = l->strain[k];
@@ -117,10 +140,12 @@ static void summarise_loading(const loading *l, scree_summary *summary)
     summarise_rate(l, summary);
     scree_summary_set_number(summary, "max_volumetric_compaction", compaction);
     scree_summary_set_number(summary, "max_volumetric_dilation", dilation);
+    scree_summary_set_number(summary, "strain_at_max_compaction", strain_at_compaction);
     scree_summary_set_number(summary, "strain_at_max_dilation", strain_at_dilation);
     scree_summary_set_number(summary, "stress_disagreement", fabs(contacts / plates - 1));
     scree_summary_set_number(summary, "stress_disagreement_instant", apart / plates);
     scree_summary_set_number(summary, "mean_slip_ratio", slip);
+    scree_summary_set_number(summary, "initial_slip_ratio", initial_slip(l));
     scree_summary_set_number(summary, "coordination_at_start", l->coordination[l->first]);
 }
 
@@ -131,7 +156,7 @@ static void summarise_series(const scree_series *series, double turnover, scree_
     const double *residual = scree_series_get(series, "energy_residual");
     double largest = 0;
     for (size_t k = 0; k < series->row_count; k++) largest = fmax(largest, fabs(residual[k]));
-    scree_summary_set_number(summary, "energy_residual", largest / turnover);
+    if (turnover > 0) scree_summary_set_number(summary, "energy_residual", largest / turnover);
     if (series->row_count == 0) return;
     static const char *const finals[] = {"coordination", "coordination_without_rattlers", "rattler_fraction",
                                          "solid_fraction", "unbalanced_ratio"};
@@ -166,24 +191,48 @@ static void summarise_run(const scree_recorder *recorder, scree_simulation *s, s
     scree_summary_set_number(summary, "thickness", s->model.thickness);
     scree_summary_set_text(summary, "state_checksum", checksum);
     scree_summary_set_integer(summary, "threads", s->work.threads);
-    scree_summary_set_number(summary, "wall_time", scree_clock() - recorder->started);
+    scree_summary_set_number(summary, "wall_time", s->state.wall_time.run);
     scree_summary_set_number(summary, "particle_steps_per_second", steps * (double)s->state.count / recorder->stepping);
     scree_summary_set_integer(summary, "neighbour_rebuilds", (int64_t)s->work.rebuilds);
 }
 
-/// Of the last stage, when it loaded the sample without plates.
-static scree_status summarise_corners(const scree_simulation *s, scree_summary *summary, scree_error *error)
+/// What the last stage cost.
+static void summarise_cost(const scree_simulation *s, scree_summary *summary)
+{
+    const scree_state *state = &s->state;
+    scree_summary_set_integer(summary, "loading_force_evaluations",
+                              (int64_t)(state->evaluations - state->stage.first_evaluations));
+    scree_summary_set_number(summary, "loading_wall_time", state->wall_time.stage);
+}
+
+/// What the shape of the sample has become under a stage that loaded it without plates.
+static scree_status summarise_shape(const scree_simulation *s, scree_summary *summary, scree_error *error)
+{
+    double value;
+    scree_status status = SCREE_OK;
+    if (s->model.config->stages[0].outline == SCREE_SAMPLE_BOX) {
+        status = scree_corner_distortion(&s->model, &s->state, &value, error);
+        if (!status) scree_summary_set_number(summary, "corner_distortion", value);
+    } else if (s->state.dimension == 2) {
+        status = scree_boundary_roughness(&s->model, &s->state, &value, error);
+        if (!status) scree_summary_set_number(summary, "boundary_roughness", value);
+    }
+    return status;
+}
+
+/// The last stage, when it is one of loading.
+static scree_status summarise_stage(const scree_simulation *s, scree_summary *summary, scree_error *error)
 {
     const scree_config *config = s->model.config;
     int64_t last = config->stage_count - 1;
-    if (s->state.stage.index < last || s->state.count == 0) return SCREE_OK;
-    scree_boundary_kind kind = scree_config_boundary_of(config, last);
-    bool loaded = !isnan(scree_model_loading_rate(&config->stages[last]));
-    if (!loaded || scree_boundary_has_plates(scree_boundary_get(kind))) return SCREE_OK;
-    double distortion;
-    scree_status status = scree_corner_distortion(&s->model, &s->state, &distortion, error);
-    if (!status) scree_summary_set_number(summary, "corner_distortion", distortion);
-    return status;
+    const scree_stage *stage =
+        scree_stage_get((scree_stage_kind)config->stages[last].kind, scree_model_is_wholly_periodic(&s->model));
+    if (s->state.stage.index < last || s->state.count == 0 || !stage->loading) return SCREE_OK;
+    summarise_cost(s, summary);
+    bool plates = scree_boundary_has_plates(scree_boundary_get(scree_config_boundary_of(config, last)));
+    bool strained = !isnan(scree_model_loading_rate(&config->stages[last]));
+    bool cornered = strained && !plates && !s->state.periodic.directions;
+    return cornered ? summarise_shape(s, summary, error) : SCREE_OK;
 }
 
 scree_status scree_results_write(const scree_recorder *recorder, scree_simulation *s, scree_status status,
@@ -197,11 +246,12 @@ scree_status scree_results_write(const scree_recorder *recorder, scree_simulatio
     if (!result) result = scree_summary_create(&summary, error);
     if (!result) {
         summarise_run(recorder, s, status, summary);
-        summarise_series(&series, s->state.ledger.turnover, summary);
-        result = summarise_corners(s, summary, error);
+        summarise_series(&series, s->state.ledger.turnover + s->state.ledger.initial, summary);
+        result = summarise_stage(s, summary, error);
     }
-    if (!result && s->model.config->measure.cells)
-        result = scree_cell_results_write(recorder->directory, s->model.config, summary, error);
+    if (!result && s->model.config->measure.cells && !s->state.periodic.directions)
+        result = scree_cell_results_write(recorder->directory, s->model.config, &series, summary, error);
+    if (!result) result = scree_collide_results(s, summary, error);
     if (!result) result = scree_rotation_results(recorder->directory, s, summary, error);
     if (!result) result = scree_path_join(path, sizeof path, recorder->directory, SCREE_FILE_SUMMARY, error);
     if (!result) result = scree_summary_write(summary, path, error);

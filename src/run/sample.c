@@ -6,6 +6,7 @@
 #include "measure/facets.h"
 #include "measure/measure.h"
 #include "run/guard.h"
+#include "state/periodic.h"
 
 #include <math.h>
 
@@ -60,20 +61,30 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
     [SCREE_SAMPLE_DISSIPATED_FRICTION] = {"dissipated_friction", "J", "dissipated by sliding"},
     [SCREE_SAMPLE_STIFFNESS_WORK] = {"stiffness_work", "J", "put into tangential springs by their change of stiffness"},
     [SCREE_SAMPLE_WORK_PLATES] = {"work_plates", "J", "work of the plates on the particles"},
-    [SCREE_SAMPLE_WORK_PRESSURE] = {"work_pressure", "J", "work of the pressure on the Delaunay boundary"},
+    [SCREE_SAMPLE_WORK_PRESSURE] = {"work_pressure", "J",
+                                    "work of the pressure on the Delaunay boundary or the membrane"},
     [SCREE_SAMPLE_WORK_BOUNDARY] = {"work_boundary", "J",
-                                    "work of imposed rates, or of the chain of a membrane and its ends"},
-    [SCREE_SAMPLE_ELASTIC_MEMBRANE] = {"elastic_membrane", "J", "stored in the chain of a membrane"},
+                                    "work of imposed rates, or of the springs of a membrane and its ends"},
+    [SCREE_SAMPLE_ELASTIC_MEMBRANE] = {"elastic_membrane", "J", "stored in the springs of a membrane"},
     [SCREE_SAMPLE_WORK_GRAVITY] = {"work_gravity", "J", "work of gravity"},
     [SCREE_SAMPLE_SCHEME_WORK] = {"scheme_work", "J", "put into the kinetic energy by changes of the step"},
     [SCREE_SAMPLE_ENERGY_RESIDUAL] = {"energy_residual", "J", "what the energy balance leaves open"},
     [SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE] = {"energy_residual_relative", "1", "the same over the work done"},
     [SCREE_SAMPLE_HEIGHT] = {"height", "m",
-                             "distance of bottom and top plate, or height as the Delaunay boundary is strained"},
+                             "distance of bottom and top plate or of the faces of the periodic cell, or height as the "
+                             "Delaunay boundary is strained"},
     [SCREE_SAMPLE_AREA] = {"area", "m2",
-                           "area of the sample between plates and Delaunay boundary; in 3D its mean section"},
-    [SCREE_SAMPLE_VOLUME] = {"volume", "m3", "volume of the sample between plates and Delaunay boundary"},
+                           "area of the sample between plates and Delaunay boundary, or of the periodic cell; in 3D "
+                           "its mean section"},
+    [SCREE_SAMPLE_VOLUME] = {"volume", "m3",
+                             "volume of the sample between plates and Delaunay boundary, or of the periodic cell"},
+    [SCREE_SAMPLE_MEMBRANE_VOLUME] = {"membrane_volume", "m3",
+                                      "volume between the plates inside a membrane, through the centres of its bodies; "
+                                      "not a number without one"},
     [SCREE_SAMPLE_BOUNDARY_COUNT] = {"boundary_count", "1", "particles on the Delaunay boundary"},
+    [SCREE_SAMPLE_WORK_PERIODIC] = {"work_periodic", "J", "work of the deforming periodic cell"},
+    [SCREE_SAMPLE_SHEAR_RATIO] = {"shear_ratio", "1",
+                                  "shear stress over axial normal stress from contacts, in a periodic cell"},
 };
 
 static void sample_strain(const scree_simulation *s, double *value)
@@ -108,6 +119,7 @@ static void sample_stress(const scree_simulation *s, double *value)
     scree_stress_from_plates(model, &s->state, plates);
     scree_stress_from_contacts(&s->table, volume, contacts);
     value[SCREE_SAMPLE_VOLUME] = volume;
+    value[SCREE_SAMPLE_MEMBRANE_VOLUME] = s->state.membrane.count > 0 ? scree_membrane_volume(model, &s->state) : NAN;
     value[SCREE_SAMPLE_AREA] = s->state.dimension == 3 ? volume / scree_sample_height(s) : scree_sample_area(&s->state);
     value[SCREE_SAMPLE_AXIAL_PLATES] = -plates[axial];
     value[SCREE_SAMPLE_LATERAL_APPLIED] = -lateral_of(s, plates);
@@ -116,6 +128,8 @@ static void sample_stress(const scree_simulation *s, double *value)
     value[SCREE_SAMPLE_LATERAL_CONTACTS] = -lateral_of(s, contacts);
     value[SCREE_SAMPLE_SHEAR_CONTACTS] = 0.5 * (contacts[shear] + contacts[3 * shear]);
     value[SCREE_SAMPLE_STRESS_RATIO_CONTACTS] = contacts[axial] / lateral_of(s, contacts);
+    if (scree_periodic_is_whole(&s->state))
+        value[SCREE_SAMPLE_SHEAR_RATIO] = value[SCREE_SAMPLE_SHEAR_CONTACTS] / value[SCREE_SAMPLE_AXIAL_CONTACTS];
 }
 
 static scree_status sample_structure(const scree_simulation *s, double *value, scree_error *error)
@@ -150,6 +164,7 @@ static void sample_energy(const scree_simulation *s, double *value)
     value[SCREE_SAMPLE_STIFFNESS_WORK] = ledger->stiffness;
     value[SCREE_SAMPLE_WORK_PLATES] = ledger->plates;
     value[SCREE_SAMPLE_WORK_PRESSURE] = ledger->pressure;
+    value[SCREE_SAMPLE_WORK_PERIODIC] = ledger->periodic;
     value[SCREE_SAMPLE_WORK_BOUNDARY] = ledger->boundary;
     value[SCREE_SAMPLE_ELASTIC_MEMBRANE] = scree_membrane_energy(&s->stage_model, &s->state);
     value[SCREE_SAMPLE_WORK_GRAVITY] = energy.gravity;

@@ -47,7 +47,10 @@ typedef enum scree_sample_index {
     SCREE_SAMPLE_HEIGHT,
     SCREE_SAMPLE_AREA,
     SCREE_SAMPLE_VOLUME,
+    SCREE_SAMPLE_MEMBRANE_VOLUME,
     SCREE_SAMPLE_BOUNDARY_COUNT,
+    SCREE_SAMPLE_WORK_PERIODIC,
+    SCREE_SAMPLE_SHEAR_RATIO,
     SCREE_SAMPLE_COUNT
 } scree_sample_index;
 _Static_assert(SCREE_SAMPLE_COUNT == SCREE_SAMPLE_COLUMNS, "simulation.h holds one value a column");

@@ -1,6 +1,7 @@
 /// Stages one after the other, a step at a time; the public simulation handle.
 #include "run/simulation.h"
 
+#include "base/processor.h"
 #include "boundary/forced_spin.h"
 #include "measure/measure.h"
 #include "run/sample.h"
@@ -8,7 +9,6 @@
 #include "search/neighbours.h"
 
 #include <math.h>
-#include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -29,7 +29,8 @@ scree_status scree_simulation_open(const scree_case *c, int threads, scree_simul
     s->stage_model = s->model;
     s->integrator = scree_integrator_get(s->model.scheme);
     // A thread pays from a few thousand bodies on; below, its barriers cost more than it does (docs/performance.md).
-    if (threads <= 0) threads = (int)fmin(omp_get_num_procs(), 1 + (double)c->config.particles.count / BODIES_A_THREAD);
+    if (threads <= 0)
+        threads = (int)fmin(scree_processor_count(), 1 + (double)c->config.particles.count / BODIES_A_THREAD);
     return scree_work_create(&s->work, &s->model, threads, error);
 }
 
@@ -78,13 +79,15 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
         return SCREE_OK;
     }
     const scree_config_stage *config = scree_stage_config(s);
-    s->stage = scree_stage_get((scree_stage_kind)config->kind);
+    s->stage = scree_stage_get((scree_stage_kind)config->kind, scree_model_is_wholly_periodic(&s->model));
     s->boundary = scree_boundary_get(scree_config_boundary_of(s->model.config, stage->index));
     s->stage_model = scree_model_with_friction(&s->model, config->friction);
     if (!restart || stage->counter == NOT_BEGUN) {
         stage->first_time = scree_state_time(&s->state);
         stage->first_step = s->state.step;
+        stage->first_evaluations = s->state.evaluations;
         stage->counter = 0;
+        s->state.wall_time.stage = 0;
         scree_forced_spin_end(&s->state);
         scree_status status = s->stage->begin(s, error);
         if (status) return status;

@@ -1,19 +1,24 @@
 /// Table of stages and what several of them share.
 #include "run/stage.h"
 
+#include "base/matrix.h"
 #include "measure/measure.h"
 #include "run/simulation.h"
+#include "state/periodic.h"
 
 #include <math.h>
 
-const scree_stage *scree_stage_get(scree_stage_kind kind)
+const scree_stage *scree_stage_get(scree_stage_kind kind, bool wholly_periodic)
 {
-    static const scree_stage *const table[] = {
-        [SCREE_STAGE_PREPARE] = &scree_stage_prepare,   [SCREE_STAGE_CONFINE] = &scree_stage_confine,
-        [SCREE_STAGE_COMPRESS] = &scree_stage_compress, [SCREE_STAGE_DEFORM] = &scree_stage_deform,
-        [SCREE_STAGE_ROTATE] = &scree_stage_rotate,
+    static const scree_stage *const table[][2] = {
+        [SCREE_STAGE_PREPARE] = {&scree_stage_prepare, &scree_stage_prepare},
+        [SCREE_STAGE_CONFINE] = {&scree_stage_confine, &scree_stage_confine_periodic},
+        [SCREE_STAGE_COMPRESS] = {&scree_stage_compress, &scree_stage_compress_periodic},
+        [SCREE_STAGE_DEFORM] = {&scree_stage_deform, &scree_stage_deform_periodic},
+        [SCREE_STAGE_ROTATE] = {&scree_stage_rotate, &scree_stage_rotate},
+        [SCREE_STAGE_COLLIDE] = {&scree_stage_collide, &scree_stage_collide},
     };
-    return table[kind];
+    return table[kind][wholly_periodic];
 }
 
 const scree_config_stage *scree_stage_config(const scree_simulation *s)
@@ -44,6 +49,12 @@ static double axial_stretch(const scree_simulation *s)
 double scree_sample_height(const scree_simulation *s)
 {
     const scree_wall *wall = s->state.wall;
+    if (scree_periodic_is_whole(&s->state)) {
+        double inverse[9], width[3];
+        scree_matrix_invert(s->state.periodic.lattice, inverse);
+        scree_periodic_widths(inverse, width);
+        return width[s->state.dimension - 1];
+    }
     if (s->boundary && !scree_boundary_has_plates(s->boundary) && s->stage && s->stage->loading)
         return s->state.stage.reference[SCREE_LOADING_HEIGHT] * exp(axial_stretch(s));
     return -(wall[SCREE_WALL_BOTTOM].position + wall[SCREE_WALL_TOP].position);

@@ -2,6 +2,7 @@
 #ifndef SCREE_RUN_STAGE_H
 #define SCREE_RUN_STAGE_H
 
+#include "boundary/periodic.h"
 #include "boundary/plates.h"
 #include "state/work.h"
 
@@ -15,6 +16,7 @@ typedef struct scree_stage_plan {
     scree_servo plates; ///< bottom and top
     scree_servo sides;  ///< left and right, front and back
     double time_limit;  ///< s
+    scree_periodic_drive periodic;
 } scree_stage_plan;
 
 typedef struct scree_stage {
@@ -35,12 +37,17 @@ typedef struct scree_stage {
     double (*fraction)(const scree_simulation *s);
 } scree_stage;
 
-const scree_stage *scree_stage_get(scree_stage_kind kind);
+/// wholly_periodic: the sample is periodic in all directions (stage_periodic.c).
+const scree_stage *scree_stage_get(scree_stage_kind kind, bool wholly_periodic);
 extern const scree_stage scree_stage_prepare;
 extern const scree_stage scree_stage_confine;
 extern const scree_stage scree_stage_compress;
+extern const scree_stage scree_stage_confine_periodic;
+extern const scree_stage scree_stage_compress_periodic;
+extern const scree_stage scree_stage_deform_periodic;
 extern const scree_stage scree_stage_deform;
 extern const scree_stage scree_stage_rotate;
+extern const scree_stage scree_stage_collide;
 
 /// s since the begin of the stage.
 double scree_stage_elapsed(const scree_simulation *s);
@@ -54,8 +61,8 @@ const scree_config_stage *scree_stage_config(const scree_simulation *s);
 /// Strain that the loading stage imposes, as far as it has come: NAN in other stages.
 double scree_loading_strain(const scree_simulation *s);
 
-/// Axial strain [1, compression positive], engineering, since the begin of the loading stage: from the plates, or
-/// without them from the Delaunay boundary.
+/// Axial strain [1, compression positive], engineering, since the begin of the loading stage: from the plates or the
+/// periodic cell, or without them from the Delaunay boundary.
 double scree_axial_strain(const scree_simulation *s);
 
 /// Begins a loading stage: SCREE_LOADING_... of state.stage.reference and the reference positions.
@@ -89,8 +96,8 @@ double scree_smooth_ramp(double fraction);
 /// Side plates under servo to `pressure`, where they are active.
 void scree_servo_sides(scree_simulation *s, double pressure);
 
-/// Distance between bottom and top plate [m]; without plates the height that the loading began with, changed as the
-/// Delaunay boundary was strained.
+/// Distance between bottom and top plate or the faces of the periodic cell [m]; without either the height that the
+/// loading began with, changed as the Delaunay boundary was strained.
 double scree_sample_height(const scree_simulation *s);
 
 #endif

@@ -2,6 +2,7 @@
 /// here.
 #include "run/step.h"
 
+#include "boundary/periodic.h"
 #include "boundary/forced_spin.h"
 #include "boundary/plates.h"
 #include "measure/measure.h"
@@ -32,6 +33,7 @@ scree_status scree_step(scree_simulation *s, scree_error *error)
     scree_plates_move(state);
     s->integrator->first(model, state, work);
     scree_boundary_finish_work(s->boundary, state);
+    if ((status = scree_periodic_move(model, state, work, error))) return status;
     state->step += ticks;
     state->evaluations++;
 
@@ -40,6 +42,7 @@ scree_status scree_step(scree_simulation *s, scree_error *error)
     if ((status = scree_boundary_prepare(s->boundary, model, state, error))) return status;
     scree_contact_set_quanta(model, state, scree_boundary_bound(s->boundary, model, state));
     scree_contact_forces(model, state, work);
+    scree_periodic_settle(state, work);
     work->next_kick = scree_integrator_next_kick(s->integrator, model, state, s->stage->loading);
     scree_boundary_forces(s->boundary, model, state, work);
     scree_forced_spin_settle(state);

@@ -17,15 +17,11 @@ static double cell_coordinate(double position, double inverse_width, double fart
     return coordinate < farthest ? coordinate : farthest;
 }
 
-void scree_cell_grid_fit(scree_cell_grid *grid, const scree_state *state, double skin, int threads)
+void scree_cell_grid_fit(scree_cell_grid *grid, const scree_state *state, double skin)
 {
     const bool solid = state->dimension == 3;
     double smallest = INFINITY, largest = 0, x = INFINITY, y = INFINITY, z = INFINITY;
     uint64_t odd = UINT64_MAX;
-// clang-format off
-#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1) \
-    reduction(min : smallest, x, y, z, odd) reduction(max : largest)
-    // clang-format on
     for (size_t k = 0; k < state->count; k++) {
         const scree_row *row = &state->row[k];
         smallest = row->radius < smallest ? row->radius : smallest;
@@ -86,7 +82,7 @@ static scree_status reserve_bodies(scree_cell_grid *grid, size_t count, scree_er
     return status;
 }
 
-scree_status scree_cell_grid_order(scree_cell_grid *grid, const scree_state *state, int threads, scree_error *error)
+scree_status scree_cell_grid_order(scree_cell_grid *grid, const scree_state *state, scree_error *error)
 {
     scree_status status = reserve_bodies(grid, state->count, error);
     if (!status) status = scree_key_list_reserve(&grid->curve, state->count, error);
@@ -94,7 +90,6 @@ scree_status scree_cell_grid_order(scree_cell_grid *grid, const scree_state *sta
     const double inverse = 1 / grid->level[0].width, farthest = FARTHEST(grid->dimension);
     const double *lowest = grid->lowest;
     // Keys are put down by id: the stable sort then leaves bodies of one cell in the order of their ids.
-#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
     for (size_t k = 0; k < state->count; k++) {
         const scree_row *row = &state->row[k];
         uint32_t id = state->id[k];

@@ -64,10 +64,10 @@ typedef struct scree_cell_grid {
 } scree_cell_grid;
 
 /// Chooses levels for the radii in `state`, and looks for positions that are not finite.
-void scree_cell_grid_fit(scree_cell_grid *grid, const scree_state *state, double skin, int threads);
+void scree_cell_grid_fit(scree_cell_grid *grid, const scree_state *state, double skin);
 
 /// Fills grid->order: the rows of `state` in the order of the curve, bodies of one cell by id. Errors: memory.
-scree_status scree_cell_grid_order(scree_cell_grid *grid, const scree_state *state, int threads,
+scree_status scree_cell_grid_order(scree_cell_grid *grid, const scree_state *state,
                                    scree_error *error) SCREE_MUST_USE;
 
 /// Builds cells and slots, after the rows have been brought into grid->order. Errors: memory.

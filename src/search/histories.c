@@ -8,7 +8,6 @@
 /// separated by more than the skin then.
 #include "search/search.h"
 
-#include <omp.h>
 #include <string.h>
 
 /// Any bit set: also a negative zero survives.
@@ -61,31 +60,44 @@ static void pack_entry(scree_state *state, const scree_work *work, size_t k, siz
     }
 }
 
+typedef struct collect_task {
+    scree_state *state;
+    const scree_work *work;
+    size_t entries;
+} collect_task;
+
+static void count_share(void *argument, int index, int count)
+{
+    const collect_task *task = argument;
+    size_t carried = 0, end = scree_team_begin(task->entries, index + 1, count);
+    for (size_t k = scree_team_begin(task->entries, index, count); k < end; k++)
+        carried += entry_holds_something(task->work, k);
+    task->work->search->chunk[index].carried = carried;
+}
+
+static void pack_share(void *argument, int index, int count)
+{
+    const collect_task *task = argument;
+    size_t to = 0, end = scree_team_begin(task->entries, index + 1, count);
+    for (int before = 0; before < index; before++) to += task->work->search->chunk[before].carried;
+    for (size_t k = scree_team_begin(task->entries, index, count); k < end; k++)
+        if (entry_holds_something(task->work, k)) pack_entry(task->state, task->work, k, to++);
+}
+
 scree_status scree_histories_collect(scree_state *state, scree_work *work, scree_error *error)
 {
     scree_search *search = work->search;
-    const size_t count = work->pairs.count + work->wall_pairs.count, chunks = (size_t)search->chunks;
+    collect_task task = {state, work, work->pairs.count + work->wall_pairs.count};
     // Each chunk counts its entries, so that all chunks can write theirs at once.
-#pragma omp parallel for num_threads(search->chunks) schedule(static, 1) if (search->chunks > 1)
-    for (size_t c = 0; c < chunks; c++) {
-        search->chunk[c].carried = 0;
-        for (size_t k = count * c / chunks; k < count * (c + 1) / chunks; k++)
-            search->chunk[c].carried += entry_holds_something(work, k);
-    }
+    scree_team_run(&work->team, search->chunks, count_share, &task);
     size_t total = 0;
-    for (size_t c = 0; c < chunks; c++) total += search->chunk[c].carried;
+    for (int c = 0; c < search->chunks; c++) total += search->chunk[c].carried;
     state->contact_count = 0;
     scree_status status = scree_state_reserve_contacts(state, total, error);
     if (!status && work->pairs.booking) status = scree_state_add_booking(state, error);
     if (!status && work->pairs.rolling) status = scree_state_add_rolling(state, error);
     if (status) return status;
-#pragma omp parallel for num_threads(search->chunks) schedule(static, 1) if (search->chunks > 1)
-    for (size_t c = 0; c < chunks; c++) {
-        size_t to = 0;
-        for (size_t before = 0; before < c; before++) to += search->chunk[before].carried;
-        for (size_t k = count * c / chunks; k < count * (c + 1) / chunks; k++)
-            if (entry_holds_something(work, k)) pack_entry(state, work, k, to++);
-    }
+    scree_team_run(&work->team, search->chunks, pack_share, &task);
     state->contact_count = total;
     return SCREE_OK;
 }

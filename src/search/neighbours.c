@@ -12,16 +12,17 @@
 /// search by ranges of rows, a thread each; the ranges one after the other into the list, touching pairs first, each
 /// with its history. The list depends on positions and ids alone, not on threads or on the order before. Cost, like
 /// discs in a dense packing, one core: about 230 cycles a disc (3 ms for 32,768 discs at 2.4 GHz; measured with
-/// bench/bench_neighbours), a third of it the search. Cells and sorts are not shared among threads, the rest is.
-/// Memory: 40 bytes a pair for the list (56 in 3D), during a rebuild 40 (56) a contact for state->contact and about 150
-/// a disc, 250 a sphere, for cells and buffers, which only small samples keep.
+/// bench/bench_neighbours), a third of it the search. Cells and sorts are not shared among threads; search and
+/// histories are. Memory: 40 bytes a pair for the list (56 in 3D), during a rebuild 40 (56) a contact for
+/// state->contact and about 150 a disc, 250 a sphere, for cells and buffers, which only small samples keep.
 #include "search/neighbours.h"
 
+#include "base/matrix.h"
+#include "search/ghosts.h"
 #include "search/search.h"
 
 #include <float.h>
 #include <math.h>
-#include <omp.h>
 #include <string.h>
 
 static double half_skin(const scree_work *work)
@@ -34,19 +35,39 @@ void scree_neighbours_invalidate(scree_work *work)
     work->valid = false;
 }
 
-/// Largest displacement of a body since the last rebuild [m]; infinite if a position is not finite.
-static double largest_displacement(const scree_state *state, int threads)
+typedef struct displacement_task {
+    const scree_state *state;
+    const double *deformation;
+    double square[SCREE_TEAM_MOST];
+} displacement_task;
+
+static void displacement_share(void *argument, int index, int count)
 {
+    displacement_task *task = argument;
+    const scree_state *state = task->state;
     double largest = 0;
-#pragma omp parallel for num_threads(threads) schedule(static) reduction(max : largest) if (threads > 1)
-    for (size_t k = 0; k < state->count; k++) {
-        const double *then = state->rebuild[k];
-        double dx = state->row[k].x - then[0], dy = state->row[k].y - then[1];
-        double dz = state->dimension == 3 ? state->row[k].z - then[2] : 0;
-        double square = dx * dx + dy * dy + dz * dz;
+    size_t end = scree_team_begin(state->count, index + 1, count);
+    for (size_t k = scree_team_begin(state->count, index, count); k < end; k++) {
+        scree_vector now, then;
+        scree_body_place(state, k, now);
+        scree_matrix_apply(task->deformation, state->rebuild[k], then);
+        double square = 0;
+        for (int i = 0; i < 3; i++) square += (now[i] - then[i]) * (now[i] - then[i]);
         square = square <= DBL_MAX ? square : (double)INFINITY;
         largest = square > largest ? square : largest;
     }
+    task->square[index] = largest;
+}
+
+/// Largest displacement of a body since the last rebuild [m], relative to the affine field that follows a periodic
+/// cell; infinite if a position is not finite.
+static double largest_displacement(const scree_state *state, const double deformation[9], scree_work *work)
+{
+    displacement_task task = {.state = state, .deformation = deformation};
+    const int shares = scree_work_shares(work);
+    scree_team_run(&work->team, shares, displacement_share, &task);
+    double largest = 0;
+    for (int k = 0; k < shares; k++) largest = fmax(largest, task.square[k]);
     return sqrt(largest);
 }
 
@@ -127,23 +148,34 @@ static void drop_membrane_pairs(const scree_state *state, scree_pair_buffer *buf
     buffer->count = kept;
 }
 
+typedef struct pairs_task {
+    const scree_state *state;
+    scree_search *search;
+    scree_pair_search *find;
+    bool failed[SCREE_TEAM_MOST];
+} pairs_task;
+
+static void pairs_share(void *argument, int index, int count)
+{
+    pairs_task *task = argument;
+    const scree_state *state = task->state;
+    scree_pair_chunk *chunk = &task->search->chunk[index];
+    task->failed[index] = task->find(&task->search->grid, state, scree_team_begin(state->count, index, count),
+                                     scree_team_begin(state->count, index + 1, count), chunk, NULL) != SCREE_OK;
+    if (state->membrane.count == 0) return;
+    drop_membrane_pairs(state, &chunk->touching);
+    drop_membrane_pairs(state, &chunk->near);
+}
+
 static scree_status search_pairs(const scree_state *state, scree_work *work, scree_error *error)
 {
     scree_search *search = work->search;
-    scree_pair_search *find = scree_pair_search_get(work->instruction_set);
-    const size_t chunks = (size_t)search->chunks;
-    size_t failed = chunks;
-#pragma omp parallel for num_threads(search->chunks) schedule(static, 1) reduction(min : failed) if (search->chunks > 1)
-    for (size_t c = 0; c < chunks; c++)
-        if (find(&search->grid, state, state->count * c / chunks, state->count * (c + 1) / chunks, &search->chunk[c],
-                 NULL))
-            failed = c < failed ? c : failed;
-    for (size_t c = 0; c < chunks && state->membrane.count > 0; c++) {
-        drop_membrane_pairs(state, &search->chunk[c].touching);
-        drop_membrane_pairs(state, &search->chunk[c].near);
-    }
-    if (failed == chunks) return SCREE_OK;
-    return scree_error_set_memory(error, search->chunk[failed].touching.capacity * sizeof(scree_row_pair));
+    pairs_task task = {.state = state, .search = search, .find = scree_pair_search_get(work->instruction_set)};
+    scree_team_run(&work->team, search->chunks, pairs_share, &task);
+    for (int c = 0; c < search->chunks; c++)
+        if (task.failed[c])
+            return scree_error_set_memory(error, search->chunk[c].touching.capacity * sizeof(scree_row_pair));
+    return SCREE_OK;
 }
 
 static uint32_t lower_row(scree_row_pair pair)
@@ -178,6 +210,15 @@ static void list_pairs(scree_search *search, scree_pair_list *pairs, bool touchi
     }
 }
 
+/// Puts the pairs with images into the list from number `at` on.
+static void list_image_pairs(const scree_pair_buffer *from, scree_pair_list *pairs, size_t at)
+{
+    for (size_t k = 0; k < from->count; k++, at++) {
+        pairs->first[at] = from->pair[k].first;
+        pairs->second[at] = from->pair[k].second;
+    }
+}
+
 static void list_wall_pairs(const scree_search *search, scree_wall_pair_list *walls)
 {
     size_t at = 0;
@@ -198,18 +239,35 @@ static void attach_rows(const scree_state *state, const list_arrays *list, size_
         (*list->rolling)[k] = known && state->rolling ? state->rolling[from] : (scree_rolling){{0}, {0}};
 }
 
+typedef struct attach_task {
+    scree_state *state;
+    scree_work *work;
+} attach_task;
+
+static void attach_share(void *argument, int index, int count)
+{
+    const attach_task *task = argument;
+    const scree_state *state = task->state;
+    scree_pair_list *pairs = &task->work->pairs;
+    const list_arrays of_pairs = arrays_of_pairs(pairs);
+    size_t end = scree_team_begin(pairs->count, index + 1, count);
+    for (size_t k = scree_team_begin(pairs->count, index, count); k < end; k++) {
+        uint32_t first = scree_parent_row(state, task->work, pairs->first[k]);
+        uint32_t second = scree_parent_row(state, task->work, pairs->second[k]),
+                 lower = first < second ? first : second;
+        attach_rows(state, &of_pairs, k,
+                    scree_history_find(task->work->search, state, lower, state->id[first], state->id[second]));
+    }
+}
+
 /// Gives every pair of the new list what its contact remembers.
-static void attach_histories(const scree_state *state, scree_work *work)
+static void attach_histories(scree_state *state, scree_work *work)
 {
     const scree_search *search = work->search;
-    scree_pair_list *pairs = &work->pairs;
     scree_wall_pair_list *walls = &work->wall_pairs;
-    const list_arrays of_pairs = arrays_of_pairs(pairs), of_walls = arrays_of_wall_pairs(walls);
-#pragma omp parallel for num_threads(work->threads) schedule(static) if (work->threads > 1)
-    for (size_t k = 0; k < pairs->count; k++) {
-        uint32_t first = pairs->first[k], second = pairs->second[k], lower = first < second ? first : second;
-        attach_rows(state, &of_pairs, k, scree_history_find(search, state, lower, state->id[first], state->id[second]));
-    }
+    const list_arrays of_walls = arrays_of_wall_pairs(walls);
+    attach_task task = {state, work};
+    scree_team_run(&work->team, search->chunks, attach_share, &task);
     for (size_t k = 0; k < walls->count; k++)
         attach_rows(state, &of_walls, k,
                     scree_history_find(search, state, walls->body[k], state->id[walls->body[k]],
@@ -226,12 +284,12 @@ static void pad_list(const scree_state *state, const list_arrays *list, size_t c
 }
 
 /// The chunks' pairs one after the other: the same list however many chunks there are.
-static scree_status assemble(const scree_model *model, const scree_state *state, scree_work *work, scree_error *error)
+static scree_status assemble(const scree_model *model, scree_state *state, scree_work *work, scree_error *error)
 {
     scree_search *search = work->search;
     scree_pair_list *pairs = &work->pairs;
     scree_wall_pair_list *walls = &work->wall_pairs;
-    size_t touching = 0, near = 0, wall = 0;
+    size_t touching = search->images.touching.count, near = search->images.near.count, wall = 0;
     for (int c = 0; c < search->chunks; c++) {
         touching += search->chunk[c].touching.count;
         near += search->chunk[c].near.count;
@@ -247,11 +305,26 @@ static scree_status assemble(const scree_model *model, const scree_state *state,
     pairs->touching_count = touching;
     walls->count = wall;
     list_pairs(search, pairs, true, 0);
+    list_image_pairs(&search->images.touching, pairs, touching - search->images.touching.count);
     list_pairs(search, pairs, false, touching);
+    list_image_pairs(&search->images.near, pairs, touching + near - search->images.near.count);
     list_wall_pairs(search, walls);
     attach_histories(state, work);
     pad_list(state, &of_pairs, pairs->count);
     pad_list(state, &of_walls, walls->count);
+    return SCREE_OK;
+}
+
+/// The velocities that boundary/periodic.c keeps beside the rows go with them.
+static scree_status permute_relative(scree_work *work, size_t count, scree_error *error)
+{
+    scree_vector *moved;
+    if (work->relative_capacity < count || count == 0) return SCREE_OK;
+    scree_status status = scree_allocate(&moved, work->relative_capacity, sizeof *moved, error);
+    if (status) return status;
+    for (size_t k = 0; k < count; k++) memcpy(moved[k], work->relative[work->search->grid.order[k]], sizeof *moved);
+    scree_release(&work->relative);
+    work->relative = moved;
     return SCREE_OK;
 }
 
@@ -287,23 +360,25 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     if (status) return status;
     search->listed = false;
     search->bodies = state->count;
-    work->pairs.count = work->pairs.touching_count = work->wall_pairs.count = 0;
+    work->pairs.count = work->pairs.touching_count = work->wall_pairs.count = work->ghosts.count = 0;
     if (state->count >= LARGE) scree_pair_lists_destroy(work);
 
-    scree_cell_grid_fit(&search->grid, state, work->skin, work->threads);
+    scree_cell_grid_fit(&search->grid, state, work->skin);
     if (!search->grid.finite) {
         work->flags |= SCREE_FLAG_NAN;
         work->flagged_id = search->grid.odd_id;
     }
-    status = scree_cell_grid_order(&search->grid, state, work->threads, error);
+    status = scree_cell_grid_order(&search->grid, state, error);
+    if (!status) status = permute_relative(work, state->count, error);
     if (!status) status = scree_state_permute(state, search->grid.order, error);
     if (!status) status = scree_cell_grid_fill(&search->grid, state, error);
     if (!status) status = scree_histories_index(search, state, error);
     if (!status) status = search_pairs(state, work, error);
+    if (!status) status = scree_ghosts_make(state, work, error);
+    if (!status) status = scree_ghosts_search(state, work, &search->images, error);
     if (!status) status = assemble(model, state, work, error);
     if (status) return status;
 
-#pragma omp parallel for num_threads(work->threads) schedule(static) if (work->threads > 1)
     for (size_t k = 0; k < state->count; k++) scree_body_place(state, k, state->rebuild[k]);
     memcpy(search->wall, state->wall, sizeof search->wall);
     release_scratch(search, state);
@@ -313,14 +388,29 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     return SCREE_OK;
 }
 
+/// Looks at the displacements when the budget is used up. What a periodic cell has been compressed or sheared by brings
+/// bodies nearer too: by at most |F - 1| times the width of a list that still has all of its skin.
+static scree_status check_list(const scree_model *model, scree_state *state, scree_work *work, scree_error *error)
+{
+    double deformation[9], change[9], shrunk = 0;
+    scree_matrix_unit(deformation);
+    if (state->periodic.directions) {
+        scree_ghosts_deformation(state, work, deformation);
+        for (int k = 0; k < 9; k++) change[k] = deformation[k] - (k % 4 == 0);
+        shrunk = scree_matrix_norm(change) * (work->ghosts.largest_radius + 0.5 * work->skin);
+    }
+    double moved = largest_displacement(state, deformation, work) + shrunk;
+    if (!(moved < half_skin(work))) return rebuild(model, state, work, error);
+    work->budget = half_skin(work) - moved;
+    return SCREE_OK;
+}
+
 scree_status scree_neighbours_refresh(const scree_model *model, scree_state *state, scree_work *work,
                                       scree_error *error)
 {
     if (!work->valid || work->search->bodies != state->count || walls_need_rebuild(state, work))
         return rebuild(model, state, work, error);
-    if (work->budget >= 0) return SCREE_OK;
-    double moved = largest_displacement(state, work->threads);
-    if (!(moved < half_skin(work))) return rebuild(model, state, work, error);
-    work->budget = half_skin(work) - moved;
-    return SCREE_OK;
+    scree_status status = work->budget >= 0 ? SCREE_OK : check_list(model, state, work, error);
+    if (!status && work->ghosts.count > 0) scree_ghosts_place(state, work);
+    return status;
 }

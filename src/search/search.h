@@ -12,6 +12,7 @@ struct scree_search {
     scree_cell_grid grid;
     scree_pair_chunk *chunk; ///< one a thread
     int chunks;
+    scree_pair_chunk images;           ///< pairs with images of a periodic cell
     bool listed;                       ///< the list in `work` is whole and holds the contact histories
     size_t bodies;                     ///< in the list
     scree_wall wall[SCREE_WALL_COUNT]; ///< as they were at the last rebuild

@@ -18,6 +18,7 @@ scree_status scree_work_create(scree_work *work, const scree_model *model, int t
 {
     memset(work, 0, sizeof *work);
     work->threads = threads > 1 ? threads : 1;
+    if (work->threads > SCREE_TEAM_MOST) work->threads = SCREE_TEAM_MOST;
     work->ledger = true;
     work->skin = default_skin * model->mean_radius;
     scree_status status = scree_allocate(&work->search, 1, sizeof *work->search, error);
@@ -37,11 +38,14 @@ void scree_work_destroy(scree_work *work)
     if (search) {
         for (int c = 0; c < search->chunks; c++) scree_pair_chunk_destroy(&search->chunk[c]);
         scree_release(&search->chunk);
+        scree_pair_chunk_destroy(&search->images);
         scree_cell_grid_destroy(&search->grid);
         scree_release(&search->entry_begin);
         scree_release(&search->entry);
     }
     scree_release(&work->search);
+    scree_release(&work->ghosts.ghost);
+    scree_release(&work->relative);
     scree_pair_lists_destroy(work);
     memset(work, 0, sizeof *work);
 }

@@ -93,6 +93,12 @@ const size_t scree_field_count = sizeof scree_fields / sizeof *scree_fields;
             .array_offset = offsetof(scree_state, member), .stride = sizeof(((scree_state *)0)->member), .offset = 0,  \
             .rows = SCREE_ROWS_ONE                                                                                     \
     }
+#define PERIODIC(name_, type_, components_, unit_, member, meaning_)                                                       \
+    {                                                                                                                  \
+        "periodic/" name_, type_, components_, unit_, SCREE_FIELD_STATE, true, meaning_,                                   \
+            .array_offset = offsetof(scree_state, periodic.member), .stride = sizeof(((scree_state *)0)->periodic.member),     \
+            .offset = 0, .rows = SCREE_ROWS_ONE                                                                        \
+    }
 
 const scree_field scree_members[] = {
     CONTACT("first", SCREE_FIELD_UINT32, 1, "1", first, "id of the first body"),
@@ -123,8 +129,8 @@ const scree_field scree_members[] = {
          SCREE_ROWS_HULL_NODES),
     HULL("triangle", SCREE_FIELD_UINT32, 3, uint32_t[3], "1", triangle,
          "places in hull/id of the corners, counter-clockwise seen from outside", SCREE_ROWS_HULL_TRIANGLES),
-    HULL("loaded", SCREE_FIELD_UINT8, 1, uint8_t, "1", loaded, "1: the triangle carries the pressure; 2, 3: it faces the bottom, top plate",
-         SCREE_ROWS_HULL_TRIANGLES),
+    HULL("loaded", SCREE_FIELD_UINT8, 1, uint8_t, "1", loaded,
+         "1: the triangle carries the pressure; 2, 3: it faces the bottom, top plate", SCREE_ROWS_HULL_TRIANGLES),
 
     {"drive/force", SCREE_FIELD_DOUBLE, 3, "N", SCREE_FIELD_STATE, false,
      "force of the imposed rates on each body of the boundary", PLAIN_ARRAY(drive.force, scree_vector),
@@ -141,13 +147,15 @@ const scree_field scree_members[] = {
     DRIVE("wanted", SCREE_FIELD_DOUBLE, 1, "1/s", wanted,
           "integral of target : target over time since the last sample"),
 
-    MEMBRANE("rest", 1, double, "m", rest,
-             "unstressed length to the next body of the membrane; 0 for the last of a side"),
+    MEMBRANE("rest", 3, scree_vector, "m", rest,
+             "unstressed lengths of the springs to the next body of the chain, in 3D of the ring and to two of the ring "
+             "above; 0: none"),
     MEMBRANE("pressure_force", 3, scree_vector, "N", press, "force of the pressure on this body of the membrane"),
     MEMBRANE("chain_force", 3, scree_vector, "N", force,
-             "force of the chain on this body of the membrane, and of the plate on an end"),
+             "force of the springs on this body of the membrane, and of the plate on an end"),
     ONE("scalars/grains", SCREE_FIELD_UINT64, 1, "1", grains, "number of grains: ids from it on are of the membrane"),
-    ONE("scalars/membrane_right", SCREE_FIELD_UINT64, 1, "1", membrane.right, "bodies of the membrane's right side"),
+    ONE("scalars/membrane_right", SCREE_FIELD_UINT64, 1, "1", membrane.right, "2D: bodies of the membrane's right side"),
+    ONE("scalars/membrane_around", SCREE_FIELD_UINT64, 1, "1", membrane.around, "3D: bodies of a ring of the membrane"),
     ONE("scalars/membrane_radius", SCREE_FIELD_DOUBLE, 1, "m", membrane.radius, "radius of the membrane's bodies"),
     ONE("scalars/membrane_ramp_time", SCREE_FIELD_DOUBLE, 1, "s", membrane.ramp_time,
         "time in which the membrane takes the pressure over"),
@@ -180,6 +188,19 @@ const scree_field scree_members[] = {
 
     ONE("scalars/hull_updated", SCREE_FIELD_UINT64, 1, "1", hull.updated, "step at which the hull was last found"),
 
+    PERIODIC("lattice", SCREE_FIELD_DOUBLE, 9, "m", lattice,
+         "lattice vectors of the periodic cell as columns, 3 x 3 by rows; unit vectors where it is not periodic"),
+    PERIODIC("reference", SCREE_FIELD_DOUBLE, 9, "m", reference,
+         "the same lattice vectors at the start of the loading stage"),
+    PERIODIC("gradient", SCREE_FIELD_DOUBLE, 9, "1/s", gradient,
+         "velocity gradient of the last step, 3 x 3 by rows, extension positive"),
+    PERIODIC("drift", SCREE_FIELD_DOUBLE, 9, "1/s", drift, "running mean of the velocity gradient, for the servo"),
+    PERIODIC("strain", SCREE_FIELD_DOUBLE, 9, "1", strain, "integral of the velocity gradient over time"),
+    PERIODIC("virial", SCREE_FIELD_DOUBLE, 9, "J", virial, "sum over contacts of force on the first (x) branch"),
+    PERIODIC("motion", SCREE_FIELD_DOUBLE, 9, "J", motion,
+         "sum over bodies of mass velocity (x) velocity, relative to the affine field"),
+    PERIODIC("directions", SCREE_FIELD_UINT64, 1, "1", directions, "periodic directions: 1 x, 2 y, 4 z, added up"),
+
     ONE("strain/gradient", SCREE_FIELD_DOUBLE, 9, "1", strain.gradient,
         "displacement gradient accumulated from the boundary, 3 x 3 by rows, extension positive"),
 
@@ -194,6 +215,7 @@ const scree_field scree_members[] = {
         "energy put into tangential springs by the change of their stiffness"),
     ONE("ledger/plates", SCREE_FIELD_DOUBLE, 1, "J", ledger.plates, "work of the walls on the bodies"),
     ONE("ledger/pressure", SCREE_FIELD_DOUBLE, 1, "J", ledger.pressure, "work of the pressure on the bodies"),
+    ONE("ledger/periodic", SCREE_FIELD_DOUBLE, 1, "J", ledger.periodic, "work of the deforming periodic cell on the bodies"),
     ONE("ledger/boundary", SCREE_FIELD_DOUBLE, 1, "J", ledger.boundary,
         "work of the other forces of the boundary on the bodies"),
     ONE("ledger/forced", SCREE_FIELD_DOUBLE, 1, "J", ledger.forced,
@@ -207,6 +229,8 @@ const scree_field scree_members[] = {
     ONE("stage/index", SCREE_FIELD_INT64, 1, "1", stage.index, "number of the stage in the case"),
     ONE("stage/first_step", SCREE_FIELD_UINT64, 1, "1", stage.first_step, "step at which the stage began"),
     ONE("stage/first_time", SCREE_FIELD_DOUBLE, 1, "s", stage.first_time, "time at which the stage began"),
+    ONE("stage/first_evaluations", SCREE_FIELD_UINT64, 1, "1", stage.first_evaluations,
+        "scalars/evaluations when the stage began"),
     ONE("stage/reference", SCREE_FIELD_DOUBLE, SCREE_STAGE_REFERENCES, "1", stage.reference,
         "numbers of the stage, in its own SI units"),
     ONE("stage/samples", SCREE_FIELD_INT64, 1, "1", stage.samples, "rows of series.csv written in this run"),

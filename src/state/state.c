@@ -52,6 +52,7 @@ scree_status scree_state_create(scree_state *state, int dimension, size_t count,
         return status;
     }
     state->count = state->grains = count;
+    state->row_capacity = count + 1;
     state->force_quantum = state->torque_quantum = 1.0;
     for (size_t row = 0; row < count; row++) state->id[row] = state->row_of_id[row] = (uint32_t)row;
     return SCREE_OK;
@@ -77,7 +78,7 @@ void scree_state_destroy(scree_state *state)
 scree_status scree_state_foresee(scree_state *state, scree_error *error)
 {
     if (state->foreseen) return SCREE_OK;
-    return scree_allocate(&state->foreseen, state->count + 1, sizeof *state->foreseen, error);
+    return scree_allocate(&state->foreseen, state->row_capacity, sizeof *state->foreseen, error);
 }
 
 scree_status scree_state_append(scree_state *state, size_t more, scree_error *error)
@@ -91,6 +92,7 @@ scree_status scree_state_append(scree_state *state, size_t more, scree_error *er
     if (status) return status;
     for (size_t row = old; row < count; row++) state->id[row] = state->row_of_id[row] = (uint32_t)row;
     state->count = count;
+    state->row_capacity = count + 1;
     scree_release(&state->foreseen);
     return SCREE_OK;
 }
@@ -134,6 +136,24 @@ scree_status scree_state_reserve_contacts(scree_state *state, size_t count, scre
     if (!status && state->rolling)
         status = scree_reallocate(&state->rolling, old, capacity, sizeof *state->rolling, error);
     if (!status) state->contact_capacity = capacity;
+    return status;
+}
+
+scree_status scree_state_reserve_rows(scree_state *state, size_t count, scree_error *error)
+{
+    if (count <= state->row_capacity) return SCREE_OK;
+    size_t before = state->row_capacity, capacity = count + count / 8 + 16;
+    scree_status status = scree_reallocate(&state->row, before, capacity, sizeof *state->row, error);
+    if (!status) status = scree_reallocate(&state->sum, before, capacity, sizeof *state->sum, error);
+    if (!status) status = scree_reallocate(&state->id, before, capacity, sizeof *state->id, error);
+    if (!status && state->dimension == 3) {
+        status = scree_reallocate(&state->turn, before, capacity, sizeof *state->turn, error);
+        if (!status) status = scree_reallocate(&state->torque, before, capacity, sizeof *state->torque, error);
+    }
+    if (!status && state->foreseen)
+        status = scree_reallocate(&state->foreseen, before, capacity, sizeof *state->foreseen, error);
+    // After a failure some arrays are larger than the capacity says, and the next call copies no more than it says.
+    if (!status) state->row_capacity = capacity;
     return status;
 }
 
@@ -218,7 +238,8 @@ static uint64_t checksum_imposed(const scree_state *state, uint64_t c)
     c = scree_checksum_bytes(c, membrane->rest, membrane->count * sizeof *membrane->rest);
     c = scree_checksum_bytes(c, membrane->press, membrane->count * sizeof *membrane->press);
     c = scree_checksum_bytes(c, membrane->force, membrane->count * sizeof *membrane->force);
-    return scree_checksum_word(scree_checksum_bytes(c, numbers, sizeof numbers), membrane->right);
+    const uint64_t bodies[] = {membrane->right, membrane->around};
+    return scree_checksum_bytes(scree_checksum_bytes(c, numbers, sizeof numbers), bodies, sizeof bodies);
 }
 
 uint64_t scree_state_checksum(const scree_state *state)
@@ -234,6 +255,7 @@ uint64_t scree_state_checksum(const scree_state *state)
     c = scree_checksum_word(c, state->grains);
     c = scree_checksum_word(c, state->sampled_step);
     c = scree_checksum_word(c, state->evaluations);
+    c = scree_checksum_bytes(c, &state->periodic, sizeof state->periodic);
     c = scree_checksum_bytes(c, &state->strain, sizeof state->strain);
     c = scree_checksum_bytes(c, &state->forced, sizeof state->forced);
     c = scree_checksum_bytes(c, &state->ledger, sizeof state->ledger);

@@ -126,15 +126,16 @@ enum {
 };
 
 /// Energy ledger, J. Work is done ON the bodies; dissipation is positive. Residual of the balance:
-/// kinetic + elastic - initial - (plates + pressure + boundary + gravity) + damping + friction - stiffness - scheme:
-/// measure/energy.c.
+/// kinetic + elastic - initial - (plates + pressure + boundary + periodic + gravity) + damping + friction - stiffness -
+/// scheme: measure/energy.c.
 typedef struct scree_ledger {
     double damping;   ///< dissipated by contact damping, normal and tangential
     double friction;  ///< dissipated by sliding
     double stiffness; ///< put into tangential springs by the change of their stiffness with indentation (hertz_mindlin)
     double plates;    ///< work of the walls
     double pressure;  ///< work of the pressure on the Delaunay boundary or the membrane
-    double boundary;  ///< work of the other forces of the boundary: imposed rates, chain and ends of a membrane
+    double boundary;  ///< work of the other forces of the boundary: imposed rates, springs and ends of a membrane
+    double periodic;  ///< work of the deforming periodic cell
     double forced;    ///< work of the torque that keeps a body at a prescribed spin
     double gravity;   ///< sum of m g . x when the ledger was opened
     double initial;   ///< kinetic + elastic energy when the ledger was opened
@@ -144,7 +145,7 @@ typedef struct scree_ledger {
 
 /// A body whose spin is prescribed (boundary/forced_spin.h).
 typedef struct scree_forced_spin {
-    int64_t active;      ///< 0: there is none
+    int64_t active; ///< 0: there is none
     int64_t id;
     scree_vector spin;   ///< rad/s, at n - 1/2
     scree_vector torque; ///< N m, by its contacts at n
@@ -202,14 +203,17 @@ typedef enum scree_prescription {
                      ///< free
 } scree_prescription;
 
-/// Chain of discs on both sides of the sample (boundary/membrane.c, 2D). Its bodies have the ids from state.grains on:
-/// the right side from bottom to top, then the left side from top to bottom; count = 0: there is no membrane.
+/// Membrane around the sides of the sample (boundary/membrane.c). Its bodies have the ids from state.grains on; count =
+/// 0: there is no membrane. 2D: two chains of discs, the right side from bottom to top, then the left side from top to
+/// bottom. 3D: a triangulated tube of spheres (boundary/sheet.h), ring by ring from bottom to top.
 typedef struct scree_membrane {
-    double *rest;        ///< count, m, unstressed length from this body to the next; 0 for the last of a side
+    scree_vector *rest;  ///< count, m, unstressed lengths of the springs that begin at this body; 0: no spring. 2D: one,
+                         ///< to the next body; 3D: to the next of its ring and to two of the ring above
     scree_vector *press; ///< count, N, force of the pressure at n
-    scree_vector *force; ///< count, N, force of the chain, and of the plates on its ends, at n
+    scree_vector *force; ///< count, N, force of the springs, and of the plates on its ends, at n
     size_t count, capacity;
-    uint64_t right;   ///< bodies of the right side
+    uint64_t right;   ///< 2D: bodies of the right side
+    uint64_t around;  ///< 3D: bodies of a ring
     double radius;    ///< m
     double ramp_time; ///< s, in which the membrane takes the pressure over
     double share;     ///< 1, fraction of the time passed
@@ -220,17 +224,38 @@ typedef struct scree_strain {
     double gradient[9]; ///< accumulated displacement gradient, row-major (d u_row / d x_column)
 } scree_strain;
 
+/// The periodic cell; `directions` zero: there is none. Geometry in state/periodic.h, motion in boundary/periodic.c. Velocities
+/// of bodies in a deforming cell are relative to the affine field gradient . x. Tensors are 3 x 3 by rows, tension and
+/// extension positive.
+typedef struct scree_periodic_cell {
+    double lattice[9];   ///< m, lattice vectors as columns; the unit vector where a direction is not periodic
+    double reference[9]; ///< m, the same lattice vectors at the start of the loading stage
+    double gradient[9];  ///< 1/s, velocity gradient of the last step, d v_row / d x_column
+    double drift[9];     ///< 1/s, running mean of the gradient, for the servo
+    double strain[9];    ///< 1, its integral over time
+    double virial[9];    ///< J, at the present step: sum over contacts of force on first (x) branch
+    double motion[9];    ///< J, in the last step: sum over bodies of mass velocity (x) velocity
+    uint64_t directions; ///< bits 0, 1, 2: x, y, z
+} scree_periodic_cell;
+
 enum { SCREE_STAGE_REFERENCES = 24 };
 typedef struct scree_stage_state {
     int64_t index;                            ///< which stage of the case
     uint64_t first_step;                      ///< step at which it began
     double first_time;                        ///< s
+    uint64_t first_evaluations;               ///< state.evaluations when it began
     double reference[SCREE_STAGE_REFERENCES]; ///< stage-specific numbers (height at start, pressure at start, ...): see
                                               ///< the stage's file
     int64_t samples;                          ///< rows written in this stage
     int64_t snapshots;
     int64_t counter; ///< stage-specific
 } scree_stage_state;
+
+/// Time on the wall spent so far, all processes of the run together. Kept in checkpoints beside the state: it is no
+/// part of the checksum and nothing depends on it.
+typedef struct scree_wall_time {
+    double run, stage; ///< s, of the run and of its present or last stage
+} scree_wall_time;
 
 typedef struct scree_state {
     int dimension; ///< 2 or 3
@@ -241,6 +266,7 @@ typedef struct scree_state {
     double tick;              ///< s, the small step of two_timescales, the step of all other schemes
     double step_size;         ///< s, the last step, from n - 1 to n
     double kick_size;         ///< s, what leapfrog velocities were advanced by in it: the mean of it and the one before
+    size_t row_capacity;      ///< of row, turn, sum, torque, id, foreseen: room for the images of a periodic cell (state/work.h)
     scree_row *row;           ///< count
     scree_turn_row *turn;     ///< 3D: count; NULL in 2D
     scree_sum_row *sum;       ///< count, forces at `step`
@@ -267,17 +293,22 @@ typedef struct scree_state {
     double pressure; ///< Pa, confining pressure applied now
     scree_loop loop; ///< 2D
     scree_hull hull; ///< 3D
+    scree_periodic_cell periodic; ///< periodic boundary
     scree_drive drive;
     scree_membrane membrane;
     scree_strain strain;
     scree_forced_spin forced;
     scree_ledger ledger;
     scree_stage_state stage;
+    scree_wall_time wall_time;
 } scree_state;
 
 /// Allocates arrays for `count` bodies of dimension 2 or 3, ids 0 .. count-1, everything else zero.
 scree_status scree_state_create(scree_state *state, int dimension, size_t count, scree_error *error) SCREE_MUST_USE;
 void scree_state_destroy(scree_state *state);
+
+/// Grows the arrays that contacts read and write (row, turn, sum, torque, id, foreseen) to hold `count` rows. Errors: memory.
+scree_status scree_state_reserve_rows(scree_state *state, size_t count, scree_error *error) SCREE_MUST_USE;
 
 /// Position of the body in `row` [m]; z = 0 in 2D.
 static inline void scree_body_place(const scree_state *state, size_t row, scree_vector place)

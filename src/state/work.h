@@ -33,6 +33,19 @@ typedef struct scree_wall_pair_list {
     size_t count, capacity;
 } scree_wall_pair_list;
 
+/// An image of a body in a periodic cell: row count + k of the state belongs to ghost k. Images are made anew with the
+/// pair list and follow their bodies in every step (search/ghosts.h).
+typedef struct scree_ghost {
+    uint32_t parent;  ///< row of the body
+    int32_t shift[3]; ///< lattice vectors from the body to the image; the first that is not zero is positive
+} scree_ghost;
+
+typedef struct scree_ghost_list {
+    scree_ghost *ghost;
+    size_t count, capacity;
+    double lattice_inverse[9]; ///< 1/m, at the last rebuild
+    double largest_radius;     ///< m, of all bodies
+} scree_ghost_list;
 /// Whether contacts of this law have booking rows: those of hertz_mindlin in 3D, where the history row has no room.
 static inline bool scree_contacts_book(const scree_model *model, int dimension)
 {
@@ -44,6 +57,9 @@ typedef struct scree_search scree_search; ///< cell grid and scratch, private to
 typedef struct scree_work {
     scree_pair_list pairs;
     scree_wall_pair_list wall_pairs;
+    scree_ghost_list ghosts;
+    scree_vector *relative; ///< deforming cell: velocities relative to the affine field while rows hold whole ones
+    size_t relative_capacity;
     scree_search *search;
     double skin;   ///< m, width added to the sum of radii in the list
     double budget; ///< m, distance that bodies may still move before the list must be checked
@@ -59,6 +75,18 @@ typedef struct scree_work {
     uint64_t flagged_id;   ///< a body that raised a flag
     void *contact_scratch; ///< private to contact/ (per-thread slots); freed by scree_contact_scratch_destroy
 } scree_work;
+
+/// Rows that the pair list may name: bodies and images.
+static inline size_t scree_row_count(const scree_state *state, const scree_work *work)
+{
+    return state->count + work->ghosts.count;
+}
+
+/// The row of the body that `row` is, or is an image of.
+static inline uint32_t scree_parent_row(const scree_state *state, const scree_work *work, uint32_t row)
+{
+    return row < state->count ? row : work->ghosts.ghost[row - state->count].parent;
+}
 
 /// Members of the team.
 static inline int scree_work_shares(const scree_work *work)

@@ -5,9 +5,8 @@
 #include "sweep/process.h"
 
 #include "base/memory.h"
+#include "base/processor.h"
 #include "io/run_directory.h"
-
-#include <omp.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -276,7 +275,7 @@ static scree_status make_folder(const drive *d)
 
 static scree_status open_drive(drive *d, size_t from, size_t to)
 {
-    int threads = d->options->threads > 0 ? d->options->threads : 1, cores = omp_get_num_procs() / threads;
+    int threads = d->options->threads > 0 ? d->options->threads : 1, cores = scree_processor_count() / threads;
     int jobs = d->options->jobs > 0 ? d->options->jobs : cores > 0 ? cores : 1;
     d->jobs = (size_t)(jobs < MOST_JOBS ? jobs : MOST_JOBS);
     scree_status status = make_folder(d);

@@ -1,6 +1,7 @@
 /// Comparison figures of a sweep: each mean curve with its confidence band, one line a point of the grid; and each
-/// measure against each dimension, with error bars. A chart has at most the seven colours of the palette: where there
-/// are more points, there is one chart for each setting of the first dimension.
+/// measure against each dimension, with error bars, and over other measures. Where a measure NAME has a companion
+/// NAME_theory, that is the curve and the measure the points on it. A chart has at most the seven colours of the
+/// palette: where there are more points, there is one chart for each setting of the first dimension.
 #include "sweep/results.h"
 
 #include "base/memory.h"
@@ -150,15 +151,48 @@ static const scree_sweep_parameter *axis_of(const scree_sweep *sweep, size_t dim
     return NULL;
 }
 
-/// Values over more than a factor of 30, all positive, are spread on a logarithmic axis.
+/// Values over more than a factor of 30 are spread on a logarithmic axis, where zero has no place and is left out.
 static bool is_wide(const scree_sweep_parameter *axis, size_t count)
 {
     double least = INFINITY, most = 0;
     for (size_t i = 0; i < count; i++) {
-        least = fmin(least, axis->number[i]);
+        if (axis->number[i] < 0) return false;
+        if (axis->number[i] > 0) least = fmin(least, axis->number[i]);
         most = fmax(most, axis->number[i]);
     }
-    return least > 0 && most / least > 30;
+    return most / least > 30;
+}
+
+static size_t measure_named(const scree_sweep *sweep, const char *name, const char *tail)
+{
+    size_t length = strlen(name), k = 0;
+    for (; k < sweep->measure_count; k++)
+        if (strncmp(sweep->measure[k], name, length) == 0 && strcmp(sweep->measure[k] + length, tail) == 0) break;
+    return k;
+}
+
+/// The measure that is the closed form of measure `k`; measure_count when there is none.
+static size_t theory_of(const scree_sweep *sweep, size_t k)
+{
+    return measure_named(sweep, sweep->measure[k], "_theory");
+}
+
+static bool is_theory(const scree_sweep *sweep, size_t k)
+{
+    for (size_t other = 0; other < sweep->measure_count; other++)
+        if (theory_of(sweep, other) == k) return true;
+    return false;
+}
+
+/// Names by which a chart of simulation and theory tells them apart.
+static void contrast(scree_chart_line *simulation, scree_chart_line *theory)
+{
+    simulation->points = simulation->bare = true;
+    simulation->label = "simulation";
+    theory->label = "closed form";
+    theory->points = theory->bare = false;
+    theory->low = theory->high = NULL;
+    theory->colour = 2;
 }
 
 /// The line of measure `k` through all settings of `dimension`, beginning at `point` (where its setting is 0). Settings
@@ -201,6 +235,15 @@ static void draw_measure(const scree_sweep_results *results, size_t k, size_t di
                                          .bare = !axis};
         count++;
     }
+    size_t theory = theory_of(sweep, k);
+    if (count == 1 && theory < sweep->measure_count && !take_sheet(&s[1], d->count, &error)) {
+        trace(results, theory, dimension, 0, 0, &s[1]);
+        line[1] = line[0];
+        line[1].x = s[1].x;
+        line[1].y = s[1].y;
+        contrast(&line[0], &line[1]);
+        count++;
+    }
     for (size_t i = 0; i < d->count && i < 1000; i++) names[i] = d->setting[i].label;
     (void)axis_label(x_label, d->name, axis ? axis->unit : NULL);
     (void)axis_label(y_label, sweep->measure[k], NULL);
@@ -217,10 +260,63 @@ static void draw_measure(const scree_sweep_results *results, size_t k, size_t di
     for (size_t i = 0; i < count; i++) scree_release(&s[i].x);
 }
 
+// ---- relations ---------------------------------------------------------------------------------------------------
+
+/// Means of measure y over those of measure x at all points of the grid, in the order of x.
+static void relate(const scree_sweep_results *results, size_t x, size_t y, sheet *s)
+{
+    const scree_sweep *sweep = results->sweep;
+    for (size_t point = 0; point < sweep->point_count; point++) {
+        const scree_estimate *at = &results->estimate[point * sweep->measure_count];
+        size_t place = point;
+        for (; place > 0 && s->x[place - 1] > at[x].mean; place--) {
+            s->x[place] = s->x[place - 1];
+            s->y[place] = s->y[place - 1];
+            s->low[place] = s->low[place - 1];
+            s->high[place] = s->high[place - 1];
+        }
+        put_estimate(s, place, at[x].mean, &at[y], 1);
+    }
+}
+
+static void draw_relation(const scree_sweep_results *results, const char *name_x, const char *name_y)
+{
+    const scree_sweep *sweep = results->sweep;
+    size_t x = measure_named(sweep, name_x, ""), y = measure_named(sweep, name_y, "");
+    size_t other_x = theory_of(sweep, x), other_y = theory_of(sweep, y);
+    char x_label[LABEL], y_label[LABEL], name[320];
+    sheet s[2] = {0};
+    scree_error error;
+    bool theory = other_x < sweep->measure_count && other_y < sweep->measure_count;
+    if (take_sheet(&s[0], sweep->point_count, &error)) return;
+    relate(results, x, y, &s[0]);
+    bool several = sweep->realisations > 1;
+    scree_chart_line line[2] = {{.x = s[0].x,
+                                 .y = s[0].y,
+                                 .low = several ? s[0].low : NULL,
+                                 .high = several ? s[0].high : NULL,
+                                 .count = sweep->point_count,
+                                 .points = true}};
+    if (theory && !take_sheet(&s[1], sweep->point_count, &error)) {
+        relate(results, other_x, other_y, &s[1]);
+        line[1] = (scree_chart_line){.x = s[1].x, .y = s[1].y, .count = sweep->point_count};
+        contrast(&line[0], &line[1]);
+    }
+    (void)axis_label(x_label, name_x, NULL);
+    (void)axis_label(y_label, name_y, NULL);
+    scree_chart chart = {
+        .title = title_of(sweep), .x_label = x_label, .y_label = y_label, .line = line, .line_count = s[1].x ? 2 : 1};
+    (void)snprintf(name, sizeof name, "%s-over-%s", name_y, name_x);
+    draw(results, name, &chart);
+    for (size_t i = 0; i < 2; i++) scree_release(&s[i].x);
+}
+
 void scree_sweep_draw_measures(const scree_sweep_results *results)
 {
     const scree_sweep *sweep = results->sweep;
     for (size_t dimension = 0; dimension < sweep->dimension_count; dimension++)
         for (size_t k = 0; k < sweep->measure_count && sweep->dimension[dimension].count > 1; k++)
-            draw_measure(results, k, dimension);
+            if (!is_theory(sweep, k)) draw_measure(results, k, dimension);
+    for (int64_t i = 0; i < sweep->config.relation_count; i++)
+        draw_relation(results, sweep->config.relations[i].x, sweep->config.relations[i].y);
 }

@@ -190,7 +190,13 @@ static bool is_consistent(scree_reader *reader, const scree_sweep_vary *vary, co
     for (int64_t k = 0; k < vary->together_count; k++)
         if (!vary->together[k].values || !vary->together[k].key || !vary->together[k].key[0]) return false;
     const scree_node *first = key ? vary->values : vary->together_count > 0 ? vary->together[0].values : NULL;
+    if (vary->quick_values && (!key || !vary->names)) {
+        scree_problem_add(reader, vary->quick_values->place, path, NULL, NULL,
+                          "'quick_values' need a 'key', and 'names' that are the same in both forms");
+        return false;
+    }
     bool good = !first || lengths_agree(reader, vary->names, first->count, path);
+    good &= !first || lengths_agree(reader, vary->quick_values, first->count, path);
     for (int64_t k = 1; k < vary->together_count; k++)
         good &= lengths_agree(reader, vary->together[k].values, first->count, path);
     return good;
@@ -224,7 +230,8 @@ static void expand_dimensions(scree_reader *reader, scree_sweep *sweep)
         char path[48];
         (void)snprintf(path, sizeof path, "vary.%lld", (long long)i);
         if (element->kind != SCREE_NODE_MAPPING || !is_consistent(reader, vary, element, path)) continue;
-        scree_sweep_together single = {vary->key, vary->values};
+        bool smaller = sweep->quick && vary->quick_values;
+        scree_sweep_together single = {vary->key, smaller ? vary->quick_values : vary->values};
         bool together = vary->together_count > 0;
         const scree_sweep_together *key = together ? vary->together : &single;
         size_t keys = together ? (size_t)vary->together_count : 1;

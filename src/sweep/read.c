@@ -91,6 +91,21 @@ static void check_column(scree_reader *reader, int64_t index, const char *key, c
                       nearest ? nearest : "", nearest ? "'?" : "");
 }
 
+/// A relation is between two of the measures.
+static void check_relation(scree_reader *reader, const scree_sweep *sweep, int64_t index, const char *key,
+                           const char *name)
+{
+    char path[48];
+    for (const scree_node *m = sweep->config.measures ? sweep->config.measures->first : NULL; m && name; m = m->next)
+        if (m->text && strcmp(m->text, name) == 0) return;
+    if (!name) return; // noted
+    const scree_node *element = scree_node_at(scree_node_find(reader->root, "relations"), (size_t)index);
+    const scree_node *value = scree_node_find(element, key);
+    (void)snprintf(path, sizeof path, "relations.%lld.%s", (long long)index, key);
+    scree_problem_add(reader, value ? value->place : element->place, path, name, NULL, "'%s' is none of the measures",
+                      scree_show(name).text);
+}
+
 /// --set of the command line, for all members and after everything else.
 static void keep_overrides(scree_reader *reader, scree_sweep *sweep, const scree_sweep_read_options *options)
 {
@@ -129,6 +144,10 @@ static void apply_rules(scree_reader *reader, void *user)
     for (int64_t i = 0; i < sweep->config.curve_count; i++) {
         check_column(reader, i, "x", sweep->config.curves[i].x);
         check_column(reader, i, "y", sweep->config.curves[i].y);
+    }
+    for (int64_t i = 0; i < sweep->config.relation_count; i++) {
+        check_relation(reader, sweep, i, "x", sweep->config.relations[i].x);
+        check_relation(reader, sweep, i, "y", sweep->config.relations[i].y);
     }
     keep_overrides(reader, sweep, r->in->options);
     if (scree_sweep_expand(reader, sweep) && sweep->case_text) scree_sweep_check_cases(reader, sweep);

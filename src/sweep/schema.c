@@ -41,6 +41,7 @@ static const scree_key vary_keys[] = {
         .meaning = "What varies; auto: the last part of the key path."),
     TEXT(vary, key, "159", .standard = "", .meaning = "Key path in the case."),
     VALUES(vary, values, .standard = "[]", .meaning = "Values of the key."),
+    VALUES(vary, quick_values, .standard = "[]", .meaning = "Values of the key in the quick form, instead."),
     VALUES(vary, names, .standard = "[]", .meaning = "What the values are called in figures, tables and folders."),
     LIST(vary, together, together_table, together_count, .meaning = "Several keys that vary in step, instead of one."),
     LIST(vary, alternatives, alternative_table, alternative_count,
@@ -54,6 +55,13 @@ static const scree_key curve_keys[] = {
     TEXT(curve, y, "63", .meaning = "Column of series.csv."),
 };
 static const scree_section curve_table[] = {TABLE("curves", "A curve, averaged over realisations.", curve_keys)};
+
+typedef scree_sweep_relation relation;
+static const scree_key relation_keys[] = {
+    TEXT(relation, x, "63", .meaning = "One of the measures."),
+    TEXT(relation, y, "63", .meaning = "Another one, drawn over it."),
+};
+static const scree_section relation_table[] = {TABLE("relations", "One measure over another.", relation_keys)};
 
 typedef scree_sweep_config config;
 static const scree_key root_keys[] = {
@@ -84,6 +92,8 @@ static const scree_key root_keys[] = {
     LIST(config, vary, vary_table, vary_count, .meaning = "The grid: every combination of these."),
     VALUES(config, measures, .standard = "[]", .meaning = "Names in summary.json that are averaged and compared."),
     LIST(config, curves, curve_table, curve_count, .meaning = "Curves that are averaged and drawn."),
+    LIST(config, relations, relation_table, relation_count,
+         .meaning = "Measures that are drawn over one another, a place for each point of the grid."),
     KEY(config, confidence, SCREE_KEY_NUMBER, .unit = "1", .standard = "95 %", FROM("50 %"), TO("99.9 %"),
         .meaning = "Probability of the confidence intervals."),
 };

@@ -23,7 +23,7 @@ typedef struct scree_sweep_alternative {
 typedef struct scree_sweep_vary {
     char *name; ///< NULL: the last part of the key path
     char *key;  ///< "" when `together` or `alternatives` are given
-    const scree_node *values, *names;
+    const scree_node *values, *quick_values, *names;
     scree_sweep_together *together;
     int64_t together_count;
     scree_sweep_alternative *alternatives;
@@ -33,6 +33,10 @@ typedef struct scree_sweep_vary {
 typedef struct scree_sweep_curve {
     char *x, *y; ///< columns of series.csv
 } scree_sweep_curve;
+
+typedef struct scree_sweep_relation {
+    char *x, *y; ///< measures
+} scree_sweep_relation;
 
 typedef struct scree_sweep_config {
     int64_t language;
@@ -48,6 +52,8 @@ typedef struct scree_sweep_config {
     const scree_node *measures;
     scree_sweep_curve *curves;
     int64_t curve_count;
+    scree_sweep_relation *relations;
+    int64_t relation_count;
 } scree_sweep_config;
 
 extern const scree_section scree_sweep_schema;

@@ -32,16 +32,19 @@ static const struct chart_entry {
     {"stress-ratio", "Stress ratio", "axial over lateral stress (1)", false, {
         {"stress_ratio", "from plates", 1, BLUE, false},
         {"stress_ratio_contacts", "from contacts", 1, VERMILLION, true}}},
+    {"shear-ratio", "Shear stress over normal stress", "shear over axial stress (1)", false, {
+        {"shear_ratio", NULL, 1, BLUE, false}}},
     {"slip", "Slip at contacts", "mean slip speed / v_R (1)", false, {
         {"slip_ratio", NULL, 1, BLUE, false}}},
     {"stress", "Stress from plates and from contacts", "stress (@Pa), compression positive", false, {
-        {"stress_axial_plates", "axial, plates", 1, BLUE, false},
+        {"stress_axial_plates", "axial, applied", 1, BLUE, false},
         {"stress_axial_contacts", "axial, contacts", 1, SKY, true},
         {"stress_lateral_applied", "lateral, applied", 1, VERMILLION, false},
         {"stress_lateral_contacts", "lateral, contacts", 1, ORANGE, true}}},
     {"energy", "Energy ledger", "energy (@J)", false, {
         {"work_plates", "work of plates", 1, BLUE, false},
         {"work_pressure", "work of pressure", 1, SKY, false},
+        {"work_periodic", "work of the cell", 1, BLUE, true},
         {"work_gravity", "work of gravity", 1, GREEN, false},
         {"dissipated_friction", "lost to friction", 1, VERMILLION, false},
         {"dissipated_damping", "lost to damping", 1, ORANGE, false},
@@ -97,6 +100,15 @@ static double largest_magnitude(const double *value, size_t count)
     return largest > 0 ? largest : 1;
 }
 
+/// The run was periodic in all directions.
+static bool is_cell(const scree_plot_run *run)
+{
+    const double *ratio = scree_series_get(&run->series, "shear_ratio");
+    for (size_t k = 0; ratio && k < run->row_count; k++)
+        if (isfinite(ratio[run->row[k]])) return true;
+    return false;
+}
+
 static scree_status draw_chart(const scree_plot_run *run, const struct chart_entry *entry, double *value,
                                scree_error *error)
 {
@@ -119,7 +131,7 @@ static scree_status draw_chart(const scree_plot_run *run, const struct chart_ent
     double scale = write_label(label, sizeof label, entry->y_label, largest_magnitude(first, count * run->row_count));
     for (size_t k = 0; k < count * run->row_count; k++) first[k] *= scale;
     scree_chart chart = {.title = entry->title,
-                         .x_label = "axial strain (%)",
+                         .x_label = is_cell(run) ? "strain of the cell (%)" : "axial strain (%)",
                          .y_label = label,
                          .line = line,
                          .line_count = count,
@@ -137,6 +149,8 @@ void scree_plot_charts(scree_plot_run *run)
         return;
     }
     for (size_t k = 0; k < sizeof charts / sizeof charts[0]; k++) {
+        bool of_cell = strcmp(charts[k].curve[0].column, "shear_ratio") == 0;
+        if (of_cell && !is_cell(run)) continue;
         status = draw_chart(run, &charts[k], value, &error);
         scree_plot_report(run, charts[k].name, status, &error);
     }

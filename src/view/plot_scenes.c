@@ -202,7 +202,10 @@ static scree_status draw_fluctuations(const scree_plot_run *run, const scree_sna
     if (!status) {
         const double *const begin[] = {from->x, from->y}, *const end[] = {to->x, to->y};
         double *const fluctuation[] = {arrow, arrow + from->count};
-        (void)scree_fluctuations(2, begin, end, from->grains, fluctuation, gradient);
+        if (from->periodic.directions == 3)
+            (void)scree_periodic_fluctuations(&from->periodic, &to->periodic, 2, begin, end, from->count, fluctuation);
+        else
+            (void)scree_fluctuations(2, begin, end, from->grains, fluctuation, gradient);
         scree_scene scene = {.title = title, .arrow_x = arrow, .arrow_y = arrow + from->count, .plates = true};
         status = scree_scene_draw(path, from, &scene, error);
     }

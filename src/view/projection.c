@@ -2,6 +2,7 @@
 #include "view/projection.h"
 
 #include "base/memory.h"
+#include "state/periodic.h"
 
 #include <math.h>
 #include <string.h>
@@ -54,6 +55,31 @@ static void place_plates(const scree_snapshot *solid, const axes *view, scree_pr
     }
 }
 
+/// Edges of the cell along two axes of the page.
+static scree_periodic_edges place_edges(const scree_snapshot *snapshot, const scree_vector right, const scree_vector up)
+{
+    scree_periodic_edges lines = {.count = 0};
+    scree_state state = {.dimension = snapshot->dimension, .periodic = snapshot->periodic};
+    scree_vector low, high, ends[2];
+    memcpy(state.wall, snapshot->wall, sizeof state.wall);
+    scree_periodic_box(&state, low, high);
+    for (int edge = 0; edge < SCREE_PERIODIC_EDGES && snapshot->periodic.directions; edge++) {
+        if (!scree_periodic_edge(&snapshot->periodic, snapshot->dimension, low, high, edge, ends)) continue;
+        for (int end = 0; end < 2; end++) {
+            lines.end[lines.count][end][0] = along(right, ends[end][0], ends[end][1], ends[end][2]);
+            lines.end[lines.count][end][1] = along(up, ends[end][0], ends[end][1], ends[end][2]);
+        }
+        lines.count++;
+    }
+    return lines;
+}
+
+scree_periodic_edges scree_periodic_edges_of(const scree_snapshot *snapshot)
+{
+    const scree_vector x = {1, 0, 0}, y = {0, 1, 0};
+    return place_edges(snapshot, x, y);
+}
+
 /// A plane snapshot with the same bodies, without positions.
 static scree_status start_plane(const scree_snapshot *solid, scree_snapshot *plane, scree_error *error)
 {
@@ -61,7 +87,8 @@ static scree_status start_plane(const scree_snapshot *solid, scree_snapshot *pla
                               .dimension = 2,
                               .time = solid->time,
                               .axial_strain = solid->axial_strain,
-                              .count = solid->count};
+                              .count = solid->count,
+                              .grains = solid->grains};
     memcpy(plane->stage, solid->stage, sizeof plane->stage);
     scree_status status = scree_allocate(&plane->x, solid->count, sizeof *plane->x, error);
     if (!status) status = scree_allocate(&plane->y, solid->count, sizeof *plane->y, error);
@@ -78,6 +105,8 @@ static scree_status project_contacts(const scree_snapshot *solid, const axes *vi
     if (!status) status = scree_allocate(&plane->normal_force, count, sizeof *plane->normal_force, error);
     if (!status) status = scree_allocate(&plane->contact_x, count, sizeof *plane->contact_x, error);
     if (!status) status = scree_allocate(&plane->contact_y, count, sizeof *plane->contact_y, error);
+    if (!status) status = scree_allocate(&plane->branch_x, count, sizeof *plane->branch_x, error);
+    if (!status) status = scree_allocate(&plane->branch_y, count, sizeof *plane->branch_y, error);
     if (status || count == 0) return status;
     plane->contact_count = count;
     memcpy(plane->first, solid->first, count * sizeof *plane->first);
@@ -87,7 +116,20 @@ static scree_status project_contacts(const scree_snapshot *solid, const axes *vi
         double x = solid->contact_x[k], y = solid->contact_y[k], z = solid->contact_z[k];
         plane->contact_x[k] = along(view->row[0], x, y, z);
         plane->contact_y[k] = along(view->row[1], x, y, z);
+        plane->branch_x[k] = along(view->row[0], solid->branch_x[k], solid->branch_y[k], solid->branch_z[k]);
+        plane->branch_y[k] = along(view->row[1], solid->branch_x[k], solid->branch_y[k], solid->branch_z[k]);
     }
+    return SCREE_OK;
+}
+
+/// The sheet of a membrane, whose corners are bodies.
+static scree_status copy_sheet(const scree_snapshot *solid, scree_snapshot *plane, scree_error *error)
+{
+    size_t count = solid->triangle_count;
+    scree_status status = scree_allocate(&plane->triangle, count, sizeof *plane->triangle, error);
+    if (status || count == 0) return status;
+    plane->triangle_count = count;
+    memcpy(plane->triangle, solid->triangle, count * sizeof *plane->triangle);
     return SCREE_OK;
 }
 
@@ -99,6 +141,7 @@ scree_status scree_projection_create(const scree_snapshot *solid, scree_projecti
     scree_status status = start_plane(solid, plane, error);
     if (!status) status = scree_allocate(&projection->depth, solid->count, sizeof *projection->depth, error);
     if (!status) status = project_contacts(solid, &view, plane, error);
+    if (!status) status = copy_sheet(solid, plane, error);
     if (status) {
         scree_projection_destroy(projection);
         return status;
@@ -111,6 +154,7 @@ scree_status scree_projection_create(const scree_snapshot *solid, scree_projecti
         projection->depth[k] = along(view.row[2], x, y, z);
     }
     place_plates(solid, &view, projection);
+    projection->periodic = place_edges(solid, view.row[0], view.row[1]);
     return SCREE_OK;
 }
 

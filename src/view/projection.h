@@ -4,12 +4,22 @@
 
 #include "io/snapshot.h"
 
+/// Edges of a periodic cell on paper.
+typedef struct scree_periodic_edges {
+    double end[12][2][2]; ///< m
+    size_t count;         ///< 0: no cell
+} scree_periodic_edges;
+
+/// The edges of the cell of a plane snapshot.
+scree_periodic_edges scree_periodic_edges_of(const scree_snapshot *snapshot);
+
 /// Orthographic view from the front right, from above. Page axes: x to the right, y upwards.
 typedef struct scree_projection {
     scree_snapshot plane;  ///< centres and contact points on the page; velocities are left out
     double *depth;         ///< per body, m towards the viewer
     double plate[2][4][2]; ///< m on the page: corners of the bottom and the top plate
     bool has_plate[2];
+    scree_periodic_edges periodic;
 } scree_projection;
 
 /// Errors: memory.

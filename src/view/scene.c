@@ -42,7 +42,7 @@ static void extend(scree_scene_view *view, int axis, double low, double high)
     view->high[axis] = fmax(view->high[axis], high);
 }
 
-/// Corners of the drawn discs, and of the plates that lie near them.
+/// Corners of the drawn discs and of the periodic cell, and of the plates that lie near them.
 static scree_status measure_extent(scree_scene_view *view, scree_error *error)
 {
     const scree_snapshot *s = view->snapshot;
@@ -55,10 +55,16 @@ static scree_status measure_extent(scree_scene_view *view, scree_error *error)
         view->disc_count++;
         view->mean_radius += (s->radius[k] - view->mean_radius) / (double)view->disc_count;
     }
+    const scree_projection *projection = view->scene->projection;
+    view->periodic = projection ? projection->periodic : scree_periodic_edges_of(s);
+    for (size_t k = 0; k < 2 * view->periodic.count; k++)
+        for (int axis = 0; axis < 2; axis++) {
+            double place = view->periodic.end[k / 2][k % 2][axis];
+            extend(view, axis, place, place);
+        }
     double size = fmax(view->high[0] - view->low[0], view->high[1] - view->low[1]);
     if (view->disc_count == 0 || !isfinite(size) || !(size > 0))
         return scree_error_set(error, SCREE_ERROR_INPUT, "the snapshot has no disc that could be drawn");
-    const scree_projection *projection = view->scene->projection;
     for (int w = 0; projection && view->scene->plates && w < 2; w++)
         for (int c = 0; c < 4 && projection->has_plate[w]; c++)
             for (int axis = 0; axis < 2; axis++)
@@ -196,7 +202,8 @@ static void write_caption(scree_scene_view *view)
     if (view->disc_count < s->count && !view->scene->section)
         (void)snprintf(left_out, sizeof left_out, ", %zu without a position", s->count - view->disc_count);
     // The bodies of a membrane are drawn too, but are no grains.
-    size_t grains = view->disc_count - (s->grains > 0 ? s->count - s->grains : 0);
+    size_t grains = 0;
+    for (size_t k = 0; k < (s->grains > 0 ? s->grains : s->count); k++) grains += scree_scene_drawn(s, k);
     (void)snprintf(view->caption, sizeof view->caption, "%zu %s%s%s%s%s", grains,
                    view->scene->depth || view->scene->section ? "sphere" : "disc", grains == 1 ? "" : "s", left_out,
                    strain, time);

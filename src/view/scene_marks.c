@@ -32,6 +32,8 @@ static void draw_spheres(const scree_scene_view *view, cairo_t *cairo)
     double line = fmin(0.5, fmax(0.08, 0.035 * 2 * view->mean_radius * view->scale));
     for (size_t k = 0; k < view->disc_count; k++) {
         uint32_t disc = view->order[k];
+        // A membrane is drawn as a net, through which the grains are seen.
+        if (s->triangle_count > 0 && disc >= s->grains) continue;
         double radius = s->radius[disc] * view->scale;
         double x = scree_scene_x(view, s->x[disc]), y = scree_scene_y(view, s->y[disc]);
         scree_colour colour = scree_scene_disc_colour(view, disc);
@@ -51,6 +53,30 @@ static void draw_spheres(const scree_scene_view *view, cairo_t *cairo)
             cairo_stroke(cairo);
         }
     }
+}
+
+/// The net of a membrane: the triangles that the viewer sees from inside, behind the grains, or from outside.
+static void draw_net(const scree_scene_view *view, cairo_t *cairo, bool outside)
+{
+    const scree_snapshot *s = view->snapshot;
+    for (size_t t = 0; t < s->triangle_count; t++) {
+        double x[3], y[3];
+        for (int c = 0; c < 3; c++) {
+            x[c] = scree_scene_x(view, s->x[s->triangle[t][c]]);
+            y[c] = scree_scene_y(view, s->y[s->triangle[t][c]]);
+        }
+        // Page coordinates grow downwards: counter-clockwise is negative.
+        double turn = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
+        if (!isfinite(turn) || (turn < 0) != outside) continue;
+        cairo_new_sub_path(cairo);
+        for (int c = 0; c < 3; c++) cairo_line_to(cairo, x[c], y[c]);
+        cairo_close_path(cairo);
+    }
+    scree_colour colour = outside ? scree_scene_ink : scree_scene_quiet;
+    cairo_set_source_rgba(cairo, colour.red, colour.green, colour.blue, outside ? 0.4 : 0.6);
+    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_line_width(cairo, 0.3);
+    cairo_stroke(cairo);
 }
 
 /// The bottom (0) or top (1) plate of a view in space.
@@ -110,8 +136,8 @@ double scree_scene_force_width(const scree_scene_view *view, double ratio)
     return fmax(0.1, fmin(ratio, SCREE_SCENE_FORCE_LIMIT) * SCREE_SCENE_FORCE_WIDTH * diameter);
 }
 
-/// Where the line of a contact ends: the centre of the other disc, or the contact point on a wall. False: not to be
-/// drawn.
+/// Where the line of a contact ends: the centre of the other disc (of its image in a periodic cell), or the contact
+/// point on a wall. False: not to be drawn.
 static bool contact_end(const scree_snapshot *s, size_t k, double *x, double *y)
 {
     if (s->first[k] >= s->count || !scree_scene_drawn(s, s->first[k])) return false;
@@ -121,9 +147,9 @@ static bool contact_end(const scree_snapshot *s, size_t k, double *x, double *y)
         return isfinite(*x) && isfinite(*y);
     }
     if (s->second[k] >= s->count || !scree_scene_drawn(s, s->second[k])) return false;
-    *x = s->x[s->second[k]];
-    *y = s->y[s->second[k]];
-    return true;
+    *x = s->x[s->first[k]] - s->branch_x[k];
+    *y = s->y[s->first[k]] - s->branch_y[k];
+    return isfinite(*x) && isfinite(*y);
 }
 
 static int width_level(const scree_scene_view *view, double force)
@@ -189,6 +215,22 @@ static void draw_plates(const scree_scene_view *view, cairo_t *cairo)
     }
 }
 
+/// Edges of the periodic cell.
+static void draw_periodic_edges(const scree_scene_view *view, cairo_t *cairo)
+{
+    if (view->periodic.count == 0) return;
+    for (size_t k = 0; k < view->periodic.count; k++) {
+        const double(*edge)[2] = view->periodic.end[k];
+        cairo_move_to(cairo, scree_scene_x(view, edge[0][0]), scree_scene_y(view, edge[0][1]));
+        cairo_line_to(cairo, scree_scene_x(view, edge[1][0]), scree_scene_y(view, edge[1][1]));
+    }
+    cairo_set_dash(cairo, (const double[]){4, 2.5}, 2, 0);
+    cairo_set_line_width(cairo, 0.9);
+    scree_page_colour(cairo, scree_scene_boundary);
+    cairo_stroke(cairo);
+    cairo_set_dash(cairo, NULL, 0, 0);
+}
+
 void scree_scene_arrow(const scree_scene_view *view, cairo_t *cairo, double x, double y, double dx, double dy)
 {
     double length = hypot(dx, dy);
@@ -245,12 +287,15 @@ void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo)
 {
     if (view->scene->depth) {
         draw_plate_in_space(view, cairo, 0);
+        draw_net(view, cairo, false);
         // The network of the inside would be hidden.
         if (view->scene->force_network)
             draw_network(view, cairo);
         else
             draw_spheres(view, cairo);
+        draw_net(view, cairo, true);
         draw_plate_in_space(view, cairo, 1);
+        draw_periodic_edges(view, cairo);
         return;
     }
     draw_plates(view, cairo);
@@ -260,6 +305,7 @@ void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo)
         draw_discs(view, cairo);
     draw_membrane(view, cairo);
     draw_boundary(view, cairo);
+    draw_periodic_edges(view, cairo);
     draw_network(view, cairo);
     draw_marked(view, cairo);
     draw_arrows(view, cairo);

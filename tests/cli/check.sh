@@ -7,8 +7,6 @@ rm -rf "$scratch"
 mkdir -p "$scratch"
 scratch=$(realpath "$scratch")
 cd "$scratch" || exit 1
-# Threads that wait do not take the cores from other tests.
-export OMP_WAIT_POLICY=passive
 checks=0
 failures=0
 

@@ -36,7 +36,8 @@ static inline void hand_made_create(scree_snapshot *s, size_t count, size_t cont
     (void)snprintf(s->stage, sizeof s->stage, "compress");
     double **body[] = {&s->x, &s->y, &s->radius, &s->angle, &s->vx, &s->vy, &s->spin};
     for (size_t k = 0; k < sizeof body / sizeof body[0]; k++) *body[k] = hand_made_array(count, sizeof(double));
-    double **contact[] = {&s->normal_force, &s->tangential_force, &s->contact_x, &s->contact_y};
+    double **contact[] = {&s->normal_force, &s->tangential_force, &s->contact_x,
+                          &s->contact_y,    &s->branch_x,         &s->branch_y};
     for (size_t k = 0; k < sizeof contact / sizeof contact[0]; k++)
         *contact[k] = hand_made_array(contacts, sizeof(double));
     s->first = hand_made_array(contacts, sizeof(uint32_t));
@@ -56,7 +57,9 @@ static inline void hand_made_destroy(scree_snapshot *s)
                         &s->normal_force,
                         &s->tangential_force,
                         &s->contact_x,
-                        &s->contact_y};
+                        &s->contact_y,
+                        &s->branch_x,
+                        &s->branch_y};
     for (size_t k = 0; k < sizeof array / sizeof array[0]; k++) scree_release(array[k]);
     scree_release(&s->first);
     scree_release(&s->second);
@@ -71,6 +74,8 @@ static inline void hand_made_contact(scree_snapshot *s, uint32_t first, uint32_t
     s->second[k] = second;
     s->contact_x[k] = s->x[second] + dx / 2;
     s->contact_y[k] = s->y[second] + dy / 2;
+    s->branch_x[k] = dx;
+    s->branch_y[k] = dy;
     s->normal_force[k] = -20 * log(1 - hand_made_random()) * (0.35 + 1.6 * pow(fabs(dy) / length, 3));
     s->tangential_force[k] = 0.3 * s->normal_force[k] * (hand_made_random() - 0.5);
 }

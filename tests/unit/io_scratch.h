@@ -3,6 +3,7 @@
 #define SCREE_TESTS_IO_SCRATCH_H
 
 #include <ftw.h>
+#include <hdf5.h>
 #include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -28,6 +29,35 @@ static inline int scratch_remove_one(const char *path, const struct stat *inform
 static inline void scratch_destroy(const char *path)
 {
     (void)nftw(path, scratch_remove_one, 16, FTW_DEPTH | FTW_PHYS);
+}
+
+/// A folder for one test, as cmocka's setup and teardown.
+static char scratch[64];
+
+static inline int make_scratch(void **unused)
+{
+    (void)unused;
+    return scratch_create(scratch) ? 0 : -1;
+}
+
+/// Fails when the test has left an HDF5 file open.
+static inline int remove_scratch(void **unused)
+{
+    (void)unused;
+    bool closed = H5Fget_obj_count((hid_t)H5F_OBJ_ALL, H5F_OBJ_ALL) == 0;
+    scratch_destroy(scratch);
+    return closed ? 0 : -1;
+}
+
+/// The same, and the test runs in it.
+static inline int enter_scratch(void **unused)
+{
+    return make_scratch(unused) == 0 && chdir(scratch) == 0 ? 0 : -1;
+}
+
+static inline int leave_scratch(void **unused)
+{
+    return chdir("/") == 0 ? remove_scratch(unused) : -1;
 }
 
 /// No file may become longer than `bytes` from now on (RLIM_INFINITY: no limit): writes fail with EFBIG as they fail

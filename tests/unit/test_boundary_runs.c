@@ -6,6 +6,7 @@
 #include "boundary/drive.h"
 #include "io/run_directory.h"
 #include "io/snapshot.h"
+#include "io_scratch.h"
 #include "measure/measure.h"
 #include "run/sample.h"
 #include "run/simulation.h"
@@ -127,8 +128,8 @@ static void read_checksum(const char *directory, char text[32])
 static void restart_gives_the_same_bits(void **unused)
 {
     (void)unused;
-    char folder[64] = "/tmp/scree-test-XXXXXX", whole[96], part[96], one[32], two[32], command[256];
-    assert_non_null(mkdtemp(folder));
+    char folder[64], whole[96], part[96], one[32], two[32];
+    assert_true(scratch_create(folder));
     snprintf(whole, sizeof whole, "%s/whole", folder);
     snprintf(part, sizeof part, "%s/part", folder);
     for (int k = 0; k < 2; k++) {
@@ -151,16 +152,15 @@ static void restart_gives_the_same_bits(void **unused)
         assert_string_equal(one, two);
         scree_case_free(c);
     }
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    assert_int_equal(system(command), 0);
+    scratch_destroy(folder);
 }
 
 /// From a state written in the middle of the last stage and read back.
 static void a_checkpoint_in_the_middle_gives_the_same_bits(void **unused)
 {
     (void)unused;
-    char folder[64] = "/tmp/scree-test-XXXXXX", command[128];
-    assert_non_null(mkdtemp(folder));
+    char folder[64];
+    assert_true(scratch_create(folder));
     for (int k = 0; k < VARIANTS; k++) {
         scree_case *c = read_case(variants[k].text, &variants[k].override, 1);
         scree_simulation s[2];
@@ -182,8 +182,7 @@ static void a_checkpoint_in_the_middle_gives_the_same_bits(void **unused)
         for (int i = 0; i < 2; i++) scree_simulation_close(&s[i]);
         scree_case_free(c);
     }
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    assert_int_equal(system(command), 0);
+    scratch_destroy(folder);
 }
 
 static void energy_balance_closes_and_rates_are_met(void **unused)

@@ -156,7 +156,7 @@ static void test_bands_of_a_run(void **unused)
         shear(&state, 8 * SPACING, 0.1 * SPACING);
     }
     assert_int_equal(scree_summary_create(&summary, NULL), SCREE_OK);
-    assert_int_equal(scree_cell_results_write(directory, &config, summary, NULL), SCREE_OK);
+    assert_int_equal(scree_cell_results_write(directory, &config, NULL, summary, NULL), SCREE_OK);
     assert_int_equal(scree_path_join(path, sizeof path, directory, SCREE_FILE_SUMMARY, NULL), SCREE_OK);
     assert_int_equal(scree_summary_write(summary, path, NULL), SCREE_OK);
     assert_int_equal(scree_result_get(directory, "bands", value, sizeof value, NULL), SCREE_OK);

@@ -10,6 +10,7 @@
 #include "io/run_directory.h"
 #include "io/series.h"
 #include "io/summary.h"
+#include "io_scratch.h"
 
 #include <scree/scree.h>
 
@@ -21,23 +22,6 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-static char scratch[64];
-
-static int enter_scratch(void **state)
-{
-    (void)state;
-    strcpy(scratch, "/tmp/scree-test-XXXXXX");
-    return mkdtemp(scratch) && chdir(scratch) == 0 ? 0 : -1;
-}
-
-static int leave_scratch(void **state)
-{
-    (void)state;
-    char command[128];
-    (void)snprintf(command, sizeof command, "rm -rf '%s'", scratch);
-    return chdir("/") == 0 ? system(command) : -1;
-}
 
 static void put(const char *path, const char *text)
 {

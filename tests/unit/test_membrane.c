@@ -118,7 +118,7 @@ static void it_touches_and_does_not_press(void **unused)
         assert_true(m->material == 1 && m->mass > 0 && m->radius == 1.25 * RADIUS);
         bool last = k + 1 == side || k + 1 == count;
         double rest = last ? 0 : hypot(member(&b, k + 1)->x - m->x, member(&b, k + 1)->y - m->y);
-        assert_true(fabs(state->membrane.rest[k] - rest) < 1e-15);
+        assert_true(fabs(state->membrane.rest[k][0] - rest) < 1e-15);
     }
     assert_true(touching > count * 3 / 4);
     double bottom = state->wall[SCREE_WALL_BOTTOM].position, top = -state->wall[SCREE_WALL_TOP].position;

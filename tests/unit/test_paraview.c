@@ -8,21 +8,6 @@
 
 enum { BODIES = 24, LOOP = 10 };
 
-static char scratch[64];
-
-static int make_scratch(void **unused)
-{
-    (void)unused;
-    return scratch_create(scratch) ? 0 : -1;
-}
-
-static int remove_scratch(void **unused)
-{
-    (void)unused;
-    scratch_destroy(scratch);
-    return 0;
-}
-
 static scree_status try_write(int64_t index, size_t bodies, scree_error *error)
 {
     const scree_config config = {0};

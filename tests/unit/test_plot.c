@@ -37,6 +37,7 @@ static const char *const names[] = {"step",
                                     "stiffness_work",
                                     "work_plates",
                                     "work_pressure",
+                                    "work_periodic",
                                     "work_gravity",
                                     "energy_residual"};
 enum { COLUMNS = sizeof names / sizeof names[0], SNAPSHOTS = 5 };
@@ -66,6 +67,7 @@ static void write_row(scree_series_writer *writer, int k)
                        1e-3 * e,
                        0.9 * e,
                        -0.2 * e,
+                       0,
                        0,
                        1e-9};
     for (size_t c = 4; c < COLUMNS; c++) value[c] = loaded[c - 4];
@@ -212,7 +214,7 @@ static void every_figure_of_a_run_is_drawn(void **state)
     make_series("run", COLUMNS, 220);
     make_snapshots("run", SNAPSHOTS);
     assert_int_equal(scree_summary_create(&summary, NULL), SCREE_OK);
-    assert_int_equal(scree_cell_results_write("run", &config, summary, NULL), SCREE_OK);
+    assert_int_equal(scree_cell_results_write("run", &config, NULL, summary, NULL), SCREE_OK);
     scree_summary_destroy(summary);
     scree_status status = plot("run", &r, &error);
     if (status) fail_msg("%s\n%s", error.message, r.text);

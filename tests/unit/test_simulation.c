@@ -3,6 +3,7 @@
 
 #include "base/random.h"
 #include "io/run_directory.h"
+#include "io_scratch.h"
 #include "measure/measure.h"
 #include "run/sample.h"
 #include "run/simulation.h"
@@ -124,12 +125,20 @@ static void read_checksum(const char *directory, char text[32])
     check(scree_result_get(directory, "state_checksum", text, 32, &error), &error);
 }
 
+static double read_number(const char *directory, const char *name)
+{
+    scree_error error;
+    char text[64];
+    check(scree_result_get(directory, name, text, sizeof text, &error), &error);
+    return strtod(text, NULL);
+}
+
 /// Uninterrupted run against one that is stopped and restarted, and one that lost everything after a checkpoint.
 static void restart_gives_the_same_bits(void **unused)
 {
     (void)unused;
-    char folder[64] = "/tmp/scree-test-XXXXXX", whole[96], part[96], one[32], two[32];
-    assert_non_null(mkdtemp(folder));
+    char folder[64], whole[96], part[96], one[32], two[32];
+    assert_true(scratch_create(folder));
     snprintf(whole, sizeof whole, "%s/whole", folder);
     snprintf(part, sizeof part, "%s/part", folder);
     for (int k = 0; k < COMBINATIONS; k++) {
@@ -150,15 +159,18 @@ static void restart_gives_the_same_bits(void **unused)
         read_checksum(whole, one);
         read_checksum(part, two);
         assert_string_equal(one, two);
-        // A finished run is at its end.
+        double cost = read_number(whole, "loading_force_evaluations"), time = read_number(whole, "loading_wall_time");
+        assert_true(cost > 0 && cost < read_number(whole, "force_evaluations"));
+        assert_true(read_number(part, "loading_force_evaluations") == cost);
+        assert_true(time > 0 && time < read_number(whole, "wall_time"));
+        // A finished run is at its end, and its time is kept.
         check(scree_restart(whole, &options, &error), &error);
         read_checksum(whole, two);
         assert_string_equal(one, two);
+        assert_true(read_number(whole, "loading_wall_time") == time);
         scree_case_free(c);
     }
-    char command[128];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    assert_int_equal(system(command), 0);
+    scratch_destroy(folder);
 }
 
 /// History laws close the energy balance; second order in the step.

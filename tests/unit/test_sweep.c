@@ -345,10 +345,10 @@ static void criteria_judge_as_they_say(void **state)
                        "  - {id: a, statement: s, source: p%s%s%s, %s}\n",
                        given ? "" : ", given: 4", value ? "" : ", value: c.r",
                        criterion ? "" : ", criterion: within 10 %", wrong[i]);
-        scree_arena scratch = {0};
-        if (scree_statements_read("t", bad, strlen(bad), &scratch, &table, NULL) != SCREE_ERROR_INPUT)
+        scree_arena memory = {0};
+        if (scree_statements_read("t", bad, strlen(bad), &memory, &table, NULL) != SCREE_ERROR_INPUT)
             fail_msg("%s is accepted", wrong[i]);
-        scree_arena_release(&scratch);
+        scree_arena_release(&memory);
     }
 }
 

@@ -4,6 +4,8 @@
 
 #include "testing.h"
 
+#include "io_scratch.h"
+
 #include "view/colour.h"
 
 #include <cairo.h>
@@ -13,23 +15,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-static char scratch[64];
-
-static int enter_scratch(void **state)
-{
-    (void)state;
-    strcpy(scratch, "/tmp/scree-view-XXXXXX");
-    return mkdtemp(scratch) && chdir(scratch) == 0 ? 0 : -1;
-}
-
-static int leave_scratch(void **state)
-{
-    (void)state;
-    char command[128];
-    (void)snprintf(command, sizeof command, "rm -rf '%s'", scratch);
-    return chdir("/") == 0 ? system(command) : -1;
-}
 
 static inline char *read_whole(const char *path)
 {

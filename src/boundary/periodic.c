@@ -1,0 +1,440 @@
+/// The periodic cell in motion.
+///
+/// Equations. With H the lattice vectors as columns and L the velocity gradient, H' = L H, and bodies follow the affine
+/// field with a velocity c of their own:
+///     x' = c + L x,     m c' = F - m L c
+/// (SLLOD: Evans and Morriss 1984). This is the one motion that does not know where the cell has its faces: with x also
+/// x + H s obeys it, with the same c, for any L that changes as it likes. Driving bodies through their images alone
+/// (Lees and Edwards 1972) gives the same in steady flow, but every change of L enters at the faces and runs through
+/// the sample as a wave, so that the result depends on where they are. With K the energy of c and of the spins,
+///     K' + stored' + dissipated = V sigma : L,     V sigma = - sum over contacts f (x) b - sum over bodies m c (x) c,
+/// b the branch to the image that the contact is with: the cell works on its sample with the whole stress, contacts and
+/// motion, and with nothing else. For a rotation, L antisymmetric, that is nothing but round-off.
+///
+/// Scheme. Between two kicks by the forces of a scheme (integrate/), c- before the drift, h = dt / 2, all at midpoints:
+///     c = (c- + c+) / 2,   c+ - c- = - dt L c      =>   c = (1 + h L)^-1 c-,   c+ = (1 - h L) c
+///     v = c + L (x(n) + x(n+1)) / 2,   x(n+1) = x(n) + dt v   =>   x(n+1) = (1 - h L)^-1 [(1 + h L) x(n) + dt c]
+///     H(n+1) = (1 - h L)^-1 (1 + h L) H(n)
+/// Second order; a body and its image move alike to round-off, and so do remapped lattices. v is the very displacement
+/// over dt, so contacts see what they see elsewhere (contact/motion.h), and the discrete energy of measure/energy.c
+/// obeys, when f(n) is the contact force at n and W(n) the sum of f (x) b,
+///     dE = - dt L : [sum m c (x) c + (W(n) + W(n+1)) / 2] + dt^2 / 4 sum (f(n+1) - f(n)) . L^2 b,
+/// of which the last term (zero in shear, (L dt)^2 of the rest else) is left out of the ledger.
+///
+/// Rows hold c+ or c(n), whatever the scheme keeps, between two steps, and v while contacts are evaluated.
+///
+/// Lattice. When a lattice vector leans over another by more than half of it, whole multiples of the other are taken
+/// away: the same lattice, so nothing changes but which image of a body is called the body. Bodies are put back into
+/// the cell together when one of them is a mean diameter outside. Both depend on the state alone. The reference
+/// position of a body that is put back by H s goes back by H_0 s, H_0 the reference lattice: that of the image which is
+/// now in the cell. So x - F X, F = H H_0^-1, is right across faces.
+///
+/// Servo. A component of L under stress is a degree of freedom with inertia and dashpot,
+///     I dL/dt = sigma_wanted - sigma - Z (L - L_mean),     I = 5 rho d^2,   Z = 5 rho a d,   dL_mean/dt = (L - L_mean)
+///     / T,
+/// rho the mass per volume, d the mean diameter, a the speed of waves, T = 20 d / a. The cell has no faces that waves
+/// could be reflected from, so it need not wait for them as a plate does (boundary/plates.c): the sample answers at
+/// once, with sigma' = rho a^2 L, and the stress comes to what is wanted within some 12 d / a, the time that a wave
+/// needs past twelve grains, without overshoot (all roots of the linear response are real). The dashpot resists changes
+/// of L, not a lasting rate: a sample that dilates or contracts steadily keeps its stress. Far below the wanted stress,
+/// where nothing would limit the rate of a loose sample, it resists the rate itself, with a tenth of Z. It is taken
+/// implicitly. sigma is the whole stress at n. a from the Hertz stiffness at the mean contact force, as there; the gain
+/// of the case divides Z.
+///
+/// Cost: two passes over the bodies a step in a deforming cell, one in a cell at rest. Limits: a cell that is not
+/// periodic in all directions does not deform.
+#include "boundary/periodic.h"
+
+#include "base/fixed.h"
+#include "base/matrix.h"
+#include "base/wide_sum.h"
+#include "search/neighbours.h"
+#include "state/periodic.h"
+
+#include <math.h>
+#include <string.h>
+
+#define CREEP_GRAINS     5.0  // grains that a wave passes in the creep time of the servo
+#define MEAN_GRAINS      20.0 // the same in the time of the running mean
+#define LEAST_RESISTANCE 0.1
+#define LEAN_LIMIT       0.51 // of a lattice vector over another: a little above half, where two lattices are as good
+
+static bool deforms(const scree_periodic_cell *cell)
+{
+    return scree_matrix_contract(cell->gradient, cell->gradient) > 0;
+}
+
+// ---- the drive ---------------------------------------------------------------------------------------------------
+
+static double density(const scree_model *model, const scree_state *state)
+{
+    double mass = 0;
+    for (size_t id = 0; id < state->count; id++) mass += state->row[state->row_of_id[id]].mass;
+    return mass / (scree_periodic_extent(state) * model->thickness);
+}
+
+/// Speed of longitudinal waves [m/s], see the head of plates.c.
+static double wave_speed(const scree_model *model, const scree_state *state, double pressure)
+{
+    double diameter = 2 * model->mean_radius, depth = state->dimension == 2 ? model->thickness : diameter;
+    double k = model->pairs[0][0].normal_stiffness * sqrt(0.5 * model->mean_radius);
+    return sqrt(1.5 * cbrt(k * k * pressure * diameter * depth) / depth / density(model, state));
+}
+
+static void widths(const scree_state *state, double width[3])
+{
+    double inverse[9];
+    scree_matrix_invert(state->periodic.lattice, inverse);
+    scree_periodic_widths(inverse, width);
+}
+
+/// Geometric mean of the widths.
+static double mean_width(const scree_state *state)
+{
+    double width[3];
+    widths(state, width);
+    return state->dimension == 2 ? sqrt(width[0] * width[1]) : cbrt(width[0] * width[1] * width[2]);
+}
+
+double scree_periodic_wave_time(const scree_model *model, const scree_state *state, double pressure)
+{
+    double width[3], longest = 0;
+    widths(state, width);
+    for (int k = 0; k < state->dimension; k++) longest = fmax(longest, width[k]);
+    return longest / wave_speed(model, state, pressure);
+}
+
+void scree_periodic_drive_fit(const scree_model *model, const scree_state *state, double pressure,
+                              scree_periodic_drive *drive)
+{
+    const scree_config_boundary *boundary = &model->config->boundary;
+    double diameter = 2 * model->mean_radius;
+    drive->inertia = CREEP_GRAINS * density(model, state) * diameter * diameter;
+    drive->damping = wave_speed(model, state, pressure) / diameter / boundary->servo_gain;
+    // Auto: a face may not cross a hundredth of the smallest radius in a step.
+    double velocity = boundary->servo_velocity;
+    drive->limit = (isnan(velocity) ? 0.01 * model->radius_min / state->step_size : velocity) / mean_width(state);
+}
+
+/// One step of the servo of a component.
+static void hold_stress(const scree_periodic_drive *drive, double dt, double wanted, double stress, double *rate,
+                        double *drift)
+{
+    double reached = fmin(1, fabs(stress / wanted));
+    double resistance = dt * drive->damping * fmax(LEAST_RESISTANCE, reached);
+    double next = (*rate + dt / drive->inertia * (wanted - stress) + resistance * reached * *drift) / (1 + resistance);
+    *rate = fmax(-drive->limit, fmin(drive->limit, next));
+    *drift += dt * drive->damping / MEAN_GRAINS * (*rate - *drift);
+}
+
+void scree_periodic_control(const scree_model *model, scree_state *state, const scree_periodic_drive *drive,
+                            double rise)
+{
+    scree_periodic_cell *cell = &state->periodic;
+    double stress[9];
+    scree_periodic_stress(model, state, stress);
+    for (int k = 0; k < 9; k++) {
+        if (isnan(drive->stress[k]))
+            cell->gradient[k] = cell->drift[k] = drive->rate[k] * rise;
+        else
+            hold_stress(drive, state->step_size, drive->stress[k], stress[k], &cell->gradient[k], &cell->drift[k]);
+    }
+}
+
+// ---- the motion --------------------------------------------------------------------------------------------------
+
+/// Matrices of a step.
+typedef struct step_maps {
+    double slow[9];    ///< (1 + h L)^-1
+    double forward[9]; ///< (1 - h L)^-1
+    double map[9];     ///< (1 - h L)^-1 (1 + h L)
+} step_maps;
+
+static step_maps maps_of(const scree_state *state)
+{
+    step_maps maps;
+    double plus[9], minus[9], half = 0.5 * state->step_size;
+    scree_matrix_unit_plus(half, state->periodic.gradient, plus);
+    scree_matrix_unit_plus(-half, state->periodic.gradient, minus);
+    scree_matrix_invert(plus, maps.slow);
+    scree_matrix_invert(minus, maps.forward);
+    scree_matrix_multiply(maps.forward, plus, maps.map);
+    return maps;
+}
+
+static void velocity_of(const scree_state *state, size_t row, scree_vector velocity)
+{
+    scree_vector spin;
+    scree_body_motion(state, row, velocity, spin);
+}
+
+static void set_place(scree_state *state, size_t row, const scree_vector place)
+{
+    state->row[row].x = place[0];
+    state->row[row].y = place[1];
+    if (state->dimension == 3) state->row[row].z = place[2];
+}
+
+static void set_velocity(scree_state *state, size_t row, const scree_vector velocity)
+{
+    state->row[row].vx = velocity[0];
+    state->row[row].vy = velocity[1];
+    if (state->dimension == 3) state->row[row].vz = velocity[2];
+}
+
+/// From a row after `first`, at x(n) + dt c- with the velocity c-, to x(n+1) and v; `relative` becomes c+.
+static void move_body(scree_state *state, const step_maps *maps, size_t row, scree_vector relative)
+{
+    const double dt = state->step_size, *gradient = state->periodic.gradient;
+    scree_vector before, place, middle, affine, sum, velocity;
+    velocity_of(state, row, before);
+    scree_body_place(state, row, place);
+    scree_matrix_apply(maps->slow, before, middle);
+    for (int k = 0; k < 3; k++) {
+        relative[k] = 2 * middle[k] - before[k];
+        place[k] -= dt * before[k];
+    }
+    scree_matrix_apply(gradient, place, affine);
+    for (int k = 0; k < 3; k++) sum[k] = place[k] + 0.5 * dt * affine[k] + dt * middle[k];
+    scree_matrix_apply(maps->forward, sum, place);
+    scree_matrix_apply(gradient, place, affine);
+    for (int k = 0; k < 3; k++) sum[k] = middle[k] + affine[k];
+    scree_matrix_apply(maps->slow, sum, velocity);
+    set_place(state, row, place);
+    set_velocity(state, row, velocity);
+}
+
+/// What the members of the team share.
+typedef struct bodies_task {
+    scree_state *state;
+    const scree_work *work;
+    const step_maps *maps;
+    const double *inverse; ///< of the lattice
+    double quantum;        ///< J, of the sums
+    scree_wide_sum sum[SCREE_TEAM_MOST];
+    double largest[SCREE_TEAM_MOST]; ///< m
+} bodies_task;
+
+static void move_share(void *argument, int index, int count)
+{
+    const bodies_task *task = argument;
+    size_t end = scree_team_begin(task->state->count, index + 1, count);
+    for (size_t row = scree_team_begin(task->state->count, index, count); row < end; row++)
+        move_body(task->state, task->maps, row, task->work->relative[row]);
+}
+
+static void run_shares(scree_work *work, scree_team_task *share, bodies_task *task)
+{
+    scree_team_run(&work->team, scree_work_shares(work), share, task);
+}
+
+static void move_lattice(scree_state *state, const step_maps *maps)
+{
+    scree_periodic_cell *cell = &state->periodic;
+    double before[9];
+    memcpy(before, cell->lattice, sizeof before);
+    scree_matrix_multiply(maps->map, before, cell->lattice);
+    for (int k = 0; k < 9; k++) cell->strain[k] += cell->gradient[k] * state->step_size;
+}
+
+static scree_status reserve_relative(scree_work *work, size_t count, scree_error *error)
+{
+    if (count <= work->relative_capacity) return SCREE_OK;
+    scree_release(&work->relative);
+    work->relative_capacity = 0;
+    scree_status status = scree_allocate(&work->relative, count, sizeof *work->relative, error);
+    if (!status) work->relative_capacity = count;
+    return status;
+}
+
+// ---- energy of the motion ----------------------------------------------------------------------------------------
+
+static double mass_bound(const scree_model *model)
+{
+    double heaviest = 0;
+    for (int k = 0; k < model->material_count; k++)
+        heaviest = fmax(heaviest, scree_model_mass(model, k, model->radius_max));
+    return heaviest;
+}
+
+static void motion_share(void *argument, int index, int count)
+{
+    bodies_task *task = argument;
+    const scree_state *state = task->state;
+    const double inverse = 1 / task->quantum;
+    scree_wide_sum sum = {{0}};
+    size_t end = scree_team_begin(state->count, index + 1, count);
+    for (size_t row = scree_team_begin(state->count, index, count); row < end; row++) {
+        scree_vector before, c;
+        velocity_of(state, row, before);
+        scree_matrix_apply(task->maps->slow, before, c);
+        for (int i = 0; i < state->dimension; i++)
+            for (int j = 0; j < state->dimension; j++)
+                sum.value[3 * i + j] += scree_fixed_from(state->row[row].mass * c[i] * c[j], inverse);
+    }
+    task->sum[index] = sum;
+}
+
+/// sum m c (x) c from rows that hold c-, rounded to integers so that it does not depend on the order of rows.
+static void measure_motion(const scree_model *model, scree_state *state, scree_work *work, const step_maps *maps)
+{
+    const double bound = mass_bound(model) * state->largest_speed * state->largest_speed;
+    bodies_task task = {.state = state, .maps = maps, .quantum = scree_fixed_quantum(4 * bound)};
+    run_shares(work, motion_share, &task);
+    scree_wide_total(task.sum, scree_work_shares(work), task.quantum, state->periodic.motion);
+}
+
+/// Work of the cell on the bodies for a part of its stress times volume, sum over dt.
+static void book_work(scree_state *state, const double tensor[9], double factor)
+{
+    double work = -factor * state->step_size * scree_matrix_contract(tensor, state->periodic.gradient);
+    state->ledger.periodic += work;
+    state->ledger.turnover += fabs(work);
+}
+
+// ---- lattice and faces -------------------------------------------------------------------------------------------
+
+static void column(const double m[9], int k, scree_vector v)
+{
+    for (int i = 0; i < 3; i++) v[i] = m[3 * i + k];
+}
+
+/// Takes multiples of lattice vector `other` from lattice vector `k` when it leans too far; true when it did.
+static bool straighten(scree_periodic_cell *cell, int k, int other)
+{
+    scree_vector a, b;
+    column(cell->lattice, k, a);
+    column(cell->lattice, other, b);
+    double lean = (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) / (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
+    if (!(fabs(lean) > LEAN_LIMIT)) return false;
+    double multiple = rint(lean);
+    for (int i = 0; i < 3; i++) {
+        cell->lattice[3 * i + k] -= multiple * cell->lattice[3 * i + other];
+        cell->reference[3 * i + k] -= multiple * cell->reference[3 * i + other];
+    }
+    return true;
+}
+
+/// Every step of a reduction makes a vector shorter, so it ends; a few are enough for what a step can do.
+static bool straighten_all(scree_state *state)
+{
+    bool changed = false;
+    for (int k = 0; k < state->dimension; k++)
+        for (int other = 0; other < state->dimension; other++)
+            if (k != other && straighten(&state->periodic, k, other)) changed = true;
+    return changed;
+}
+
+static void outside_share(void *argument, int index, int count)
+{
+    bodies_task *task = argument;
+    const scree_state *state = task->state;
+    double width[3], largest = 0;
+    scree_periodic_widths(task->inverse, width);
+    size_t end = scree_team_begin(state->count, index + 1, count);
+    for (size_t row = scree_team_begin(state->count, index, count); row < end; row++) {
+        scree_vector place, f;
+        scree_body_place(state, row, place);
+        scree_matrix_apply(task->inverse, place, f);
+        for (int k = 0; k < state->dimension; k++) {
+            double outside = fmax(-f[k], f[k] - 1) * width[k];
+            if (scree_periodic_repeats(&state->periodic, k) && outside > largest) largest = outside;
+        }
+    }
+    task->largest[index] = largest;
+}
+
+/// Largest distance [m] of a body from the cell it should be in.
+static double farthest_outside(scree_state *state, scree_work *work, const double inverse[9])
+{
+    bodies_task task = {.state = state, .inverse = inverse};
+    double largest = 0;
+    run_shares(work, outside_share, &task);
+    for (int k = 0; k < scree_work_shares(work); k++) largest = fmax(largest, task.largest[k]);
+    return largest;
+}
+
+/// Puts one body back by whole lattice vectors, with its reference position.
+static void put_back(const scree_model *model, scree_state *state, const double inverse[9], const double velocity[9],
+                     size_t row)
+{
+    scree_vector place, speed, f, shift = {0}, by, reference, faster;
+    scree_body_place(state, row, place);
+    scree_matrix_apply(inverse, place, f);
+    bool moved = false;
+    for (int k = 0; k < state->dimension; k++) {
+        if (scree_periodic_repeats(&state->periodic, k)) shift[k] = -floor(f[k]);
+        moved = moved || shift[k] != 0;
+    }
+    if (!moved || !isfinite(f[0] + f[1] + f[2])) return;
+    velocity_of(state, row, speed);
+    scree_matrix_apply(state->periodic.lattice, shift, by);
+    scree_matrix_apply(state->periodic.reference, shift, reference);
+    scree_matrix_apply(velocity, shift, faster);
+    for (int k = 0; k < 3; k++) {
+        place[k] += by[k];
+        speed[k] += faster[k];
+        state->reference[row][k] += reference[k];
+        state->ledger.gravity += state->row[row].mass * model->gravity[k] * by[k];
+    }
+    set_place(state, row, place);
+    set_velocity(state, row, speed);
+}
+
+/// In the order of ids, so that the ledger does not depend on that of rows.
+static void put_all_back(const scree_model *model, scree_state *state, scree_work *work)
+{
+    double inverse[9], velocity[9];
+    bool straightened = deforms(&state->periodic) && straighten_all(state);
+    scree_matrix_invert(state->periodic.lattice, inverse);
+    if (!straightened && farthest_outside(state, work, inverse) <= 2 * model->mean_radius) return;
+    scree_periodic_lattice_velocity(state, velocity);
+    for (size_t id = 0; id < state->count; id++) put_back(model, state, inverse, velocity, state->row_of_id[id]);
+    scree_neighbours_invalidate(work);
+}
+
+// ---- a step ------------------------------------------------------------------------------------------------------
+
+/// The affine field brings neighbours nearer than their own motion says, and makes contacts faster.
+static void allow_for_gradient(const scree_model *model, scree_state *state, scree_work *work, const step_maps *maps)
+{
+    double change[9];
+    for (int k = 0; k < 9; k++) change[k] = maps->map[k] - (k % 4 == 0);
+    work->budget -= 1.25 * scree_matrix_norm(change) * (model->radius_max + 1.5 * work->skin);
+    state->largest_speed += 2 * model->radius_max * scree_matrix_norm(state->periodic.gradient);
+}
+
+scree_status scree_periodic_move(const scree_model *model, scree_state *state, scree_work *work, scree_error *error)
+{
+    if (!state->periodic.directions) return SCREE_OK;
+    if (scree_periodic_is_whole(state)) {
+        step_maps maps = maps_of(state);
+        measure_motion(model, state, work, &maps);
+        if (deforms(&state->periodic)) {
+            scree_status status = reserve_relative(work, state->count, error);
+            if (status) return status;
+            book_work(state, state->periodic.motion, 1);
+            book_work(state, state->periodic.virial, 0.5);
+            move_lattice(state, &maps);
+            run_shares(work, move_share, &(bodies_task){.state = state, .work = work, .maps = &maps});
+            allow_for_gradient(model, state, work, &maps);
+        }
+    }
+    put_all_back(model, state, work);
+    return SCREE_OK;
+}
+
+static void settle_share(void *argument, int index, int count)
+{
+    const bodies_task *task = argument;
+    size_t end = scree_team_begin(task->state->count, index + 1, count);
+    for (size_t row = scree_team_begin(task->state->count, index, count); row < end; row++)
+        set_velocity(task->state, row, task->work->relative[row]);
+}
+
+void scree_periodic_settle(scree_state *state, scree_work *work)
+{
+    if (!scree_periodic_is_whole(state) || !deforms(&state->periodic)) return;
+    run_shares(work, settle_share, &(bodies_task){.state = state, .work = work});
+    book_work(state, state->periodic.virial, 0.5);
+}

@@ -1,0 +1,113 @@
+/// Stage `collide`: the two bodies of prepare method `pair` meet and part; nothing else acts on them.
+///
+/// Stop rule, at a sample: the force between them has fallen to zero again; or `duration` has passed. P fig. 2.1: the
+/// restitution is the relative speed after over that before, the relaxation time lasts from the first touch (the gap
+/// over the speed: before it nothing acts) until the force is gone, which is found to half a step. Automatic duration:
+/// the approach and twice the relaxation time of the closed form; with hertz_mindlin ten times that of an elastic
+/// impact.
+///
+/// state.stage.reference: [0] relative speed at the begin, [1] time of the first touch, [2] last time with a force,
+/// both from the begin of the stage (0: none yet), [3] duration.
+#include "run/stage_collide.h"
+
+#include "theory/restitution.h"
+
+#include <math.h>
+
+enum { SPEED, TOUCH, LAST_FORCE, DURATION };
+
+/// Speed at which the bodies approach (negative when they part), and the gap between them.
+static double approach(const scree_state *state, double *gap)
+{
+    const scree_row *first = &state->row[state->row_of_id[0]], *second = &state->row[state->row_of_id[1]];
+    *gap = second->x - first->x - first->radius - second->radius;
+    return first->vx - second->vx;
+}
+
+/// The impact as theory has it. hertz_mindlin: elastic, with the restitution of its own closed form.
+static scree_status theory_of(const scree_simulation *s, double speed, scree_impact *impact, scree_error *error)
+{
+    const scree_state *state = &s->state;
+    const scree_row *first = &state->row[state->row_of_id[0]], *second = &state->row[state->row_of_id[1]];
+    int material = scree_body_material(state, state->row_of_id[0]);
+    const scree_pair_constants *pair = &s->model.pairs[material][material];
+    double mass = first->mass * second->mass / (first->mass + second->mass);
+    double stiffness = pair->normal_stiffness * sqrt(first->radius * second->radius / (first->radius + second->radius));
+    bool history = s->model.law == SCREE_LAW_HERTZ_MINDLIN;
+    scree_status status =
+        scree_impact_viscoelastic(speed, stiffness, mass, history ? 0 : s->model.damping_time, impact, error);
+    if (history) impact->restitution = scree_restitution_from_damping(pair->damping);
+    return status;
+}
+
+static scree_status begin(scree_simulation *s, scree_error *error)
+{
+    double *reference = s->state.stage.reference, gap;
+    scree_impact impact;
+    reference[SPEED] = approach(&s->state, &gap);
+    reference[TOUCH] = gap / reference[SPEED];
+    reference[LAST_FORCE] = 0;
+    scree_status status = theory_of(s, reference[SPEED], &impact, error);
+    double after = (s->model.law == SCREE_LAW_HERTZ_MINDLIN ? 10 : 2) * impact.duration;
+    double given = scree_stage_config(s)->duration;
+    reference[DURATION] = isnan(given) ? reference[TOUCH] + after : given;
+    return status;
+}
+
+static void plan(scree_simulation *s)
+{
+    uint64_t largest = s->model.largest_step;
+    uint64_t expected = scree_stage_ticks(s, s->state.stage.reference[DURATION]);
+    uint64_t interval = expected / largest / (uint64_t)s->model.config->measure.samples * largest;
+    s->plan = (scree_stage_plan){.interval = interval > 0 ? interval : largest, .expected = expected};
+}
+
+/// Forces are those at the present step.
+static void control(scree_simulation *s)
+{
+    const scree_state *state = &s->state;
+    if (state->sum[state->row_of_id[0]].fx != 0) s->state.stage.reference[LAST_FORCE] = scree_stage_elapsed(s);
+}
+
+static bool has_parted(const scree_state *state)
+{
+    return state->stage.reference[LAST_FORCE] > 0 && state->sum[state->row_of_id[0]].fx == 0;
+}
+
+static scree_status finished(scree_simulation *s, bool *done, scree_error *error)
+{
+    (void)error;
+    double gap, speed = approach(&s->state, &gap);
+    bool parted = has_parted(&s->state);
+    *done = parted || s->state.step - s->state.stage.first_step >= s->plan.expected;
+    (void)snprintf(s->reason, sizeof s->reason, parted ? "parted at %.6g of the speed" : "still together (%.6g)",
+                   -speed / s->state.stage.reference[SPEED]);
+    return SCREE_OK;
+}
+
+static double fraction(const scree_simulation *s)
+{
+    return (double)(s->state.step - s->state.stage.first_step) / (double)s->plan.expected;
+}
+
+scree_status scree_collide_results(const scree_simulation *s, scree_summary *summary, scree_error *error)
+{
+    const scree_config *config = s->model.config;
+    const double *reference = s->state.stage.reference;
+    if (s->state.stage.index < config->stage_count || !has_parted(&s->state) ||
+        config->stages[config->stage_count - 1].kind != SCREE_STAGE_COLLIDE)
+        return SCREE_OK;
+    double gap, half = 0.5 * (double)s->model.largest_step * s->state.tick;
+    scree_impact impact;
+    scree_status status = theory_of(s, reference[SPEED], &impact, error);
+    if (status) return status;
+    scree_summary_set_number(summary, "restitution", -approach(&s->state, &gap) / reference[SPEED]);
+    scree_summary_set_number(summary, "restitution_theory", impact.restitution);
+    scree_summary_set_number(summary, "relaxation_time", reference[LAST_FORCE] + half - reference[TOUCH]);
+    if (s->model.law != SCREE_LAW_HERTZ_MINDLIN)
+        scree_summary_set_number(summary, "relaxation_time_theory", impact.duration);
+    return SCREE_OK;
+}
+
+const scree_stage scree_stage_collide = {
+    .name = "collide", .begin = begin, .plan = plan, .control = control, .finished = finished, .fraction = fraction};

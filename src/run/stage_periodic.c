@@ -1,0 +1,253 @@
+/// Stages in a cell that is periodic in all directions (boundary/periodic.c).
+///
+/// `confine`: all normal stresses rise smoothly to the pressure, the cell keeps its angles; ends when the assembly is
+/// at rest under it, by the rule of stage_confine.c with the three normal stresses in the place of the top plate.
+/// `compress`: the last direction is compressed at a constant rate (referred to its width at the begin), the normal
+/// stresses of the others stay at the pressure of the stage before, angles stay. The biaxial test without a boundary.
+/// `deform`: every component of the velocity gradient as the case says. Its strain is that of the fastest prescribed
+/// component: the magnitude of its integral over time, so logarithmic for an extension, the engineering shear for a
+/// shear. Rates are reached smoothly within `rise_time`.
+///
+/// reference: [0] confine: pressure at the begin, compress: width at the begin; [1] wave time, [2, 3, 13] inertia,
+/// damping and limit of components under stress, [4..12] strain of the cell at the begin (3 x 3), [14] deform: number
+/// of its fastest component.
+#include "base/matrix.h"
+#include "run/sample.h"
+#include "run/simulation.h"
+#include "state/periodic.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { WAVE_TIME = 1, INERTIA, DAMPING, STRAIN, LIMIT = 13, LEADER };
+enum { CALM = 5, SAMPLES_A_WAVE = 4 };
+#define STRESS_TOLERANCE 0.02
+#define RAMP_WAVES       6.0
+#define LIMIT_WAVES      1000.0
+#define RISE_WAVES       4.0
+
+/// Measures the sample once, at the begin of the stage.
+static void measure_sample(scree_simulation *s, double pressure)
+{
+    double *reference = s->state.stage.reference;
+    scree_periodic_drive drive;
+    scree_periodic_drive_fit(&s->model, &s->state, pressure, &drive);
+    reference[WAVE_TIME] = scree_periodic_wave_time(&s->model, &s->state, pressure);
+    reference[INERTIA] = drive.inertia;
+    reference[DAMPING] = drive.damping;
+    reference[LIMIT] = drive.limit;
+    memcpy(&reference[STRAIN], s->state.periodic.strain, sizeof s->state.periodic.strain);
+}
+
+/// Displacements and rotations count from here.
+static void set_reference(scree_state *state)
+{
+    for (size_t row = 0; row < state->count; row++) scree_body_place(state, row, state->reference[row]);
+    memcpy(state->periodic.reference, state->periodic.lattice, sizeof state->periodic.reference);
+    if (state->angle) memset(state->angle, 0, state->count * sizeof *state->angle);
+}
+
+/// A cell that keeps its shape, with the servo of this stage.
+static scree_periodic_drive drive_at_rest(const scree_simulation *s)
+{
+    const double *reference = s->state.stage.reference;
+    scree_periodic_drive drive = {.inertia = reference[INERTIA], .damping = reference[DAMPING], .limit = reference[LIMIT]};
+    for (int k = 0; k < 9; k++) drive.stress[k] = NAN;
+    return drive;
+}
+
+/// Leaves the normal component of a direction to a pressure.
+static void hold_pressure(scree_periodic_drive *drive, int direction, double pressure)
+{
+    drive->stress[4 * direction] = -pressure;
+}
+
+// ---- confine -----------------------------------------------------------------------------------------------------
+
+static scree_status begin_confine(scree_simulation *s, scree_error *error)
+{
+    (void)error;
+    s->state.stage.reference[0] = s->state.pressure;
+    measure_sample(s, scree_stage_config(s)->pressure);
+    return SCREE_OK;
+}
+
+static void plan_confine(scree_simulation *s)
+{
+    const scree_config_stage *stage = scree_stage_config(s);
+    double wave = s->state.stage.reference[WAVE_TIME];
+    s->plan = (scree_stage_plan){
+        .interval = scree_stage_ticks(s, wave / SAMPLES_A_WAVE),
+        .ramp_time = isnan(stage->ramp_time) ? RAMP_WAVES * wave : stage->ramp_time,
+        .time_limit = isnan(stage->time_limit) ? LIMIT_WAVES * wave : stage->time_limit,
+        .periodic = drive_at_rest(s),
+    };
+}
+
+static void control_confine(scree_simulation *s)
+{
+    double from = s->state.stage.reference[0], to = scree_stage_config(s)->pressure;
+    double done = s->plan.ramp_time > 0 ? scree_stage_elapsed(s) / s->plan.ramp_time : 1;
+    s->state.pressure = from + (to - from) * scree_smooth_ramp(done);
+    for (int k = 0; k < s->state.dimension; k++) hold_pressure(&s->plan.periodic, k, s->state.pressure);
+    scree_periodic_control(&s->stage_model, &s->state, &s->plan.periodic, 1);
+}
+
+static scree_status confine_finished(scree_simulation *s, bool *done, scree_error *error)
+{
+    const scree_config_stage *stage = scree_stage_config(s);
+    double unbalanced = s->sample.value[SCREE_SAMPLE_UNBALANCED_RATIO], stress[9], apart = 0;
+    scree_periodic_stress(&s->stage_model, &s->state, stress);
+    for (int k = 0; k < s->state.dimension; k++) apart = fmax(apart, fabs(stress[4 * k] / stage->pressure + 1));
+    bool calm =
+        scree_stage_elapsed(s) > s->plan.ramp_time && unbalanced < stage->unbalanced_limit && apart < STRESS_TOLERANCE;
+    s->state.stage.counter = calm ? s->state.stage.counter + 1 : 0;
+    *done = s->state.stage.counter >= CALM;
+    (void)snprintf(s->reason, sizeof s->reason, "unbalanced force ratio %.2g below %.2g for %d samples", unbalanced,
+                   stage->unbalanced_limit, CALM);
+    if (*done || scree_stage_elapsed(s) < s->plan.time_limit) return SCREE_OK;
+    return scree_error_set(error, SCREE_ERROR_GUARD,
+                           "stage %lld (confine): not at rest after %.3g s: unbalanced force ratio %.2g (limit %.2g), "
+                           "stress of the cell off by %.2g; try a larger unbalanced_limit or time_limit, a denser "
+                           "preparation, or more damping",
+                           (long long)s->state.stage.index, scree_stage_elapsed(s), unbalanced, stage->unbalanced_limit,
+                           apart);
+}
+
+static double confine_fraction(const scree_simulation *s)
+{
+    (void)s;
+    return NAN;
+}
+
+const scree_stage scree_stage_confine_periodic = {.name = "confine",
+                                              .begin = begin_confine,
+                                              .plan = plan_confine,
+                                              .control = control_confine,
+                                              .finished = confine_finished,
+                                              .fraction = confine_fraction};
+
+// ---- loading -----------------------------------------------------------------------------------------------------
+
+/// Steps, samples and rise time of a loading to `strain` at `rate`.
+static void plan_loading(scree_simulation *s, double rate)
+{
+    const scree_config_stage *stage = scree_stage_config(s);
+    double rise = fmin(RISE_WAVES * s->state.stage.reference[WAVE_TIME], 0.1 * stage->strain / rate);
+    if (!isnan(stage->rise_time)) rise = stage->rise_time;
+    // The smooth start costs half the rise time.
+    uint64_t expected = scree_stage_ticks(s, stage->strain / rate + 0.5 * rise), largest = s->model.largest_step;
+    uint64_t interval = expected / largest / (uint64_t)s->model.config->measure.samples * largest;
+    s->plan = (scree_stage_plan){.interval = interval > 0 ? interval : largest,
+                                 .expected = expected,
+                                 .ramp_time = rise,
+                                 .periodic = drive_at_rest(s)};
+}
+
+static double rise_now(const scree_simulation *s)
+{
+    return s->plan.ramp_time > 0 ? scree_smooth_ramp(scree_stage_elapsed(s) / s->plan.ramp_time) : 1;
+}
+
+static scree_status loading_finished(scree_simulation *s, bool *done, scree_error *error)
+{
+    (void)error;
+    double strain = scree_loading_strain(s), gradient = scree_matrix_norm(s->state.periodic.gradient);
+    // The last sample lies on the planned last step; half a tick of strain covers round-off.
+    *done = strain >= scree_stage_config(s)->strain - 0.5 * gradient * s->state.tick;
+    (void)snprintf(s->reason, sizeof s->reason, "strain %.4g reached", strain);
+    return SCREE_OK;
+}
+
+static double loading_fraction(const scree_simulation *s)
+{
+    return scree_loading_strain(s) / scree_stage_config(s)->strain;
+}
+
+static scree_status begin_compress(scree_simulation *s, scree_error *error)
+{
+    (void)error;
+    measure_sample(s, s->state.pressure);
+    s->state.stage.reference[0] = scree_sample_height(s);
+    set_reference(&s->state);
+    return SCREE_OK;
+}
+
+static void plan_compress(scree_simulation *s)
+{
+    plan_loading(s, scree_stage_config(s)->rate);
+    for (int k = 0; k + 1 < s->state.dimension; k++) hold_pressure(&s->plan.periodic, k, s->state.pressure);
+}
+
+static void control_compress(scree_simulation *s)
+{
+    int axial = 4 * (s->state.dimension - 1);
+    double begin = s->state.stage.reference[0];
+    s->plan.periodic.rate[axial] = -scree_stage_config(s)->rate * begin / scree_sample_height(s);
+    scree_periodic_control(&s->stage_model, &s->state, &s->plan.periodic, rise_now(s));
+}
+
+const scree_stage scree_stage_compress_periodic = {.name = "compress",
+                                               .loading = true,
+                                               .strain = scree_axial_strain,
+                                               .begin = begin_compress,
+                                               .plan = plan_compress,
+                                               .control = control_compress,
+                                               .finished = loading_finished,
+                                               .fraction = loading_fraction};
+
+/// Rates of a deform stage [1/s], zero where nothing is said, and the number of the fastest component.
+static int find_rates(const scree_config_stage *stage, double rate[9])
+{
+    int leader = 0;
+    for (int k = 0; k < 9; k++) {
+        int mirror = 3 * (k % 3) + k / 3;
+        const double given[3] = {stage->velocity_gradient[k], stage->strain_rate[k], stage->strain_rate[mirror]};
+        rate[k] = 0;
+        for (int i = 0; i < 3; i++)
+            if (!isnan(given[i])) rate[k] = given[i];
+        if (fabs(rate[k]) > fabs(rate[leader])) leader = k;
+    }
+    return leader;
+}
+
+static scree_status begin_deform(scree_simulation *s, scree_error *error)
+{
+    (void)error;
+    const scree_config_stage *stage = scree_stage_config(s);
+    double held = scree_held_pressure(stage), rate[9];
+    measure_sample(s, held > 0 ? held : s->state.pressure);
+    s->state.stage.reference[LEADER] = find_rates(stage, rate);
+    set_reference(&s->state);
+    return SCREE_OK;
+}
+
+static void plan_deform(scree_simulation *s)
+{
+    const scree_config_stage *stage = scree_stage_config(s);
+    double rate[9];
+    plan_loading(s, fabs(rate[find_rates(stage, rate)]));
+    memcpy(s->plan.periodic.rate, rate, sizeof rate);
+    for (int k = 0; k < 9; k++) s->plan.periodic.stress[k] = k % 4 == 0 ? -stage->stress[k] : stage->stress[k];
+}
+
+static void control_deform(scree_simulation *s)
+{
+    scree_periodic_control(&s->stage_model, &s->state, &s->plan.periodic, rise_now(s));
+}
+
+static double deform_strain(const scree_simulation *s)
+{
+    // Asked for after the end of the stage too, when the config is that of the next.
+    int leader = (int)s->state.stage.reference[LEADER];
+    return fabs(s->state.periodic.strain[leader] - s->state.stage.reference[STRAIN + leader]);
+}
+
+const scree_stage scree_stage_deform_periodic = {.name = "deform",
+                                             .loading = true,
+                                             .strain = deform_strain,
+                                             .begin = begin_deform,
+                                             .plan = plan_deform,
+                                             .control = control_deform,
+                                             .finished = loading_finished,
+                                             .fraction = loading_fraction};

@@ -1,0 +1,297 @@
+/// Which images there are, and the search for pairs with them.
+///
+/// Of the images x_j + H s of a body, those with a lexicographically positive shift (first component that is not zero
+/// above zero) are enough: the pair of i and the image of j at s is the pair of j and the image of i at -s, and exactly
+/// one of the two shifts is positive. An image is made when its fractional coordinates lie within (R_j + R_max + skin)
+/// / width of the range that the bodies fill, in each periodic direction. Bodies may be outside the cell by any
+/// distance: shifts are taken relative to where they are.
+///
+/// Search. Images are few (a layer at half of the faces). They are put into a hash table of square cells 2 R_max + skin
+/// wide; bodies that lie near an upper face look into the 3^d cells around them. Cost: a pass over the bodies with d
+/// multiplications each, 3^d look-ups a body near a face. Limit: one size of cells, so a layer of many small bodies
+/// among a few large ones is searched slowly. One thread.
+///
+/// Nothing here changes the state of bodies: rebuilding a list at another step gives the same forces to the last bit.
+#include "search/ghosts.h"
+
+#include "base/matrix.h"
+#include "state/periodic.h"
+
+#include <math.h>
+#include <string.h>
+
+/// What the choice of images needs: range of fractional coordinates that bodies fill, and widths of the cell.
+typedef struct image_range {
+    double low[3], high[3];
+    double width[3]; ///< m
+    double radius;   ///< m, of the largest body
+} image_range;
+
+static void fraction_of(const scree_state *state, const scree_work *work, size_t row, double fraction[3])
+{
+    scree_vector place;
+    scree_body_place(state, row, place);
+    scree_matrix_apply(work->ghosts.lattice_inverse, place, fraction);
+}
+
+static image_range measure_range(const scree_state *state, const scree_work *work)
+{
+    image_range range = {.low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}};
+    scree_periodic_widths(work->ghosts.lattice_inverse, range.width);
+    for (size_t row = 0; row < state->count; row++) {
+        double f[3];
+        fraction_of(state, work, row, f);
+        range.radius = state->row[row].radius > range.radius ? state->row[row].radius : range.radius;
+        for (int k = 0; k < state->dimension; k++) {
+            range.low[k] = f[k] < range.low[k] ? f[k] : range.low[k];
+            range.high[k] = f[k] > range.high[k] ? f[k] : range.high[k];
+        }
+    }
+    return range;
+}
+
+static scree_status check_width(const scree_state *state, const image_range *range, double skin, scree_error *error)
+{
+    double needed = 4 * range->radius + 2 * skin;
+    for (int k = 0; k < state->dimension; k++)
+        if (scree_periodic_repeats(&state->periodic, k) && !(range->width[k] >= needed))
+            return scree_error_set(
+                error, SCREE_ERROR_GUARD,
+                "step %llu: the periodic cell is only %.4g m wide along lattice vector %d; it must be "
+                "wider than two of the largest particles (%.4g m), or a particle would meet the same "
+                "neighbour on both sides: try more particles or less strain",
+                (unsigned long long)state->step, range->width[k], k + 1, needed);
+    return SCREE_OK;
+}
+
+static scree_status append_ghost(scree_ghost_list *list, uint32_t parent, const int shift[3], scree_error *error)
+{
+    if (list->count == list->capacity) {
+        size_t capacity = 2 * list->capacity + 64;
+        scree_status status = scree_reallocate(&list->ghost, list->count, capacity, sizeof *list->ghost, error);
+        if (status) return status;
+        list->capacity = capacity;
+    }
+    list->ghost[list->count++] = (scree_ghost){parent, {shift[0], shift[1], shift[2]}};
+    return SCREE_OK;
+}
+
+static bool is_positive(const int shift[3])
+{
+    return shift[0] > 0 || (shift[0] == 0 && (shift[1] > 0 || (shift[1] == 0 && shift[2] > 0)));
+}
+
+/// All images of one body that are within reach of the range.
+static scree_status append_images(const scree_state *state, scree_work *work, const image_range *range, uint32_t row,
+                                  scree_error *error)
+{
+    double f[3], reach = state->row[row].radius + range->radius + work->skin;
+    int least[3] = {0}, most[3] = {0}, shift[3];
+    scree_status status = SCREE_OK;
+    fraction_of(state, work, row, f);
+    if (!isfinite(f[0] + f[1] + f[2])) return SCREE_OK;
+    for (int k = 0; k < state->dimension; k++) {
+        if (!scree_periodic_repeats(&state->periodic, k)) continue;
+        double margin = reach / range->width[k];
+        least[k] = (int)ceil(range->low[k] - margin - f[k]);
+        most[k] = (int)floor(range->high[k] + margin - f[k]);
+    }
+    for (shift[0] = least[0]; shift[0] <= most[0]; shift[0]++)
+        for (shift[1] = least[1]; shift[1] <= most[1]; shift[1]++)
+            for (shift[2] = least[2]; shift[2] <= most[2] && !status; shift[2]++)
+                if (is_positive(shift)) status = append_ghost(&work->ghosts, row, shift, error);
+    return status;
+}
+
+scree_status scree_ghosts_make(scree_state *state, scree_work *work, scree_error *error)
+{
+    scree_ghost_list *list = &work->ghosts;
+    list->count = 0;
+    if (!state->periodic.directions) return SCREE_OK;
+    scree_matrix_invert(state->periodic.lattice, list->lattice_inverse);
+    image_range range = measure_range(state, work);
+    list->largest_radius = range.radius;
+    scree_status status = check_width(state, &range, work->skin, error);
+    for (size_t row = 0; row < state->count && !status; row++)
+        status = append_images(state, work, &range, (uint32_t)row, error);
+    if (!status) status = scree_state_reserve_rows(state, scree_row_count(state, work), error);
+    if (status) {
+        list->count = 0;
+        return status;
+    }
+    for (size_t k = 0; k < list->count; k++) state->id[state->count + k] = state->id[list->ghost[k].parent];
+    scree_ghosts_place(state, work);
+    return SCREE_OK;
+}
+
+typedef struct place_task {
+    scree_state *state;
+    const scree_ghost_list *list;
+    double lattice_velocity[9];
+} place_task;
+
+static void place_image(const place_task *task, size_t k)
+{
+    scree_state *state = task->state;
+    const scree_ghost *ghost = &task->list->ghost[k];
+    const double s[3] = {ghost->shift[0], ghost->shift[1], ghost->shift[2]};
+    scree_row *image = &state->row[state->count + k];
+    scree_vector place, velocity;
+    scree_matrix_apply(state->periodic.lattice, s, place);
+    scree_matrix_apply(task->lattice_velocity, s, velocity);
+    *image = state->row[ghost->parent];
+    image->x += place[0];
+    image->y += place[1];
+    image->vx += velocity[0];
+    image->vy += velocity[1];
+    if (state->foreseen) state->foreseen[state->count + k] = state->foreseen[ghost->parent];
+    if (state->dimension == 2) return;
+    image->z += place[2];
+    image->vz += velocity[2];
+    state->turn[state->count + k] = state->turn[ghost->parent];
+}
+
+static void place_share(void *argument, int index, int count)
+{
+    const place_task *task = argument;
+    size_t end = scree_team_begin(task->list->count, index + 1, count);
+    for (size_t k = scree_team_begin(task->list->count, index, count); k < end; k++) place_image(task, k);
+}
+
+void scree_ghosts_place(scree_state *state, scree_work *work)
+{
+    place_task task = {.state = state, .list = &work->ghosts};
+    scree_periodic_lattice_velocity(state, task.lattice_velocity);
+    scree_team_run(&work->team, scree_work_shares(work), place_share, &task);
+}
+
+void scree_ghosts_deformation(const scree_state *state, const scree_work *work, double deformation[9])
+{
+    scree_matrix_multiply(state->periodic.lattice, work->ghosts.lattice_inverse, deformation);
+}
+
+// ---- the search --------------------------------------------------------------------------------------------------
+
+/// Images by cells of space: chains of images that share a slot.
+typedef struct image_table {
+    double inverse_width;  ///< 1/m
+    uint32_t *head, *next; ///< 1 + image, 0 for none
+    uint64_t mask;
+} image_table;
+
+static uint64_t slot_of(const image_table *table, const int64_t cell[3])
+{
+    uint64_t hash = (uint64_t)cell[0] * UINT64_C(0x9e3779b97f4a7c15) +
+                    (uint64_t)cell[1] * UINT64_C(0xc2b2ae3d27d4eb4f) + (uint64_t)cell[2] * UINT64_C(0x165667b19e3779f9);
+    return (hash ^ hash >> 29) & table->mask;
+}
+
+static void cell_of(const scree_state *state, const image_table *table, size_t row, int64_t cell[3])
+{
+    scree_vector place;
+    scree_body_place(state, row, place);
+    for (int k = 0; k < 3; k++) cell[k] = (int64_t)floor(place[k] * table->inverse_width);
+}
+
+static void table_destroy(image_table *table)
+{
+    scree_release(&table->head);
+    scree_release(&table->next);
+}
+
+static scree_status table_fill(const scree_state *state, const scree_work *work, image_table *table, scree_error *error)
+{
+    const scree_ghost_list *list = &work->ghosts;
+    uint64_t slots = 64;
+    while (slots < 2 * list->count) slots *= 2;
+    *table = (image_table){.inverse_width = 1 / ((2 * list->largest_radius + work->skin) * (1 + 0x1p-20)),
+                           .mask = slots - 1};
+    scree_status status = scree_allocate(&table->head, slots, sizeof *table->head, error);
+    if (!status) status = scree_allocate(&table->next, list->count, sizeof *table->next, error);
+    for (size_t k = list->count; k-- > 0 && !status;) {
+        int64_t cell[3];
+        cell_of(state, table, state->count + k, cell);
+        uint32_t *head = &table->head[slot_of(table, cell)];
+        table->next[k] = *head;
+        *head = (uint32_t)k + 1;
+    }
+    return status;
+}
+
+static scree_status append_pair(scree_pair_buffer *buffer, uint32_t first, uint32_t second, scree_error *error)
+{
+    if (buffer->count == buffer->capacity) {
+        size_t capacity = 2 * buffer->capacity + 256;
+        scree_status status = scree_reallocate(&buffer->pair, buffer->count, capacity, sizeof *buffer->pair, error);
+        if (status) return status;
+        buffer->capacity = capacity;
+    }
+    buffer->pair[buffer->count++] = (scree_row_pair){first, second};
+    return SCREE_OK;
+}
+
+/// Lists the body and the image if they are close.
+static scree_status test_pair(const scree_state *state, const scree_work *work, uint32_t row, uint32_t image,
+                              scree_pair_chunk *chunk, scree_error *error)
+{
+    scree_vector a, b;
+    scree_body_place(state, row, a);
+    scree_body_place(state, image, b);
+    double square = 0, sum = state->row[row].radius + state->row[image].radius, wider = sum + work->skin;
+    for (int k = 0; k < state->dimension; k++) square += (a[k] - b[k]) * (a[k] - b[k]);
+    chunk->candidates++;
+    if (!(square < wider * wider)) return SCREE_OK;
+    bool lower = state->id[row] < state->id[image];
+    return append_pair(square < sum * sum ? &chunk->touching : &chunk->near, lower ? row : image, lower ? image : row,
+                       error);
+}
+
+/// Pairs of one body with the images in the cells around it. Images of other cells may share a slot, and two cells may
+/// share one too: an image is tested from the cell that it lies in.
+static scree_status search_body(const scree_state *state, const scree_work *work, const image_table *table,
+                                uint32_t row, scree_pair_chunk *chunk, scree_error *error)
+{
+    int64_t centre[3], cell[3], own[3];
+    scree_status status = SCREE_OK;
+    const int64_t deep = state->dimension == 3;
+    cell_of(state, table, row, centre);
+    for (cell[0] = centre[0] - 1; cell[0] <= centre[0] + 1; cell[0]++)
+        for (cell[1] = centre[1] - 1; cell[1] <= centre[1] + 1; cell[1]++)
+            for (cell[2] = centre[2] - deep; cell[2] <= centre[2] + deep; cell[2]++)
+                for (uint32_t k = table->head[slot_of(table, cell)]; k > 0 && !status; k = table->next[k - 1]) {
+                    uint32_t image = (uint32_t)state->count + k - 1;
+                    cell_of(state, table, image, own);
+                    if (memcmp(own, cell, sizeof own) == 0) status = test_pair(state, work, row, image, chunk, error);
+                }
+    return status;
+}
+
+/// Whether an image can be near: all of them lie beyond an upper end of the range, in some direction.
+static bool is_near_face(const scree_state *state, const scree_work *work, const image_range *range, double reach,
+                         size_t row)
+{
+    double f[3];
+    fraction_of(state, work, row, f);
+    if (!isfinite(f[0] + f[1] + f[2])) return false;
+    for (int k = 0; k < state->dimension; k++)
+        if (scree_periodic_repeats(&state->periodic, k) && f[k] >= range->low[k] + 1 - reach / range->width[k])
+            return true;
+    return false;
+}
+
+scree_status scree_ghosts_search(const scree_state *state, const scree_work *work, scree_pair_chunk *chunk,
+                                 scree_error *error)
+{
+    image_table table;
+    chunk->touching.count = chunk->near.count = chunk->wall.count = 0;
+    chunk->candidates = 0;
+    if (work->ghosts.count == 0) return SCREE_OK;
+    image_range range = measure_range(state, work);
+    double reach = 2 * range.radius + work->skin;
+    scree_status status = table_fill(state, work, &table, error);
+    for (size_t row = 0; row < state->count && !status; row++)
+        if (is_near_face(state, work, &range, reach, row))
+            status = search_body(state, work, &table, (uint32_t)row, chunk, error);
+    table_destroy(&table);
+    return status;
+}

@@ -1,0 +1,54 @@
+/// Geometry of the periodic cell: the lattice in which the sample repeats itself.
+///
+/// The lattice vectors are the columns of `lattice`; a direction without a bit in `periodic` has its unit vector there
+/// and does not repeat. A point x has the fractional coordinates f = H^-1 x; its images are x + H n with integers n (0
+/// in directions that are not periodic). Bodies lie in the cell 0 <= f < 1, or a little outside (boundary/periodic.c says
+/// when they are put back). Faces k are the two planes f_k = 0 and f_k = 1.
+#ifndef SCREE_STATE_PERIODIC_H
+#define SCREE_STATE_PERIODIC_H
+
+#include "state/state.h"
+
+/// All directions of space are periodic: only such a cell deforms.
+static inline bool scree_periodic_is_whole(const scree_state *state)
+{
+    return state->periodic.directions == (1U << state->dimension) - 1;
+}
+
+static inline bool scree_periodic_repeats(const scree_periodic_cell *cell, int direction)
+{
+    return cell->directions >> direction & 1;
+}
+
+/// Makes a cell at rest with the given sides [m] along the axes, periodic in the directions of the mask.
+void scree_periodic_set(scree_periodic_cell *cell, uint32_t periodic, const double sides[3]);
+
+/// Distances [m] of the two faces of each direction, from the inverse of the lattice.
+void scree_periodic_widths(const double inverse[9], double width[3]);
+
+/// Area (2D) or volume (3D) of the sample in the cell: between bottom and top plate (or the other walls) in directions
+/// that do not repeat. [m2, m3]
+double scree_periodic_extent(const scree_state *state);
+
+/// Walls on both sides of the sample along each axis [m]; 0 in 2D along z.
+void scree_periodic_box(const scree_state *state, scree_vector low, scree_vector high);
+
+/// Ends [m] of an edge of the cell; in directions that do not repeat from `low` to `high`. False: no edge in this
+/// dimension.
+enum { SCREE_PERIODIC_EDGES = 24 };
+bool scree_periodic_edge(const scree_periodic_cell *cell, int dimension, const scree_vector low, const scree_vector high, int edge,
+                     scree_vector ends[2]);
+
+/// Velocities [m/s] with which the lattice vectors move, as columns, at the end of a step with the gradient of the
+/// cell: an image moves as its body plus this times its shift.
+void scree_periodic_lattice_velocity(const scree_state *state, double velocity[9]);
+
+/// Stress [Pa, tension positive] of the bodies in a whole cell at the present step: -(virial + motion) / volume.
+void scree_periodic_stress(const scree_model *model, const scree_state *state, double stress[9]);
+
+/// Velocity of the body in `row` [m/s] that its contacts saw at the present step: that of the scheme at n - 1/2, which
+/// is relative to the affine field, given as `relative`, plus that field.
+void scree_periodic_full_velocity(const scree_state *state, const scree_vector place, const scree_vector relative,
+                              scree_vector velocity);
+
+#endif
