@@ -135,6 +135,19 @@ static const char *wrong_components(const scree_config_stage *stage, int dimensi
     return largest > 0 ? NULL : "no component of velocity_gradient or strain_rate moves, so it is never reached";
 }
 
+/// Why the forced particle cannot be turned, or NULL.
+static const char *wrong_particle(const scree_config *config, const scree_config_stage *stage, const char **key)
+{
+    *key = "axis";
+    if (stage->axis != SCREE_AXIS_Z && config->dimension == 2) return "in two dimensions a particle turns about z only";
+    *key = "particle";
+    if (isnan(stage->particle)) return NULL;
+    if (stage->particle != floor(stage->particle)) return "the number of a particle is whole";
+    return stage->particle < (double)config->particles.count
+               ? NULL
+               : "there is no such particle: numbers begin at 0 and end below particles.count";
+}
+
 void scree_rules_check_boundaries(scree_reader *reader, const scree_config *config)
 {
     scree_boundary_kind before = SCREE_BOUNDARY_AUTO;
@@ -155,10 +168,7 @@ void scree_rules_check_boundaries(scree_reader *reader, const scree_config *conf
         if (!wrong && before != SCREE_BOUNDARY_AUTO) wrong = wrong_order(kind, before);
         if (!wrong && stage->kind == SCREE_STAGE_DEFORM)
             wrong = wrong_components(stage, (int)config->dimension, kind, &key);
-        if (!wrong && stage->kind == SCREE_STAGE_ROTATE && stage->axis != SCREE_AXIS_Z && config->dimension == 2) {
-            wrong = "in two dimensions a particle turns about z only";
-            key = "axis";
-        }
+        if (!wrong && stage->kind == SCREE_STAGE_ROTATE) wrong = wrong_particle(config, stage, &key);
         if (wrong) refuse(reader, i, key, wrong);
         before = kind;
     }

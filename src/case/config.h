@@ -157,7 +157,9 @@ typedef struct scree_config_stage {
     // rotate_particle
     double spin;      ///< rad/s, that the particle is brought to
     int axis;         ///< scree_axis, about which it turns
-    double hold_time; ///< s, at that spin
+    double particle;  ///< id of the particle; auto: of those near the centre the one that bears most
+    double rest_time; ///< s, before, in which it is held still and the spins that there are anyway are measured
+    double hold_time; ///< s, at that spin, in which the others are measured
     double cutoff;    ///< mean diameters, of the force network around it
     // collide and relax
     double duration; ///< s, after which it ends in any case; of collide auto

@@ -6,18 +6,28 @@
 
 #include "contact/contact.h"
 
+#include <stdbool.h>
+
 enum {
     SCREE_ROTATION_BINS = 64,   ///< of the distance
     SCREE_ROTATION_SECTORS = 36 ///< of the rose
 };
 
-/// How far the body in `row` has turned: 2D: |angle| since the begin of the stage [rad], a mean in which the to and fro
-/// of regularised friction at rest cancels; 3D: |spin| now [rad/s].
+/// How far the body in `row` has turned: 2D: |angle| [rad], over the time it was counted a mean spin, in which waves
+/// and the to and fro of regularised friction cancel; 3D: |spin| now [rad/s].
 double scree_rotation_amount(const scree_state *state, size_t row);
+
+/// Whether the body in `row` can be turned by others and hold them: it touches two or more. One that touches none
+/// keeps the spin that it once got and says nothing about transmission.
+bool scree_rotation_counts(const scree_state *state, size_t row);
+
+/// Mean amount of the bodies that count, the forced one left out: what turns without forcing, when nothing is forced.
+double scree_rotation_mean_amount(const scree_state *state, size_t forced);
 
 /// Bodies whose distance from the forced one lies in [lower, lower + width).
 typedef struct scree_rotation_bin {
     double lower;          ///< mean diameters
+    double distance;       ///< mean diameters, mean of the bodies'
     double mean;           ///< 1, of the amount of rotation over that of the forced body
     double standard_error; ///< 1, of the mean; NAN with fewer than two bodies
     size_t count;
@@ -28,7 +38,8 @@ typedef struct scree_rotation_bin {
 typedef struct scree_rotation_decay {
     scree_rotation_bin bin[SCREE_ROTATION_BINS];
     size_t bin_count;
-    double bin_width;               ///< mean diameters
+    double bin_width, first;        ///< mean diameters: of all bins; where the first one begins
+    double limit;                   ///< 1, rotation over that of the forced body that is still felt
     double amplitude;               ///< 1; NAN when there is nothing to fit
     double length;                  ///< mean diameters
     double length_low, length_high; ///< mean diameters, ends of the interval; NAN with fewer than three bins
@@ -36,13 +47,18 @@ typedef struct scree_rotation_decay {
     size_t fitted;                  ///< bins that the fit has used
 } scree_rotation_decay;
 
-/// Bins of half a mean diameter from the nearest neighbours to the boundary of the assembly. The fit is least squares
-/// of the logarithms of the bins' means, weighted by their counts, over the bins whose mean stands above FLOOR_FACTOR
-/// times the median of the outer half (the spins that are there anyway), the first gap ends it. Reach: the outer
-/// edge of the last bin of that run. forced: row. Errors: none. Source: P figure 4.5.
+/// Shells of one mean diameter around the forced body, the first from half a diameter on (its neighbours), of the
+/// bodies that count. Felt is a mean rotation of at least FLOOR_FACTOR times both `background` (what there is without
+/// forcing, over the forced one; NAN: not known) and the median over the outer half of the shells (what the sample does
+/// as a whole). Reach: the outer edge of the last shell of the unbroken run that feels it. The fit over this run is
+/// least squares of the logarithms of the means, weighted by the counts. forced: row. Errors: none. Source: P figure
+/// 4.5.
 #define SCREE_ROTATION_FLOOR_FACTOR 2.0
-void scree_rotation_decay_measure(const scree_model *model, const scree_state *state, size_t forced,
+void scree_rotation_decay_measure(const scree_model *model, const scree_state *state, size_t forced, double background,
                                   scree_rotation_decay *decay);
+
+/// The shell at `distance` [mean diameters]; SCREE_ROTATION_BINS: none.
+size_t scree_rotation_bin_at(double distance);
 
 /// The force network around the forced body, within `cutoff` mean diameters (P uses 10).
 typedef struct scree_rotation_network {
@@ -51,6 +67,7 @@ typedef struct scree_rotation_network {
     scree_vector axis[3];                    ///< their unit eigenvectors
     double rose[SCREE_ROTATION_SECTORS];     ///< 1/m, sum of W (P 4.2) in each sector
     double followed[SCREE_ROTATION_SECTORS]; ///< 1, mean of the rotation excess of the bodies in each sector; NAN: none
+    double peak;                             ///< rad in (-pi/2, pi/2], direction of the peak of the rose; NAN in 3D
     size_t contacts;                         ///< in T and W
 } scree_rotation_network;
 
@@ -59,7 +76,9 @@ typedef struct scree_rotation_network {
 /// contacts between bodies. b is taken pointing away from the forced body (b . s >= 0): P leaves its sign open, and
 /// with an arbitrary one the sum would depend on the numbering. W(b, theta) = s^ . b^ f / (|s| <f>).
 /// Sectors: 2D: [0, 2 pi) of the angle of s against x in SCREE_ROTATION_SECTORS parts. 3D: the angle in [0, pi) between
-/// s and the first axis, in parts of equal solid angle. `followed` is left NAN. Errors: none.
+/// s and the first axis, in parts of equal solid angle. `followed` is left NAN. The peak is that of the rose with
+/// opposite sectors added, since an axis has no sense, and smoothed with the
+/// weights 1, 2, 1. Errors: none.
 void scree_rotation_network_measure(const scree_model *model, const scree_state *state,
                                     const scree_contact_table *table, size_t forced, double cutoff,
                                     scree_rotation_network *network);
@@ -70,13 +89,24 @@ typedef struct scree_rank_correlation {
     size_t count;
 } scree_rank_correlation;
 
-/// Whether rotations follow the force chains: over the bodies within `cutoff` that stand above the floor of the decay,
-/// `along` correlates the rotation excess log(amount / mean amount at that distance) with the alignment of the body's
-/// chains sum f (2 (s^ . b^)^2 - 1) / sum f (+1: all forces radial, a chain that leads away from the forced body; -1:
-/// all tangential, a chain across); in 3D with (3 (s^ . b^)^2 - 1) / 2. `sectors` correlates the rose of W with the
-/// mean excess of the sectors, which it writes into network->followed. Errors: memory.
+/// A ratio of geometric means and its interval of 95 % (normal).
+typedef struct scree_rotation_ratio {
+    double value, low, high; ///< NAN where one of the groups is empty
+    size_t behind, elsewhere;
+} scree_rotation_ratio;
+
+/// Whether rotations follow the force chains: over the bodies that count within `cutoff` and the reach of the decay,
+/// the rotation excess is log(amount) less its mean in the same shell.
+/// `chains`: its mean in each sector, which goes into network->followed, against the rose of W.
+/// `alignment`: that of each body against sum f (2 (s^ . b^)^2 - 1) / sum f over its contacts (+1: all forces radial, a
+/// chain that leads away from the forced body; -1: all tangential, a chain across); in 3D with (3 (s^ . b^)^2 - 1) / 2.
+/// `across`, 2D only: amount behind a strong chain over that elsewhere in the same shell. Behind: the straight line
+/// from the forced body crosses a contact of other bodies that bears more than the mean force and is inclined to the
+/// line by more than 45 degrees. Shells with both kinds are put together with the weights n n' / (n + n').
+/// Errors: memory.
 typedef struct scree_rotation_alignment {
-    scree_rank_correlation along, sectors;
+    scree_rank_correlation chains, alignment;
+    scree_rotation_ratio across;
 } scree_rotation_alignment;
 scree_status scree_rotation_alignment_measure(const scree_model *model, const scree_state *state,
                                               const scree_contact_table *table, size_t forced, double cutoff,

@@ -3,10 +3,12 @@
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_fit.h>
+#include <gsl/gsl_sort.h>
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
-#include <stdlib.h>
 
-#define BIN_WIDTH 0.5
+#define BIN_WIDTH 1.0
+#define FIRST     0.5
 
 double scree_rotation_amount(const scree_state *state, size_t row)
 {
@@ -14,6 +16,29 @@ double scree_rotation_amount(const scree_state *state, size_t row)
     scree_vector velocity, spin;
     scree_body_motion(state, row, velocity, spin);
     return scree_length(spin);
+}
+
+bool scree_rotation_counts(const scree_state *state, size_t row)
+{
+    return scree_body_is_grain(state, row) && state->sum[row].contacts >= 2;
+}
+
+double scree_rotation_mean_amount(const scree_state *state, size_t forced)
+{
+    double sum = 0, count = 0;
+    for (size_t id = 0; id < state->grains; id++) {
+        size_t row = state->row_of_id[id];
+        if (row == forced || !scree_rotation_counts(state, row)) continue;
+        sum += scree_rotation_amount(state, row);
+        count++;
+    }
+    return sum / fmax(1, count);
+}
+
+size_t scree_rotation_bin_at(double distance)
+{
+    double place = (distance - FIRST) / BIN_WIDTH;
+    return place >= 0 && place < SCREE_ROTATION_BINS ? (size_t)place : SCREE_ROTATION_BINS;
 }
 
 /// Distance from the forced body [mean diameters].
@@ -29,12 +54,14 @@ static double distance_between(const scree_model *model, const scree_state *stat
 static void fill_bins(const scree_model *model, const scree_state *state, size_t forced, scree_rotation_decay *decay)
 {
     double square[SCREE_ROTATION_BINS] = {0}, driven = scree_rotation_amount(state, forced);
-    for (size_t id = 0; id < state->count; id++) {
+    for (size_t id = 0; id < state->grains; id++) {
         size_t row = state->row_of_id[id];
-        if (row == forced) continue;
+        if (row == forced || !scree_rotation_counts(state, row)) continue;
         double ratio = scree_rotation_amount(state, row) / driven;
-        size_t b = (size_t)(distance_between(model, state, forced, row) / BIN_WIDTH);
+        double distance = distance_between(model, state, forced, row);
+        size_t b = scree_rotation_bin_at(distance);
         if (b >= SCREE_ROTATION_BINS) continue;
+        decay->bin[b].distance += distance;
         decay->bin[b].mean += ratio;
         square[b] += ratio * ratio;
         decay->bin[b].count++;
@@ -43,52 +70,47 @@ static void fill_bins(const scree_model *model, const scree_state *state, size_t
     for (size_t b = 0; b < decay->bin_count; b++) {
         scree_rotation_bin *bin = &decay->bin[b];
         double count = (double)bin->count;
-        bin->lower = BIN_WIDTH * (double)b;
+        bin->lower = FIRST + BIN_WIDTH * (double)b;
+        bin->distance = bin->count > 0 ? bin->distance / count : NAN;
         bin->mean = bin->count > 0 ? bin->mean / count : NAN;
         double variance = fmax(0, square[b] / count - bin->mean * bin->mean) * count / (count - 1);
         bin->standard_error = bin->count > 1 ? sqrt(variance / count) : NAN;
     }
 }
 
-static int ascending(const void *one, const void *other)
-{
-    double a = *(const double *)one, b = *(const double *)other;
-    return (a > b) - (a < b);
-}
-
-/// Median of the means of the outer half of the bins.
-static double floor_of(const scree_rotation_decay *decay)
+/// Median of the means of the outer half of the bins that have bodies.
+static double far_level(const scree_rotation_decay *decay)
 {
     double mean[SCREE_ROTATION_BINS];
     size_t count = 0;
     for (size_t b = decay->bin_count / 2; b < decay->bin_count; b++)
         if (decay->bin[b].count > 0) mean[count++] = decay->bin[b].mean;
-    qsort(mean, count, sizeof *mean, ascending);
-    return count > 0 ? mean[count / 2] : 0;
+    gsl_sort(mean, 1, count);
+    return count > 0 ? gsl_stats_median_from_sorted_data(mean, 1, count) : 0;
 }
 
-/// The run of bins above the floor, from the first one that has bodies.
+/// The run of bins that feel the forced body, from the first one that has bodies.
 static void find_run(const scree_rotation_decay *decay, size_t *first, size_t *last)
 {
-    double limit = SCREE_ROTATION_FLOOR_FACTOR * floor_of(decay);
     for (*first = 0; *first < decay->bin_count && decay->bin[*first].count == 0;) (*first)++;
     for (*last = *first; *last < decay->bin_count; (*last)++)
-        if (decay->bin[*last].count == 0 || !(decay->bin[*last].mean > limit)) break;
+        if (decay->bin[*last].count == 0 || !(decay->bin[*last].mean >= decay->limit)) break;
 }
 
-void scree_rotation_decay_measure(const scree_model *model, const scree_state *state, size_t forced,
+void scree_rotation_decay_measure(const scree_model *model, const scree_state *state, size_t forced, double background,
                                   scree_rotation_decay *decay)
 {
-    *decay = (scree_rotation_decay){.bin_width = BIN_WIDTH, .amplitude = NAN, .length = NAN};
+    *decay = (scree_rotation_decay){.bin_width = BIN_WIDTH, .first = FIRST, .amplitude = NAN, .length = NAN};
     decay->length_low = decay->length_high = NAN;
     fill_bins(model, state, forced, decay);
+    decay->limit = SCREE_ROTATION_FLOOR_FACTOR * fmax(background, far_level(decay));
     double x[SCREE_ROTATION_BINS], y[SCREE_ROTATION_BINS], weight[SCREE_ROTATION_BINS];
     size_t first, last;
     find_run(decay, &first, &last);
     decay->fitted = last - first;
     decay->reach = last > first ? decay->bin[last - 1].lower + BIN_WIDTH : 0;
     for (size_t b = first; b < last; b++) {
-        x[b - first] = decay->bin[b].lower + 0.5 * BIN_WIDTH;
+        x[b - first] = decay->bin[b].distance;
         y[b - first] = log(decay->bin[b].mean);
         weight[b - first] = (double)decay->bin[b].count;
     }

@@ -1,41 +1,19 @@
-/// The force network around a forced body: T, W, and what rotations have to do with it. See rotation.h. Cost:
-/// O(contacts + bodies).
-#include "base/memory.h"
-#include "measure/rotation.h"
+/// The force network around a forced body: T and W. See rotation.h. Cost: O(contacts).
+#include "measure/rotation_parts.h"
 
-#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_eigen.h>
-#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 
-static double dot(const scree_vector a, const scree_vector b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static double force_of(const scree_contact *contact)
-{
-    return hypot(contact->normal_force, contact->tangential_force);
-}
-
-static double mean_force(const scree_contact_table *table)
+double scree_rotation_mean_force(const scree_contact_table *table)
 {
     double sum = 0;
     size_t count = 0;
     for (size_t c = 0; c < table->count; c++) {
         if (table->contact[c].wall) continue;
-        sum += force_of(&table->contact[c]);
+        sum += scree_rotation_force(&table->contact[c]);
         count++;
     }
     return count > 0 ? sum / (double)count : NAN;
-}
-
-/// Unit vector along `a`; its length is returned.
-static double normalise(scree_vector a)
-{
-    double length = scree_length(a);
-    for (int i = 0; i < 3; i++) a[i] /= length;
-    return length;
 }
 
 /// One segment of the network seen from the forced body.
@@ -58,10 +36,10 @@ static bool see_segment(const scree_state *state, const scree_contact *contact, 
         out->outward[i] = end[i] - 0.5 * contact->branch[i] - centre[i];
         out->branch[i] = contact->branch[i];
     }
-    out->distance = normalise(out->outward);
-    (void)normalise(out->branch);
-    out->force = force_of(contact) / mean;
-    if (dot(out->outward, out->branch) < 0)
+    out->distance = scree_rotation_normalise(out->outward);
+    (void)scree_rotation_normalise(out->branch);
+    out->force = scree_rotation_force(contact) / mean;
+    if (scree_rotation_dot(out->outward, out->branch) < 0)
         for (int i = 0; i < 3; i++) out->branch[i] = -out->branch[i];
     return out->distance <= cutoff;
 }
@@ -90,17 +68,37 @@ static void find_axes(int dimension, scree_rotation_network *network)
     }
 }
 
-static size_t sector_of(int dimension, const scree_rotation_network *network, const scree_vector outward)
+size_t scree_rotation_sector(int dimension, const scree_rotation_network *network, const scree_vector outward)
 {
     double part;
     if (dimension == 2) {
         double angle = atan2(outward[1], outward[0]);
         part = (angle < 0 ? angle + 2 * M_PI : angle) / (2 * M_PI);
     } else {
-        part = 0.5 * (1 - dot(outward, network->axis[0])); // area of the sphere's cap
+        part = 0.5 * (1 - scree_rotation_dot(outward, network->axis[0])); // area of the sphere's cap
     }
     size_t sector = (size_t)(part * SCREE_ROTATION_SECTORS);
     return sector < SCREE_ROTATION_SECTORS ? sector : SCREE_ROTATION_SECTORS - 1;
+}
+
+/// Direction of the peak of the rose, an axis.
+static double find_peak(const double rose[SCREE_ROTATION_SECTORS])
+{
+    enum { HALF = SCREE_ROTATION_SECTORS / 2 };
+    int peak = 0;
+    double highest = -INFINITY;
+    for (int k = 0; k < HALF; k++) {
+        double sum = 0;
+        for (int side = -1; side <= 1; side++) {
+            int one = (k + side + SCREE_ROTATION_SECTORS) % SCREE_ROTATION_SECTORS;
+            sum += (side == 0 ? 2 : 1) * (rose[one] + rose[(one + HALF) % SCREE_ROTATION_SECTORS]);
+        }
+        if (!(sum > highest)) continue;
+        highest = sum;
+        peak = k;
+    }
+    double angle = (peak + 0.5) * M_PI / HALF;
+    return angle > M_PI / 2 ? angle - M_PI : angle;
 }
 
 void scree_rotation_network_measure(const scree_model *model, const scree_state *state,
@@ -108,7 +106,7 @@ void scree_rotation_network_measure(const scree_model *model, const scree_state 
                                     scree_rotation_network *network)
 {
     *network = (scree_rotation_network){0};
-    double mean = mean_force(table), limit = cutoff * 2 * model->mean_radius;
+    double mean = scree_rotation_mean_force(table), limit = cutoff * 2 * model->mean_radius;
     segment s;
     for (size_t c = 0; c < table->count; c++) {
         if (!see_segment(state, &table->contact[c], forced, limit, mean, &s)) continue;
@@ -119,112 +117,8 @@ void scree_rotation_network_measure(const scree_model *model, const scree_state 
     find_axes(state->dimension, network);
     for (size_t c = 0; c < table->count; c++)
         if (see_segment(state, &table->contact[c], forced, limit, mean, &s))
-            network->rose[sector_of(state->dimension, network, s.outward)] +=
-                dot(s.outward, s.branch) * s.force / s.distance;
+            network->rose[scree_rotation_sector(state->dimension, network, s.outward)] +=
+                scree_rotation_dot(s.outward, s.branch) * s.force / s.distance;
     for (size_t k = 0; k < SCREE_ROTATION_SECTORS; k++) network->followed[k] = NAN;
-}
-
-// ---- alignment ---------------------------------------------------------------------------------------------------
-
-static scree_rank_correlation correlate(const double *x, const double *y, size_t count, double *work)
-{
-    scree_rank_correlation r = {NAN, NAN, NAN, count};
-    if (count < 4) return r;
-    r.value = gsl_stats_spearman(x, 1, y, 1, count, work);
-    double z = atanh(r.value), half = sqrt((1 + 0.5 * r.value * r.value) / ((double)count - 3));
-    half *= gsl_cdf_ugaussian_Pinv(0.975);
-    r.low = tanh(z - half);
-    r.high = tanh(z + half);
-    return r;
-}
-
-/// Sums of f and of f times the alignment of the contact, over the contacts of each body.
-static void add_alignment(const scree_state *state, const scree_contact_table *table, size_t forced, double *weight,
-                          double *aligned)
-{
-    scree_vector centre;
-    scree_body_place(state, forced, centre);
-    for (size_t c = 0; c < table->count; c++) {
-        const scree_contact *contact = &table->contact[c];
-        if (contact->wall) continue;
-        for (int side = 0; side < 2; side++) {
-            size_t row = side ? contact->second : contact->first;
-            scree_vector outward, branch;
-            scree_body_place(state, row, outward);
-            for (int i = 0; i < 3; i++) {
-                outward[i] -= centre[i];
-                branch[i] = contact->branch[i];
-            }
-            if (row == forced) continue;
-            (void)normalise(outward);
-            (void)normalise(branch);
-            double cosine = dot(outward, branch), square = cosine * cosine, force = force_of(contact);
-            weight[row] += force;
-            aligned[row] += force * (state->dimension == 2 ? 2 * square - 1 : 1.5 * square - 0.5);
-        }
-    }
-}
-
-typedef struct columns {
-    double *weight, *aligned;   ///< per row
-    double *alignment, *excess; ///< per body that counts
-    double *work;               ///< of the ranks
-    double sum[SCREE_ROTATION_SECTORS];
-    size_t in_sector[SCREE_ROTATION_SECTORS];
-} columns;
-
-/// The bodies that count: with contacts, within the cut-off and the reach of the decay.
-static size_t gather(const scree_model *model, const scree_state *state, size_t forced, double cutoff,
-                     const scree_rotation_decay *decay, const scree_rotation_network *network, columns *c)
-{
-    scree_vector centre, outward;
-    scree_body_place(state, forced, centre);
-    double driven = scree_rotation_amount(state, forced), limit = fmin(cutoff, decay->reach);
-    size_t count = 0;
-    for (size_t id = 0; id < state->count; id++) {
-        size_t row = state->row_of_id[id];
-        if (row == forced || !(c->weight[row] > 0)) continue;
-        scree_body_place(state, row, outward);
-        for (int i = 0; i < 3; i++) outward[i] -= centre[i];
-        double distance = normalise(outward) / (2 * model->mean_radius);
-        if (!(distance < limit)) continue;
-        double typical = decay->bin[(size_t)(distance / decay->bin_width)].mean;
-        double own = scree_rotation_amount(state, row) / driven;
-        if (!(own > 0)) continue;
-        c->alignment[count] = c->aligned[row] / c->weight[row];
-        c->excess[count] = log(own / typical);
-        size_t sector = sector_of(state->dimension, network, outward);
-        c->sum[sector] += c->excess[count];
-        c->in_sector[sector]++;
-        count++;
-    }
-    return count;
-}
-
-scree_status scree_rotation_alignment_measure(const scree_model *model, const scree_state *state,
-                                              const scree_contact_table *table, size_t forced, double cutoff,
-                                              const scree_rotation_decay *decay, scree_rotation_network *network,
-                                              scree_rotation_alignment *alignment, scree_error *error)
-{
-    columns c = {0};
-    double **const arrays[] = {&c.weight, &c.aligned, &c.alignment, &c.excess};
-    scree_status status = scree_allocate(&c.work, 2 * state->count + 2 * SCREE_ROTATION_SECTORS, sizeof *c.work, error);
-    for (size_t k = 0; k < sizeof arrays / sizeof *arrays && !status; k++)
-        status = scree_allocate(arrays[k], state->count, sizeof **arrays[k], error);
-    if (!status) {
-        add_alignment(state, table, forced, c.weight, c.aligned);
-        size_t count = gather(model, state, forced, cutoff, decay, network, &c), sectors = 0;
-        alignment->along = correlate(c.alignment, c.excess, count, c.work);
-        double rose[SCREE_ROTATION_SECTORS], followed[SCREE_ROTATION_SECTORS];
-        for (size_t k = 0; k < SCREE_ROTATION_SECTORS; k++) {
-            if (c.in_sector[k] == 0) continue;
-            network->followed[k] = c.sum[k] / (double)c.in_sector[k];
-            rose[sectors] = network->rose[k];
-            followed[sectors++] = network->followed[k];
-        }
-        alignment->sectors = correlate(rose, followed, sectors, c.work);
-    }
-    scree_release(&c.work);
-    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
-    return status;
+    network->peak = state->dimension == 2 ? find_peak(network->rose) : NAN;
 }

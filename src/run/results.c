@@ -9,7 +9,7 @@
 /// (`stress_disagreement_instant`); `shear_strain_reached`, the engineering shear strain of the first and the last
 /// axis; with imposed rates, mean, least and largest ratio of actual and imposed rate (`rate_ratio_...`, of the
 /// intervals between two samples) from STARTED of the strain on. Over the loading, from the bodies:
-/// `corner_distortion`, `boundary_roughness` (files of these names in measure/), `rigid_rotation_ratio`; and what it
+/// `corner_distortion`, `boundary_roughness` (files of these names in measure/); and what it
 /// cost. Over the whole run: largest residual of the energy balance over the energy at the begin and the work turned
 /// over by the end
 /// (`energy_residual`). Of each wall of the case `NAME_work`, `NAME_force`, `NAME_torque`.
@@ -236,30 +236,15 @@ static scree_status summarise_shape(const scree_simulation *s, scree_summary *su
     return status;
 }
 
-/// Turn of the assembly about the axis of the forced particle, over that of the particle.
-static void summarise_rotation(const scree_simulation *s, const loading *l, scree_summary *summary)
-{
-    const double *begin = &s->state.stage.reference[SCREE_LOADING_STRAIN];
-    const scree_config_stage *stage = &s->model.config->stages[s->model.config->stage_count - 1];
-    double gradient[9], turned = scree_rotate_turned(s, l->time[l->last - 1] - l->time[l->first]);
-    scree_strain_measure(&s->state, gradient);
-    int i = (stage->axis + 1) % 3, j = (stage->axis + 2) % 3;
-    double rigid = 0.5 * (gradient[3 * j + i] - gradient[3 * i + j] - begin[3 * j + i] + begin[3 * i + j]);
-    scree_summary_set_number(summary, "rigid_rotation_ratio", rigid / turned);
-}
-
 /// The last stage, when it is one of loading.
-static scree_status summarise_stage(const scree_simulation *s, const scree_series *series, scree_summary *summary,
-                                    scree_error *error)
+static scree_status summarise_stage(const scree_simulation *s, scree_summary *summary, scree_error *error)
 {
     const scree_config *config = s->model.config;
     int64_t last = config->stage_count - 1;
     const scree_stage *stage =
         scree_stage_get((scree_stage_kind)config->stages[last].kind, scree_model_is_wholly_periodic(&s->model));
-    loading l;
     if (s->state.stage.index < last || s->state.count == 0 || !stage->loading) return SCREE_OK;
     summarise_cost(s, summary);
-    if (stage == &scree_stage_rotate && find_rows(series, &l)) summarise_rotation(s, &l, summary);
     bool plates = scree_boundary_has_plates(scree_boundary_get(scree_config_boundary_of(config, last)));
     bool strained = !isnan(scree_model_loading_rate(&config->stages[last]));
     bool cornered = strained && !plates && !s->state.periodic.directions;
@@ -279,7 +264,7 @@ scree_status scree_results_write(const scree_recorder *recorder, scree_simulatio
         summarise_run(recorder, s, status, summary);
         summarise_series(&series, s->state.ledger.turnover + s->state.ledger.initial, summary);
         summarise_walls(s, summary);
-        result = summarise_stage(s, &series, summary, error);
+        result = summarise_stage(s, summary, error);
     }
     if (!result && s->model.config->measure.cells && !s->state.periodic.directions)
         result = scree_cell_results_write(recorder->directory, s->model.config, &series, summary, error);

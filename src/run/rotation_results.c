@@ -3,6 +3,7 @@
 #include "run/rotation_results.h"
 
 #include "io/run_directory.h"
+#include "measure/measure.h"
 #include "measure/rotation.h"
 
 #include <limits.h>
@@ -28,10 +29,9 @@ static void write_decay(FILE *file, const scree_simulation *s, const findings *f
     fputs("distance [1],rotation_ratio [1],standard_error [1],count [1],fit [1]\n", file);
     for (size_t b = 0; b < decay->bin_count; b++) {
         const scree_rotation_bin *bin = &decay->bin[b];
-        double middle = bin->lower + 0.5 * decay->bin_width;
         if (bin->count > 0)
-            fprintf(file, "%.9g,%.9g,%.9g,%zu,%.9g\n", middle, bin->mean, bin->standard_error, bin->count,
-                    middle < decay->reach ? fitted(decay, middle) : NAN);
+            fprintf(file, "%.9g,%.9g,%.9g,%zu,%.9g\n", bin->distance, bin->mean, bin->standard_error, bin->count,
+                    bin->distance < decay->reach ? fitted(decay, bin->distance) : NAN);
     }
 }
 
@@ -47,19 +47,32 @@ static void write_rose(FILE *file, const scree_simulation *s, const findings *f)
     }
 }
 
+/// Rotation of the body in `row` about the axis of the forced one, over its: counter-clockwise like it is positive.
+static double turned_with(const scree_state *state, size_t row, size_t forced)
+{
+    if (state->dimension == 2) return state->angle[row] / state->angle[forced];
+    scree_vector velocity, spin, driven;
+    scree_body_motion(state, row, velocity, spin);
+    scree_body_motion(state, forced, velocity, driven);
+    double product = 0;
+    for (int i = 0; i < 3; i++) product += spin[i] * driven[i];
+    return product / pow(scree_length(driven), 2);
+}
+
 static void write_bodies(FILE *file, const scree_simulation *s, const findings *f)
 {
     const scree_state *state = &s->state;
     scree_vector centre, place;
     scree_body_place(state, f->forced, centre);
     double driven = scree_rotation_amount(state, f->forced), diameter = 2 * s->model.mean_radius;
-    fputs("id [1],distance [1],rotation_ratio [1]\n", file);
+    fputs("id [1],distance [1],rotation_ratio [1],rotation_with [1],counts [1]\n", file);
     for (size_t id = 0; id < state->grains; id++) {
         size_t row = state->row_of_id[id];
         scree_body_place(state, row, place);
         for (int i = 0; i < 3; i++) place[i] -= centre[i];
-        fprintf(file, "%zu,%.9g,%.9g\n", id, scree_length(place) / diameter,
-                scree_rotation_amount(state, row) / driven);
+        fprintf(file, "%zu,%.9g,%.9g,%.9g,%d\n", id, scree_length(place) / diameter,
+                scree_rotation_amount(state, row) / driven, turned_with(state, row, f->forced),
+                scree_rotation_counts(state, row));
     }
 }
 
@@ -76,39 +89,71 @@ static scree_status write_table(const char *directory, const char *name,
     return scree_replace_finish(path, file, true, error);
 }
 
+/// A value and its interval of 95 %.
+static void set_interval(scree_summary *summary, const char *name, double value, double low, double high)
+{
+    char text[64];
+    scree_summary_set_number(summary, name, value);
+    (void)snprintf(text, sizeof text, "%s_low", name);
+    scree_summary_set_number(summary, text, low);
+    (void)snprintf(text, sizeof text, "%s_high", name);
+    scree_summary_set_number(summary, text, high);
+}
+
+/// Rotation of the boundary about the axis of the forced particle in the whole stage, over that of the particle.
+static double rigid_rotation(const scree_simulation *s)
+{
+    const double *reference = s->state.stage.reference;
+    int axis = s->model.config->stages[s->model.config->stage_count - 1].axis, i = (axis + 1) % 3, j = (axis + 2) % 3;
+    double gradient[9];
+    scree_strain_measure(&s->state, gradient);
+    for (int c = 0; c < 9; c++) gradient[c] -= reference[SCREE_LOADING_STRAIN + c];
+    return 0.5 * (gradient[3 * j + i] - gradient[3 * i + j]) / reference[SCREE_ROTATE_TURN];
+}
+
+/// Angle between two axes in the plane, 0 to 90 degrees.
+static double between_axes(double one, double other)
+{
+    return 180 / M_PI * asin(fabs(sin(one - other)));
+}
+
 static void summarise(const scree_simulation *s, const findings *f, scree_summary *summary)
 {
     const double *axis = f->network.axis[0], *tensor = f->network.tensor;
     double diagonal = fabs(tensor[0]) + fabs(tensor[4]) + fabs(tensor[8]), other = 0;
     for (int c = 0; c < 9; c++) other += c / 3 != c % 3 ? fabs(tensor[c]) : 0;
+    const scree_rotation_alignment *a = &f->alignment;
     scree_summary_set_integer(summary, "forced_particle", s->state.forced.id);
-    scree_summary_set_number(summary, "rotation_decay_length", f->decay.length);
-    scree_summary_set_number(summary, "rotation_decay_length_low", f->decay.length_low);
-    scree_summary_set_number(summary, "rotation_decay_length_high", f->decay.length_high);
     scree_summary_set_number(summary, "rotation_reach", f->decay.reach);
-    scree_summary_set_number(summary, "rotation_tensor_ratio",
-                             f->network.value[s->state.dimension - 1] / f->network.value[0]);
+    set_interval(summary, "rotation_decay_length", f->decay.length, f->decay.length_low, f->decay.length_high);
+    scree_summary_set_number(summary, "rotation_at_contact", f->decay.amplitude * exp(-1 / f->decay.length));
+    scree_summary_set_number(summary, "rotation_background", s->state.stage.reference[SCREE_ROTATE_BACKGROUND]);
+    scree_summary_set_number(summary, "rotation_felt", f->decay.limit);
+    set_interval(summary, "rotation_chain_correlation", a->chains.value, a->chains.low, a->chains.high);
+    set_interval(summary, "rotation_chain_alignment", a->alignment.value, a->alignment.low, a->alignment.high);
+    if (s->state.dimension == 2) {
+        double direction = atan2(axis[1], axis[0]);
+        set_interval(summary, "rotation_across_chains", a->across.value, a->across.low, a->across.high);
+        scree_summary_set_number(summary, "rose_eigenvector_angle", between_axes(direction, f->network.peak));
+        scree_summary_set_number(summary, "rotation_tensor_angle", 180 / M_PI * direction);
+    }
+    scree_summary_set_number(summary, "rotation_tensor_first", f->network.value[0]);
+    scree_summary_set_number(summary, "rotation_tensor_last", f->network.value[s->state.dimension - 1]);
     scree_summary_set_number(summary, "rotation_tensor_off_diagonal", other / diagonal);
-    if (s->state.dimension == 2)
-        scree_summary_set_number(summary, "rotation_tensor_angle", 180 / M_PI * atan2(axis[1], axis[0]));
-    scree_summary_set_number(summary, "rotation_along_chains", f->alignment.along.value);
-    scree_summary_set_number(summary, "rotation_along_chains_low", f->alignment.along.low);
-    scree_summary_set_number(summary, "rotation_along_chains_high", f->alignment.along.high);
-    scree_summary_set_number(summary, "rotation_by_sectors", f->alignment.sectors.value);
-    scree_summary_set_number(summary, "rotation_by_sectors_low", f->alignment.sectors.low);
-    scree_summary_set_number(summary, "rotation_by_sectors_high", f->alignment.sectors.high);
+    scree_summary_set_number(summary, "rigid_rotation_ratio", rigid_rotation(s));
 }
 
 scree_status scree_rotation_results(const char *directory, scree_simulation *s, scree_summary *summary,
                                     scree_error *error)
 {
     const scree_state *state = &s->state;
-    if (!state->forced.active || !(scree_length(state->forced.spin) > 0)) return SCREE_OK;
+    // Before the end of the stage the angles are not those of the hold.
+    if (!state->forced.active || state->stage.index < s->model.config->stage_count) return SCREE_OK;
     findings f = {.forced = state->row_of_id[state->forced.id]};
     double cutoff = s->model.config->stages[s->model.config->stage_count - 1].cutoff;
     scree_status status = scree_contact_table_build(&s->stage_model, state, &s->work, &s->table, error);
     if (status) return status;
-    scree_rotation_decay_measure(&s->model, state, f.forced, &f.decay);
+    scree_rotation_decay_measure(&s->model, state, f.forced, state->stage.reference[SCREE_ROTATE_BACKGROUND], &f.decay);
     scree_rotation_network_measure(&s->model, state, &s->table, f.forced, cutoff, &f.network);
     status = scree_rotation_alignment_measure(&s->model, state, &s->table, f.forced, cutoff, &f.decay, &f.network,
                                               &f.alignment, error);

@@ -76,6 +76,12 @@ enum {
     SCREE_LOADING_OTHERS = 13, ///< free for the stage
 };
 
+/// state.stage.reference of rotate_particle.
+enum {
+    SCREE_ROTATE_BACKGROUND = SCREE_LOADING_OTHERS, ///< 1, spins at rest over the prescribed one; NAN: no rest
+    SCREE_ROTATE_TURN,                              ///< rad, that the particle turns by in the whole stage
+};
+
 /// Plan of a loading stage that lasts `time` [s] at its full rate: samples, rise of the rate, steps.
 scree_stage_plan scree_loading_plan(const scree_simulation *s, double time);
 
@@ -84,9 +90,6 @@ double scree_loading_rise(const scree_simulation *s, double *loaded);
 
 /// A stage without plates ends when its strain is reached; the error when it falls too far behind its rate.
 scree_status scree_loading_check(const scree_simulation *s, scree_error *error) SCREE_MUST_USE;
-
-/// Angle [rad] that the particle of a stage rotate_particle has turned by, `elapsed` s after its begin.
-double scree_rotate_turned(const scree_simulation *s, double elapsed);
 
 /// Smooth step from 0 to 1 (cubic), for pressures and velocities that must not shock the sample.
 double scree_smooth_ramp(double fraction);

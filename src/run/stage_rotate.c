@@ -1,37 +1,83 @@
 /// Stage `rotate_particle` (P 4.2): the spin of one particle is raised linearly to a value and held; nothing else
 /// changes. Under minimal conditions the components of the velocity gradient beside the diagonal are held at zero, so
-/// that the sample as a whole does not turn. The particle is the one nearest to the centre of the assembly that touches
-/// three others or more (four in 3D). Ends after ramp and hold. reference: run/stage.h, SCREE_LOADING_...
+/// that the sample as a whole does not turn.
+///
+/// Three spans of time. Rest: the particle is held still, and what the others turn by all the same (a sample under
+/// pressure creeps) is the background. Ramp: w(n+1/2) = spin (t(n+1/2) - rest) / ramp. Hold: w = spin. Angles are set
+/// back to zero at the begin of each but the ramp after no rest, so that at the end they are the rotations of the hold:
+/// over its time the mean spins, from which the waves of single instants have gone.
+/// state.stage.reference: run/stage.h, SCREE_LOADING_... and SCREE_ROTATE_...
 #include "boundary/forced_spin.h"
 #include "boundary/minimal.h"
 #include "measure/measure.h"
+#include "measure/rotation.h"
 #include "run/simulation.h"
 
 #include <math.h>
 #include <string.h>
 
 #define RAMP_WAVES 4.0
+#define CENTRE     2.5 /* mean diameters */
 
-/// Id of the particle; -1: none is held by others.
-static int64_t choose(const scree_state *state)
+/// Sum of the normal forces on each row; room for them is made. Errors: memory.
+static scree_status measure_loads(scree_simulation *s, double **load, scree_error *error)
 {
+    scree_status status = scree_contact_table_build(&s->stage_model, &s->state, &s->work, &s->table, error);
+    if (!status) status = scree_allocate(load, s->state.count, sizeof **load, error);
+    for (size_t c = 0; !status && c < s->table.count; c++) {
+        const scree_contact *contact = &s->table.contact[c];
+        (*load)[contact->first] += contact->normal_force;
+        if (!contact->wall) (*load)[contact->second] += contact->normal_force;
+    }
+    return status;
+}
+
+/// Id of the particle that bears most of those within CENTRE mean diameters of the centre of the assembly that touch
+/// three others or more (four in 3D); -1: none. One that bears little slides on its neighbours and turns none of them.
+static int64_t find_central(const scree_simulation *s, const double *load)
+{
+    const scree_state *state = &s->state;
     scree_vector centre = {0}, place;
     for (size_t id = 0; id < state->grains; id++) {
         scree_body_place(state, state->row_of_id[id], place);
         for (int i = 0; i < 3; i++) centre[i] += place[i] / (double)state->grains;
     }
     int64_t best = -1;
-    double nearest = INFINITY;
+    double most = 0;
     for (size_t id = 0; id < state->grains; id++) {
         size_t row = state->row_of_id[id];
-        if (state->sum[row].contacts <= state->dimension) continue;
         scree_body_place(state, row, place);
         for (int i = 0; i < 3; i++) place[i] -= centre[i];
-        if (scree_length(place) >= nearest) continue;
-        nearest = scree_length(place);
+        if (state->sum[row].contacts <= state->dimension || scree_length(place) > CENTRE * 2 * s->model.mean_radius ||
+            !(load[row] > most))
+            continue;
+        most = load[row];
         best = (int64_t)id;
     }
     return best;
+}
+
+/// The particle that the case names, or the central one.
+static scree_status choose(scree_simulation *s, uint32_t *id, scree_error *error)
+{
+    double named = scree_stage_config(s)->particle, *load = NULL;
+    long long stage = (long long)s->state.stage.index;
+    int64_t found = isnan(named) ? -1 : (int64_t)named;
+    if (isnan(named)) {
+        scree_status status = measure_loads(s, &load, error);
+        if (!status) found = find_central(s, load);
+        scree_release(&load);
+        if (status) return status;
+    }
+    if (found < 0)
+        return scree_error_set(error, SCREE_ERROR_GUARD,
+                               "stage %lld (rotate_particle): no particle near the centre is held by others", stage);
+    if ((size_t)found >= s->state.grains)
+        return scree_error_set(error, SCREE_ERROR_GUARD,
+                               "stage %lld (rotate_particle): there is no particle %lld, they are 0 to %zu", stage,
+                               (long long)found, s->state.grains - 1);
+    *id = (uint32_t)found;
+    return SCREE_OK;
 }
 
 /// The boundary as a whole keeps its shape of angles and does not turn.
@@ -40,66 +86,79 @@ static void hold_rotation(scree_simulation *s)
     scree_drive *drive = &s->state.drive;
     int dimension = s->state.dimension;
     double penalty = s->model.config->boundary.penalty, rate[9] = {0};
-    const scree_config_stage *stage = scree_stage_config(s);
     memset(drive->target, 0, sizeof drive->target);
     for (int c = 0; c < 9; c++)
         drive->prescribed[c] = c / 3 != c % 3 && c / 3 < dimension && c % 3 < dimension ? SCREE_FULL : SCREE_FREE;
     // The scale of the rates that are to be held back: those of the particle.
-    rate[1] = stage->spin;
+    rate[1] = scree_stage_config(s)->spin;
     drive->viscosity = isnan(penalty) ? scree_minimal_viscosity(s->state.pressure, rate) : penalty;
+}
+
+/// Ticks from the begin of the stage to the ends of rest, ramp and hold.
+typedef struct course {
+    uint64_t rest, ramp, hold;
+} course;
+
+static course course_of(const scree_simulation *s)
+{
+    const scree_config_stage *stage = scree_stage_config(s);
+    double wave = s->state.stage.reference[SCREE_LOADING_WAVE];
+    course c = {.rest = stage->rest_time > 0 ? scree_stage_ticks(s, stage->rest_time) : 0};
+    c.ramp = c.rest + scree_stage_ticks(s, isnan(stage->ramp_time) ? RAMP_WAVES * wave : stage->ramp_time);
+    c.hold = c.ramp + scree_stage_ticks(s, stage->hold_time);
+    return c;
 }
 
 static scree_status begin(scree_simulation *s, scree_error *error)
 {
+    uint32_t id = 0;
     scree_loading_begin(s);
     hold_rotation(s);
-    int64_t id = choose(&s->state);
-    if (id < 0)
-        return scree_error_set(error, SCREE_ERROR_GUARD, "stage %lld (rotate_particle): no particle is held by others",
-                               (long long)s->state.stage.index);
-    scree_forced_spin_begin(&s->state, (uint32_t)id);
+    scree_status status = choose(s, &id, error);
+    if (status) return status;
+    course c = course_of(s);
+    double ramp = (double)(c.ramp - c.rest) * s->state.tick, hold = (double)(c.hold - c.ramp) * s->state.tick;
+    s->state.stage.reference[SCREE_ROTATE_BACKGROUND] = NAN;
+    s->state.stage.reference[SCREE_ROTATE_TURN] = scree_stage_config(s)->spin * (0.5 * ramp + hold);
+    scree_forced_spin_begin(&s->state, id);
     return SCREE_OK;
-}
-
-static double rise_of(const scree_simulation *s, const scree_config_stage *stage)
-{
-    return isnan(stage->ramp_time) ? RAMP_WAVES * s->state.stage.reference[SCREE_LOADING_WAVE] : stage->ramp_time;
-}
-
-static double ramp(const scree_simulation *s)
-{
-    return rise_of(s, scree_stage_config(s));
-}
-
-double scree_rotate_turned(const scree_simulation *s, double elapsed)
-{
-    const scree_config_stage *stage = &s->model.config->stages[s->model.config->stage_count - 1];
-    double rise = rise_of(s, stage), raised = fmin(elapsed, rise);
-    return stage->spin * ((rise > 0 ? 0.5 * raised * raised / rise : 0) + fmax(0, elapsed - rise));
 }
 
 static void plan(scree_simulation *s)
 {
-    double time = ramp(s) + scree_stage_config(s)->hold_time;
-    s->plan = scree_loading_plan(s, time);
-    uint64_t expected = (uint64_t)ceil(time / s->state.step_size - 1e-9);
-    s->plan.expected = expected > 0 ? expected : 1;
-    s->plan.ramp_time = ramp(s);
+    course c = course_of(s);
+    s->plan = scree_loading_plan(s, (double)c.hold * s->state.tick);
+    s->plan.expected = c.hold;
 }
 
-static double elapsed(const scree_simulation *s)
+/// What the particles that bear load turn by at rest, over the prescribed spin.
+static double background(const scree_simulation *s, uint64_t ticks)
 {
-    return scree_state_time(&s->state) - s->state.stage.first_time;
+    double mean = scree_rotation_mean_amount(&s->state, s->state.row_of_id[s->state.forced.id]);
+    double time = s->state.dimension == 2 ? (double)ticks * s->state.tick : 1;
+    return mean / (time * scree_stage_config(s)->spin);
+}
+
+static void forget_angles(scree_state *state)
+{
+    if (state->angle) memset(state->angle, 0, state->count * sizeof *state->angle);
 }
 
 static void control(scree_simulation *s)
 {
+    scree_state *state = &s->state;
     const scree_config_stage *stage = scree_stage_config(s);
-    double middle = elapsed(s) + 0.5 * s->state.step_size;
-    double part = s->plan.ramp_time > 0 ? fmin(1, middle / s->plan.ramp_time) : 1;
+    const course c = course_of(s);
+    uint64_t done = state->step - state->stage.first_step;
+    if (done == c.rest && c.rest > 0) {
+        state->stage.reference[SCREE_ROTATE_BACKGROUND] = background(s, c.rest);
+        forget_angles(state);
+    }
+    if (done == c.ramp) forget_angles(state);
     scree_vector spin = {0};
-    spin[stage->axis] = part * stage->spin;
-    scree_forced_spin_set(&s->state, spin);
+    double middle = ((double)done - (double)c.rest) * state->tick + 0.5 * state->step_size;
+    if (done >= c.rest) spin[stage->axis] = fmin(1, middle / ((double)(c.ramp - c.rest) * state->tick)) * stage->spin;
+    scree_forced_spin_set(state, spin);
 }
 
 static double fraction(const scree_simulation *s)

@@ -158,7 +158,10 @@ static void write_line(FILE *file, const scree_chart_line *line, size_t x, size_
             line->bare     ? ""
             : line->dashed ? "(7,4)"
                            : "solid");
-    if (line->points) fprintf(file, " pointtype 7 pointsize %s", line->low || line->bare ? "1" : "0.5");
+    if (line->points) {
+        bool large = line->low || line->bare;
+        fprintf(file, " pointtype 7 pointsize %s", line->faint ? "0.22" : large ? "1" : "0.5");
+    }
     if (line->label) {
         fputs(" title ", file);
         write_quoted(file, line->label);

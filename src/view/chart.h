@@ -15,6 +15,7 @@ typedef struct scree_chart_line {
     const char *label; ///< NULL: no legend entry
     bool dashed, points;
     bool bare;  ///< points without a line
+    bool faint; ///< small points, of a cloud that other lines are drawn upon
     int colour; ///< 1 to 7: of the palette, e.g. the same for two lines that belong together; 0: the next one
 } scree_chart_line;
 

@@ -157,6 +157,7 @@ scree_status scree_plot(const char *directory, void (*message)(void *user, const
             scree_plot_charts(&run);
         if (snapshots) scree_plot_report(&run, SCREE_FILE_RUN, snapshots, &snapshot_error);
         scree_plot_scenes(&run);
+        scree_plot_rotation(&run);
         status = run.status;
         if (status && error) *error = run.error;
     }

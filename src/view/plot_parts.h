@@ -32,6 +32,8 @@ void scree_plot_report(scree_plot_run *run, const char *name, scree_status statu
 /// Draws all charts from run->series, and all scenes from the snapshots.
 void scree_plot_charts(scree_plot_run *run);
 void scree_plot_scenes(scree_plot_run *run);
+/// Draws the figures of a stage rotate_particle, when the run has had one.
+void scree_plot_rotation(scree_plot_run *run);
 
 typedef enum scree_cell_field { SCREE_CELL_NONE, SCREE_CELL_DISTORTION_RATE, SCREE_CELL_PRESSURE } scree_cell_field;
 

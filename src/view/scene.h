@@ -26,6 +26,8 @@ typedef struct scree_scene {
     const scree_cells *cells;                  ///< Delaunay cells of a plane sample, in place of the discs; NULL: none
     const double *cell_place;                  ///< m, bodies x 3
     const double *cell_field;                  ///< per cell, >= 0; labelled with field_name
+    const size_t *marked;                      ///< disc that is drawn black, whatever its field; NULL: none
+    const char *marked_name;                   ///< what the legend calls it
     double cell_threshold;  ///< > 0: cells above so many times the mean are shaded; 0: coloured by `map`
     const scree_band *band; ///< its edges as lines; NULL: none
 } scree_scene;

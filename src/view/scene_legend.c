@@ -164,6 +164,17 @@ static double draw_boundary_key(const scree_scene_view *view, cairo_t *cairo, do
     return y + 12 + GAP;
 }
 
+static double draw_marked_key(const scree_scene_view *view, cairo_t *cairo, double x, double y)
+{
+    if (!view->scene->marked) return y;
+    cairo_set_source_rgb(cairo, 0, 0, 0);
+    cairo_arc(cairo, x + 5, y + 5, 5, 0, 2 * M_PI);
+    cairo_fill(cairo);
+    scree_text_show(cairo, x + 15, y + 8, 0, view->scene->marked_name ? view->scene->marked_name : "",
+                    scree_scene_text(8));
+    return y + 12 + GAP;
+}
+
 double scree_scene_legend(const scree_scene_view *view, cairo_t *cairo, double x, double y)
 {
     double below = draw_bar(view, cairo, x, y);
@@ -172,6 +183,7 @@ double scree_scene_legend(const scree_scene_view *view, cairo_t *cairo, double x
     below = draw_widths(view, cairo, x, below);
     below = draw_reference_arrow(view, cairo, x, below);
     below = draw_boundary_key(view, cairo, x, below);
+    below = draw_marked_key(view, cairo, x, below);
     return below > y ? below - GAP : y;
 }
 

@@ -297,6 +297,17 @@ static void draw_walls(const scree_scene_view *view, cairo_t *cairo)
     cairo_restore(cairo);
 }
 
+static void draw_marked(const scree_scene_view *view, cairo_t *cairo)
+{
+    const scree_snapshot *s = view->snapshot;
+    if (!view->scene->marked || !scree_scene_drawn(s, *view->scene->marked)) return;
+    size_t disc = *view->scene->marked;
+    cairo_arc(cairo, scree_scene_x(view, s->x[disc]), scree_scene_y(view, s->y[disc]), s->radius[disc] * view->scale, 0,
+              2 * M_PI);
+    cairo_set_source_rgb(cairo, 0, 0, 0);
+    cairo_fill(cairo);
+}
+
 void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo)
 {
     if (view->scene->depth) {
@@ -323,5 +334,6 @@ void scree_scene_marks(const scree_scene_view *view, cairo_t *cairo)
     draw_boundary(view, cairo);
     draw_periodic_edges(view, cairo);
     draw_network(view, cairo);
+    draw_marked(view, cairo);
     draw_arrows(view, cairo);
 }

@@ -70,6 +70,7 @@ static void create(cluster *c, int dimension)
         } else {
             c->state.angle[k] = k % 2 ? spin : -spin;
         }
+        c->state.sum[k].contacts = 2;
         if (distance < 1e-9) c->forced = k;
         for (size_t j = 0; j < k; j++) {
             double apart[3];
@@ -107,13 +108,19 @@ static void an_exponential_decay_is_found(void **unused)
         cluster c;
         scree_rotation_decay decay;
         create(&c, dimension);
-        scree_rotation_decay_measure(&c.model, &c.state, c.forced, &decay);
-        // Bins are half a diameter wide, of bodies that lie anywhere in them: a quarter of a bin of 14 diameters.
+        scree_rotation_decay_measure(&c.model, &c.state, c.forced, NAN, &decay);
+        // Shells are a diameter wide, and bodies lie anywhere in them: a quarter of one in 14 diameters.
         assert_true(fabs(decay.length - DECAY) < 0.02 * DECAY);
-        assert_true(decay.length_low < DECAY && DECAY < decay.length_high);
+        // The interval is that of the scatter about the line; that of the places in the shells comes on top of it.
+        assert_true(decay.length_low < 1.02 * DECAY && 0.98 * DECAY < decay.length_high);
         assert_true(decay.length_high - decay.length_low < 0.1 * DECAY);
         assert_true(fabs(log(decay.amplitude)) < 0.1);
-        assert_true(decay.reach > 5 && decay.reach < RINGS);
+        // The median of the outer seven shells is that of the one around 11 diameters, 0.0256; exp(-r / DECAY) is twice
+        // that at 8.9, in the shell from 8.5 to 9.5. And it is 0.12, twice the background, at 6.4.
+        assert_true(decay.reach == 8.5 || decay.reach == 9.5);
+        scree_rotation_decay other;
+        scree_rotation_decay_measure(&c.model, &c.state, c.forced, 0.06, &other);
+        assert_true(other.reach == 6.5 && other.fitted == 6);
         size_t counted = 0;
         for (size_t b = 0; b < decay.bin_count; b++) counted += decay.bin[b].count;
         assert_int_equal(counted, c.state.count - 1);
@@ -128,8 +135,66 @@ static void spins_that_do_not_decay_have_no_reach(void **unused)
     scree_rotation_decay decay;
     create(&c, 2);
     for (size_t k = 0; k < c.state.count; k++) c.state.angle[k] = 0.01 * (0.5 + uniform(k));
-    scree_rotation_decay_measure(&c.model, &c.state, c.forced, &decay);
-    assert_true(decay.reach < 2 && decay.fitted < 4);
+    // All of it is there without forcing too.
+    scree_rotation_decay_measure(&c.model, &c.state, c.forced, 1, &decay);
+    assert_true(decay.reach == 0 && decay.fitted == 0 && isnan(decay.length));
+    destroy(&c);
+}
+
+/// A body that touches one other or none keeps its spin for ever; it is not counted.
+static void bodies_that_nothing_holds_do_not_count(void **unused)
+{
+    (void)unused;
+    cluster c;
+    scree_rotation_decay with, without;
+    create(&c, 2);
+    scree_rotation_decay_measure(&c.model, &c.state, c.forced, NAN, &without);
+    size_t loose = c.forced + 7;
+    double mean = scree_rotation_mean_amount(&c.state, c.forced);
+    c.state.angle[loose] = 1e3;
+    c.state.sum[loose].contacts = 1;
+    assert_true(!scree_rotation_counts(&c.state, loose) && scree_rotation_counts(&c.state, c.forced));
+    scree_rotation_decay_measure(&c.model, &c.state, c.forced, NAN, &with);
+    // One of more than six hundred bodies is missing.
+    assert_true(fabs(with.length / without.length - 1) < 0.01);
+    assert_true(fabs(scree_rotation_mean_amount(&c.state, c.forced) / mean - 1) < 0.01);
+    destroy(&c);
+}
+
+/// A strong contact across the way: the bodies in its shadow turn half as much as the others in their shells.
+static void rotations_behind_a_strong_chain(void **unused)
+{
+    (void)unused;
+    cluster c;
+    scree_rotation_decay decay;
+    scree_rotation_network network;
+    scree_rotation_alignment alignment;
+    create(&c, 2);
+    size_t shadowed = 0;
+    // A chain along y at x = 3.5 diameters, between y = -3 and 3, is strong; it has no neighbours that bear as much.
+    c.table.count = 0;
+    for (size_t k = 1; k < c.state.count; k++)
+        if (k != c.forced) add_contact(&c, k, k - 1 == c.forced ? k - 2 : k - 1, 1e-3);
+    c.table.contact[0] = (scree_contact){.first = 0, .second = 1, .normal_force = 1};
+    c.state.row[0].x = c.state.row[1].x = 7 * RADIUS;
+    c.state.row[0].y = 6 * RADIUS;
+    c.state.row[1].y = -6 * RADIUS;
+    c.table.contact[0].branch[1] = 12 * RADIUS;
+    for (size_t k = 2; k < c.state.count; k++) {
+        const scree_row *row = &c.state.row[k];
+        bool behind = row->x > 7 * RADIUS && fabs(row->y) < row->x * 6 / 7;
+        shadowed += behind;
+        if (behind) c.state.angle[k] *= 0.5;
+    }
+    scree_rotation_decay_measure(&c.model, &c.state, c.forced, NAN, &decay);
+    scree_rotation_network_measure(&c.model, &c.state, &c.table, c.forced, 10, &network);
+    assert_int_equal(scree_rotation_alignment_measure(&c.model, &c.state, &c.table, c.forced, 100, &decay, &network,
+                                                      &alignment, NULL),
+                     SCREE_OK);
+    assert_true(alignment.across.behind > 50 && alignment.across.behind <= shadowed);
+    // Inside a shell of one diameter the spins fall by exp(-1/3), which shifts the means of the groups a little.
+    assert_true(fabs(alignment.across.value - 0.5) < 0.02);
+    assert_true(alignment.across.low < 0.5 && alignment.across.high > 0.5 && alignment.across.high < 0.6);
     destroy(&c);
 }
 
@@ -203,18 +268,20 @@ static void rotations_that_follow_chains_correlate(void **unused)
             double cosine = row->x / fmax(1e-9, hypot(row->x, row->y));
             c.state.angle[k] *= exp(sign * (cosine * cosine - 0.5) + 0.5 * (uniform(5000 + k) - 0.5));
         }
-        scree_rotation_decay_measure(&c.model, &c.state, c.forced, &decay);
+        scree_rotation_decay_measure(&c.model, &c.state, c.forced, NAN, &decay);
         scree_rotation_network_measure(&c.model, &c.state, &c.table, c.forced, 10, &network);
         assert_int_equal(scree_rotation_alignment_measure(&c.model, &c.state, &c.table, c.forced, 10, &decay, &network,
                                                           &alignment, NULL),
                          SCREE_OK);
-        assert_true(alignment.along.count > 100);
-        assert_true(alignment.along.low < alignment.along.value && alignment.along.value < alignment.along.high);
-        if (sign > 0) assert_true(alignment.along.low > 0.2 && alignment.sectors.low > 0.2);
-        if (sign < 0) assert_true(alignment.along.high < -0.2 && alignment.sectors.high < -0.2);
-        if (sign == 0) assert_true(alignment.along.low < 0 && alignment.along.high > 0);
-        // The chains lie along x, and so does the first axis.
+        assert_true(alignment.alignment.count > 100);
+        assert_true(alignment.alignment.low < alignment.alignment.value &&
+                    alignment.alignment.value < alignment.alignment.high);
+        if (sign > 0) assert_true(alignment.alignment.low > 0.2 && alignment.chains.low > 0.1);
+        if (sign < 0) assert_true(alignment.alignment.high < -0.2 && alignment.chains.high < -0.1);
+        if (sign == 0) assert_true(alignment.alignment.low < 0 && alignment.alignment.high > 0);
+        // The chains lie along x, and so do the first axis and the peak of the rose (one sector has 10 degrees).
         assert_true(fabs(network.axis[0][0]) > 0.99);
+        assert_true(fabs(network.peak) < 0.2);
         destroy(&c);
     }
 }
@@ -258,6 +325,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_exponential_decay_is_found),
         cmocka_unit_test(spins_that_do_not_decay_have_no_reach),
+        cmocka_unit_test(bodies_that_nothing_holds_do_not_count),
+        cmocka_unit_test(rotations_behind_a_strong_chain),
         cmocka_unit_test(an_isotropic_network_has_an_isotropic_tensor),
         cmocka_unit_test(radial_and_tangential_segments),
         cmocka_unit_test(rotations_that_follow_chains_correlate),
