@@ -151,8 +151,9 @@ static void every_dataset_tells_its_unit_and_meaning(void **unused)
     for (size_t k = 0; k < scree_field_count; k++)
         stored += scree_fields[k].role == SCREE_FIELD_STATE && scree_field_exists(&scree_fields[k], 2);
     for (size_t k = 0; k < scree_member_count; k++) stored += scree_field_exists(&scree_members[k], 2);
-    // 7 fields and 5 results of bodies, 13 of contacts, 6 of the loop, 8 of walls, 8 of the cell; the tables without derived fields.
-    assert_int_equal(all.datasets, 7 + 5 + 13 + 6 + 8 + 8 + stored);
+    // 7 fields and 5 results of bodies, 13 of contacts, 6 of the loop, 8 of plates, 3 of walls, 8 of the cell; the tables without
+    // derived fields.
+    assert_int_equal(all.datasets, 7 + 5 + 13 + 6 + 8 + 3 + 8 + stored);
     assert_int_equal(all.bare, 0);
 }
 
