@@ -168,9 +168,9 @@ void scree_projection_destroy(scree_projection *projection)
 
 scree_status scree_section_create(const scree_snapshot *solid, scree_snapshot *plane, scree_error *error)
 {
-    double low[2], high[2];
-    find_extent(solid, low, high);
-    double cut = 0.5 * (low[1] + high[1]);
+    // Through the mean centre: bodies that have flown off do not drag the plane away from the others.
+    double cut = 0;
+    for (size_t k = 0; k < solid->count; k++) cut += solid->y[k] / (double)solid->count;
     scree_status status = start_plane(solid, plane, error);
     if (!status) status = scree_wall_cuts(solid, cut, plane, error);
     if (status) {

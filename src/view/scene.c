@@ -42,19 +42,18 @@ static void extend(scree_scene_view *view, int axis, double low, double high)
     view->high[axis] = fmax(view->high[axis], high);
 }
 
-/// Walls of the case, as far as they are near the bodies.
-static void extend_by_walls(scree_scene_view *view, double size)
+/// Walls of the case, whole; of planes the part that is drawn, beside the bodies.
+static void extend_by_walls(scree_scene_view *view)
 {
     const scree_snapshot *s = view->snapshot;
-    const double low[2] = {view->low[0] - size, view->low[1] - size};
-    const double high[2] = {view->high[0] + size, view->high[1] + size};
-    size_t stride = s->dimension == 2 && s->wall_triangle_count > 0 ? 9 : 4;
-    const double *end = stride == 9 ? s->wall_triangle : s->wall_line;
-    size_t lines = stride == 9 ? s->wall_triangle_count : s->wall_line_count;
+    const bool flat = s->dimension == 2 && s->wall_triangle_count > 0;
+    const double *end = flat ? s->wall_triangle : s->wall_line;
+    const size_t lines = flat ? s->wall_triangle_count : s->wall_line_count, stride = flat ? 9 : 4,
+                 other = flat ? 3 : 2;
     for (size_t k = 0; k < 2 * lines; k++)
         for (int axis = 0; axis < 2; axis++) {
-            double at = end[stride * (k / 2) + (k % 2) * (stride == 9 ? 3 : 2) + (size_t)axis];
-            if (at > low[axis] && at < high[axis]) extend(view, axis, at, at);
+            double at = end[stride * (k / 2) + (k % 2) * other + (size_t)axis];
+            extend(view, axis, at, at);
         }
 }
 
@@ -85,7 +84,7 @@ static scree_status measure_extent(scree_scene_view *view, scree_error *error)
         for (int c = 0; c < 4 && projection->has_plate[w]; c++)
             for (int axis = 0; axis < 2; axis++)
                 extend(view, axis, projection->plate[w][c][axis], projection->plate[w][c][axis]);
-    extend_by_walls(view, size);
+    extend_by_walls(view);
     for (int k = 0; view->scene->plates && k < SCREE_WALL_COUNT; k++) {
         const scree_wall *wall = &s->wall[k];
         int axis = fabs(wall->normal[0]) > 0.999 ? 0 : fabs(wall->normal[1]) > 0.999 ? 1 : -1;
