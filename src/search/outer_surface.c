@@ -91,7 +91,9 @@ scree_status scree_outer_surface(const double *points, const double *radius, siz
     scree_band b;
     bool certain = false;
     scree_status status = scree_band_build(points, radius, count, 3, spacing, &b, error);
-    if (!status && b.count >= 4) status = surface_of_band(&b, points, count, gap_limit, surface, &certain, error);
+    // A band of nearly all bodies saves nothing.
+    bool pays = b.count >= 4 && 5 * b.count < 4 * count;
+    if (!status && pays) status = surface_of_band(&b, points, count, gap_limit, surface, &certain, error);
     scree_band_destroy(&b);
     if (status || certain) return status;
     return surface_of_all(points, radius, count, gap_limit, surface, error);
