@@ -80,7 +80,9 @@ static bool enter_element(scree_target *target, const char **path)
         // Its kind is missing or wrong, which is a problem of its own; only the kind can be set.
         target->section = &list->sections[0];
         bool kind = strcmp(*path, list->sections[0].keys[0].name) == 0;
-        if (!kind) (void)snprintf(target->reason, sizeof target->reason, "the kind of this stage is not known");
+        if (!kind)
+            (void)snprintf(target->reason, sizeof target->reason, "the %s of this element is not known",
+                           list->sections[0].keys[0].name);
         return kind;
     }
     return true;

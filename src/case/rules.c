@@ -253,7 +253,7 @@ static void check_timescales(scree_reader *reader, const scree_config *config)
         scree_boundary_kind kind = scree_config_boundary_of(config, i);
         // A periodic cell moves bodies by its gradient in every step, whatever its size.
         if (config->boundary.periodic > 0 || kind == SCREE_BOUNDARY_PRESSURE || kind == SCREE_BOUNDARY_PLATES ||
-            kind == SCREE_BOUNDARY_WALLS)
+            kind == SCREE_BOUNDARY_WALLS || kind == SCREE_BOUNDARY_NONE)
             continue;
         scree_problem_add(reader, place, "integrator.scheme", text, "position_verlet, velocity_verlet",
                           "the boundary of stages.%lld imposes velocities and needs equal steps", (long long)i);
