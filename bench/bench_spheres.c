@@ -1,17 +1,19 @@
 /// Particle-steps per second and memory of 3D: the bed of bench/data/bed32k.csv.gz (32,000 spheres, hertz_mindlin with
-/// history and ledger, step 1e-5 s) between plain walls at the sides, where it lay between periodic ones, and after
-/// it, when its command is given, LAMMPS on the same configuration and in turn (bench/peers/lammps_spheres.in), with
-/// the energies of both after the same 1000 steps. Then memory and speed of a bed that is this one many times beside
-/// itself.
+/// history and ledger, step 1e-5 s) on its floor in a box periodic in x and y, settled for 5000 steps more, and after
+/// it, when its command is given, LAMMPS on the same configuration and in turn (bench/peers/lammps_spheres.in), springs
+/// clear in both, with the energies of both after the same 1000 steps. Then memory and speed of a bed that is this one
+/// many times beside itself.
 ///
 /// A measurement is the best of several short runs, since other processes use the machine too, by processor time; only
 /// ratios measured in turn mean anything. Arguments: --peer COMMAND (such as "lmp"), --folder FOLDER for its files,
 /// --bed and --large choose one setting, --skin LENGTH the skin of both codes [m].
 #include "base/processor.h"
+#include "boundary/periodic.h"
 #include "contact/contact.h"
 #include "integrate/integrate.h"
 #include "measure/measure.h"
 #include "search/neighbours.h"
+#include "state/periodic.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -112,24 +114,12 @@ static void read_bed(sample *s, size_t copies)
         require(SCREE_ERROR_IO, &(scree_error){.message = "cannot read the bed"});
 }
 
-/// Plain walls where the outermost spheres end, and a floor.
-static void put_walls(scree_state *state)
+/// A floor under a box that is periodic in x and y.
+static void put_box(scree_state *state, size_t copies)
 {
-    double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
-    for (size_t k = 0; k < state->count; k++) {
-        const scree_row *row = &state->row[k];
-        const double place[2] = {row->x, row->y};
-        for (int i = 0; i < 2; i++) {
-            low[i] = fmin(low[i], place[i] - row->radius);
-            high[i] = fmax(high[i], place[i] + row->radius);
-        }
-    }
-    scree_wall *wall = state->wall;
-    wall[SCREE_WALL_BOTTOM] = (scree_wall){.normal = {0, 0, 1}, .active = 1};
-    wall[SCREE_WALL_LEFT] = (scree_wall){.position = low[0], .normal = {1, 0, 0}, .active = 1};
-    wall[SCREE_WALL_RIGHT] = (scree_wall){.position = -high[0], .normal = {-1, 0, 0}, .active = 1};
-    wall[SCREE_WALL_FRONT] = (scree_wall){.position = low[1], .normal = {0, 1, 0}, .active = 1};
-    wall[SCREE_WALL_BACK] = (scree_wall){.position = -high[1], .normal = {0, -1, 0}, .active = 1};
+    const double sides[3] = {side * (double)copies, side, 1};
+    scree_periodic_set(&state->periodic, SCREE_PERIODIC_XY, sides);
+    state->wall[SCREE_WALL_BOTTOM] = (scree_wall){.normal = {0, 0, 1}, .active = 1};
 }
 
 static void forces(sample *s)
@@ -138,6 +128,7 @@ static void forces(sample *s)
     require(scree_neighbours_refresh(&s->model, &s->state, &s->work, &error), &error);
     scree_contact_set_quanta(&s->model, &s->state, 0);
     scree_contact_forces(&s->model, &s->state, &s->work);
+    scree_periodic_settle(&s->state, &s->work);
     if (!s->work.flags) return;
     (void)fprintf(stderr, "bench_spheres: the kernels raised flag %u\n", s->work.flags);
     exit(EXIT_FAILURE);
@@ -145,7 +136,9 @@ static void forces(sample *s)
 
 static void step(sample *s)
 {
+    scree_error error;
     s->integrator->first(&s->model, &s->state, &s->work);
+    require(scree_periodic_move(&s->model, &s->state, &s->work, &error), &error);
     s->state.step++;
     forces(s);
     s->integrator->second(&s->model, &s->state, &s->work);
@@ -168,7 +161,7 @@ static void open_bed(sample *s, const options *o, size_t copies)
 {
     open_model(s);
     read_bed(s, copies);
-    put_walls(&s->state);
+    put_box(&s->state, copies);
     start(s, o);
 }
 
@@ -181,6 +174,7 @@ static void open_copy(sample *s, const options *o, const sample *from)
     memcpy(s->state.row, from->state.row, s->state.count * sizeof *s->state.row);
     memcpy(s->state.turn, from->state.turn, s->state.count * sizeof *s->state.turn);
     memcpy(s->state.wall, from->state.wall, sizeof s->state.wall);
+    s->state.periodic = from->state.periodic;
     start(s, o);
 }
 
@@ -249,12 +243,8 @@ static void export_data(const sample *s, const char *path)
 {
     FILE *file = fopen(path, "w");
     if (!file) require(SCREE_ERROR_IO, &(scree_error){.message = "cannot write the peer's data file"});
-    const scree_wall *w = s->state.wall;
     (void)fprintf(file, "a bed of spheres\n\n%zu atoms\n1 atom types\n", s->state.count);
-    (void)fprintf(file, "%.17g %.17g xlo xhi\n", w[SCREE_WALL_LEFT].position - 1e-3,
-                  1e-3 - w[SCREE_WALL_RIGHT].position);
-    (void)fprintf(file, "%.17g %.17g ylo yhi\n", w[SCREE_WALL_FRONT].position - 1e-3,
-                  1e-3 - w[SCREE_WALL_BACK].position);
+    (void)fprintf(file, "0 %.17g xlo xhi\n0 %.17g ylo yhi\n", side, side);
     (void)fprintf(file, "-1e-3 0.045 zlo zhi\n\nAtoms\n\n");
     for (size_t k = 0; k < s->state.count; k++) {
         const scree_row *row = &s->state.row[k];
@@ -274,17 +264,13 @@ static void export_data(const sample *s, const char *path)
 static void write_command(const sample *s, const options *o, char *command, size_t size)
 {
     const scree_config_material *m = &s->material;
-    const scree_wall *w = s->state.wall;
     (void)snprintf(
         command, size,
         "cd '%s' && OMP_NUM_THREADS=1 %s -in '%s/bench/peers/lammps_spheres.in' -log none -var data spheres.data "
         "-var young %.17g -var poisson %.17g -var restitution %.17g -var friction %.17g -var gravity %.17g "
-        "-var step %.17g -var skin %.17g -var steps %d -var left %.17g -var right %.17g -var front %.17g "
-        "-var back %.17g -var wall_normal %.17g -var wall_tangential %.17g",
+        "-var step %.17g -var skin %.17g -var steps %d -var wall_normal %.17g -var wall_tangential %.17g",
         o->folder, o->peer, SCREE_SOURCE_DIR, m->young_modulus, m->poisson_ratio, m->restitution, m->friction, gravity,
-        step_size, s->work.skin, STEPS, w[SCREE_WALL_LEFT].position, -w[SCREE_WALL_RIGHT].position,
-        w[SCREE_WALL_FRONT].position, -w[SCREE_WALL_BACK].position, s->model.walls[0].normal_stiffness,
-        s->model.walls[0].tangential_stiffness);
+        step_size, s->work.skin, STEPS, s->model.walls[0].normal_stiffness, s->model.walls[0].tangential_stiffness);
 }
 
 /// One run of the peer: particle-steps per second of processor time, out of its own "Loop time of T on ..." and
