@@ -140,6 +140,7 @@ static void step(sample *s)
     s->integrator->first(&s->model, &s->state, &s->work);
     require(scree_periodic_move(&s->model, &s->state, &s->work, &error), &error);
     s->state.step++;
+    s->state.evaluations++;
     forces(s);
     s->integrator->second(&s->model, &s->state, &s->work);
 }

@@ -57,6 +57,7 @@
 #define CREEP_GRAINS     5.0  // grains that a wave passes in the creep time of the servo
 #define MEAN_GRAINS      20.0 // the same in the time of the running mean
 #define LEAST_RESISTANCE 0.1
+#define CHECKED          16   // steps between two looks for bodies that have left the cell
 #define LEAN_LIMIT       0.51 // of a lattice vector over another: a little above half, where two lattices are as good
 
 static bool deforms(const scree_periodic_cell *cell)
@@ -381,10 +382,12 @@ static void put_back(const scree_model *model, scree_state *state, const double 
     set_velocity(state, row, speed);
 }
 
-/// In the order of ids, so that the ledger does not depend on that of rows.
+/// Looked at in every CHECKED-th step, since bodies go much less than a radius between; the number of force evaluations
+/// is part of the state. In the order of ids, so that the ledger does not depend on that of rows.
 static void put_all_back(const scree_model *model, scree_state *state, scree_work *work)
 {
     double inverse[9], velocity[9];
+    if (state->evaluations % CHECKED != 0) return;
     bool straightened = deforms(&state->periodic) && straighten_all(state);
     scree_matrix_invert(state->periodic.lattice, inverse);
     if (!straightened && farthest_outside(state, work, inverse) <= 2 * model->mean_radius) return;

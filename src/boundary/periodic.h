@@ -14,20 +14,22 @@ typedef struct scree_periodic_drive {
 } scree_periodic_drive;
 
 /// Sets inertia, damping and limit as they suit the present sample at `pressure` [Pa], see periodic.c.
-void scree_periodic_drive_fit(const scree_model *model, const scree_state *state, double pressure, scree_periodic_drive *drive);
+void scree_periodic_drive_fit(const scree_model *model, const scree_state *state, double pressure,
+                              scree_periodic_drive *drive);
 
 /// Time [s] that a longitudinal wave needs through the longest side of the cell at `pressure`.
 double scree_periodic_wave_time(const scree_model *model, const scree_state *state, double pressure);
 
 /// Decides the velocity gradient of the coming step: prescribed rates times `rise`, the others by one step of their
 /// servo from the stress at n.
-void scree_periodic_control(const scree_model *model, scree_state *state, const scree_periodic_drive *drive, double rise);
+void scree_periodic_control(const scree_model *model, scree_state *state, const scree_periodic_drive *drive,
+                            double rise);
 
 /// Right after the integrator's `first`: moves lattice and bodies with the gradient, puts bodies back that have left
 /// the cell, and gives rows whole velocities for the evaluation of contacts. Books the first half of the work. Errors:
 /// memory. Nothing without a periodic cell.
 scree_status scree_periodic_move(const scree_model *model, scree_state *state, scree_work *work,
-                             scree_error *error) SCREE_MUST_USE;
+                                 scree_error *error) SCREE_MUST_USE;
 
 /// Right after scree_contact_forces: rows get back the velocities relative to the affine field, and the second half of
 /// the work is booked.
