@@ -1,17 +1,11 @@
 /// The same confined sample under each boundary: bits for threads, lost work and restart; energy; rates; the order of
 /// stiffness.
-#include "testing.h"
+#include "run_fixture.h"
 
 #include "base/random.h"
 #include "boundary/drive.h"
-#include "io/run_directory.h"
-#include "io/snapshot.h"
 #include "io_scratch.h"
-#include "measure/measure.h"
-#include "run/sample.h"
-#include "run/simulation.h"
 #include "run/step.h"
-#include "search/neighbours.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -29,7 +23,7 @@
     "integrator: {scheme: velocity_verlet, step: 2e-5 s}\n"                                                            \
     "boundary: {every: 100}\n"                                                                                         \
     "measure: {samples: 20}\n"                                                                                         \
-    "output: {snapshots: 2, paraview: no, figures: no, checkpoint_steps: 0}\n"                                       \
+    "output: {snapshots: 2, paraview: no, figures: no, checkpoint_steps: 0}\n"                                         \
     "stages:\n"                                                                                                        \
     "  - {stage: prepare, aspect_ratio: 1.5}\n"                                                                        \
     "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 5e-2}\n"
@@ -52,55 +46,27 @@ static const struct {
 };
 enum { VARIANTS = sizeof variants / sizeof *variants };
 
-static scree_case *read_case(const char *text, const char *const *overrides, size_t count)
-{
-    scree_case *c = NULL;
-    scree_problems *problems = NULL;
-    scree_case_options options = {.overrides = overrides, .override_count = count};
-    if (scree_case_parse(text, strlen(text), "small.yaml", &options, &c, &problems)) {
-        char line[2048];
-        for (size_t k = 0; k < scree_problems_count(problems); k++) {
-            scree_error_format(scree_problems_get(problems, k), line, sizeof line);
-            print_message("%s\n", line);
-        }
-        fail_msg("the case of this test is not valid");
-    }
-    return c;
-}
-
-static void check(scree_status status, const scree_error *error)
-{
-    if (status) fail_msg("status %d: %s", (int)status, error->message);
-}
-
 /// Runs until `steps` steps of the last stage are done; at that many before (discard > 0) the work is thrown away.
 static uint64_t run_some(const scree_case *c, int threads, uint64_t steps, uint64_t discard)
 {
     scree_simulation s;
-    scree_error error;
-    check(scree_simulation_open(c, threads, &s, &error), &error);
+    simulation_open(c, threads, &s);
     uint64_t done = 0;
     while (done < steps) {
-        check(scree_simulation_step(&s, &error), &error);
-        bool last = s.state.stage.index + 1 == s.model.config->stage_count && s.state.stage.counter >= 0;
-        done = last ? s.state.step - s.state.stage.first_step : 0;
+        simulation_step(&s);
+        done = simulation_last_steps(&s);
         if (discard == 0 || done != discard) continue;
-        check(scree_contacts_save(&s.state, &s.work, &error), &error);
-        scree_contact_scratch_destroy(&s.work);
-        scree_work_destroy(&s.work);
-        check(scree_work_create(&s.work, &s.model, threads, &error), &error);
+        simulation_lose_work(&s, threads);
         discard = 0;
     }
-    uint64_t checksum = scree_simulation_checksum(&s);
-    scree_simulation_close(&s);
-    return checksum;
+    return simulation_close(&s);
 }
 
 static void threads_and_lost_work_give_the_same_bits(void **unused)
 {
     (void)unused;
     for (int k = 0; k < VARIANTS - 1; k++) {
-        scree_case *c = read_case(variants[k].text, &variants[k].override, 1);
+        scree_case *c = case_read(variants[k].text, &variants[k].override, 1);
         uint64_t reference = run_some(c, 1, 800, 0);
         assert_true(run_some(c, 2, 800, 0) == reference);
         assert_true(run_some(c, 1, 800, 321) == reference);
@@ -108,48 +74,17 @@ static void threads_and_lost_work_give_the_same_bits(void **unused)
     }
 }
 
-typedef struct stopper {
-    volatile int stop;
-} stopper;
-
-static void stop_at_end_of_confine(void *user, int level, const char *line)
-{
-    (void)level;
-    if (strstr(line, "stage confine ended")) ((stopper *)user)->stop = 1;
-}
-
-static void read_checksum(const char *directory, char text[32])
-{
-    scree_error error;
-    check(scree_result_get(directory, "state_checksum", text, 32, &error), &error);
-}
-
 /// Uninterrupted run against one that is stopped between two stages with different boundaries.
 static void restart_gives_the_same_bits(void **unused)
 {
     (void)unused;
-    char folder[64], whole[96], part[96], one[32], two[32];
+    char folder[64], whole[96], part[96];
     assert_true(scratch_create(folder));
     snprintf(whole, sizeof whole, "%s/whole", folder);
     snprintf(part, sizeof part, "%s/part", folder);
     for (int k = 0; k < 2; k++) {
-        scree_error error;
-        stopper stopping = {0};
-        scree_case *c = read_case(variants[k].text, &variants[k].override, 1);
-        scree_run_options options = {.output = whole, .threads = 1, .force = true};
-        check(scree_run(c, &options, &error), &error);
-        options = (scree_run_options){.output = part,
-                                      .threads = 2,
-                                      .force = true,
-                                      .stop = &stopping.stop,
-                                      .message = stop_at_end_of_confine,
-                                      .user = &stopping};
-        assert_int_equal(scree_run(c, &options, &error), SCREE_INTERRUPTED);
-        options = (scree_run_options){.threads = 1};
-        check(scree_restart(part, &options, &error), &error);
-        read_checksum(whole, one);
-        read_checksum(part, two);
-        assert_string_equal(one, two);
+        scree_case *c = case_read(variants[k].text, &variants[k].override, 1);
+        run_restart(c, whole, part, 2, "stage confine ended");
         scree_case_free(c);
     }
     scratch_destroy(folder);
@@ -162,20 +97,12 @@ static void a_checkpoint_in_the_middle_gives_the_same_bits(void **unused)
     char folder[64];
     assert_true(scratch_create(folder));
     for (int k = 0; k < VARIANTS; k++) {
-        scree_case *c = read_case(variants[k].text, &variants[k].override, 1);
+        scree_case *c = case_read(variants[k].text, &variants[k].override, 1);
         scree_simulation s[2];
         scree_error error;
-        check(scree_simulation_open(c, 1, &s[0], &error), &error);
-        check(scree_simulation_open(c, 1, &s[1], &error), &error);
-        while (s[0].state.stage.index < 2 || s[0].state.stage.counter < 0 ||
-               s[0].state.step - s[0].state.stage.first_step < 700)
-            check(scree_simulation_step(&s[0], &error), &error);
-        check(scree_contacts_save(&s[0].state, &s[0].work, &error), &error);
-        check(scree_checkpoint_write(folder, &s[0].state, 1 + (uint64_t)k, &error), &error);
-        check(scree_checkpoint_read(folder, 2, &s[1].state, 1 + (uint64_t)k, &error), &error);
-        assert_true(scree_state_checksum(&s[0].state) == scree_state_checksum(&s[1].state));
-        check(scree_neighbours_refresh(&s[1].model, &s[1].state, &s[1].work, &error), &error);
-        check(scree_stage_enter(&s[1], true, &error), &error);
+        simulation_open(c, 1, &s[0]);
+        while (simulation_last_steps(&s[0]) < 700) simulation_step(&s[0]);
+        simulation_reopen(&s[0], 1, folder, &s[1]);
         for (int step = 0; step < 300; step++)
             for (int i = 0; i < 2; i++) check(scree_step(&s[i], &error), &error);
         assert_true(scree_simulation_checksum(&s[0]) == scree_simulation_checksum(&s[1]));
@@ -192,13 +119,12 @@ static void energy_balance_closes_and_rates_are_met(void **unused)
         const char *const overrides[] = {variants[k].override, "integrator.step=2e-6 s",
                                          "stages.confine.unbalanced_limit=5e-2", "stages.2.rise_time=5 ms",
                                          "stages.2.strain=0.02 %"};
-        scree_case *c = read_case(variants[k].text, overrides, 5);
+        scree_case *c = case_read(variants[k].text, overrides, 5);
         scree_simulation s;
-        scree_error error;
         double worst = 0, least = INFINITY, most = -INFINITY;
-        check(scree_simulation_open(c, 1, &s, &error), &error);
-        while (s.state.stage.index < s.model.config->stage_count) {
-            check(scree_simulation_step(&s, &error), &error);
+        simulation_open(c, 1, &s);
+        while (simulation_goes_on(&s)) {
+            simulation_step(&s);
             if (!s.sampled) continue;
             const double *v = s.sample.value;
             worst = fmax(worst, v[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE]);
@@ -244,11 +170,11 @@ static void apply_traction(const scree_model *model, scree_state *state, scree_w
 static void load(const char *text, const char *const *overrides, size_t count, const scree_boundary *traction,
                  double strain[9], double stress[9])
 {
-    scree_case *c = read_case(text, overrides, count);
+    scree_case *c = case_read(text, overrides, count);
     scree_simulation s;
     scree_error error;
     double begin_strain[9] = {0}, begin_stress[9] = {0};
-    check(scree_simulation_open(c, 1, &s, &error), &error);
+    simulation_open(c, 1, &s);
     uint64_t steps = 0;
     bool begun = false;
     while (traction ? steps < 2 * raised_in : s.state.stage.index < 4) {
@@ -256,7 +182,7 @@ static void load(const char *text, const char *const *overrides, size_t count, c
             check(scree_step(&s, &error), &error);
             steps++;
         } else {
-            check(scree_simulation_step(&s, &error), &error);
+            simulation_step(&s);
             raised_in = traction ? raised_in : s.state.step - s.state.stage.first_step;
         }
         if (begun || s.state.stage.index < 3 || s.state.stage.counter < 0) continue;

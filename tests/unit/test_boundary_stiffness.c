@@ -16,10 +16,9 @@
 ///
 /// What ties it to the code. The same small strains as a deform stage of the periodic cell must give the stress that
 /// the periodic conditions give: image shifts, velocity jumps, virial and servo all enter.
-#include "testing.h"
+#include "run_fixture.h"
 
 #include "model/critical_step.h"
-#include "run/simulation.h"
 #include "state/periodic.h"
 
 #include <math.h>
@@ -51,11 +50,6 @@ static const char solid_text[] =
     "  - {stage: prepare, method: gas, aspect_ratio: 1, solid_fraction: 30 %, velocity: 20 mm/s}\n"
     "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 1e-3, friction: 0.02}\n"
     "  - {stage: deform, velocity_gradient: {zz: -1e-5 1/s}, strain: 0.0001 %, rise_time: 10 ms}\n";
-
-static void check(scree_status status, const scree_error *error)
-{
-    if (status) fail_msg("status %d: %s", (int)status, error->message);
-}
 
 // ---- the network ---------------------------------------------------------------------------------------------------
 
@@ -425,12 +419,11 @@ static void order_of(const network *n, const double gradient[9])
 /// Runs the stage that strains the cell along its axis; expected: its modulus [Pa].
 static void compare_with_stage(scree_simulation *s, double expected)
 {
-    scree_error error;
     double before[9], after[9];
     const int axial = 4 * (s->state.dimension - 1);
     double strained = s->state.periodic.strain[axial];
     scree_periodic_stress(&s->stage_model, &s->state, before);
-    while (s->state.stage.index < s->model.config->stage_count) check(scree_simulation_step(s, &error), &error);
+    while (simulation_goes_on(s)) simulation_step(s);
     scree_periodic_stress(&s->stage_model, &s->state, after);
     double found = (after[axial] - before[axial]) / (s->state.periodic.strain[axial] - strained);
     print_message("%dD: as a stage %.5g, as a network %.5g Pa\n", s->state.dimension, found, expected);
@@ -440,15 +433,10 @@ static void compare_with_stage(scree_simulation *s, double expected)
 
 static void the_order_holds(const char *text, bool as_stage)
 {
-    scree_case *c = NULL;
-    scree_problems *problems = NULL;
+    scree_case *c = case_read(text, NULL, 0);
     scree_simulation s;
-    scree_error error;
-    scree_case_options options = {0};
-    if (scree_case_parse(text, strlen(text), "sample.yaml", &options, &c, &problems))
-        fail_msg("%s", scree_problems_get(problems, 0)->message);
-    check(scree_simulation_open(c, 1, &s, &error), &error);
-    while (!s.stage || !s.stage->loading) check(scree_simulation_step(&s, &error), &error);
+    simulation_open(c, 1, &s);
+    simulation_load(&s);
     network n;
     build(&n, &s);
     int axial = 4 * (n.dimension - 1);

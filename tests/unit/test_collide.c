@@ -1,9 +1,7 @@
 /// Impact of two bodies: stage `collide` against the closed forms of both laws, in 2D and 3D; momentum, exchange.
-#include "testing.h"
+#include "run_fixture.h"
 
 #include "io/summary.h"
-#include "run/sample.h"
-#include "run/simulation.h"
 #include "run/stage_collide.h"
 
 #include <math.h>
@@ -26,21 +24,6 @@ static const char case_text[] =
     "  - {stage: prepare, method: pair}\n"
     "  - {stage: collide}\n"
     "measure: {cells: no}\n";
-
-static void check(scree_status status, const scree_error *error)
-{
-    if (status) fail_msg("status %d: %s", (int)status, error->message);
-}
-
-static scree_case *read_case(const char *const *overrides, size_t count)
-{
-    scree_case *c = NULL;
-    scree_problems *problems = NULL;
-    scree_case_options options = {.overrides = overrides, .override_count = count};
-    if (scree_case_parse(case_text, strlen(case_text), "pair.yaml", &options, &c, &problems))
-        fail_msg("%s", scree_problems_get(problems, 0)->message);
-    return c;
-}
 
 typedef struct outcome {
     double restitution, restitution_theory, time, time_theory;
@@ -97,15 +80,14 @@ static void exchange(scree_state *state)
 
 static outcome collide(const char *const *overrides, size_t count, bool exchanged)
 {
-    scree_case *c = read_case(overrides, count);
+    scree_case *c = case_read(case_text, overrides, count);
     scree_simulation s;
-    scree_error error;
     outcome o = {0};
-    check(scree_simulation_open(c, 1, &s, &error), &error);
-    check(scree_simulation_step(&s, &error), &error); // prepare
+    simulation_open(c, 1, &s);
+    simulation_step(&s); // prepare
     if (exchanged) exchange(&s.state);
-    while (s.state.stage.index < s.model.config->stage_count) {
-        check(scree_simulation_step(&s, &error), &error);
+    while (simulation_goes_on(&s)) {
+        simulation_step(&s);
         const scree_row *a = &s.state.row[0], *b = &s.state.row[1];
         o.momentum = fmax(o.momentum, fabs(a->mass * a->vx + b->mass * b->vx) / (a->mass * SPEED));
         assert_true(a->vy == 0 && b->vy == 0);
@@ -197,11 +179,9 @@ static void duration_ends_it(void **unused)
 
 static void refuse(const char *const *overrides, size_t count, const char *wanted)
 {
-    scree_case *c = NULL;
-    scree_problems *problems = NULL;
-    scree_case_options options = {.overrides = overrides, .override_count = count};
-    assert_int_not_equal(scree_case_parse(case_text, strlen(case_text), "pair.yaml", &options, &c, &problems),
-                         SCREE_OK);
+    scree_case *c;
+    scree_problems *problems;
+    assert_int_not_equal(case_parse(case_text, overrides, count, &c, &problems), SCREE_OK);
     const char *message = scree_problems_get(problems, 0)->message;
     if (!strstr(message, wanted)) fail_msg("'%s' does not say '%s'", message, wanted);
     scree_problems_free(problems);

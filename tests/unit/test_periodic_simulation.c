@@ -1,12 +1,8 @@
 /// Cases in a periodic cell (threads: test_periodic.c): lost work, restart, the pressure that is asked for, balance of
 /// energy, refusals.
-#include "testing.h"
+#include "run_fixture.h"
 
-#include "io/run_directory.h"
-#include "measure/measure.h"
-#include "run/sample.h"
-#include "run/simulation.h"
-#include "search/neighbours.h"
+#include "io_scratch.h"
 #include "state/periodic.h"
 
 #include <math.h>
@@ -57,33 +53,6 @@ static const char *const combinations[][OVERRIDES] = {
 };
 enum { COMBINATIONS = sizeof combinations / sizeof *combinations };
 
-static scree_status parse(const char *text, const char *const *overrides, size_t count, scree_case **c,
-                          scree_problems **problems)
-{
-    scree_case_options options = {.overrides = overrides, .override_count = count};
-    return scree_case_parse(text, strlen(text), "small.yaml", &options, c, problems);
-}
-
-static scree_case *read_case(const char *const *overrides, size_t count)
-{
-    scree_case *c = NULL;
-    scree_problems *problems = NULL;
-    if (parse(case_text, overrides, count, &c, &problems)) {
-        char text[2048];
-        for (size_t k = 0; k < scree_problems_count(problems); k++) {
-            scree_error_format(scree_problems_get(problems, k), text, sizeof text);
-            print_message("%s\n", text);
-        }
-        fail_msg("the case of this test is not valid");
-    }
-    return c;
-}
-
-static void check(scree_status status, const scree_error *error)
-{
-    if (status) fail_msg("status %d: %s", (int)status, error->message);
-}
-
 /// Runs the case in memory until `evaluations` have been made in its last stage; at every `discard`-th (0: never) the
 /// work is thrown away and rebuilt. residual: largest one of the energy, over the work.
 static uint64_t run_some(const scree_case *c, int threads, uint64_t evaluations, uint64_t discard, double *residual)
@@ -92,22 +61,17 @@ static uint64_t run_some(const scree_case *c, int threads, uint64_t evaluations,
     scree_error error;
     uint64_t last = UINT64_MAX;
     *residual = 0;
-    check(scree_simulation_open(c, threads, &s, &error), &error);
-    while (s.state.stage.index < s.model.config->stage_count && s.state.evaluations < last) {
-        check(scree_simulation_step(&s, &error), &error);
-        if (s.sampled) *residual = fmax(*residual, s.sample.value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE]);
+    simulation_open(c, threads, &s);
+    while (simulation_goes_on(&s) && s.state.evaluations < last) {
+        simulation_step(&s);
+        *residual = simulation_residual(&s, *residual);
         if (last == UINT64_MAX && s.state.stage.index + 1 == s.model.config->stage_count)
             last = s.state.evaluations + evaluations;
         if (discard == 0 || s.state.evaluations % discard != 0 || s.state.evaluations == 0) continue;
-        check(scree_contacts_save(&s.state, &s.work, &error), &error);
-        scree_contact_scratch_destroy(&s.work);
-        scree_work_destroy(&s.work);
-        check(scree_work_create(&s.work, &s.model, threads, &error), &error);
+        simulation_lose_work(&s, threads);
         check(scree_neighbours_refresh(&s.model, &s.state, &s.work, &error), &error);
     }
-    uint64_t checksum = scree_simulation_checksum(&s);
-    scree_simulation_close(&s);
-    return checksum;
+    return simulation_close(&s);
 }
 
 /// All laws that look at velocities, and all schemes. Energy: trapezoids along Hertz springs in rapid flow.
@@ -115,7 +79,7 @@ static void lost_work_gives_the_same_bits(void **unused)
 {
     (void)unused;
     for (int k = 0; k < COMBINATIONS; k++) {
-        scree_case *c = read_case(combinations[k], OVERRIDES);
+        scree_case *c = case_read(case_text, combinations[k], OVERRIDES);
         // The first goes on until its lattice is remapped.
         uint64_t evaluations = k == 0 ? 5000 : 1000;
         double residual;
@@ -127,50 +91,17 @@ static void lost_work_gives_the_same_bits(void **unused)
     }
 }
 
-/// Raises the stop flag of a run when its compression has ended.
-typedef struct stopper {
-    volatile int stop;
-} stopper;
-
-static void stop_at_end_of_compression(void *user, int level, const char *line)
-{
-    (void)level;
-    if (strstr(line, "stage compress ended")) ((stopper *)user)->stop = 1;
-}
-
-static void read_checksum(const char *directory, char text[32])
-{
-    scree_error error;
-    check(scree_result_get(directory, "state_checksum", text, 32, &error), &error);
-}
-
 static void restart_gives_the_same_bits(void **unused)
 {
     (void)unused;
-    char folder[64] = "/tmp/scree-test-XXXXXX", whole[96], part[96], one[32], two[32], command[128];
-    assert_non_null(mkdtemp(folder));
+    char folder[64], whole[96], part[96];
+    assert_true(scratch_create(folder));
     snprintf(whole, sizeof whole, "%s/whole", folder);
     snprintf(part, sizeof part, "%s/part", folder);
-    scree_error error;
-    stopper stopping = {0};
-    scree_case *c = read_case(combinations[1], OVERRIDES);
-    scree_run_options options = {.output = whole, .threads = 1, .force = true};
-    check(scree_run(c, &options, &error), &error);
-    options = (scree_run_options){.output = part,
-                                  .threads = 1,
-                                  .force = true,
-                                  .stop = &stopping.stop,
-                                  .message = stop_at_end_of_compression,
-                                  .user = &stopping};
-    assert_int_equal(scree_run(c, &options, &error), SCREE_INTERRUPTED);
-    options = (scree_run_options){.threads = 1};
-    check(scree_restart(part, &options, &error), &error);
-    read_checksum(whole, one);
-    read_checksum(part, two);
-    assert_string_equal(one, two);
+    scree_case *c = case_read(case_text, combinations[1], OVERRIDES);
+    run_restart(c, whole, part, 1, "stage compress ended");
     scree_case_free(c);
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    assert_int_equal(system(command), 0);
+    scratch_destroy(folder);
 }
 
 /// The cell comes to the pressure that is asked for, to the strain that is asked for, and its energy is accounted for.
@@ -179,15 +110,14 @@ static void stages_do_what_they_say(void **unused)
     (void)unused;
     const char *const overrides[] = {"stages.confine.unbalanced_limit=1e-2", "stages.deform.strain=40 %",
                                      "integrator.step=1e-5 s"};
-    scree_case *c = read_case(overrides, 3);
+    scree_case *c = case_read(case_text, overrides, 3);
     scree_simulation s;
-    scree_error error;
     double worst = 0, stress[9], held = 0, lateral = 0, rows = 0;
-    check(scree_simulation_open(c, 1, &s, &error), &error);
-    while (s.state.stage.index < s.model.config->stage_count) {
+    simulation_open(c, 1, &s);
+    while (simulation_goes_on(&s)) {
         int64_t stage = s.state.stage.index;
-        check(scree_simulation_step(&s, &error), &error);
-        if (s.sampled) worst = fmax(worst, s.sample.value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE]);
+        simulation_step(&s);
+        worst = simulation_residual(&s, worst);
         if (stage == 1 && s.stage_ended) {
             scree_periodic_stress(&s.model, &s.state, stress);
             // The tolerance of the stop rule.
@@ -223,17 +153,10 @@ static void plates_close_the_other_direction(void **unused)
     // Without the stage that only a whole cell has.
     char *deform = strstr(text, "  - {stage: deform"), *rest = strstr(text, "measure:");
     memmove(deform, rest, strlen(rest) + 1);
-    scree_case *c = NULL;
-    scree_problems *problems = NULL;
-    assert_int_equal(parse(text, overrides, 5, &c, &problems), SCREE_OK);
+    scree_case *c = case_read(text, overrides, 5);
     scree_simulation s;
-    scree_error error;
-    double worst = 0;
-    check(scree_simulation_open(c, 1, &s, &error), &error);
-    while (s.state.stage.index < s.model.config->stage_count) {
-        check(scree_simulation_step(&s, &error), &error);
-        if (s.sampled) worst = fmax(worst, s.sample.value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE]);
-    }
+    simulation_open(c, 1, &s);
+    double worst = simulation_finish(&s);
     assert_true(s.work.ghosts.count > 0 && !s.state.wall[SCREE_WALL_LEFT].active);
     assert_true(worst < 1e-4);
     // Contact stress and plates agree to the inertia of a fast compression.
@@ -248,7 +171,7 @@ static void refuse(const char *override, const char *message)
 {
     scree_case *c = NULL;
     scree_problems *problems = NULL;
-    assert_int_equal(parse(case_text, &override, 1, &c, &problems), SCREE_ERROR_INPUT);
+    assert_int_equal(case_parse(case_text, &override, 1, &c, &problems), SCREE_ERROR_INPUT);
     for (size_t k = 0; k < scree_problems_count(problems); k++)
         if (strstr(scree_problems_get(problems, k)->message, message)) {
             scree_problems_free(problems);
@@ -260,7 +183,7 @@ static void refuse(const char *override, const char *message)
 /// Whether the model of the case can be built.
 static void accept(const char *override, bool expected)
 {
-    scree_case *c = read_case(&override, 1);
+    scree_case *c = case_read(case_text, &override, 1);
     scree_model model;
     scree_error error;
     scree_status status = scree_model_build(&c->config, &model, &error);

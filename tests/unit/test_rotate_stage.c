@@ -1,19 +1,13 @@
 /// The stage rotate_particle end to end: spin, energy, bits, refusals, and a crystal of spheres whose answer is known.
-#include "testing.h"
+#include "run_fixture.h"
 
-#include "io/snapshot.h"
-#include "measure/measure.h"
+#include "io_scratch.h"
 #include "measure/rotation.h"
-#include "run/sample.h"
-#include "run/simulation.h"
-#include "search/neighbours.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #define STEP 2e-5
 #define SPIN 0.5
@@ -55,35 +49,19 @@ enum { REST = 100, RAMP = 250, HOLD = 150 };
 
 static scree_status parse(const char *text, const char *const *overrides, size_t count, scree_case **c, char line[2048])
 {
-    scree_problems *problems = NULL;
-    scree_case_options options = {.overrides = overrides, .override_count = count};
-    scree_status status = scree_case_parse(text, strlen(text), "small.yaml", &options, c, &problems);
+    scree_problems *problems;
+    scree_status status = case_parse(text, overrides, count, c, &problems);
     line[0] = 0;
     if (status) scree_error_format(scree_problems_get(problems, 0), line, 2048);
     if (status) scree_problems_free(problems);
     return status;
 }
 
-static scree_case *read_case(const char *text, const char *const *overrides, size_t count)
-{
-    scree_case *c = NULL;
-    char line[2048];
-    if (parse(text, overrides, count, &c, line)) fail_msg("the case of this test is not valid: %s", line);
-    return c;
-}
-
-static void check(scree_status status, const scree_error *error)
-{
-    if (status) fail_msg("status %d: %s", (int)status, error->message);
-}
-
 /// Opens the case and goes to the begin of its last stage.
 static void open_at_stage(const scree_case *c, int threads, scree_simulation *s)
 {
-    scree_error error;
-    check(scree_simulation_open(c, threads, s, &error), &error);
-    while (s->state.stage.index + 1 < s->model.config->stage_count || s->state.stage.counter < 0)
-        check(scree_simulation_step(s, &error), &error);
+    simulation_open(c, threads, s);
+    while (s->state.stage.index + 1 < s->model.config->stage_count || s->state.stage.counter < 0) simulation_step(s);
 }
 
 static double spin_of(const scree_simulation *s, size_t id, int axis)
@@ -97,14 +75,13 @@ static void the_spin_follows_the_ramp(void **unused)
 {
     (void)unused;
     scree_simulation s;
-    scree_error error;
-    scree_case *c = read_case(DISCS, NULL, 0);
+    scree_case *c = case_read(DISCS, NULL, 0);
     open_at_stage(c, 1, &s);
     size_t id = (size_t)s.state.forced.id;
     double turned = 0;
     for (int k = 1; k <= REST + RAMP + HOLD; k++) {
         assert_non_null(s.stage);
-        check(scree_simulation_step(&s, &error), &error);
+        simulation_step(&s);
         // Velocities of position_verlet are those of the middle of the step.
         double expected = SPIN * fmin(1, fmax(0, (k - 0.5 - REST) / RAMP));
         assert_true(fabs(spin_of(&s, id, 2) - expected) < 1e-12 * SPIN);
@@ -127,12 +104,11 @@ static void the_ledger_closes_with_the_work_of_the_torque(void **unused)
 {
     (void)unused;
     scree_simulation s;
-    scree_error error;
-    scree_case *c = read_case(DISCS, NULL, 0);
+    scree_case *c = case_read(DISCS, NULL, 0);
     open_at_stage(c, 1, &s);
     // What was open before is of the loose packing that was pressed together.
     double before = s.sample.value[SCREE_SAMPLE_ENERGY_RESIDUAL], friction = s.state.ledger.friction;
-    while (s.state.stage.index < 3) check(scree_simulation_step(&s, &error), &error);
+    while (s.state.stage.index < 3) simulation_step(&s);
     double residual = s.sample.value[SCREE_SAMPLE_ENERGY_RESIDUAL] - before, forced = s.state.ledger.forced;
     assert_true(forced > 0 && s.state.ledger.friction - friction > 0.2 * forced);
     // Trapezoidal work against the true one of a nonlinear law in 500 steps.
@@ -141,66 +117,41 @@ static void the_ledger_closes_with_the_work_of_the_torque(void **unused)
     scree_case_free(c);
 }
 
-/// Continues from the checkpoint in `folder`.
-static void open_checkpoint(const scree_case *c, int threads, const char *folder, scree_simulation *s)
-{
-    scree_error error;
-    check(scree_simulation_open(c, threads, s, &error), &error);
-    check(scree_checkpoint_read(folder, s->model.dimension, &s->state, 7, &error), &error);
-    check(scree_neighbours_refresh(&s->model, &s->state, &s->work, &error), &error);
-    check(scree_stage_enter(s, true, &error), &error);
-}
-
-static void write_checkpoint(scree_simulation *s, const char *folder)
-{
-    scree_error error;
-    check(scree_contacts_save(&s->state, &s->work, &error), &error);
-    check(scree_checkpoint_write(folder, &s->state, 7, &error), &error);
-}
-
 /// Runs `steps` of the stage from its begin; after `broken` of them the state goes through a checkpoint.
-static uint64_t run_some(const scree_case *c, int threads, uint64_t steps, uint64_t broken, char folder[2][96])
+static uint64_t run_some(scree_simulation *begin, int threads, uint64_t steps, uint64_t broken, const char *folder)
 {
-    scree_simulation s;
-    scree_error error;
-    open_checkpoint(c, threads, folder[0], &s);
+    scree_simulation s[2];
+    int now = 0;
+    simulation_reopen(begin, threads, folder, &s[now]);
     for (uint64_t done = 1; done <= steps; done++) {
-        check(scree_simulation_step(&s, &error), &error);
+        simulation_step(&s[now]);
         if (done != broken) continue;
-        write_checkpoint(&s, folder[1]);
-        scree_simulation_close(&s);
-        open_checkpoint(c, threads, folder[1], &s);
+        simulation_reopen(&s[0], threads, folder, &s[1]);
+        scree_simulation_close(&s[0]);
+        now = 1;
     }
-    uint64_t checksum = scree_simulation_checksum(&s);
-    scree_simulation_close(&s);
-    return checksum;
+    return simulation_close(&s[now]);
 }
 
 static void threads_and_restarts_give_the_same_bits(void **unused)
 {
     (void)unused;
-    char root[64] = "/tmp/scree-test-XXXXXX", folder[2][96], command[256];
-    assert_non_null(mkdtemp(root));
-    for (int k = 0; k < 2; k++) {
-        (void)snprintf(folder[k], sizeof folder[k], "%s/%d", root, k);
-        assert_int_equal(mkdir(folder[k], 0700), 0);
-    }
+    char folder[64];
+    assert_true(scratch_create(folder));
     for (int dimension = 2; dimension <= 3; dimension++) {
-        scree_case *c = read_case(dimension == 2 ? DISCS : SPHERES, NULL, 0);
+        scree_case *c = case_read(dimension == 2 ? DISCS : SPHERES, NULL, 0);
         scree_simulation s;
         open_at_stage(c, 1, &s);
-        write_checkpoint(&s, folder[0]);
-        scree_simulation_close(&s);
-        uint64_t reference = run_some(c, 1, 450, 0, folder);
-        assert_true(run_some(c, 2, 450, 0, folder) == reference);
+        uint64_t reference = run_some(&s, 1, 450, 0, folder);
+        assert_true(run_some(&s, 2, 450, 0, folder) == reference);
         // In the rest (of the discs), in the ramp, in the hold.
-        assert_true(run_some(c, 1, 450, 60, folder) == reference);
-        assert_true(run_some(c, 1, 450, 201, folder) == reference);
-        assert_true(run_some(c, 1, 450, 400, folder) == reference);
+        assert_true(run_some(&s, 1, 450, 60, folder) == reference);
+        assert_true(run_some(&s, 1, 450, 201, folder) == reference);
+        assert_true(run_some(&s, 1, 450, 400, folder) == reference);
+        scree_simulation_close(&s);
         scree_case_free(c);
     }
-    (void)snprintf(command, sizeof command, "rm -r %s", root);
-    assert_int_equal(system(command), 0);
+    scratch_destroy(folder);
 }
 
 static void what_cannot_work_is_refused(void **unused)
@@ -228,7 +179,7 @@ static void a_named_particle_is_turned(void **unused)
     (void)unused;
     scree_simulation s;
     const char *override = "stages.rotate_particle.particle=59";
-    scree_case *c = read_case(DISCS, &override, 1);
+    scree_case *c = case_read(DISCS, &override, 1);
     open_at_stage(c, 1, &s);
     assert_int_equal(s.state.forced.id, 59);
     scree_simulation_close(&s);
@@ -243,12 +194,11 @@ static void a_crystal_turns_like_gears(void **unused)
         char choice[64];
         (void)snprintf(choice, sizeof choice, "stages.rotate_particle.axis=%c", "xyz"[axis]);
         const char *override = choice;
-        scree_case *c = read_case(SPHERES, &override, 1);
+        scree_case *c = case_read(SPHERES, &override, 1);
         scree_simulation s;
-        scree_error error;
         scree_vector centre, place;
         open_at_stage(c, 1, &s);
-        while (s.state.stage.index < 3) check(scree_simulation_step(&s, &error), &error);
+        while (s.state.stage.index < 3) simulation_step(&s);
         size_t forced = (size_t)s.state.forced.id;
         double plane[4], along = 0, driven = spin_of(&s, forced, axis);
         int beside = 0;

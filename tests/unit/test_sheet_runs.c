@@ -1,14 +1,10 @@
 /// A sample of spheres in its membrane, run: bits for threads, lost work and restart; energy; what holds the grains.
-#include "testing.h"
+#include "run_fixture.h"
 
 #include "boundary/membrane.h"
 #include "boundary/sheet.h"
-#include "io/snapshot.h"
 #include "io_scratch.h"
-#include "run/sample.h"
-#include "run/simulation.h"
 #include "run/step.h"
-#include "search/neighbours.h"
 
 #include <math.h>
 #include <string.h>
@@ -32,59 +28,14 @@
     "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 2e-1, ramp_time: 0.1 s}\n"                              \
     "  - {stage: compress, strain: 0.5 %, rate: 0.2 1/s, boundary: membrane}\n"
 
-static scree_case *read_case(const char *const *overrides, size_t count)
-{
-    scree_case *c = NULL;
-    scree_problems *problems = NULL;
-    scree_case_options options = {.overrides = overrides, .override_count = count};
-    if (scree_case_parse(CASE, strlen(CASE), "wrapped.yaml", &options, &c, &problems)) {
-        char line[2048];
-        for (size_t k = 0; k < scree_problems_count(problems); k++) {
-            scree_error_format(scree_problems_get(problems, k), line, sizeof line);
-            print_message("%s\n", line);
-        }
-        fail_msg("the case of this test is not valid");
-    }
-    return c;
-}
-
-static void check(scree_status status, const scree_error *error)
-{
-    if (status) fail_msg("status %d: %s", (int)status, error->message);
-}
-
-static void step(scree_simulation *s)
-{
-    scree_error error;
-    check(scree_simulation_step(s, &error), &error);
-}
-
-/// A new neighbour list, as after a restart.
-static void lose_work(scree_simulation *s, int threads)
-{
-    scree_error error;
-    check(scree_contacts_save(&s->state, &s->work, &error), &error);
-    scree_contact_scratch_destroy(&s->work);
-    scree_work_destroy(&s->work);
-    check(scree_work_create(&s->work, &s->model, threads, &error), &error);
-}
-
-/// Steps into the last stage.
-static uint64_t loaded_steps(const scree_simulation *s)
-{
-    bool last = s->state.stage.index == 2 && s->state.stage.counter >= 0;
-    return last ? s->state.step - s->state.stage.first_step : 0;
-}
-
 static uint64_t run_some(int threads, uint64_t steps, uint64_t discard)
 {
-    scree_case *c = read_case(NULL, 0);
+    scree_case *c = case_read(CASE, NULL, 0);
     scree_simulation s;
-    scree_error error;
-    check(scree_simulation_open(c, threads, &s, &error), &error);
-    while (loaded_steps(&s) < steps) {
-        step(&s);
-        if (discard > 0 && loaded_steps(&s) == discard) lose_work(&s, threads);
+    simulation_open(c, threads, &s);
+    while (simulation_last_steps(&s) < steps) {
+        simulation_step(&s);
+        if (discard > 0 && simulation_last_steps(&s) == discard) simulation_lose_work(&s, threads);
     }
     uint64_t checksum = scree_simulation_checksum(&s);
     assert_true(s.state.membrane.count > 100 && s.state.membrane.share > 0);
@@ -106,13 +57,13 @@ static void check_restart(const char *const *overrides, size_t count, int dimens
 {
     char folder[64];
     assert_true(scratch_create(folder));
-    scree_case *c = read_case(overrides, count);
+    scree_case *c = case_read(CASE, overrides, count);
     scree_simulation s[2];
     scree_error error;
-    for (int i = 0; i < 2; i++) check(scree_simulation_open(c, 1, &s[i], &error), &error);
-    while (loaded_steps(&s[0]) < 400) step(&s[0]);
-    scree_state *state = &s[0].state;
-    check(scree_contacts_save(state, &s[0].work, &error), &error);
+    simulation_open(c, 1, &s[0]);
+    while (simulation_last_steps(&s[0]) < 400) simulation_step(&s[0]);
+    simulation_reopen(&s[0], 1, folder, &s[1]);
+    const scree_state *state = &s[0].state;
     double stretch = 0, booked = 0;
     for (size_t k = 0; k < state->contact_count; k++) {
         int twist = dimension == 3 ? 3 : 0;
@@ -120,11 +71,6 @@ static void check_restart(const char *const *overrides, size_t count, int dimens
         if (dimension == 3) booked = fmax(booked, fabs((double)state->booking[k].value[0]));
     }
     assert_true(state->membrane.count > 0 && (stretch > 0) == rolling && (booked > 0) == (dimension == 3));
-    check(scree_checkpoint_write(folder, state, 1, &error), &error);
-    check(scree_checkpoint_read(folder, dimension, &s[1].state, 1, &error), &error);
-    assert_true(scree_state_checksum(state) == scree_state_checksum(&s[1].state));
-    check(scree_neighbours_refresh(&s[1].model, &s[1].state, &s[1].work, &error), &error);
-    check(scree_stage_enter(&s[1], true, &error), &error);
     for (int n = 0; n < 300; n++)
         for (int i = 0; i < 2; i++) check(scree_step(&s[i], &error), &error);
     assert_true(scree_simulation_checksum(&s[0]) == scree_simulation_checksum(&s[1]));
@@ -153,13 +99,12 @@ static void the_energy_balance_closes(void **unused)
 {
     (void)unused;
     const char *const fine[] = {"integrator.step=1e-5 s"};
-    scree_case *c = read_case(fine, 1);
+    scree_case *c = case_read(CASE, fine, 1);
     scree_simulation s;
-    scree_error error;
     double worst = 0, begin = 0, turnover = 0;
-    check(scree_simulation_open(c, 1, &s, &error), &error);
+    simulation_open(c, 1, &s);
     while (s.state.stage.index < 3) {
-        step(&s);
+        simulation_step(&s);
         if (!s.sampled) continue;
         double residual = s.sample.value[SCREE_SAMPLE_ENERGY_RESIDUAL];
         if (s.state.stage.index < 2) begin = residual, turnover = s.state.ledger.turnover;
@@ -227,14 +172,14 @@ static void a_sample_is_held_by_its_membrane(void **unused)
 {
     (void)unused;
     const char *const large[] = {"particles.count=150", "stages.compress.strain=2 %"};
-    scree_case *c = read_case(large, 2);
+    scree_case *c = case_read(CASE, large, 2);
     scree_simulation s;
     scree_error error;
-    check(scree_simulation_open(c, 1, &s, &error), &error);
+    simulation_open(c, 1, &s);
     double axial = 0, plates = 0, lateral = 0;
     int samples = 0;
     while (s.state.stage.index < 3) {
-        step(&s);
+        simulation_step(&s);
         if (!s.sampled || !(s.sample.value[SCREE_SAMPLE_AXIAL_STRAIN] > 0.01)) continue;
         const double *v = s.sample.value;
         axial += v[SCREE_SAMPLE_AXIAL_CONTACTS];

@@ -1,13 +1,8 @@
 /// Whole simulations of small samples: threads, throwing `work` away, restart, energy, stresses.
-#include "testing.h"
+#include "run_fixture.h"
 
 #include "base/random.h"
-#include "io/run_directory.h"
 #include "io_scratch.h"
-#include "measure/measure.h"
-#include "run/sample.h"
-#include "run/simulation.h"
-#include "search/neighbours.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -49,27 +44,6 @@ static const char *const combinations[COMBINATIONS][OVERRIDES] = {
     {BRILLIANTOV, "integrator.scheme=two_timescales", "integrator.step=1e-6 s", "integrator.repeats=2"},
 };
 
-static scree_case *read_case(const char *const *overrides, size_t count)
-{
-    scree_case *c = NULL;
-    scree_problems *problems = NULL;
-    scree_case_options options = {.overrides = overrides, .override_count = count};
-    if (scree_case_parse(case_text, strlen(case_text), "small.yaml", &options, &c, &problems)) {
-        char text[2048];
-        for (size_t k = 0; k < scree_problems_count(problems); k++) {
-            scree_error_format(scree_problems_get(problems, k), text, sizeof text);
-            print_message("%s\n", text);
-        }
-        fail_msg("the case of this test is not valid");
-    }
-    return c;
-}
-
-static void check(scree_status status, const scree_error *error)
-{
-    if (status) fail_msg("status %d: %s", (int)status, error->message);
-}
-
 /// Steps that the comparisons of threads and lost work take: into the confinement, with sliding, opening and new
 /// contacts.
 enum { COMPARED_STEPS = 6000 };
@@ -78,51 +52,28 @@ enum { COMPARED_STEPS = 6000 };
 static uint64_t run_some(const scree_case *c, int threads, uint64_t discard)
 {
     scree_simulation s;
-    scree_error error;
-    check(scree_simulation_open(c, threads, &s, &error), &error);
+    simulation_open(c, threads, &s);
     while (s.state.evaluations < COMPARED_STEPS) {
-        check(scree_simulation_step(&s, &error), &error);
+        simulation_step(&s);
         if (discard == 0 || s.state.evaluations != discard) continue;
-        check(scree_contacts_save(&s.state, &s.work, &error), &error);
-        scree_contact_scratch_destroy(&s.work);
-        scree_work_destroy(&s.work);
-        check(scree_work_create(&s.work, &s.model, threads, &error), &error);
+        simulation_lose_work(&s, threads);
         discard = 0;
     }
     assert_true(s.work.rebuilds > 0 && s.state.pressure > 0);
-    uint64_t checksum = scree_simulation_checksum(&s);
-    scree_simulation_close(&s);
-    return checksum;
+    return simulation_close(&s);
 }
 
 static void threads_and_lost_work_give_the_same_bits(void **unused)
 {
     (void)unused;
     for (int k = 0; k < COMBINATIONS; k++) {
-        scree_case *c = read_case(combinations[k], OVERRIDES);
+        scree_case *c = case_read(case_text, combinations[k], OVERRIDES);
         uint64_t reference = run_some(c, 1, 0);
         for (int threads = 2; threads <= 3; threads++) assert_true(run_some(c, threads, 0) == reference);
         double random = scree_random_uniform(1, SCREE_RANDOM_TEST, (uint64_t)k);
         assert_true(run_some(c, 1, 1 + (uint64_t)((COMPARED_STEPS - 2) * random)) == reference);
         scree_case_free(c);
     }
-}
-
-/// Raises the stop flag of a run when its confinement has ended.
-typedef struct stopper {
-    volatile int stop;
-} stopper;
-
-static void stop_at_end_of_confine(void *user, int level, const char *line)
-{
-    (void)level;
-    if (strstr(line, "stage confine ended")) ((stopper *)user)->stop = 1;
-}
-
-static void read_checksum(const char *directory, char text[32])
-{
-    scree_error error;
-    check(scree_result_get(directory, "state_checksum", text, 32, &error), &error);
 }
 
 static double read_number(const char *directory, const char *name)
@@ -137,36 +88,22 @@ static double read_number(const char *directory, const char *name)
 static void restart_gives_the_same_bits(void **unused)
 {
     (void)unused;
-    char folder[64], whole[96], part[96], one[32], two[32];
+    char folder[64], whole[96], part[96];
     assert_true(scratch_create(folder));
     snprintf(whole, sizeof whole, "%s/whole", folder);
     snprintf(part, sizeof part, "%s/part", folder);
     for (int k = 0; k < COMBINATIONS; k++) {
         scree_error error;
-        stopper stopping = {0};
-        scree_case *c = read_case(combinations[k], OVERRIDES);
-        scree_run_options options = {.output = whole, .threads = 1, .force = true};
-        check(scree_run(c, &options, &error), &error);
-        options = (scree_run_options){.output = part,
-                                      .threads = 2,
-                                      .force = true,
-                                      .stop = &stopping.stop,
-                                      .message = stop_at_end_of_confine,
-                                      .user = &stopping};
-        assert_int_equal(scree_run(c, &options, &error), SCREE_INTERRUPTED);
-        options = (scree_run_options){.threads = 1};
-        check(scree_restart(part, &options, &error), &error);
-        read_checksum(whole, one);
-        read_checksum(part, two);
-        assert_string_equal(one, two);
+        scree_case *c = case_read(case_text, combinations[k], OVERRIDES);
+        run_restart(c, whole, part, 2, "stage confine ended");
         double cost = read_number(whole, "loading_force_evaluations"), time = read_number(whole, "loading_wall_time");
         assert_true(cost > 0 && cost < read_number(whole, "force_evaluations"));
         assert_true(read_number(part, "loading_force_evaluations") == cost);
         assert_true(time > 0 && time < read_number(whole, "wall_time"));
         // A finished run is at its end, and its time is kept.
+        scree_run_options options = {.threads = 1};
         check(scree_restart(whole, &options, &error), &error);
-        read_checksum(whole, two);
-        assert_string_equal(one, two);
+        run_compare(whole, part);
         assert_true(read_number(whole, "loading_wall_time") == time);
         scree_case_free(c);
     }
@@ -179,15 +116,10 @@ static void energy_balance_closes(void **unused)
     (void)unused;
     const char *const overrides[] = {"integrator.step=2e-6 s", "stages.confine.unbalanced_limit=5e-2",
                                      "stages.compress.strain=0.1 %"};
-    scree_case *c = read_case(overrides, 3);
+    scree_case *c = case_read(case_text, overrides, 3);
     scree_simulation s;
-    scree_error error;
-    double worst = 0;
-    check(scree_simulation_open(c, 1, &s, &error), &error);
-    while (s.state.stage.index < s.model.config->stage_count) {
-        check(scree_simulation_step(&s, &error), &error);
-        if (s.sampled) worst = fmax(worst, s.sample.value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE]);
-    }
+    simulation_open(c, 1, &s);
+    double worst = simulation_finish(&s);
     print_message("largest energy residual over work: %.3g\n", worst);
     // The bound that the program promises for history laws.
     assert_true(worst < 1e-6);
@@ -201,14 +133,13 @@ static void stresses_agree(void **unused)
 {
     (void)unused;
     const char *const overrides[] = {"stages.confine.unbalanced_limit=2e-3", "stages.compress.rate=1e-2 1/s"};
-    scree_case *c = read_case(overrides, 2);
+    scree_case *c = case_read(case_text, overrides, 2);
     scree_simulation s;
-    scree_error error;
-    check(scree_simulation_open(c, 1, &s, &error), &error);
+    simulation_open(c, 1, &s);
     double disagreement = 0, count = 0;
     bool first = true;
-    while (s.state.stage.index < s.model.config->stage_count) {
-        check(scree_simulation_step(&s, &error), &error);
+    while (simulation_goes_on(&s)) {
+        simulation_step(&s);
         if (!s.sampled || !s.stage || !s.stage->loading) continue;
         const double *v = s.sample.value;
         if (first) {

@@ -1,12 +1,8 @@
 /// Two timescales in whole simulations: cost in force evaluations, the limits I and III bit for bit, continuation in
 /// the middle of a sequence, the energy balance, and the implicit friction that makes small steps needless.
-#include "testing.h"
+#include "run_fixture.h"
 
-#include "io/snapshot.h"
 #include "io_scratch.h"
-#include "run/sample.h"
-#include "run/simulation.h"
-#include "search/neighbours.h"
 
 #include <math.h>
 #include <string.h>
@@ -35,29 +31,18 @@ typedef struct run {
     scree_simulation s;
 } run;
 
-static void check(scree_status status, const scree_error *error)
-{
-    if (status) fail_msg("status %d: %s", (int)status, error->message);
-}
-
 /// A simulation of the case at the begin of its loading stage.
 static void start(run *r, int threads, const char *const *overrides, size_t count)
 {
-    scree_problems *problems = NULL;
-    scree_error error;
-    scree_case_options options = {.overrides = overrides, .override_count = count};
-    r->c = NULL;
-    if (scree_case_parse(case_text, strlen(case_text), "small.yaml", &options, &r->c, &problems))
-        fail_msg("%s", scree_problems_get(problems, 0)->message);
-    check(scree_simulation_open(r->c, threads, &r->s, &error), &error);
-    while (!r->s.stage || !r->s.stage->loading) check(scree_simulation_step(&r->s, &error), &error);
+    r->c = case_read(case_text, overrides, count);
+    simulation_open(r->c, threads, &r->s);
+    simulation_load(&r->s);
 }
 
 static void advance(run *r, uint64_t evaluations)
 {
-    scree_error error;
     uint64_t target = r->s.state.evaluations + evaluations;
-    while (r->s.state.evaluations < target) check(scree_simulation_step(&r->s, &error), &error);
+    while (r->s.state.evaluations < target) simulation_step(&r->s);
 }
 
 static void finish(run *r)
@@ -121,41 +106,22 @@ static void the_limits_are_position_verlet(void **unused)
     compare_with_position_verlet("integrator.step=1e-6 s", "integrator.large_multiple=1");
 }
 
-static uint64_t checksum(run *r)
-{
-    return scree_simulation_checksum(&r->s);
-}
-
 /// A checkpoint in the middle of a sequence, read into another simulation with other threads.
 static void a_sequence_goes_on_after_a_restart(void **unused)
 {
     (void)unused;
     static const char *const overrides[] = {SEQUENCE(2, 20, 5)};
     char folder[64];
-    scree_error error;
     run whole, part;
     assert_true(scratch_create(folder));
     start(&whole, 1, overrides, 3);
     for (int stop = 0; stop < 4; stop++) {
         advance(&whole, 301); // each time another place in the sequence of six
-        start(&part, 2, overrides, 3);
-        scree_state_destroy(&part.s.state);
-        check(scree_contacts_save(&whole.s.state, &whole.s.work, &error), &error);
-        check(scree_checkpoint_write(folder, &whole.s.state, 1, &error), &error);
-        check(scree_checkpoint_read(folder, 2, &part.s.state, 1, &error), &error);
-        scree_neighbours_invalidate(&part.s.work);
-        scree_contact_scratch_destroy(&part.s.work);
-        scree_work_destroy(&part.s.work);
-        check(scree_work_create(&part.s.work, &part.s.model, 2, &error), &error);
-        check(scree_neighbours_refresh(&part.s.model, &part.s.state, &part.s.work, &error), &error);
-        check(scree_stage_enter(&part.s, true, &error), &error);
+        simulation_reopen(&whole.s, 2, folder, &part.s);
         advance(&part, 200);
-        run *w = &whole;
-        uint64_t expected;
-        advance(w, 200);
-        expected = checksum(w);
-        assert_true(checksum(&part) == expected);
-        finish(&part);
+        advance(&whole, 200);
+        assert_true(scree_simulation_checksum(&part.s) == scree_simulation_checksum(&whole.s));
+        scree_simulation_close(&part.s);
     }
     finish(&whole);
     scratch_destroy(folder);
@@ -188,7 +154,7 @@ static double mean_slip(const char *const *overrides, size_t count)
     run r;
     double slip = 0, samples = 0;
     start(&r, 1, overrides, count);
-    while (r.s.state.stage.index < r.s.model.config->stage_count) {
+    while (simulation_goes_on(&r.s)) {
         advance(&r, 1);
         if (!r.s.sampled || !(scree_axial_strain(&r.s) > 2e-3)) continue;
         slip += r.s.sample.value[SCREE_SAMPLE_SLIP_RATIO];

@@ -1,10 +1,8 @@
 /// Whole runs among walls of a case: threads, lost work, restart, power balance, messages.
+#include "run_fixture.h"
 #include "wall_fixture.h"
 
-#include "io/run_directory.h"
 #include "io_scratch.h"
-#include "run/sample.h"
-#include "run/simulation.h"
 
 static char folder[64];
 
@@ -33,11 +31,6 @@ static const char case_text[] =
     "  - {stage: relax, duration: 15 ms}\n"
     "measure: {samples: 20, cells: no}\n"
     "output: {snapshots: 2, paraview: yes, figures: no}\n";
-
-static void check(scree_status status, const scree_error *error)
-{
-    if (status) fail_msg("status %d: %s", (int)status, error->message);
-}
 
 static scree_status read_case(scree_case **c, char *message, size_t size, const char *override)
 {
@@ -90,22 +83,15 @@ static int remove_folder(void **state)
 static uint64_t run_some(const scree_case *c, int threads, uint64_t discard)
 {
     scree_simulation s;
-    scree_error error;
-    check(scree_simulation_open(c, threads, &s, &error), &error);
-    while (s.state.stage.index < s.model.config->stage_count) {
-        check(scree_simulation_step(&s, &error), &error);
+    simulation_open(c, threads, &s);
+    while (simulation_goes_on(&s)) {
+        simulation_step(&s);
         if (discard == 0 || s.state.evaluations != discard) continue;
-        check(scree_contacts_save(&s.state, &s.work, &error), &error);
-        scree_contact_scratch_destroy(&s.work);
-        scree_work_destroy(&s.work);
-        check(scree_work_create(&s.work, &s.model, threads, &error), &error);
-        check(scree_container_create(&c->config, &s.work.container, &error), &error);
+        simulation_lose_work(&s, threads);
         discard = 0;
     }
     assert_true(s.state.surface[1].work > 0 && s.state.surface[0].work == 0);
-    uint64_t checksum = scree_simulation_checksum(&s);
-    scree_simulation_close(&s);
-    return checksum;
+    return simulation_close(&s);
 }
 
 static void test_same_bits(void **state)
@@ -122,34 +108,19 @@ static void test_same_bits(void **state)
     }
 }
 
-static void stop_at_first_end(void *user, int level, const char *line)
-{
-    (void)level;
-    if (strstr(line, "stage relax ended")) *(volatile int *)user = 1;
-}
-
 /// A run that is stopped when the stirrer begins to turn and goes on from its checkpoint; and one whose mesh has
 /// changed, which is refused.
 static void test_restart(void **state)
 {
     (void)state;
-    char whole[96], part[96], file[96], one[32], two[32];
+    char whole[96], part[96], file[96];
     scree_error error;
-    volatile int stop = 0;
     (void)snprintf(whole, sizeof whole, "%s/whole", folder);
     (void)snprintf(part, sizeof part, "%s/part", folder);
     (void)snprintf(file, sizeof file, "%s/stirrer.stl", folder);
     scree_case *c = good_case(NULL);
-    scree_run_options options = {.output = whole, .threads = 1};
-    check(scree_run(c, &options, &error), &error);
-    options = (scree_run_options){
-        .output = part, .threads = 2, .stop = &stop, .message = stop_at_first_end, .user = (void *)(uintptr_t)&stop};
-    assert_int_equal(scree_run(c, &options, &error), SCREE_INTERRUPTED);
-    options = (scree_run_options){.threads = 1};
-    check(scree_restart(part, &options, &error), &error);
-    check(scree_result_get(whole, "state_checksum", one, sizeof one, &error), &error);
-    check(scree_result_get(part, "state_checksum", two, sizeof two, &error), &error);
-    assert_string_equal(one, two);
+    scree_run_options options = {.threads = 1};
+    run_restart(c, whole, part, 2, "stage relax ended");
     scree_case_free(c);
 
     FILE *mesh = fopen(file, "a");
@@ -166,13 +137,8 @@ static void test_power(void **state)
     (void)state;
     scree_case *c = good_case("integrator.step_fraction=0.05");
     scree_simulation s;
-    scree_error error;
-    check(scree_simulation_open(c, 1, &s, &error), &error);
-    double worst = 0;
-    while (s.state.stage.index < s.model.config->stage_count) {
-        check(scree_simulation_step(&s, &error), &error);
-        if (s.sampled) worst = fmax(worst, s.sample.value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE]);
-    }
+    simulation_open(c, 1, &s);
+    double worst = simulation_finish(&s);
     print_message("largest energy residual over work: %.3g\n", worst);
     assert_true(worst < 1e-3);
     // What the walls bear is what the spheres get: sums of the same integers.
