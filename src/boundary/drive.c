@@ -117,7 +117,8 @@ static void add_term(const scree_facet *facet, int a, int b, const double stress
     } else {
         int64_t sign = facet->node[a] < facet->node[b] ? 1 : -1;
         if (sign < 0) p = facet->place[b], q = facet->place[a];
-        scree_vector cross = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+        scree_vector cross;
+        scree_cross(p, q, cross);
         round_force(stress, cross, scale, one);
         for (int i = 0; i < 3; i++) one[i] *= sign;
     }

@@ -20,11 +20,11 @@
 #include <string.h>
 
 /// The outer surface of the present positions, in ids.
-static scree_status find_surface(const scree_model *model, const scree_state *state, scree_surface *surface,
+static scree_status find_surface(const scree_model *model, const scree_state *state, scree_triangle_surface *surface,
                                  scree_error *error)
 {
     double *points = NULL, *radius = NULL;
-    *surface = (scree_surface){0};
+    *surface = (scree_triangle_surface){0};
     scree_status status = scree_allocate(&points, 3 * state->grains, sizeof *points, error);
     if (!status) status = scree_allocate(&radius, state->grains, sizeof *radius, error);
     if (!status) {
@@ -62,7 +62,7 @@ static scree_status hull_create(scree_hull *hull, size_t nodes, size_t triangles
 }
 
 /// Nodes and triangles of a surface; `node_of` has room for every id.
-static scree_status fill_hull(const scree_state *state, const scree_surface *surface, uint32_t *node_of,
+static scree_status fill_hull(const scree_state *state, const scree_triangle_surface *surface, uint32_t *node_of,
                               scree_hull *hull, scree_error *error)
 {
     size_t nodes = 0;
@@ -85,7 +85,7 @@ static scree_status fill_hull(const scree_state *state, const scree_surface *sur
 
 scree_status scree_hull_renew(const scree_model *model, scree_state *state, scree_error *error)
 {
-    scree_surface surface;
+    scree_triangle_surface surface;
     scree_hull fresh = {0};
     uint32_t *node_of = NULL;
     scree_status status = find_surface(model, state, &surface, error);
@@ -102,7 +102,7 @@ scree_status scree_hull_renew(const scree_model *model, scree_state *state, scre
         hull_destroy(&fresh);
     }
     scree_release(&node_of);
-    scree_surface_destroy(&surface);
+    scree_triangle_surface_destroy(&surface);
     return status;
 }
 

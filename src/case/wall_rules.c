@@ -1,6 +1,7 @@
 /// Rules of the walls of a case: geometry that makes sense, names, files that are there.
 #include "base/checksum.h"
 #include "base/memory.h"
+#include "base/vectors.h"
 #include "case/check.h"
 
 #include <errno.h>
@@ -26,11 +27,6 @@ static void refuse(scree_reader *reader, int64_t index, const char *key, const c
                       message);
 }
 
-static double length_of(const double a[3])
-{
-    return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-}
-
 // ---- geometry ----------------------------------------------------------------------------------------------------
 
 /// What is wrong with the shape itself, and under which key; NULL: nothing.
@@ -39,7 +35,7 @@ static const char *wrong_shape(const scree_config_wall *wall, int dimension, con
     *key = "shape";
     if (dimension == 2 && wall->shape > SCREE_SHAPE_OF_BOX) return "in two dimensions walls are planes and boxes";
     *key = "normal";
-    if (wall->shape == SCREE_SHAPE_OF_PLANE && !(length_of(wall->normal) > 0)) return "a normal needs a length";
+    if (wall->shape == SCREE_SHAPE_OF_PLANE && !(scree_length(wall->normal) > 0)) return "a normal needs a length";
     *key = "upper";
     for (int k = 0; k < dimension && wall->shape == SCREE_SHAPE_OF_BOX; k++)
         if (!(wall->upper[k] > wall->lower[k]))
@@ -48,7 +44,7 @@ static const char *wrong_shape(const scree_config_wall *wall, int dimension, con
     *key = "end";
     const double axis[3] = {wall->end[0] - wall->start[0], wall->end[1] - wall->start[1],
                             wall->end[2] - wall->start[2]};
-    if (!(length_of(axis) > 0)) return "`start` and `end` are the same point: there is no axis";
+    if (!(scree_length(axis) > 0)) return "`start` and `end` are the same point: there is no axis";
     *key = "radius_end";
     if (wall->shape == SCREE_SHAPE_OF_CONE && !(wall->radius_start > 0) && !(wall->radius_end > 0))
         return "one of the two radii must be larger than 0";
@@ -59,7 +55,7 @@ static const char *wrong_shape(const scree_config_wall *wall, int dimension, con
 static const char *wrong_motion(const scree_config_wall *wall, int dimension, const char **key)
 {
     *key = "spin";
-    if (wall->shape == SCREE_SHAPE_OF_PLANE && length_of(wall->spin) > 0)
+    if (wall->shape == SCREE_SHAPE_OF_PLANE && scree_length(wall->spin) > 0)
         return "a plane has no end and cannot turn: use a box or a mesh";
     if (dimension == 3) return NULL;
     if (wall->spin[0] != 0 || wall->spin[1] != 0) return "in two dimensions a wall turns about z only";
@@ -153,7 +149,8 @@ void scree_rules_check_walls(scree_reader *reader, scree_config *config)
     for (int64_t i = 0; i < config->wall_count; i++)
         if (config->walls[i].shape < 0) return; // wrong, and noted
     if (config->wall_count > 0 && config->boundary.periodic > 0) {
-        refuse(reader, 0, "shape", NULL, "a periodic cell has no walls: leave one of `walls` and boundary.periodic out");
+        refuse(reader, 0, "shape", NULL,
+               "a periodic cell has no walls: leave one of `walls` and boundary.periodic out");
         return;
     }
     name_walls(reader, config);

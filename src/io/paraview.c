@@ -173,7 +173,7 @@ static void extent(const scree_state *state, const scree_vector along, double re
     for (size_t k = 0; k < state->count; k++) {
         scree_vector place;
         scree_body_place(state, k, place);
-        double at = along[0] * place[0] + along[1] * place[1] + along[2] * place[2];
+        double at = scree_dot(along, place);
         reach[0] = fmin(reach[0], at - state->row[k].radius);
         reach[1] = fmax(reach[1], at + state->row[k].radius);
     }
@@ -188,8 +188,8 @@ static void place_wall(scree_vtp *vtp, size_t cell, const scree_wall *wall, cons
     // Two tangents; in 2D the second one is not used.
     scree_vector along = {-n[1], n[0], 0};
     if (n[0] == 0 && n[1] == 0) along[0] = 1;
-    const scree_vector across = {n[1] * along[2] - n[2] * along[1], n[2] * along[0] - n[0] * along[2],
-                                 n[0] * along[1] - n[1] * along[0]};
+    scree_vector across;
+    scree_cross(n, along, across);
     double reach[2], width[2];
     extent(state, along, reach);
     extent(state, across, width);

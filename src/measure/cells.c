@@ -189,7 +189,7 @@ static scree_status find_tetrahedra(const scree_assembly *assembly, const double
                                     scree_cells *cells, scree_error *error)
 {
     scree_tetrahedra tetrahedra;
-    scree_surface surface = {0};
+    scree_triangle_surface surface = {0};
     scree_status status = scree_tetrahedra_build(points, assembly->count, &tetrahedra, error);
     if (status) return status;
     simplices all = {
@@ -201,7 +201,7 @@ static scree_status find_tetrahedra(const scree_assembly *assembly, const double
     for (size_t t = 0; t < all.count && !status; t++)
         all.outside[t] = all.outside[t] == SCREE_TRIANGLE_CUT || shape_of(points, all.tetrahedron[t]) < 1e-9;
     if (!status) status = keep_inside(&all, assembly, cells, error);
-    scree_surface_destroy(&surface);
+    scree_triangle_surface_destroy(&surface);
     scree_release(&all.outside);
     scree_tetrahedra_destroy(&tetrahedra);
     return status;

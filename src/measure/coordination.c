@@ -62,11 +62,6 @@ static double mean_contacts(const supports *s, size_t count, size_t *bodies)
     return *bodies > 0 ? sum / (double)*bodies : 0;
 }
 
-static double dot(const scree_vector a, const scree_vector b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /// Whether the normals of a row that count leave a direction which makes less than 90 degrees - phi with all of them.
 static bool on_one_side(const supports *s, size_t row)
 {
@@ -76,7 +71,7 @@ static bool on_one_side(const supports *s, size_t row)
         double least = INFINITY;
         for (uint32_t k = s->begin[row]; k < s->begin[row + 1]; k++) {
             if (s->other[k] != UINT32_MAX && s->rattler[s->other[k]]) continue;
-            double along = dot(s->normal[k], point);
+            double along = scree_dot(s->normal[k], point);
             if (along < least) {
                 least = along;
                 farthest = s->normal[k];
@@ -94,7 +89,7 @@ static bool on_one_side(const supports *s, size_t row)
         if (least > s->sine * length) return true;
         // The nearest point of the way to the farthest normal.
         scree_vector way = {farthest[0] - point[0], farthest[1] - point[1], farthest[2] - point[2]};
-        double part = fmin(1, -dot(point, way) / dot(way, way));
+        double part = fmin(1, -scree_dot(point, way) / scree_dot(way, way));
         for (int k = 0; k < 3; k++) point[k] += part * way[k];
     }
     return false;

@@ -19,7 +19,9 @@ void scree_hull_corners(const scree_state *state, size_t triangle, const scree_v
 /// Six times the volume of the tetrahedron of the origin and a triangle.
 static double six_volumes(const scree_vector a, const scree_vector b, const scree_vector c)
 {
-    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    scree_vector product;
+    scree_cross(b, c, product);
+    return scree_dot(a, product);
 }
 
 /// Volume, and centre relative to `origin`.
@@ -90,8 +92,8 @@ void scree_hull_pressure_moment(const scree_state *state, const scree_vector cen
                 // A third of the area, which is half the sum of the products of the edges, at each corner.
                 for (int e = 0; e < 3; e++) {
                     const double *p = corner[e], *q = corner[(e + 1) % 3];
-                    scree_vector product = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2],
-                                            p[0] * q[1] - p[1] * q[0]};
+                    scree_vector product;
+                    scree_cross(p, q, product);
                     take_product(product, a, 1.0 / 6, moment);
                 }
                 continue;

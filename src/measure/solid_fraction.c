@@ -30,22 +30,12 @@ static void normalise(scree_vector a)
     for (int k = 0; k < 3; k++) a[k] /= length;
 }
 
-static double dot(const scree_vector a, const scree_vector b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const scree_vector a, const scree_vector b, scree_vector product)
-{
-    for (int k = 0; k < 3; k++) product[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-}
-
 /// Solid angle of three unit vectors (van Oosterom and Strackee 1983), between -2 pi and 2 pi.
 static double solid_angle(const scree_vector a, const scree_vector b, const scree_vector c)
 {
     scree_vector product;
-    cross(b, c, product);
-    return 2 * atan2(dot(a, product), 1 + dot(a, b) + dot(b, c) + dot(c, a));
+    scree_cross(b, c, product);
+    return 2 * atan2(scree_dot(a, product), 1 + scree_dot(a, b) + scree_dot(b, c) + scree_dot(c, a));
 }
 
 /// The two edges of a triangle at its corner c, as vectors.
@@ -68,7 +58,7 @@ static void add_solid_angles(const scree_state *state, scree_vector *inward, dou
     scree_vector next, last, area;
     for (size_t t = 0; t < hull->triangle_count; t++) {
         edges_at(state, t, 0, next, last);
-        cross(last, next, area);
+        scree_cross(last, next, area);
         for (int c = 0; c < 3; c++)
             for (int k = 0; k < 3; k++) inward[hull->triangle[t][c]][k] += area[k];
     }

@@ -1,6 +1,8 @@
 /// Contacts and paths: see arc.h.
 #include "prepare/arc.h"
 
+#include "base/vectors.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -8,13 +10,6 @@
 static const double SMALL = 1e-10;
 /// Sine of the angle behind the start within which a surface counts as entered there.
 static const double BEHIND = 1e-9;
-
-static void cross(const double a[3], const double b[3], double c[3])
-{
-    c[0] = a[1] * b[2] - a[2] * b[1];
-    c[1] = a[2] * b[0] - a[0] * b[2];
-    c[2] = a[0] * b[1] - a[1] * b[0];
-}
 
 static void scale_to_one(double a[3])
 {
@@ -29,7 +24,7 @@ static void make_normal_to(double a[3], const double e[3])
     for (int c = 0; c < 3; c++) a[c] -= part * e[c];
 }
 
-void scree_surface_normal(const scree_surface *surface, const double point[3], double normal[3])
+void scree_arc_surface_normal(const scree_arc_surface *surface, const double point[3], double normal[3])
 {
     for (int c = 0; c < 3; c++) normal[c] = surface->plane ? surface->centre[c] : point[c] - surface->centre[c];
     if (!surface->plane) scale_to_one(normal);
@@ -49,9 +44,9 @@ static bool solve(const double (*n)[3], const int *by, int count, double *multip
     if (count == 3) {
         double bc[3], ca[3], ab[3];
         const double *a = n[by[0]], *b = n[by[1]], *c = n[by[2]];
-        cross(b, c, bc);
-        cross(c, a, ca);
-        cross(a, b, ab);
+        scree_cross(b, c, bc);
+        scree_cross(c, a, ca);
+        scree_cross(a, b, ab);
         double determinant = scree_dot(a, bc);
         if (fabs(determinant) < SMALL) return false;
         multiplier[0] = bc[2] / determinant;
@@ -88,7 +83,7 @@ static void leave_the_top(const double (*normal)[3], scree_hold *hold)
         memcpy(hold->velocity, (const double[3]){1, 0, 0}, sizeof hold->velocity);
         make_normal_to(hold->velocity, normal[hold->by[0]]);
     } else
-        cross(normal[hold->by[0]], normal[hold->by[1]], hold->velocity);
+        scree_cross(normal[hold->by[0]], normal[hold->by[1]], hold->velocity);
 }
 
 scree_hold scree_hold_find(const double (*normal)[3], int count)
@@ -108,7 +103,7 @@ scree_hold scree_hold_find(const double (*normal)[3], int count)
     return (scree_hold){.count = 3, .by = {0, count > 1, count > 2 ? 2 : 0}};
 }
 
-scree_arc scree_arc_make(const scree_surface *one, const scree_surface *other, const double point[3],
+scree_arc scree_arc_make(const scree_arc_surface *one, const scree_arc_surface *other, const double point[3],
                          const double velocity[3])
 {
     scree_arc arc = {.radius = one->reach};
@@ -138,7 +133,7 @@ scree_arc scree_arc_make(const scree_surface *one, const scree_surface *other, c
     return arc;
 }
 
-double scree_arc_parting(const scree_surface *one, const scree_surface *other, double cosine)
+double scree_arc_parting(const scree_arc_surface *one, const scree_arc_surface *other, double cosine)
 {
     // The multiplier goes as n_one,z - cosine n_other,z, and n_z = (z - centre) / radius on a sphere, 0 on a wall.
     if (one->plane) return -1;
@@ -148,7 +143,7 @@ double scree_arc_parting(const scree_surface *one, const scree_surface *other, d
     return (one->centre[2] / one->reach - cosine * other->centre[2] / other->reach) / slope;
 }
 
-bool scree_arc_enters(const scree_arc *arc, const scree_surface *surface, double *measure, double point[3])
+bool scree_arc_enters(const scree_arc *arc, const scree_arc_surface *surface, double *measure, double point[3])
 {
     double a, b, c;
     if (surface->plane) {

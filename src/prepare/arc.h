@@ -14,11 +14,11 @@
 #include <stdbool.h>
 
 /// The point keeps outside of a sphere, or on the side of a plane that its normal points to.
-typedef struct scree_surface {
+typedef struct scree_arc_surface {
     bool plane;
     double centre[3]; ///< m, of the sphere; 1, unit normal of the plane
     double reach;     ///< m, radius; offset of the plane: points with normal . x = reach
-} scree_surface;
+} scree_arc_surface;
 
 typedef struct scree_arc {
     double middle[3], radius; ///< m
@@ -33,27 +33,22 @@ typedef struct scree_hold {
     double velocity[3]; ///< projection of gravity, (0, 0, -1)
 } scree_hold;
 
-static inline double scree_dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /// Unit normal of `surface` at `point`.
-void scree_surface_normal(const scree_surface *surface, const double point[3], double normal[3]);
+void scree_arc_surface_normal(const scree_arc_surface *surface, const double point[3], double normal[3]);
 
 /// Projects gravity on the cone of `count` normals.
 scree_hold scree_hold_find(const double (*normal)[3], int count);
 
 /// The arc from `point` with `velocity` on one sphere, or on two surfaces of which the first is a sphere.
-scree_arc scree_arc_make(const scree_surface *one, const scree_surface *other, const double point[3],
+scree_arc scree_arc_make(const scree_arc_surface *one, const scree_arc_surface *other, const double point[3],
                          const double velocity[3]);
 
 /// Height at which the multiplier of `one` vanishes when the point goes down along `one` and `other` (NULL: alone); -1
 /// if it does not. The normals of the two enclose an angle of cosine `cosine`.
-double scree_arc_parting(const scree_surface *one, const scree_surface *other, double cosine);
+double scree_arc_parting(const scree_arc_surface *one, const scree_arc_surface *other, double cosine);
 
 /// How far along the arc it enters the surface: the angle in a measure that grows with it, 0 to 2 for 0 to pi, and the
 /// point. False if it does not within half a turn. Surfaces touched at the start and entered from there give 0.
-bool scree_arc_enters(const scree_arc *arc, const scree_surface *surface, double *measure, double point[3]);
+bool scree_arc_enters(const scree_arc *arc, const scree_arc_surface *surface, double *measure, double point[3]);
 
 #endif

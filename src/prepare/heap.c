@@ -14,6 +14,7 @@
 /// roll at the cells around its arc.
 #include "prepare/heap.h"
 
+#include "base/vectors.h"
 #include "prepare/arc.h"
 
 #include <math.h>
@@ -119,13 +120,13 @@ static void add(contact_set *set, uint32_t name)
 }
 
 /// The surface that the point must not enter.
-static scree_surface surface_of(const scree_heap *heap, double radius, uint32_t name)
+static scree_arc_surface surface_of(const scree_heap *heap, double radius, uint32_t name)
 {
     if (name < NOTHING)
-        return (scree_surface){.centre = {heap->x[name], heap->y[name], heap->z[name]},
-                               .reach = heap->radius[name] + radius};
+        return (scree_arc_surface){.centre = {heap->x[name], heap->y[name], heap->z[name]},
+                                   .reach = heap->radius[name] + radius};
     uint32_t plane = PLANE(0) - name;
-    scree_surface surface = {.plane = true};
+    scree_arc_surface surface = {.plane = true};
     if (plane == FLOOR) {
         surface.centre[2] = 1;
         surface.reach = radius;
@@ -205,7 +206,7 @@ bool scree_heap_sees_floor(const scree_heap *heap, size_t index, double x, doubl
 /// Takes surface `name` into account if the arc enters it before the meeting already known.
 static void consider(const scree_heap *heap, const mover *sphere, const scree_arc *arc, uint32_t name, meeting *nearest)
 {
-    scree_surface surface = surface_of(heap, sphere->radius, name);
+    scree_arc_surface surface = surface_of(heap, sphere->radius, name);
     meeting met = {.name = name};
     if (!scree_arc_enters(arc, &surface, &met.measure, met.at) || met.measure >= nearest->measure) return;
     if (met.measure < APART && contains(&sphere->left, name)) return;
@@ -215,7 +216,7 @@ static void consider(const scree_heap *heap, const mover *sphere, const scree_ar
 /// The height at which a holder no longer holds is a plane as well.
 static void consider_parting(const scree_arc *arc, uint32_t name, double height, meeting *nearest)
 {
-    scree_surface plane = {.plane = true, .centre = {0, 0, 1}, .reach = height};
+    scree_arc_surface plane = {.plane = true, .centre = {0, 0, 1}, .reach = height};
     meeting met = {.name = name, .parting = true};
     if (!scree_arc_enters(arc, &plane, &met.measure, met.at) || met.measure >= nearest->measure) return;
     *nearest = met;
@@ -247,18 +248,18 @@ static meeting look_ahead(const scree_heap *heap, const mover *sphere, const scr
 /// Moves the point along the surfaces that hold it to the next event, which changes the surfaces that it touches.
 static void roll(const scree_heap *heap, mover *sphere, const contact_set *holders, const double velocity[3])
 {
-    scree_surface one = surface_of(heap, sphere->radius, holders->name[0]);
-    scree_surface other = surface_of(heap, sphere->radius, holders->name[holders->count - 1]);
+    scree_arc_surface one = surface_of(heap, sphere->radius, holders->name[0]);
+    scree_arc_surface other = surface_of(heap, sphere->radius, holders->name[holders->count - 1]);
     bool both = holders->count == 2, swapped = both && one.plane;
     if (swapped) {
-        scree_surface kept = one;
+        scree_arc_surface kept = one;
         one = other;
         other = kept;
     }
     scree_arc arc = scree_arc_make(&one, both ? &other : NULL, sphere->at, velocity);
     double normal[2][3];
-    scree_surface_normal(&one, sphere->at, normal[0]);
-    scree_surface_normal(&other, sphere->at, normal[1]);
+    scree_arc_surface_normal(&one, sphere->at, normal[0]);
+    scree_arc_surface_normal(&other, sphere->at, normal[1]);
     double cosine = scree_dot(normal[0], normal[1]);
     meeting next = {.measure = INFINITY};
     double parting = scree_arc_parting(&one, both ? &other : NULL, cosine), lowest = parting;
@@ -293,8 +294,8 @@ static scree_hold held_by(const scree_heap *heap, mover *sphere, contact_set *ho
 {
     double normal[MOST_CONTACTS][3];
     for (int k = 0; k < sphere->touched.count; k++) {
-        scree_surface surface = surface_of(heap, sphere->radius, sphere->touched.name[k]);
-        scree_surface_normal(&surface, sphere->at, normal[k]);
+        scree_arc_surface surface = surface_of(heap, sphere->radius, sphere->touched.name[k]);
+        scree_arc_surface_normal(&surface, sphere->at, normal[k]);
     }
     scree_hold hold = scree_hold_find((const double(*)[3])normal, sphere->touched.count);
     holders->count = 0;

@@ -24,6 +24,7 @@
 /// skin.
 ///
 /// Cost: O(n) to find the hull, O(h log h) for h tetrahedra that ever had an outer face.
+#include "base/vectors.h"
 #include "search/delaunay.h"
 #include "search/tetrahedra.h"
 
@@ -139,12 +140,7 @@ static void face_normal(const peeling *peel, size_t tetrahedron, int face, doubl
     const double *a = corner_of(peel, tetrahedron, corner[0]), *b = corner_of(peel, tetrahedron, corner[1]);
     const double *c = corner_of(peel, tetrahedron, corner[2]);
     double u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-    for (int k = 0; k < 3; k++) normal[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
-}
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    scree_cross(u, v, normal);
 }
 
 /// Cosine of the largest turn from a face taken away to one left by the cut; not a number for a degenerate face.
@@ -153,13 +149,13 @@ static double turn_cosine(const peeling *peel, size_t tetrahedron, uint8_t outer
     double normal[4][3], least = 1;
     for (int face = 0; face < 4; face++) {
         face_normal(peel, tetrahedron, face, normal[face]);
-        double length = sqrt(dot(normal[face], normal[face]));
+        double length = sqrt(scree_dot(normal[face], normal[face]));
         for (int k = 0; k < 3; k++) normal[face][k] /= length;
     }
     for (int i = 0; i < 4; i++)
         for (int k = 0; k < 4; k++) {
             if (!(outer >> i & 1) || (outer >> k & 1)) continue;
-            double cosine = -dot(normal[i], normal[k]);
+            double cosine = -scree_dot(normal[i], normal[k]);
             if (!(cosine >= least)) least = cosine;
         }
     return least;
@@ -185,7 +181,7 @@ static double face_gap(const peeling *peel, size_t tetrahedron, int face, double
         reach = sqrt(ab) * fmax(ca / (ab + ca - bc), bc / (ab + bc - ca));
     } else {
         face_normal(peel, tetrahedron, face, normal);
-        reach = 0.5 * sqrt(ab * bc * ca / dot(normal, normal));
+        reach = 0.5 * sqrt(ab * bc * ca / scree_dot(normal, normal));
     }
     return sqrt(3) * reach - radii / 1.5;
 }
@@ -196,7 +192,7 @@ static double six_volumes(const peeling *peel, size_t tetrahedron)
     const double *apex = corner_of(peel, tetrahedron, 3), *foot = corner_of(peel, tetrahedron, 0);
     face_normal(peel, tetrahedron, 3, normal);
     double up[3] = {foot[0] - apex[0], foot[1] - apex[1], foot[2] - apex[2]};
-    return dot(normal, up);
+    return scree_dot(normal, up);
 }
 
 /// Queues a tetrahedron that has just got an outer face if it is one to be cut.
@@ -331,7 +327,7 @@ static int compare_triangles(const void *first, const void *second)
 }
 
 /// The outer faces of what is left.
-static scree_status collect(const peeling *peel, scree_surface *surface, scree_error *error)
+static scree_status collect(const peeling *peel, scree_triangle_surface *surface, scree_error *error)
 {
     const scree_tetrahedra *tetrahedra = peel->tetrahedra;
     size_t count = 0;
@@ -355,11 +351,11 @@ static scree_status collect(const peeling *peel, scree_surface *surface, scree_e
 }
 
 scree_status scree_boundary_surface(const scree_tetrahedra *tetrahedra, const double *points, const double *radius,
-                                    size_t count, double gap_limit, scree_surface *surface, uint8_t *marks,
+                                    size_t count, double gap_limit, scree_triangle_surface *surface, uint8_t *marks,
                                     scree_error *error)
 {
     peeling peel = {.tetrahedra = tetrahedra, .points = points, .radius = radius, .gap_limit = gap_limit};
-    *surface = (scree_surface){0};
+    *surface = (scree_triangle_surface){0};
     scree_status status = scree_allocate(&peel.marks, tetrahedra->count, sizeof *peel.marks, error);
     if (!status) status = scree_allocate(&peel.on_surface, count, sizeof *peel.on_surface, error);
     if (!status) {
@@ -374,7 +370,7 @@ scree_status scree_boundary_surface(const scree_tetrahedra *tetrahedra, const do
     }
     if (!status) status = collect(&peel, surface, error);
     if (!status && marks) memcpy(marks, peel.marks, tetrahedra->count * sizeof *marks);
-    if (status) scree_surface_destroy(surface);
+    if (status) scree_triangle_surface_destroy(surface);
     scree_release(&peel.marks);
     scree_release(&peel.on_surface);
     scree_release(&peel.heap.item);
@@ -382,7 +378,7 @@ scree_status scree_boundary_surface(const scree_tetrahedra *tetrahedra, const do
     return status;
 }
 
-void scree_surface_destroy(scree_surface *surface)
+void scree_triangle_surface_destroy(scree_triangle_surface *surface)
 {
     scree_release(&surface->triangle);
     surface->count = 0;

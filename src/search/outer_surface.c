@@ -6,6 +6,7 @@
 /// fails, all points are triangulated after all. Where points are cospherical the tetrahedra, which are not unique, may
 /// differ from those of the whole. Cost: O(n) for the band, O(b log b) for the b bodies in it, O(cells in its box) for
 /// each sphere along the surface.
+#include "base/vectors.h"
 #include "search/band.h"
 #include "search/delaunay.h"
 #include "search/tetrahedra.h"
@@ -19,20 +20,18 @@ static double circumsphere(const double *points, const uint32_t vertex[4], doubl
     const double *o = points + 3 * (size_t)vertex[0];
     for (int i = 0; i < 3; i++) {
         const double *p = points + 3 * (size_t)vertex[i + 1];
-        for (int k = 0; k < 3; k++) edge[i][k] = p[k] - o[k];
-        square[i] = edge[i][0] * edge[i][0] + edge[i][1] * edge[i][1] + edge[i][2] * edge[i][2];
+        scree_subtract(p, o, edge[i]);
+        square[i] = scree_dot(edge[i], edge[i]);
         longest = fmax(longest, square[i]);
     }
     // Cramer's rule on edge . c = square / 2: c is the sum of the squares times the products of the other two edges.
     double product[3][3], offset[3] = {0};
     for (int i = 0; i < 3; i++) {
         const double *u = edge[(i + 1) % 3], *v = edge[(i + 2) % 3];
-        for (int k = 0; k < 3; k++) {
-            product[i][k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
-            offset[k] += square[i] * product[i][k];
-        }
+        scree_cross(u, v, product[i]);
+        for (int k = 0; k < 3; k++) offset[k] += square[i] * product[i][k];
     }
-    double twice = 2 * (edge[0][0] * product[0][0] + edge[0][1] * product[0][1] + edge[0][2] * product[0][2]), sum = 0;
+    double twice = 2 * scree_dot(edge[0], product[0]), sum = 0;
     if (!(twice > 1e-9 * longest * sqrt(longest))) return INFINITY;
     for (int k = 0; k < 3; k++) {
         centre[k] = o[k] + offset[k] / twice;
@@ -57,7 +56,7 @@ static bool is_certain(const scree_band *b, const double *points, size_t count, 
 /// The surface of the whole from the band, in indices of the whole; *certain false (and no surface) when it may be
 /// another one.
 static scree_status surface_of_band(const scree_band *b, const double *points, size_t count, double gap_limit,
-                                    scree_surface *surface, bool *certain, scree_error *error)
+                                    scree_triangle_surface *surface, bool *certain, scree_error *error)
 {
     scree_tetrahedra tetrahedra;
     uint8_t *marks = NULL;
@@ -68,14 +67,14 @@ static scree_status surface_of_band(const scree_band *b, const double *points, s
     *certain = !status && is_certain(b, points, count, &tetrahedra, marks);
     for (size_t t = 0; t < surface->count; t++)
         for (int k = 0; k < 3; k++) surface->triangle[t][k] = b->index[surface->triangle[t][k]];
-    if (!*certain) scree_surface_destroy(surface);
+    if (!*certain) scree_triangle_surface_destroy(surface);
     scree_release(&marks);
     scree_tetrahedra_destroy(&tetrahedra);
     return status;
 }
 
 static scree_status surface_of_all(const double *points, const double *radius, size_t count, double gap_limit,
-                                   scree_surface *surface, scree_error *error)
+                                   scree_triangle_surface *surface, scree_error *error)
 {
     scree_tetrahedra tetrahedra;
     scree_status status = scree_tetrahedra_build(points, count, &tetrahedra, error);
@@ -85,9 +84,9 @@ static scree_status surface_of_all(const double *points, const double *radius, s
 }
 
 scree_status scree_outer_surface(const double *points, const double *radius, size_t count, double spacing,
-                                 double gap_limit, scree_surface *surface, scree_error *error)
+                                 double gap_limit, scree_triangle_surface *surface, scree_error *error)
 {
-    *surface = (scree_surface){0};
+    *surface = (scree_triangle_surface){0};
     scree_band b;
     bool certain = false;
     scree_status status = scree_band_build(points, radius, count, 3, spacing, &b, error);

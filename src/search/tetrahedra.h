@@ -27,25 +27,25 @@ void scree_tetrahedra_destroy(scree_tetrahedra *tetrahedra);
 
 /// A closed surface of triangles of point indices, counter-clockwise seen from outside, each from its lowest index, in
 /// ascending order.
-typedef struct scree_surface {
+typedef struct scree_triangle_surface {
     size_t count;
     uint32_t (*triangle)[3];
-} scree_surface;
+} scree_triangle_surface;
 
-void scree_surface_destroy(scree_surface *surface);
+void scree_triangle_surface_destroy(scree_triangle_surface *surface);
 
 /// Outer surface of the tetrahedra after cleaning: tetrahedra on the boundary whose outer face has a free gap above
 /// gap_limit (m), or which are slivers, are cut as long as the surface stays ONE closed surface without handles, every
 /// edge of which belongs to two triangles, and no point falls out of it (boundary_surface.c).
 /// marks[t]: scree_triangle_mark (delaunay.h) of tetrahedron t, may be NULL. Cost: O(n + h log h).
 scree_status scree_boundary_surface(const scree_tetrahedra *tetrahedra, const double *points, const double *radius,
-                                    size_t count, double gap_limit, scree_surface *surface, uint8_t *marks,
+                                    size_t count, double gap_limit, scree_triangle_surface *surface, uint8_t *marks,
                                     scree_error *error) SCREE_MUST_USE;
 
 /// The surface of scree_boundary_surface on the Delaunay tetrahedra of all points, found from those near the outside
 /// alone where that provably gives the same (outer_surface.c). spacing: m, mean distance of neighbours; it steers the
 /// cost, not the result. Errors: as scree_tetrahedra_build. Cost: O(n) plus the tetrahedra of the band.
 scree_status scree_outer_surface(const double *points, const double *radius, size_t count, double spacing,
-                                 double gap_limit, scree_surface *surface, scree_error *error) SCREE_MUST_USE;
+                                 double gap_limit, scree_triangle_surface *surface, scree_error *error) SCREE_MUST_USE;
 
 #endif

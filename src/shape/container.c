@@ -1,8 +1,8 @@
 /// Life of the walls of a case: from what the user said to planes, profiles and meshes.
 #include "shape/container.h"
 
+#include "base/vectors.h"
 #include "shape/stl.h"
-#include "shape/vectors.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -13,8 +13,8 @@
 static void make_plane(const scree_config_wall *config, scree_surface *surface)
 {
     memcpy(surface->normal[0], config->normal, sizeof surface->normal[0]);
-    (void)normalise(surface->normal[0]);
-    surface->offset[0] = dot(surface->normal[0], config->point);
+    (void)scree_normalise(surface->normal[0]);
+    surface->offset[0] = scree_dot(surface->normal[0], config->point);
     surface->count = 1;
 }
 
@@ -40,8 +40,8 @@ static void make_round(const scree_config_wall *config, scree_surface *surface)
     bool cone = config->shape == SCREE_SHAPE_OF_CONE, inside = config->side == SCREE_SIDE_INSIDE;
     double low = cone ? config->radius_start : config->radius, high = cone ? config->radius_end : config->radius;
     double sign = inside ? 1 : -1;
-    subtract(config->end, config->start, surface->axis);
-    double length = normalise(surface->axis);
+    scree_subtract(config->end, config->start, surface->axis);
+    double length = scree_normalise(surface->axis);
     surface->profile[0] = make_line(0, low, length, high, sign);
     surface->profile_count = 1;
     surface->profile[0].free_ends = config->ends == SCREE_ENDS_OPEN;
@@ -80,17 +80,17 @@ static double find_reach(const scree_surface *surface)
     double reach = 0, apart[3];
     for (int k = 0; config->shape == SCREE_SHAPE_OF_BOX && k < 8; k++) {
         for (int i = 0; i < 3; i++) apart[i] = (k >> i & 1 ? config->upper[i] : config->lower[i]) - config->centre[i];
-        reach = fmax(reach, sqrt(dot(apart, apart)));
+        reach = fmax(reach, sqrt(scree_dot(apart, apart)));
     }
     for (int k = 0; k < surface->profile_count; k++)
         for (int i = 0; i < 2; i++) {
-            along(config->start, surface->profile[k].s[i], surface->axis, apart);
-            subtract(apart, config->centre, apart);
-            reach = fmax(reach, sqrt(dot(apart, apart)) + surface->profile[k].r[i]);
+            scree_along(config->start, surface->profile[k].s[i], surface->axis, apart);
+            scree_subtract(apart, config->centre, apart);
+            reach = fmax(reach, sqrt(scree_dot(apart, apart)) + surface->profile[k].r[i]);
         }
     for (size_t v = 0; v < surface->mesh.vertex_count; v++) {
-        subtract(surface->mesh.vertex[v], config->centre, apart);
-        reach = fmax(reach, sqrt(dot(apart, apart)));
+        scree_subtract(surface->mesh.vertex[v], config->centre, apart);
+        reach = fmax(reach, sqrt(scree_dot(apart, apart)));
     }
     return reach;
 }
@@ -100,16 +100,16 @@ static void find_motion(scree_surface *surface)
 {
     const scree_config_wall *config = surface->config;
     double offset[3], beside[3];
-    surface->shifts = dot(config->velocity, config->velocity) > 0;
-    surface->turns = dot(config->spin, config->spin) > 0;
-    if (config->shape == SCREE_SHAPE_OF_PLANE) surface->shifts = dot(config->velocity, surface->normal[0]) != 0;
+    surface->shifts = scree_dot(config->velocity, config->velocity) > 0;
+    surface->turns = scree_dot(config->spin, config->spin) > 0;
+    if (config->shape == SCREE_SHAPE_OF_PLANE) surface->shifts = scree_dot(config->velocity, surface->normal[0]) != 0;
     if (surface->profile_count == 0 || !surface->turns) return;
-    double spin = sqrt(dot(config->spin, config->spin));
-    subtract(config->centre, config->start, offset);
-    cross(surface->axis, offset, offset);
-    cross(surface->axis, config->spin, beside);
-    bool aligned = dot(beside, beside) <= 1e-24 * spin * spin;
-    surface->turns = !(aligned && dot(offset, offset) <= 1e-24 * surface->reach * surface->reach);
+    double spin = sqrt(scree_dot(config->spin, config->spin));
+    scree_subtract(config->centre, config->start, offset);
+    scree_cross(surface->axis, offset, offset);
+    scree_cross(surface->axis, config->spin, beside);
+    bool aligned = scree_dot(beside, beside) <= 1e-24 * spin * spin;
+    surface->turns = !(aligned && scree_dot(offset, offset) <= 1e-24 * surface->reach * surface->reach);
 }
 
 static scree_status make_surface(int dimension, const scree_config_wall *config, scree_surface *surface,

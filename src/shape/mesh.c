@@ -3,7 +3,7 @@
 /// 5.1.5).
 #include "shape/mesh.h"
 
-#include "shape/vectors.h"
+#include "base/vectors.h"
 
 #include <string.h>
 
@@ -24,13 +24,13 @@ void scree_mesh_destroy(scree_mesh *mesh)
 static double segment_distance(const double a[3], const double b[3], const double place[3], double *fraction)
 {
     double side[3], from[3], closest[3];
-    subtract(b, a, side);
-    subtract(place, a, from);
-    double t = dot(from, side) / dot(side, side);
+    scree_subtract(b, a, side);
+    scree_subtract(place, a, from);
+    double t = scree_dot(from, side) / scree_dot(side, side);
     *fraction = t < 0 ? 0 : t > 1 ? 1 : t;
-    along(a, *fraction, side, closest);
-    subtract(place, closest, from);
-    return dot(from, from);
+    scree_along(a, *fraction, side, closest);
+    scree_subtract(place, closest, from);
+    return scree_dot(from, from);
 }
 
 /// Squared distance to a triangle; *inside: the foot of the centre lies in it.
@@ -43,17 +43,17 @@ static double triangle_distance(const scree_mesh *mesh, size_t t, const double p
     for (int k = 0; k < 3; k++) {
         const double *a = mesh->vertex[corner[k]], *b = mesh->vertex[corner[(k + 1) % 3]];
         double side[3], outward[3];
-        subtract(b, a, side);
-        cross(side, normal, outward);
-        subtract(place, a, from);
-        if (dot(from, outward) <= 0) continue;
+        scree_subtract(b, a, side);
+        scree_cross(side, normal, outward);
+        scree_subtract(place, a, from);
+        if (scree_dot(from, outward) <= 0) continue;
         // Outside this side: the closest point lies on one of the sides that the foot is outside of.
         *inside = false;
         least = fmin(least, segment_distance(a, b, place, &fraction));
     }
     if (!*inside) return least;
-    subtract(place, mesh->vertex[corner[0]], from);
-    double height = dot(from, normal);
+    scree_subtract(place, mesh->vertex[corner[0]], from);
+    double height = scree_dot(from, normal);
     return height * height;
 }
 
@@ -70,8 +70,8 @@ static bool is_minimum(const scree_mesh *mesh, const uint32_t *list, uint32_t be
 static void face_site(const scree_mesh *mesh, size_t t, const double place[3], scree_site *site)
 {
     double from[3];
-    subtract(place, mesh->vertex[mesh->triangle[t][0]], from);
-    double height = dot(from, mesh->normal[t]), sign = height < 0 ? -1 : 1;
+    scree_subtract(place, mesh->vertex[mesh->triangle[t][0]], from);
+    double height = scree_dot(from, mesh->normal[t]), sign = height < 0 ? -1 : 1;
     (void)triangle_distance(mesh, t, place, &site->minimum);
     site->distance = sign * height;
     for (int k = 0; k < 3; k++) site->normal[k] = sign * mesh->normal[t][k];
@@ -81,8 +81,8 @@ static void face_site(const scree_mesh *mesh, size_t t, const double place[3], s
 static void point_site(const scree_mesh *mesh, const double point[3], size_t triangle, const double place[3],
                        scree_site *site)
 {
-    subtract(place, point, site->normal);
-    site->distance = normalise(site->normal);
+    scree_subtract(place, point, site->normal);
+    site->distance = scree_normalise(site->normal);
     if (!(site->distance > 0)) memcpy(site->normal, mesh->normal[triangle], sizeof site->normal);
 }
 
@@ -90,8 +90,8 @@ static void edge_site(const scree_mesh *mesh, size_t e, const double place[3], s
 {
     const double *a = mesh->vertex[mesh->edge[e][0]], *b = mesh->vertex[mesh->edge[e][1]];
     double fraction, side[3], point[3], square = segment_distance(a, b, place, &fraction);
-    subtract(b, a, side);
-    along(a, fraction, side, point);
+    scree_subtract(b, a, side);
+    scree_along(a, fraction, side, point);
     point_site(mesh, point, mesh->edge_list[mesh->edge_begin[e]], place, site);
     site->minimum = fraction > 0 && fraction < 1 &&
                     is_minimum(mesh, mesh->edge_list, mesh->edge_begin[e], mesh->edge_begin[e + 1], place, square);
@@ -124,8 +124,8 @@ double scree_mesh_distance(const scree_mesh *mesh, size_t element, const scree_v
     if (edge < mesh->edge_count)
         return sqrt(
             segment_distance(mesh->vertex[mesh->edge[edge][0]], mesh->vertex[mesh->edge[edge][1]], place, &fraction));
-    subtract(place, mesh->vertex[vertex], from);
-    return sqrt(dot(from, from));
+    scree_subtract(place, mesh->vertex[vertex], from);
+    return sqrt(scree_dot(from, from));
 }
 
 /// The triangle, and the edges and vertices that it owns.

@@ -2,7 +2,8 @@
 /// tree of boxes is built by halving along the longest side. Everything is in the order of the file, so the same file
 /// gives the same mesh.
 #include "shape/mesh.h"
-#include "shape/vectors.h"
+
+#include "base/vectors.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -31,8 +32,8 @@ static void find_extent(size_t count, const double (*corner)[3], double low[3], 
             low[k] = fmin(low[k], corner[c][k]);
             high[k] = fmax(high[k], corner[c][k]);
         }
-    subtract(high, low, side);
-    *diagonal = sqrt(dot(side, side));
+    scree_subtract(high, low, side);
+    *diagonal = sqrt(scree_dot(side, side));
 }
 
 static size_t slot_of(const welder *w, const int64_t cell[3])
@@ -57,8 +58,8 @@ static size_t find_vertex(const welder *w, const double place[3])
         const int64_t cell[3] = {middle[0] + n % 3 - 1, middle[1] + n / 3 % 3 - 1, middle[2] + n / 9 - 1};
         for (uint32_t at = w->head[slot_of(w, cell)]; at; at = w->next[at - 1]) {
             double apart[3];
-            subtract(place, w->mesh->vertex[at - 1], apart);
-            if (dot(apart, apart) <= w->tolerance * w->tolerance && at - 1 < best) best = at - 1;
+            scree_subtract(place, w->mesh->vertex[at - 1], apart);
+            if (scree_dot(apart, apart) <= w->tolerance * w->tolerance && at - 1 < best) best = at - 1;
         }
     }
     return best;
@@ -82,11 +83,11 @@ static bool has_area(const scree_mesh *mesh, const uint32_t corner[3], double no
 {
     double side[3][3], longest = 0;
     for (int k = 0; k < 3; k++) {
-        subtract(mesh->vertex[corner[(k + 1) % 3]], mesh->vertex[corner[k]], side[k]);
-        longest = fmax(longest, dot(side[k], side[k]));
+        scree_subtract(mesh->vertex[corner[(k + 1) % 3]], mesh->vertex[corner[k]], side[k]);
+        longest = fmax(longest, scree_dot(side[k], side[k]));
     }
-    cross(side[0], side[1], normal);
-    return normalise(normal) > FLAT_TOLERANCE * longest;
+    scree_cross(side[0], side[1], normal);
+    return scree_normalise(normal) > FLAT_TOLERANCE * longest;
 }
 
 static scree_status weld(scree_mesh *mesh, size_t count, const double (*corner)[3], scree_error *error)

@@ -1,6 +1,7 @@
 /// Walls as triangles, for scenes and ParaView.
 #include "shape/container.h"
-#include "shape/vectors.h"
+
+#include "base/vectors.h"
 
 #include <string.h>
 
@@ -13,9 +14,9 @@ static void add(scree_wall_triangles *triangles, const scree_surface *surface, i
     triangles->wall[triangles->count++] = wall;
     for (int c = 0; c < 3; c++) {
         double lever[3];
-        subtract(corner[c], surface->config->centre, lever);
+        scree_subtract(corner[c], surface->config->centre, lever);
         for (int i = 0; i < 3; i++)
-            to[3 * c + i] = surface->hub[i] + (surface->turns ? dot(&surface->rotation[3 * i], lever) : lever[i]);
+            to[3 * c + i] = surface->hub[i] + (surface->turns ? scree_dot(&surface->rotation[3 * i], lever) : lever[i]);
         // A wall that moves in itself stays where it is in the picture.
         for (int i = 0; i < 3 && !surface->shifts; i++) to[3 * c + i] -= surface->shift[i];
     }
@@ -34,21 +35,21 @@ static void add_plane(scree_wall_triangles *triangles, const scree_surface *surf
 {
     const double *n = surface->normal[0];
     double middle[3], foot[3], size[3], along_plane[3] = {-n[1], n[0], 0}, across[3], corner[4][3];
-    subtract(high, low, size);
-    along(low, 0.5, size, middle);
-    double half = 0.6 * sqrt(dot(size, size));
-    along(middle, surface->offset[0] - dot(n, middle), n, foot);
-    if (!(normalise(along_plane) > 0)) along_plane[0] = 1;
-    cross(n, along_plane, across);
+    scree_subtract(high, low, size);
+    scree_along(low, 0.5, size, middle);
+    double half = 0.6 * sqrt(scree_dot(size, size));
+    scree_along(middle, surface->offset[0] - scree_dot(n, middle), n, foot);
+    if (!(scree_normalise(along_plane) > 0)) along_plane[0] = 1;
+    scree_cross(n, along_plane, across);
     for (int c = 0; c < 4; c++) {
-        along(foot, c == 1 || c == 2 ? half : -half, along_plane, corner[c]);
-        along(corner[c], c >= 2 ? half : -half, across, corner[c]);
+        scree_along(foot, c == 1 || c == 2 ? half : -half, along_plane, corner[c]);
+        scree_along(corner[c], c >= 2 ? half : -half, across, corner[c]);
     }
     if (dimension == 3) {
         add_square(triangles, surface, wall, (const double(*)[3])corner);
         return;
     }
-    for (int c = 0; c < 2; c++) along(foot, c ? half : -half, along_plane, corner[c]);
+    for (int c = 0; c < 2; c++) scree_along(foot, c ? half : -half, along_plane, corner[c]);
     add(triangles, surface, wall, (const double *const[3]){corner[0], corner[1], corner[1]});
 }
 
@@ -78,8 +79,8 @@ static void add_round(scree_wall_triangles *triangles, const scree_surface *surf
 {
     const double *axis = surface->axis;
     double side[2][3] = {{axis[1], -axis[0], 0}, {0}};
-    if (!(normalise(side[0]) > 0)) side[0][0] = 1;
-    cross(axis, side[0], side[1]);
+    if (!(scree_normalise(side[0]) > 0)) side[0][0] = 1;
+    scree_cross(axis, side[0], side[1]);
     for (int k = 0; k < surface->profile_count; k++)
         for (int f = 0; f < FACETS; f++) {
             const scree_profile *line = &surface->profile[k];
@@ -87,9 +88,9 @@ static void add_round(scree_wall_triangles *triangles, const scree_surface *surf
             for (int c = 0; c < 4; c++) {
                 int end = c == 1 || c == 2;
                 double angle = 2 * M_PI * (f + (c >= 2)) / FACETS;
-                along(surface->config->start, line->s[end], axis, corner[c]);
-                along(corner[c], line->r[end] * cos(angle), side[0], corner[c]);
-                along(corner[c], line->r[end] * sin(angle), side[1], corner[c]);
+                scree_along(surface->config->start, line->s[end], axis, corner[c]);
+                scree_along(corner[c], line->r[end] * cos(angle), side[0], corner[c]);
+                scree_along(corner[c], line->r[end] * sin(angle), side[1], corner[c]);
             }
             add_square(triangles, surface, wall, (const double(*)[3])corner);
         }

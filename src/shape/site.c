@@ -1,6 +1,7 @@
 /// Closest points of the walls of a case, and their motion.
 #include "shape/container.h"
-#include "shape/vectors.h"
+
+#include "base/vectors.h"
 
 #include <string.h>
 
@@ -13,14 +14,14 @@ void scree_container_place(scree_container *container, double time)
         scree_surface *surface = &container->surface[k];
         const scree_config_wall *config = surface->config;
         double axis[3] = {config->spin[0], config->spin[1], config->spin[2]};
-        double angle = normalise(axis) * time, sine = sin(angle), rest = 1 - cos(angle);
+        double angle = scree_normalise(axis) * time, sine = sin(angle), rest = 1 - cos(angle);
         const double generator[9] = {0, -axis[2], axis[1], axis[2], 0, -axis[0], -axis[1], axis[0], 0};
         for (int i = 0; i < 9; i++) {
-            double square = axis[i / 3] * axis[i % 3] - (i % 4 == 0 ? dot(axis, axis) : 0);
+            double square = axis[i / 3] * axis[i % 3] - (i % 4 == 0 ? scree_dot(axis, axis) : 0);
             surface->rotation[i] = (i % 4 == 0 ? 1 : 0) + sine * generator[i] + rest * square;
         }
         for (int i = 0; i < 3; i++) surface->shift[i] = config->velocity[i] * time;
-        along(config->centre, 1, surface->shift, surface->hub);
+        scree_along(config->centre, 1, surface->shift, surface->hub);
     }
 }
 
@@ -30,8 +31,8 @@ double scree_container_way(const scree_container *container, double time, double
     for (int k = 0; k < container->count; k++) {
         const scree_surface *surface = &container->surface[k];
         const double *v = surface->config->velocity, *w = surface->config->spin;
-        double speed = surface->shifts ? sqrt(dot(v, v)) : 0;
-        if (surface->turns) speed += sqrt(dot(w, w)) * (surface->reach + margin);
+        double speed = surface->shifts ? sqrt(scree_dot(v, v)) : 0;
+        if (surface->turns) speed += sqrt(scree_dot(w, w)) * (surface->reach + margin);
         longest = fmax(longest, speed * fabs(time));
     }
     return longest;
@@ -42,8 +43,9 @@ double scree_container_speed(const scree_container *container)
     double largest = 0;
     for (int k = 0; k < container->count; k++) {
         const scree_config_wall *config = container->surface[k].config;
-        double spin = sqrt(dot(config->spin, config->spin));
-        largest = fmax(largest, sqrt(dot(config->velocity, config->velocity)) + spin * container->surface[k].reach);
+        double spin = sqrt(scree_dot(config->spin, config->spin));
+        largest =
+            fmax(largest, sqrt(scree_dot(config->velocity, config->velocity)) + spin * container->surface[k].reach);
     }
     return largest;
 }
@@ -51,19 +53,19 @@ double scree_container_speed(const scree_container *container)
 void scree_surface_velocity(const scree_surface *surface, const scree_vector point, scree_vector velocity)
 {
     double lever[3], turning[3];
-    subtract(point, surface->hub, lever);
-    cross(surface->config->spin, lever, turning);
-    along(surface->config->velocity, 1, turning, velocity);
+    scree_subtract(point, surface->hub, lever);
+    scree_cross(surface->config->spin, lever, turning);
+    scree_along(surface->config->velocity, 1, turning, velocity);
 }
 
 /// From where a body is to where it is in the frame of the wall at time zero.
 static void enter_frame(const scree_surface *surface, const double place[3], double inner[3])
 {
     memcpy(inner, place, 3 * sizeof *inner);
-    if (surface->shifts) subtract(inner, surface->shift, inner);
+    if (surface->shifts) scree_subtract(inner, surface->shift, inner);
     if (!surface->turns) return;
     double lever[3];
-    subtract(inner, surface->config->centre, lever);
+    scree_subtract(inner, surface->config->centre, lever);
     const double *r = surface->rotation;
     for (int i = 0; i < 3; i++)
         inner[i] = surface->config->centre[i] + r[i] * lever[0] + r[3 + i] * lever[1] + r[6 + i] * lever[2];
@@ -73,7 +75,7 @@ static void leave_frame(const scree_surface *surface, double direction[3])
 {
     if (!surface->turns) return;
     const double old[3] = {direction[0], direction[1], direction[2]};
-    for (int i = 0; i < 3; i++) direction[i] = dot(&surface->rotation[3 * i], old);
+    for (int i = 0; i < 3; i++) direction[i] = scree_dot(&surface->rotation[3 * i], old);
 }
 
 // ---- shapes ------------------------------------------------------------------------------------------------------
@@ -81,7 +83,7 @@ static void leave_frame(const scree_surface *surface, double direction[3])
 static void plane_site(const scree_surface *surface, size_t k, const double place[3], scree_site *site)
 {
     memcpy(site->normal, surface->normal[k], sizeof site->normal);
-    site->distance = dot(surface->normal[k], place) - surface->offset[k];
+    site->distance = scree_dot(surface->normal[k], place) - surface->offset[k];
     site->minimum = true;
 }
 
@@ -99,7 +101,7 @@ static void solid_box_site(int dimension, const scree_config_wall *config, const
             face = below > above ? 2 * i : 2 * i + 1;
         }
     }
-    site->distance = normalise(site->normal);
+    site->distance = scree_normalise(site->normal);
     if (nearest > 0) return;
     site->distance = nearest;
     site->normal[face / 2] = face % 2 ? 1 : -1;
@@ -150,18 +152,18 @@ static void round_site(const scree_surface *surface, size_t element, const doubl
     double from[3], radial[3], normal[2];
     bool inner = true,
          solid = surface->config->side == SCREE_SIDE_OUTSIDE && surface->config->ends == SCREE_ENDS_CLOSED;
-    subtract(place, surface->config->start, from);
-    double s = dot(from, surface->axis);
-    along(from, -s, surface->axis, radial);
-    double r = normalise(radial);
+    scree_subtract(place, surface->config->start, from);
+    double s = scree_dot(from, surface->axis);
+    scree_along(from, -s, surface->axis, radial);
+    double r = scree_normalise(radial);
     // On the axis every direction is as good as another.
     if (!(r > 0)) {
         int least = 0;
         for (int i = 1; i < 3; i++)
             if (fabs(surface->axis[i]) < fabs(surface->axis[least])) least = i;
         const double unit[3] = {least == 0, least == 1, least == 2};
-        cross(surface->axis, unit, radial);
-        (void)normalise(radial);
+        scree_cross(surface->axis, unit, radial);
+        (void)scree_normalise(radial);
     }
     site->distance = solid ? solid_profile(surface, s, r, normal)
                            : profile_distance(&surface->profile[element], s, r, normal, &inner);
@@ -265,11 +267,11 @@ double scree_surface_clearance(const scree_container *container, int k, const sc
         if (!site.minimum && surface->profile_count > 0 && convex) {
             const scree_profile *line = &surface->profile[e - surface->first];
             double from[3], radial[3];
-            subtract(inner, surface->config->start, from);
-            double s = dot(from, surface->axis);
-            along(from, -s, surface->axis, radial);
+            scree_subtract(inner, surface->config->start, from);
+            double s = scree_dot(from, surface->axis);
+            scree_along(from, -s, surface->axis, radial);
             site.distance =
-                (s - line->s[0]) * line->normal[0] + (sqrt(dot(radial, radial)) - line->r[0]) * line->normal[1];
+                (s - line->s[0]) * line->normal[0] + (sqrt(scree_dot(radial, radial)) - line->r[0]) * line->normal[1];
         }
         least = fmin(least, site.distance);
     }

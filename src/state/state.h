@@ -9,6 +9,7 @@
 #define SCREE_STATE_STATE_H
 
 #include "base/memory.h"
+#include "base/vectors.h"
 #include "model/model.h"
 
 #include <math.h>
@@ -72,18 +73,13 @@ typedef struct scree_torque_row {
 /// A vector of cold data; z is zero in 2D.
 typedef double scree_vector[3];
 
-static inline double scree_length(const scree_vector a)
-{
-    return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-}
-
 /// Memory of one contact between the bodies (or body and wall) with ids first < second. Signs are those of the contact
-/// seen from `first` (n from second to first); a wall is always `second`, with id SCREE_WALL_ID + wall index; an element
-/// of the walls of a case (shape/container.h) with id SCREE_ELEMENT_ID + its number.
+/// seen from `first` (n from second to first); a wall is always `second`, with id SCREE_WALL_ID + wall index; an
+/// element of the walls of a case (shape/container.h) with id SCREE_ELEMENT_ID + its number.
 #define SCREE_WALL_ID    UINT32_C(0xfffffff0)
 #define SCREE_ELEMENT_ID UINT32_C(0x80000000)
 #define SCREE_ELEMENTS   (SCREE_WALL_ID - SCREE_ELEMENT_ID) /* most elements */
-#define SCREE_HISTORY 4
+#define SCREE_HISTORY    4
 typedef struct scree_history {
     double value[SCREE_HISTORY]; ///< meaning depends on the law: see the head of its file in src/contact/
 } scree_history;
@@ -217,8 +213,8 @@ typedef enum scree_prescription {
 /// 0: there is no membrane. 2D: two chains of discs, the right side from bottom to top, then the left side from top to
 /// bottom. 3D: a triangulated tube of spheres (boundary/sheet.h), ring by ring from bottom to top.
 typedef struct scree_membrane {
-    scree_vector *rest;  ///< count, m, unstressed lengths of the springs that begin at this body; 0: no spring. 2D: one,
-                         ///< to the next body; 3D: to the next of its ring and to two of the ring above
+    scree_vector *rest; ///< count, m, unstressed lengths of the springs that begin at this body; 0: no spring. 2D: one,
+                        ///< to the next body; 3D: to the next of its ring and to two of the ring above
     scree_vector *press; ///< count, N, force of the pressure at n
     scree_vector *force; ///< count, N, force of the springs, and of the plates on its ends, at n
     size_t count, capacity;
@@ -234,9 +230,9 @@ typedef struct scree_strain {
     double gradient[9]; ///< accumulated displacement gradient, row-major (d u_row / d x_column)
 } scree_strain;
 
-/// The periodic cell; `directions` zero: there is none. Geometry in state/periodic.h, motion in boundary/periodic.c. Velocities
-/// of bodies in a deforming cell are relative to the affine field gradient . x. Tensors are 3 x 3 by rows, tension and
-/// extension positive.
+/// The periodic cell; `directions` zero: there is none. Geometry in state/periodic.h, motion in boundary/periodic.c.
+/// Velocities of bodies in a deforming cell are relative to the affine field gradient . x. Tensors are 3 x 3 by rows,
+/// tension and extension positive.
 typedef struct scree_periodic_cell {
     double lattice[9];   ///< m, lattice vectors as columns; the unit vector where a direction is not periodic
     double reference[9]; ///< m, the same lattice vectors at the start of the loading stage
@@ -276,7 +272,8 @@ typedef struct scree_state {
     double tick;              ///< s, the small step of two_timescales, the step of all other schemes
     double step_size;         ///< s, the last step, from n - 1 to n
     double kick_size;         ///< s, what leapfrog velocities were advanced by in it: the mean of it and the one before
-    size_t row_capacity;      ///< of row, turn, sum, torque, id, foreseen: room for the images of a periodic cell (state/work.h)
+    size_t row_capacity;      ///< of row, turn, sum, torque, id, foreseen: room for the images of a periodic cell
+                              ///< (state/work.h)
     scree_row *row;           ///< count
     scree_turn_row *turn;     ///< 3D: count; NULL in 2D
     scree_sum_row *sum;       ///< count, forces at `step`
@@ -304,10 +301,10 @@ typedef struct scree_state {
     uint64_t surface_ticks;                     ///< for which they have been moving
     uint64_t surface_moving;                    ///< 1: they move now
     double surface_speed;                       ///< m/s, bound of their velocity now
-    double pressure; ///< Pa, confining pressure applied now
-    scree_loop loop; ///< 2D
-    scree_hull hull; ///< 3D
-    scree_periodic_cell periodic; ///< periodic boundary
+    double pressure;                            ///< Pa, confining pressure applied now
+    scree_loop loop;                            ///< 2D
+    scree_hull hull;                            ///< 3D
+    scree_periodic_cell periodic;               ///< periodic boundary
     scree_drive drive;
     scree_membrane membrane;
     scree_strain strain;
@@ -321,7 +318,8 @@ typedef struct scree_state {
 scree_status scree_state_create(scree_state *state, int dimension, size_t count, scree_error *error) SCREE_MUST_USE;
 void scree_state_destroy(scree_state *state);
 
-/// Grows the arrays that contacts read and write (row, turn, sum, torque, id, foreseen) to hold `count` rows. Errors: memory.
+/// Grows the arrays that contacts read and write (row, turn, sum, torque, id, foreseen) to hold `count` rows. Errors:
+/// memory.
 scree_status scree_state_reserve_rows(scree_state *state, size_t count, scree_error *error) SCREE_MUST_USE;
 
 /// Position of the body in `row` [m]; z = 0 in 2D.

@@ -93,7 +93,8 @@ static double solid_angle(const double *p, const double *a, const double *b, con
 
 /// Place of the directed edge a-b among the triangles: 3 t + k; SIZE_MAX when there is none. Asserts that there is one
 /// at most.
-static size_t find_edge(const scree_surface *s, const size_t *first, const size_t *next, uint32_t a, uint32_t b)
+static size_t find_edge(const scree_triangle_surface *s, const size_t *first, const size_t *next, uint32_t a,
+                        uint32_t b)
 {
     size_t found = SIZE_MAX;
     for (size_t e = first[a]; e != SIZE_MAX; e = next[e]) {
@@ -106,7 +107,7 @@ static size_t find_edge(const scree_surface *s, const size_t *first, const size_
 
 /// Closed, every edge shared by two triangles, one disc of triangles round each point, connected, Euler characteristic
 /// 2, from the lowest index and ascending. Returns the number of points on it, marked in `on`.
-static size_t check_sphere(const scree_surface *s, size_t count, uint8_t *on)
+static size_t check_sphere(const scree_triangle_surface *s, size_t count, uint8_t *on)
 {
     size_t *first, *next, *degree, edges = 3 * s->count, nodes = 0;
     assert_int_equal(scree_allocate(&first, count, sizeof *first, NULL), SCREE_OK);
@@ -148,7 +149,8 @@ static size_t check_sphere(const scree_surface *s, size_t count, uint8_t *on)
 }
 
 /// The surface is a sphere, encloses all points, and is filled by the tetrahedra that were not cut.
-static void check_surface(const cloud *c, const scree_tetrahedra *t, const scree_surface *s, const uint8_t *marks)
+static void check_surface(const cloud *c, const scree_tetrahedra *t, const scree_triangle_surface *s,
+                          const uint8_t *marks)
 {
     uint8_t *on;
     assert_int_equal(scree_allocate(&on, c->count, 1, NULL), SCREE_OK);
@@ -190,7 +192,7 @@ static size_t check_cloud(const cloud *c, double gap_limit)
 {
     scree_error error;
     scree_tetrahedra t;
-    scree_surface s;
+    scree_triangle_surface s;
     uint8_t *marks;
     assert_int_equal(scree_tetrahedra_build(c->points, c->count, &t, &error), SCREE_OK);
     assert_int_equal(scree_allocate(&marks, t.count, 1, &error), SCREE_OK);
@@ -198,7 +200,7 @@ static size_t check_cloud(const cloud *c, double gap_limit)
                      SCREE_OK);
     check_surface(c, &t, &s, marks);
     size_t triangles = s.count;
-    scree_surface_destroy(&s);
+    scree_triangle_surface_destroy(&s);
     scree_tetrahedra_destroy(&t);
     scree_release(&marks);
     return triangles;
@@ -370,19 +372,19 @@ static void a_lone_sphere_stays_on_the_surface(void **user)
         lone[1] = 2.2;
         lone[2] = 4.1;
         check_cloud(&c, 0.5);
-        scree_surface s;
+        scree_triangle_surface s;
         assert_int_equal(scree_outer_surface(c.points, c.radius, c.count, 1, 0.5, &s, NULL), SCREE_OK);
         size_t triangles = 0;
         for (size_t t = 0; t < s.count; t++)
             for (int k = 0; k < 3; k++) triangles += s.triangle[t][k] == 17;
         assert_true(triangles >= 3);
         if (distance > 6) assert_true(triangles < 6); // a spike
-        scree_surface_destroy(&s);
+        scree_triangle_surface_destroy(&s);
         cloud_destroy(&c);
     }
 }
 
-static void expect_same(const scree_surface *a, const scree_surface *b)
+static void expect_same(const scree_triangle_surface *a, const scree_triangle_surface *b)
 {
     assert_int_equal(a->count, b->count);
     assert_memory_equal(a->triangle, b->triangle, a->count * sizeof *a->triangle);
@@ -395,20 +397,20 @@ static void the_band_gives_the_surface_of_all(void **user)
         cloud c = packing(14, true, 0.15, 20 + (uint64_t)kind);
         deform(&c, kind, 14, 0.6 * (kind > 0));
         if (kind == 3) c.points[3] = 300; // the grid would be too large
-        scree_surface band, all;
+        scree_triangle_surface band, all;
         scree_tetrahedra t;
         assert_int_equal(scree_outer_surface(c.points, c.radius, c.count, 1, 0.5, &band, NULL), SCREE_OK);
         assert_int_equal(scree_tetrahedra_build(c.points, c.count, &t, NULL), SCREE_OK);
         assert_int_equal(scree_boundary_surface(&t, c.points, c.radius, c.count, 0.5, &all, NULL, NULL), SCREE_OK);
         expect_same(&band, &all);
         // Cut so deep that the band does not suffice.
-        scree_surface_destroy(&band);
-        scree_surface_destroy(&all);
+        scree_triangle_surface_destroy(&band);
+        scree_triangle_surface_destroy(&all);
         assert_int_equal(scree_outer_surface(c.points, c.radius, c.count, 1, 0.05, &band, NULL), SCREE_OK);
         assert_int_equal(scree_boundary_surface(&t, c.points, c.radius, c.count, 0.05, &all, NULL, NULL), SCREE_OK);
         expect_same(&band, &all);
-        scree_surface_destroy(&band);
-        scree_surface_destroy(&all);
+        scree_triangle_surface_destroy(&band);
+        scree_triangle_surface_destroy(&all);
         scree_tetrahedra_destroy(&t);
         cloud_destroy(&c);
     }
@@ -423,7 +425,7 @@ static void the_order_does_not_show(void **user)
         size_t to = 35 * i % c.count; // 35 and 432 have no common factor
         for (size_t k = 0; k < 3; k++) d.points[3 * to + k] = c.points[3 * i + k];
     }
-    scree_surface a, b;
+    scree_triangle_surface a, b;
     assert_int_equal(scree_outer_surface(c.points, c.radius, c.count, 1, 0.3, &a, NULL), SCREE_OK);
     assert_int_equal(scree_outer_surface(d.points, d.radius, d.count, 1, 0.3, &b, NULL), SCREE_OK);
     assert_int_equal(a.count, b.count);
@@ -440,8 +442,8 @@ static void the_order_does_not_show(void **user)
         for (size_t n = 0; n < b.count; n++) found += memcmp(b.triangle[n], v, sizeof v) == 0;
         assert_int_equal(found, 1);
     }
-    scree_surface_destroy(&a);
-    scree_surface_destroy(&b);
+    scree_triangle_surface_destroy(&a);
+    scree_triangle_surface_destroy(&b);
     cloud_destroy(&c);
     cloud_destroy(&d);
 }
@@ -451,7 +453,7 @@ static void bad_points_give_errors(void **user)
     (void)user;
     scree_error error;
     scree_tetrahedra t;
-    scree_surface s;
+    scree_triangle_surface s;
     cloud c = packing(3, true, 0.1, 0);
     assert_int_equal(scree_tetrahedra_build(c.points, 3, &t, &error), SCREE_ERROR_GUARD);
     assert_non_null(strstr(error.message, "at least 4 points"));
@@ -477,14 +479,14 @@ static void failed_allocations_are_reported(void **user)
     bool failed = true;
     for (uint64_t n = 1; failed; n++) {
         size_t before, after;
-        scree_surface s;
+        scree_triangle_surface s;
         scree_allocation_statistics(&before, NULL);
         scree_allocation_fail_after(n);
         scree_status status = scree_outer_surface(c.points, c.radius, c.count, 1, 0.2, &s, &error);
         scree_allocation_fail_after(0);
         failed = status != SCREE_OK;
         if (failed) assert_int_equal(status, SCREE_ERROR_IO);
-        scree_surface_destroy(&s);
+        scree_triangle_surface_destroy(&s);
         scree_allocation_statistics(&after, NULL);
         assert_int_equal(before, after);
         assert_true(n < 100);
