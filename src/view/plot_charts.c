@@ -31,13 +31,13 @@ static const struct chart_entry {
     {"volumetric-strain", "Volumetric strain", "dilation −ε_v (%), positive: volume grows", false, {
         {"volumetric_strain", NULL, -100, BLUE, false}}},
     {"stress-ratio", "Stress ratio", "axial over lateral stress (1)", false, {
-        {"stress_ratio", "from plates", 1, BLUE, false},
+        {"stress_ratio", "applied", 1, BLUE, false},
         {"stress_ratio_contacts", "from contacts", 1, VERMILLION, true}}},
     {"shear-ratio", "Shear stress over normal stress", "shear over axial stress (1)", false, {
         {"shear_ratio", NULL, 1, BLUE, false}}},
     {"slip", "Slip at contacts", "mean slip speed / v_R (1)", false, {
         {"slip_ratio", NULL, 1, BLUE, false}}},
-    {"stress", "Stress from plates and from contacts", "stress (@Pa), compression positive", false, {
+    {"stress", "Stress, applied and from contacts", "stress (@Pa), compression positive", false, {
         {"stress_axial_plates", "axial, applied", 1, BLUE, false},
         {"stress_axial_contacts", "axial, contacts", 1, SKY, true},
         {"stress_lateral_applied", "lateral, applied", 1, VERMILLION, false},
