@@ -2,13 +2,16 @@
 ///
 /// Built-in cases biaxial and triaxial: the time of one update on the confined sample, that of a step between updates,
 /// and update / (interval x step + update). Then one update of large packings as they were dropped. A figure is the
-/// best of several, in processor time of one thread. Arguments: none.
+/// best of several, in processor time of one thread. Arguments: the parts to run (discs, spheres, dropped-discs,
+/// dropped-spheres); all without any.
 #include "boundary/pressure.h"
 #include "run/simulation.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 enum { RUNS = 8 };
@@ -96,12 +99,27 @@ static void bench_packing(const char *name, long count)
     scree_case_free(c);
 }
 
-int main(void)
+typedef struct part {
+    const char *name, *case_name;
+    long count;
+    void (*bench)(const char *name, long count);
+} part;
+
+static bool is_wanted(const char *name, int argc, char **argv)
 {
+    bool wanted = argc < 2;
+    for (int k = 1; k < argc; k++) wanted = wanted || strcmp(argv[k], name) == 0;
+    return wanted;
+}
+
+int main(int argc, char **argv)
+{
+    static const part parts[] = {{"discs", "biaxial", 4000, bench_confined},
+                                 {"spheres", "triaxial", 3413, bench_confined},
+                                 {"dropped-discs", "biaxial", 100000, bench_packing},
+                                 {"dropped-spheres", "triaxial", 100000, bench_packing}};
     printf("%-10s %8s %12s %12s %10s %10s\n", "case", "bodies", "update, ms", "step, us", "interval", "share");
-    bench_confined("biaxial", 4000);
-    bench_confined("triaxial", 3413);
-    bench_packing("biaxial", 100000);
-    bench_packing("triaxial", 100000);
+    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++)
+        if (is_wanted(parts[k].name, argc, argv)) parts[k].bench(parts[k].case_name, parts[k].count);
     return EXIT_SUCCESS;
 }
