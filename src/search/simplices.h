@@ -4,11 +4,16 @@
 
 #include "base/memory.h"
 
-/// points: count x dimension [m]. vertex: simplex_count x (dimension + 1) indices, oriented positively, in ascending
-/// order of simplices; within one the indices ascend, but for the last two where the orientation wants it. The caller
-/// frees it. Errors: memory; SCREE_ERROR_GUARD for fewer than dimension + 1 points, not a number, all on a line (in a
-/// plane).
-scree_status scree_simplices_build(const double *points, size_t count, int dimension, uint32_t **vertex,
-                                   size_t *simplex_count, scree_error *error) SCREE_MUST_USE;
+typedef struct scree_simplices {
+    size_t count;
+    uint32_t *vertex;   ///< count x (dimension + 1) points
+    int32_t *neighbour; ///< count x (dimension + 1): the simplex opposite to each vertex, -1: outside
+} scree_simplices;
+
+/// points: count x dimension [m]. Simplices are oriented positively and come in ascending order; within one the indices
+/// ascend, but for the last two where the orientation wants it. The caller frees both arrays. Errors: memory;
+/// SCREE_ERROR_GUARD for fewer than dimension + 1 points, not a number, all on a line (in a plane), two in one place.
+scree_status scree_simplices_build(const double *points, size_t count, int dimension, scree_simplices *simplices,
+                                   scree_error *error) SCREE_MUST_USE;
 
 #endif

@@ -231,6 +231,43 @@ static double circumsphere(const cloud *c, const uint32_t *v, double centre[3])
     return sqrt(radius);
 }
 
+/// Neighbours are mutual and share the three points of the face; no point lies outside of a face without one: the
+/// volume above it is at most `above`.
+static void check_neighbours(const cloud *c, const scree_tetrahedra *t, double above)
+{
+    for (size_t face = 0; face < 4 * t->count; face++) {
+        size_t n = face / 4, k = face % 4;
+        const uint32_t *v = t->vertex[n];
+        int32_t behind = t->neighbour[n][k];
+        if (behind < 0) {
+            for (size_t i = 0; i < c->count; i++) {
+                const uint8_t *f = scree_tetrahedron_face[k];
+                assert_true(volume_of(at(c, v[f[0]]), at(c, v[f[1]]), at(c, v[f[2]]), at(c, (uint32_t)i)) <= above);
+            }
+            continue;
+        }
+        size_t shared = 0, back = 0;
+        for (size_t i = 0; i < 4; i++) {
+            back += t->neighbour[behind][i] == (int32_t)n;
+            for (size_t j = 0; j < 4; j++) shared += t->vertex[behind][i] == v[j] && j != k;
+        }
+        assert_int_equal(back, 1);
+        assert_int_equal(shared, 3);
+    }
+}
+
+/// Ascending order of tetrahedra, and within one, but for the last two corners.
+static void check_order(const scree_tetrahedra *t)
+{
+    for (size_t n = 0; n < t->count; n++) {
+        const uint32_t *v = t->vertex[n], *before = n > 0 ? t->vertex[n - 1] : NULL;
+        assert_true(v[0] < v[1] && v[1] < v[2] && v[1] < v[3]);
+        size_t k = 0;
+        while (before && k < 3 && v[k] == before[k]) k++;
+        if (before) assert_true(before[k] < v[k]);
+    }
+}
+
 static void tetrahedra_are_delaunay(void **user)
 {
     (void)user;
@@ -249,26 +286,9 @@ static void tetrahedra_are_delaunay(void **user)
             // Corners lie on the sphere; its centre is known to 1e-16 over the flatness of the tetrahedron.
             assert_true(sqrt(square) > radius * (1 - 1e-7));
         }
-        // Neighbours are mutual and share the three points of the face.
-        for (int k = 0; k < 4; k++) {
-            int32_t behind = t.neighbour[n][k];
-            if (behind < 0) {
-                for (size_t i = 0; i < c.count; i++) {
-                    const uint8_t *f = scree_tetrahedron_face[k];
-                    double above = volume_of(at(&c, v[f[0]]), at(&c, v[f[1]]), at(&c, v[f[2]]), at(&c, (uint32_t)i));
-                    assert_true(above < 1e-22); // no point outside the convex hull; volumes are about 1e-11
-                }
-                continue;
-            }
-            int shared = 0, back = 0;
-            for (int i = 0; i < 4; i++) {
-                back += t.neighbour[behind][i] == (int32_t)n;
-                for (int j = 0; j < 4; j++) shared += t.vertex[behind][i] == v[j] && j != k;
-            }
-            assert_int_equal(back, 1);
-            assert_int_equal(shared, 3);
-        }
     }
+    check_neighbours(&c, &t, 1e-22); // volumes are about 1e-11
+    check_order(&t);
     scree_tetrahedra_destroy(&t);
     cloud_destroy(&c);
 }
@@ -282,6 +302,11 @@ static void lattices_have_one_surface(void **user)
             cloud c = packing(side, dense, 0, 0);
             size_t triangles = check_cloud(&c, 0.5);
             size_t n = side - 1;
+            scree_tetrahedra t;
+            assert_int_equal(scree_tetrahedra_build(c.points, c.count, &t, NULL), SCREE_OK);
+            check_neighbours(&c, &t, 1e-12); // volumes are about 0.2, flat ones 1e-16
+            check_order(&t);
+            scree_tetrahedra_destroy(&t);
             if (!dense) assert_int_equal(triangles, 2 * (2 * n * n + 4 * n * (2 * side - 1)));
             cloud_destroy(&c);
         }
