@@ -2,10 +2,10 @@
 ///
 /// Only the band of points near the outside (band.h) is triangulated. The loop needs nothing else, and that is checked,
 /// not assumed: the peeling looks at the triangles along the loop only, and a triangle of the band belongs to the
-/// Delaunay triangulation of ALL points when no left-out point lies in its circumcircle (Delaunay 1934). If one does,
-/// all points are triangulated after all. Where points are cocircular the diagonals, which are not unique, may differ
-/// from those of the whole. Cost: O(n) for the band, O(b log b) for the b bodies in it, O(cells in its box) for a
-/// circle along the loop.
+/// Delaunay triangulation of ALL points when no left-out point lies in its circumcircle (Delaunay 1934). Where
+/// one does, the band is extended there and triangulated again; after a few rounds all points are. Where points are
+/// cocircular the diagonals, which are not unique, may differ from those of the whole. Cost: O(n) for the band, O(b log
+/// b) for the b bodies in it, O(cells in its box) for a circle along the loop.
 #include "search/band.h"
 #include "search/delaunay.h"
 
@@ -25,23 +25,23 @@ static double circumcircle(const double *a, const double *b, const double *c, do
 
 /// No circle of a triangle along the loop holds a left-out point. Flat triangles occur only on the hull, which the band
 /// shares with the whole: their circle is the empty half-plane outside.
-static bool is_certain(const scree_band *b, const double *points, size_t count,
-                       const scree_triangulation *triangulation, const uint8_t *marks)
+static bool is_certain(scree_band *b, const scree_triangulation *triangulation, const uint8_t *marks)
 {
+    bool certain = true;
     for (size_t t = 0; t < triangulation->count; t++) {
         if (marks[t] == SCREE_TRIANGLE_INSIDE) continue;
-        const uint32_t *v = triangulation->vertex[t];
-        double centre[2], radius = circumcircle(b->points + 2 * (size_t)v[0], b->points + 2 * (size_t)v[1],
-                                                b->points + 2 * (size_t)v[2], centre);
-        if (!isinf(radius) && scree_band_leaves_out(b, points, count, centre, radius)) return false;
+        const double *corner[3];
+        for (int k = 0; k < 3; k++) corner[k] = b->points + 2 * (size_t)triangulation->vertex[t][k];
+        double centre[2], radius = circumcircle(corner[0], corner[1], corner[2], centre);
+        if (!isinf(radius) && scree_band_wants(b, corner, centre, radius)) certain = false;
     }
-    return true;
+    return certain;
 }
 
 /// The loop of the whole from the band, in indices of the whole; *certain false (and no loop) when it may be another
 /// one.
-static scree_status loop_of_band(const scree_band *b, const double *points, size_t count, double gap_limit,
-                                 uint32_t **loop, size_t *loop_count, bool *certain, scree_error *error)
+static scree_status loop_of_band(scree_band *b, double gap_limit, uint32_t **loop, size_t *loop_count, bool *certain,
+                                 scree_error *error)
 {
     scree_triangulation triangulation;
     uint8_t *marks = NULL;
@@ -50,7 +50,7 @@ static scree_status loop_of_band(const scree_band *b, const double *points, size
     if (!status)
         status = scree_boundary_loop(&triangulation, b->points, b->radius, b->count, gap_limit, loop, loop_count, marks,
                                      error);
-    *certain = !status && is_certain(b, points, count, &triangulation, marks);
+    *certain = !status && is_certain(b, &triangulation, marks);
     for (size_t k = 0; k < *loop_count; k++) (*loop)[k] = b->index[(*loop)[k]];
     if (!*certain) {
         scree_release(loop);
@@ -80,7 +80,10 @@ scree_status scree_outer_loop(const double *points, const double *radius, size_t
     scree_band b;
     bool certain = false;
     scree_status status = scree_band_build(points, radius, count, 2, spacing, &b, error);
-    if (!status && b.count >= 3) status = loop_of_band(&b, points, count, gap_limit, loop, loop_count, &certain, error);
+    while (!status && !certain && b.count > 0) {
+        status = loop_of_band(&b, gap_limit, loop, loop_count, &certain, error);
+        if (!status && !certain) status = scree_band_extend(&b, error);
+    }
     scree_band_destroy(&b);
     if (status || certain) return status;
     return loop_of_all(points, radius, count, gap_limit, loop, loop_count, error);

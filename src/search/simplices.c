@@ -119,7 +119,7 @@ static scree_status qhull_error(int code, char message[MESSAGE_SIZE], int dimens
 
 static scree_status run_qhull(double *scaled, size_t count, int dimension, raw_simplices *raw, scree_error *error)
 {
-    char message[MESSAGE_SIZE] = "", options[] = "qhull d Qbb Qc Qz Q12 Qt";
+    char message[MESSAGE_SIZE] = "", options[] = "qhull d Qbb Qc Qz Q12 Qt Q7";
     FILE *stream = fmemopen(message, MESSAGE_SIZE, "w");
     if (!stream) return scree_error_set_memory(error, MESSAGE_SIZE);
     qhT qh;
