@@ -2,6 +2,7 @@
 #include "testing.h"
 
 #include "base/random.h"
+#include "search/band.h"
 #include "search/delaunay.h"
 #include "search/tetrahedra.h"
 
@@ -415,30 +416,81 @@ static void expect_same(const scree_triangle_surface *a, const scree_triangle_su
     assert_memory_equal(a->triangle, b->triangle, a->count * sizeof *a->triangle);
 }
 
+/// The surface from the band against that of all tetrahedra.
+static void compare_with_all(const cloud *c, const scree_tetrahedra *t, double gap_limit)
+{
+    scree_triangle_surface band, all;
+    assert_int_equal(scree_outer_surface(c->points, c->radius, c->count, 1, gap_limit, &band, NULL), SCREE_OK);
+    assert_int_equal(scree_boundary_surface(t, c->points, c->radius, c->count, gap_limit, &all, NULL, NULL), SCREE_OK);
+    expect_same(&band, &all);
+    scree_triangle_surface_destroy(&band);
+    scree_triangle_surface_destroy(&all);
+}
+
 static void the_band_gives_the_surface_of_all(void **user)
 {
     (void)user;
-    for (int kind = 0; kind < 4; kind++) {
-        cloud c = packing(14, true, 0.15, 20 + (uint64_t)kind);
-        deform(&c, kind, 14, 0.6 * (kind > 0));
-        if (kind == 3) c.points[3] = 300; // the grid would be too large
-        scree_triangle_surface band, all;
+    // Undeformed the band suffices at once, sheared and widened after one extension; cut deeper, or with a body so far
+    // away that the grid would be too large, all points are needed.
+    const int kinds[] = {3, 0, 2};
+    for (size_t n = 0; n < 3; n++) {
+        cloud c = packing(19, true, 0.15, 21 + (uint64_t)kinds[n]);
+        deform(&c, kinds[n], 19, kinds[n] == 3 ? 0 : 0.3);
         scree_tetrahedra t;
-        assert_int_equal(scree_outer_surface(c.points, c.radius, c.count, 1, 0.5, &band, NULL), SCREE_OK);
         assert_int_equal(scree_tetrahedra_build(c.points, c.count, &t, NULL), SCREE_OK);
-        assert_int_equal(scree_boundary_surface(&t, c.points, c.radius, c.count, 0.5, &all, NULL, NULL), SCREE_OK);
-        expect_same(&band, &all);
-        // Cut so deep that the band does not suffice.
-        scree_triangle_surface_destroy(&band);
-        scree_triangle_surface_destroy(&all);
-        assert_int_equal(scree_outer_surface(c.points, c.radius, c.count, 1, 0.05, &band, NULL), SCREE_OK);
-        assert_int_equal(scree_boundary_surface(&t, c.points, c.radius, c.count, 0.05, &all, NULL, NULL), SCREE_OK);
-        expect_same(&band, &all);
-        scree_triangle_surface_destroy(&band);
-        scree_triangle_surface_destroy(&all);
+        compare_with_all(&c, &t, 0.5);
+        if (n == 0) compare_with_all(&c, &t, 0.1);
         scree_tetrahedra_destroy(&t);
         cloud_destroy(&c);
     }
+    cloud c = packing(14, true, 0.15, 20);
+    c.points[3] = 300;
+    scree_tetrahedra t;
+    assert_int_equal(scree_tetrahedra_build(c.points, c.count, &t, NULL), SCREE_OK);
+    compare_with_all(&c, &t, 0.5);
+    scree_tetrahedra_destroy(&t);
+    cloud_destroy(&c);
+}
+
+static bool is_in_band(const scree_band *b, size_t point)
+{
+    for (size_t k = 0; k < b->count; k++)
+        if (b->index[k] == point) return true;
+    return false;
+}
+
+/// A sphere with a left-out point in it makes the band grow by what it holds, and is then content; after a few rounds
+/// the band gives up.
+static void the_band_grows_where_it_is_wanted(void **user)
+{
+    (void)user;
+    cloud c = packing(19, true, 0.1, 70);
+    scree_band b;
+    assert_int_equal(scree_band_build(c.points, c.radius, c.count, 3, 1, &b, NULL), SCREE_OK);
+    size_t before = b.count;
+    assert_true(before > 0);
+    const double *o = c.points;
+    const double *near_top[4] = {o, o + 3 * 18, o + 3 * (19 * 18), o + 3 * (c.count - 1)};
+    double middle[3] = {9.5, 8.2, 15.4}, outside[3] = {9.5, 8.2, -6};
+    assert_false(scree_band_wants(&b, near_top, outside, 5));
+    assert_true(scree_band_wants(&b, near_top, middle, 2));
+    assert_true(scree_band_wants(&b, near_top, middle, 2)); // not yet in the band
+    assert_int_equal(scree_band_extend(&b, NULL), SCREE_OK);
+    assert_false(scree_band_wants(&b, near_top, middle, 2));
+    assert_true(b.count > before && b.count < c.count);
+    for (size_t i = 0; i < c.count; i++) {
+        double square = 0;
+        for (size_t k = 0; k < 3; k++) square += (c.points[3 * i + k] - middle[k]) * (c.points[3 * i + k] - middle[k]);
+        if (square < 4) assert_true(is_in_band(&b, i));
+    }
+    for (size_t k = 0; k < b.count; k++) {
+        if (k > 0) assert_true(b.index[k] > b.index[k - 1]);
+        assert_memory_equal(b.points + 3 * k, c.points + 3 * (size_t)b.index[k], 3 * sizeof(double));
+    }
+    for (int round = 0; round < 20; round++) assert_int_equal(scree_band_extend(&b, NULL), SCREE_OK);
+    assert_int_equal(b.count, 0);
+    scree_band_destroy(&b);
+    cloud_destroy(&c);
 }
 
 /// Points in general position, in another order: the same surface in other names.
@@ -529,6 +581,7 @@ int main(void)
         cmocka_unit_test(rings_and_dumbbells_have_one_surface),
         cmocka_unit_test(a_lone_sphere_stays_on_the_surface),
         cmocka_unit_test(the_band_gives_the_surface_of_all),
+        cmocka_unit_test(the_band_grows_where_it_is_wanted),
         cmocka_unit_test(the_order_does_not_show),
         cmocka_unit_test(bad_points_give_errors),
         cmocka_unit_test(failed_allocations_are_reported),
