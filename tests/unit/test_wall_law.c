@@ -224,9 +224,79 @@ static void cones_touch_at_the_closest_point(void **unused)
     check_cone_at(&w, LENGTH, high, 0.6, 0.8);
     check_cone_at(&w, 0, low, -0.8, 0.6);
     world_close(&w);
+    // Flat: near the corner the rim is within reach too, but not a place where the distance is least.
+    make_cone(&w, low, 10 * LENGTH, SCREE_SIDE_INSIDE, SCREE_ENDS_CLOSED);
+    check_cone_at(&w, 0, low - 0.12 * R, 1, 0);
+    world_close(&w);
     make_cone(&w, 0, high, SCREE_SIDE_OUTSIDE, SCREE_ENDS_CLOSED);
     check_cone_at(&w, 0.3 * LENGTH, 0.3 * high, -high, LENGTH);
     check_cone_at(&w, 0, 0, -0.8, 0.6);
+    world_close(&w);
+}
+
+// ---- bounds ------------------------------------------------------------------------------------------------------
+
+/// No point of a wall is faster than the bound that the quanta of forces and the list of neighbours rely on.
+static void speeds_are_bounded(void **unused)
+{
+    (void)unused;
+    const double centre[3] = {0.01, -0.03, 0.02}, spin[3] = {3, -4, 12}, velocity[3] = {0.02, 0.01, -0.03};
+    for (int shape = SCREE_SHAPE_OF_BOX; shape <= SCREE_SHAPE_OF_MESH; shape++) {
+        static const triangle_corners triangle[1] = {{{0.01, 0, 0.02}, {0.02, 0.05, 0}, {-0.03, 0, 0.01}}};
+        world w = {0};
+        scree_config_wall *wall =
+            shape == SCREE_SHAPE_OF_MESH ? world_mesh(&w, triangle, 1) : world_wall(&w, (scree_surface_shape)shape);
+        for (int k = 0; k < 3; k++) {
+            wall->lower[k] = wall->start[k] = -0.01 * (k + 1);
+            wall->upper[k] = wall->end[k] = 0.02 * (k + 1);
+        }
+        wall->radius = wall->radius_end = 0.01;
+        wall->radius_start = 0.03;
+        memcpy(wall->centre, centre, sizeof centre);
+        memcpy(wall->spin, spin, sizeof spin);
+        memcpy(wall->velocity, velocity, sizeof velocity);
+        world_start(&w, 3, SCREE_LAW_HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 1e-6);
+        const scree_surface *surface = &w.f.work.container->surface[0];
+        double bound = scree_container_speed(w.f.work.container), fastest = 0;
+        double time = 1e-4, way = scree_container_way(w.f.work.container, time, 0);
+        scree_wall_triangles drawn;
+        scree_error error;
+        check(scree_container_triangles(w.f.work.container, wall->lower, wall->upper, &drawn, &error), &error);
+        for (size_t k = 0; k < 3 * drawn.count; k++) {
+            scree_vector moved;
+            scree_surface_velocity(surface, &drawn.corner[k / 3][3 * (k % 3)], moved);
+            fastest = fmax(fastest, sqrt(dot(moved, moved)));
+        }
+        assert_true(drawn.count > 0 && fastest > 0.1 && fastest <= bound && fastest * time <= way);
+        // Spin times extent, where the motions add up.
+        assert_true(bound < 2.5 * fastest);
+        scree_wall_triangles_destroy(&drawn);
+        world_close(&w);
+        if (wall->file) (void)unlink(wall->file);
+    }
+}
+
+/// Bodies beside a closed wall are told from those in it everywhere, beyond its corners too.
+static void clearance_is_negative_outside(void **unused)
+{
+    (void)unused;
+    const double low = 0.004, high = 0.01;
+    world w = {0};
+    make_cone(&w, low, high, SCREE_SIDE_INSIDE, SCREE_ENDS_CLOSED);
+    int inside = 0, corner = 0;
+    for (uint64_t k = 0; k < 2000; k++) {
+        double s = LENGTH * (1.6 * fixture_random(3 * k) - 0.3), r = 2 * high * fixture_random(3 * k + 1);
+        double place[3], mantle = (low + (high - low) * s / LENGTH - r) * LENGTH / hypot(LENGTH, high - low);
+        double expected = fmin(mantle, fmin(s, LENGTH - s));
+        lift(6 * fixture_random(3 * k + 2), s, r, place);
+        for (int i = 0; i < 3; i++) place[i] += START[i];
+        double clearance = scree_surface_clearance(w.f.work.container, 0, place, R);
+        assert_true((clearance < 0) == (expected < 0));
+        if (expected > 0) assert_near(clearance, expected, 1e-15);
+        inside += expected > 0;
+        corner += mantle < 0 && (s < 0 || s > LENGTH);
+    }
+    assert_true(inside > 100 && corner > 100);
     world_close(&w);
 }
 
@@ -359,6 +429,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(planes_are_built_in_walls),
         cmocka_unit_test(cones_touch_at_the_closest_point),
+        cmocka_unit_test(speeds_are_bounded),
+        cmocka_unit_test(clearance_is_negative_outside),
         cmocka_unit_test(squares_touch_discs),
         cmocka_unit_test(discs_roll),
         cmocka_unit_test(what_has_no_place_in_a_plane_is_refused),

@@ -174,6 +174,33 @@ static void test_edges_and_vertices(void **state)
     check_cube(&w);
 }
 
+/// Deep in a flat mesh, where edges and vertices around are within reach and seen under angles well above `smooth`:
+/// still one contact, the face's.
+static void test_deep_contact(void **state)
+{
+    (void)state;
+    world w = {0};
+    static triangle_corners triangle[64];
+    scree_config_wall *wall =
+        world_mesh(&w, (const triangle_corners *)triangle, make_floor(triangle, 4, 1.2e-3, 0.0078125));
+    char *file = wall->file;
+    world_start(&w, 3, SCREE_LAW_HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 1e-6);
+    for (uint64_t k = 0; k < 500; k++) {
+        double x = 2e-3 * (fixture_random(2 * k) - 0.5), y = 2e-3 * (fixture_random(2 * k + 1) - 0.5), depth = 0.15 * R;
+        double force[3], torque[3], expected = w.f.model.walls[0].normal_stiffness * sqrt(R) * pow(depth, 1.5);
+        w.f.work.valid = false;
+        put(&w, x, y, 0.0078125 + R - depth);
+        world_forces(&w);
+        sphere_force(&w.f, 0, force, torque);
+        assert_int_equal(w.f.state.sum[0].contacts, 1);
+        // Indentations are differences of numbers of the size of a centimetre: 1e-16 x 1e-2 / 1e-4.
+        assert_near(force[2], expected, 1e-12 * expected);
+        assert_near(hypot(force[0], force[1]), 0, 1e-12 * expected);
+    }
+    (void)unlink(file);
+    world_close(&w);
+}
+
 /// A sphere in the corner of a mesh touches three faces, and each contact has its own spring.
 static void test_concave_corner(void **state)
 {
@@ -411,9 +438,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_rest_on_each_shape), cmocka_unit_test(test_edges_and_vertices),
-        cmocka_unit_test(test_concave_corner),     cmocka_unit_test(test_triangulated_plane),
-        cmocka_unit_test(test_oscillation),        cmocka_unit_test(test_moving_wall),
-        cmocka_unit_test(test_spinning_drum),      cmocka_unit_test(test_faceted_drum),
+        cmocka_unit_test(test_deep_contact),       cmocka_unit_test(test_concave_corner),
+        cmocka_unit_test(test_triangulated_plane), cmocka_unit_test(test_oscillation),
+        cmocka_unit_test(test_moving_wall),        cmocka_unit_test(test_spinning_drum),
+        cmocka_unit_test(test_faceted_drum),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
