@@ -54,6 +54,7 @@ static inline void periodic_create(periodic_sample *s, int dimension, size_t cou
     s->model.pairs[0][0] = s->model.walls[0] =
         (scree_pair_constants){.normal_stiffness = 4e9, .tangential_stiffness = 5e9, .friction = 0.5, .damping = 0.3};
     periodic_check(scree_state_create(&s->state, dimension, count, &error), &error);
+    if (scree_model_foresees(&s->model)) periodic_check(scree_state_foresee(&s->state, &error), &error);
     s->model.largest_step = s->model.large_multiple = 1;
     s->state.tick = s->state.step_size = s->state.kick_size = s->model.step;
     const double none[3] = {1, 1, 1};
