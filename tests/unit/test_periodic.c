@@ -409,6 +409,28 @@ static void order_and_threads_do_not_show(void **unused)
     }
 }
 
+/// Grains at rest in the affine field, at first farther from each other than the list looks: it is the gradient alone
+/// that uses the list up.
+static void the_flow_alone_brings_contacts(void **unused)
+{
+    (void)unused;
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        periodic_sample s;
+        const double gradient[9] = {-1000, 0, 0, 0, -1000, 0, 0, 0, dimension == 3 ? -1000 : 0};
+        periodic_fill(&s, dimension, 6, SCREE_LAW_HERTZ_MINDLIN, 0);
+        for (size_t k = 0; k < s.state.count; k++) s.state.row[k].radius *= 0.7;
+        s.model.radius_max *= 0.7;
+        periodic_forces(&s);
+        assert_int_equal(s.work.pairs.count, 0);
+        // From spacings of 1.97 mm to 1.38 mm, below two radii of 0.7 mm.
+        periodic_run(&s, gradient, 1780);
+        size_t touched = 0;
+        for (size_t k = 0; k < s.state.count; k++) touched += s.state.sum[k].contacts > 0;
+        assert_true(touched > s.state.count / 2);
+        periodic_destroy(&s);
+    }
+}
+
 static void narrow_cells_are_refused(void **unused)
 {
     (void)unused;
@@ -436,6 +458,7 @@ int main(void)
         cmocka_unit_test(stresses_are_held),
         cmocka_unit_test(rates_and_stresses_are_mixed),
         cmocka_unit_test(order_and_threads_do_not_show),
+        cmocka_unit_test(the_flow_alone_brings_contacts),
         cmocka_unit_test(narrow_cells_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
