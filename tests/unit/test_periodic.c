@@ -82,7 +82,7 @@ static void table_agrees_with_the_sums(void **unused)
         const double gradient[9] = {-2, 5, 0, 0, 1, 0, dimension == 3 ? 3.0 : 0, 0, 0};
         periodic_fill(&s, dimension, 5, SCREE_LAW_HERTZ_MINDLIN, 0.02);
         periodic_run(&s, gradient, 300);
-        periodic_check(scree_contact_table_build(&s.model, &s.state, &s.work, &table, &error), &error);
+        check(scree_contact_table_build(&s.model, &s.state, &s.work, &table, &error), &error);
         double stress[9], virial[9], scale = 0;
         bool images = false;
         scree_stress_from_contacts(&table, 1, stress);
@@ -198,11 +198,11 @@ static double residual(int dimension, const double gradient[9], scree_scheme sch
     // Contacts that exist have no history; the first evaluation gives the elastic energy to begin with.
     periodic_forces(&s);
     s.state.ledger = (scree_ledger){0};
-    periodic_check(scree_contact_table_build(&s.model, &s.state, &s.work, &table, &error), &error);
+    check(scree_contact_table_build(&s.model, &s.state, &s.work, &table, &error), &error);
     scree_energy_measure(&s.model, &s.state, &table, &begin);
     s.state.ledger.initial = begin.kinetic + begin.kinetic_rotation + begin.elastic_normal + begin.elastic_tangential;
     periodic_run(&s, gradient, (int)lrint(2e-4 / step));
-    periodic_check(scree_contact_table_build(&s.model, &s.state, &s.work, &table, &error), &error);
+    check(scree_contact_table_build(&s.model, &s.state, &s.work, &table, &error), &error);
     scree_energy_measure(&s.model, &s.state, &table, &end);
     assert_true(fabs(s.state.ledger.periodic) > 0.02 * s.state.ledger.turnover);
     double relative = fabs(end.residual) / s.state.ledger.turnover;
@@ -247,7 +247,7 @@ static void power_is_volume_times_stress_times_rate(void **unused)
         double booked = s.state.ledger.periodic;
         for (int step = 0; step < 50; step++) {
             periodic_run(&s, gradient, 1);
-            periodic_check(scree_contact_table_build(&s.model, &s.state, &s.work, &table, &error), &error);
+            check(scree_contact_table_build(&s.model, &s.state, &s.work, &table, &error), &error);
             scree_stress_from_contacts(&table, -1, now);
             memset(motion, 0, sizeof motion);
             for (size_t k = 0; k < s.state.count; k++) {
@@ -387,12 +387,12 @@ static uint64_t flow_checksum(int dimension, int threads, int discard)
     periodic_fill(&s, dimension, 5, SCREE_LAW_HERTZ_MINDLIN, 2);
     scree_contact_scratch_destroy(&s.work);
     scree_work_destroy(&s.work);
-    periodic_check(scree_work_create(&s.work, &s.model, threads, &error), &error);
+    check(scree_work_create(&s.work, &s.model, threads, &error), &error);
     for (int step = 1; step <= 600; step++) {
         periodic_run(&s, gradient, 1);
         if (discard > 0 && step % discard == 0) scree_neighbours_invalidate(&s.work);
     }
-    periodic_check(scree_contacts_save(&s.state, &s.work, &error), &error);
+    check(scree_contacts_save(&s.state, &s.work, &error), &error);
     uint64_t checksum = scree_state_checksum(&s.state);
     periodic_destroy(&s);
     return checksum;

@@ -253,6 +253,11 @@ static void speeds_are_bounded(void **unused)
         wall->radius = wall->radius_end = 0.01;
         wall->radius_start = 0.03;
         memcpy(wall->centre, centre, sizeof centre);
+        // Round walls are flat, and turn about their own middle: their extent is their radius.
+        if (shape == SCREE_SHAPE_OF_CYLINDER || shape == SCREE_SHAPE_OF_CONE) {
+            for (int k = 0; k < 3; k++) wall->start[k] = centre[k] - 1e-5 * (k + 1);
+            for (int k = 0; k < 3; k++) wall->end[k] = centre[k] + 1e-5 * (k + 1);
+        }
         memcpy(wall->spin, spin, sizeof spin);
         memcpy(wall->velocity, velocity, sizeof velocity);
         world_start(&w, 3, SCREE_LAW_HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 1e-6);
@@ -298,6 +303,33 @@ static void clearance_is_negative_outside(void **unused)
     }
     assert_true(inside > 100 && corner > 100);
     world_close(&w);
+}
+
+/// A body more than its radius behind a wall with an inside has nothing to do with it; a plane has no other side.
+static void walls_have_another_side(void **unused)
+{
+    (void)unused;
+    for (int shape = SCREE_SHAPE_OF_PLANE; shape <= SCREE_SHAPE_OF_CYLINDER; shape++)
+        for (int k = 0; k < 3; k++) {
+            const double behind[3] = {-0.5 * R, 0.99 * R, 1.01 * R};
+            const scree_vector place = {0.001, 0.002, 0.02 + behind[k]};
+            world w = {0};
+            scree_config_wall *wall = world_wall(&w, (scree_surface_shape)shape);
+            wall->normal[2] = -1;
+            for (int i = 0; i < 3; i++) wall->lower[i] = -0.02;
+            for (int i = 0; i < 3; i++) wall->upper[i] = 0.02;
+            wall->point[2] = wall->end[2] = wall->radius = 0.02;
+            world_start(&w, 3, SCREE_LAW_HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 1e-6);
+            const scree_container *container = w.f.work.container;
+            int touching = 0;
+            for (size_t e = 0; e < container->elements; e++) {
+                scree_site site;
+                scree_element_site(container, e, place, &site);
+                touching += scree_site_touches(container, e, &site, R);
+            }
+            assert_int_equal(touching, k < 2 || shape == SCREE_SHAPE_OF_PLANE);
+            world_close(&w);
+        }
 }
 
 // ---- two dimensions ----------------------------------------------------------------------------------------------
@@ -431,6 +463,7 @@ int main(void)
         cmocka_unit_test(cones_touch_at_the_closest_point),
         cmocka_unit_test(speeds_are_bounded),
         cmocka_unit_test(clearance_is_negative_outside),
+        cmocka_unit_test(walls_have_another_side),
         cmocka_unit_test(squares_touch_discs),
         cmocka_unit_test(discs_roll),
         cmocka_unit_test(what_has_no_place_in_a_plane_is_refused),
