@@ -332,6 +332,42 @@ static void walls_have_another_side(void **unused)
         }
 }
 
+/// A body that moves and turns rigidly with a wall feels its normal force alone, with resistance to rolling too; one
+/// that does not turn along is resisted.
+static void rigid_motion_meets_no_resistance(void **unused)
+{
+    (void)unused;
+    for (int dimension = 2; dimension <= 3; dimension++)
+        for (int rigid = 0; rigid < 2; rigid++) {
+            const double spin[3] = {dimension == 3 ? 9 : 0, dimension == 3 ? -4 : 0, 11}, still[3] = {0};
+            const double place[3] = {0.004, 0.01 + 0.99 * R, dimension == 3 ? -0.003 : 0};
+            double velocity[3];
+            scree_vector force, torque;
+            world w = {0};
+            scree_config_wall *wall = world_wall(&w, SCREE_SHAPE_OF_BOX);
+            wall->side = SCREE_SIDE_OUTSIDE;
+            for (int k = 0; k < 3; k++) wall->lower[k] = -0.01;
+            for (int k = 0; k < 3; k++) wall->upper[k] = 0.01;
+            memcpy(wall->spin, spin, sizeof spin);
+            world_start(&w, dimension, SCREE_LAW_HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 1e-7);
+            sphere_resist_turning(&w.f);
+            w.f.state.surface_moving = 1;
+            cross(spin, place, velocity);
+            // The contact point of a body at rest moves with the wall when its centre does, with the lever between.
+            double lever[3] = {0, -0.995 * R, 0}, apart[3];
+            cross(spin, lever, apart);
+            for (int k = 0; k < 3 && !rigid; k++) velocity[k] += apart[k];
+            put(&w, place, velocity, rigid ? spin : still);
+            world_forces(&w);
+            scree_body_force(&w.f.model, &w.f.state, 0, force, torque);
+            double normal = force[1], turning = sqrt(dot(torque, torque)) / (normal * R);
+            assert_true(normal > 1 && fabs(force[0]) + fabs(force[2]) < 1e-9 * normal);
+            // Round-off of velocities of 0.1 m/s over the dashpot's part of the force.
+            assert_true(rigid ? turning < 1e-9 : turning > 1e-6);
+            world_close(&w);
+        }
+}
+
 // ---- two dimensions ----------------------------------------------------------------------------------------------
 
 static const double H = 0.01;
@@ -464,6 +500,7 @@ int main(void)
         cmocka_unit_test(speeds_are_bounded),
         cmocka_unit_test(clearance_is_negative_outside),
         cmocka_unit_test(walls_have_another_side),
+        cmocka_unit_test(rigid_motion_meets_no_resistance),
         cmocka_unit_test(squares_touch_discs),
         cmocka_unit_test(discs_roll),
         cmocka_unit_test(what_has_no_place_in_a_plane_is_refused),
