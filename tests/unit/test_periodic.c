@@ -327,6 +327,33 @@ static void stresses_are_held(void **unused)
     }
 }
 
+/// The dashpot of the servo resists changes of a rate: at the wanted stress a lasting one stays as it is.
+static void lasting_rates_are_not_resisted(void **unused)
+{
+    (void)unused;
+    for (int lasting = 0; lasting < 2; lasting++) {
+        periodic_sample s;
+        scree_periodic_drive drive = {.inertia = 0};
+        periodic_fill(&s, 3, 5, SCREE_LAW_HERTZ_MINDLIN, 0);
+        scree_periodic_cell *cell = &s.state.periodic;
+        for (int k = 0; k < 9; k++) drive.stress[k] = k % 4 == 0 ? -1e6 : NAN;
+        scree_periodic_drive_fit(&s.model, &s.state, 1e6, &drive);
+        for (int k = 0; k < 9; k += 4) {
+            cell->virial[k] = 1e6 * scree_periodic_extent(&s.state);
+            cell->gradient[k] = 0.5 * drive.limit;
+            cell->drift[k] = lasting ? cell->gradient[k] : 0;
+        }
+        scree_periodic_control(&s.model, &s.state, &drive, 1);
+        for (int k = 0; k < 9; k += 4) {
+            double kept = cell->gradient[k] / (0.5 * drive.limit);
+            // A dashpot of Z / I, implicitly; round-off of the stress over the inertia.
+            double expected = lasting ? 1 : 1 / (1 + s.state.step_size * drive.damping);
+            assert_true(fabs(kept - expected) < 1e-9 && (lasting || expected < 0.99));
+        }
+        periodic_destroy(&s);
+    }
+}
+
 /// A lateral pressure (in 3D a shear stress, too) is held while other components deform the cell: what is prescribed
 /// is exact, what is held keeps to its stress, and the cell does the work of its whole stress on its gradient.
 static void rates_and_stresses_are_mixed(void **unused)
@@ -456,6 +483,7 @@ int main(void)
         cmocka_unit_test(power_is_volume_times_stress_times_rate),
         cmocka_unit_test(displacements_go_across_faces),
         cmocka_unit_test(stresses_are_held),
+        cmocka_unit_test(lasting_rates_are_not_resisted),
         cmocka_unit_test(rates_and_stresses_are_mixed),
         cmocka_unit_test(order_and_threads_do_not_show),
         cmocka_unit_test(the_flow_alone_brings_contacts),
