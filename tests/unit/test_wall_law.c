@@ -175,8 +175,8 @@ static void lift(double angle, double s, double r, double vector[3])
 static void make_cone(world *w, double radius_start, double radius_end, scree_side side, scree_ends ends)
 {
     scree_config_wall *wall = world_wall(w, SCREE_SHAPE_OF_CONE);
-    wall->side = side;
-    wall->ends = ends;
+    wall->side = (int)side;
+    wall->ends = (int)ends;
     wall->radius_start = radius_start;
     wall->radius_end = radius_end;
     for (int k = 0; k < 3; k++) {
@@ -375,7 +375,7 @@ static const double H = 0.01;
 static void make_square(world *w, scree_side side)
 {
     scree_config_wall *wall = world_wall(w, SCREE_SHAPE_OF_BOX);
-    wall->side = side;
+    wall->side = (int)side;
     for (int k = 0; k < 2; k++) {
         wall->lower[k] = -H;
         wall->upper[k] = H;
