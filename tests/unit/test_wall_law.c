@@ -90,17 +90,20 @@ static void planes_are_built_in_walls(void **unused)
 {
     (void)unused;
     static double one[STEPS][VALUES], other[STEPS][VALUES];
+    static const scree_law laws[3] = {SCREE_LAW_HERTZ_BRILLIANTOV, SCREE_LAW_HERTZ_MINDLIN,
+                                      SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT};
     for (int dimension = 2; dimension <= 3; dimension++)
-        for (int law = SCREE_LAW_HERTZ_BRILLIANTOV; law <= SCREE_LAW_HERTZ_MINDLIN; law++) {
+        for (int law = 0; law < 3; law++) {
             double size[VALUES / 3] = {0};
-            throw(dimension, (scree_law)law, true, one);
-            throw(dimension, (scree_law)law, false, other);
+            throw(dimension, laws[law], true, one);
+            throw(dimension, laws[law], false, other);
             for (int step = 0; step < STEPS; step++)
                 for (int k = 0; k < VALUES; k++) size[k / 3] = fmax(size[k / 3], fabs(one[step][k]));
             assert_true(size[0] > 0.1);
-            // Indentations of 1e-6 m are differences of numbers of 1e-2 m: 1e-16 x 1e-2 / 1e-6, and steps.
+            // Indentations of 1e-6 m are differences of numbers of 1e-2 m: 1e-16 x 1e-2 / 1e-6; 400 steps, in which
+            // friction that foresees the slip passes through its steepest part.
             for (int step = 0; step < STEPS; step++)
-                for (int k = 0; k < VALUES; k++) assert_near(other[step][k], one[step][k], 1e-10 * size[k / 3]);
+                for (int k = 0; k < VALUES; k++) assert_near(other[step][k], one[step][k], 1e-9 * size[k / 3]);
         }
 }
 
