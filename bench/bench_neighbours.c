@@ -106,9 +106,9 @@ static void measure_skin(const scree_model *model, scree_state *state, scree_wor
             if (state->dimension == 3) row->z += size * symmetric(5 + (uint64_t)k / 2, 3 * id + 2);
         }
         scree_neighbours_invalidate(work);
-        double begin = seconds(1);
+        double begin = seconds(work->threads);
         require(scree_neighbours_refresh(model, state, work, &error), &error);
-        best = fmin(best, 1e3 * (seconds(1) - begin));
+        best = fmin(best, 1e3 * (seconds(work->threads) - begin));
     }
     double count = (double)state->count;
     size_t bytes;
