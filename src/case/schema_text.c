@@ -78,6 +78,7 @@ void scree_key_accepts(const scree_key *key, char *text, size_t size)
     for (size_t i = 0, length = 0; names && names[i].name && length < size; i++)
         length += (size_t)snprintf(text + length, size - length, "%s%s", i > 0 ? ", " : "", names[i].name);
     size_t length = strlen(text);
-    if (key->standard && strcmp(key->standard, "auto") == 0)
+    // A choice names its auto itself.
+    if (!names && key->standard && strcmp(key->standard, "auto") == 0)
         (void)snprintf(text + length, size - length, "%sauto", length > 0 ? "; or " : "");
 }

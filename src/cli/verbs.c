@@ -49,6 +49,18 @@ const scree_verb_option scree_common_options[] = {
     {                                                                                                                  \
         .name = "threads", .letter = 't', .value = "N", .meaning = "threads of each member", .preset = "1"             \
     }
+#define OPTION_RETRY                                                                                                   \
+    {                                                                                                                  \
+        .name = "retry", .meaning = "run failed members anew"                                                          \
+    }
+#define OPTION_FORCE_MEMBERS                                                                                           \
+    {                                                                                                                  \
+        .name = "force", .letter = 'f', .meaning = "run members anew whose folder holds another case"                  \
+    }
+#define OPTION_NO_FIGURES                                                                                              \
+    {                                                                                                                  \
+        .name = "no-figures", .meaning = "leave all figures out"                                                       \
+    }
 
 const scree_verb scree_verbs[] = {
     {
@@ -162,9 +174,9 @@ const scree_verb scree_verbs[] = {
                    OPTION_REALISATIONS,
                    OPTION_JOBS,
                    OPTION_MEMBER_THREADS,
-                   {.name = "retry", .meaning = "run failed members anew"},
-                   {.name = "force", .letter = 'f', .meaning = "run members anew whose folder holds another case"},
-                   {.name = "no-figures", .meaning = "leave all figures out"},
+                   OPTION_RETRY,
+                   OPTION_FORCE_MEMBERS,
+                   OPTION_NO_FIGURES,
                    {.name = "dry-run", .letter = 'n', .meaning = "list the members as command lines, run nothing"},
                    {.name = "slurm",
                     .value = "FILE",
@@ -196,9 +208,9 @@ const scree_verb scree_verbs[] = {
                    OPTION_REALISATIONS,
                    OPTION_JOBS,
                    OPTION_MEMBER_THREADS,
-                   {.name = "retry", .meaning = "run failed members anew"},
-                   {.name = "force", .letter = 'f', .meaning = "run members anew whose folder holds another case"},
-                   {.name = "no-figures", .meaning = "leave all figures out"},
+                   OPTION_RETRY,
+                   OPTION_FORCE_MEMBERS,
+                   OPTION_NO_FIGURES,
                    OPTION_QUIET},
         .example = {{"scree reproduce", "all quick forms"},
                     {"scree reproduce --full --only triaxial", "one experiment with the source's numbers"}},
@@ -220,7 +232,7 @@ const scree_verb scree_verbs[] = {
                     .preset = "standard output",
                     .kind = SCREE_VALUE_FILE}},
         .example = {{"scree report out-reproduce/quick out-reproduce/full -o docs/reproduction.md", "the page of both "
-                                                                                                   "forms"}},
+                                                                                                    "forms"}},
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO},
         .function = scree_verb_report,
     },

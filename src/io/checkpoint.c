@@ -55,8 +55,9 @@ static scree_status write_part(const char *path, const char *group, const scree_
     scree_hdf5_set_text(&part, group, "program", "Scree " SCREE_VERSION);
     scree_hdf5_set_integer(&part, group, "layout", layout_checksum(state->dimension));
     scree_hdf5_set_integer(&part, group, "case_checksum", case_checksum);
-    scree_hdf5_set_number(&part, group, "wall_time", state->wall_time.run);
-    scree_hdf5_set_number(&part, group, "stage_wall_time", state->wall_time.stage);
+    scree_hdf5_set_number(&part, group, "wall_time", state->spent.run);
+    scree_hdf5_set_number(&part, group, "stage_wall_time", state->spent.stage);
+    scree_hdf5_set_number(&part, group, "stage_processor_time", state->spent.processor);
     for (size_t k = 0; k < stored_count() && !part.status; k++) {
         const scree_field *field = stored_field(state->dimension, k);
         if (!field) continue;
@@ -256,15 +257,16 @@ static scree_status read_one(const char *path, const char *group, scree_state *s
     scree_hdf5 file;
     scree_hdf5_open_sealed(&file, path, error);
     check_origin(&file, group, state->dimension, case_checksum);
-    scree_wall_time wall_time = {0};
-    scree_hdf5_get_number(&file, group, "wall_time", &wall_time.run);
-    scree_hdf5_get_number(&file, group, "stage_wall_time", &wall_time.stage);
+    scree_time_spent spent = {0};
+    scree_hdf5_get_number(&file, group, "wall_time", &spent.run);
+    scree_hdf5_get_number(&file, group, "stage_wall_time", &spent.stage);
+    scree_hdf5_get_number(&file, group, "stage_processor_time", &spent.processor);
     for (size_t k = 0; k < stored_count() && !file.status; k++) {
         const scree_field *field = stored_field(state->dimension, k);
         if (field) read_field(&file, group, field, state);
     }
     find_rows(&file, state);
-    state->wall_time = wall_time;
+    state->spent = spent;
     *damaged = file.damaged;
     scree_status status = scree_hdf5_close(&file);
     if (status) {

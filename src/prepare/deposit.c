@@ -21,6 +21,8 @@
 /// different sizes crowd the cells of the larger: 1.0 s at 1:20.
 #include "prepare/deposit.h"
 
+#include "prepare/methods.h"
+
 #include <math.h>
 
 #define NOTHING UINT32_MAX
@@ -72,17 +74,9 @@ void scree_deposit_destroy(scree_deposit *deposit)
     scree_release(&deposit->filled);
 }
 
-/// Cell index of a coordinate, kept within [0, count).
-static size_t cell_of(double coordinate, double cell, size_t count)
-{
-    if (!(coordinate > 0)) return 0;
-    double index = coordinate / cell;
-    return index < (double)count ? (size_t)index : count - 1;
-}
-
 static scree_status insert(scree_deposit *deposit, size_t index, point at, scree_error *error)
 {
-    size_t row = (size_t)(at.y / deposit->cell), column = cell_of(at.x, deposit->cell, deposit->columns);
+    size_t row = (size_t)(at.y / deposit->cell), column = scree_cell_within(at.x, deposit->cell, deposit->columns);
     if (row >= deposit->rows) {
         size_t rows = 2 * row;
         scree_status status = scree_reallocate(&deposit->head, deposit->rows * deposit->columns,
@@ -115,12 +109,12 @@ static double hit(const scree_deposit *deposit, const mover *disc, point from, u
 static uint32_t look_down(const scree_deposit *deposit, const mover *disc, point from, double *y)
 {
     double reach = deposit->largest + disc->radius;
-    size_t first = cell_of(from.x - reach, deposit->cell, deposit->columns);
-    size_t last = cell_of(from.x + reach, deposit->cell, deposit->columns);
+    size_t first = scree_cell_within(from.x - reach, deposit->cell, deposit->columns);
+    size_t last = scree_cell_within(from.x + reach, deposit->cell, deposit->columns);
     size_t top = 0;
     for (size_t column = first; column <= last; column++)
         if (deposit->filled[column] > top) top = deposit->filled[column];
-    size_t below = cell_of(from.y, deposit->cell, deposit->rows) + 1;
+    size_t below = scree_cell_within(from.y, deposit->cell, deposit->rows) + 1;
     uint32_t found = NOTHING;
     *y = disc->radius;
     // Circles of lower rows end below (row + 1) cell + reach.
@@ -194,10 +188,10 @@ static meeting look_ahead(const scree_deposit *deposit, const mover *disc)
     double reach = deposit->largest + disc->radius;
     double equator = deposit->x[disc->support] + disc->side * (deposit->radius[disc->support] + disc->radius);
     double left = fmin(disc->at.x, equator), right = fmax(disc->at.x, equator);
-    size_t first = cell_of(left - reach, deposit->cell, deposit->columns);
-    size_t last = cell_of(right + reach, deposit->cell, deposit->columns);
-    size_t bottom = cell_of(deposit->y[disc->support] - reach, deposit->cell, deposit->rows);
-    size_t top = cell_of(disc->at.y + reach, deposit->cell, deposit->rows);
+    size_t first = scree_cell_within(left - reach, deposit->cell, deposit->columns);
+    size_t last = scree_cell_within(right + reach, deposit->cell, deposit->columns);
+    size_t bottom = scree_cell_within(deposit->y[disc->support] - reach, deposit->cell, deposit->rows);
+    size_t top = scree_cell_within(disc->at.y + reach, deposit->cell, deposit->rows);
     for (size_t row = bottom; row <= top; row++)
         for (size_t column = first; column <= last; column++)
             for (uint32_t k = deposit->head[row * deposit->columns + column]; k > 0; k = deposit->next[k - 1])

@@ -16,6 +16,7 @@
 
 #include "base/vectors.h"
 #include "prepare/arc.h"
+#include "prepare/methods.h"
 
 #include <math.h>
 
@@ -78,18 +79,11 @@ void scree_heap_destroy(scree_heap *heap)
     scree_release(&heap->filled);
 }
 
-/// Cell index of a coordinate, kept within [0, count).
-static size_t cell_of(double coordinate, double cell, size_t count)
-{
-    if (!(coordinate > 0)) return 0;
-    double index = coordinate / cell;
-    return index < (double)count ? (size_t)index : count - 1;
-}
-
 static scree_status insert(scree_heap *heap, size_t index, const double at[3], scree_error *error)
 {
     size_t layer = (size_t)(at[2] / heap->cell), columns = heap->rows * heap->columns;
-    size_t column = cell_of(at[1], heap->cell, heap->rows) * heap->columns + cell_of(at[0], heap->cell, heap->columns);
+    size_t column = scree_cell_within(at[1], heap->cell, heap->rows) * heap->columns +
+                    scree_cell_within(at[0], heap->cell, heap->columns);
     if (layer >= heap->layers) {
         size_t layers = 2 * layer;
         scree_status status =
@@ -148,8 +142,8 @@ static cell_box cells_around(const scree_heap *heap, const double low[3], const 
     const size_t count[3] = {heap->columns, heap->rows, heap->layers};
     cell_box box;
     for (int c = 0; c < 3; c++) {
-        box.first[c] = cell_of(low[c], heap->cell, count[c]);
-        box.last[c] = cell_of(high[c], heap->cell, count[c]);
+        box.first[c] = scree_cell_within(low[c], heap->cell, count[c]);
+        box.last[c] = scree_cell_within(high[c], heap->cell, count[c]);
     }
     return box;
 }
@@ -177,7 +171,7 @@ static uint32_t look_down(const scree_heap *heap, const mover *sphere, double *z
     for (int c = 0; c < 3; c++) low[c] = sphere->at[c] - reach;
     for (int c = 0; c < 3; c++) high[c] = sphere->at[c] + reach;
     cell_box box = cells_around(heap, low, high);
-    size_t top = 0, below = cell_of(sphere->at[2], heap->cell, heap->layers) + 1;
+    size_t top = 0, below = scree_cell_within(sphere->at[2], heap->cell, heap->layers) + 1;
     for (size_t row = box.first[1]; row <= box.last[1]; row++)
         for (size_t column = box.first[0]; column <= box.last[0]; column++)
             if (heap->filled[row * heap->columns + column] > top) top = heap->filled[row * heap->columns + column];

@@ -17,8 +17,8 @@ typedef struct scree_cell_averages {
     double distortion[SCREE_REGION_COUNT], pressure[SCREE_REGION_COUNT]; ///< sums over them
     double spread, diameter;                                             ///< sums over them
     double cell_stress[9], sample_stress[9];                             ///< sums over all instants of the stage
-    double cell_strain[9];                                               ///< sum over its windows
-    double begin, end;                                                   ///< s, of the windows; NAN without any
+    double cell_strain[9];                                               ///< sum over its snapshots
+    double begin, end;                                                   ///< s, of the first and the last; NAN without
 } scree_cell_averages;
 
 /// Forgets everything: a stage begins.

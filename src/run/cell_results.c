@@ -63,6 +63,7 @@ typedef struct walk {
     const scree_config *config;
     scree_series_writer circles, bands;
     scree_cell_snapshot first; ///< begin of the present window; no bodies: none
+    scree_cell_snapshot last;  ///< the last snapshot of it; no bodies: `first`
     scree_band_window *window; ///< of the present stage
     size_t window_count, window_capacity;
     double *field[2]; ///< at the bodies: the last window and this one
@@ -192,17 +193,23 @@ static scree_status close_window(walk *w, const scree_cell_snapshot *second, scr
         window->overlap = any ? scree_band_overlap(w->inside[0], w->inside[1], bodies) : NAN;
     }
     if (!status) status = append_band(w, second, error);
-    if (!status) status = scree_cell_averages_strain(&w->averages, &w->first, second, error);
     scree_release(&distortion);
     return status;
 }
 
-/// Hands `snapshot` over as the begin of the next window.
+/// Hands `snapshot` over to `place`.
+static void keep(scree_cell_snapshot *place, scree_cell_snapshot *snapshot)
+{
+    scree_cell_snapshot_destroy(place);
+    *place = *snapshot;
+    *snapshot = (scree_cell_snapshot){0};
+}
+
+/// `snapshot` is the begin of the next window.
 static void begin_window(walk *w, scree_cell_snapshot *snapshot)
 {
-    scree_cell_snapshot_destroy(&w->first);
-    w->first = *snapshot;
-    *snapshot = (scree_cell_snapshot){0};
+    keep(&w->first, snapshot);
+    scree_cell_snapshot_destroy(&w->last);
 }
 
 static scree_status follow(walk *w, scree_cell_snapshot *snapshot, scree_error *error)
@@ -217,9 +224,14 @@ static scree_status follow(walk *w, scree_cell_snapshot *snapshot, scree_error *
         begin_window(w, snapshot);
         return SCREE_OK;
     }
+    const scree_cell_snapshot *previous = w->last.assembly.count > 0 ? &w->last : &w->first;
+    status = scree_cell_averages_strain(&w->averages, previous, snapshot, error);
     // Snapshots lie on samples: a window may miss its length by a little.
-    if (snapshot->axial_strain - w->first.axial_strain < 0.99 * w->config->measure.band_window) return SCREE_OK;
-    status = close_window(w, snapshot, error);
+    if (snapshot->axial_strain - w->first.axial_strain < 0.99 * w->config->measure.band_window) {
+        if (!status) keep(&w->last, snapshot);
+        return status;
+    }
+    if (!status) status = close_window(w, snapshot, error);
     if (!status) begin_window(w, snapshot);
     return status;
 }
@@ -289,6 +301,7 @@ scree_status scree_cell_results_write(const char *directory, const scree_config 
     closed = scree_series_close(&w.bands, status ? &second : error);
     if (!status) status = closed;
     scree_cell_snapshot_destroy(&w.first);
+    scree_cell_snapshot_destroy(&w.last);
     scree_release(&w.window);
     for (int k = 0; k < 2; k++) {
         scree_release(&w.field[k]);

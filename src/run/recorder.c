@@ -16,11 +16,16 @@
 #define PROGRESS_SECONDS 0.5
 enum { CLOCK_STEPS = 16 };
 
-double scree_clock(void)
+static double read_clock(clockid_t which)
 {
     struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
+    clock_gettime(which, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+double scree_clock(void)
+{
+    return read_clock(CLOCK_MONOTONIC);
 }
 
 static void forward_line(void *user, scree_log_level level, const char *line)
@@ -43,7 +48,8 @@ scree_status scree_recorder_open(scree_recorder *recorder, const scree_simulatio
     status = scree_series_open(&recorder->series, path, scree_sample_columns, SCREE_SAMPLE_COUNT,
                                restart ? s->state.stage.samples : -1, error);
     if (!status) status = scree_wall_series_open(&recorder->walls, s, directory, restart, error);
-    recorder->started = recorder->clocked = recorder->last_checkpoint = recorder->last_progress = scree_clock();
+    recorder->clocked[1] = read_clock(CLOCK_PROCESS_CPUTIME_ID);
+    recorder->started = recorder->clocked[0] = recorder->last_checkpoint = recorder->last_progress = scree_clock();
     recorder->progress_step = s->state.step;
     recorder->first_evaluations = recorder->progress_evaluations = recorder->checkpoint_evaluations =
         s->state.evaluations;
@@ -61,10 +67,12 @@ void scree_recorder_close(scree_recorder *recorder)
 
 void scree_recorder_clock(scree_recorder *recorder, scree_simulation *s)
 {
-    double now = scree_clock();
-    s->state.wall_time.run += now - recorder->clocked;
-    s->state.wall_time.stage += now - recorder->clocked;
-    recorder->clocked = now;
+    double now = scree_clock(), processor = read_clock(CLOCK_PROCESS_CPUTIME_ID);
+    s->state.spent.run += now - recorder->clocked[0];
+    s->state.spent.stage += now - recorder->clocked[0];
+    s->state.spent.processor += processor - recorder->clocked[1];
+    recorder->clocked[0] = now;
+    recorder->clocked[1] = processor;
 }
 
 scree_status scree_recorder_checkpoint(scree_recorder *recorder, scree_simulation *s, scree_error *error)

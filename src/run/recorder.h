@@ -13,8 +13,8 @@ typedef struct scree_recorder {
     scree_series_writer series;
     scree_series_writer walls; ///< of the walls of the case; not open without them
     uint64_t case_checksum;
-    double started; ///< s, monotonic clock at the begin of this process's part of the run
-    double clocked; ///< s, until when the state's wall time is counted
+    double started;    ///< s, monotonic clock at the begin of this process's part of the run
+    double clocked[2]; ///< s, until when the state's time is counted: wall, processor
     double last_progress, last_checkpoint;
     uint64_t progress_step, progress_evaluations, checkpoint_evaluations;
     uint64_t first_evaluations; ///< at `started`

@@ -191,7 +191,7 @@ static void summarise_run(const scree_recorder *recorder, scree_simulation *s, s
     scree_summary_set_number(summary, "thickness", s->model.thickness);
     scree_summary_set_text(summary, "state_checksum", checksum);
     scree_summary_set_integer(summary, "threads", s->work.threads);
-    scree_summary_set_number(summary, "wall_time", s->state.wall_time.run);
+    scree_summary_set_number(summary, "wall_time", s->state.spent.run);
     scree_summary_set_number(summary, "particle_steps_per_second", steps * (double)s->state.count / recorder->stepping);
     scree_summary_set_integer(summary, "neighbour_rebuilds", (int64_t)s->work.rebuilds);
 }
@@ -218,7 +218,8 @@ static void summarise_cost(const scree_simulation *s, scree_summary *summary)
     const scree_state *state = &s->state;
     scree_summary_set_integer(summary, "loading_force_evaluations",
                               (int64_t)(state->evaluations - state->stage.first_evaluations));
-    scree_summary_set_number(summary, "loading_wall_time", state->wall_time.stage);
+    scree_summary_set_number(summary, "loading_wall_time", state->spent.stage);
+    scree_summary_set_number(summary, "loading_processor_time", state->spent.processor);
 }
 
 /// What the shape of the sample has become under a stage that loaded it without plates.

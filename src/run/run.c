@@ -113,8 +113,9 @@ static scree_status record(scree_simulation *s, const scree_run_options *options
     scree_status status = scree_recorder_open(&recorder, s, options, directory, restarted, error);
     recorder.case_checksum = checksum;
     if (!status) {
-        scree_log_write(&recorder.log, SCREE_LOG_INFO, "%s; case %s, %d threads%s", scree_version(),
-                        s->model.config->name, s->work.threads, restarted ? ", restarted" : "");
+        scree_log_write(&recorder.log, SCREE_LOG_INFO, "%s; case %s, %d thread%s%s", scree_version(),
+                        s->model.config->name, s->work.threads, s->work.threads == 1 ? "" : "s",
+                        restarted ? ", restarted" : "");
         if (restarted && restarted[0]) scree_log_write(&recorder.log, SCREE_LOG_WARNING, "%s", restarted);
         scree_log_write(&recorder.log, SCREE_LOG_INFO, "step %.4g s (N_S %llu, critical %.4g s), phi %.4g, psi %.4g",
                         s->model.step, (unsigned long long)s->model.largest_step, s->model.critical_step, s->model.phi,

@@ -91,7 +91,7 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
         stage->first_step = s->state.step;
         stage->first_evaluations = s->state.evaluations;
         stage->counter = 0;
-        s->state.wall_time.stage = 0;
+        s->state.spent.stage = s->state.spent.processor = 0;
         scree_forced_spin_end(&s->state);
         scree_status status = s->stage->begin(s, error);
         if (status) return status;

@@ -10,7 +10,7 @@ static scree_status begin(scree_simulation *s, scree_error *error)
     scree_status status = scree_prepare(&s->model, scree_stage_config(s), &prepared, error);
     if (status) return status;
     prepared.stage = s->state.stage;
-    prepared.wall_time = s->state.wall_time;
+    prepared.spent = s->state.spent;
     scree_state_destroy(&s->state);
     s->state = prepared;
     scree_neighbours_invalidate(&s->work);

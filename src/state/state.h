@@ -257,11 +257,12 @@ typedef struct scree_stage_state {
     int64_t counter; ///< stage-specific
 } scree_stage_state;
 
-/// Time on the wall spent so far, all processes of the run together. Kept in checkpoints beside the state: it is no
-/// part of the checksum and nothing depends on it.
-typedef struct scree_wall_time {
-    double run, stage; ///< s, of the run and of its present or last stage
-} scree_wall_time;
+/// Time spent so far, all processes of the run together. Kept in checkpoints beside the state: it is no part of the
+/// checksum and nothing depends on it.
+typedef struct scree_time_spent {
+    double run, stage; ///< s, on the wall, of the run and of its present or last stage
+    double processor;  ///< s, of the stage, all threads together
+} scree_time_spent;
 
 typedef struct scree_state {
     int dimension; ///< 2 or 3
@@ -311,7 +312,7 @@ typedef struct scree_state {
     scree_forced_spin forced;
     scree_ledger ledger;
     scree_stage_state stage;
-    scree_wall_time wall_time;
+    scree_time_spent spent;
 } scree_state;
 
 /// Allocates arrays for `count` bodies of dimension 2 or 3, ids 0 .. count-1, everything else zero.

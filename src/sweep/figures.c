@@ -1,7 +1,8 @@
-/// Comparison figures of a sweep: each mean curve with its confidence band, one line a point of the grid; and each
-/// measure against each dimension, with error bars, and over other measures. Where a measure NAME has a companion
-/// NAME_theory, that is the curve and the measure the points on it. A chart has at most the seven colours of the
-/// palette: where there are more points, there is one chart for each setting of the first dimension.
+/// Comparison figures of a sweep: each mean curve with a band, one line a point of the grid; and each measure against
+/// each dimension, with error bars, and over other measures. Bands and bars are confidence intervals of the mean; of
+/// fewer than FEW realisations, whose intervals say little, they are the range. The title tells which. Where a measure
+/// NAME has a companion NAME_theory, that is the curve and the measure the points on it. A chart has at most the seven
+/// colours of the palette: where there are more points, there is one chart for each setting of the first dimension.
 #include "sweep/results.h"
 
 #include "base/memory.h"
@@ -12,11 +13,19 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_LINES = 7, LABEL = 128 };
+enum { MOST_LINES = 7, LABEL = 128, TITLE = 400, FEW = 4 };
 
-static const char *title_of(const scree_sweep *sweep)
+/// Title of the sweep, with `detail` (may be empty) and what bands and bars are.
+static void write_title(char title[TITLE], const scree_sweep *sweep, const char *detail)
 {
-    return sweep->config.title && sweep->config.title[0] ? sweep->config.title : sweep->config.name;
+    const char *name = sweep->config.title && sweep->config.title[0] ? sweep->config.title : sweep->config.name;
+    char bars[80] = "";
+    if (sweep->realisations >= FEW)
+        (void)snprintf(bars, sizeof bars, " (mean and %g %% confidence, %zu realisations)",
+                       100 * sweep->config.confidence, (size_t)sweep->realisations);
+    else if (sweep->realisations > 1)
+        (void)snprintf(bars, sizeof bars, " (mean and range of %zu realisations)", (size_t)sweep->realisations);
+    (void)snprintf(title, TITLE, "%s%s%s%s", name, detail[0] ? ": " : "", detail, bars);
 }
 
 /// "stress_ratio" with unit "1" is "stress ratio"; a strain is shown in percent, which the factor returns.
@@ -78,14 +87,13 @@ static scree_status take_sheet(sheet *s, size_t count, scree_error *error)
     return SCREE_OK;
 }
 
-/// A line at [place] with the interval around it; a single realisation has none.
+/// A line at [place] with its band.
 static void put_estimate(sheet *s, size_t place, double x, const scree_estimate *e, double factor)
 {
-    double half = isfinite(e->half) ? e->half : 0;
     s->x[place] = x;
     s->y[place] = factor * e->mean;
-    s->low[place] = factor * (e->mean - half);
-    s->high[place] = factor * (e->mean + half);
+    s->low[place] = factor * (e->count < FEW ? e->range[0] : e->mean - e->half);
+    s->high[place] = factor * (e->count < FEW ? e->range[1] : e->mean + e->half);
 }
 
 // ---- mean curves -------------------------------------------------------------------------------------------------
@@ -125,18 +133,20 @@ static void draw_points(const scree_sweep_results *results, const scree_mean_cur
 void scree_sweep_draw_curve(const scree_sweep_results *results, const scree_mean_curve *curve)
 {
     const scree_sweep *sweep = results->sweep;
-    char name[320], title[400];
+    char name[320], detail[200], title[TITLE];
     if (sweep->point_count <= MOST_LINES || sweep->dimension_count < 2) {
         (void)snprintf(name, sizeof name, "%s-over-%s", curve->name_y, curve->name_x);
-        draw_points(results, curve, 0, sweep->point_count, SIZE_MAX, name, title_of(sweep));
+        write_title(title, sweep, "");
+        draw_points(results, curve, 0, sweep->point_count, SIZE_MAX, name, title);
         return;
     }
     const scree_sweep_dimension *first = &sweep->dimension[0];
     size_t each = sweep->point_count / first->count;
     for (size_t i = 0; i < first->count; i++) {
         (void)snprintf(name, sizeof name, "%s-over-%s-%s", curve->name_y, curve->name_x, first->setting[i].slug);
-        (void)snprintf(title, sizeof title, "%s: %s%s%s", title_of(sweep), first->named ? "" : first->name,
-                       first->named ? "" : " ", first->setting[i].label);
+        (void)snprintf(detail, sizeof detail, "%s%s%s", first->named ? "" : first->name, first->named ? "" : " ",
+                       first->setting[i].label);
+        write_title(title, sweep, detail);
         draw_points(results, curve, i * each, (i + 1) * each, 0, name, title);
     }
 }
@@ -222,7 +232,7 @@ static void draw_measure(const scree_sweep_results *results, size_t k, size_t di
     const scree_sweep_dimension *d = &sweep->dimension[dimension];
     const scree_sweep_parameter *axis = axis_of(sweep, dimension);
     scree_chart_line line[MOST_LINES];
-    char label[MOST_LINES][LABEL], x_label[LABEL], y_label[LABEL], text[LABEL], name[320];
+    char label[MOST_LINES][LABEL], x_label[LABEL], y_label[LABEL], text[LABEL], name[320], title[TITLE];
     const char *names[1000];
     sheet s[MOST_LINES] = {0};
     scree_error error;
@@ -257,7 +267,8 @@ static void draw_measure(const scree_sweep_results *results, size_t k, size_t di
     for (size_t i = 0; i < d->count && i < 1000; i++) names[i] = d->setting[i].label;
     (void)axis_label(x_label, d->name, axis ? axis->unit : NULL);
     (void)axis_label(y_label, sweep->measure[k], unit_of(sweep->measure[k]));
-    scree_chart chart = {.title = title_of(sweep),
+    write_title(title, sweep, "");
+    scree_chart chart = {.title = title,
                          .x_label = x_label,
                          .y_label = y_label,
                          .line = line,
@@ -294,7 +305,7 @@ static void draw_relation(const scree_sweep_results *results, const char *name_x
     const scree_sweep *sweep = results->sweep;
     size_t x = measure_named(sweep, name_x, ""), y = measure_named(sweep, name_y, "");
     size_t other_x = theory_of(sweep, x), other_y = theory_of(sweep, y);
-    char x_label[LABEL], y_label[LABEL], name[320];
+    char x_label[LABEL], y_label[LABEL], name[320], title[TITLE];
     sheet s[2] = {0};
     scree_error error;
     bool theory = other_x < sweep->measure_count && other_y < sweep->measure_count;
@@ -315,8 +326,9 @@ static void draw_relation(const scree_sweep_results *results, const char *name_x
     }
     (void)axis_label(x_label, name_x, unit_of(name_x));
     (void)axis_label(y_label, name_y, unit_of(name_y));
+    write_title(title, sweep, "");
     scree_chart chart = {
-        .title = title_of(sweep), .x_label = x_label, .y_label = y_label, .line = line, .line_count = s[1].x ? 2 : 1};
+        .title = title, .x_label = x_label, .y_label = y_label, .line = line, .line_count = s[1].x ? 2 : 1};
     (void)snprintf(name, sizeof name, "%s-over-%s", name_y, name_x);
     draw(results, name, &chart);
     for (size_t i = 0; i < 2; i++) scree_release(&s[i].x);

@@ -10,11 +10,13 @@
 
 scree_estimate scree_estimate_mean(const double *value, size_t count, double confidence)
 {
-    scree_estimate e = {0, NAN, NAN, NAN};
+    scree_estimate e = {0, NAN, NAN, NAN, {NAN, NAN}};
     double sum = 0, squares = 0;
     for (size_t i = 0; i < count; i++) {
         if (!isfinite(value[i])) continue;
         sum += value[i];
+        e.range[0] = fmin(e.range[0], value[i]);
+        e.range[1] = fmax(e.range[1], value[i]);
         e.count++;
     }
     if (e.count == 0) return e;

@@ -9,6 +9,7 @@ typedef struct scree_estimate {
     double mean;      ///< NAN without a value
     double deviation; ///< standard deviation of the sample (n - 1), NAN below two values
     double half;      ///< half of the confidence interval of the mean, NAN below two values
+    double range[2];  ///< least and largest value, NAN without a value
 } scree_estimate;
 
 /// Mean of the finite ones of `value` with the two-sided interval of Student's t: half = t(1 - (1 - confidence)/2,

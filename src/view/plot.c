@@ -88,6 +88,7 @@ static scree_status read_strains(scree_plot_run *run, scree_error *error)
         if (status) break;
         memcpy(stage[k].text, snapshot.stage, sizeof snapshot.stage);
         run->strain[run->snapshot_count++] = snapshot.axial_strain;
+        run->of_cell = snapshot.periodic.directions == (1u << snapshot.dimension) - 1;
         scree_snapshot_destroy(&snapshot);
     }
     if (run->snapshot_count > 0) keep_loading_stage(run, stage);

@@ -1,17 +1,42 @@
 /// Maps of the Delaunay cells of a run (P figs. 3.10, 3.11), the distortion of strain windows with their shear bands,
-/// and the pressure over growing circles (P fig. 3.12).
+/// and the pressure over growing circles (P fig. 3.12), spheres in 3D. Tetrahedra are drawn where a plane cuts them.
 #include "view/plot_parts.h"
 
 #include "base/memory.h"
 #include "io/cell_file.h"
 #include "io/run_directory.h"
 #include "measure/localisation.h"
+#include "view/cell_section.h"
 #include "view/chart.h"
+#include "view/projection.h"
 #include "view/scene.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <unistd.h>
+
+/// Draws the cells of a scene, of tetrahedra the section of view/projection.h.
+static scree_status draw_cells(const char *path, const scree_snapshot *snapshot, scree_scene *scene, scree_error *error)
+{
+    if (scene->cells->dimension == 2) return scree_scene_draw(path, snapshot, scene, error);
+    scree_snapshot plane = {0};
+    scree_cell_section section = {0};
+    scree_status status = scree_section_create(snapshot, &plane, error);
+    if (!status)
+        status = scree_cell_section_create(scene->cells, scene->cell_place, scene->cell_field,
+                                           scree_section_place(snapshot), &section, error);
+    if (!status) {
+        scene->section = true;
+        scene->cells = &section.cells;
+        scene->cell_place = section.place;
+        scene->cell_field = section.field;
+        scene->band = NULL; // its edges are planes, which cut this one anywhere
+        status = scree_scene_draw(path, &plane, scene, error);
+    }
+    scree_cell_section_destroy(&section);
+    scree_snapshot_destroy(&plane);
+    return status;
+}
 
 scree_status scree_plot_cell_map(const scree_plot_run *run, const scree_snapshot *snapshot, size_t which,
                                  const scree_cell_map *map, scree_error *error)
@@ -29,11 +54,9 @@ scree_status scree_plot_cell_map(const scree_plot_run *run, const scree_snapshot
                          .cell_field =
                              map->field == SCREE_CELL_PRESSURE ? cells.cells.pressure : cells.cells.distortion,
                          .cell_threshold = map->threshold,
+                         .of_cell = run->of_cell,
                          .plates = true};
-    if (cells.cells.dimension != 2)
-        status = scree_error_set(error, SCREE_ERROR_INPUT, "cells in space are for ParaView: paraview/cells.pvd");
-    else
-        status = scree_scene_draw(path, snapshot, &scene, error);
+    status = draw_cells(path, snapshot, &scene, error);
     scree_cell_snapshot_destroy(&cells);
     return status;
 }
@@ -71,8 +94,8 @@ scree_status scree_plot_distortion(const scree_plot_run *run, const scree_snapsh
     scree_status status = scree_path_join(path, sizeof path, run->figures, name, error);
     if (!status) status = scree_cell_snapshot_read(run->directory, first, &a, error);
     if (!status) status = scree_cell_snapshot_read(run->directory, second, &b, error);
-    if (!status && (a.cells.dimension != 2 || a.assembly.count != b.assembly.count))
-        status = scree_error_set(error, SCREE_ERROR_INPUT, "no map of these cells in the plane");
+    if (!status && a.assembly.count != b.assembly.count)
+        status = scree_error_set(error, SCREE_ERROR_INPUT, "the snapshots have different numbers of grains");
     if (!status) status = find_distortion(&a, &b, &distortion, &band, error);
     if (!status) {
         scree_scene scene = {.title = title,
@@ -81,8 +104,9 @@ scree_status scree_plot_distortion(const scree_plot_run *run, const scree_snapsh
                              .cell_place = a.assembly.place,
                              .cell_field = distortion,
                              .band = &band,
+                             .of_cell = run->of_cell,
                              .plates = true};
-        status = scree_scene_draw(path, from, &scene, error);
+        status = draw_cells(path, from, &scene, error);
     }
     scree_release(&distortion);
     scree_cell_snapshot_destroy(&a);
@@ -95,14 +119,14 @@ scree_status scree_plot_distortion(const scree_plot_run *run, const scree_snapsh
 enum { BOTTOM, CENTRE, TOP, MEAN, CIRCLE_LINES };
 
 /// Draws the rows of one snapshot; x and y have room for all of them.
-static scree_status draw_circles(const char *path, const scree_series *circles, double snapshot, double strain,
+static scree_status draw_circles(const char *path, const scree_series *circles, const scree_cell_snapshot *snapshot,
                                  double *x, double *y, scree_error *error)
 {
     static const char *const labels[CIRCLE_LINES] = {"near the bottom", "centre", "near the top", "whole sample"};
     const double *column[4] = {scree_series_get(circles, "snapshot"), scree_series_get(circles, "position"),
                                scree_series_get(circles, "diameter_ratio"),
                                scree_series_get(circles, "pressure_ratio")};
-    char title[160];
+    char title[160], label[2][80];
     scree_chart_line line[CIRCLE_LINES];
     size_t used = 0;
     for (int k = 0; k < 4; k++)
@@ -110,7 +134,7 @@ static scree_status draw_circles(const char *path, const scree_series *circles, 
     for (int p = BOTTOM; p <= TOP; p++) {
         line[p] = (scree_chart_line){.x = x + used, .y = y + used, .label = labels[p], .colour = p + 1};
         for (size_t k = 0; k < circles->row_count; k++) {
-            bool mine = fabs(column[0][k] - snapshot) < 0.5 && fabs(column[1][k] - p) < 0.5;
+            bool mine = fabs(column[0][k] - (double)snapshot->index) < 0.5 && fabs(column[1][k] - p) < 0.5;
             if (!mine || !isfinite(column[3][k])) continue;
             x[used] = column[2][k];
             y[used++] = column[3][k];
@@ -122,12 +146,13 @@ static scree_status draw_circles(const char *path, const scree_series *circles, 
     double ends[2] = {line[CENTRE].x[0], line[CENTRE].x[line[CENTRE].count - 1]}, one[2] = {1, 1};
     line[MEAN] =
         (scree_chart_line){.x = ends, .y = one, .count = 2, .label = labels[MEAN], .dashed = true, .colour = 7};
-    (void)snprintf(title, sizeof title, "Mean pressure over growing circles, axial strain %.1f %%", 100 * strain);
-    scree_chart chart = {.title = title,
-                         .x_label = "diameter of the circle / mean diameter (1)",
-                         .y_label = "pressure in the circle / pressure of the sample (1)",
-                         .line = line,
-                         .line_count = CIRCLE_LINES};
+    const char *shape = snapshot->cells.dimension == 3 ? "sphere" : "circle";
+    (void)snprintf(title, sizeof title, "Mean pressure over growing %ss, axial strain %.1f %%", shape,
+                   100 * snapshot->axial_strain);
+    (void)snprintf(label[0], sizeof label[0], "diameter of the %s / mean diameter (1)", shape);
+    (void)snprintf(label[1], sizeof label[1], "pressure in the %s / pressure of the sample (1)", shape);
+    scree_chart chart = {
+        .title = title, .x_label = label[0], .y_label = label[1], .line = line, .line_count = CIRCLE_LINES};
     return scree_chart_draw(path, &chart, error);
 }
 
@@ -145,9 +170,7 @@ scree_status scree_plot_circles(const scree_plot_run *run, size_t which, const c
         status = scree_error_set(error, SCREE_ERROR_INPUT, "there is no %s", SCREE_FILE_CELLS);
     if (!status) status = scree_series_read(&circles, source, error);
     if (!status) status = scree_allocate(&value, 2 * circles.row_count, sizeof *value, error);
-    if (!status)
-        status = draw_circles(path, &circles, (double)snapshot.index, snapshot.axial_strain, value,
-                              value + circles.row_count, error);
+    if (!status) status = draw_circles(path, &circles, &snapshot, value, value + circles.row_count, error);
     scree_release(&value);
     scree_series_destroy(&circles);
     scree_cell_snapshot_destroy(&snapshot);

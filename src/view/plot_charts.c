@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "io/run_directory.h"
 #include "view/chart.h"
+#include "view/scene.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -30,13 +31,13 @@ static const struct chart_entry {
     {"volumetric-strain", "Volumetric strain", "dilation −ε_v (%), positive: volume grows", false, {
         {"volumetric_strain", NULL, -100, BLUE, false}}},
     {"stress-ratio", "Stress ratio", "axial over lateral stress (1)", false, {
-        {"stress_ratio", "from plates", 1, BLUE, false},
+        {"stress_ratio", "applied", 1, BLUE, false},
         {"stress_ratio_contacts", "from contacts", 1, VERMILLION, true}}},
     {"shear-ratio", "Shear stress over normal stress", "shear over axial stress (1)", false, {
         {"shear_ratio", NULL, 1, BLUE, false}}},
     {"slip", "Slip at contacts", "mean slip speed / v_R (1)", false, {
         {"slip_ratio", NULL, 1, BLUE, false}}},
-    {"stress", "Stress from plates and from contacts", "stress (@Pa), compression positive", false, {
+    {"stress", "Stress, applied and from contacts", "stress (@Pa), compression positive", false, {
         {"stress_axial_plates", "axial, applied", 1, BLUE, false},
         {"stress_axial_contacts", "axial, contacts", 1, SKY, true},
         {"stress_lateral_applied", "lateral, applied", 1, VERMILLION, false},
@@ -100,30 +101,32 @@ static double largest_magnitude(const double *value, size_t count)
     return largest > 0 ? largest : 1;
 }
 
-/// The run was periodic in all directions.
-static bool is_cell(const scree_plot_run *run)
+static bool is_zero(const double *value, size_t count)
 {
-    const double *ratio = scree_series_get(&run->series, "shear_ratio");
-    for (size_t k = 0; ratio && k < run->row_count; k++)
-        if (isfinite(ratio[run->row[k]])) return true;
-    return false;
+    for (size_t k = 0; k < count; k++)
+        if (value[k] != 0) return false;
+    return true;
 }
 
 static scree_status draw_chart(const scree_plot_run *run, const struct chart_entry *entry, double *value,
                                scree_error *error)
 {
-    char path[PATH_MAX], label[128];
+    char path[PATH_MAX], label[128], strain[48];
     scree_chart_line line[CURVES];
     scree_status status = scree_path_join(path, sizeof path, run->figures, entry->name, error);
     if (status) return status;
     if (run->row_count == 0)
         return scree_error_set(error, SCREE_ERROR_INPUT, "%s has no rows of a loading stage", SCREE_FILE_SERIES);
     size_t count = 0;
+    (void)snprintf(strain, sizeof strain, "%s (%%)", scree_strain_name(run->of_cell));
     (void)gather(run, "axial_strain", 100, value);
     for (const curve *c = entry->curve; c->column; c++) {
         double *y = value + (count + 1) * run->row_count;
         if (!gather(run, c->column, c->factor, y))
             return scree_error_set(error, SCREE_ERROR_INPUT, "%s has no column '%s'", SCREE_FILE_SERIES, c->column);
+        // Of many curves those that are nothing throughout, such as the work of gravity where there is none, are left
+        // out.
+        if (entry->curve[2].column && is_zero(y, run->row_count)) continue;
         line[count++] = (scree_chart_line){
             .x = value, .y = y, .count = run->row_count, .label = c->label, .dashed = c->dashed, .colour = c->colour};
     }
@@ -131,7 +134,7 @@ static scree_status draw_chart(const scree_plot_run *run, const struct chart_ent
     double scale = write_label(label, sizeof label, entry->y_label, largest_magnitude(first, count * run->row_count));
     for (size_t k = 0; k < count * run->row_count; k++) first[k] *= scale;
     scree_chart chart = {.title = entry->title,
-                         .x_label = is_cell(run) ? "strain of the cell (%)" : "axial strain (%)",
+                         .x_label = strain,
                          .y_label = label,
                          .line = line,
                          .line_count = count,
@@ -150,7 +153,7 @@ void scree_plot_charts(scree_plot_run *run)
     }
     for (size_t k = 0; k < sizeof charts / sizeof charts[0]; k++) {
         bool of_cell = strcmp(charts[k].curve[0].column, "shear_ratio") == 0;
-        if (of_cell && !is_cell(run)) continue;
+        if (of_cell && !run->of_cell) continue;
         status = draw_chart(run, &charts[k], value, &error);
         scree_plot_report(run, charts[k].name, status, &error);
     }

@@ -18,6 +18,7 @@ typedef struct scree_plot_run {
     size_t *row;         ///< rows of the loading stage
     size_t row_count;
     double *strain; ///< axial strain of each snapshot, NAN outside loading
+    bool of_cell;   ///< the sample was loaded as a cell that is periodic in all directions
     size_t snapshot_count;
     scree_config_window *window; ///< axial strains of the displacement fluctuations
     size_t window_count;

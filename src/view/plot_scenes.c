@@ -15,7 +15,7 @@
 
 enum { WHEN_START, WHEN_PEAK, WHEN_WINDOW, WHEN_END }; // WHEN_WINDOW: in the middle of the first strain window
 enum { FIELD_NONE, FIELD_ROTATION, FIELD_SPIN, FIELD_SPIN_MAGNITUDE, FIELD_SPEED, FIELD_DISPLACEMENT };
-enum { VIEW_PLANE, VIEW_SPACE, VIEW_SECTION }; // VIEW_PLANE is for discs, the others for spheres
+enum { VIEW_PLANE, VIEW_SPACE, VIEW_SECTION }; // VIEW_PLANE is for discs and for cells, the others for spheres
 
 static const struct field_entry {
     const char *label;
@@ -161,6 +161,7 @@ static scree_status draw_scene(const scree_plot_run *run, const struct scene_ent
                          .map = fields[entry->field].map,
                          .force_network = entry->force_network,
                          .boundary = entry->boundary,
+                         .of_cell = run->of_cell,
                          .plates = true};
     if (!status)
         status = entry->view == VIEW_PLANE ? scree_scene_draw(path, now, &scene, error)
@@ -194,26 +195,42 @@ static void percent_text(char *text, size_t size, double strain, bool name)
     (void)snprintf(text, size, "%0*.*f", !name ? 0 : whole ? 2 : 4, whole ? 0 : 1, percent);
 }
 
+/// Fluctuations of the grains, one component after the other.
+static void find_fluctuations(const scree_snapshot *from, const scree_snapshot *to, double *value)
+{
+    const int n = from->dimension;
+    const size_t count = from->count;
+    const double *const begin[] = {from->x, from->y, from->z}, *const end[] = {to->x, to->y, to->z};
+    double *const fluctuation[] = {value, value + count, value + 2 * count};
+    double gradient[9];
+    if (from->periodic.directions == (1u << n) - 1)
+        (void)scree_periodic_fluctuations(&from->periodic, &to->periodic, n, begin, end, count, fluctuation);
+    else
+        (void)scree_fluctuations(n, begin, end, from->grains, fluctuation, gradient);
+}
+
 static scree_status draw_fluctuations(const scree_plot_run *run, const scree_snapshot *from, const scree_snapshot *to,
                                       const char *name, scree_error *error)
 {
     char path[PATH_MAX], first[16], second[16], title[160];
-    double *arrow = NULL, gradient[4];
+    double *arrow = NULL;
+    const size_t count = from->count;
+    const bool solid = from->dimension == 3;
     percent_text(first, sizeof first, from->axial_strain, false);
     percent_text(second, sizeof second, to->axial_strain, false);
-    (void)snprintf(title, sizeof title, "Displacements relative to the affine field, axial strain %s to %s %%", first,
-                   second);
+    (void)snprintf(title, sizeof title, "Displacements relative to the affine field, %s %s to %s %%",
+                   scree_strain_name(run->of_cell), first, second);
     scree_status status = scree_path_join(path, sizeof path, run->figures, name, error);
-    if (!status) status = scree_allocate(&arrow, 2 * from->count, sizeof *arrow, error);
+    if (!status) status = scree_allocate(&arrow, (size_t)from->dimension * count, sizeof *arrow, error);
     if (!status) {
-        const double *const begin[] = {from->x, from->y}, *const end[] = {to->x, to->y};
-        double *const fluctuation[] = {arrow, arrow + from->count};
-        if (from->periodic.directions == 3)
-            (void)scree_periodic_fluctuations(&from->periodic, &to->periodic, 2, begin, end, from->count, fluctuation);
-        else
-            (void)scree_fluctuations(2, begin, end, from->grains, fluctuation, gradient);
-        scree_scene scene = {.title = title, .arrow_x = arrow, .arrow_y = arrow + from->count, .plates = true};
-        status = scree_scene_draw(path, from, &scene, error);
+        find_fluctuations(from, to, arrow);
+        scree_scene scene = {.title = title,
+                             .arrow_x = arrow,
+                             .arrow_y = arrow + (solid ? 2 : 1) * count,
+                             .of_cell = run->of_cell,
+                             .plates = true};
+        status = solid ? draw_in_space(path, from, VIEW_SECTION, &scene, error)
+                       : scree_scene_draw(path, from, &scene, error);
     }
     scree_release(&arrow);
     return status;
@@ -228,7 +245,7 @@ static void plot_distortion(scree_plot_run *run, const scree_snapshot *from, con
     percent_text(begin, sizeof begin, from->axial_strain, false);
     percent_text(end, sizeof end, to->axial_strain, false);
     (void)snprintf(name, sizeof name, "distortion-%s", window);
-    (void)snprintf(title, sizeof title, "Distortion, axial strain %s to %s %%", begin, end);
+    (void)snprintf(title, sizeof title, "Distortion, %s %s to %s %%", scree_strain_name(run->of_cell), begin, end);
     scree_plot_report(run, name, scree_plot_distortion(run, from, first, second, name, title, &error), &error);
 }
 
@@ -250,7 +267,7 @@ static void plot_window(scree_plot_run *run, double from, double to)
         status = read_two(run, first, second, &a, &b, &error);
         if (!status) {
             status = draw_fluctuations(run, &a, &b, name, &error);
-            if (a.dimension == 2) plot_distortion(run, &a, &b, first, second, window);
+            plot_distortion(run, &a, &b, first, second, window);
             scree_snapshot_destroy(&a);
             scree_snapshot_destroy(&b);
         }
@@ -269,8 +286,8 @@ void scree_plot_scenes(scree_plot_run *run)
         scree_status status = find_snapshot(run, scenes[k].when, &which, &error);
         if (!status) status = read_two(run, start, which, &first, &now, &error);
         if (!status) {
-            bool meant = (scenes[k].view == VIEW_PLANE) == (now.dimension == 2);
             const scree_cell_map map = {scenes[k].name, scenes[k].title, scenes[k].cells, scenes[k].threshold};
+            bool meant = map.field || (scenes[k].view == VIEW_PLANE) == (now.dimension == 2);
             if (meant)
                 status = map.field ? scree_plot_cell_map(run, &now, which, &map, &error)
                                    : draw_scene(run, &scenes[k], &first, &now, &error);

@@ -166,11 +166,17 @@ void scree_projection_destroy(scree_projection *projection)
     scree_release(&projection->depth);
 }
 
+double scree_section_place(const scree_snapshot *solid)
+{
+    // The mean: bodies that have flown off do not drag the plane away from the others.
+    double place = 0;
+    for (size_t k = 0; k < solid->count; k++) place += solid->y[k] / (double)solid->count;
+    return place;
+}
+
 scree_status scree_section_create(const scree_snapshot *solid, scree_snapshot *plane, scree_error *error)
 {
-    // Through the mean centre: bodies that have flown off do not drag the plane away from the others.
-    double cut = 0;
-    for (size_t k = 0; k < solid->count; k++) cut += solid->y[k] / (double)solid->count;
+    const double cut = scree_section_place(solid);
     scree_status status = start_plane(solid, plane, error);
     if (!status) status = scree_wall_cuts(solid, cut, plane, error);
     if (status) {

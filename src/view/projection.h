@@ -27,6 +27,9 @@ scree_status scree_projection_create(const scree_snapshot *solid, scree_projecti
                                      scree_error *error) SCREE_MUST_USE;
 void scree_projection_destroy(scree_projection *projection);
 
+/// y [m] of the cut.
+double scree_section_place(const scree_snapshot *solid);
+
 /// The cut through the mean centre of the bodies, y = const: discs of the radius that the cut has; x to the right, z
 /// upwards. Bodies that it misses have radius 0, so fields keep their order. No contacts. Errors: memory.
 scree_status scree_section_create(const scree_snapshot *solid, scree_snapshot *plane,

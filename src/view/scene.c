@@ -25,6 +25,11 @@ const scree_colour scree_scene_weak = {0.60, 0.66, 0.75};
 const scree_colour scree_scene_strong = {0.07, 0.13, 0.30};
 const scree_colour scree_scene_boundary = {0.0, 0.56, 0.42};
 
+const char *scree_strain_name(bool of_cell)
+{
+    return of_cell ? "strain of the cell" : "axial strain";
+}
+
 scree_text_style scree_scene_text(double size)
 {
     return (scree_text_style){.size = size, .colour = scree_scene_ink};
@@ -212,7 +217,8 @@ static void write_caption(scree_scene_view *view)
     const scree_snapshot *s = view->snapshot;
     char strain[48] = "", time[48] = "", left_out[64] = "", number[32];
     if (isfinite(s->axial_strain))
-        (void)snprintf(strain, sizeof strain, ", axial strain %.2f %%", 100 * s->axial_strain);
+        (void)snprintf(strain, sizeof strain, ", %s %.2f %%", scree_strain_name(view->scene->of_cell),
+                       100 * s->axial_strain);
     scree_number_text(number, sizeof number, s->time, 4);
     if (isfinite(s->time)) (void)snprintf(time, sizeof time, ", t = %s s", number);
     if (view->disc_count < s->count && !view->scene->section)
@@ -220,9 +226,9 @@ static void write_caption(scree_scene_view *view)
     // The bodies of a membrane are drawn too, but are no grains.
     size_t grains = 0;
     for (size_t k = 0; k < (s->grains > 0 ? s->grains : s->count); k++) grains += scree_scene_drawn(s, k);
-    (void)snprintf(view->caption, sizeof view->caption, "%zu %s%s%s%s%s", grains,
-                   view->scene->depth || view->scene->section ? "sphere" : "disc", grains == 1 ? "" : "s", left_out,
-                   strain, time);
+    (void)snprintf(view->caption, sizeof view->caption, "%s%zu %s%s%s%s%s", view->scene->section ? "section, " : "",
+                   grains, view->scene->depth || view->scene->section ? "sphere" : "disc", grains == 1 ? "" : "s",
+                   left_out, strain, time);
 }
 
 /// Title and caption from the top margin; returns the y below them.

@@ -18,6 +18,7 @@ typedef struct scree_scene {
     bool force_network;     ///< contacts as lines, width by normal force
     bool boundary;          ///< Delaunay boundary loop
     bool plates;
+    bool of_cell;                    ///< the strain in the caption is that of a periodic cell
     const double *arrow_x, *arrow_y; ///< per disc, m; NULL: none
     bool section;                    ///< discs are cuts of spheres; those that are not cut are not missed
     const double *depth;             ///< per disc, m towards the viewer: discs are spheres, far ones first; NULL: flat
@@ -31,6 +32,9 @@ typedef struct scree_scene {
     double cell_threshold;  ///< > 0: cells above so many times the mean are shaded; 0: coloured by `map`
     const scree_band *band; ///< its edges as lines; NULL: none
 } scree_scene;
+
+/// What `axial_strain` of a snapshot is called: the largest shear of a periodic cell may be meant.
+const char *scree_strain_name(bool of_cell);
 
 /// path without extension. Discs without a finite position or a positive radius are left out, and counted in the
 /// caption. Errors: no disc to draw (SCREE_ERROR_INPUT), disk, memory.

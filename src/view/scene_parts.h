@@ -20,7 +20,7 @@ typedef struct scree_scene_view {
     // what is drawn
     size_t disc_count;                        ///< discs with a place on the page
     double low[2], high[2];                   ///< m, corners of what is drawn
-    scree_periodic_edges periodic;                    ///< edges of the periodic cell
+    scree_periodic_edges periodic;            ///< edges of the periodic cell
     double mean_radius;                       ///< m
     scree_limits limits;                      ///< of the field
     uint32_t *order;                          ///< drawn discs by colour level; with depth: far to near

@@ -13,7 +13,7 @@ enum { BODIES = 40, CASE = 77 };
 static void create_state(scree_state *state, uint64_t seed)
 {
     assert_int_equal(sample_state(state, BODIES, seed, NULL), SCREE_OK);
-    state->wall_time = (scree_wall_time){.run = 3.5 * (double)seed, .stage = 1.25};
+    state->spent = (scree_time_spent){.run = 3.5 * (double)seed, .stage = 1.25, .processor = 2.5};
     assert_int_equal(sample_loop(state, 12, NULL), SCREE_OK);
     assert_int_equal(sample_contacts(state, 60, NULL), SCREE_OK);
     uint64_t counter = 0;
@@ -38,7 +38,7 @@ static void assert_same(const scree_state *a, const scree_state *b)
     assert_int_equal(a->count, b->count);
     assert_int_equal(a->contact_count, b->contact_count);
     assert_int_equal(a->loop.count, b->loop.count);
-    assert_memory_equal(&a->wall_time, &b->wall_time, sizeof a->wall_time);
+    assert_memory_equal(&a->spent, &b->spent, sizeof a->spent);
     assert_memory_equal(a->row_of_id, b->row_of_id, a->count * sizeof *a->row_of_id);
     for (size_t k = 0; k < scree_field_count + scree_member_count; k++) {
         const scree_field *field = k < scree_field_count ? &scree_fields[k] : &scree_members[k - scree_field_count];

@@ -146,7 +146,7 @@ static void no_member_of_the_state_is_missing(void **unused)
     EXCEPT(booking); // beside `contact`
     EXCEPT(rolling);
     EXCEPT(foreseen);  // made anew in every step
-    EXCEPT(wall_time); // kept by checkpoints, but no part of what is computed
+    EXCEPT(spent); // kept by checkpoints, but no part of what is computed
     for (size_t k = 0; k < all_count(); k++) {
         const scree_field *field = all(k);
         size_t size = (size_t)scree_components(field->components, 3) * scree_field_size(field->type);

@@ -248,6 +248,17 @@ static void charts_hold_the_loading_stage_only(void **state)
     free(text);
 }
 
+/// No gravity, no periodic cell: the legend is silent on their work.
+static void curves_of_nothing_are_left_out(void **state)
+{
+    (void)state;
+    char *script = read_whole("run/figures/energy.gp");
+    assert_non_null(strstr(script, "work of plates"));
+    assert_null(strstr(script, "work of gravity"));
+    assert_null(strstr(script, "work of the cell"));
+    free(script);
+}
+
 static void missing_columns_leave_out_their_charts(void **state)
 {
     (void)state;
@@ -346,6 +357,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_figure_of_a_run_is_drawn),
         cmocka_unit_test(charts_hold_the_loading_stage_only),
+        cmocka_unit_test(curves_of_nothing_are_left_out),
         cmocka_unit_test(missing_columns_leave_out_their_charts),
         cmocka_unit_test(empty_series_is_told),
         cmocka_unit_test(run_without_loading_has_its_packing_drawn),

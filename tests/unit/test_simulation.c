@@ -100,11 +100,14 @@ static void restart_gives_the_same_bits(void **unused)
         assert_true(cost > 0 && cost < read_number(whole, "force_evaluations"));
         assert_true(read_number(part, "loading_force_evaluations") == cost);
         assert_true(time > 0 && time < read_number(whole, "wall_time"));
+        double processor = read_number(whole, "loading_processor_time");
+        assert_true(processor > 0 && processor < time + 0.02); // one thread; the clocks tick differently
         // A finished run is at its end, and its time is kept.
         scree_run_options options = {.threads = 1};
         check(scree_restart(whole, &options, &error), &error);
         run_compare(whole, part);
         assert_true(read_number(whole, "loading_wall_time") == time);
+        assert_true(read_number(whole, "loading_processor_time") == processor);
         scree_case_free(c);
     }
     scratch_destroy(folder);

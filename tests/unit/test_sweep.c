@@ -201,6 +201,7 @@ static void intervals_are_those_of_students_table(void **state)
         assert_true(fabs(e.mean - known[i].mean) < 1e-12);
         assert_true(fabs(e.deviation - known[i].deviation) < 1e-12);
         assert_true(fabs(e.half / half - 1) < 1e-4);
+        assert_true(e.range[0] == known[i].value[0] && e.range[1] == known[i].value[known[i].count - 1]);
     }
     // 99 % with 2 degrees: 9.9248.
     assert_true(fabs(scree_estimate_mean(known[1].value, 3, 0.99).half / (9.9248 * 2 / sqrt(3)) - 1) < 1e-4);
@@ -212,10 +213,10 @@ static void what_is_not_there_is_left_out(void **state)
     const double value[] = {NAN, 2, INFINITY, 4, 6};
     scree_estimate e = scree_estimate_mean(value, 5, 0.95), one = scree_estimate_mean(value, 2, 0.95);
     assert_int_equal(e.count, 3);
-    assert_true(e.mean == 4 && e.deviation == 2);
+    assert_true(e.mean == 4 && e.deviation == 2 && e.range[0] == 2 && e.range[1] == 6);
     assert_true(one.count == 1 && one.mean == 2 && isnan(one.deviation) && isnan(one.half));
     e = scree_estimate_mean(value, 1, 0.95);
-    assert_true(e.count == 0 && isnan(e.mean));
+    assert_true(e.count == 0 && isnan(e.mean) && isnan(e.range[0]));
 }
 
 static void curves_follow_the_last_ascent(void **state)

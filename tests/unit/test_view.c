@@ -4,6 +4,9 @@
 #include "hand_made_snapshot.h"
 
 #include "base/memory.h"
+#include "base/random.h"
+#include "search/tetrahedra.h"
+#include "view/cell_section.h"
 #include "view/chart.h"
 #include "view/colour.h"
 #include "view/gnuplot.h"
@@ -46,6 +49,64 @@ static void colours_clamp_and_undefined_is_grey(void **state)
     assert_true(low.red == first.red && low.green == first.green && low.blue == first.blue);
     scree_colour grey = scree_colour_at(SCREE_COLOUR_DIVERGING, NAN);
     assert_true(grey.red == grey.green && grey.green == grey.blue);
+}
+
+// ---- sections of cells --------------------------------------------------------------------------------------------
+
+/// Tetrahedra of a unit cube with points inside.
+static void fill_cube(double *place, size_t count, scree_tetrahedra *tetrahedra)
+{
+    for (size_t k = 0; k < 3 * count; k++)
+        place[k] = k < 24 ? (double)(k / 3 >> k % 3 & 1) : scree_random_uniform(5, SCREE_RANDOM_TEST, k);
+    assert_int_equal(scree_tetrahedra_build(place, count, tetrahedra, NULL), SCREE_OK);
+}
+
+static double outline_of(const scree_cell_section *section)
+{
+    double length = 0;
+    for (size_t k = 0; k < section->cells.count; k++)
+        for (int n = 0; n < 3; n++) {
+            const double *a = section->place + 3 * (size_t)section->cells.node[k][(n + 1) % 3];
+            const double *b = section->place + 3 * (size_t)section->cells.node[k][(n + 2) % 3];
+            if (section->cells.neighbour[k][n] < 0) length += hypot(a[0] - b[0], a[1] - b[1]);
+        }
+    return length;
+}
+
+/// Every section of a unit cube is a unit square with its outline, and the field integrated over sections is that
+/// integrated over the cells (Cavalieri); the midpoint rule with N sections is off by about 1 / N^2.
+static void sections_of_cells_fill_the_plane(void **state)
+{
+    (void)state;
+    enum { COUNT = 40, SECTIONS = 400 };
+    double place[3 * COUNT], field[20 * COUNT], whole = 0, added = 0;
+    scree_tetrahedra tetrahedra;
+    fill_cube(place, COUNT, &tetrahedra);
+    assert_true(tetrahedra.count > COUNT && tetrahedra.count < 20 * COUNT);
+    const scree_cells solid = {.dimension = 3,
+                               .count = tetrahedra.count,
+                               .bodies = COUNT,
+                               .node = tetrahedra.vertex,
+                               .neighbour = tetrahedra.neighbour};
+    for (size_t k = 0; k < solid.count; k++) {
+        field[k] = (double)(k * k % 17);
+        whole += field[k] * scree_cell_volume_at(&solid, k, place);
+    }
+    for (int cut = 0; cut < SECTIONS; cut++) {
+        scree_cell_section section;
+        double area = 0;
+        assert_int_equal(scree_cell_section_create(&solid, place, field, (cut + 0.5) / SECTIONS, &section, NULL),
+                         SCREE_OK);
+        for (size_t k = 0; k < section.cells.count; k++) {
+            area += section.cells.volume[k];
+            added += section.field[k] * section.cells.volume[k] / SECTIONS;
+        }
+        assert_true(fabs(area - 1) < 1e-12);
+        assert_true(fabs(outline_of(&section) - 4) < 1e-12);
+        scree_cell_section_destroy(&section);
+    }
+    assert_true(fabs(added / whole - 1) < 1e-4);
+    scree_tetrahedra_destroy(&tetrahedra);
 }
 
 // ---- scales -------------------------------------------------------------------------------------------------------
@@ -423,6 +484,7 @@ int main(void)
         cmocka_unit_test(sequential_lightness_falls_evenly),
         cmocka_unit_test(diverging_lightness_falls_evenly_to_both_sides),
         cmocka_unit_test(colours_clamp_and_undefined_is_grey),
+        cmocka_unit_test(sections_of_cells_fill_the_plane),
         cmocka_unit_test(limits_ignore_extremes),
         cmocka_unit_test(limits_of_degenerate_fields_are_intervals),
         cmocka_unit_test(ticks_lie_within_the_limits),
