@@ -25,7 +25,8 @@
 /// their dashpots booked beside.
 ///
 /// Ledger, with the middle increment delta (motion.h): damping <f_n - k_n d> delta, the rest by slider.h.
-/// Cost: 3 roots, 3 divisions a contact in 2D, 6 and 6 in 3D; rolling and twisting 3 and 5 more.
+/// Cost: 3 roots, 3 divisions a contact in 2D; 3 and 2 in 3D, 5 and 4 in a group of lanes where one slides; rolling and
+/// twisting 3 and 4 more.
 #ifndef SCREE_CONTACT_HERTZ_MINDLIN_H
 #define SCREE_CONTACT_HERTZ_MINDLIN_H
 

@@ -32,11 +32,11 @@ typedef struct slider_motion {
 typedef struct slider {
     slider_memory now;                  ///< for the next step
     vector resistance;                  ///< -f
-    lanes damping, friction, stiffness; ///< J, twice
+    lanes damping, friction, stiffness; ///< J, twice what is booked
     lanes elastic;                      ///< J
 } slider;
 
-/// Whether no lane touches and slides, nor does any that does not touch remember anything: nothing is to be limited.
+/// Whether all lanes touch and stick, in space: nothing is to be limited.
 SCREE_INLINE bool slider_sticks(const slider *s, lanes cap, lanes_bits touching)
 {
     lanes square = cap * cap;
