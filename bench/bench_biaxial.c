@@ -8,6 +8,8 @@
 /// A measurement is the best of several short runs, since other processes use the machine too; one thread is timed by
 /// its processor time. Only ratios measured in turn mean anything. Arguments: --peer COMMAND (such as "lmp"), --folder
 /// FOLDER for its files, --cell and --large choose one setting, --count N the size of the cell.
+#include "bench.h"
+
 #include "base/processor.h"
 #include "boundary/plates.h"
 #include "case/case.h"
@@ -20,7 +22,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { RUNS = 5, CLOSING_STEPS = 40000, RESTING_STEPS = 6000, LATTICE_STEPS = 40 };
 static const double run_seconds = 0.4;
@@ -41,21 +42,6 @@ typedef struct sample {
     scree_work work;
     const scree_integrator *integrator;
 } sample;
-
-static void require(scree_status status, const scree_error *error)
-{
-    if (!status) return;
-    (void)fprintf(stderr, "bench_biaxial: %s\n", error->message);
-    exit(EXIT_FAILURE);
-}
-
-/// One thread is timed by its processor time, so that other processes on the machine disturb less; several by the wall.
-static double seconds(int threads)
-{
-    struct timespec now;
-    (void)clock_gettime(threads > 1 ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 /// The built-in biaxial case with `count` discs under `law`, as a model.
 static void open_case(sample *s, const char *law, long count)
@@ -238,20 +224,13 @@ static void write_command(const sample *s, const options *o, long steps, char *c
         w[SCREE_WALL_BOTTOM].position, -w[SCREE_WALL_TOP].position);
 }
 
-/// One run of the peer: particle-steps per second of processor time, out of its own "Loop time of T on ..." and
-/// "P% CPU use ..."; the last loop counts.
+/// One run of the peer: particle-steps per second of processor time.
 static double run_peer(const sample *s, const options *o, long steps)
 {
-    char command[2048], line[512];
-    double elapsed = 0, use = 0;
+    char command[2048];
     write_command(s, o, steps, command, sizeof command);
-    FILE *pipe = popen(command, "r");
-    while (pipe && fgets(line, sizeof line, pipe)) {
-        if (sscanf(line, "Loop time of %lf", &elapsed) == 1) use = 0;
-        if (strstr(line, "CPU use")) use = strtod(line, NULL) / 100;
-    }
-    if (!pipe || pclose(pipe) != 0 || elapsed * use <= 0) return 0;
-    return (double)s->state.count * (double)steps / (elapsed * use);
+    double elapsed = peer_seconds(command, NULL, NULL);
+    return elapsed > 0 ? (double)s->state.count * (double)steps / elapsed : 0;
 }
 
 /// Our loop and the peer's in turn; the best of each.

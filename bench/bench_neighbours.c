@@ -5,6 +5,8 @@
 /// random by up to half the skin and back, every contact with a history), pairs a body and touching pairs a body in the
 /// packing at rest, and bytes a body of state, list and search. Arguments: threads (default 1), dimension (default 2),
 /// numbers of bodies (default 32768 1000000).
+#include "bench.h"
+
 #include "base/random.h"
 #include "search/neighbours.h"
 
@@ -12,26 +14,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { RELAXATIONS = 150, REBUILDS = 10 };
 
 /// By dimension: just above random close packing.
 static const double solid_fraction[] = {0, 0, 0.84, 0.64};
-
-static void require(scree_status status, const scree_error *error)
-{
-    if (!status) return;
-    (void)fprintf(stderr, "%s\n", error->message);
-    exit(EXIT_FAILURE);
-}
-
-static double seconds(void)
-{
-    struct timespec now;
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 /// Uniform on [-1, 1).
 static double symmetric(uint64_t seed, uint64_t counter)
@@ -119,9 +106,9 @@ static void measure_skin(const scree_model *model, scree_state *state, scree_wor
             if (state->dimension == 3) row->z += size * symmetric(5 + (uint64_t)k / 2, 3 * id + 2);
         }
         scree_neighbours_invalidate(work);
-        double begin = seconds();
+        double begin = seconds(work->threads);
         require(scree_neighbours_refresh(model, state, work, &error), &error);
-        best = fmin(best, 1e3 * (seconds() - begin));
+        best = fmin(best, 1e3 * (seconds(work->threads) - begin));
     }
     double count = (double)state->count;
     size_t bytes;

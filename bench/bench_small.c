@@ -7,31 +7,17 @@
 ///
 /// A figure is the best of several short runs. Arguments: --threads N (1 and 2 when not given, no
 /// table then), and key=value overrides of the case.
+#include "bench.h"
+
 #include "run/simulation.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { RUNS = 8, STEPS = 4000, SEQUENCE_TICKS = 5000, MOST_OVERRIDES = 16 };
 static const double full_steps = 1e8;
-
-static void require(scree_status status, const scree_error *error)
-{
-    if (!status) return;
-    (void)fprintf(stderr, "bench_small: %s\n", error->message);
-    exit(EXIT_FAILURE);
-}
-
-/// One thread is timed by its processor time, so that other processes on the machine disturb less; several by the wall.
-static double seconds(int threads)
-{
-    struct timespec now;
-    (void)clock_gettime(threads > 1 ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static double measure(scree_simulation *s, int threads)
 {

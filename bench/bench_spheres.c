@@ -7,6 +7,8 @@
 /// A measurement is the best of several short runs, since other processes use the machine too, by processor time; only
 /// ratios measured in turn mean anything. Arguments: --peer COMMAND (such as "lmp"), --folder FOLDER for its files,
 /// --bed and --large choose one setting, --skin LENGTH the skin of both codes [m].
+#include "bench.h"
+
 #include "base/processor.h"
 #include "boundary/periodic.h"
 #include "contact/contact.h"
@@ -19,7 +21,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { RUNS = 3, SETTLING_STEPS = 5000, STEPS = 1000, TURNS = 3, COPIES = 32 };
 static const double run_seconds = 1.0;
@@ -40,20 +41,6 @@ typedef struct sample {
     scree_work work;
     const scree_integrator *integrator;
 } sample;
-
-static void require(scree_status status, const scree_error *error)
-{
-    if (!status) return;
-    (void)fprintf(stderr, "bench_spheres: %s\n", error->message);
-    exit(EXIT_FAILURE);
-}
-
-static double seconds(void)
-{
-    struct timespec now;
-    (void)clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 /// The damping coefficient for a restitution e as the peer has it, a fit (Tsuji et al. 1992), so that both codes have
 /// one law.
@@ -198,9 +185,9 @@ static double measure(sample *s)
 {
     double best = 0;
     for (int run = 0; run < RUNS; run++) {
-        double begin = seconds(), elapsed = 0;
+        double begin = seconds(1), elapsed = 0;
         long steps = 0;
-        for (; elapsed < run_seconds; elapsed = seconds() - begin)
+        for (; elapsed < run_seconds; elapsed = seconds(1) - begin)
             for (int k = 0; k < 8; k++, steps++) step(s);
         best = fmax(best, (double)s->state.count * (double)steps / elapsed);
     }
@@ -274,23 +261,22 @@ static void write_command(const sample *s, const options *o, char *command, size
         step_size, s->work.skin, STEPS, s->model.walls[0].normal_stiffness, s->model.walls[0].tangential_stiffness);
 }
 
-/// One run of the peer: particle-steps per second of processor time, out of its own "Loop time of T on ..." and
-/// "P% CPU use ...", and its energies in the last line of its table.
+/// Energies in a line of the peer's table.
+static void read_energies(const char *line, void *user)
+{
+    double at, number;
+    energies e;
+    if (sscanf(line, "%lf %lf %lf %lf %lf", &at, &number, &e.translation, &e.rotation, &e.height) == 5)
+        *(energies *)user = e;
+}
+
+/// One run of the peer: particle-steps per second of processor time, and its energies in the last line of its table.
 static double run_peer(const sample *s, const options *o, energies *last)
 {
-    char command[2048], line[512];
-    double elapsed = 0, use = 0;
+    char command[2048];
     write_command(s, o, command, sizeof command);
-    FILE *pipe = popen(command, "r");
-    while (pipe && fgets(line, sizeof line, pipe)) {
-        double at, number;
-        energies e;
-        if (sscanf(line, "%lf %lf %lf %lf %lf", &at, &number, &e.translation, &e.rotation, &e.height) == 5) *last = e;
-        if (sscanf(line, "Loop time of %lf", &elapsed) == 1) use = 0;
-        if (strstr(line, "CPU use")) use = strtod(line, NULL) / 100;
-    }
-    if (!pipe || pclose(pipe) != 0 || elapsed * use <= 0) return 0;
-    return (double)s->state.count * (double)STEPS / (elapsed * use);
+    double elapsed = peer_seconds(command, read_energies, last);
+    return elapsed > 0 ? (double)s->state.count * (double)STEPS / elapsed : 0;
 }
 
 /// The same 1000 steps in both codes, in turn; the best of each.
@@ -304,9 +290,9 @@ static void compare_with_peer(const options *o, const sample *bed)
     for (int turn = 0; turn < TURNS; turn++) {
         sample s = {0};
         open_copy(&s, o, bed);
-        double begin = seconds();
+        double begin = seconds(1);
         for (int k = 0; k < STEPS; k++) step(&s);
-        ours = fmax(ours, (double)s.state.count * STEPS / (seconds() - begin));
+        ours = fmax(ours, (double)s.state.count * STEPS / (seconds(1) - begin));
         e = measure_energies(&s);
         theirs = fmax(theirs, run_peer(&s, o, &other));
         close_sample(&s);

@@ -2,13 +2,14 @@
 /// integer rows (base/fixed.h: convert, add to both bodies) against one slot of doubles a contact and a gather in the
 /// order of the neighbours. Prints nanoseconds a contact; best of five. Why the engine sums integers:
 /// docs/performance.md.
+#include "bench.h"
+
 #include "base/fixed.h"
 #include "base/memory.h"
 #include "base/random.h"
 #include "state/state.h"
 
 #include <stdio.h>
-#include <time.h>
 
 enum { RUNS = 5 };
 
@@ -19,13 +20,6 @@ typedef struct lattice {
     scree_sum_row *sum;
     uint32_t *begin, *entry; ///< of each body: 2 x pair, + 1 when it is the second
 } lattice;
-
-static double seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void add_pair(lattice *l, size_t a, size_t b)
 {
@@ -124,9 +118,9 @@ static double measure(lattice *l, void (*way)(lattice *, double inverse))
     double best = 1e9, inverse = 1 / scree_fixed_quantum(1.0);
     size_t rounds = 20000000 / l->pairs + 3;
     for (int run = 0; run < RUNS; run++) {
-        double start = seconds();
+        double start = seconds(1);
         for (size_t r = 0; r < rounds; r++) way(l, inverse);
-        double spent = 1e9 * (seconds() - start) / (double)(rounds * l->pairs);
+        double spent = 1e9 * (seconds(1) - start) / (double)(rounds * l->pairs);
         best = spent < best ? spent : best;
     }
     return best;

@@ -136,6 +136,7 @@ scree_status scree_hull_mark_loaded(const scree_model *model, const scree_state 
                                     scree_error *error)
 {
     bool free_sides = true;
+    if (hull->triangle_count == 0) return SCREE_OK;
     for (int w = SCREE_WALL_LEFT; w < SCREE_WALL_COUNT; w++) free_sides = free_sides && !state->wall[w].active;
     memset(hull->loaded, free_sides ? SCREE_HULL_LOADED : SCREE_HULL_BARE, hull->triangle_count);
     if (!free_sides) return SCREE_OK;

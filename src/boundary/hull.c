@@ -137,8 +137,9 @@ static void press_walls(scree_state *state, size_t t, double scale, double plate
 void scree_hull_press(scree_state *state)
 {
     scree_hull *hull = &state->hull;
+    if (hull->node_count == 0) return;
     memset(hull->force, 0, hull->node_count * sizeof *hull->force);
-    if (!(scree_direct_pressure(state) > 0) || hull->node_count == 0) return;
+    if (!(scree_direct_pressure(state) > 0)) return;
     double scale = scree_direct_pressure(state) / 6 / state->force_quantum;
     scree_vector origin, corner[3];
     scree_hull_position(state, 0, origin);

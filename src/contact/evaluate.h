@@ -52,7 +52,8 @@ SCREE_INLINE vector force_on_first(int dimension, const law_force *f, vector n)
 SCREE_INLINE quanta torque_on(int dimension, vector moment, lanes arm, const contact_scale *scale)
 {
     const int count = tangential_count(dimension);
-    return quanta_of(count, vector_times(count, moment, -arm), scale->inverse_torque);
+    lanes factor = arm * -scale->inverse_torque;
+    return quanta_of(count, vector_times(count, moment, factor), 1);
 }
 
 SCREE_INLINE contact_quanta contact_evaluate(variant v, const law_constants *constants, const law_settings *settings,

@@ -64,20 +64,20 @@ SCREE_INLINE bodies load_places(int dimension, const contact_job *job, const siz
     return b;
 }
 
-SCREE_INLINE bodies load_bodies(int dimension, const contact_job *job, const size_t offset[SCREE_LANES])
+SCREE_INLINE void load_motions(int dimension, const contact_job *job, const size_t offset[SCREE_LANES], bodies *b)
 {
-    bodies b = load_places(dimension, job, offset);
     columns move = load_rows(job, offset, 4);
-    b.velocity = (vector){move.c0, move.c1, move.c2};
-    b.mass = move.c3;
-    if (dimension == 2) {
-        b.spin.x = move.c2;
-    } else {
-        columns turn = load_turns(job, offset);
-        b.spin = (vector){turn.c0, turn.c1, turn.c2};
-        b.material = turn.c3;
-    }
-    return b;
+    b->velocity = (vector){move.c0, move.c1, move.c2};
+    b->mass = move.c3;
+    if (dimension == 2) b->spin.x = move.c2;
+}
+
+SCREE_INLINE void load_spins(int dimension, const contact_job *job, const size_t offset[SCREE_LANES], bodies *b)
+{
+    if (dimension == 2) return;
+    columns turn = load_turns(job, offset);
+    b->spin = (vector){turn.c0, turn.c1, turn.c2};
+    b->material = turn.c3;
 }
 
 SCREE_INLINE lanes_bits group_touches(int dimension, const bodies *first, const bodies *second)
@@ -185,8 +185,12 @@ SCREE_INLINE void evaluate_group(const contact_job *job, variant v, group *g, to
 {
     const int dimension = v.dimension;
     find_bodies(job, g);
-    bodies first = load_bodies(dimension, job, g->first), second = load_bodies(dimension, job, g->second);
+    bodies first = load_places(dimension, job, g->first), second = load_places(dimension, job, g->second);
     lanes_bits touching = g->present & group_touches(dimension, &first, &second);
+    load_motions(dimension, job, g->first, &first);
+    load_motions(dimension, job, g->second, &second);
+    load_spins(dimension, job, g->first, &first);
+    load_spins(dimension, job, g->second, &second);
     motion m = motion_of_pair(dimension, &first, &second, job->settings.step);
     if (law_foresees(v)) {
         foresight ahead = load_foreseen(dimension, job, job->first, g);

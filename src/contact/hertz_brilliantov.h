@@ -102,7 +102,8 @@ SCREE_INLINE law_force hertz_brilliantov(variant v, const law_constants *constan
         .tangential = tangential,
         .couple = vector_none(),
         .damping = 0.5 * (damping + damping_before) * m->approached,
-        .friction = vector_dot(count, vector_times(count, both, lanes_all(-0.5)), m->slipped),
+        .friction =
+            vector_dot(count, vector_times(count, both, lanes_all(-0.5)), motion_slipped(count, m, settings->step)),
         .stiffness = none,
         .elastic_normal = 0.4 * (elastic * d),
         .elastic_tangential = none,

@@ -13,13 +13,15 @@
 ///
 /// What the contact remembers turns with it: from n - 1 to n, n turns by phi = P u dt / L, and the pair about its
 /// normal by psi = (w_first + w_second) . n dt / 2 (the mean of both surfaces: a pair that turns rigidly takes its
-/// spring along). motion_carry projects into the present tangent plane, which is that turn up to second order in phi.
+/// spring along). motion_carry projects into the present tangent plane, which is that turn up to second order in phi;
+/// motion_carry_whole also gives back the length that the projection takes, up to fourth order,
+///   a <- (1 - psi^2 / 2) b + psi n x b,    b = a - (n - phi L / (2 L(n-1))) (a . n)
 ///
 /// Work over a step. In a leapfrog scheme the kinetic energy 1/2 m v(n-1/2) . v(n+1/2) changes by exactly
 /// (F(n-1) + F(n))/2 . v(n-1/2) dt. F(n-1) acted along the normal of n - 1, so its power belongs to the geometry of n -
 /// 1: the two half-steps together see, up to third order in dt and in the directions of n,
 ///   indentation increment  d' dt + phi . P u dt / 2                            (= d(n) - d(n-1), called D)
-///   slip increment         s dt - D (phi + W dt x n / 2) / 2 + n x (A . n dt phi + psi s dt) / 2
+///   slip increment         s dt - D phi / 2 + n x (A . n dt phi + psi s dt + D W dt / 2) / 2
 ///   rolling increment      s_r dt + n x (psi s_r dt - R_eff (w_first - w_second) . n dt phi) / 2
 ///   twist increment        (w_first - w_second) . (n dt - phi dt / 2)
 /// W = w_first + w_second, A = a_first w_first + a_second w_second. (F(n-1) turned along with its contact has the power
@@ -46,10 +48,13 @@ typedef struct motion {
     lanes arm_first, arm_second; ///< m
     lanes reduced_radius;        ///< m, R_eff
     lanes reduced_mass;          ///< kg, m_eff
+    vector tilted;               ///< rad, phi; zero against a wall
+    lanes half;                  ///< 1, half of L / L(n - 1), in space
     vector turned;               ///< rad, psi n, in space
-    lanes approached;            ///< middle increments over the step, for the ledger
-    vector slipped, rolled;
-    lanes twisted;
+    lanes turn;                  ///< rad, psi, in space
+    lanes approached, twisted;   ///< middle increments over the step, for the ledger
+    vector slip_excess;          ///< by what the middle increments exceed the rates times the step
+    vector roll_excess;
     vector foreseen_slip; ///< m/s, slip after the coming kick if all forces stay as they are (motion_foresee)
     lanes mobility;       ///< 1/kg, slip per tangential impulse of the contact's share of the bodies
 } motion;
@@ -74,16 +79,40 @@ SCREE_INLINE vector motion_carry(int dimension, const motion *m, vector a)
     return vector_minus(3, turned, vector_times(3, m->normal, vector_dot(3, a, m->normal)));
 }
 
-/// The same with the length that it had, up to the third order of the part q of its square that was lost:
-/// (1 - q)^(-1/2) = 1 + q/2 + 3 q^2/8. The one division waits for nothing but the memory.
+/// The same with the length that it had.
 SCREE_INLINE vector motion_carry_whole(int dimension, const motion *m, vector a)
 {
     if (dimension == 2) return a;
-    lanes square = vector_dot(3, a, a), inverse = 1.0 / square;
-    lanes_bits some = ~lanes_at_or_below(square, lanes_all(0));
-    vector carried = motion_carry(3, m, a);
-    lanes lost = 1.0 - vector_dot(3, carried, carried) * inverse;
-    return vector_times(3, carried, lanes_keep(some, 1.0 + lost * (0.5 + 0.375 * lost)));
+    vector middle = vector_minus(3, m->normal, vector_times(3, m->tilted, m->half));
+    vector upright = vector_minus(3, a, vector_times(3, middle, vector_dot(3, a, m->normal)));
+    lanes shorter = 1.0 - 0.5 * (m->turn * m->turn);
+    return vector_plus(3, vector_times(3, upright, shorter), vector_cross(m->turned, upright));
+}
+
+/// Middle increment of the slip.
+SCREE_INLINE vector motion_slipped(int count, const motion *m, double step)
+{
+    return vector_plus(count, vector_times(count, m->slip, lanes_all(step)), m->slip_excess);
+}
+
+/// What turning bodies add to the middle increments, in space.
+SCREE_INLINE void motion_turn(motion *m, vector lever, vector spins, vector relative, double step)
+{
+    const double half = 0.5 * step;
+    vector n = m->normal, tilted = m->tilted;
+    m->twist = vector_dot(3, relative, n);
+    m->twisted = m->twist * step - half * vector_dot(3, relative, tilted);
+    m->turn = half * vector_dot(3, spins, n);
+    m->turned = vector_times(3, n, m->turn);
+
+    lanes turning = m->turn * half;
+    vector screw =
+        vector_plus(3, vector_times(3, tilted, half * vector_dot(3, lever, n)), vector_times(3, m->slip, turning));
+    screw = vector_plus(3, screw, vector_times(3, spins, m->approached * (0.5 * half)));
+    m->slip_excess = vector_minus(3, vector_cross(n, screw), vector_times(3, tilted, 0.5 * m->approached));
+    screw = vector_minus(3, vector_times(3, m->roll, turning),
+                         vector_times(3, tilted, m->reduced_radius * m->twist * half));
+    m->roll_excess = vector_cross(n, screw);
 }
 
 /// Everything that depends on velocities; normal, indentation, arms and reduced radius are set.
@@ -92,31 +121,20 @@ SCREE_INLINE void motion_advance(int dimension, motion *m, vector velocity, vect
                                  vector spin_second, lanes inverse_distance, double step)
 {
     const int count = tangential_count(dimension);
-    lanes dt = lanes_all(step);
     vector n = m->normal, along = vector_across(dimension, velocity, n);
     vector spins = vector_plus(count, spin_first, spin_second), relative = vector_minus(count, spin_first, spin_second);
     m->approach = -vector_dot(dimension, velocity, n);
     m->slip = vector_minus(count, along, spin_across(dimension, lever, n));
     m->roll = vector_times(count, spin_across(dimension, relative, n), m->reduced_radius);
-
-    vector shift = vector_times(count, along, dt), angle = vector_times(count, shift, inverse_distance);
-    vector half_turn = spin_across(dimension, vector_times(count, spins, 0.5 * dt), n);
-    m->approached = m->approach * step + 0.5 * vector_dot(count, shift, angle);
-    vector bent = vector_plus(count, angle, half_turn);
-    m->slipped = vector_minus(count, vector_times(count, m->slip, dt), vector_times(count, bent, m->approached * 0.5));
-    m->rolled = vector_times(count, m->roll, dt);
-    if (dimension == 2) return;
-
-    lanes lever_normal = vector_dot(3, lever, n) * step;
-    m->twist = vector_dot(3, relative, n);
-    lanes turned = 0.5 * step * vector_dot(3, spins, n);
-    m->turned = vector_times(3, n, turned);
-    vector screw = vector_plus(3, vector_times(3, angle, lever_normal), vector_times(3, m->slip, turned * step));
-    m->slipped = vector_plus(3, m->slipped, vector_times(3, vector_cross(n, screw), lanes_all(0.5)));
-    screw = vector_minus(3, vector_times(3, m->roll, turned * step),
-                         vector_times(3, angle, m->reduced_radius * m->twist * step));
-    m->rolled = vector_plus(3, m->rolled, vector_times(3, vector_cross(n, screw), lanes_all(0.5)));
-    m->twisted = m->twist * step - 0.5 * step * vector_dot(3, relative, angle);
+    m->tilted = vector_times(count, along, step * inverse_distance);
+    m->approached = step * (m->approach + 0.5 * vector_dot(count, along, m->tilted));
+    if (dimension == 3) {
+        m->half = 0.5 - (0.5 * m->approached) * inverse_distance;
+        motion_turn(m, lever, spins, relative, step);
+        return;
+    }
+    m->slip_excess.x = (m->tilted.x + spins.x * (0.5 * step)) * (m->approached * -0.5);
+    m->roll_excess.x = lanes_all(0);
 }
 
 /// 1 / m + a^2 / J times the number of contacts that pull at the body: each may move its share of the mass alone.

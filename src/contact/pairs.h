@@ -15,7 +15,7 @@
 
 #include "contact/group.h"
 
-#define PREFETCH_AHEAD 64 // pairs
+#define PREFETCH_AHEAD 32 // pairs
 
 /// Pairs that wait for a whole group.
 enum { QUEUE_SIZE = 256 };
@@ -24,13 +24,21 @@ typedef struct queue {
     size_t count;
 } queue;
 
-/// Brings the bodies of the pairs from p on into the cache.
-SCREE_INLINE void prefetch_bodies(int dimension, const contact_job *job, size_t p)
+/// Row of the pair that lies farther ahead; the other one, which the list follows, is in the cache already.
+SCREE_INLINE size_t row_ahead(const contact_job *job, size_t p)
+{
+    uint32_t first = job->first[p], second = job->second[p];
+    return first > second ? first : second;
+}
+
+/// Brings the places of the pairs from p on into the cache; whole: all rows that a contact reads or adds to.
+SCREE_INLINE void prefetch_bodies(int dimension, const contact_job *job, size_t p, bool whole)
 {
     LANE_LOOP
     {
-        size_t offset = (size_t)job->second[p + (size_t)k] * 32;
+        size_t offset = row_ahead(job, p + (size_t)k) * 32;
         __builtin_prefetch((const char *)job->row + 2 * offset);
+        if (!whole) continue;
         __builtin_prefetch((const char *)job->sum + offset, 1);
         if (dimension == 2) continue;
         __builtin_prefetch((const char *)job->turn + offset);
@@ -63,7 +71,8 @@ SCREE_INLINE unsigned near_renew(int dimension, const contact_job *job, size_t p
 SCREE_INLINE size_t queue_near(int dimension, queue *q, const contact_job *job, size_t p)
 {
     for (; p + SCREE_LANES <= job->near_end && q->count + SCREE_LANES <= QUEUE_SIZE; p += SCREE_LANES) {
-        if (p + PREFETCH_AHEAD + SCREE_LANES <= job->near_end) prefetch_bodies(dimension, job, p + PREFETCH_AHEAD);
+        if (p + PREFETCH_AHEAD + SCREE_LANES <= job->near_end)
+            prefetch_bodies(dimension, job, p + PREFETCH_AHEAD, false);
         for (unsigned bits = near_renew(dimension, job, p); bits; bits &= bits - 1)
             q->pair[q->count++] = (uint32_t)(p + (size_t)__builtin_ctz(bits));
     }
@@ -91,7 +100,7 @@ SCREE_INLINE size_t evaluate_touching(const contact_job *job, variant v, totals 
     size_t p = job->touching_begin;
     for (; p + SCREE_LANES <= job->touching_end; p += SCREE_LANES) {
         if (p + PREFETCH_AHEAD + SCREE_LANES <= job->touching_end)
-            prefetch_bodies(v.dimension, job, p + PREFETCH_AHEAD);
+            prefetch_bodies(v.dimension, job, p + PREFETCH_AHEAD, true);
         group g = {.present = ~(lanes_bits){0}};
         LANE_LOOP g.pair[k] = p + (size_t)k;
         evaluate_group(job, v, &g, t);

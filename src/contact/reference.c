@@ -4,6 +4,8 @@
 
 #include "contact/advance.h"
 
+#define WALL_PAIRS_AHEAD 8
+
 contact_totals contact_totals_none(void)
 {
     return (contact_totals){.in_range = true};
@@ -54,12 +56,25 @@ void contact_pairs_reference(contact_job *job)
     for (size_t p = job->near_begin; p < job->near_end; p++) evaluate_pair(job, p);
 }
 
+/// The bodies at a wall lie apart in memory.
+static inline void prefetch_wall_pair(const contact_job *job, const scree_wall_pair_list *pairs, size_t p)
+{
+    if (p >= pairs->count) return;
+    size_t row = pairs->body[p];
+    __builtin_prefetch(&job->row[row]);
+    __builtin_prefetch(&job->sum[row], 1);
+    if (!job->turn) return;
+    __builtin_prefetch(&job->turn[row]);
+    __builtin_prefetch(&job->torque[row], 1);
+}
+
 /// Wall contacts are part of every evaluation: their code knows the dimension and the law.
 SCREE_INLINE void evaluate_walls(contact_job *job, variant v, const scree_wall *wall, const scree_wall_pair_list *pairs,
                                  size_t row_begin, size_t row_end)
 {
     for (size_t p = 0; p < pairs->count; p++) {
         size_t row = pairs->body[p];
+        prefetch_wall_pair(job, pairs, p + WALL_PAIRS_AHEAD);
         if (row < row_begin || row >= row_end) continue;
         uint32_t w = pairs->wall[p];
         memory_rows rows = memory_rows_at(pairs->history, pairs->booking, pairs->rolling, p);
@@ -88,8 +103,7 @@ void contact_walls(contact_job *job, const scree_wall *wall, const scree_wall_pa
         evaluate_walls(job, (variant){3, SCREE_LAW_HERTZ_MINDLIN, true, v.ledger, v.rolling}, wall, pairs, row_begin,
                        row_end);
     else if (v.dimension == 3)
-        evaluate_walls(job, (variant){3, SCREE_LAW_HERTZ_BRILLIANTOV, true, v.ledger, false}, wall, pairs, row_begin,
-                       row_end);
+        evaluate_walls(job, (variant){3, v.law, true, v.ledger, false}, wall, pairs, row_begin, row_end);
     else
         evaluate_walls(job, (variant){2, v.law, true, v.ledger, v.rolling}, wall, pairs, row_begin, row_end);
 }

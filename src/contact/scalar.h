@@ -104,22 +104,32 @@ static inline bool pair_touches(int dimension, const scree_row *first, const scr
     return bodies_touch(dimension, apart, first->radius + second->radius) != 0;
 }
 
-/// A wall is a body of infinite radius and mass that moves with its normal and tangential velocity: R_eff = R, m_eff =
-/// m.
-static inline motion motion_of_wall(int dimension, const bodies *body, const scree_wall *wall, double step)
+/// Beside a wall, a body of infinite radius and mass: R_eff = R, m_eff = m. What does not depend on velocities.
+SCREE_INLINE motion motion_beside(const bodies *body, const double normal[3], double distance)
 {
-    const int count = tangential_count(dimension);
-    motion m = {.normal = {wall->normal[0], wall->normal[1], wall->normal[2]}};
-    vector moving = {wall->velocity * m.normal.x + wall->tangential_velocity[0],
-                     wall->velocity * m.normal.y + wall->tangential_velocity[1],
-                     wall->velocity * m.normal.z + wall->tangential_velocity[2]};
-    m.indentation = body->radius - (vector_dot(dimension, m.normal, body->place) - wall->position);
+    motion m = {.normal = {normal[0], normal[1], normal[2]}, .indentation = body->radius - distance};
     m.arm_first = body->radius - 0.5 * m.indentation;
     m.reduced_radius = body->radius;
     m.reduced_mass = body->mass;
-    vector lever = vector_times(count, body->spin, m.arm_first);
-    motion_advance(dimension, &m, vector_minus(dimension, body->velocity, moving), lever, body->spin, vector_none(), 0,
-                   step);
+    return m;
+}
+
+/// The rest of it: the wall moves with `velocity` at the contact and turns with `spin`.
+SCREE_INLINE void motion_past(int dimension, motion *m, const bodies *body, vector velocity, vector spin, double step)
+{
+    vector lever = vector_times(tangential_count(dimension), body->spin, m->arm_first);
+    motion_advance(dimension, m, vector_minus(dimension, body->velocity, velocity), lever, body->spin, spin, 0, step);
+}
+
+/// A plate moves with its normal and tangential velocity.
+SCREE_INLINE motion motion_of_wall(int dimension, const bodies *body, const scree_wall *wall, double step)
+{
+    const double *slide = wall->tangential_velocity;
+    vector normal = {wall->normal[0], wall->normal[1], wall->normal[2]};
+    motion m = motion_beside(body, wall->normal, vector_dot(dimension, normal, body->place) - wall->position);
+    vector moving = {wall->velocity * normal.x + slide[0], wall->velocity * normal.y + slide[1],
+                     wall->velocity * normal.z + slide[2]};
+    motion_past(dimension, &m, body, moving, vector_none(), step);
     return m;
 }
 

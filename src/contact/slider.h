@@ -5,7 +5,7 @@
 ///
 /// Ledger of a step, with the middle increment sigma (motion.h) and mean forces <f> = (f(n-1) + f(n))/2:
 ///   damping    <dashpot> . sigma
-///   friction   <k h> . (s dt - (h(n) - h(n-1)))           zero while the spring sticks
+///   friction   <k h> . (s dt - (h(n) - h(n-1)))           exactly zero while the spring sticks
 ///   stiffness  1/2 (k(n) - k(n-1)) h(n) . h(n-1) - <k h> . (sigma - s dt)
 /// The work done on the spring, <k h> . sigma, minus the change of its energy 1/2 k h^2 is friction - stiffness,
 /// exactly. Where a contact has opened, forces and h at n are zero: the same lines book what the spring still held as
@@ -25,45 +25,65 @@ typedef struct slider_memory {
 /// How it moves in this step.
 typedef struct slider_motion {
     vector rate;   ///< s, at n
-    vector middle; ///< sigma
+    vector excess; ///< sigma - s dt
     double step;   ///< dt; 0 evaluates without moving
 } slider_motion;
 
 typedef struct slider {
     slider_memory now;                  ///< for the next step
     vector resistance;                  ///< -f
-    lanes damping, friction, stiffness; ///< J
+    lanes damping, friction, stiffness; ///< J, twice what is booked
     lanes elastic;                      ///< J
 } slider;
+
+/// Whether all lanes touch and stick, in space: nothing is to be limited.
+SCREE_INLINE bool slider_sticks(const slider *s, lanes cap, lanes_bits touching)
+{
+    lanes square = cap * cap;
+    lanes_bits within = lanes_at_or_below(vector_dot(3, s->now.spring, s->now.spring), square) &
+                        lanes_at_or_below(vector_dot(3, s->resistance, s->resistance), square);
+    return !lanes_ones(~(within & touching));
+}
+
+/// Caps the spring, then its sum with the dashpot, of a stretch that has not been limited yet.
+SCREE_INLINE void slider_limit(int count, slider *s, vector viscous, lanes stiffness, lanes cap, lanes_bits touching)
+{
+    vector trial = s->now.spring, stretch = s->now.stretch;
+    if (count == 1) {
+        s->now.spring = vector_at_most(1, trial, cap);
+        stretch.x = lanes_select(lanes_differ(s->now.spring.x, trial.x), s->now.spring.x / stiffness, stretch.x);
+    } else {
+        lanes factor = vector_limit_factor(trial, cap);
+        s->now.spring = vector_times(3, trial, factor);
+        stretch = vector_times(3, stretch, factor);
+    }
+    s->now.stretch = vector_keep(count, touching, stretch);
+    s->resistance = vector_at_most(count, vector_plus(count, s->now.spring, viscous), cap);
+}
 
 SCREE_INLINE slider slider_move(int count, const slider_memory *before, const slider_motion *move, lanes stiffness,
                                 lanes viscosity, lanes cap, lanes_bits touching)
 {
-    slider s;
     vector step = vector_times(count, move->rate, lanes_all(move->step));
-    vector stretch = vector_plus(count, before->stretch, step), trial = vector_times(count, stretch, stiffness);
-    vector spring = trial;
-    if (count == 1) {
-        spring = vector_at_most(1, trial, cap);
-        stretch.x = lanes_select(lanes_differ(spring.x, trial.x), spring.x / stiffness, stretch.x);
-    } else {
-        lanes factor = vector_limit_factor(trial, cap);
-        spring = vector_times(count, trial, factor);
-        stretch = vector_times(count, stretch, factor);
-    }
-    stretch = vector_keep(count, touching, stretch);
+    vector reached = vector_plus(count, before->stretch, step);
     vector viscous = vector_times(count, move->rate, viscosity);
-    s.resistance = vector_at_most(count, vector_plus(count, spring, viscous), cap);
-    s.now = (slider_memory){stretch, spring, vector_minus(count, s.resistance, spring)};
+    slider s = {.now = {.stretch = reached, .spring = vector_times(count, reached, stiffness)},
+                .friction = lanes_all(0)};
+    s.resistance = vector_plus(count, s.now.spring, viscous);
+    vector springs = vector_plus(count, s.now.spring, before->spring);
+    // In space the branch spares more than it costs; in one dimension limits are cheap.
+    if (count == 1 || !slider_sticks(&s, cap, touching)) {
+        slider_limit(count, &s, viscous, stiffness, cap, touching);
+        springs = vector_plus(count, s.now.spring, before->spring);
+        s.friction = vector_dot(count, springs, vector_minus(count, reached, s.now.stretch));
+    }
+    s.now.dashpot = vector_minus(count, s.resistance, s.now.spring);
 
-    vector springs = vector_plus(count, spring, before->spring);
     vector dashpots = vector_plus(count, s.now.dashpot, before->dashpot);
-    vector stretched = vector_minus(count, stretch, before->stretch);
-    s.damping = 0.5 * vector_dot(count, dashpots, move->middle);
-    s.friction = 0.5 * vector_dot(count, springs, vector_minus(count, step, stretched));
-    s.stiffness = 0.5 * (vector_dot(count, spring, before->stretch) - vector_dot(count, before->spring, stretch) -
-                         vector_dot(count, springs, vector_minus(count, move->middle, step)));
-    s.elastic = 0.5 * vector_dot(count, spring, stretch);
+    s.damping = vector_dot(count, dashpots, vector_plus(count, step, move->excess));
+    s.stiffness = vector_dot(count, s.now.spring, before->stretch) - vector_dot(count, before->spring, s.now.stretch) -
+                  vector_dot(count, springs, move->excess);
+    s.elastic = 0.5 * vector_dot(count, s.now.spring, s.now.stretch);
     return s;
 }
 

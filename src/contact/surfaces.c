@@ -89,23 +89,33 @@ scree_pair_constants contact_surface_constants(const scree_model *model, const s
 motion motion_of_surface(int dimension, const bodies *body, const scree_surface *surface, const scree_site *site,
                          bool moving, double step)
 {
-    const int count = tangential_count(dimension);
-    motion m = {.normal = {site->normal[0], site->normal[1], site->normal[2]}};
-    m.indentation = body->radius - site->distance;
-    m.arm_first = body->radius - 0.5 * m.indentation;
-    m.reduced_radius = body->radius;
-    m.reduced_mass = body->mass;
-    vector velocity = body->velocity, spin = vector_none();
+    motion m = motion_beside(body, site->normal, site->distance);
+    vector velocity = vector_none(), spin = vector_none();
     if (moving) {
         vector at = vector_minus(dimension, body->place, vector_times(dimension, m.normal, m.arm_first));
         scree_vector moved;
         scree_surface_velocity(surface, (const double[3]){at.x, at.y, dimension == 3 ? at.z : 0}, moved);
-        velocity = vector_minus(dimension, velocity, (vector){moved[0], moved[1], moved[2]});
+        velocity = (vector){moved[0], moved[1], moved[2]};
         const double *turning = surface->config->spin;
         spin = dimension == 3 ? (vector){turning[0], turning[1], turning[2]} : (vector){.x = turning[2]};
     }
-    motion_advance(dimension, &m, velocity, vector_times(count, body->spin, m.arm_first), body->spin, spin, 0, step);
+    motion_past(dimension, &m, body, velocity, spin, step);
     return m;
+}
+
+/// Turns a stretch into the tangent plane, with its length: the normal of a wall turns by more than motion.h knows of.
+static void turn_stretch(const scree_vector normal, double stretch[3])
+{
+    double along = cosine(stretch, normal), square = cosine(stretch, stretch), left = square - along * along;
+    if (!(left > 0)) return;
+    double factor = sqrt(square / left);
+    for (int k = 0; k < 3; k++) stretch[k] = factor * (stretch[k] - along * normal[k]);
+}
+
+static void turn_stretches(const scree_vector normal, const memory_rows *rows)
+{
+    turn_stretch(normal, rows->history->value);
+    if (rows->rolling) turn_stretch(normal, rows->rolling->value);
 }
 
 // ---- evaluation --------------------------------------------------------------------------------------------------
@@ -201,9 +211,11 @@ SCREE_INLINE void evaluate_group(contact_job *job, variant v, const scree_state 
         memory_rows rows = memory_at(g, p);
         if (!touch && memory_is_clear(&rows)) continue;
         const scree_surface *surface = contact_surface_of(g->container, g->pairs->wall[p]);
-        scree_site site;
-        scree_element_site(g->container, g->pairs->wall[p], g->place, &site);
-        motion m = motion_of_surface(v.dimension, &one, surface, &site, state->surface_moving != 0, job->settings.step);
+        scree_site left;
+        if (!touch) scree_element_site(g->container, g->pairs->wall[p], g->place, &left);
+        const scree_site *site = touch ? &touch->site : &left;
+        if (v.dimension == 3 && v.law == SCREE_LAW_HERTZ_MINDLIN) turn_stretches(site->normal, &rows);
+        motion m = motion_of_surface(v.dimension, &one, surface, site, state->surface_moving != 0, job->settings.step);
         if (law_foresees(v)) {
             foresight ahead = foresight_get(v.dimension, &job->foreseen[row]);
             motion_foresee(v.dimension, &m, &one, &ahead, NULL, NULL);

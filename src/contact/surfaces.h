@@ -12,7 +12,8 @@
 ///
 /// What contacts remember goes with their element. When a body touches an element anew and has just left another one of
 /// the same wall whose normal is nearly the same, it takes the memory along: a spring survives the change of the
-/// triangle, and the ledger books what it would have booked on one plane.
+/// triangle, and the ledger books what it would have booked on one plane. In space a stretch is brought into the plane
+/// of its element in every step, with its length.
 #ifndef SCREE_CONTACT_SURFACES_H
 #define SCREE_CONTACT_SURFACES_H
 

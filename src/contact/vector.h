@@ -104,12 +104,11 @@ SCREE_INLINE vector moment_of(int dimension, vector n, vector f)
 }
 
 /// Factor that shortens `a` in space to the length `limit` where it is longer, else 1. NaN for a vector with NaN.
-/// limit |a| / a^2: root and division do not wait for each other, and where no lane is longer there is neither.
+/// limit |a| / a^2: root and division do not wait for each other.
 SCREE_INLINE lanes vector_limit_factor(vector a, lanes limit)
 {
     lanes square = vector_dot(3, a, a);
     lanes_bits within = lanes_at_or_below(square, limit * limit);
-    if (!lanes_ones(~within)) return lanes_all(1);
     return lanes_select(within, lanes_all(1), limit * (lanes_root(square) * (1.0 / square)));
 }
 

@@ -24,11 +24,6 @@ typedef struct periodic_sample {
     scree_work work;
 } periodic_sample;
 
-static inline void periodic_check(scree_status status, const scree_error *error)
-{
-    if (status) fail_msg("status %d: %s", (int)status, error->message);
-}
-
 /// Grains of about 1 mm at the origin, at rest, in a cell of the given lattice (columns; unit vector: not periodic).
 static inline void periodic_create(periodic_sample *s, int dimension, size_t count, const double lattice[9], scree_law law)
 {
@@ -53,14 +48,15 @@ static inline void periodic_create(periodic_sample *s, int dimension, size_t cou
     s->config.boundary.servo_velocity = NAN;
     s->model.pairs[0][0] = s->model.walls[0] =
         (scree_pair_constants){.normal_stiffness = 4e9, .tangential_stiffness = 5e9, .friction = 0.5, .damping = 0.3};
-    periodic_check(scree_state_create(&s->state, dimension, count, &error), &error);
+    check(scree_state_create(&s->state, dimension, count, &error), &error);
+    if (scree_model_foresees(&s->model)) check(scree_state_foresee(&s->state, &error), &error);
     s->model.largest_step = s->model.large_multiple = 1;
     s->state.tick = s->state.step_size = s->state.kick_size = s->model.step;
     const double none[3] = {1, 1, 1};
     scree_periodic_set(&s->state.periodic, dimension == 2 ? 3 : 7, none);
     memcpy(s->state.periodic.lattice, lattice, sizeof s->state.periodic.lattice);
     memcpy(s->state.periodic.reference, lattice, sizeof s->state.periodic.reference);
-    periodic_check(scree_work_create(&s->work, &s->model, 1, &error), &error);
+    check(scree_work_create(&s->work, &s->model, 1, &error), &error);
 }
 
 static inline void periodic_destroy(periodic_sample *s)
@@ -93,7 +89,7 @@ static inline void periodic_place(periodic_sample *s, size_t row, const double p
 static inline void periodic_forces(periodic_sample *s)
 {
     scree_error error;
-    periodic_check(scree_neighbours_refresh(&s->model, &s->state, &s->work, &error), &error);
+    check(scree_neighbours_refresh(&s->model, &s->state, &s->work, &error), &error);
     scree_contact_set_quanta(&s->model, &s->state, 0);
     scree_contact_forces(&s->model, &s->state, &s->work);
 }
@@ -104,7 +100,7 @@ static inline void periodic_step(periodic_sample *s)
     const scree_integrator *scheme = scree_integrator_get(s->model.scheme);
     scree_error error;
     scheme->first(&s->model, &s->state, &s->work);
-    periodic_check(scree_periodic_move(&s->model, &s->state, &s->work, &error), &error);
+    check(scree_periodic_move(&s->model, &s->state, &s->work, &error), &error);
     s->state.step++;
     periodic_forces(s);
     scree_periodic_settle(&s->state, &s->work);

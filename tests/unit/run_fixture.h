@@ -17,11 +17,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static inline void check(scree_status status, const scree_error *error)
-{
-    if (status) fail_msg("status %d: %s", (int)status, error->message);
-}
-
 static inline scree_status case_parse(const char *text, const char *const *overrides, size_t count, scree_case **c,
                                       scree_problems **problems)
 {

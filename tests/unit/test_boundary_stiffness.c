@@ -33,6 +33,7 @@ static const char plane_text[] =
     "particles: {shape: disc, material: quartz, count: 30, radius_min: 0.5 mm, radius_max: 0.8 mm}\n"
     "boundary: {periodic: xy}\n"
     "contact: {law: hertz_mindlin}\n"
+    "integrator: {step_fraction: 0.5}\n"
     "stages:\n"
     "  - {stage: prepare, method: gas, aspect_ratio: 1, solid_fraction: 55 %, velocity: 20 mm/s}\n"
     "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 1e-5, friction: 0.02}\n"
@@ -46,9 +47,10 @@ static const char solid_text[] =
     "particles: {shape: sphere, material: quartz, count: 30, radius_min: 0.6 mm, radius_max: 0.8 mm}\n"
     "boundary: {periodic: xyz}\n"
     "contact: {law: hertz_mindlin}\n"
+    "integrator: {step_fraction: 0.5}\n"
     "stages:\n"
-    "  - {stage: prepare, method: gas, aspect_ratio: 1, solid_fraction: 30 %, velocity: 20 mm/s}\n"
-    "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 1e-3, friction: 0.02}\n"
+    "  - {stage: prepare, method: gas, aspect_ratio: 1, solid_fraction: 38 %, velocity: 20 mm/s}\n"
+    "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 5e-2, friction: 0.02}\n"
     "  - {stage: deform, velocity_gradient: {zz: -1e-5 1/s}, strain: 0.0001 %, rise_time: 10 ms}\n";
 
 // ---- the network ---------------------------------------------------------------------------------------------------

@@ -1,69 +1,19 @@
 /// Pressure on the triangulated hull in 3D: which triangles carry it, what it adds up to, its work, its strain, the
 /// stress that it makes; volume and strain of polyhedra.
-#include "testing.h"
+#include "boundary_fixture.h"
 
-#include "base/random.h"
 #include "boundary/plates.h"
-#include "boundary/pressure.h"
 #include "integrate/integrate.h"
 #include "measure/hull.h"
-#include "measure/measure.h"
 #include "measure/polyhedron.h"
 
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-#define PRESSURE 1e5
-#define RADIUS   0.75e-3
-#define QUANTUM  0x1p-50
-
-typedef struct bench {
-    scree_config config;
-    scree_model model;
-    scree_state state;
-} bench;
-
-static double uniform(uint64_t counter)
-{
-    return scree_random_uniform(5, SCREE_RANDOM_TEST, counter);
-}
-
-/// side x side x levels spheres of uneven size on a disturbed dense lattice, between plates that touch the outermost
-/// ones if asked for.
+/// side x side x levels spheres.
 static void bench_create(bench *b, size_t side, size_t levels, bool plates)
 {
-    memset(b, 0, sizeof *b);
-    b->config.boundary.every = 250;
-    b->model.largest_step = 1;
-    b->config.boundary.gap_limit = 0.5;
-    b->config.boundary.servo_gain = 1;
-    b->model.config = &b->config;
-    b->model.dimension = 3;
-    b->model.thickness = 1;
-    b->model.mean_radius = RADIUS;
-    assert_int_equal(scree_state_create(&b->state, 3, side * side * levels, NULL), SCREE_OK);
-    scree_state *state = &b->state;
-    state->pressure = PRESSURE;
-    state->force_quantum = QUANTUM;
-    state->step_size = 1e-6;
-    double low = INFINITY, high = -INFINITY;
-    for (size_t i = 0; i < state->count; i++) {
-        scree_row *row = &state->row[i];
-        size_t level = i / side / side;
-        row->radius = RADIUS * (0.7 + 0.3 * uniform(8 * i));
-        row->x = 2 * RADIUS * ((double)(i % side) + (level % 2 ? 0.5 : 0) + 0.2 * uniform(8 * i + 1));
-        row->y = 2 * RADIUS * ((double)(i / side % side) + (level % 2 ? 0.5 : 0) + 0.2 * uniform(8 * i + 2));
-        row->z = 2 * RADIUS * (0.75 * (double)level + 0.15 * uniform(8 * i + 3));
-        row->mass = 1e-3 * (1 + uniform(8 * i + 4));
-        low = fmin(low, row->z - row->radius);
-        high = fmax(high, row->z + row->radius);
-    }
-    static const int axis[SCREE_WALL_COUNT] = {2, 2, 0, 0, 1, 1};
-    for (int w = 0; w < SCREE_WALL_COUNT; w++) state->wall[w].normal[axis[w]] = w % 2 ? -1 : 1;
-    state->wall[SCREE_WALL_BOTTOM].position = low;
-    state->wall[SCREE_WALL_TOP].position = -high;
-    state->wall[SCREE_WALL_BOTTOM].active = state->wall[SCREE_WALL_TOP].active = plates;
+    bench_begin(b, 3, side * side * levels, 1e-6);
+    bench_fill(b, side, plates);
 }
 
 static void add_sums(const scree_state *state, int64_t total[3])

@@ -1,95 +1,20 @@
 /// Membrane around a plane sample: placement, pressure, chain, ends, what it is left out of.
-#include "testing.h"
+#include "boundary_fixture.h"
 
-#include "base/random.h"
-#include "boundary/boundary.h"
-#include "boundary/membrane.h"
-#include "boundary/pressure.h"
-#include "measure/measure.h"
 #include "measure/outline.h"
 #include "search/neighbours.h"
 
-#include <math.h>
-#include <string.h>
-
-#define THICKNESS 1.5e-3
-#define RADIUS    0.75e-3
-#define PRESSURE  1e5
-#define QUANTUM   0x1p-50
-#define STEP      1e-5
+#define STEP 1e-5
 
 enum { COLUMNS = 8, ROWS = 14 };
 
-typedef struct bench {
-    scree_config config;
-    scree_model model;
-    scree_state state;
-    scree_work work;
-} bench;
-
-static double uniform(uint64_t counter)
-{
-    return scree_random_uniform(5, SCREE_RANDOM_TEST, counter);
-}
-
+/// A block of discs in its membrane.
 static void bench_create(bench *b)
 {
-    memset(b, 0, sizeof *b);
-    b->config.boundary.every = 1000;
-    b->config.boundary.gap_limit = 0.5;
-    b->config.boundary.servo_gain = 1;
-    b->config.guard.overlap = 0.2;
-    b->model = (scree_model){.dimension = 2,
-                             .thickness = THICKNESS,
-                             .law = SCREE_LAW_HERTZ_MINDLIN,
-                             .scheme = SCREE_SCHEME_POSITION_VERLET,
-                             .mean_radius = RADIUS,
-                             .radius_min = 0.7 * RADIUS,
-                             .radius_max = RADIUS,
-                             .membrane = true,
-                             .membrane_material = 1,
-                             .membrane_radius = 1.25 * RADIUS,
-                             .membrane_stiffness = 1e4,
-                             .material_count = 1,
-                             .density = {2.675e8, 2.675e8},
-                             .config = &b->config};
-    for (int k = 0; k < 4; k++)
-        b->model.pairs[k / 2][k % 2] = (scree_pair_constants){
-            .normal_stiffness = 2e10, .tangential_stiffness = 2e10, .friction = k == 0 ? 0.45 : 0, .damping = 1};
-    b->model.walls[0] = b->model.pairs[0][0];
-    b->model.walls[1] = b->model.pairs[1][1];
-    assert_int_equal(scree_state_create(&b->state, 2, COLUMNS * ROWS, NULL), SCREE_OK);
-    scree_state *state = &b->state;
-    state->force_quantum = QUANTUM;
-    state->step_size = b->work.next_kick = STEP;
-    double low = INFINITY, high = -INFINITY;
-    for (size_t i = 0; i < state->count; i++) {
-        scree_row *row = &state->row[i];
-        row->radius = RADIUS * (0.7 + 0.3 * uniform(4 * i));
-        row->x = 2 * RADIUS * ((double)(i % COLUMNS) + 0.1 * uniform(4 * i + 1) + (i / COLUMNS % 2 ? 0.4 : 0));
-        row->y = 2 * RADIUS * ((double)(i / COLUMNS) + 0.1 * uniform(4 * i + 2));
-        row->mass = scree_model_mass(&b->model, 0, row->radius);
-        low = fmin(low, row->y - row->radius);
-        high = fmax(high, row->y + row->radius);
-    }
-    state->wall[SCREE_WALL_BOTTOM] = (scree_wall){.position = low, .normal = {0, 1}, .active = 1};
-    state->wall[SCREE_WALL_TOP] = (scree_wall){.position = -high, .normal = {0, -1}, .active = 1};
-    state->wall[SCREE_WALL_LEFT].normal[0] = 1;
-    state->wall[SCREE_WALL_RIGHT].normal[0] = -1;
-    assert_int_equal(scree_membrane_place(&b->model, state, NULL), SCREE_OK);
-    state->membrane.share = 1;
-    state->pressure = PRESSURE;
-}
-
-static scree_row *member(bench *b, size_t k)
-{
-    return &b->state.row[scree_membrane_row(&b->state, k)];
-}
-
-static void forces(bench *b)
-{
-    memset(b->state.sum, 0, b->state.count * sizeof *b->state.sum);
-    scree_boundary_get(SCREE_BOUNDARY_MEMBRANE)->forces(&b->model, &b->state, &b->work);
+    bench_begin(b, 2, COLUMNS * ROWS, STEP);
+    bench_foresee_membrane(b, 1.25 * RADIUS);
+    bench_fill(b, COLUMNS, true);
+    assert_int_equal(scree_membrane_place(&b->model, &b->state, NULL), SCREE_OK);
 }
 
 static void it_touches_and_does_not_press(void **unused)
@@ -138,7 +63,7 @@ static void both_sides_press_alike(void **unused)
     bench_create(&b);
     scree_state *state = &b.state;
     for (size_t k = 0; k < state->membrane.count; k++) member(&b, k)->x += 1e-4 * uniform(1000 + k);
-    forces(&b);
+    membrane_forces(&b);
     double height = -(state->wall[SCREE_WALL_BOTTOM].position + state->wall[SCREE_WALL_TOP].position);
     int64_t side[2] = {0};
     double pressure = 0, chain_x = 0;
@@ -173,7 +98,7 @@ static void the_chain_stores_what_it_takes(void **unused)
     }
     double begin = scree_membrane_energy(&b.model, state), momentum = 0, after = 0, scale = 0, change = 0;
     for (size_t k = 0; k < state->membrane.count; k++) momentum += member(&b, k)->mass * member(&b, k)->vx;
-    forces(&b);
+    membrane_forces(&b);
     state->ledger = (scree_ledger){0};
     for (int step = 0; step < 400; step++) {
         for (size_t k = 0; k < state->membrane.count; k++) {
@@ -185,7 +110,7 @@ static void the_chain_stores_what_it_takes(void **unused)
             row->y += STEP * row->vy;
         }
         membrane->work(state);
-        forces(&b);
+        membrane_forces(&b);
         change = fmax(change, fabs(scree_membrane_energy(&b.model, state) - begin));
     }
     for (size_t k = 0; k < state->membrane.count; k++) {
@@ -215,7 +140,7 @@ static void ends_move_with_the_plates(void **unused)
     scree_state *state = &b.state;
     state->wall[SCREE_WALL_BOTTOM].velocity = 3e-3;
     state->wall[SCREE_WALL_TOP].velocity = 1e-3;
-    forces(&b);
+    membrane_forces(&b);
     size_t side = state->membrane.right, end[4] = {0, side - 1, side, 2 * side - 1};
     for (int e = 0; e < 4; e++) {
         const scree_row *row = member(&b, end[e]);

@@ -1,62 +1,16 @@
 /// Pressure on the Delaunay boundary: which edges carry it, what it adds up to, its work, its strain.
-#include "testing.h"
+#include "boundary_fixture.h"
 
-#include "base/random.h"
-#include "boundary/pressure.h"
 #include "integrate/integrate.h"
-#include "measure/measure.h"
 #include "measure/outline.h"
 
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-#define PRESSURE  1e5
-#define THICKNESS 1.5e-3
-#define RADIUS    0.75e-3
-#define QUANTUM   0x1p-50
-
-typedef struct bench {
-    scree_config config;
-    scree_model model;
-    scree_state state;
-} bench;
-
-static double uniform(uint64_t counter)
-{
-    return scree_random_uniform(3, SCREE_RANDOM_TEST, counter);
-}
-
-/// columns x rows discs of uneven size on a disturbed lattice, between plates that touch the outermost ones if asked
-/// for.
+/// columns x rows discs.
 static void bench_create(bench *b, size_t columns, size_t rows, bool plates)
 {
-    memset(b, 0, sizeof *b);
-    b->config.boundary.every = 250;
-    b->config.boundary.gap_limit = 0.5;
-    b->model.config = &b->config;
-    b->model.largest_step = 1;
-    b->model.thickness = THICKNESS;
-    b->model.mean_radius = RADIUS;
-    assert_int_equal(scree_state_create(&b->state, 2, columns * rows, NULL), SCREE_OK);
-    scree_state *state = &b->state;
-    state->pressure = PRESSURE;
-    state->force_quantum = QUANTUM;
-    state->tick = state->step_size = state->kick_size = 1e-6;
-    double low = INFINITY, high = -INFINITY;
-    for (size_t i = 0; i < state->count; i++) {
-        scree_row *row = &state->row[i];
-        row->radius = RADIUS * (0.7 + 0.3 * uniform(4 * i));
-        row->x = 2 * RADIUS * ((double)(i % columns) + 0.2 * uniform(4 * i + 1) + (i / columns % 2 ? 0.4 : 0));
-        row->y = 2 * RADIUS * ((double)(i / columns) + 0.2 * uniform(4 * i + 2));
-        row->mass = 1e-3 * (1 + uniform(4 * i + 3));
-        low = fmin(low, row->y - row->radius);
-        high = fmax(high, row->y + row->radius);
-    }
-    state->wall[SCREE_WALL_BOTTOM] = (scree_wall){.position = low, .normal = {0, 1}, .active = plates};
-    state->wall[SCREE_WALL_TOP] = (scree_wall){.position = -high, .normal = {0, -1}, .active = plates};
-    state->wall[SCREE_WALL_LEFT].normal[0] = 1;
-    state->wall[SCREE_WALL_RIGHT].normal[0] = -1;
+    bench_begin(b, 2, columns * rows, 1e-6);
+    bench_fill(b, columns, plates);
 }
 
 static void add_sums(const scree_state *state, int64_t total[2], double sides[2])

@@ -2,7 +2,7 @@
 #include "testing.h"
 
 #include "base/random.h"
-#include "measure/rotation.h"
+#include "measure/rotation_parts.h"
 
 #include <math.h>
 #include <string.h>
@@ -128,6 +128,71 @@ static void an_exponential_decay_is_found(void **unused)
     }
 }
 
+/// Means and standard errors of the shells from the bodies in them; the line through the logarithms of the means with
+/// the numbers of bodies as weights, and Student's interval of its slope, from their formulas.
+static void shells_and_the_fit_have_their_formulas(void **unused)
+{
+    (void)unused;
+    cluster c;
+    scree_rotation_decay decay;
+    create(&c, 2);
+    for (size_t k = 0; k < c.state.count; k++) c.state.angle[k] *= k == c.forced ? 1 : exp(2 * uniform(k) - 1);
+    scree_rotation_decay_measure(&c.model, &c.state, c.forced, 0.06, &decay);
+    for (size_t b = 0; b < decay.bin_count; b++) {
+        double n = 0, sum = 0, squares = 0, driven = fabs(c.state.angle[c.forced]);
+        for (int pass = 0; pass < 2; pass++)
+            for (size_t k = 0; k < c.state.count; k++) {
+                double away = hypot(c.state.row[k].x, c.state.row[k].y) / (2 * RADIUS) - decay.bin[b].lower;
+                double ratio = fabs(c.state.angle[k]) / driven;
+                if (k == c.forced || away < 0 || away >= 1) continue;
+                n += pass == 0;
+                sum += pass == 0 ? ratio : 0;
+                squares += pass == 1 ? (ratio - sum / n) * (ratio - sum / n) : 0;
+            }
+        assert_true(fabs(decay.bin[b].mean - sum / n) < 1e-12);
+        assert_true(fabs(decay.bin[b].standard_error / sqrt(squares / (n - 1) / n) - 1) < 1e-9);
+    }
+    double w = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+    assert_int_equal(decay.fitted, 6);
+    for (size_t b = 0; b < decay.fitted; b++) {
+        const scree_rotation_bin *bin = &decay.bin[b];
+        double weight = (double)bin->count, value = log(bin->mean);
+        w += weight;
+        x += weight * bin->distance;
+        y += weight * value;
+        xx += weight * bin->distance * bin->distance;
+        xy += weight * bin->distance * value;
+        yy += weight * value * value;
+    }
+    double sxx = xx - x * x / w, sxy = xy - x * y / w, syy = yy - y * y / w, slope = sxy / sxx;
+    // Quantile 0.975 of Student's distribution with four degrees of freedom, from tables.
+    double half = 2.77644511 * sqrt((syy - slope * sxy) / 4 / sxx);
+    assert_true(fabs(decay.length * -slope - 1) < 1e-9);
+    assert_true(fabs(decay.length_low * (half - slope) - 1) < 1e-7);
+    assert_true(fabs(decay.length_high * (-half - slope) - 1) < 1e-7);
+    destroy(&c);
+}
+
+/// Directions anywhere on the sphere fall into its sectors, caps and zones about the first axis, alike.
+static void sectors_have_equal_solid_angles(void **unused)
+{
+    (void)unused;
+    enum { DRAWS = 36000 };
+    scree_rotation_network network = {.axis = {{0.6, 0, 0.8}}};
+    const scree_vector ahead = {0.6, 0, 0.8}, astern = {-0.6, 0, -0.8};
+    size_t count[SCREE_ROTATION_SECTORS] = {0};
+    for (uint64_t k = 0; k < DRAWS; k++) {
+        double height = 2 * uniform(2 * k) - 1, angle = 2 * M_PI * uniform(2 * k + 1), r = sqrt(1 - height * height);
+        const scree_vector outward = {r * cos(angle), r * sin(angle), height};
+        count[scree_rotation_sector(3, &network, outward)]++;
+    }
+    // Five times the square root of the thousand in each.
+    for (int k = 0; k < SCREE_ROTATION_SECTORS; k++)
+        assert_true(fabs((double)count[k] - (double)DRAWS / SCREE_ROTATION_SECTORS) < 5 * sqrt(1000));
+    assert_int_equal(scree_rotation_sector(3, &network, ahead), 0);
+    assert_int_equal(scree_rotation_sector(3, &network, astern), SCREE_ROTATION_SECTORS - 1);
+}
+
 static void spins_that_do_not_decay_have_no_reach(void **unused)
 {
     (void)unused;
@@ -195,6 +260,14 @@ static void rotations_behind_a_strong_chain(void **unused)
     // Inside a shell of one diameter the spins fall by exp(-1/3), which shifts the means of the groups a little.
     assert_true(fabs(alignment.across.value - 0.5) < 0.02);
     assert_true(alignment.across.low < 0.5 && alignment.across.high > 0.5 && alignment.across.high < 0.6);
+    // Turned by more than 45 degrees it leads rotations outward, and hides nothing.
+    c.state.row[0].x = 5 * RADIUS, c.state.row[0].y = 1.2 * RADIUS;
+    c.state.row[1].x = 13 * RADIUS, c.state.row[1].y = -1.2 * RADIUS;
+    c.table.contact[0].branch[0] = -8 * RADIUS, c.table.contact[0].branch[1] = 2.4 * RADIUS;
+    assert_int_equal(scree_rotation_alignment_measure(&c.model, &c.state, &c.table, c.forced, 100, &decay, &network,
+                                                      &alignment, NULL),
+                     SCREE_OK);
+    assert_int_equal(alignment.across.behind, 0);
     destroy(&c);
 }
 
@@ -324,6 +397,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_exponential_decay_is_found),
+        cmocka_unit_test(shells_and_the_fit_have_their_formulas),
+        cmocka_unit_test(sectors_have_equal_solid_angles),
         cmocka_unit_test(spins_that_do_not_decay_have_no_reach),
         cmocka_unit_test(bodies_that_nothing_holds_do_not_count),
         cmocka_unit_test(rotations_behind_a_strong_chain),

@@ -1,104 +1,33 @@
 /// Membrane of spheres around a solid sample: its net, placement, pressure, springs, ends, what it is left out of.
-#include "testing.h"
+#include "boundary_fixture.h"
 
-#include "base/random.h"
-#include "boundary/boundary.h"
-#include "boundary/membrane.h"
-#include "boundary/pressure.h"
 #include "boundary/sheet.h"
 #include "measure/hull.h"
-#include "measure/measure.h"
 #include "search/neighbours.h"
 
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-#define RADIUS    0.75e-3
-#define SHEET     0.5625e-3
-#define PRESSURE  1e5
-#define STIFFNESS 1e4
-#define QUANTUM   0x1p-50
-#define STEP      1e-5
+#define SHEET 0.5625e-3
+#define STEP  1e-5
 
 enum { SIDE = 5, LEVELS = 9 };
 
-typedef struct bench {
-    scree_config config;
-    scree_model model;
-    scree_state state;
-    scree_work work;
-} bench;
-
-static double uniform(uint64_t counter)
+/// Grains (all zero) that will get a membrane, between plates `height` apart.
+static void plates_create(bench *b, size_t count, double height)
 {
-    return scree_random_uniform(9, SCREE_RANDOM_TEST, counter);
-}
-
-/// A model with a membrane, and a state of `count` grains (all zero) between plates `height` apart.
-static void bench_begin(bench *b, size_t count, double height)
-{
-    memset(b, 0, sizeof *b);
-    b->config.boundary.every = 1000;
-    b->config.boundary.gap_limit = 0.5;
-    b->config.boundary.servo_gain = 1;
-    b->config.guard.overlap = 0.2;
-    b->model = (scree_model){.dimension = 3,
-                             .thickness = 1,
-                             .law = SCREE_LAW_HERTZ_MINDLIN,
-                             .scheme = SCREE_SCHEME_POSITION_VERLET,
-                             .largest_step = 1,
-                             .mean_radius = RADIUS,
-                             .radius_min = 0.7 * RADIUS,
-                             .radius_max = RADIUS,
-                             .membrane = true,
-                             .membrane_material = 1,
-                             .membrane_radius = SHEET,
-                             .membrane_stiffness = STIFFNESS,
-                             .material_count = 1,
-                             .density = {2.675e8, 2.675e8},
-                             .config = &b->config};
-    for (int k = 0; k < 4; k++)
-        b->model.pairs[k / 2][k % 2] = (scree_pair_constants){
-            .normal_stiffness = 2e10, .tangential_stiffness = 2e10, .friction = k == 0 ? 0.45 : 0, .damping = 1};
-    b->model.walls[0] = b->model.pairs[0][0];
-    b->model.walls[1] = b->model.pairs[1][1];
-    assert_int_equal(scree_state_create(&b->state, 3, count, NULL), SCREE_OK);
-    scree_state *state = &b->state;
-    state->force_quantum = QUANTUM;
-    state->step_size = b->work.next_kick = STEP;
-    static const int axis[SCREE_WALL_COUNT] = {2, 2, 0, 0, 1, 1};
-    for (int w = 0; w < SCREE_WALL_COUNT; w++) state->wall[w].normal[axis[w]] = w % 2 ? -1 : 1;
-    state->wall[SCREE_WALL_TOP].position = -height;
-    state->wall[SCREE_WALL_BOTTOM].active = state->wall[SCREE_WALL_TOP].active = 1;
-    state->membrane.share = 1;
-    state->pressure = PRESSURE;
+    bench_begin(b, 3, count, STEP);
+    bench_foresee_membrane(b, SHEET);
+    b->state.wall[SCREE_WALL_TOP].position = -height;
+    b->state.wall[SCREE_WALL_BOTTOM].active = b->state.wall[SCREE_WALL_TOP].active = 1;
 }
 
 /// An uneven block of grains in its membrane.
 static void bench_create(bench *b)
 {
-    bench_begin(b, SIDE * SIDE * LEVELS, 0);
-    scree_state *state = &b->state;
-    double high = 0;
-    for (size_t i = 0; i < state->count; i++) {
-        scree_row *row = &state->row[i];
-        size_t level = i / SIDE / SIDE;
-        row->radius = RADIUS * (0.7 + 0.3 * uniform(8 * i));
-        row->x = 2 * RADIUS * ((double)(i % SIDE) + (level % 2 ? 0.5 : 0) + 0.2 * uniform(8 * i + 1));
-        row->y = 2 * RADIUS * ((double)(i / SIDE % SIDE) + (level % 2 ? 0.5 : 0) + 0.2 * uniform(8 * i + 2));
-        row->z = 2 * RADIUS * (0.5 + 0.75 * (double)level + 0.1 * uniform(8 * i + 3));
-        row->mass = scree_model_mass(&b->model, 0, row->radius);
-        high = fmax(high, row->z + row->radius);
-    }
-    state->wall[SCREE_WALL_TOP].position = -high;
     scree_error error;
-    if (scree_membrane_place(&b->model, state, &error)) fail_msg("%s", error.message);
-}
-
-static scree_row *member(bench *b, size_t k)
-{
-    return &b->state.row[scree_membrane_row(&b->state, k)];
+    plates_create(b, SIDE * SIDE * LEVELS, 0);
+    bench_fill(b, SIDE, true);
+    check(scree_membrane_place(&b->model, &b->state, &error), &error);
 }
 
 /// A regular tube of equilateral triangles of edge `edge` as far as the curvature lets them, without grains; unstressed
@@ -107,7 +36,7 @@ static void tube_create(bench *b, size_t around, size_t rings, double edge)
 {
     double radius = edge / (2 * sin(M_PI / (double)around)), across = 2 * radius * sin(M_PI / (2 * (double)around));
     double rise = sqrt(edge * edge - across * across);
-    bench_begin(b, 0, 2 * SHEET + rise * (double)(rings - 1));
+    plates_create(b, 0, 2 * SHEET + rise * (double)(rings - 1));
     scree_state *state = &b->state;
     assert_int_equal(scree_membrane_make_room(state, around * rings, NULL), SCREE_OK);
     state->membrane.radius = SHEET;
@@ -122,12 +51,6 @@ static void tube_create(bench *b, size_t around, size_t rings, double edge)
         for (int s = 0; s < SCREE_SHEET_SPRINGS; s++)
             if (scree_sheet_neighbour(around, around * rings, k, s) != SIZE_MAX) state->membrane.rest[k][s] = edge;
     }
-}
-
-static void forces(bench *b)
-{
-    memset(b->state.sum, 0, b->state.count * sizeof *b->state.sum);
-    scree_boundary_get(SCREE_BOUNDARY_MEMBRANE)->forces(&b->model, &b->state, &b->work);
 }
 
 static double distance(bench *b, size_t i, size_t j)
@@ -210,7 +133,7 @@ static void it_wraps_the_grains_without_pressing(void **unused)
     size_t count = state->membrane.count, around = state->membrane.around, touching = 0, inside = 0;
     assert_int_equal(state->grains, SIDE * SIDE * LEVELS);
     assert_int_equal(state->count, state->grains + count);
-    double low = 0, high = -state->wall[SCREE_WALL_TOP].position;
+    double low = state->wall[SCREE_WALL_BOTTOM].position, high = -state->wall[SCREE_WALL_TOP].position;
     for (size_t k = 0; k < count; k++) {
         const scree_row *m = member(&b, k);
         double gap = INFINITY;
@@ -271,7 +194,7 @@ static void pressure_is_the_derivative_of_the_volume(void **unused)
         for (int i = 0; i < 3; i++)
             direction[k][i] = end && i == 2 ? 0 : scale * (uniform(10 * k + 3 + (uint64_t)i) - 0.5);
     }
-    forces(&b);
+    membrane_forces(&b);
     int64_t total[3] = {0};
     double work = 0, size = 0, vertical = 0, areas[2] = {0};
     for (size_t k = 0; k < count; k++) {
@@ -362,7 +285,7 @@ static void tube_step(bench *b, double keep)
         m->z += state->step_size * m->vz;
     }
     scree_boundary_get(SCREE_BOUNDARY_MEMBRANE)->work(state);
-    forces(b);
+    membrane_forces(b);
 }
 
 /// A tube that has come to rest under its pressure: the force through a section along the axis is p x radius x length.
@@ -375,7 +298,7 @@ static void hoop_tension_carries_the_pressure(void **unused)
     scree_state *state = &b.state;
     state->pressure = -1e4; // from inside: the springs only pull
     state->step_size = b.work.next_kick = 1e-3;
-    forces(&b);
+    membrane_forces(&b);
     for (int step = 0; step < 4000; step++) tube_step(&b, 0.97);
     double residual = 0, through = 0, radius = 0, angle = 0.3 * 2 * M_PI / AROUND;
     for (size_t k = 0; k < state->membrane.count; k++) {
@@ -418,7 +341,7 @@ static void springs_store_what_they_take(void **unused)
         if (scree_membrane_plate(state, k) < 0) m->z += 0.2 * SHEET * (uniform(3 * k + 2) - 0.5);
     }
     double begin = scree_membrane_energy(&b.model, state), momentum[2][2] = {{0}}, change = 0;
-    forces(&b);
+    membrane_forces(&b);
     state->ledger = (scree_ledger){0};
     for (int step = 0; step <= 400; step++) {
         for (size_t k = 0; k < state->membrane.count && step % 400 == 0; k++) {
@@ -446,7 +369,7 @@ static void ends_move_with_the_plates(void **unused)
     b.model.gravity[2] = -9.81;
     state->wall[SCREE_WALL_BOTTOM].velocity = 3e-3;
     state->wall[SCREE_WALL_TOP].velocity = 1e-3;
-    forces(&b);
+    membrane_forces(&b);
     size_t ends = 0;
     for (size_t k = 0; k < state->membrane.count; k++) {
         int plate = scree_membrane_plate(state, k);
@@ -579,7 +502,7 @@ static void failures_are_told(void **unused)
 {
     (void)unused;
     bench b;
-    bench_begin(&b, 2, 0.02);
+    plates_create(&b, 2, 0.02);
     scree_state *state = &b.state;
     for (size_t k = 0; k < 2; k++) state->row[k] = (scree_row){.z = 0.01 * (double)k, .radius = 1e-3, .mass = 1};
     uint64_t before = scree_state_checksum(state);
@@ -602,13 +525,13 @@ static void failures_are_told(void **unused)
     state->hull.updated = state->step + 1; // not looked at between two updates
     assert_int_equal(membrane->refresh(&b.model, state, &error), SCREE_OK);
     scree_state_destroy(state);
-    bench_begin(&b, 1, 0.02);
+    plates_create(&b, 1, 0.02);
     b.state.row[0] = (scree_row){.z = 0.01, .radius = 1e-3, .mass = 1};
     b.model.radius_min = 0.1 * SHEET;
     assert_int_equal(scree_membrane_place(&b.model, &b.state, &error), SCREE_ERROR_GUARD);
     assert_non_null(strstr(error.message, "slip through"));
     scree_state_destroy(&b.state);
-    bench_begin(&b, 1, 3 * SHEET);
+    plates_create(&b, 1, 3 * SHEET);
     assert_int_equal(scree_membrane_place(&b.model, &b.state, &error), SCREE_ERROR_GUARD);
     scree_state_destroy(&b.state);
 }

@@ -28,28 +28,34 @@
     "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 2e-1, ramp_time: 0.1 s}\n"                              \
     "  - {stage: compress, strain: 0.5 %, rate: 0.2 1/s, boundary: membrane}\n"
 
-static uint64_t run_some(int threads, uint64_t steps, uint64_t discard)
+/// Checksum after `steps` steps of the last stage from its begin; the work is lost after `discard` of them.
+static uint64_t run_some(scree_simulation *begin, const char *folder, int threads, uint64_t steps, uint64_t discard)
 {
-    scree_case *c = case_read(CASE, NULL, 0);
     scree_simulation s;
-    simulation_open(c, threads, &s);
+    simulation_reopen(begin, threads, folder, &s);
     while (simulation_last_steps(&s) < steps) {
         simulation_step(&s);
         if (discard > 0 && simulation_last_steps(&s) == discard) simulation_lose_work(&s, threads);
     }
-    uint64_t checksum = scree_simulation_checksum(&s);
     assert_true(s.state.membrane.count > 100 && s.state.membrane.share > 0);
-    scree_simulation_close(&s);
-    scree_case_free(c);
-    return checksum;
+    return simulation_close(&s);
 }
 
 static void threads_and_lost_work_give_the_same_bits(void **unused)
 {
     (void)unused;
-    uint64_t reference = run_some(1, 400, 0);
-    assert_true(run_some(2, 400, 0) == reference);
-    assert_true(run_some(1, 400, 221) == reference);
+    char folder[64];
+    assert_true(scratch_create(folder));
+    scree_case *c = case_read(CASE, NULL, 0);
+    scree_simulation s;
+    simulation_open(c, 1, &s);
+    simulation_load(&s);
+    uint64_t reference = run_some(&s, folder, 1, 400, 0);
+    assert_true(run_some(&s, folder, 2, 400, 0) == reference);
+    assert_true(run_some(&s, folder, 1, 400, 221) == reference);
+    scree_simulation_close(&s);
+    scree_case_free(c);
+    scratch_destroy(folder);
 }
 
 /// From a state written in the middle of the last stage and read back: everything that contacts remember is in it.
