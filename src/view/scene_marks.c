@@ -132,8 +132,9 @@ static void draw_membrane(const scree_scene_view *view, cairo_t *cairo)
 
 double scree_scene_force_width(const scree_scene_view *view, double ratio)
 {
-    double diameter = 2 * view->mean_radius * view->scale;
-    return fmax(0.1, fmin(ratio, SCREE_SCENE_FORCE_LIMIT) * SCREE_SCENE_FORCE_WIDTH * diameter);
+    // In space many lines lie behind one another.
+    double diameter = 2 * view->mean_radius * view->scale, slim = view->scene->depth ? 0.4 : 1;
+    return fmax(0.1, slim * fmin(ratio, SCREE_SCENE_FORCE_LIMIT) * SCREE_SCENE_FORCE_WIDTH * diameter);
 }
 
 /// Where the line of a contact ends: the centre of the other disc (of its image in a periodic cell), or the contact
