@@ -4,6 +4,8 @@
 /// and update / (interval x step + update). Then one update of large packings as they were dropped. A figure is the
 /// best of several, in processor time of one thread. Arguments: the parts to run (discs, spheres, dropped-discs,
 /// dropped-spheres); all without any.
+#include "bench.h"
+
 #include "boundary/pressure.h"
 #include "run/simulation.h"
 
@@ -12,23 +14,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { RUNS = 8 };
-
-static void require(scree_status status, const scree_error *error)
-{
-    if (!status) return;
-    (void)fprintf(stderr, "bench_boundary: %s\n", error->message);
-    exit(EXIT_FAILURE);
-}
-
-static double seconds(void)
-{
-    struct timespec now;
-    (void)clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static void open_case(const char *name, long count, scree_case **c, scree_simulation *s)
 {
@@ -51,9 +38,9 @@ static double measure_update(scree_simulation *s)
         scree_error error;
         // Due again: as if the interval had passed.
         s->state.step += (uint64_t)s->model.config->boundary.every * s->model.largest_step;
-        double begin = seconds();
+        double begin = seconds(1);
         require(scree_boundary_refresh(&s->model, &s->state, &error), &error);
-        best = fmin(best, seconds() - begin);
+        best = fmin(best, seconds(1) - begin);
     }
     return best;
 }
@@ -66,9 +53,9 @@ static double measure_step(scree_simulation *s)
     for (int run = 0; run < RUNS; run++) {
         scree_error error;
         require(scree_boundary_refresh(&s->model, &s->state, &error), &error);
-        double begin = seconds();
+        double begin = seconds(1);
         for (int k = 0; k < steps; k++) require(scree_simulation_step(s, &error), &error);
-        best = fmin(best, (seconds() - begin) / steps);
+        best = fmin(best, (seconds(1) - begin) / steps);
     }
     return best;
 }

@@ -187,6 +187,7 @@ static bool lies_across(const raw_simplices *raw, size_t corners, size_t simplex
     }
     return shared == corners - 1 && raw->across[corners * other + tip] == simplex + 1;
 }
+
 /// Corners and neighbours in ascending order of the simplices. number: from Qhull's numbers, from 1, to the new ones.
 static scree_status copy_ordered(const raw_simplices *raw, size_t corners, const uint32_t *order, int32_t *number,
                                  scree_simplices *simplices, scree_error *error)

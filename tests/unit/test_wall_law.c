@@ -5,16 +5,6 @@
 
 static const double R = 1e-3;
 
-static void cross(const double a[3], const double b[3], double product[3])
-{
-    for (int k = 0; k < 3; k++) product[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-}
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /// One body; in 2D it keeps to the plane.
 static void put(world *w, const double place[3], const double velocity[3], const double spin[3])
 {
@@ -119,17 +109,17 @@ static void expected_force(const world *w, const double place[3], const double v
     double lever[3], turning[3], rolling[3], u[3], slip[3], speed = 0;
     double time = (double)w->f.state.surface_ticks * w->f.state.tick;
     for (int k = 0; k < 3; k++) lever[k] = place[k] - arm * normal[k] - wall->centre[k] - wall->velocity[k] * time;
-    cross(wall->spin, lever, turning);
+    scree_cross(wall->spin, lever, turning);
     for (int k = 0; k < 3; k++) lever[k] = -arm * normal[k];
-    cross(spin, lever, rolling);
+    scree_cross(spin, lever, rolling);
     for (int k = 0; k < 3; k++) u[k] = velocity[k] - wall->velocity[k] - turning[k];
-    double parting = dot(u, normal), stiffness = pair->normal_stiffness * sqrt(R * d);
+    double parting = scree_dot(u, normal), stiffness = pair->normal_stiffness * sqrt(R * d);
     for (int k = 0; k < 3; k++) slip[k] = u[k] - parting * normal[k] + rolling[k];
-    speed = sqrt(dot(slip, slip));
+    speed = sqrt(scree_dot(slip, slip));
     double f = fmax(stiffness * (d - w->f.model.damping_time * parting), 0);
     double mobilised = pair->friction * pow(speed / w->f.model.reference_velocity, w->f.model.inverse_exponent);
     for (int k = 0; k < 3; k++) slip[k] *= speed > 0 ? -f * mobilised / speed : 0;
-    cross(lever, slip, torque);
+    scree_cross(lever, slip, torque);
     for (int k = 0; k < 3; k++) force[k] = f * normal[k] + slip[k];
 }
 
@@ -150,7 +140,7 @@ static void check_contact(world *w, const double foot[3], const double normal[3]
         scree_body_force(&w->f.model, &w->f.state, 0, found, turned);
         assert_int_equal(w->f.state.sum[0].contacts, 1);
         // Indentations are differences of numbers of the size of some centimetres: 1e-16 x 2e-2 / 1e-5, and quanta.
-        double size = sqrt(dot(force, force));
+        double size = sqrt(scree_dot(force, force));
         assert_true(size > 1);
         for (int k = 0; k < 3; k++) {
             assert_near(found[k], force[k], 1e-9 * size);
@@ -170,7 +160,7 @@ static void lift(double angle, double s, double r, double vector[3])
 {
     const double across[3] = {3 / sqrt(13), -2 / sqrt(13), 0};
     double third[3];
-    cross(AXIS, across, third);
+    scree_cross(AXIS, across, third);
     for (int k = 0; k < 3; k++) vector[k] = s * AXIS[k] + r * (cos(angle) * across[k] + sin(angle) * third[k]);
 }
 
@@ -273,7 +263,7 @@ static void speeds_are_bounded(void **unused)
         for (size_t k = 0; k < 3 * drawn.count; k++) {
             scree_vector moved;
             scree_surface_velocity(surface, &drawn.corner[k / 3][3 * (k % 3)], moved);
-            fastest = fmax(fastest, sqrt(dot(moved, moved)));
+            fastest = fmax(fastest, sqrt(scree_dot(moved, moved)));
         }
         assert_true(drawn.count > 0 && fastest > 0.1 && fastest <= bound && fastest * time <= way);
         // Spin times extent, where the motions add up.
@@ -355,15 +345,15 @@ static void rigid_motion_meets_no_resistance(void **unused)
             world_start(&w, dimension, SCREE_LAW_HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 1e-7);
             sphere_resist_turning(&w.f);
             w.f.state.surface_moving = 1;
-            cross(spin, place, velocity);
+            scree_cross(spin, place, velocity);
             // The contact point of a body at rest moves with the wall when its centre does, with the lever between.
             double lever[3] = {0, -0.995 * R, 0}, apart[3];
-            cross(spin, lever, apart);
+            scree_cross(spin, lever, apart);
             for (int k = 0; k < 3 && !rigid; k++) velocity[k] += apart[k];
             put(&w, place, velocity, rigid ? spin : still);
             world_forces(&w);
             scree_body_force(&w.f.model, &w.f.state, 0, force, torque);
-            double normal = force[1], turning = sqrt(dot(torque, torque)) / (normal * R);
+            double normal = force[1], turning = sqrt(scree_dot(torque, torque)) / (normal * R);
             assert_true(normal > 1 && fabs(force[0]) + fabs(force[2]) < 1e-9 * normal);
             // Round-off of velocities of 0.1 m/s over the dashpot's part of the force.
             assert_true(rigid ? turning < 1e-9 : turning > 1e-6);
