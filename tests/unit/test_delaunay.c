@@ -215,6 +215,26 @@ static void lattices_keep_their_outline(void **user)
     cloud_destroy(&hexagonal);
 }
 
+/// n points of a circle are the corners of n - 2 triangles; round-off must not take one of them for superfluous.
+static void points_of_a_circle_all_stay(void **user)
+{
+    (void)user;
+    const size_t counts[] = {5, 64, 1600, 3249};
+    for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
+        cloud c = cloud_create(counts[k]);
+        for (size_t i = 0; i < c.count; i++) {
+            double angle = 2 * M_PI * (double)i / (double)c.count;
+            c.points[2 * i] = cos(angle);
+            c.points[2 * i + 1] = sin(angle);
+        }
+        scree_triangulation t;
+        assert_int_equal(scree_triangulation_build(c.points, c.count, &t, NULL), SCREE_OK);
+        assert_int_equal(t.count, c.count - 2);
+        scree_triangulation_destroy(&t);
+        cloud_destroy(&c);
+    }
+}
+
 static void deformed_samples_have_one_loop(void **user)
 {
     (void)user;
@@ -405,15 +425,11 @@ static void failed_allocations_are_reported(void **user)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(triangles_are_delaunay),
-        cmocka_unit_test(lattices_keep_their_outline),
-        cmocka_unit_test(deformed_samples_have_one_loop),
-        cmocka_unit_test(loose_clouds_have_one_loop),
-        cmocka_unit_test(the_band_gives_the_loop_of_all),
-        cmocka_unit_test(a_lone_disc_stays_on_the_loop),
-        cmocka_unit_test(the_same_points_give_the_same_loop),
-        cmocka_unit_test(bad_points_give_errors),
-        cmocka_unit_test(failed_allocations_are_reported),
+        cmocka_unit_test(triangles_are_delaunay),        cmocka_unit_test(lattices_keep_their_outline),
+        cmocka_unit_test(points_of_a_circle_all_stay),   cmocka_unit_test(deformed_samples_have_one_loop),
+        cmocka_unit_test(loose_clouds_have_one_loop),    cmocka_unit_test(the_band_gives_the_loop_of_all),
+        cmocka_unit_test(a_lone_disc_stays_on_the_loop), cmocka_unit_test(the_same_points_give_the_same_loop),
+        cmocka_unit_test(bad_points_give_errors),        cmocka_unit_test(failed_allocations_are_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
