@@ -1,5 +1,6 @@
 /// The force evaluation: choice of the kernel, threads, ledger and flags.
 ///
+/// The sums are clear from the last kick on (integrate/kick.h), or are cleared here.
 /// Each thread runs the kernel on its part of the pair list (contact/partition.h), then, after a barrier, merges a
 /// range of rows and evaluates the wall contacts of these rows. Without memory for the partition, or when asked to
 /// (work->reference_kernel), the scalar reference does all the work: same bits, slower.
@@ -70,7 +71,6 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
 
 static contact_totals evaluate_serially(contact_job *job, scree_state *state, const scree_work *work)
 {
-    contact_clear_rows(state, 0, scree_row_count(state, work));
     contact_pairs_reference(job);
     contact_walls(job, state->wall, &work->wall_pairs, 0, state->count);
     contact_surfaces(job, state, work, 0, state->count);
@@ -179,6 +179,8 @@ static void settle_ledger(scree_ledger *ledger, const contact_totals *totals, co
 void scree_contact_forces(const scree_model *model, scree_state *state, scree_work *work)
 {
     contact_job job = describe_job(model, state, work);
+    contact_clear_rows(state, work->clear_rows, scree_row_count(state, work));
+    work->clear_rows = 0;
     contact_kernel *kernel = work->reference_kernel ? NULL : choose_kernel(state->dimension, work->instruction_set);
     contact_scratch *scratch = kernel ? contact_scratch_refresh(work, state) : NULL;
     contact_totals totals =

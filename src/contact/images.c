@@ -29,7 +29,7 @@ static void sum_of(const scree_state *state, size_t row, int64_t force[3])
     force[2] = state->dimension == 3 ? sum->fz : 0;
 }
 
-/// Adds images to their bodies; faces [quanta]: sum of force (x) shift.
+/// Adds images to their bodies and leaves theirs clear; faces [quanta]: sum of force (x) shift.
 static void fold(scree_state *state, const scree_ghost_list *list, int64_t faces[9])
 {
     for (size_t k = 0; k < list->count; k++) {
@@ -44,11 +44,13 @@ static void fold(scree_state *state, const scree_ghost_list *list, int64_t faces
         add_modulo(&to->fy, from->fy);
         add_modulo(&to->torque, from->torque); // or fz in 3D
         to->contacts += from->contacts;
+        *from = (scree_sum_row){0};
         if (state->dimension == 2) continue;
         scree_torque_row *turned = &state->torque[ghost->parent], *turning = &state->torque[row];
         add_modulo(&turned->x, turning->x);
         add_modulo(&turned->y, turning->y);
         add_modulo(&turned->z, turning->z);
+        *turning = (scree_torque_row){0};
     }
 }
 

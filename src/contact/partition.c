@@ -1,5 +1,5 @@
 /// Partition of the pair list. Cost: one pass over the list a rebuild (windows only for more than one part); in a step
-/// 32 bytes cleared and, for the buffered rows, 32 bytes added.
+/// 32 bytes cleared and added for each buffered row.
 #include "contact/partition.h"
 
 #include "contact/contact.h"
@@ -147,10 +147,7 @@ void contact_part_clear(contact_part *part, scree_state *state, contact_job *job
 {
     job->sum = state->sum;
     job->torque = state->torque;
-    if (!part->buffer) {
-        contact_clear_rows(state, part->low, part->high);
-        return;
-    }
+    if (!part->buffer) return;
     size_t rows = part->high - part->low;
     if (rows > 0) memset(part->buffer, 0, rows * sizeof *part->buffer);
     if (rows > 0 && part->torque) memset(part->torque, 0, rows * sizeof *part->torque);
@@ -179,8 +176,5 @@ static void add_buffer(const contact_part *part, scree_state *state, size_t begi
 
 void contact_merge(const contact_scratch *scratch, scree_state *state, size_t begin, size_t end)
 {
-    const contact_part *own = &scratch->part[0];
-    contact_clear_rows(state, begin, end < own->low ? end : own->low);
-    contact_clear_rows(state, begin > own->high ? begin : own->high, end);
     for (int k = 1; k < scratch->part_count; k++) add_buffer(&scratch->part[k], state, begin, end);
 }

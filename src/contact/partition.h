@@ -2,9 +2,8 @@
 ///
 /// Both ranges of the list are cut into as many parts as threads, at rebuilds. Part 0 adds to state->sum itself; every
 /// other part has a private buffer for the window of rows that its pairs name (the list runs along a space-filling
-/// curve, so the windows hardly overlap). When all are done, each part merges a range of rows: it clears what part 0
-/// has not cleared, and adds the buffers. Sums are integers, so any partition gives the same bits. A single part has no
-/// buffer and nothing to merge.
+/// curve, so the windows hardly overlap). When all are done, each part adds the buffers to a range of rows. Sums are
+/// integers, so any partition gives the same bits. A single part has no buffer and nothing to merge.
 #ifndef SCREE_CONTACT_PARTITION_H
 #define SCREE_CONTACT_PARTITION_H
 
@@ -34,7 +33,7 @@ typedef struct contact_scratch {
 /// The partition of the present list, made anew when the list is. NULL when there is no memory for it.
 contact_scratch *contact_scratch_refresh(scree_work *work, const scree_state *state);
 
-/// Before the kernel: clears the sums of the part's window, and gives the job their bases.
+/// Before the kernel: clears the part's buffer, and gives the job the bases of its sums.
 void contact_part_clear(contact_part *part, scree_state *state, contact_job *job);
 
 /// Clears state->sum (3D: and state->torque) of the rows [begin, end).
@@ -43,7 +42,7 @@ void contact_clear_rows(scree_state *state, size_t begin, size_t end);
 /// Rows that part `index` merges.
 void contact_merge_range(const contact_scratch *scratch, size_t rows, int index, size_t *begin, size_t *end);
 
-/// After all kernels: makes state->sum of the rows [begin, end) whole.
+/// After all kernels: adds the buffers to state->sum of the rows [begin, end).
 void contact_merge(const contact_scratch *scratch, scree_state *state, size_t begin, size_t end);
 
 #endif

@@ -1,6 +1,7 @@
 /// The one loop that all schemes are made of: v += h a, h in s, optionally x += dt v and, in 2D, angle += dt spin.
 /// Mass and inertia: m, m R^2 / 2 of a disc, 2 m R^2 / 5 of a sphere. Cost: one division and about 30 flops a body (50
-/// in 3D); streams one row and one sum, in 3D a row of spins and one of torques more.
+/// in 3D); streams one row and one sum, in 3D a row of spins and one of torques more. A kick before a drift is the last
+/// to read the sums: it leaves them clear for the forces at the new positions, while they are in the cache.
 #ifndef SCREE_INTEGRATE_KICK_H
 #define SCREE_INTEGRATE_KICK_H
 
@@ -101,6 +102,8 @@ KICK_INLINE scree_speeds scree_kick_loop(int dimension, const scree_kick_task *t
     for (size_t i = begin; i < end; i++) {
         scree_foreseen added = scree_kick_velocity(dimension, state, i, &task->scale);
         if (!task->drift) continue;
+        state->sum[i] = (scree_sum_row){0};
+        if (dimension == 3) state->torque[i] = (scree_torque_row){0};
         if (state->foreseen) scree_kick_foresee(dimension, &state->foreseen[i], added, task->scale.whole);
         scree_speeds moved = scree_drift(dimension, state, i, dt);
         centre = moved.centre > centre ? moved.centre : centre;
@@ -132,6 +135,7 @@ static inline scree_speeds scree_kick(const scree_model *model, scree_state *sta
                             .drift = drift};
     int count = scree_work_shares(work);
     scree_team_run(&work->team, count, scree_kick_share, &task);
+    if (drift) work->clear_rows = scree_row_count(state, work);
     double surface = 0, centre = 0;
     for (int k = 0; k < count; k++) {
         surface = fmax(surface, task.speeds[k].surface);

@@ -52,7 +52,7 @@ static inline bool scree_contacts_book(const scree_model *model, int dimension)
     return dimension == 3 && model->law == SCREE_LAW_HERTZ_MINDLIN;
 }
 
-typedef struct scree_search scree_search; ///< cell grid and scratch, private to search/
+typedef struct scree_search scree_search;       ///< cell grid and scratch, private to search/
 typedef struct scree_container scree_container; ///< walls of the case: shape/container.h
 
 typedef struct scree_work {
@@ -76,6 +76,7 @@ typedef struct scree_work {
     int instruction_set;   ///< 0: best of this machine; 2, 3, 4: x86-64-v2, v3, v4
     uint32_t flags;        ///< SCREE_FLAG_...
     uint64_t flagged_id;   ///< a body that raised a flag
+    size_t clear_rows;     ///< rows of state->sum (3D: and of state->torque) from the first on that hold zeros
     void *contact_scratch; ///< private to contact/ (per-thread slots); freed by scree_contact_scratch_destroy
 } scree_work;
 

@@ -369,6 +369,33 @@ static void faults_are_flagged(void **unused)
     }
 }
 
+/// Whatever the sums held: all of it is cleared, but for the rows that are known to be clear.
+static void sums_are_made_anew(void **unused)
+{
+    (void)unused;
+    for (int threads = 0; threads <= 3; threads++) { // 0: the reference
+        fixture f;
+        create(&f, SCREE_LAW_HERTZ_BRILLIANTOV, 1);
+        f.work.threads = threads > 0 ? threads : 1;
+        f.work.reference_kernel = threads == 0;
+        f.state.step_size = 0; // histories stay as they are
+        const size_t count = f.state.count, clear[] = {0, 100, count};
+        for (int k = 0; k < 2; k++) fixture_forces(&f); // the quanta follow from the overlaps of the first one
+        scree_sum_row *first = NULL;
+        assert_int_equal(scree_allocate(&first, count, sizeof *first, NULL), SCREE_OK);
+        memcpy(first, f.state.sum, count * sizeof *first);
+        for (size_t k = 0; k < sizeof clear / sizeof *clear; k++) {
+            memset(f.state.sum, 0, clear[k] * sizeof *f.state.sum);
+            f.work.clear_rows = clear[k];
+            fixture_forces(&f);
+            assert_memory_equal(first, f.state.sum, count * sizeof *first);
+            assert_int_equal(f.work.clear_rows, 0);
+        }
+        scree_release(&first);
+        fixture_destroy(&f);
+    }
+}
+
 /// Without memory for the partition the reference does the work.
 static void no_memory_changes_no_bit(void **unused)
 {
@@ -426,6 +453,7 @@ int main(void)
         cmocka_unit_test(table_is_ordered_by_ids),
         cmocka_unit_test(saved_contacts_are_the_histories_in_order),
         cmocka_unit_test(faults_are_flagged),
+        cmocka_unit_test(sums_are_made_anew),
         cmocka_unit_test(no_memory_changes_no_bit),
         cmocka_unit_test(quanta_fit_the_forces),
     };

@@ -333,6 +333,47 @@ static void a_speed_that_is_not_a_number_raises_the_flag(void **unused)
     scree_state_destroy(&state);
 }
 
+/// The kick before a drift clears what it has read; the one after it leaves the sums for the next step.
+static void a_kick_before_a_drift_leaves_the_sums_clear(void **unused)
+{
+    (void)unused;
+    const scree_scheme schemes[] = {SCREE_SCHEME_POSITION_VERLET, SCREE_SCHEME_VELOCITY_VERLET,
+                                    SCREE_SCHEME_TWO_TIMESCALES};
+    for (size_t k = 0; k < sizeof schemes / sizeof *schemes; k++)
+        for (int dimension = 2; dimension <= 3; dimension++) {
+            scree_model model = make_model(schemes[k]);
+            scree_state state;
+            scree_work work = {.threads = 2};
+            scree_error error;
+            make_state(&state, 5, 0.01);
+            if (dimension == 3) {
+                scree_state_destroy(&state);
+                assert_int_equal(scree_state_create(&state, 3, 5, &error), SCREE_OK);
+                state.step_size = state.kick_size = 0.01;
+                for (size_t i = 0; i < 5; i++)
+                    state.row[i] = (scree_row){.x = (double)i, .radius = RADIUS, .mass = MASS};
+            }
+            const scree_sum_row full = {1, 2, {3}, 4};
+            for (size_t i = 0; i < 5; i++) state.sum[i] = full;
+            for (size_t i = 0; i < 5 && dimension == 3; i++)
+                state.torque[i] = (scree_torque_row){.x = 1, .y = 2, .z = 3};
+            const scree_integrator *integrator = scree_integrator_get(schemes[k]);
+            integrator->first(&model, &state, &work);
+            assert_int_equal(work.clear_rows, 5);
+            for (size_t i = 0; i < 5; i++) {
+                const scree_sum_row *sum = &state.sum[i];
+                assert_true(sum->fx == 0 && sum->fy == 0 && sum->torque == 0 && sum->contacts == 0);
+                const scree_torque_row *torque = dimension == 3 ? &state.torque[i] : NULL;
+                if (torque) assert_true(torque->x == 0 && torque->y == 0 && torque->z == 0);
+                state.sum[i] = full;
+            }
+            if (integrator->second) integrator->second(&model, &state, &work);
+            for (size_t i = 0; i < 5; i++) assert_true(state.sum[i].fx == 1 && state.sum[i].contacts == 4);
+            scree_team_destroy(&work.team);
+            scree_state_destroy(&state);
+        }
+}
+
 static void order_and_checksum(void **unused)
 {
     (void)unused;
@@ -362,6 +403,7 @@ int main(void)
         cmocka_unit_test(gravity_is_a_parabola),
         cmocka_unit_test(threads_give_the_same_bits),
         cmocka_unit_test(a_speed_that_is_not_a_number_raises_the_flag),
+        cmocka_unit_test(a_kick_before_a_drift_leaves_the_sums_clear),
         cmocka_unit_test(order_and_checksum),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
