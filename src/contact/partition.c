@@ -71,15 +71,14 @@ static scree_status cut_part(contact_scratch *scratch, const scree_pair_list *pa
     job->touching_end = share(touching, k + 1, parts);
     job->near_begin = touching + share(near, k, parts);
     job->near_end = touching + share(near, k + 1, parts);
-    part->low = 0, part->high = rows;
-    if (parts == 1) return SCREE_OK;
+    if (k == 0) return SCREE_OK; // adds to state->sum itself
 
     part->low = rows, part->high = 0;
     extend_window(part, pairs, job->touching_begin, job->touching_end);
     extend_window(part, pairs, job->near_begin, job->near_end);
     if (part->high == 0) part->low = 0;
     size_t window = part->high - part->low;
-    if (k == 0 || window <= part->capacity) return SCREE_OK;
+    if (window <= part->capacity) return SCREE_OK;
     scree_release(&part->buffer);
     scree_release(&part->torque);
     part->capacity = 0;

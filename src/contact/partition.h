@@ -12,7 +12,7 @@
 
 typedef struct contact_part {
     contact_job job;          ///< ranges are set here; the rest by each evaluation
-    size_t low, high;         ///< window: rows that its pairs name
+    size_t low, high;         ///< window: rows that its pairs name; not for part 0
     scree_sum_row *buffer;    ///< sums of the window; none for part 0
     scree_torque_row *torque; ///< 3D: torques of the window
     size_t capacity;
