@@ -27,12 +27,15 @@ static scree_status read_bytes(int descriptor, char *bytes, size_t *length, scre
     return SCREE_OK;
 }
 
-/// Opens the file, unless it is a directory (SCREE_ERROR_IO) or too large (SCREE_ERROR_INPUT): judged before it is
-/// read.
+/// Opens the file, unless it is a directory (SCREE_ERROR_IO), too large or not there (SCREE_ERROR_INPUT): judged before
+/// it is read.
 static scree_status open_case(const char *path, int *descriptor, scree_error *error)
 {
     *descriptor = open(path, O_RDONLY | O_CLOEXEC);
-    if (*descriptor < 0) return scree_error_set_errno(error, SCREE_ERROR_IO, "the case file cannot be read");
+    bool missing = *descriptor < 0 && (errno == ENOENT || errno == ENOTDIR);
+    if (*descriptor < 0)
+        return scree_error_set_errno(error, missing ? SCREE_ERROR_INPUT : SCREE_ERROR_IO,
+                                     "the case file cannot be read");
     struct stat about;
     if (fstat(*descriptor, &about) != 0)
         return scree_error_set_errno(error, SCREE_ERROR_IO, "the case file cannot be read");

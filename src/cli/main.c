@@ -45,7 +45,9 @@ static scree_status call_verb(const scree_verb *verb, int count, char *const *wo
 int main(int argc, char **argv)
 {
     keep_standard_streams();
+    // A write that cannot succeed fails, with a message; it does not end the program.
     (void)signal(SIGPIPE, SIG_IGN);
+    (void)signal(SIGXFSZ, SIG_IGN);
     if (argc < 2) {
         scree_help_write(stderr);
         return SCREE_ERROR_INPUT;

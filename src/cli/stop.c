@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <signal.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <unistd.h>
 
@@ -19,6 +20,12 @@ static void ask_to_stop(int signal_number)
     errno = number;
 }
 
+/// The system repeats these by itself, SIGXCPU every second, SIGHUP from shell and kernel: a second one ends nothing.
+static void ask_to_stop_again(int signal_number)
+{
+    stop_signal = signal_number;
+}
+
 const volatile int *scree_stop_signal(void)
 {
     return &stop_signal;
@@ -27,7 +34,12 @@ const volatile int *scree_stop_signal(void)
 void scree_stop_catch(void)
 {
     // The handler is gone after the first signal.
-    struct sigaction action = {.sa_handler = ask_to_stop, .sa_flags = SA_RESTART | (int)SA_RESETHAND};
+    struct sigaction action = {.sa_handler = ask_to_stop, .sa_flags = SA_RESTART | (int)SA_RESETHAND}, before;
     (void)sigaction(SIGINT, &action, NULL);
     (void)sigaction(SIGTERM, &action, NULL);
+    struct sigaction lasting = {.sa_handler = ask_to_stop_again, .sa_flags = SA_RESTART};
+    (void)sigaction(SIGXCPU, &lasting, NULL);
+    // nohup: the terminal may close.
+    bool ignored = sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler == SIG_IGN;
+    if (!ignored) (void)sigaction(SIGHUP, &lasting, NULL);
 }

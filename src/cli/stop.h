@@ -1,4 +1,5 @@
-/// Asking a run or a sweep to stop: the first SIGINT or SIGTERM asks, a second one ends the program at once.
+/// Asking a run or a sweep to stop: SIGINT, SIGTERM, SIGHUP and SIGXCPU ask, a second SIGINT or SIGTERM
+/// ends the program at once.
 #ifndef SCREE_CLI_STOP_H
 #define SCREE_CLI_STOP_H
 

@@ -114,13 +114,14 @@ const scree_verb scree_verbs[] = {
             "results "
             "holds `case.yaml` (resolved), `summary.json` (named results), `series.csv` (time series), `run.h5` "
             "(snapshots, contacts, checkpoints), `figures/`, `paraview/` and `log.txt`.\n\n"
-            "A folder that holds another run is refused unless `--force` is given; then the old run's files are "
-            "removed, "
-            "and nothing else.\n\n"
+            "A folder that holds another run is refused unless `--force` is given; then the files that the old run "
+            "listed in `files.txt` are removed, and nothing else. While a run goes on its folder is locked: a second "
+            "run, a restart or `scree plot` there ends at once and says who holds it.\n\n"
             "Progress goes to standard error: one line that is rewritten on a terminal, plain lines every ten seconds "
-            "elsewhere. The first interrupt (Ctrl-C, SIGTERM) stops the run after a checkpoint, a second one ends it "
-            "at "
-            "once. `scree run --restart DIR` continues a run that was stopped or killed, bit for bit.",
+            "elsewhere. The first interrupt (Ctrl-C, SIGTERM; SIGHUP, SIGXCPU) stops the run after a checkpoint, a "
+            "second "
+            "Ctrl-C or SIGTERM ends it at once. `scree run --restart DIR` continues a run that was stopped or killed, "
+            "bit for bit.",
         .argument = {{"CASE", "a case file, or the name of a built-in case; none with --restart", SCREE_VALUE_CASE,
                       true, false}},
         .option = {{.name = "output",

@@ -1,11 +1,16 @@
 /// The run directory: creation, refusal, emptying, and replacement of a file as a whole.
 ///
 /// A new run is written into a folder that is new, empty, or (with `force`) anything but the root of the file system.
-/// Emptying removes the files that Scree writes and nothing else: the fixed names below, what was left beside them by
-/// a kill in the middle of a replacement (NAME.*), and in Scree's own subfolders the files with Scree's extensions.
-/// Links are removed, never followed. A file is replaced by writing NAME.new, flushing it to the disk, and renaming.
+/// Emptying removes what files.txt lists (io/manifest.h), in parts/ the files with the numbered names of parts, and
+/// nothing else; in a folder of a version without such a list only the fixed names below. Links are not followed. A
+/// file is replaced by writing NAME.new, flushing it to the disk, and renaming.
 #include "io/run_directory.h"
 
+#include "io/manifest.h"
+
+#include <scree/scree.h>
+
+#include <ctype.h>
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -14,23 +19,22 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define REPLACEMENT ".new"
 enum { LONGEST_FILE_NAME = 64 }; ///< below the run directory, with its subfolder
 
-static const char *const own_files[] = {SCREE_FILE_CASE,  SCREE_FILE_SUMMARY, SCREE_FILE_SERIES, SCREE_FILE_CELLS,
-                                        SCREE_FILE_BANDS, SCREE_FILE_RUN,     SCREE_FILE_LOG,
-                                        SCREE_FILE_WALLS};
-enum { OWN_FILE_COUNT = sizeof own_files / sizeof own_files[0] };
-
-static const struct folder {
-    const char *name;
-    const char *extension[4];
-} own_folders[] = {
-    {SCREE_FOLDER_FIGURES, {".svg", ".png", ".gp", ".csv"}},
-    {SCREE_FOLDER_PARAVIEW, {".pvd", ".vtp", ".vtu"}},
-    {SCREE_FOLDER_PARTS, {".h5"}},
+/// What every run writes, listed at once; what a case adds to it is listed when it is written.
+static const char *const usual_files[] = {SCREE_FILE_CASE, SCREE_FILE_SUMMARY, SCREE_FILE_SERIES, SCREE_FILE_RUN,
+                                          SCREE_FILE_LOG};
+/// What runs of versions without a list wrote beside that, under fixed names.
+static const char *const former_files[] = {SCREE_FILE_WALLS,     SCREE_FILE_CELLS,     SCREE_FILE_BANDS,
+                                           SCREE_FILE_RUN_WHOLE, "rotation-decay.csv", "rotation-rose.csv",
+                                           "rotation-bodies.csv"};
+enum {
+    USUAL_FILES = sizeof usual_files / sizeof *usual_files,
+    FORMER_FILES = sizeof former_files / sizeof *former_files
 };
-enum { OWN_FOLDER_COUNT = sizeof own_folders / sizeof own_folders[0] };
+
+static const char *const own_folders[] = {SCREE_FOLDER_FIGURES, SCREE_FOLDER_PARAVIEW, SCREE_FOLDER_PARTS};
+enum { OWN_FOLDERS = sizeof own_folders / sizeof *own_folders };
 
 scree_status scree_path_join(char *path, size_t size, const char *directory, const char *name, scree_error *error)
 {
@@ -47,23 +51,34 @@ scree_status scree_path_join(char *path, size_t size, const char *directory, con
 static bool stands_for(const char *name, const char *stem)
 {
     size_t length = strlen(stem);
-    return strncmp(name, stem, length) == 0 && (name[length] == 0 || name[length] == '.');
+    return strncmp(name, stem, length) == 0 && (name[length] == 0 || strcmp(name + length, SCREE_REPLACEMENT) == 0);
 }
 
-static bool is_own_file(const char *name)
+static bool is_one_of(const char *name, const char *const *stems, size_t count)
 {
-    for (size_t i = 0; i < OWN_FILE_COUNT; i++)
-        if (stands_for(name, own_files[i])) return true;
+    for (size_t i = 0; i < count; i++)
+        if (stands_for(name, stems[i])) return true;
     return false;
 }
 
-static bool has_own_extension(const char *name, const struct folder *folder)
+/// "snapshot-000012.h5" and "checkpoint-000003.h5", or what a replacement left beside them.
+static bool is_part(const char *name)
 {
-    for (size_t i = 0; i < sizeof folder->extension / sizeof folder->extension[0] && folder->extension[i]; i++) {
-        const char *found = strstr(name, folder->extension[i]);
-        if (found && stands_for(found, folder->extension[i])) return true;
+    static const char *const kinds[] = {"snapshot-", "checkpoint-"};
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        size_t length = strlen(kinds[i]), digits = length;
+        if (strncmp(name, kinds[i], length) != 0) continue;
+        while (isdigit((unsigned char)name[digits])) digits++;
+        return digits > length && stands_for(name + digits, ".h5");
     }
     return false;
+}
+
+/// Whether Scree wrote the file of this name in the run folder itself.
+static bool is_own_file(const scree_manifest *manifest, const char *name)
+{
+    if (manifest->there) return scree_manifest_has(manifest, name) || stands_for(name, SCREE_FILE_MANIFEST);
+    return is_one_of(name, usual_files, USUAL_FILES) || is_one_of(name, former_files, FORMER_FILES);
 }
 
 /// Opens a folder below `parent`, or NULL with errno; a link is not followed.
@@ -76,65 +91,147 @@ static DIR *open_folder(int parent, const char *name)
     return folder;
 }
 
-/// Removes Scree's files from one of its subfolders, and the folder itself when nothing else is left in it.
-static bool empty_own_folder(int parent, const struct folder *own)
+/// Number of entries of a folder below `parent` whose names begin with `prefix`.
+static size_t count_entries(int parent, const char *name, const char *prefix)
 {
-    DIR *folder = open_folder(parent, own->name);
-    if (!folder) return errno == ENOENT || unlinkat(parent, own->name, 0) == 0;
-    bool good = true;
-    for (struct dirent *entry; good && (entry = readdir(folder));)
-        if (has_own_extension(entry->d_name, own)) good = unlinkat(dirfd(folder), entry->d_name, 0) == 0;
-    closedir(folder);
-    if (!good) return false;
-    return unlinkat(parent, own->name, AT_REMOVEDIR) == 0 || errno == ENOTEMPTY || errno == EEXIST;
+    DIR *folder = open_folder(parent, name);
+    size_t count = 0;
+    for (struct dirent *entry; folder && (entry = readdir(folder));)
+        count += entry->d_name[0] != '.' && strncmp(entry->d_name, prefix, strlen(prefix)) == 0;
+    if (folder) closedir(folder);
+    return count;
 }
 
-/// Subfolders first and only beside a log: without one, a folder `figures` is the user's own.
-static scree_status remove_old_run(DIR *directory, const char *path, scree_error *error)
+/// A folder of that name is not Scree's.
+static bool remove_file(int parent, const char *name)
 {
-    int here = dirfd(directory);
-    bool logged = faccessat(here, SCREE_FILE_LOG, F_OK, AT_SYMLINK_NOFOLLOW) == 0;
-    for (size_t i = 0; i < OWN_FOLDER_COUNT && logged; i++)
-        if (!empty_own_folder(here, &own_folders[i]))
-            return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot remove '%s' of the old run in '%s'",
-                                         own_folders[i].name, path);
-    rewinddir(directory);
-    for (struct dirent *entry; (entry = readdir(directory));)
-        if (is_own_file(entry->d_name) && unlinkat(here, entry->d_name, 0) != 0)
-            return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot remove '%s' of the old run in '%s'",
-                                         entry->d_name, path);
+    return unlinkat(parent, name, 0) == 0 || errno == ENOENT || errno == EISDIR;
+}
+
+/// Removes a file of the run, whose name may begin with one of its folders, and what a replacement left beside it.
+static bool remove_listed(int parent, const char *name)
+{
+    char half[NAME_MAX + sizeof SCREE_REPLACEMENT];
+    const char *slash = strchr(name, '/');
+    int folder = parent;
+    if (slash) {
+        (void)snprintf(half, sizeof half, "%.*s", (int)(slash - name), name);
+        folder = openat(parent, half, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+        // A link, or a file, in place of the folder is not Scree's.
+        if (folder < 0) return errno == ENOENT || errno == ENOTDIR || errno == ELOOP;
+        name = slash + 1;
+    }
+    (void)snprintf(half, sizeof half, "%s" SCREE_REPLACEMENT, name);
+    bool good = remove_file(folder, name) && remove_file(folder, half);
+    int number = errno;
+    if (slash) close(folder);
+    errno = number;
+    return good;
+}
+
+static bool remove_parts(int parent)
+{
+    DIR *folder = open_folder(parent, SCREE_FOLDER_PARTS);
+    bool good = true;
+    for (struct dirent *entry; folder && good && (entry = readdir(folder));)
+        if (is_part(entry->d_name)) good = remove_file(dirfd(folder), entry->d_name);
+    if (folder) closedir(folder);
+    return good;
+}
+
+/// The folders go when nothing is left in them, and the list goes last: a removal that is cut short can go on.
+static scree_status remove_old_run(int here, const scree_manifest *manifest, const char *path, scree_error *error)
+{
+    char name[NAME_MAX + 16] = SCREE_FOLDER_PARTS;
+    bool good = remove_parts(here);
+    for (size_t at = 0; good && scree_manifest_next(manifest, &at, name, sizeof name);)
+        good = remove_listed(here, name);
+    for (size_t i = 0; good && !manifest->there && i < USUAL_FILES + FORMER_FILES; i++) {
+        (void)snprintf(name, sizeof name, "%s", i < USUAL_FILES ? usual_files[i] : former_files[i - USUAL_FILES]);
+        good = remove_listed(here, name);
+    }
+    for (size_t i = 0; good && i < OWN_FOLDERS; i++) (void)unlinkat(here, own_folders[i], AT_REMOVEDIR);
+    if (good && remove_listed(here, SCREE_FILE_MANIFEST)) return SCREE_OK;
+    return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot remove '%s' of the old run in '%s'", name, path);
+}
+
+/// What is in a folder before a run.
+typedef struct contents {
+    scree_manifest manifest;
+    bool run;                 ///< files of a run
+    bool begun;               ///< ... that has got as far as its first checkpoint
+    char other[NAME_MAX + 1]; ///< a file that is not Scree's
+} contents;
+
+static bool is_own_folder(const contents *found, const char *name)
+{
+    for (size_t i = 0; i < OWN_FOLDERS; i++)
+        if (strcmp(name, own_folders[i]) == 0) return found->manifest.there;
+    return false;
+}
+
+/// Whether a run of this version has got as far as its first checkpoint: the parts or the gathered run.h5 hold one, or
+/// it ended by itself.
+static bool has_begun(int here, const char *path)
+{
+    char status[64];
+    if (count_entries(here, SCREE_FOLDER_PARTS, "checkpoint-") > 0) return true;
+    if (scree_result_get(path, "status", status, sizeof status, NULL) == SCREE_OK && strcmp(status, "stopped") != 0)
+        return true;
+    bool gathered = faccessat(here, SCREE_FILE_RUN, F_OK, AT_SYMLINK_NOFOLLOW) == 0;
+    return gathered && count_entries(here, SCREE_FOLDER_PARTS, "snapshot-") == 0;
+}
+
+static scree_status look_into(DIR *directory, const char *path, contents *found, scree_error *error)
+{
+    *found = (contents){0};
+    scree_status status = scree_manifest_read(dirfd(directory), &found->manifest, error);
+    if (status) return status;
+    for (struct dirent *entry; (entry = readdir(directory));) {
+        const char *name = entry->d_name;
+        if (is_own_file(&found->manifest, name))
+            found->run = true;
+        else if (name[0] != '.' && strcmp(name, SCREE_FILE_LOCK) != 0 && !is_own_folder(found, name))
+            (void)snprintf(found->other, sizeof found->other, "%s", name);
+    }
+    found->begun = !found->manifest.there || has_begun(dirfd(directory), path);
     return SCREE_OK;
 }
 
-/// Refuses a directory that is in use, or empties it of the old run when `force` is set.
+/// Tells, in a message without a failure, what the removal of an old run was not told of.
+static void note_rest(int here, const contents *found, const char *path, scree_error *note)
+{
+    size_t figures = count_entries(here, SCREE_FOLDER_FIGURES, ""),
+           scenes = count_entries(here, SCREE_FOLDER_PARAVIEW, "");
+    if (!found->begun)
+        (void)scree_error_set(note, SCREE_OK, "a run in '%s' that ended before its first checkpoint is replaced", path);
+    else if (!found->manifest.there && figures + scenes > 0)
+        (void)scree_error_set(note, SCREE_OK,
+                              "an older version of Scree kept no list of its files: %zu in '%s/" SCREE_FOLDER_FIGURES
+                              "' and %zu in '" SCREE_FOLDER_PARAVIEW "' are left alone",
+                              figures, path, scenes);
+}
+
+/// Refuses a directory that is in use, or empties it of the old run when `force` is set or there is nothing to lose.
 static scree_status take_over(const char *path, bool force, scree_error *error)
 {
-    struct stat self, root;
-    if (stat(path, &self) == 0 && stat("/", &root) == 0 && self.st_dev == root.st_dev && self.st_ino == root.st_ino)
-        return scree_error_set(error, SCREE_ERROR_INPUT, "'%s' is the root of the file system: choose another folder",
-                               path);
+    contents found;
     DIR *directory = opendir(path);
     if (!directory) return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot read the folder '%s'", path);
-    bool run = false;
-    char other[NAME_MAX + 1] = "";
-    for (struct dirent *entry; (entry = readdir(directory));) {
-        if (is_own_file(entry->d_name))
-            run = true;
-        else if (entry->d_name[0] != '.')
-            (void)snprintf(other, sizeof other, "%s", entry->d_name);
-    }
-    scree_status status = SCREE_OK;
-    if (run && !force)
+    scree_status status = look_into(directory, path, &found, error);
+    if (!status && found.run && found.begun && !force)
         status = scree_error_set(
             error, SCREE_ERROR_INPUT,
             "the folder '%s' holds another run: choose another one, or --force to replace that run", path);
-    else if (other[0] && !force)
+    else if (!status && found.other[0] && !force)
         status = scree_error_set(error, SCREE_ERROR_INPUT,
                                  "the folder '%s' holds other files ('%s'): choose a new folder, or --force to write "
                                  "among them (they are left alone)",
-                                 path, other);
-    else if (run)
-        status = remove_old_run(directory, path, error);
+                                 path, found.other);
+    else if (!status && found.run)
+        status = remove_old_run(dirfd(directory), &found.manifest, path, error);
+    if (!status && found.run) note_rest(dirfd(directory), &found, path, error);
+    scree_manifest_destroy(&found.manifest);
     closedir(directory);
     return status;
 }
@@ -157,28 +254,49 @@ scree_status scree_folders_make(const char *path, scree_error *error)
     return SCREE_OK;
 }
 
-scree_status scree_run_directory_create(const char *path, bool force, scree_error *error)
+static scree_status check_path(const char *path, scree_error *error)
 {
+    struct stat self, root;
     if (!path || !path[0])
         return scree_error_set(error, SCREE_ERROR_INPUT, "a run needs a folder to write into: the name given is empty");
     if (strlen(path) + 1 + LONGEST_FILE_NAME >= PATH_MAX)
         return scree_error_set(error, SCREE_ERROR_INPUT, "the name of the run's folder has %zu bytes, at most %d work",
                                strlen(path), PATH_MAX - LONGEST_FILE_NAME - 2);
-    scree_status status = scree_folders_make(path, error);
-    if (status || (status = take_over(path, force, error))) return status;
-    for (size_t i = 0; i < OWN_FOLDER_COUNT; i++) {
-        char folder[PATH_MAX];
-        status = scree_path_join(folder, sizeof folder, path, own_folders[i].name, error);
-        if (status) return status;
-        if (mkdir(folder, 0777) != 0 && errno != EEXIST)
-            return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot make the folder '%s'", folder);
-    }
+    if (stat(path, &self) == 0 && stat("/", &root) == 0 && self.st_dev == root.st_dev && self.st_ino == root.st_ino)
+        return scree_error_set(error, SCREE_ERROR_INPUT, "'%s' is the root of the file system: choose another folder",
+                               path);
     return SCREE_OK;
+}
+
+scree_status scree_run_directory_lock(const char *path, scree_folder_lock *lock, scree_error *error)
+{
+    *lock = (scree_folder_lock){0};
+    scree_status status = check_path(path, error);
+    if (!status) status = scree_folders_make(path, error);
+    return status ? status : scree_folder_lock_take(lock, path, "scree run", error);
+}
+
+scree_status scree_run_directory_create(const char *path, bool force, scree_error *error)
+{
+    scree_error nowhere;
+    if (!error) error = &nowhere;
+    memset(error, 0, sizeof *error);
+    scree_status status = check_path(path, error);
+    if (!status) status = scree_folders_make(path, error);
+    if (!status) status = take_over(path, force, error);
+    if (!status) status = scree_manifest_create(path, usual_files, USUAL_FILES, error);
+    for (size_t i = 0; i < OWN_FOLDERS && !status; i++) {
+        char folder[PATH_MAX];
+        status = scree_path_join(folder, sizeof folder, path, own_folders[i], error);
+        if (!status && mkdir(folder, 0777) != 0 && errno != EEXIST)
+            status = scree_error_set_errno(error, SCREE_ERROR_IO, "cannot make the folder '%s'", folder);
+    }
+    return status;
 }
 
 static scree_status replacement_name(char *name, size_t size, const char *path, scree_error *error)
 {
-    int length = snprintf(name, size, "%s" REPLACEMENT, path);
+    int length = snprintf(name, size, "%s" SCREE_REPLACEMENT, path);
     if (length < 0 || (size_t)length >= size)
         return scree_error_set(error, SCREE_ERROR_INPUT, "the path '%.100s...' is too long", path);
     return SCREE_OK;
@@ -189,6 +307,7 @@ scree_status scree_replace_begin(const char *path, FILE **file, scree_error *err
     char name[PATH_MAX];
     *file = NULL;
     scree_status status = replacement_name(name, sizeof name, path, error);
+    if (!status) status = scree_manifest_add(path, &(const char *){""}, 1, error);
     if (status) return status;
     *file = fopen(name, "wbe");
     if (!*file) return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot write '%s'", name);

@@ -102,6 +102,16 @@ static int64_t number_of_part(const char *name, const char *prefix)
     return end != name + length + 1 && strcmp(end, ".h5") == 0 ? value : -1;
 }
 
+/// A part, or what a replacement left beside it.
+static bool is_part(const char *name, const char *prefix)
+{
+    char part[64];
+    size_t length = strlen(name), ending = strlen(SCREE_REPLACEMENT);
+    bool half = length > ending && strcmp(name + length - ending, SCREE_REPLACEMENT) == 0;
+    (void)snprintf(part, sizeof part, "%.*s", (int)(length - (half ? ending : 0)), name);
+    return number_of_part(part, prefix) >= 0;
+}
+
 scree_status scree_parts_list(const char *directory, scree_part_kind kind, scree_part_list *list, scree_error *error)
 {
     *list = (scree_part_list){0};
@@ -342,8 +352,7 @@ static scree_status remove_parts(const char *directory, scree_error *error)
     if (!folder) return SCREE_OK;
     for (struct dirent *entry; !status && (entry = readdir(folder));)
         for (scree_part_kind kind = 0; kind < SCREE_PART_KINDS; kind++) {
-            size_t length = strlen(part_names[kind].file);
-            bool own = strncmp(entry->d_name, part_names[kind].file, length) == 0 && entry->d_name[length] == '-';
+            bool own = is_part(entry->d_name, part_names[kind].file);
             if (own && unlinkat(dirfd(folder), entry->d_name, 0) != 0)
                 status = scree_error_set_errno(error, SCREE_ERROR_IO, "cannot remove '%s/%s'", path, entry->d_name);
         }
@@ -372,7 +381,7 @@ static scree_status gather_all(const char *directory, const char *path, scree_er
 {
     char temporary[PATH_MAX], case_name[256];
     scree_part_list lists[SCREE_PART_KINDS] = {{0}, {0}};
-    scree_status status = scree_path_join(temporary, sizeof temporary, directory, SCREE_FILE_RUN ".whole", error);
+    scree_status status = scree_path_join(temporary, sizeof temporary, directory, SCREE_FILE_RUN_WHOLE, error);
     if (!status) status = read_case_name(path, case_name, sizeof case_name, error);
     for (scree_part_kind kind = 0; kind < SCREE_PART_KINDS && !status; kind++)
         status = scree_parts_list(directory, kind, &lists[kind], error);

@@ -6,6 +6,7 @@
 #include "io/series.h"
 
 #include "base/memory.h"
+#include "io/manifest.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -104,6 +105,7 @@ scree_status scree_series_open(scree_series_writer *writer, const char *path, co
     scree_status status = header_text(columns, count, &header, error);
     if (status) return status;
     if (append_rows >= 0) status = find_cut(path, header, append_rows, &cut, error);
+    if (!status && append_rows < 0) status = scree_manifest_add(path, &(const char *){""}, 1, error);
     if (!status) {
         writer->file = fopen(path, append_rows < 0 ? "we" : "ae");
         if (!writer->file)

@@ -164,18 +164,14 @@ static void summarise_series(const scree_series *series, double turnover, scree_
         scree_summary_set_number(summary, finals[k], scree_series_get(series, finals[k])[series->row_count - 1]);
 }
 
-static void summarise_run(const scree_recorder *recorder, scree_simulation *s, scree_status status,
-                          scree_summary *summary)
+static void summarise_run(const scree_recorder *recorder, scree_simulation *s, scree_summary *summary)
 {
     const scree_config *config = s->model.config;
     char checksum[32];
     (void)snprintf(checksum, sizeof checksum, "%016" PRIx64, scree_simulation_checksum(s));
     double steps = (double)(s->state.evaluations - recorder->first_evaluations);
     scree_summary_set_text(summary, "case", config->name);
-    scree_summary_set_text(summary, "status",
-                           status == SCREE_OK            ? "done"
-                           : status == SCREE_INTERRUPTED ? "interrupted"
-                                                         : "stopped");
+    scree_summary_set_text(summary, "status", ""); // its place; scree_results_write sets it
     scree_summary_set_text(summary, "version", scree_version());
     scree_summary_set_integer(summary, "seed", config->seed);
     scree_summary_set_integer(summary, "particles", (int64_t)s->state.grains);
@@ -252,28 +248,34 @@ static scree_status summarise_stage(const scree_simulation *s, scree_summary *su
     return cornered ? summarise_shape(s, summary, error) : SCREE_OK;
 }
 
-scree_status scree_results_write(const scree_recorder *recorder, scree_simulation *s, scree_status status,
-                                 scree_error *error)
+scree_status scree_results_collect(const scree_recorder *recorder, scree_simulation *s, scree_summary **summary,
+                                   scree_error *error)
 {
     char path[4096];
     scree_series series = {0};
-    scree_summary *summary = NULL;
-    scree_status result = scree_path_join(path, sizeof path, recorder->directory, SCREE_FILE_SERIES, error);
-    if (!result) result = scree_series_read(&series, path, error);
-    if (!result) result = scree_summary_create(&summary, error);
-    if (!result) {
-        summarise_run(recorder, s, status, summary);
-        summarise_series(&series, s->state.ledger.turnover + s->state.ledger.initial, summary);
-        summarise_walls(s, summary);
-        result = summarise_stage(s, summary, error);
+    *summary = NULL;
+    scree_status status = scree_path_join(path, sizeof path, recorder->directory, SCREE_FILE_SERIES, error);
+    if (!status) status = scree_series_read(&series, path, error);
+    if (!status) status = scree_summary_create(summary, error);
+    if (!status) {
+        summarise_run(recorder, s, *summary);
+        summarise_series(&series, s->state.ledger.turnover + s->state.ledger.initial, *summary);
+        summarise_walls(s, *summary);
+        status = summarise_stage(s, *summary, error);
     }
-    if (!result && s->model.config->measure.cells && !s->state.periodic.directions)
-        result = scree_cell_results_write(recorder->directory, s->model.config, &series, summary, error);
-    if (!result) result = scree_collide_results(s, summary, error);
-    if (!result) result = scree_rotation_results(recorder->directory, s, summary, error);
-    if (!result) result = scree_path_join(path, sizeof path, recorder->directory, SCREE_FILE_SUMMARY, error);
-    if (!result) result = scree_summary_write(summary, path, error);
-    scree_summary_destroy(summary);
+    if (!status && s->model.config->measure.cells && !s->state.periodic.directions)
+        status = scree_cell_results_write(recorder->directory, s->model.config, &series, *summary, error);
+    if (!status) status = scree_collide_results(s, *summary, error);
+    if (!status) status = scree_rotation_results(recorder->directory, s, *summary, error);
     scree_series_destroy(&series);
-    return result;
+    return status;
+}
+
+scree_status scree_results_write(const scree_recorder *recorder, scree_summary *summary, const char *status,
+                                 scree_error *error)
+{
+    char path[4096];
+    scree_status result = scree_path_join(path, sizeof path, recorder->directory, SCREE_FILE_SUMMARY, error);
+    scree_summary_set_text(summary, "status", status);
+    return result ? result : scree_summary_write(summary, path, error);
 }

@@ -5,6 +5,7 @@
 #include "run/results.h"
 #include "search/neighbours.h"
 #include "shape/container.h"
+#include "view/plot.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -43,10 +44,11 @@ static scree_status drive(scree_recorder *recorder, scree_simulation *s, scree_e
         if (stop && *stop) {
             status = scree_recorder_checkpoint(recorder, s, error);
             if (!status)
-                status = scree_error_set(error, SCREE_INTERRUPTED,
-                                         "interrupted at step %llu; continue with "
-                                         "`scree run --restart %s`",
-                                         (unsigned long long)s->state.step, recorder->directory);
+                status =
+                    scree_error_set(error, SCREE_INTERRUPTED,
+                                    "interrupted at step %llu by signal %d (%s); continue with "
+                                    "`scree run --restart %s`",
+                                    (unsigned long long)s->state.step, *stop, strsignal(*stop), recorder->directory);
             break;
         }
         status = scree_simulation_step(s, error);
@@ -66,28 +68,66 @@ static void save_after_failure(scree_recorder *recorder, scree_simulation *s, co
         scree_log_write(&recorder->log, SCREE_LOG_ERROR, "no checkpoint: %s", second.message);
 }
 
-static scree_status finish(scree_recorder *recorder, scree_simulation *s, scree_status status, scree_error *error)
+/// A line in log.txt alone: what ends the run comes back as its error, and is printed as that.
+static void log_quietly(const scree_recorder *recorder, scree_log_level level, const char *line)
+{
+    scree_log log = recorder->log;
+    log.sink = NULL;
+    scree_log_write(&log, level, "%s", line);
+}
+
+/// Results of a run that has not reached its end.
+static void leave(scree_recorder *recorder, scree_simulation *s, const scree_error *error)
 {
     scree_error second;
-    if (status && status != SCREE_INTERRUPTED) save_after_failure(recorder, s, error);
-    if (status == SCREE_ERROR_IO) return status;
-    scree_status written = scree_results_write(recorder, s, status, status ? &second : error);
-    if (!written && !status) written = scree_run_file_finish(recorder->directory, error);
-    if (!status) status = written;
-    if (!status)
+    scree_summary *summary;
+    bool interrupted = error->status == SCREE_INTERRUPTED;
+    if (interrupted)
+        log_quietly(recorder, SCREE_LOG_INFO, error->message);
+    else
+        save_after_failure(recorder, s, error);
+    if (error->status == SCREE_ERROR_IO) return;
+    scree_status status = scree_results_collect(recorder, s, &summary, &second);
+    if (!status) status = scree_results_write(recorder, summary, interrupted ? "interrupted" : "stopped", &second);
+    if (status) scree_log_write(&recorder->log, SCREE_LOG_ERROR, "no results: %s", second.message);
+    scree_summary_destroy(summary);
+}
+
+/// Figures are drawn from the files, after everything else is safe; a run is not lost because of a figure. When
+/// somebody asks to stop meanwhile, the run counts as interrupted: a restart draws them anew.
+static scree_status draw_figures(scree_recorder *recorder, const scree_simulation *s, scree_error *error)
+{
+    scree_error problem;
+    scree_status status = SCREE_OK;
+    const volatile int *stop = recorder->options->stop;
+    if (!recorder->options->figures || !s->model.config->output.figures) return SCREE_OK;
+    if (!stop || !*stop) status = scree_plot_draw(recorder->directory, NULL, NULL, &problem);
+    if (stop && *stop)
+        return scree_error_set(error, SCREE_INTERRUPTED,
+                               "interrupted while figures were drawn, all else is written; draw them with "
+                               "`scree run --restart %s`",
+                               recorder->directory);
+    if (status) scree_log_write(&recorder->log, SCREE_LOG_WARNING, "figures: %s", problem.message);
+    return SCREE_OK;
+}
+
+/// The end of a run that has reached it. `done` is the last thing that is written: what ends before is gone through
+/// again by a restart, without a step.
+static scree_status complete(scree_recorder *recorder, scree_simulation *s, scree_error *error)
+{
+    scree_summary *summary;
+    scree_status status = scree_results_collect(recorder, s, &summary, error);
+    if (!status) status = scree_results_write(recorder, summary, "finishing", error);
+    if (!status) status = scree_run_file_finish(recorder->directory, error);
+    if (!status) status = draw_figures(recorder, s, error);
+    if (!status) status = scree_results_write(recorder, summary, "done", error);
+    scree_summary_destroy(summary);
+    if (status)
+        log_quietly(recorder, status == SCREE_INTERRUPTED ? SCREE_LOG_INFO : SCREE_LOG_ERROR, error->message);
+    else
         scree_log_write(&recorder->log, SCREE_LOG_INFO, "done: %llu steps in %.1f s", (unsigned long long)s->state.step,
                         scree_clock() - recorder->started);
     return status;
-}
-
-/// Figures are drawn from the files, after everything else is safe; a run is not lost because of a figure.
-static void draw_figures(const scree_recorder *recorder, const scree_simulation *s)
-{
-    scree_error error;
-    scree_log log = recorder->log;
-    if (!recorder->options->figures || !s->model.config->output.figures) return;
-    if (scree_plot(recorder->directory, NULL, NULL, &error))
-        scree_log_write(&log, SCREE_LOG_WARNING, "figures: %s", error.message);
 }
 
 /// What the files of meshes held.
@@ -104,26 +144,31 @@ static void log_meshes(const scree_recorder *recorder, const scree_container *co
     }
 }
 
-/// Common part of a new and a restarted run: `s` is open and at the point where stepping begins. `restarted` is NULL
-/// for a new run, else a warning for the log, empty when there is none.
-static scree_status record(scree_simulation *s, const scree_run_options *options, const char *directory,
-                           uint64_t checksum, const char *restarted, scree_error *error)
+/// Common part of a new and a restarted run: `s` is open and at the point where stepping begins, the folder is locked.
+/// `note` is a warning for the log, empty when there is none.
+static scree_status record(scree_simulation *s, const scree_run_options *options, const scree_folder_lock *lock,
+                           uint64_t checksum, bool restarted, const char *note, scree_error *error)
 {
     scree_recorder recorder;
-    scree_status status = scree_recorder_open(&recorder, s, options, directory, restarted, error);
+    scree_status status = scree_recorder_open(&recorder, s, options, options->output, restarted, error);
     recorder.case_checksum = checksum;
     if (!status) {
         scree_log_write(&recorder.log, SCREE_LOG_INFO, "%s; case %s, %d thread%s%s", scree_version(),
                         s->model.config->name, s->work.threads, s->work.threads == 1 ? "" : "s",
                         restarted ? ", restarted" : "");
-        if (restarted && restarted[0]) scree_log_write(&recorder.log, SCREE_LOG_WARNING, "%s", restarted);
+        if (note[0]) scree_log_write(&recorder.log, SCREE_LOG_WARNING, "%s", note);
+        if (lock->unsupported)
+            scree_log_write(&recorder.log, SCREE_LOG_WARNING,
+                            "this file system has no locks: see to it that nothing else writes into the folder");
         scree_log_write(&recorder.log, SCREE_LOG_INFO, "step %.4g s (N_S %llu, critical %.4g s), phi %.4g, psi %.4g",
                         s->model.step, (unsigned long long)s->model.largest_step, s->model.critical_step, s->model.phi,
                         s->model.psi);
         log_meshes(&recorder, s->work.container);
         status = drive(&recorder, s, error);
-        status = finish(&recorder, s, status, error);
-        if (!status) draw_figures(&recorder, s);
+        if (status)
+            leave(&recorder, s, error);
+        else
+            status = complete(&recorder, s, error);
     }
     scree_recorder_close(&recorder);
     return status;
@@ -135,12 +180,16 @@ scree_status scree_run(const scree_case *c, const scree_run_options *options, sc
     size_t length;
     uint64_t checksum;
     scree_simulation s;
+    scree_folder_lock lock = {0};
+    scree_error note = {0};
     // Everything that can be wrong with the case is found before anything is written.
     scree_status status = scree_simulation_open(c, options->threads, &s, error);
     if (!status) status = case_text(c, &text, &length, &checksum, error);
-    if (!status) status = scree_run_directory_create(options->output, options->force, error);
+    if (!status) status = scree_run_directory_lock(options->output, &lock, error);
+    if (!status && (status = scree_run_directory_create(options->output, options->force, &note))) *error = note;
     if (!status) status = save_case(options->output, text, length, error);
-    if (!status) status = record(&s, options, options->output, checksum, NULL, error);
+    if (!status) status = record(&s, options, &lock, checksum, false, note.message, error);
+    scree_folder_lock_release(&lock);
     scree_simulation_close(&s);
     free(text);
     return status;
@@ -160,7 +209,8 @@ static scree_status read_case(const char *directory, scree_case **c, scree_error
     return status;
 }
 
-scree_status scree_restart(const char *directory, const scree_run_options *options, scree_error *error)
+static scree_status restart(const char *directory, const scree_run_options *options, const scree_folder_lock *lock,
+                            scree_error *error)
 {
     char *text = NULL;
     size_t length;
@@ -179,9 +229,20 @@ scree_status scree_restart(const char *directory, const scree_run_options *optio
     if (!status && s.state.count > 0) status = scree_neighbours_refresh(&s.model, &s.state, &s.work, error);
     if (!status && s.state.stage.counter >= 0) status = scree_stage_enter(&s, true, error);
     if (!status) status = scree_snapshots_truncate(directory, s.state.stage.snapshots, error);
-    if (!status) status = record(&s, options, directory, checksum, note.message, error);
+    if (!status) status = record(&s, options, lock, checksum, true, note.message, error);
     scree_simulation_close(&s);
     scree_case_free(c);
     free(text);
+    return status;
+}
+
+scree_status scree_restart(const char *directory, const scree_run_options *options, scree_error *error)
+{
+    scree_folder_lock lock;
+    scree_run_options here = *options;
+    here.output = directory;
+    scree_status status = scree_folder_lock_take(&lock, directory, "scree run --restart", error);
+    if (!status) status = restart(directory, &here, &lock, error);
+    scree_folder_lock_release(&lock);
     return status;
 }

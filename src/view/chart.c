@@ -3,6 +3,7 @@
 /// Palette: Okabe and Ito 2008, made for all kinds of colour blindness (without its yellow, too light for lines).
 #include "view/chart.h"
 
+#include "io/manifest.h"
 #include "io/run_directory.h"
 #include "view/gnuplot.h"
 #include "view/page.h"
@@ -315,6 +316,9 @@ scree_status scree_chart_draw(const char *path, const scree_chart *chart, scree_
     bool any = false;
     for (size_t k = 0; k < chart->line_count; k++) any |= line_drawable(chart, &chart->line[k]);
     if (!any) return scree_error_set(error, SCREE_ERROR_INPUT, "the chart '%s' has no value to draw", place.name);
+    static const char *const endings[] = {".csv", ".gp", ".svg", ".png"};
+    status = scree_manifest_add(path, endings, sizeof endings / sizeof *endings, error);
+    if (status) return status;
     char file_name[PATH_MAX + 8], script[256];
     FILE *file;
     (void)snprintf(file_name, sizeof file_name, "%s.csv", path);

@@ -1,5 +1,7 @@
 /// All figures of a run directory. A figure that cannot be drawn does not keep the others from being drawn: the first
 /// failure is what scree_plot returns at the end.
+#include "view/plot.h"
+
 #include "view/plot_parts.h"
 
 #include "base/memory.h"
@@ -13,6 +15,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 static void tell(const scree_plot_run *run, const char *line)
 {
@@ -137,6 +140,18 @@ static scree_status find_windows(scree_plot_run *run, scree_error *error)
 
 scree_status scree_plot(const char *directory, void (*message)(void *user, const char *path), void *user,
                         scree_error *error)
+{
+    scree_folder_lock lock = {0};
+    scree_status status = SCREE_OK;
+    // Without a folder there is no run, and drawing says so.
+    if (access(directory, F_OK) == 0) status = scree_folder_lock_take(&lock, directory, "scree plot", error);
+    if (!status) status = scree_plot_draw(directory, message, user, error);
+    scree_folder_lock_release(&lock);
+    return status;
+}
+
+scree_status scree_plot_draw(const char *directory, void (*message)(void *user, const char *path), void *user,
+                             scree_error *error)
 {
     scree_plot_run run = {.directory = directory, .message = message, .user = user};
     scree_error series_error = {0}, snapshot_error = {0};

@@ -63,7 +63,7 @@ head -c 10485760 /dev/zero | tr '\0' 'a' >bad.yaml
 refused 'bad\.yaml'
 yes 'seed: 1' | head -c 10485760 >bad.yaml
 refused 'bad\.yaml'
-timed expect 4 "nothing\.yaml.*No such file" "$scree" check nothing.yaml
+timed expect 2 "nothing\.yaml.*No such file" "$scree" check nothing.yaml
 mkdir folder.yaml
 timed expect 4 "folder\.yaml" "$scree" check folder.yaml
 
@@ -84,7 +84,7 @@ same "$(cat notes/paper.txt)" mine
 # --- results that are not there
 timed expect 4 "no run in 'nowhere'" "$scree" get nowhere phi
 timed expect 4 "nowhere" "$scree" plot nowhere
-timed expect 4 "nowhere" "$scree" run --restart nowhere
+timed expect 2 "there is no folder 'nowhere'" "$scree" run --restart nowhere
 mkdir begun && cp good.yaml begun/case.yaml
 timed expect 2 "no checkpoint in 'begun'" "$scree" run --restart begun
 head -c 1000 /dev/urandom >begun/run.h5
