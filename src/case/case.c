@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "case/document.h"
+#include "case/former.h"
 #include "case/path.h"
 #include "case/yaml.h"
 
@@ -25,6 +26,7 @@ typedef struct input {
     size_t length;
     const char *name;
     const scree_case_options *options; ///< may be NULL
+    const scree_former_key *former;    ///< names that keys had; NULL: only the present ones count
 } input;
 
 /// Reads the text into reader->root, NULL when it holds no tree.
@@ -35,6 +37,7 @@ static void read_tree(scree_reader *reader, const input *in)
         scree_reader_fail(reader, strlen(in->name));
     else if (scree_text_check(reader, in->text, in->length, place))
         reader->root = scree_yaml_read(reader, in->text, in->length, place);
+    if (reader->root) scree_former_keys_apply(reader->root, in->former);
 }
 
 /// From the tree to the config, after quick and overrides.
@@ -88,24 +91,43 @@ static scree_status parse(const input *in, scree_problems *problems, scree_case 
     return SCREE_OK;
 }
 
-scree_status scree_case_parse(const char *text, size_t length, const char *name, const scree_case_options *options,
-                              scree_case **out, scree_problems **problems)
+static scree_status parse_locally(const input *in, scree_case **out, scree_problems **problems)
 {
     scree_problems *found;
     *out = NULL;
     if (problems) *problems = NULL;
     scree_status status = scree_problems_create(&found);
     if (status) return status;
-    input in = {text, length, name, options};
     locale_t c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     locale_t before = uselocale(c_locale);
-    status = parse(&in, found, out);
+    status = parse(in, found, out);
     uselocale(before);
     freelocale(c_locale);
     if (status && problems)
         *problems = found;
     else
         scree_problems_free(found);
+    return status;
+}
+
+scree_status scree_case_parse(const char *text, size_t length, const char *name, const scree_case_options *options,
+                              scree_case **out, scree_problems **problems)
+{
+    input in = {.text = text, .length = length, .name = name, .options = options};
+    return parse_locally(&in, out, problems);
+}
+
+scree_status scree_case_reread(const char *path, const scree_former_key *former, scree_case **out,
+                               scree_problems **problems)
+{
+    char *text;
+    input in = {.name = path, .former = former};
+    *out = NULL;
+    if (problems) *problems = NULL;
+    scree_status status = scree_case_text(path, &text, &in.length, problems);
+    in.text = text;
+    if (!status) status = parse_locally(&in, out, problems);
+    scree_release(&text);
     return status;
 }
 

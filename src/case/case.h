@@ -3,6 +3,7 @@
 #define SCREE_CASE_CASE_H
 
 #include "case/config.h"
+#include "case/former.h"
 
 #include <scree/scree.h>
 
@@ -16,6 +17,14 @@ struct scree_case {
 /// Text of a file that is a case, or is written like one (at most 1 MiB and not empty); free *bytes with scree_release.
 /// Errors: as scree_case_read, also as the only one of *problems (which may be NULL).
 scree_status scree_case_text(const char *path, char **bytes, size_t *length, scree_problems **problems);
+
+/// Reads a case that Scree has written, also a version in which keys had other names (scree_former_keys). Errors: as
+/// scree_case_read.
+scree_status scree_case_reread(const char *path, const scree_former_key *former, scree_case **out,
+                               scree_problems **problems);
+
+/// Whether two cases mean the same: equal values of all keys that they use, however they are written.
+bool scree_case_same(const scree_case *one, const scree_case *other);
 
 /// Fills file, line, column and value of `error` from its `field` (a key path). A key that the case does not give has
 /// its default as value and the position of its section.

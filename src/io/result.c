@@ -4,6 +4,7 @@
 /// as 0.1 and nothing is lost. null (a value that does not exist, such as a peak that was not reached) is `nan`.
 #include "case/case.h"
 #include "io/run_directory.h"
+#include "io/summary.h"
 
 #include <jansson.h>
 
@@ -66,12 +67,27 @@ static void format_value(const json_t *value, char *text, size_t size)
         (void)snprintf(text, size, "nan");
 }
 
+/// The value under its name, or under one that it had in an earlier version.
+static const json_t *find_value(const json_t *root, const char *name, const scree_former_result *former)
+{
+    const json_t *found = json_object_get(root, name);
+    for (const scree_former_result *row = former; !found && row->was; row++)
+        if (strcmp(row->name, name) == 0) found = json_object_get(root, row->was);
+    return found;
+}
+
 scree_status scree_result_get(const char *directory, const char *name, char *value, size_t size, scree_error *error)
+{
+    return scree_result_find(directory, name, scree_former_results, value, size, error);
+}
+
+scree_status scree_result_find(const char *directory, const char *name, const scree_former_result *former, char *value,
+                               size_t size, scree_error *error)
 {
     json_t *root;
     scree_status status = read_summary(directory, &root, error);
     if (status) return status;
-    const json_t *found = json_object_get(root, name);
+    const json_t *found = find_value(root, name, former);
     if (found) {
         format_value(found, value, size);
     } else {

@@ -3,6 +3,7 @@
 #define SCREE_IO_SUMMARY_H
 
 #include "base/error.h"
+#include "case/former.h"
 
 #include <stdint.h>
 
@@ -15,5 +16,9 @@ void scree_summary_set_number(scree_summary *summary, const char *name, double v
 void scree_summary_set_integer(scree_summary *summary, const char *name, int64_t value);
 void scree_summary_set_text(scree_summary *summary, const char *name, const char *value);
 scree_status scree_summary_write(const scree_summary *summary, const char *path, scree_error *error) SCREE_MUST_USE;
+
+/// scree_result_get with a table of former names of results.
+scree_status scree_result_find(const char *directory, const char *name, const scree_former_result *former, char *value,
+                               size_t size, scree_error *error) SCREE_MUST_USE;
 
 #endif

@@ -1,4 +1,5 @@
 /// The driver behind `scree run`: a case into a run directory, from the begin or from a checkpoint.
+#include "case/case.h"
 #include "io/run_directory.h"
 #include "io/snapshot.h"
 #include "run/recorder.h"
@@ -200,10 +201,9 @@ static scree_status read_case(const char *directory, scree_case **c, scree_error
 {
     char path[4096];
     scree_problems *problems = NULL;
-    scree_case_options plain = {0};
     scree_status status = scree_path_join(path, sizeof path, directory, SCREE_FILE_CASE, error);
     if (status) return status;
-    status = scree_case_read(path, &plain, c, &problems);
+    status = scree_case_reread(path, scree_former_keys, c, &problems);
     if (status && scree_problems_count(problems) > 0) *error = *scree_problems_get(problems, 0);
     scree_problems_free(problems);
     return status;

@@ -91,16 +91,22 @@ scree_status scree_member_case(const scree_sweep *sweep, size_t member, scree_ca
     return status;
 }
 
-scree_status scree_member_text(const scree_sweep *sweep, size_t member, char **text, scree_error *error)
+scree_status scree_member_resolve(const scree_sweep *sweep, size_t member, scree_case **out, scree_error *error)
 {
-    scree_case *c;
     scree_problems *problems;
-    size_t length;
-    *text = NULL;
-    scree_status status = scree_member_case(sweep, member, &c, &problems);
+    scree_status status = scree_member_case(sweep, member, out, &problems);
     if (status && scree_problems_count(problems) > 0 && error) *error = *scree_problems_get(problems, 0);
     if (status && scree_problems_count(problems) == 0) scree_error_set_memory(error, sweep->case_length);
     scree_problems_free(problems);
+    return status;
+}
+
+scree_status scree_member_text(const scree_sweep *sweep, size_t member, char **text, scree_error *error)
+{
+    scree_case *c;
+    size_t length;
+    *text = NULL;
+    scree_status status = scree_member_resolve(sweep, member, &c, error);
     if (status) return status;
     FILE *memory = open_memstream(text, &length);
     if (!memory)

@@ -9,6 +9,7 @@
 #include "io/run_directory.h"
 
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,7 +36,9 @@ typedef struct drive {
     size_t done, failed, left; ///< left: to be run in this call, and not begun yet
     double seconds;            ///< of members that ended in this call
     size_t ended;
+    size_t killed; ///< died in this call and can be continued
     bool interrupted;
+    scree_folder_lock lock; ///< on members/, of a sweep that runs all of them
     scree_status status; ///< of what keeps the sweep from going on
     scree_error *error;
 } drive;
@@ -95,7 +98,7 @@ static scree_status start_process(const drive *d, const scree_member_paths *path
     char threads[16];
     const char *arguments[16] = {d->options->program, "run"};
     size_t count = 2;
-    bool restart = state == SCREE_MEMBER_INTERRUPTED && scree_member_has_checkpoint(paths);
+    bool restart = scree_member_can_continue(paths, state);
     (void)snprintf(threads, sizeof threads, "%d", d->options->threads > 0 ? d->options->threads : 1);
     arguments[count++] = restart ? "--restart" : paths->file;
     if (!restart) arguments[count++] = "--output";
@@ -109,41 +112,67 @@ static scree_status start_process(const drive *d, const scree_member_paths *path
     return scree_process_start(arguments, j->log, &j->process, error);
 }
 
+/// Somebody may run a member by hand.
+static scree_status check_unused(const scree_member_paths *paths, scree_error *error)
+{
+    char who[512];
+    if (!scree_folder_lock_is_held(paths->folder, who, sizeof who)) return SCREE_OK;
+    return scree_error_set(error, SCREE_ERROR_INPUT, "the folder '%s' is in use by %s: wait until it has ended",
+                           paths->folder, who);
+}
+
+/// Starts a member under the lock of its log; *running is false when it is done by now.
+static scree_status start_member(const drive *d, const scree_member_paths *paths, const scree_case *c, job *j,
+                                 bool *running, scree_error *error)
+{
+    char *text = NULL;
+    scree_status status = check_unused(paths, error);
+    if (status) return status;
+    // Looked at again under the lock: another sweep may have finished it in between.
+    scree_member_state state = scree_member_look(paths, c, NULL, 0);
+    *running = state != SCREE_MEMBER_DONE;
+    if (!*running) return SCREE_OK;
+    status = scree_member_text(d->sweep, j->member, &text, error);
+    if (!status) status = write_case(paths->file, text, error);
+    if (!status) status = start_process(d, paths, state, j, error);
+    free(text);
+    return status;
+}
+
 static scree_status start(drive *d, size_t member)
 {
-    char *text;
+    scree_case *c = NULL;
     scree_error error;
     scree_member_paths paths;
+    bool running = false;
     job j = {.member = member, .began = now(), .log = -1};
     scree_status status = scree_member_find(d->sweep, member, d->options->output, &paths, &error);
-    if (!status) status = scree_member_text(d->sweep, member, &text, &error);
-    if (status) {
-        fail(d, status, &error);
-        return status;
-    }
-    status = scree_member_open_log(&paths, &j.log, &error);
-    // Looked at again under the lock: another sweep may have finished it in between.
-    scree_member_state state = status ? SCREE_MEMBER_MISSING : scree_member_look(&paths, text, NULL, 0);
-    if (!status && state == SCREE_MEMBER_DONE) {
-        d->state[member] = state;
-        d->done++;
-        close(j.log);
-        free(text);
+    if (!status) status = scree_member_resolve(d->sweep, member, &c, &error);
+    if (!status) status = scree_member_open_log(&paths, &j.log, &error);
+    if (!status) status = start_member(d, &paths, c, &j, &running, &error);
+    scree_case_free(c);
+    fail(d, status, &error);
+    if (!status && running) {
+        d->job[d->running++] = j;
         return SCREE_OK;
     }
-    if (!status) status = write_case(paths.file, text, &error);
-    if (!status) status = start_process(d, &paths, state, &j, &error);
-    free(text);
-    if (status) {
-        if (j.log >= 0) close(j.log);
-        fail(d, status, &error);
-        return status;
-    }
-    d->job[d->running++] = j;
+    if (j.log >= 0) close(j.log);
+    if (status) return status;
+    d->state[member] = SCREE_MEMBER_DONE;
+    d->done++;
     return SCREE_OK;
 }
 
-/// How a process ended, in words for the log and the terminal.
+/// Signals that say that a program is wrong: it would end there again. Others come from outside.
+static bool is_crash(int number)
+{
+    static const int crashes[] = {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGSYS};
+    for (size_t i = 0; i < sizeof crashes / sizeof *crashes; i++)
+        if (number == crashes[i]) return true;
+    return false;
+}
+
+/// How a process ended, in words for the log and the terminal; empty when it was asked to.
 static scree_member_state judge(const drive *d, int state, char *text, size_t size)
 {
     bool stopping = d->options->stop && *d->options->stop;
@@ -151,37 +180,43 @@ static scree_member_state judge(const drive *d, int state, char *text, size_t si
     if (WIFEXITED(state) && WEXITSTATUS(state) == SCREE_INTERRUPTED) return SCREE_MEMBER_INTERRUPTED;
     if (WIFSIGNALED(state) && stopping) return SCREE_MEMBER_INTERRUPTED;
     if (WIFSIGNALED(state))
-        (void)snprintf(text, size, "killed by signal %d (%s)", WTERMSIG(state), strsignal(WTERMSIG(state)));
+        (void)snprintf(text, size, SCREE_MEMBER_DEATH "signal %d (%s)", WTERMSIG(state), strsignal(WTERMSIG(state)));
     else
         (void)snprintf(text, size, "exit status %d", WEXITSTATUS(state));
-    return SCREE_MEMBER_FAILED;
+    return WIFSIGNALED(state) && !is_crash(WTERMSIG(state)) ? SCREE_MEMBER_INTERRUPTED : SCREE_MEMBER_FAILED;
 }
 
 static void finish(drive *d, const job *j, int wait_status)
 {
-    char how[128] = "", *text = NULL, reason[1024] = "";
+    char how[128] = "", reason[1024] = "";
     const char *name = d->sweep->folder[j->member];
     scree_member_state state = judge(d, wait_status, how, sizeof how);
     double seconds = now() - j->began;
     d->state[j->member] = state;
     if (state == SCREE_MEMBER_FAILED)
         scree_member_note(j->log, SCREE_MEMBER_FAILURE "%s", how);
+    else if (how[0])
+        scree_member_note(j->log, "%s after %.1f s", how, seconds);
     else
         scree_member_note(j->log, "%s after %.1f s", scree_member_state_name(state), seconds);
     close(j->log);
     if (state == SCREE_MEMBER_DONE) {
         d->done++;
         tell(d, 0, "%s: done in %.1f s", name, seconds);
+    } else if (state == SCREE_MEMBER_INTERRUPTED && how[0]) {
+        d->killed++;
+        tell(d, 1, "%s: %s; the same command continues it", name, how);
     } else if (state == SCREE_MEMBER_INTERRUPTED) {
         tell(d, 0, "%s: interrupted, can be continued", name);
     } else {
         scree_member_paths paths;
         scree_error error;
+        scree_case *c = NULL;
         d->failed++;
         bool looked = !scree_member_find(d->sweep, j->member, d->options->output, &paths, &error) &&
-                      !scree_member_text(d->sweep, j->member, &text, &error);
-        if (looked) (void)scree_member_look(&paths, text, reason, sizeof reason);
-        free(text);
+                      !scree_member_resolve(d->sweep, j->member, &c, &error);
+        if (looked) (void)scree_member_look(&paths, c, reason, sizeof reason);
+        scree_case_free(c);
         tell(d, 1, "%s: failed (%s): %s", name, how, reason[0] ? reason : "it said nothing");
     }
     d->seconds += seconds;
@@ -243,13 +278,13 @@ static void run_members(drive *d, size_t from, size_t to)
 static scree_status look(drive *d, size_t from, size_t to)
 {
     for (size_t i = from; i < to; i++) {
-        char *text;
+        scree_case *c;
         scree_member_paths paths;
         scree_status status = scree_member_find(d->sweep, i, d->options->output, &paths, d->error);
-        if (!status) status = scree_member_text(d->sweep, i, &text, d->error);
+        if (!status) status = scree_member_resolve(d->sweep, i, &c, d->error);
         if (status) return status;
-        d->state[i] = scree_member_look(&paths, text, NULL, 0);
-        free(text);
+        d->state[i] = scree_member_look(&paths, c, NULL, 0);
+        scree_case_free(c);
         if (d->state[i] == SCREE_MEMBER_CHANGED && !d->options->force)
             return scree_error_set(d->error, SCREE_ERROR_INPUT,
                                    "'%s' holds a run of another case: choose another folder, or --force to run it anew",
@@ -262,7 +297,8 @@ static scree_status look(drive *d, size_t from, size_t to)
     return SCREE_OK;
 }
 
-static scree_status make_folder(const drive *d)
+/// Makes members/. One sweep at a time runs all members, and is told from the begin; tasks of a job array run one each.
+static scree_status make_folder(drive *d, bool all)
 {
     char path[PATH_MAX];
     scree_status status = scree_path_join(path, sizeof path, d->options->output, SCREE_FILE_LOG, d->error);
@@ -270,7 +306,9 @@ static scree_status make_folder(const drive *d)
         return scree_error_set(d->error, SCREE_ERROR_INPUT, "the folder '%s' holds a run: a sweep needs its own",
                                d->options->output);
     if (!status) status = scree_path_join(path, sizeof path, d->options->output, "members", d->error);
-    return status ? status : scree_folders_make(path, d->error);
+    if (!status) status = scree_folders_make(path, d->error);
+    if (!status && all) status = scree_folder_lock_take(&d->lock, path, "scree sweep", d->error);
+    return status;
 }
 
 static scree_status open_drive(drive *d, size_t from, size_t to)
@@ -278,7 +316,7 @@ static scree_status open_drive(drive *d, size_t from, size_t to)
     int threads = d->options->threads > 0 ? d->options->threads : 1, cores = scree_processor_count() / threads;
     int jobs = d->options->jobs > 0 ? d->options->jobs : cores > 0 ? cores : 1;
     d->jobs = (size_t)(jobs < MOST_JOBS ? jobs : MOST_JOBS);
-    scree_status status = make_folder(d);
+    scree_status status = make_folder(d, to - from == d->sweep->member_count);
     if (!status) status = scree_allocate(&d->state, d->sweep->member_count, sizeof *d->state, d->error);
     if (!status) status = scree_allocate(&d->job, d->jobs, sizeof *d->job, d->error);
     return status ? status : look(d, from, to);
@@ -294,10 +332,21 @@ static scree_status conclude(drive *d)
     return SCREE_OK;
 }
 
+/// Nothing failed, but not all is there.
+static scree_status tell_killed(const drive *d)
+{
+    if (d->killed == 0) return SCREE_OK;
+    return scree_error_set(d->error, SCREE_ERROR_GUARD,
+                           "%zu of %zu members were killed; the same command continues them, the means are those of "
+                           "the others",
+                           d->killed, d->sweep->member_count);
+}
+
 static void close_drive(drive *d)
 {
     scree_release(&d->state);
     scree_release(&d->job);
+    scree_folder_lock_release(&d->lock);
 }
 
 scree_status scree_sweep_run(const scree_sweep *sweep, const scree_sweep_options *options, scree_error *error)
@@ -313,7 +362,8 @@ scree_status scree_sweep_run(const scree_sweep *sweep, const scree_sweep_options
         status = conclude(&d);
     }
     close_drive(&d);
-    return status ? status : scree_sweep_collect(sweep, options, error);
+    if (!status) status = scree_sweep_collect(sweep, options, error);
+    return status ? status : tell_killed(&d);
 }
 
 scree_status scree_sweep_run_member(const scree_sweep *sweep, size_t member, const scree_sweep_options *options,

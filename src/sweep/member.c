@@ -1,10 +1,10 @@
 /// State of members on disk. Nothing is kept elsewhere: a sweep that is killed finds out what there is by looking.
 #include "sweep/member.h"
 
-#include "base/memory.h"
 #include "case/case.h"
 #include "io/run_directory.h"
 #include "io/run_file.h"
+#include "io/seal.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -37,21 +37,15 @@ scree_status scree_member_find(const scree_sweep *sweep, size_t member, const ch
     return status;
 }
 
-/// The first line says which version of Scree wrote the case, and is no part of it.
-static const char *without_head(const char *text)
+/// 0: the file is not there, or no file; 1: it holds this case; -1: another one, or one that this version cannot read.
+static int compare_case(const char *path, const scree_case *wanted)
 {
-    const char *end = text[0] == '#' ? strchr(text, '\n') : NULL;
-    return end ? end + 1 : text;
-}
-
-/// 0: the file is not there; 1: it holds this case; -1: another one.
-static int compare_case(const char *path, const char *text)
-{
-    char *other;
-    size_t length;
-    if (access(path, F_OK) != 0 || scree_case_text(path, &other, &length, NULL)) return 0;
-    int result = strcmp(without_head(other), without_head(text)) == 0 ? 1 : -1;
-    scree_release(&other);
+    scree_case *stored;
+    if (access(path, F_OK) != 0) return 0;
+    scree_status status = scree_case_reread(path, scree_former_keys, &stored, NULL);
+    if (status) return status == SCREE_ERROR_INPUT ? -1 : 0;
+    int result = scree_case_same(stored, wanted) ? 1 : -1;
+    scree_case_free(stored);
     return result;
 }
 
@@ -75,7 +69,7 @@ static void read_log(const char *path, char *note, char *said, size_t size)
     }
 }
 
-scree_member_state scree_member_look(const scree_member_paths *paths, const char *text, char *reason, size_t size)
+scree_member_state scree_member_look(const scree_member_paths *paths, const scree_case *c, char *reason, size_t size)
 {
     char path[PATH_MAX], status[64], note[1024], said[1024];
     if (reason) reason[0] = 0;
@@ -83,10 +77,10 @@ scree_member_state scree_member_look(const scree_member_paths *paths, const char
     bool failed = strncmp(note, SCREE_MEMBER_FAILURE, strlen(SCREE_MEMBER_FAILURE)) == 0;
     if (failed && reason) (void)snprintf(reason, size, "%s", said[0] ? said : note + strlen(SCREE_MEMBER_FAILURE));
     if (scree_path_join(path, sizeof path, paths->folder, SCREE_FILE_CASE, NULL)) return SCREE_MEMBER_MISSING;
-    int same = compare_case(path, text);
+    int same = compare_case(path, c);
     if (same < 0) return SCREE_MEMBER_CHANGED;
     // Without a directory, a member may still have failed: with this case, or with another one that counts no more.
-    if (same == 0) return failed && compare_case(paths->file, text) > 0 ? SCREE_MEMBER_FAILED : SCREE_MEMBER_MISSING;
+    if (same == 0) return failed && compare_case(paths->file, c) > 0 ? SCREE_MEMBER_FAILED : SCREE_MEMBER_MISSING;
     if (scree_result_get(paths->folder, "status", status, sizeof status, NULL) == SCREE_OK) {
         if (strcmp(status, "done") == 0) return SCREE_MEMBER_DONE;
         if (strcmp(status, "stopped") == 0) return SCREE_MEMBER_FAILED;
@@ -94,13 +88,44 @@ scree_member_state scree_member_look(const scree_member_paths *paths, const char
     return failed ? SCREE_MEMBER_FAILED : SCREE_MEMBER_INTERRUPTED;
 }
 
-bool scree_member_has_checkpoint(const scree_member_paths *paths)
+static bool has_whole_part(const char *folder)
 {
+    char path[PATH_MAX];
+    scree_error ignored;
     scree_part_list list = {0};
-    scree_status status = scree_parts_list(paths->folder, SCREE_PART_CHECKPOINT, &list, NULL);
-    bool some = !status && list.count > 0;
+    bool found = false;
+    if (scree_parts_list(folder, SCREE_PART_CHECKPOINT, &list, &ignored)) return false;
+    for (size_t k = 0; k < list.count && !found; k++)
+        found = !scree_part_path(folder, SCREE_PART_CHECKPOINT, list.index[k], path, sizeof path, &ignored) &&
+                !scree_seal_check(path, &ignored);
     scree_part_list_destroy(&list);
-    return some;
+    return found;
+}
+
+/// A run that was at its end has its checkpoints in run.h5 itself.
+static bool has_gathered(const char *folder)
+{
+    char path[PATH_MAX];
+    scree_hdf5 run;
+    scree_error ignored;
+    scree_part_list list = {0};
+    if (scree_run_file_path(folder, path, sizeof path, &ignored) || access(path, F_OK) != 0) return false;
+    scree_hdf5_open_sealed(&run, path, &ignored);
+    bool found = !scree_run_file_list(&run, SCREE_PART_CHECKPOINT, true, &list) && list.count > 0;
+    scree_part_list_destroy(&list);
+    return !scree_hdf5_close(&run) && found;
+}
+
+bool scree_member_can_continue(const scree_member_paths *paths, scree_member_state state)
+{
+    char status[64], note[1024], said[1024];
+    if (state != SCREE_MEMBER_INTERRUPTED && state != SCREE_MEMBER_FAILED) return false;
+    read_log(paths->log, note, said, sizeof note);
+    bool refused = strcmp(note, SCREE_MEMBER_FAILURE "exit status 2") == 0;
+    if (refused || (scree_result_get(paths->folder, "status", status, sizeof status, NULL) == SCREE_OK &&
+                    strcmp(status, "stopped") == 0))
+        return false;
+    return has_whole_part(paths->folder) || has_gathered(paths->folder);
 }
 
 scree_status scree_member_open_log(const scree_member_paths *paths, int *log, scree_error *error)

@@ -27,12 +27,13 @@ typedef struct scree_member_paths {
 scree_status scree_member_find(const scree_sweep *sweep, size_t member, const char *output, scree_member_paths *paths,
                                scree_error *error) SCREE_MUST_USE;
 
-/// State of a member; `text` is its resolved case. `reason` (may be NULL) gets the last line that it printed when it
+/// State of a member whose case is `c`. `reason` (may be NULL) gets the last line that it printed when it
 /// failed.
-scree_member_state scree_member_look(const scree_member_paths *paths, const char *text, char *reason, size_t size);
+scree_member_state scree_member_look(const scree_member_paths *paths, const scree_case *c, char *reason, size_t size);
 
-/// Whether an interrupted member has a checkpoint to continue from.
-bool scree_member_has_checkpoint(const scree_member_paths *paths);
+/// Whether a member in that state goes on from a whole checkpoint. One that a guard has stopped, or that would not be
+/// continued the last time, begins anew.
+bool scree_member_can_continue(const scree_member_paths *paths, scree_member_state state);
 
 /// Opens the log for appending and locks it against other sweeps; a child inherits the lock, which lasts until the last
 /// of them has ended. Errors: SCREE_ERROR_INPUT when another sweep runs this member; SCREE_ERROR_IO.
@@ -41,7 +42,8 @@ scree_status scree_member_open_log(const scree_member_paths *paths, int *log, sc
 /// A line of the sweep in a log.
 void scree_member_note(int log, const char *format, ...) SCREE_PRINTF(2, 3);
 
-/// How a failed run is noted; scree_member_look recognises it.
+/// How a failed run is noted; scree_member_look recognises it. One that was killed is only interrupted.
 #define SCREE_MEMBER_FAILURE "failed: "
+#define SCREE_MEMBER_DEATH   "killed by "
 
 #endif

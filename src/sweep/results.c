@@ -61,13 +61,13 @@ static scree_status look_at_members(scree_sweep_results *results, scree_error *e
     const scree_sweep *sweep = results->sweep;
     scree_status status = SCREE_OK;
     for (size_t i = 0; i < sweep->member_count && !status; i++) {
-        char *text = NULL;
+        scree_case *c;
         scree_member_paths paths;
         status = scree_member_find(sweep, i, results->options->output, &paths, error);
-        if (!status) status = scree_member_text(sweep, i, &text, error);
+        if (!status) status = scree_member_resolve(sweep, i, &c, error);
         if (status) break;
-        results->state[i] = scree_member_look(&paths, text, NULL, 0);
-        free(text);
+        results->state[i] = scree_member_look(&paths, c, NULL, 0);
+        scree_case_free(c);
         results->wall_time[i] = NAN;
         for (size_t k = 0; k < sweep->measure_count; k++) results->value[i * sweep->measure_count + k] = NAN;
         if (results->state[i] == SCREE_MEMBER_DONE) read_member(results, &paths, i);
@@ -168,13 +168,10 @@ static scree_status make_folders(const char *output, scree_error *error)
     return status;
 }
 
-scree_status scree_sweep_collect(const scree_sweep *sweep, const scree_sweep_options *options, scree_error *error)
+static scree_status collect(const scree_sweep *sweep, const scree_sweep_options *options, scree_error *error)
 {
     scree_sweep_results results;
-    scree_error local;
-    if (!error) error = &local;
-    scree_status status = make_folders(options->output, error);
-    if (!status) status = scree_sweep_results_read(&results, sweep, options, error);
+    scree_status status = scree_sweep_results_read(&results, sweep, options, error);
     if (status) return status;
     status = scree_sweep_write_tables(&results, error);
     if (!status) status = scree_sweep_write_record(&results, error);
@@ -190,5 +187,18 @@ scree_status scree_sweep_collect(const scree_sweep *sweep, const scree_sweep_opt
                                  "%s/members/*.txt, and --retry runs them anew",
                                  results.failed, sweep->member_count, options->output);
     scree_sweep_results_destroy(&results);
+    return status;
+}
+
+scree_status scree_sweep_collect(const scree_sweep *sweep, const scree_sweep_options *options, scree_error *error)
+{
+    scree_error local;
+    scree_folder_lock lock = {0};
+    if (!error) error = &local;
+    scree_status status = make_folders(options->output, error);
+    // Members may run meanwhile; the tables have one writer.
+    if (!status) status = scree_folder_lock_take(&lock, options->output, "scree sweep", error);
+    if (!status) status = collect(sweep, options, error);
+    scree_folder_lock_release(&lock);
     return status;
 }

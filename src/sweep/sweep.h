@@ -139,6 +139,10 @@ void scree_slug(char *slug, size_t size, const char *text);
 /// The resolved case of a member (scree_case_free it). Problems of values that the sweep sets are placed in its file.
 scree_status scree_member_case(const scree_sweep *sweep, size_t member, scree_case **out, scree_problems **problems);
 
+/// The same with the first problem as the error.
+scree_status scree_member_resolve(const scree_sweep *sweep, size_t member, scree_case **out,
+                                  scree_error *error) SCREE_MUST_USE;
+
 /// The same as text, as `case.yaml` of its run directory will be; *text with free().
 scree_status scree_member_text(const scree_sweep *sweep, size_t member, char **text, scree_error *error) SCREE_MUST_USE;
 

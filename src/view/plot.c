@@ -107,7 +107,7 @@ static scree_status read_case_windows(scree_plot_run *run, scree_error *error)
     scree_problems *problems = NULL;
     scree_status status = scree_path_join(path, sizeof path, run->directory, SCREE_FILE_CASE, error);
     if (status) return status;
-    if (scree_case_read(path, NULL, &c, &problems)) {
+    if (scree_case_reread(path, scree_former_keys, &c, &problems)) {
         scree_problems_free(problems);
         return SCREE_OK;
     }
