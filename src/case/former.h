@@ -1,7 +1,7 @@
 /// What keys and results were called in earlier versions, so that what those have written can still be read.
 ///
-/// Who renames a key, a choice or a result adds a row here; nothing else knows of former names. A key that a version has
-/// dropped has no row: a case that gives it is another case.
+/// Who renames a key, a choice or a result adds a row here; nothing else knows of former names. A key that a version
+/// has dropped has no row: a case that gives it is another case.
 #ifndef SCREE_CASE_FORMER_H
 #define SCREE_CASE_FORMER_H
 

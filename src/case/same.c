@@ -1,5 +1,5 @@
-/// Whether two cases mean the same: the values of all keys that they use, as the schema reads them. How they are written
-/// (units, order, comments, defaults left out) does not count.
+/// Whether two cases mean the same: the values of all keys that they use, as the schema reads them. How they are
+/// written (units, order, comments, defaults left out) does not count.
 #include "case/case.h"
 #include "case/check.h"
 

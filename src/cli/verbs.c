@@ -51,7 +51,7 @@ const scree_verb_option scree_common_options[] = {
     }
 #define OPTION_RETRY                                                                                                   \
     {                                                                                                                  \
-        .name = "retry", .meaning = "run failed members anew"                                                          \
+        .name = "retry", .meaning = "run failed members again"                                                          \
     }
 #define OPTION_FORCE_MEMBERS                                                                                           \
     {                                                                                                                  \

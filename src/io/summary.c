@@ -6,6 +6,7 @@
 #include "io/summary.h"
 
 #include "base/memory.h"
+#include "io/result_names.h"
 #include "io/run_directory.h"
 
 #include <jansson.h>
@@ -59,6 +60,14 @@ void scree_summary_set_text(scree_summary *summary, const char *name, const char
         scree_release(&ascii);
     }
     set_value(summary, name, text);
+}
+
+const char *scree_summary_unknown(const scree_summary *summary)
+{
+    const char *name;
+    json_t *value;
+    json_object_foreach(summary->root, name, value) if (!scree_result_name_find(name, NULL)) return name;
+    return NULL;
 }
 
 scree_status scree_summary_write(const scree_summary *summary, const char *path, scree_error *error)

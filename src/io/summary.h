@@ -15,6 +15,8 @@ void scree_summary_destroy(scree_summary *summary);
 void scree_summary_set_number(scree_summary *summary, const char *name, double value);
 void scree_summary_set_integer(scree_summary *summary, const char *name, int64_t value);
 void scree_summary_set_text(scree_summary *summary, const char *name, const char *value);
+/// A name that is not in the table of results (io/result_names.h), or NULL.
+const char *scree_summary_unknown(const scree_summary *summary);
 scree_status scree_summary_write(const scree_summary *summary, const char *path, scree_error *error) SCREE_MUST_USE;
 
 /// scree_result_get with a table of former names of results.

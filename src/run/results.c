@@ -267,6 +267,9 @@ scree_status scree_results_collect(const scree_recorder *recorder, scree_simulat
         status = scree_cell_results_write(recorder->directory, s->model.config, &series, *summary, error);
     if (!status) status = scree_collide_results(s, *summary, error);
     if (!status) status = scree_rotation_results(recorder->directory, s, *summary, error);
+    const char *unknown = status ? NULL : scree_summary_unknown(*summary);
+    if (unknown)
+        status = scree_error_set(error, SCREE_ERROR_IO, "the result '%s' is missing in the table of results", unknown);
     scree_series_destroy(&series);
     return status;
 }

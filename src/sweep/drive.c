@@ -39,7 +39,7 @@ typedef struct drive {
     size_t killed; ///< died in this call and can be continued
     bool interrupted;
     scree_folder_lock lock; ///< on members/, of a sweep that runs all of them
-    scree_status status; ///< of what keeps the sweep from going on
+    scree_status status;    ///< of what keeps the sweep from going on
     scree_error *error;
 } drive;
 

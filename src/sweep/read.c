@@ -5,6 +5,7 @@
 #include "sweep/templates.h"
 
 #include "base/memory.h"
+#include "io/result_names.h"
 #include "run/sample.h"
 
 #include <limits.h>
@@ -106,6 +107,50 @@ static void check_relation(scree_reader *reader, const scree_sweep *sweep, int64
                       scree_show(name).text);
 }
 
+static void refuse_measure(scree_reader *reader, size_t index, const scree_node *node, const char *nearest,
+                           const char *what)
+{
+    char path[48];
+    (void)snprintf(path, sizeof path, "measures.%zu", index);
+    scree_problem_add(reader, node->place, path, node->text, nearest, "%s '%s'%s%s%s", what,
+                      scree_show(node->text).text, nearest ? "; did you mean '" : "", nearest ? nearest : "",
+                      nearest ? "'?" : "");
+}
+
+/// A measure is a number that runs have.
+static void check_measures(scree_reader *reader, const scree_sweep *sweep)
+{
+    size_t index = 0;
+    for (const scree_node *m = sweep->config.measures ? sweep->config.measures->first : NULL; m; m = m->next, index++) {
+        if (!m->text) continue; // noted when the list is read
+        const scree_result_name *row = scree_result_name_find(m->text, NULL);
+        if (!row)
+            refuse_measure(reader, index, m, scree_result_name_nearest(m->text), "no run has a result");
+        else if (!row->unit)
+            refuse_measure(reader, index, m, NULL, "a text has no mean:");
+    }
+}
+
+/// Measures of a wall are of one that a case of the sweep has.
+static void check_walls(scree_reader *reader, const scree_sweep *sweep)
+{
+    size_t index = 0, length;
+    for (const scree_node *m = sweep->config.measures ? sweep->config.measures->first : NULL; m; m = m->next, index++) {
+        bool found = !m->text || !scree_result_name_find(m->text, &length) || length == 0;
+        for (size_t point = 0; point < sweep->point_count && !found; point++) {
+            scree_case *c;
+            if (scree_member_case(sweep, point, &c, NULL)) return;
+            for (int64_t w = 0; w < c->config.wall_count; w++)
+                found |=
+                    strlen(c->config.walls[w].name) == length && strncmp(c->config.walls[w].name, m->text, length) == 0;
+            scree_case_free(c);
+        }
+        if (!found)
+            refuse_measure(reader, index, m, scree_result_name_nearest(m->text),
+                           "there is no such wall, and no run has a result");
+    }
+}
+
 /// --set of the command line, for all members and after everything else.
 static void keep_overrides(scree_reader *reader, scree_sweep *sweep, const scree_sweep_read_options *options)
 {
@@ -149,8 +194,11 @@ static void apply_rules(scree_reader *reader, void *user)
         check_relation(reader, sweep, i, "x", sweep->config.relations[i].x);
         check_relation(reader, sweep, i, "y", sweep->config.relations[i].y);
     }
+    check_measures(reader, sweep);
     keep_overrides(reader, sweep, r->in->options);
-    if (scree_sweep_expand(reader, sweep) && sweep->case_text) scree_sweep_check_cases(reader, sweep);
+    if (!scree_sweep_expand(reader, sweep) || !sweep->case_text) return;
+    scree_sweep_check_cases(reader, sweep);
+    if (scree_problems_count(reader->problems) == 0) check_walls(reader, sweep);
 }
 
 static scree_status read_text(const input *in, scree_sweep **out, scree_problems **problems)

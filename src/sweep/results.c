@@ -38,21 +38,17 @@ static void read_member(scree_sweep_results *results, const scree_member_paths *
         results->value[member * sweep->measure_count + k] = read_number(paths->folder, sweep->measure[k], NULL);
 }
 
-/// A name that no finished member knows is misspelt, or belongs to another case.
-static void warn_of_unknown(const scree_sweep_results *results)
+/// A measure that no finished member has: it belongs to another case, or was never reached.
+static void warn_of_missing(const scree_sweep_results *results)
 {
     const scree_sweep *sweep = results->sweep;
-    scree_member_paths paths;
-    scree_error error;
-    size_t member = 0;
-    while (member < sweep->member_count && results->state[member] != SCREE_MEMBER_DONE) member++;
-    if (member == sweep->member_count) return;
-    if (scree_member_find(sweep, member, results->options->output, &paths, &error)) return;
-    for (size_t k = 0; k < sweep->measure_count; k++) {
-        char text[64];
-        if (scree_result_get(paths.folder, sweep->measure[k], text, sizeof text, &error) != SCREE_ERROR_INPUT) continue;
-        scree_sweep_tell(results->options, 1, "measures: %s%s%s%s", error.message,
-                         error.accepted[0] ? "; did you mean '" : "", error.accepted, error.accepted[0] ? "'?" : "");
+    for (size_t k = 0; k < sweep->measure_count && results->done > 0; k++) {
+        bool found = false;
+        for (size_t i = 0; i < sweep->member_count && !found; i++)
+            found = isfinite(results->value[i * sweep->measure_count + k]);
+        if (!found)
+            scree_sweep_tell(results->options, 1, "measures: none of the %zu members that are done has a value of '%s'",
+                             results->done, sweep->measure[k]);
     }
 }
 
@@ -106,7 +102,7 @@ scree_status scree_sweep_results_read(scree_sweep_results *results, const scree_
         status = scree_allocate(&results->estimate, sweep->point_count * measures, sizeof(scree_estimate), error);
     if (!status) status = look_at_members(results, error);
     if (!status) status = estimate_measures(results, error);
-    if (!status) warn_of_unknown(results);
+    if (!status) warn_of_missing(results);
     if (status) scree_sweep_results_destroy(results);
     return status;
 }

@@ -105,11 +105,18 @@ vary:
     alternatives:
       - {name: strict, set: {guard.overlap: 1e-9 %}}
       - {name: usual}
-measures: [steps, stepps]
+measures: [steps, restitution]
 END
 expect 3 '000-strict-seed=1: failed \(exit status 3\): .*' "$scree" sweep failing.yaml -o f --no-figures
 grep -q '1 of 2 members have failed' <<<"$output" || complain "no word of the failure: $output"
-grep -q "did you mean 'steps'" <<<"$output" || complain "no word of the misspelt measure: $output"
+grep -q "none of the 1 members that are done has a value of 'restitution'" <<<"$output" || complain "no word of the measure that nobody has: $output"
+sed 's/restitution/stepps/' failing.yaml >wrong.yaml
+expect 2 "^wrong.yaml:11:19: measures.1: no run has a result 'stepps'; did you mean 'steps'?" "$scree" sweep wrong.yaml -o never
+sed 's/restitution/drum_work/' failing.yaml >wrong.yaml
+expect 2 "^wrong.yaml:11:19: measures.1: there is no such wall, and no run has a result 'drum_work'" "$scree" sweep wrong.yaml -o never
+sed 's/restitution/state_checksum/' failing.yaml >wrong.yaml
+expect 2 "^wrong.yaml:11:19: measures.1: a text has no mean: 'state_checksum'" "$scree" sweep wrong.yaml -o never
+[ -e never ] && complain "a refused sweep left a folder"
 same "$(cut -d, -f6,7 f/members.csv | sed 's/,.*//' | tail -2 | tr '\n' ' ')" 'strict usual '
 grep -q '^0,.*,failed,' f/members.csv || complain "members.csv does not have the failed member"
 grep -q '^1,usual,usual,[0-9]' f/table.csv || complain "table.csv does not have the mean of the others"

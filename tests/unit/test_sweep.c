@@ -4,6 +4,9 @@
 
 #include "io_scratch.h"
 
+#include "base/units.h"
+#include "io/result_names.h"
+
 #include "sweep/statements.h"
 #include "sweep/statistics.h"
 #include "sweep/sweep.h"
@@ -142,6 +145,10 @@ static void problems_are_told_all_at_once_with_their_places(void **state)
         {"case: biaxial\nvary:\n- {key: seed, values: [1, 2]}\n", 3, "is varied by `realisations`"},
         {"case: biaxial\nset: {seed: 2}\n", 2, "is set by `seed` and `realisations`"},
         {"case: biaxial\ncurves: [{y: stress_ration}]\n", 2, "did you mean 'stress_ratio'?"},
+        {"case: biaxial\nmeasures:\n- phi\n- peak_stres_ratio\n", 4, "did you mean 'peak_stress_ratio'?"},
+        {"case: biaxial\nmeasures: [state_checksum]\n", 2, "a text has no mean"},
+        {"case: rotating-drum\nmeasures: [drums_work]\n", 2, "there is no such wall"},
+        {"case: biaxial\nrelations: [{x: phi, y: psi}]\nmeasures: [phi]\n", 2, "'psi' is none of the measures"},
         {"case: biaxial\nconfidence: 20 %\n", 2, "is too small"},
         {"sweep: 1\n", 1, "required, but not given"},
     };
@@ -168,6 +175,26 @@ static void problems_are_told_all_at_once_with_their_places(void **state)
         &sweep, &problems);
     assert_int_equal(scree_problems_count(problems), 3);
     scree_problems_free(problems);
+}
+
+/// Each name once, in a form that a sweep can give, with a unit that is one.
+static void results_are_named_once(void **state)
+{
+    (void)state;
+    double value;
+    for (size_t i = 0; i < scree_result_names_count; i++) {
+        const scree_result_name *row = &scree_result_names[i];
+        assert_true(row->meaning[0] && row->name[strspn(row->name, "abcdefghijklmnopqrstuvwxyz_")] == 0);
+        if (row->unit)
+            assert_int_equal(scree_units_parse("1", row->unit, &value, NULL) && strcmp(row->unit, "1") == 0, 0);
+        for (size_t k = 0; k < i; k++) assert_string_not_equal(row->name, scree_result_names[k].name);
+    }
+    size_t wall;
+    assert_string_equal(scree_result_name_find("big_drum_torque", &wall)->unit, "N m");
+    assert_int_equal(wall, strlen("big_drum"));
+    assert_null(scree_result_name_find("_work", &wall));
+    assert_null(scree_result_name_find("drum_wrk", &wall));
+    scree_sweep_free(good("case: rotating-drum\nmeasures: [drum_work, restitution]\n", NULL));
 }
 
 static void a_case_lies_beside_its_sweep(void **state)
@@ -373,6 +400,7 @@ int main(void)
         cmocka_unit_test(members_have_what_the_sweep_sets),
         cmocka_unit_test(alternatives_set_different_keys),
         cmocka_unit_test(problems_are_told_all_at_once_with_their_places),
+        cmocka_unit_test(results_are_named_once),
         cmocka_unit_test(a_case_lies_beside_its_sweep),
         cmocka_unit_test(intervals_are_those_of_students_table),
         cmocka_unit_test(what_is_not_there_is_left_out),
