@@ -43,7 +43,7 @@ typedef struct scree_case_options {
 } scree_case_options;
 
 /// Reads, checks and completes a case file. On failure *problems holds every error found (free it); *out is NULL.
-/// Errors: SCREE_ERROR_INPUT, or SCREE_ERROR_IO when the file cannot be read.
+/// Errors: SCREE_ERROR_INPUT, also when there is no such file; SCREE_ERROR_IO when it cannot be read.
 scree_status scree_case_read(const char *path, const scree_case_options *options, scree_case **out,
                              scree_problems **problems);
 /// The same from text; `name` stands for the file in messages.
@@ -106,7 +106,8 @@ typedef struct scree_run_options {
 /// Runs a case into a new run directory. Errors: SCREE_ERROR_INPUT (directory in use), _GUARD, _IO, SCREE_INTERRUPTED.
 scree_status scree_run(const scree_case *c, const scree_run_options *options, scree_error *error);
 
-/// Continues the run in `directory` from its newest checkpoint, bit for bit.
+/// Continues the run in `directory` from its newest checkpoint, bit for bit. Errors: as scree_run; SCREE_ERROR_INPUT
+/// while another process writes there.
 scree_status scree_restart(const char *directory, const scree_run_options *options, scree_error *error);
 
 /// A simulation in memory, without files (tests, bindings). Stages are run one after the other by `advance`.
@@ -128,7 +129,8 @@ scree_status scree_result_get(const char *directory, const char *name, char *val
 scree_status scree_result_visit(const char *directory, void (*visit)(void *user, const char *name, const char *value),
                                 void *user, scree_error *error);
 
-/// Draws all figures of a run into `directory`/figures. `message` tells which; may be NULL.
+/// Draws all figures of a run into `directory`/figures. `message` tells which; may be NULL. Errors: SCREE_ERROR_IO,
+/// SCREE_ERROR_INPUT while a run goes on there.
 scree_status scree_plot(const char *directory, void (*message)(void *user, const char *path), void *user,
                         scree_error *error);
 

@@ -185,8 +185,9 @@ static void results_are_named_once(void **state)
     for (size_t i = 0; i < scree_result_names_count; i++) {
         const scree_result_name *row = &scree_result_names[i];
         assert_true(row->meaning[0] && row->name[strspn(row->name, "abcdefghijklmnopqrstuvwxyz_")] == 0);
-        if (row->unit)
-            assert_int_equal(scree_units_parse("1", row->unit, &value, NULL) && strcmp(row->unit, "1") == 0, 0);
+        char one[64];
+        (void)snprintf(one, sizeof one, "1 %s", row->unit && strcmp(row->unit, "1") != 0 ? row->unit : "");
+        if (row->unit) assert_int_equal(scree_units_parse(one, row->unit, &value, NULL), SCREE_OK);
         for (size_t k = 0; k < i; k++) assert_string_not_equal(row->name, scree_result_names[k].name);
     }
     size_t wall;
