@@ -24,6 +24,9 @@ extern "C" {
 /// Version text, with the compiler and the instruction set that the kernels use on this machine.
 const char *scree_version(void);
 
+/// The commit that was built, with a "+" where tracked files differed from it; "" when the sources were no checkout.
+const char *scree_commit(void);
+
 /// Nearest of `names` to `text` (Damerau-Levenshtein, at most a third of the letters wrong), or NULL.
 const char *scree_nearest(const char *text, const char *const *names, size_t count);
 
@@ -202,10 +205,19 @@ scree_status scree_sweep_write_slurm(const scree_sweep *sweep, const scree_sweep
 
 // ---- the reproduction report -------------------------------------------------------------------------------------
 
-/// Compares what the published sources state with the results in run and sweep directories (also one or two levels
-/// below the directories given) and writes the page as Markdown. Statements whose runs are not there are `not run`,
-/// those whose results a run does not have `not measured`. Errors: SCREE_ERROR_IO, SCREE_ERROR_INPUT.
-scree_status scree_report_write(const char *const *directories, size_t count, FILE *file, scree_error *error);
+typedef struct scree_report_options {
+    const char *const *directory; ///< of runs and sweeps, or folders with such, up to two levels deep
+    size_t directory_count;
+    const char *const *statements; ///< files, or names of built-in tables
+    size_t statement_count;        ///< 0: all built-in tables
+} scree_report_options;
+
+/// Compares what sources state with the results of runs and sweeps, and writes the page as Markdown. Statements whose
+/// runs are not there are `not run`, those whose results a run does not have `not measured`. Errors:
+/// SCREE_ERROR_INPUT with everything that is wrong with the statements in *problems (may be NULL; to be freed);
+/// SCREE_ERROR_IO.
+scree_status scree_report_write(const scree_report_options *options, FILE *file, scree_problems **problems,
+                                scree_error *error);
 
 #ifdef __cplusplus
 }

@@ -18,6 +18,10 @@
 ///
 /// In steady motion the error is e = - lambda / kappa: by default kappa is chosen so that the confining pressure, the
 /// scale of the contact forces, answers a relative error of one in a hundred (scree_minimal_viscosity).
+///
+/// Range. The quanta of a step are chosen before its contact forces are known, and with them lambda: bound() takes that
+/// of the step before. That is no strict bound. The integers hold 2^12 times as much; a step whose Lambda leaves even
+/// that applies none of it and raises SCREE_FLAG_FORCE_RANGE, which stops the run.
 /// Cost: O(boundary) a step.
 #include "boundary/minimal.h"
 
@@ -118,6 +122,23 @@ static void find_stress(const scree_drive *drive, const double rate[9], const do
         for (int i = 0; i < 9; i++) stress[i] += lambda[a] * all.tensor[a][i];
 }
 
+/// Whether every term of scree_drive_apply_stress is an integer below 2^60: a term is at most twice
+/// the sum of the stress components times a factor and the distance of two nodes to the power d - 1. False for what is
+/// not a number.
+static bool stress_fits(const scree_model *model, const scree_state *state, const double stress[9])
+{
+    double largest = 0, reach = 0;
+    scree_vector origin, place;
+    for (int i = 0; i < 9; i++) largest += fabs(stress[i]);
+    scree_body_place(state, scree_boundary_row(state, 0), origin);
+    for (size_t k = 1; k < state->drive.count; k++) {
+        scree_body_place(state, scree_boundary_row(state, k), place);
+        for (int i = 0; i < state->dimension; i++) reach = fmax(reach, fabs(place[i] - origin[i]));
+    }
+    double scale = state->dimension == 3 ? reach / 6 : 0.5 * model->thickness;
+    return 2 * largest * scale * reach < ldexp(state->force_quantum, 60);
+}
+
 static void forces(const scree_model *model, scree_state *state, scree_work *work)
 {
     scree_drive *drive = &state->drive;
@@ -130,6 +151,11 @@ static void forces(const scree_model *model, scree_state *state, scree_work *wor
     predict(state, drive->force, volume, work->next_kick, predicted, mobility);
     find_stress(drive, predicted, mobility, work->next_kick, drive->stress);
     memset(drive->force, 0, drive->count * sizeof *drive->force);
+    if (!stress_fits(model, state, drive->stress)) {
+        work->flags |= SCREE_FLAG_FORCE_RANGE;
+        work->flagged_id = state->id[scree_boundary_row(state, 0)];
+        return;
+    }
     scree_drive_apply_stress(model, state, drive->stress);
     scree_drive_work(state);
 }

@@ -1,42 +1,60 @@
 /// scree report DIR...
-#include "cli/command.h"
 #include "cli/report.h"
+#include "cli/command.h"
 #include "cli/terminal.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
-scree_status scree_report_to_file(const char *const *directories, size_t count, const char *path, scree_error *error)
+/// Prints what is wrong: all problems of a table of statements, or `error`.
+static void tell(const char *verb, const scree_problems *problems, const scree_error *error)
+{
+    size_t count = scree_problems_count(problems);
+    for (size_t i = 0; i < count; i++) (void)scree_terminal_error(verb, scree_problems_get(problems, i));
+    if (count == 0) (void)scree_terminal_error(verb, error);
+}
+
+/// Nothing is replaced before the page is there.
+static bool put_file(const char *path, const char *text, size_t length)
+{
+    FILE *file = path ? fopen(path, "we") : stdout;
+    bool written = file && fwrite(text, 1, length, file) == length;
+    if (file && path) written &= fclose(file) == 0;
+    return written;
+}
+
+scree_status scree_report_to_file(const char *verb, const scree_report_options *options, const char *path)
 {
     char *text = NULL;
     size_t length;
+    scree_error error = {.status = SCREE_ERROR_IO, .message = "out of memory"};
+    scree_problems *problems = NULL;
     FILE *memory = open_memstream(&text, &length);
-    if (!memory) {
-        *error = (scree_error){.status = SCREE_ERROR_IO, .message = "out of memory"};
-        return SCREE_ERROR_IO;
-    }
-    scree_status status = scree_report_write(directories, count, memory, error);
+    if (!memory) return scree_terminal_error(verb, &error);
+    scree_status status = scree_report_write(options, memory, &problems, &error);
     bool whole = fclose(memory) == 0;
-    // Nothing is replaced before the page is there.
-    FILE *file = status || !whole ? NULL : path ? fopen(path, "we") : stdout;
-    if (!status) {
-        bool written = file && fwrite(text, 1, length, file) == length;
-        if (file && path) written &= fclose(file) == 0;
-        if (!written) {
-            *error = (scree_error){.status = status = SCREE_ERROR_IO};
-            (void)snprintf(error->message, sizeof error->message, "cannot write '%s': %s",
-                           path ? path : "standard output", strerror(errno));
-        }
+    if (!status && (!whole || !put_file(path, text, length))) {
+        error = (scree_error){.status = status = SCREE_ERROR_IO};
+        (void)snprintf(error.message, sizeof error.message, "cannot write '%s': %s", path ? path : "standard output",
+                       strerror(errno));
     }
+    if (status) tell(verb, problems, &error);
+    scree_problems_free(problems);
     free(text);
     return status;
 }
 
 scree_status scree_verb_report(const scree_command *command)
 {
-    scree_error error = {0};
-    scree_status status = scree_report_to_file(command->argument, command->argument_count,
-                                               scree_command_value(command, "output"), &error);
-    return status ? scree_terminal_error("report", &error) : SCREE_OK;
+    scree_error error = {.status = SCREE_ERROR_IO, .message = "out of memory"};
+    const char **statements = calloc(command->option_count + 1, sizeof *statements);
+    if (!statements) return scree_terminal_error("report", &error);
+    scree_report_options options = {.directory = command->argument,
+                                    .directory_count = command->argument_count,
+                                    .statements = statements,
+                                    .statement_count = scree_command_values(command, "statements", statements)};
+    scree_status status = scree_report_to_file("report", &options, scree_command_value(command, "output"));
+    free(statements);
+    return status;
 }

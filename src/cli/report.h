@@ -4,7 +4,7 @@
 
 #include <scree/scree.h>
 
-/// Writes the page about the runs in `directories`; `path` NULL: to standard output.
-scree_status scree_report_to_file(const char *const *directories, size_t count, const char *path, scree_error *error);
+/// Writes the page; `path` NULL: to standard output. What is wrong is printed in the name of `verb`.
+scree_status scree_report_to_file(const char *verb, const scree_report_options *options, const char *path);
 
 #endif

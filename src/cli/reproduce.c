@@ -78,11 +78,11 @@ static void make_folders(const char *path)
 static scree_status write_page(const char *output, bool quiet)
 {
     char path[PATH_MAX];
-    scree_error error = {0};
     make_folders(output);
     (void)snprintf(path, sizeof path, "%s/reproduction.md", output);
-    scree_status status = scree_report_to_file(&output, 1, path, &error);
-    if (status) return scree_terminal_error("reproduce", &error);
+    scree_report_options options = {.directory = &output, .directory_count = 1};
+    scree_status status = scree_report_to_file("reproduce", &options, path);
+    if (status) return status;
     if (!quiet) fprintf(stderr, "%s\n", path);
     return SCREE_OK;
 }

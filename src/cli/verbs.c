@@ -222,16 +222,24 @@ const scree_verb scree_verbs[] = {
         .name = "report",
         .meaning = "compare results with what the published sources state",
         .text = "Writes the reproduction page as Markdown: every statement of the sources with its value, the value "
-                "found with its confidence interval, and whether they agree. The runs are looked for in the folders "
-                "given: folders of runs, of sweeps, or folders that hold such. A statement whose runs are not there is "
-                "`not run`.",
+                "found with its confidence interval, and whether it agrees, differs or is undecided. The runs are "
+                "looked for in the folders given: folders of runs, of sweeps, or folders that hold such. A statement "
+                "whose runs are not there is `not run`. Statements of your own sources are judged in the same way "
+                "(`--statements`).",
         .argument = {{"DIR", "folder of runs or sweeps", SCREE_VALUE_FOLDER, false, true}},
         .option = {{.name = "output",
                     .letter = 'o',
                     .value = "FILE",
                     .meaning = "write to FILE",
                     .preset = "standard output",
-                    .kind = SCREE_VALUE_FILE}},
+                    .kind = SCREE_VALUE_FILE},
+                   {.name = "statements",
+                    .letter = 's',
+                    .value = "FILE",
+                    .meaning = "a table of statements, or the name of a built-in one; may be repeated",
+                    .preset = "all built-in ones",
+                    .kind = SCREE_VALUE_FILE,
+                    .repeatable = true}},
         .example = {{"scree report out-reproduce/quick out-reproduce/full -o docs/reproduction.md", "the page of both "
                                                                                                     "forms"}},
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO},

@@ -149,6 +149,27 @@ static void summarise_loading(const loading *l, scree_summary *summary)
     scree_summary_set_number(summary, "coordination_at_start", l->coordination[l->first]);
 }
 
+/// Friction of the last confinement: its own, or that of the material; NAN without one, or with several materials.
+static double confine_friction(const scree_config *config)
+{
+    for (int64_t k = config->stage_count - 1; k >= 0; k--) {
+        if (config->stages[k].kind != SCREE_STAGE_CONFINE) continue;
+        bool own = !isnan(config->stages[k].friction);
+        return own ? config->stages[k].friction : config->material_count == 1 ? config->materials[0].friction : NAN;
+    }
+    return NAN;
+}
+
+/// What the last stage begins with: two runs of the same seed had the same sample if and only if it is the same to all
+/// digits. (The coordination may differ: the boundary of the last stage may have no plates.)
+static void summarise_start(const scree_series *series, const scree_config *config, scree_summary *summary)
+{
+    loading l;
+    scree_summary_set_number(summary, "confine_friction", confine_friction(config));
+    if (!find_rows(series, &l)) return;
+    scree_summary_set_number(summary, "solid_fraction_at_start", scree_series_get(series, "solid_fraction")[l.first]);
+}
+
 static void summarise_series(const scree_series *series, double turnover, scree_summary *summary)
 {
     loading l;
@@ -173,6 +194,7 @@ static void summarise_run(const scree_recorder *recorder, scree_simulation *s, s
     scree_summary_set_text(summary, "case", config->name);
     scree_summary_set_text(summary, "status", ""); // its place; scree_results_write sets it
     scree_summary_set_text(summary, "version", scree_version());
+    scree_summary_set_text(summary, "commit", scree_commit());
     scree_summary_set_integer(summary, "seed", config->seed);
     scree_summary_set_integer(summary, "particles", (int64_t)s->state.grains);
     scree_summary_set_integer(summary, "steps", (int64_t)s->state.step);
@@ -259,6 +281,7 @@ scree_status scree_results_collect(const scree_recorder *recorder, scree_simulat
     if (!status) status = scree_summary_create(summary, error);
     if (!status) {
         summarise_run(recorder, s, *summary);
+        summarise_start(&series, s->model.config, *summary);
         summarise_series(&series, s->state.ledger.turnover + s->state.ledger.initial, *summary);
         summarise_walls(s, *summary);
         status = summarise_stage(s, *summary, error);

@@ -1,8 +1,8 @@
 /// Running the members of a sweep: as many processes at the same time as asked for, started in the order of their
 /// numbers. A member is a run of a case file that holds everything, so its result depends neither on the order nor on
 /// the others. One that crashes, runs out of memory or is stopped by a guard takes nothing else with it.
-#include "sweep/member.h"
 #include "sweep/process.h"
+#include "sweep/results.h"
 
 #include "base/memory.h"
 #include "base/processor.h"
@@ -322,6 +322,13 @@ static scree_status open_drive(drive *d, size_t from, size_t to)
     return status ? status : look(d, from, to);
 }
 
+/// What the sweep is, for a report on members that are there before all of them have ended.
+static scree_status write_record(drive *d)
+{
+    const scree_sweep_results results = {.sweep = d->sweep, .options = d->options, .state = d->state};
+    return scree_sweep_write_record(&results, d->error);
+}
+
 static scree_status conclude(drive *d)
 {
     if (d->status) return d->status;
@@ -353,6 +360,7 @@ scree_status scree_sweep_run(const scree_sweep *sweep, const scree_sweep_options
 {
     drive d = {.sweep = sweep, .options = options, .error = error};
     scree_status status = open_drive(&d, 0, sweep->member_count);
+    if (!status) status = write_record(&d);
     if (!status) {
         if (d.done + d.failed > 0)
             tell(&d, 0, "%zu of %zu members are done, %zu have failed, %zu to run", d.done, sweep->member_count,

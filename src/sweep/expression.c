@@ -17,6 +17,7 @@ typedef struct parser {
     scree_expression_lookup *lookup;
     void *user;
     int depth;
+    scree_expression_split split; ///< of the outermost operator that binds least, the last of its kind
     scree_status status;
     scree_error *error;
 } parser;
@@ -42,6 +43,20 @@ static bool take(parser *p, char sign)
     skip_space(p);
     if (*p->at != sign) return false;
     p->at++;
+    return true;
+}
+
+static int strength(char sign)
+{
+    return sign == '*' || sign == '/' ? 2 : sign == '+' || sign == '-' ? 1 : 0;
+}
+
+/// Takes an operator, and notes where it stands.
+static bool take_operator(parser *p, char sign)
+{
+    if (!take(p, sign)) return false;
+    if (p->depth == 0 && (!p->split.sign || strength(sign) <= strength(p->split.sign)))
+        p->split = (scree_expression_split){sign, (size_t)(p->at - p->text) - 1, (size_t)(p->at - p->text)};
     return true;
 }
 
@@ -95,9 +110,9 @@ static double product(parser *p)
 {
     double value = factor(p);
     while (!p->status) {
-        if (take(p, '*'))
+        if (take_operator(p, '*'))
             value *= factor(p);
-        else if (take(p, '/'))
+        else if (take_operator(p, '/'))
             value /= factor(p);
         else
             break;
@@ -109,9 +124,9 @@ static double sum(parser *p)
 {
     double value = product(p);
     while (!p->status) {
-        if (take(p, '+'))
+        if (take_operator(p, '+'))
             value += product(p);
-        else if (take(p, '-'))
+        else if (take_operator(p, '-'))
             value -= product(p);
         else
             break;
@@ -122,11 +137,12 @@ static double sum(parser *p)
 static double comparison(parser *p)
 {
     double left = sum(p);
-    bool less = !p->status && take(p, '<');
-    bool more = !p->status && !less && take(p, '>');
+    bool less = !p->status && take_operator(p, '<');
+    bool more = !p->status && !less && take_operator(p, '>');
     if (!less && !more) return left;
     bool equal = *p->at == '=';
     p->at += equal;
+    if (p->depth == 0) p->split.right += equal;
     double right = sum(p);
     if (isnan(left) || isnan(right)) return NAN;
     return (less ? left < right : left > right) || (equal && left == right);
@@ -141,4 +157,19 @@ scree_status scree_expression_evaluate(const char *text, scree_expression_lookup
     if (!p.status && *p.at) (void)refuse(&p, "this is not expected");
     if (p.status) *value = NAN;
     return p.status;
+}
+
+static double one(void *user, const char *name)
+{
+    (void)user, (void)name;
+    return 1;
+}
+
+scree_expression_split scree_expression_take_apart(const char *text)
+{
+    scree_error error;
+    parser p = {.text = text, .at = text, .lookup = one, .error = &error};
+    (void)comparison(&p);
+    skip_space(&p);
+    return p.status || *p.at ? (scree_expression_split){0} : p.split;
 }

@@ -13,6 +13,15 @@ enum { SCREE_EXPRESSION_NAME = 192 }; ///< bytes of a name at most, with its end
 /// Value of a name; NAN when it is not known.
 typedef double scree_expression_lookup(void *user, const char *name);
 
+/// The operator that is evaluated last, where an expression comes apart into two.
+typedef struct scree_expression_split {
+    char sign;          ///< + - * / < or >; 0: a number, a name, or all in brackets
+    size_t left, right; ///< bytes before the operator; where what follows it begins
+} scree_expression_split;
+
+/// Takes an expression apart; sign 0 when it cannot be read.
+scree_expression_split scree_expression_take_apart(const char *text);
+
 /// Evaluates `text`. Errors (SCREE_ERROR_INPUT): what is wrong and where; nested more than 32 deep. Every name is
 /// looked up exactly once for each time it occurs.
 scree_status scree_expression_evaluate(const char *text, scree_expression_lookup *lookup, void *user, double *value,

@@ -1,8 +1,9 @@
 /// Comparison figures of a sweep: each mean curve with a band, one line a point of the grid; and each measure against
 /// each dimension, with error bars, and over other measures. Bands and bars are confidence intervals of the mean; of
-/// fewer than FEW realisations, whose intervals say little, they are the range. The title tells which. Where a measure
-/// NAME has a companion NAME_theory, that is the curve and the measure the points on it. A chart has at most the seven
-/// colours of the palette: where there are more points, there is one chart for each setting of the first dimension.
+/// fewer than FEW realisations, whose intervals say little, they are the range. The title tells which, and how many
+/// members there are. Where a measure NAME has a companion NAME_theory, that is the curve and the measure the points on
+/// it. A chart has at most the seven colours of the palette: where there are more points, there is one chart for each
+/// setting of the first dimension.
 #include "sweep/results.h"
 
 #include "base/memory.h"
@@ -15,17 +16,20 @@
 
 enum { MOST_LINES = 7, LABEL = 128, TITLE = 400, FEW = 4 };
 
-/// Title of the sweep, with `detail` (may be empty) and what bands and bars are.
-static void write_title(char title[TITLE], const scree_sweep *sweep, const char *detail)
+/// Title of the sweep, with `detail` (may be empty), what bands and bars are, and how many members there are not.
+static void write_title(char title[TITLE], const scree_sweep_results *results, const char *detail)
 {
+    const scree_sweep *sweep = results->sweep;
     const char *name = sweep->config.title && sweep->config.title[0] ? sweep->config.title : sweep->config.name;
-    char bars[80] = "";
+    char bars[80] = "", lost[60] = "";
     if (sweep->realisations >= FEW)
         (void)snprintf(bars, sizeof bars, " (mean and %g %% confidence, %zu realisations)",
                        100 * sweep->config.confidence, (size_t)sweep->realisations);
     else if (sweep->realisations > 1)
         (void)snprintf(bars, sizeof bars, " (mean and range of %zu realisations)", (size_t)sweep->realisations);
-    (void)snprintf(title, TITLE, "%s%s%s%s", name, detail[0] ? ": " : "", detail, bars);
+    if (results->done < sweep->member_count)
+        (void)snprintf(lost, sizeof lost, "; %zu of %zu members", results->done, sweep->member_count);
+    (void)snprintf(title, TITLE, "%s%s%s%s%s", name, detail[0] ? ": " : "", detail, bars, lost);
 }
 
 /// "stress_ratio" with unit "1" is "stress ratio"; a strain is shown in percent, which the factor returns.
@@ -136,7 +140,7 @@ void scree_sweep_draw_curve(const scree_sweep_results *results, const scree_mean
     char name[320], detail[200], title[TITLE];
     if (sweep->point_count <= MOST_LINES || sweep->dimension_count < 2) {
         (void)snprintf(name, sizeof name, "%s-over-%s", curve->name_y, curve->name_x);
-        write_title(title, sweep, "");
+        write_title(title, results, "");
         draw_points(results, curve, 0, sweep->point_count, SIZE_MAX, name, title);
         return;
     }
@@ -146,7 +150,7 @@ void scree_sweep_draw_curve(const scree_sweep_results *results, const scree_mean
         (void)snprintf(name, sizeof name, "%s-over-%s-%s", curve->name_y, curve->name_x, first->setting[i].slug);
         (void)snprintf(detail, sizeof detail, "%s%s%s", first->named ? "" : first->name, first->named ? "" : " ",
                        first->setting[i].label);
-        write_title(title, sweep, detail);
+        write_title(title, results, detail);
         draw_points(results, curve, i * each, (i + 1) * each, 0, name, title);
     }
 }
@@ -267,7 +271,7 @@ static void draw_measure(const scree_sweep_results *results, size_t k, size_t di
     for (size_t i = 0; i < d->count && i < 1000; i++) names[i] = d->setting[i].label;
     (void)axis_label(x_label, d->name, axis ? axis->unit : NULL);
     (void)axis_label(y_label, sweep->measure[k], unit_of(sweep->measure[k]));
-    write_title(title, sweep, "");
+    write_title(title, results, "");
     scree_chart chart = {.title = title,
                          .x_label = x_label,
                          .y_label = y_label,
@@ -326,7 +330,7 @@ static void draw_relation(const scree_sweep_results *results, const char *name_x
     }
     (void)axis_label(x_label, name_x, unit_of(name_x));
     (void)axis_label(y_label, name_y, unit_of(name_y));
-    write_title(title, sweep, "");
+    write_title(title, results, "");
     scree_chart chart = {
         .title = title, .x_label = x_label, .y_label = y_label, .line = line, .line_count = s[1].x ? 2 : 1};
     (void)snprintf(name, sizeof name, "%s-over-%s", name_y, name_x);

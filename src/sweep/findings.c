@@ -1,4 +1,5 @@
-/// Finding runs: by summary.json (a run) and sweep.json (a sweep, which lists its members).
+/// Finding runs: by summary.json (a run) and sweep.json (a sweep, which lists its members). Whether a member is done is
+/// what its own summary.json says: sweep.json may be older.
 #include "sweep/findings.h"
 
 #include "base/memory.h"
@@ -8,14 +9,31 @@
 
 #include <dirent.h>
 #include <jansson.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 enum { DEEPEST = 2 };
 
+/// A run that is there already, with the same seed of the same point.
+static scree_finding *find_twin(const scree_findings *findings, const scree_finding *finding)
+{
+    for (size_t i = 0; i < findings->count; i++) {
+        scree_finding *f = &findings->item[i];
+        bool same = f->form == finding->form && f->seed == finding->seed && strcmp(f->name, finding->name) == 0;
+        if (same && strcmp(f->label, finding->label) == 0) return f;
+    }
+    return NULL;
+}
+
 static scree_status add(scree_findings *findings, const scree_finding *finding, scree_error *error)
 {
+    scree_finding *twin = find_twin(findings, finding);
+    if (twin) {
+        if (twin->state != SCREE_FINDING_DONE && finding->state == SCREE_FINDING_DONE) *twin = *finding;
+        return SCREE_OK;
+    }
     if (findings->count == findings->capacity) {
         size_t larger = findings->capacity ? 2 * findings->capacity : 64;
         scree_status status =
@@ -24,34 +42,63 @@ static scree_status add(scree_findings *findings, const scree_finding *finding, 
         findings->capacity = larger;
     }
     findings->item[findings->count++] = *finding;
-    if (finding->realisation >= findings->realisations) findings->realisations = finding->realisation + 1;
     return SCREE_OK;
 }
+
+static double number_of(json_t *summary, const char *name)
+{
+    json_t *value = json_object_get(summary, name);
+    return json_is_number(value) ? json_number_value(value) : NAN;
+}
+
+/// Fills in what the run's own summary says; false when it has none.
+static bool read_summary(scree_finding *finding)
+{
+    char path[PATH_MAX + 32];
+    (void)snprintf(path, sizeof path, "%s/" SCREE_FILE_SUMMARY, finding->directory);
+    json_t *summary = json_load_file(path, 0, NULL);
+    if (!summary) return false;
+    const char *status = json_string_value(json_object_get(summary, "status"));
+    const char *commit = json_string_value(json_object_get(summary, "commit"));
+    const char *version = json_string_value(json_object_get(summary, "version"));
+    if (status && strcmp(status, "done") == 0) finding->state = SCREE_FINDING_DONE;
+    if (status && strcmp(status, "stopped") == 0) finding->state = SCREE_FINDING_FAILED;
+    if (finding->form == SCREE_FINDING_RUN) {
+        const char *name = json_string_value(json_object_get(summary, "case"));
+        (void)snprintf(finding->name, sizeof finding->name, "%s", name ? name : "");
+        finding->seed = (long long)json_integer_value(json_object_get(summary, "seed"));
+    }
+    finding->particles = number_of(summary, "particles");
+    finding->friction = number_of(summary, "confine_friction");
+    finding->solid_fraction = number_of(summary, "solid_fraction_at_start");
+    finding->coordination = number_of(summary, "coordination_at_start");
+    (void)snprintf(finding->build, sizeof finding->build, "%s", commit && commit[0] ? commit : version ? version : "");
+    json_decref(summary);
+    return true;
+}
+
+static const scree_finding nothing = {
+    .state = SCREE_FINDING_MISSING, .particles = NAN, .friction = NAN, .solid_fraction = NAN, .coordination = NAN};
 
 /// A run by itself, when it has ended.
 static scree_status add_run(scree_findings *findings, const char *directory, scree_error *error)
 {
-    scree_finding finding = {.form = SCREE_FINDING_RUN, .confidence = 0.95};
-    char status[64];
-    if (scree_result_get(directory, "case", finding.name, sizeof finding.name, NULL)) return SCREE_OK;
-    if (scree_result_get(directory, "status", status, sizeof status, NULL) || strcmp(status, "done") != 0)
-        return SCREE_OK;
+    scree_finding finding = nothing;
+    finding.form = SCREE_FINDING_RUN;
     const char *end = directory + strlen(directory);
     while (end > directory + 1 && end[-1] == '/') end--;
     const char *begin = end;
     while (begin > directory && begin[-1] != '/') begin--;
     (void)snprintf(finding.label, sizeof finding.label, "%.*s", (int)(end - begin), begin);
     (void)snprintf(finding.directory, sizeof finding.directory, "%s", directory);
-    return add(findings, &finding, error);
+    bool there = read_summary(&finding) && finding.name[0] && finding.state != SCREE_FINDING_MISSING;
+    return there ? add(findings, &finding, error) : SCREE_OK;
 }
 
 static scree_status add_member(scree_findings *findings, const char *directory, json_t *sweep, json_t *member,
                                scree_error *error)
 {
-    scree_finding finding = {.form = json_is_true(json_object_get(sweep, "quick")) ? SCREE_FINDING_QUICK
-                                                                                   : SCREE_FINDING_FULL,
-                             .confidence = json_number_value(json_object_get(sweep, "confidence")),
-                             .realisation = (size_t)json_integer_value(json_object_get(member, "realisation"))};
+    scree_finding finding = nothing;
     char path[500];
     json_t *point =
         json_array_get(json_object_get(sweep, "points"), (size_t)json_integer_value(json_object_get(member, "point")));
@@ -59,13 +106,17 @@ static scree_status add_member(scree_findings *findings, const char *directory, 
     const char *label = json_string_value(json_object_get(point, "name"));
     const char *folder = json_string_value(json_object_get(member, "folder"));
     const char *status = json_string_value(json_object_get(member, "status"));
-    bool whole = name && label && folder && status && finding.realisation < 100000;
-    if (!whole || strcmp(status, "done") != 0) return SCREE_OK;
+    if (!name || !label || !folder) return SCREE_OK;
+    finding.form = json_is_true(json_object_get(sweep, "quick")) ? SCREE_FINDING_QUICK : SCREE_FINDING_FULL;
+    finding.seed = (long long)json_integer_value(json_object_get(member, "seed"));
+    if (status && strcmp(status, "failed") == 0) finding.state = SCREE_FINDING_FAILED;
     (void)snprintf(finding.name, sizeof finding.name, "%s", name);
     (void)snprintf(finding.label, sizeof finding.label, "%s", label);
     (void)snprintf(path, sizeof path, "members/%s", folder);
     scree_status joined = scree_path_join(finding.directory, sizeof finding.directory, directory, path, error);
-    return joined ? joined : add(findings, &finding, error);
+    if (joined) return joined;
+    (void)read_summary(&finding);
+    return add(findings, &finding, error);
 }
 
 static scree_status add_sweep(scree_findings *findings, const char *directory, const char *path, scree_error *error)
@@ -130,20 +181,30 @@ bool scree_findings_have(const scree_findings *findings, const char *name, scree
     return false;
 }
 
-const scree_finding *scree_findings_get(const scree_findings *findings, const char *expression_name,
-                                        scree_finding_form form, size_t realisation, const char **result)
+bool scree_reference_read(const char *text, scree_reference *reference)
 {
-    const char *dot = strrchr(expression_name, '.'), *slash = strchr(expression_name, '/');
-    *result = dot ? dot + 1 : "";
-    if (!dot) return NULL;
+    const char *dot = strrchr(text, '.'), *slash = strchr(text, '/');
+    if (!dot || dot == text || !dot[1]) return false;
     if (slash > dot) slash = NULL;
-    size_t name = (size_t)((slash ? slash : dot) - expression_name), label = slash ? (size_t)(dot - slash - 1) : 0;
-    for (size_t i = 0; i < findings->count; i++) {
-        const scree_finding *f = &findings->item[i];
-        bool named = strlen(f->name) == name && strncmp(f->name, expression_name, name) == 0;
-        bool labelled = slash ? strlen(f->label) == label && strncmp(f->label, slash + 1, label) == 0
-                              : !f->label[0] || form == SCREE_FINDING_RUN;
-        if (named && labelled && f->form == form && f->realisation == realisation) return f;
-    }
-    return NULL;
+    size_t name = (size_t)((slash ? slash : dot) - text), label = slash ? (size_t)(dot - slash - 1) : 0;
+    *reference = (scree_reference){.labelled = slash != NULL};
+    if (name == 0 || name >= sizeof reference->name || label >= sizeof reference->label ||
+        strlen(dot + 1) >= sizeof reference->result)
+        return false;
+    memcpy(reference->name, text, name);
+    if (slash) memcpy(reference->label, slash + 1, label);
+    (void)snprintf(reference->result, sizeof reference->result, "%s", dot + 1);
+    return true;
+}
+
+bool scree_finding_is(const scree_finding *f, const scree_reference *reference, scree_finding_form form)
+{
+    if (f->form != form || strcmp(f->name, reference->name) != 0) return false;
+    if (!reference->labelled) return !f->label[0] || form == SCREE_FINDING_RUN;
+    return strcmp(f->label, reference->label) == 0;
+}
+
+bool scree_finding_same_sample(const scree_finding *a, const scree_finding *b)
+{
+    return a == b || (a->seed == b->seed && a->particles == b->particles && a->solid_fraction == b->solid_fraction);
 }

@@ -10,33 +10,53 @@
 typedef enum scree_finding_form { SCREE_FINDING_FULL, SCREE_FINDING_QUICK, SCREE_FINDING_RUN } scree_finding_form;
 enum { SCREE_FINDING_FORMS = 3 };
 
-/// A finished run.
+typedef enum scree_finding_state {
+    SCREE_FINDING_DONE,
+    SCREE_FINDING_FAILED,
+    SCREE_FINDING_MISSING
+} scree_finding_state;
+
+/// A run, or a member of a sweep that has not been run, or not to its end.
 typedef struct scree_finding {
     char name[64];   ///< of the sweep; of the case for a run by itself
     char label[200]; ///< of the point of the grid; of the directory for a run by itself
     scree_finding_form form;
-    size_t realisation;
-    double confidence;
+    scree_finding_state state;
+    long long seed;
     char directory[PATH_MAX];
+    // What the sample and the program were, of one that is done; NAN and "" where the run does not say.
+    double particles, friction, solid_fraction, coordination;
+    char build[128];
 } scree_finding;
 
 typedef struct scree_findings {
     scree_finding *item;
     size_t count, capacity;
-    size_t realisations; ///< most of a sweep
 } scree_findings;
 
 /// Adds the runs of `directory`: a run directory, a sweep directory, or a folder with such, up to two levels deep, in
-/// alphabetical order. Errors: SCREE_ERROR_IO.
+/// alphabetical order. Of several of the same name, label, form and seed one that is done stays, the first of them.
+/// Errors: SCREE_ERROR_IO.
 scree_status scree_findings_add(scree_findings *findings, const char *directory, scree_error *error) SCREE_MUST_USE;
 void scree_findings_destroy(scree_findings *findings);
 
 /// Whether any run of that name and form was found.
 bool scree_findings_have(const scree_findings *findings, const char *name, scree_finding_form form);
 
-/// A run by what expressions call it, "NAME/LABEL.RESULT" or "NAME.RESULT"; *result is set to its last part. NULL when
-/// there is none.
-const scree_finding *scree_findings_get(const scree_findings *findings, const char *expression_name,
-                                        scree_finding_form form, size_t realisation, const char **result);
+/// What an expression calls a run by: "NAME/LABEL.RESULT" or "NAME.RESULT".
+typedef struct scree_reference {
+    char name[64], label[200], result[128];
+    bool labelled;
+} scree_reference;
+
+/// Takes such a name apart; false when it is not one.
+bool scree_reference_read(const char *text, scree_reference *reference);
+
+/// Whether a run is one of those that `reference` means. A run by itself needs no label.
+bool scree_finding_is(const scree_finding *finding, const scree_reference *reference, scree_finding_form form);
+
+/// Whether two runs had the same sample: seed, number of particles, and solid fraction at the begin of loading to all
+/// digits (the same deposition, confined alike).
+bool scree_finding_same_sample(const scree_finding *a, const scree_finding *b);
 
 #endif

@@ -1,80 +1,32 @@
-/// The reproduction page. Each statement is evaluated realisation by realisation (the same seed is the same sample
-/// under all labels, so ratios are paired), then averaged with a confidence interval. Nothing on the page depends on
-/// the day or the machine but the results themselves.
-#include "sweep/expression.h"
-#include "sweep/findings.h"
-#include "sweep/statements.h"
-#include "sweep/statistics.h"
+/// The reproduction page. A statement has a row for each form that was run; the first one that has a result, the full
+/// form before the quick one, is counted. Nothing on the page depends on the day or the machine but the results
+/// themselves.
+#include "sweep/answer.h"
+#include "sweep/runs_table.h"
 #include "sweep/templates.h"
 
 #include "base/memory.h"
+#include "case/case.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-typedef enum verdict { AGREES, DIFFERS, NOT_MEASURED, NOT_RUN, VERDICTS } verdict;
-static const char *const verdict_names[] = {"agrees", "**differs**", "not measured", "not run"};
+static const char *const verdict_names[] = {"agrees", "differs", "undecided", "not measured", "not run"};
+static const char *const class_names[] = {"finding", "check", "beyond"};
 static const char *const form_names[] = {"full", "quick", "run"};
 
-/// What the lookup of names needs, and what it found out.
-typedef struct question {
+typedef size_t counts[SCREE_CLASSES][SCREE_VERDICTS];
+
+/// A page in the making.
+typedef struct page {
+    FILE *file;
     const scree_findings *findings;
-    scree_finding_form form;
-    size_t realisation;
-    bool missing_run, missing_result;
-    double confidence;
-} question;
-
-typedef struct answer {
-    verdict verdict;
-    scree_estimate estimate;
-} answer;
-
-static double look_up(void *user, const char *name)
-{
-    question *q = user;
-    const char *result;
-    char text[64], *end;
-    const scree_finding *f = scree_findings_get(q->findings, name, q->form, q->realisation, &result);
-    if (!f) {
-        q->missing_run = true;
-        return NAN;
-    }
-    q->confidence = f->confidence;
-    if (scree_result_get(f->directory, result, text, sizeof text, NULL)) {
-        q->missing_result = true;
-        return NAN;
-    }
-    double value = strtod(text, &end);
-    return end != text && !*end ? value : NAN;
-}
-
-static scree_status evaluate(const scree_findings *findings, const scree_statement *statement, scree_finding_form form,
-                             answer *a, scree_error *error)
-{
-    double *value;
-    size_t count = findings->realisations, ran = 0;
-    double confidence = 0.95;
-    *a = (answer){NOT_RUN, {0}};
-    scree_status status = scree_allocate(&value, count, sizeof *value, error);
-    for (size_t r = 0; r < count && !status; r++) {
-        question q = {.findings = findings, .form = form, .realisation = r, .confidence = confidence};
-        status = scree_expression_evaluate(statement->value, look_up, &q, &value[r], error);
-        ran += !q.missing_run;
-        confidence = q.confidence;
-    }
-    if (!status) {
-        a->estimate = scree_estimate_mean(value, count, confidence);
-        if (a->estimate.count > 0)
-            a->verdict = scree_statement_agrees(statement, a->estimate.mean) ? AGREES : DIFFERS;
-        else if (ran > 0)
-            a->verdict = NOT_MEASURED;
-    }
-    scree_release(&value);
-    return status;
-}
+    counts *counts;  ///< of the source
+    FILE *explained; ///< notes below the table of a case
+    scree_error *error;
+} page;
 
 /// A cell of a table: what would end it is escaped.
 static void put_cell(FILE *file, const char *text)
@@ -83,98 +35,118 @@ static void put_cell(FILE *file, const char *text)
         if (*c == '|') (void)fputc('\\', file);
         (void)fputc(*c, file);
     }
+    (void)fputs(" | ", file);
 }
 
-static void put_value(FILE *file, const scree_statement *s, const answer *a)
+/// The value with its interval, and how many realisations it rests on.
+static void put_value(FILE *file, const scree_statement *s, const scree_answer *a)
 {
-    const scree_estimate *e = &a->estimate;
+    const scree_interval *e = &a->interval;
     const char *space = s->unit[0] ? " " : "";
-    if (a->verdict == NOT_RUN || a->verdict == NOT_MEASURED)
+    if (e->count == 0)
         (void)fputs("-", file);
     else if (s->kind == SCREE_CRITERION_HOLDS)
-        (void)fprintf(file, "in %.0f of %zu", e->mean * (double)e->count, e->count);
-    else if (e->count > 1)
-        (void)fprintf(file, "%.4g ± %.2g%s%s (n = %zu)", e->mean, e->half, space, s->unit, e->count);
+        (void)fprintf(file, "in %zu", a->successes);
+    else if (isfinite(e->low) && e->count > 1)
+        (void)fprintf(file, "%.4g [%.4g, %.4g]%s%s", e->middle, e->low, e->high, space, s->unit);
+    else if (isfinite(e->middle))
+        (void)fprintf(file, "%.4g%s%s", e->middle, space, s->unit);
     else
-        (void)fprintf(file, "%.4g%s%s", e->mean, space, s->unit);
+        (void)fputs("-", file);
+    (void)fprintf(file, " | %zu of %zu | ", e->count, a->planned);
 }
 
-static void put_row(FILE *file, const scree_statement *s, const answer *a, const char *form)
+/// One row; `first` has what the statement says, `counted` the verdict in bold.
+static void put_row(FILE *file, const scree_statement *s, const scree_answer *a, const char *form, bool first,
+                    bool counted)
 {
     (void)fprintf(file, "| %s | ", s->id);
-    put_cell(file, s->text);
-    (void)fputs(" | ", file);
-    put_cell(file, s->source);
-    (void)fputs(" | ", file);
-    put_cell(file, s->given);
-    (void)fputs(" | ", file);
+    put_cell(file, first ? class_names[s->class] : "");
+    put_cell(file, first ? s->text : "");
+    put_cell(file, first ? s->source : "");
+    put_cell(file, first ? s->given : "");
+    put_cell(file, first ? s->criterion : "");
     put_value(file, s, a);
-    (void)fprintf(file, " | %s | ", s->criterion);
-    (void)fprintf(file, "%s | %s |\n", verdict_names[a->verdict], form);
+    const char *mark = counted ? "**" : "";
+    (void)fprintf(file, "%s%s%s%s%s | %s | ", counted ? "" : "(", mark, verdict_names[a->verdict], mark,
+                  counted ? "" : ")", form);
+    put_cell(file, a->remark);
+    (void)fputs("\n", file);
 }
 
 /// Whether a statement is about a form; a run by itself is taken for what it is.
-static bool concerns(const scree_statement *s, scree_finding_form form)
+static bool concerns(const scree_statement *s, int form)
 {
     if (form == SCREE_FINDING_RUN || s->form == SCREE_FORM_ANY) return true;
     return (s->form == SCREE_FORM_QUICK) == (form == SCREE_FINDING_QUICK);
 }
 
-static void put_command(FILE *file, const scree_findings *findings, const char *name)
+static void put_notes(const page *p, const scree_statement *s, const scree_answer answer[SCREE_FINDING_FORMS],
+                      const bool shown[SCREE_FINDING_FORMS])
 {
-    bool quick = scree_findings_have(findings, name, SCREE_FINDING_QUICK);
-    bool full = scree_findings_have(findings, name, SCREE_FINDING_FULL);
-    if (scree_findings_have(findings, name, SCREE_FINDING_RUN)) (void)fprintf(file, "\n`scree run %s`\n", name);
-    if (full) (void)fprintf(file, "\nFull form: `scree reproduce --full --only %s`\n", name);
-    if (quick) (void)fprintf(file, "\nQuick form: `scree reproduce --only %s`\n", name);
-    if (!quick && !full && !scree_findings_have(findings, name, SCREE_FINDING_RUN))
-        (void)fprintf(file, "\nTo be run by `scree reproduce --only %s`%s.\n", name,
-                      scree_sweep_template(name) ? "" : " (not available: there is no such sweep)");
+    bool open = false;
+    for (int form = 0; form < SCREE_FINDING_FORMS; form++)
+        open |= shown[form] && (answer[form].verdict == SCREE_DIFFERS || answer[form].verdict == SCREE_UNDECIDED);
+    if (open && s->explanation[0]) (void)fprintf(p->explained, "- %s: %s\n", s->id, s->explanation);
+    if (s->form != SCREE_FORM_ANY)
+        (void)fprintf(p->explained, "- %s, %s form only: %s\n", s->id, s->form == SCREE_FORM_FULL ? "full" : "quick",
+                      s->reason);
 }
 
-/// Rows of a statement, one a form; `explained` collects those that differ and have an explanation.
-static scree_status put_statement(FILE *file, const scree_findings *findings, const scree_statement_group *group,
-                                  const scree_statement *s, size_t counts[VERDICTS], FILE *explained,
-                                  scree_error *error)
+/// Rows of a statement, one a form.
+static scree_status put_statement(const page *p, const scree_statement_group *group, const scree_statement *s)
 {
-    bool any = false;
+    scree_answer answer[SCREE_FINDING_FORMS];
+    bool shown[SCREE_FINDING_FORMS] = {false};
+    int counted = -1, first = -1;
     for (int form = 0; form < SCREE_FINDING_FORMS; form++) {
-        answer a;
-        if (!concerns(s, (scree_finding_form)form)) continue;
-        if (!scree_findings_have(findings, group->name, (scree_finding_form)form)) continue;
-        scree_status status = evaluate(findings, s, (scree_finding_form)form, &a, error);
+        shown[form] = concerns(s, form) && scree_findings_have(p->findings, group->name, (scree_finding_form)form);
+        if (!shown[form]) continue;
+        scree_status status = scree_answer_find(p->findings, s, (scree_finding_form)form, &answer[form], p->error);
         if (status) return status;
-        put_row(file, s, &a, form_names[form]);
-        counts[a.verdict]++;
-        any = true;
-        if (a.verdict == DIFFERS && s->explanation[0])
-            (void)fprintf(explained, "- %s (%s): %s\n", s->id, form_names[form], s->explanation);
+        bool better = counted < 0 || answer[counted].verdict > SCREE_UNDECIDED;
+        if (better && (counted < 0 || answer[form].verdict < answer[counted].verdict)) counted = form;
+        if (first < 0) first = form;
     }
-    if (any) return SCREE_OK;
-    answer none = {NOT_RUN, {0}};
+    for (int form = 0; form < SCREE_FINDING_FORMS; form++)
+        if (shown[form]) put_row(p->file, s, &answer[form], form_names[form], form == first, form == counted);
     static const char *const wanted[] = {"", "quick", "full"};
-    put_row(file, s, &none, wanted[s->form]);
-    counts[NOT_RUN]++;
+    scree_answer none = {.verdict = SCREE_NOT_RUN, .interval = {NAN, NAN, NAN, 0}};
+    if (counted < 0) put_row(p->file, s, &none, wanted[s->form], true, true);
+    (*p->counts)[s->class][counted < 0 ? SCREE_NOT_RUN : answer[counted].verdict]++;
+    put_notes(p, s, answer, shown);
     return SCREE_OK;
 }
 
-static scree_status put_group(FILE *file, const scree_findings *findings, const scree_statement_group *group,
-                              size_t counts[VERDICTS], scree_error *error)
+static void put_command(const page *p, const char *name)
+{
+    bool quick = scree_findings_have(p->findings, name, SCREE_FINDING_QUICK);
+    bool full = scree_findings_have(p->findings, name, SCREE_FINDING_FULL);
+    bool run = scree_findings_have(p->findings, name, SCREE_FINDING_RUN), built_in = scree_sweep_template(name);
+    if (run) (void)fprintf(p->file, "\n`scree run %s`\n", name);
+    if (full && built_in) (void)fprintf(p->file, "\nFull form: `scree reproduce --full --only %s`\n", name);
+    if (quick && built_in) (void)fprintf(p->file, "\nQuick form: `scree reproduce --only %s`\n", name);
+    if (!quick && !full && !run && built_in)
+        (void)fprintf(p->file, "\nTo be run by `scree reproduce --only %s`.\n", name);
+}
+
+static scree_status put_group(page *p, const scree_statement_group *group)
 {
     char *notes = NULL;
     size_t length;
-    FILE *explained = open_memstream(&notes, &length);
-    if (!explained) return scree_error_set_memory(error, 4096);
-    (void)fprintf(file, "\n### %s\n\n%s\n", group->name, group->meaning);
-    put_command(file, findings, group->name);
-    (void)fputs("\n| id | statement | where | source | ours | criterion | verdict | form |\n"
-                "|---|---|---|---|---|---|---|---|\n",
-                file);
+    p->explained = open_memstream(&notes, &length);
+    if (!p->explained) return scree_error_set_memory(p->error, 4096);
+    (void)fprintf(p->file, "\n### %s\n\n%s\n", group->name, group->meaning);
+    put_command(p, group->name);
+    scree_runs_table_write(p->findings, group->name, p->file);
+    (void)fputs("\n| id | kind | statement | where | source | criterion | ours | realisations | verdict | form | "
+                "remark |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+                p->file);
     scree_status status = SCREE_OK;
     for (int64_t k = 0; k < group->statement_count && !status; k++)
-        status = put_statement(file, findings, group, &group->statements[k], counts, explained, error);
-    if (fclose(explained) != 0 && !status) status = scree_error_set_memory(error, 4096);
-    if (!status && notes[0]) (void)fprintf(file, "\nWhere it differs:\n\n%s", notes);
+        status = put_statement(p, group, &group->statements[k]);
+    if (fclose(p->explained) != 0 && !status) status = scree_error_set_memory(p->error, 4096);
+    if (!status && notes[0]) (void)fprintf(p->file, "\nNotes:\n\n%s", notes);
     free(notes);
     return status;
 }
@@ -194,66 +166,122 @@ static const char introduction[] =
     "run them, each continuing what is missing, and write this page; `scree reproduce --only NAME` runs one. The same\n"
     "build on the same kind of processor gives the same numbers, but for wall times.\n"
     "\n"
-    "*Ours* is the mean over realisations (samples of different seeds) with half its 95 % confidence interval "
-    "(Student), "
-    "and\n"
-    "n their number. Where a statement compares runs, it is evaluated in each realisation, on the same sample, and "
-    "then\n"
-    "averaged; `in 2 of 3` counts the realisations in which a comparison holds. The verdict is that of the criterion "
-    "on\n"
-    "the mean: *agrees*, *differs*, *not run*, or *not measured* when the runs are there and do not have the result.\n";
+    "*Ours* is the mean over realisations (samples of different seeds) with its confidence interval (Student): of 95 "
+    "%,\n"
+    "for `within` of 90 % (two one-sided tests of 5 %). A statement *agrees* when the whole interval meets its\n"
+    "criterion, *differs* when no part of it does, and is *undecided* otherwise. Ratios are averaged as logarithms.\n"
+    "Where a statement compares runs, it is evaluated on each sample, if they had the same ones (seed and "
+    "preparation:\n"
+    "the solid fraction at the begin of loading is the same to all digits); otherwise the means are compared (Welch),\n"
+    "as the remark says. What `holds` in some realisations is judged by the exact binomial interval (Clopper and\n"
+    "Pearson). One realisation gives no verdict, unless the statement does not depend on the sample; then the "
+    "interval\n"
+    "is the range of what was found. `4 of 5` realisations: one failed, was not run, or has no such value. *Not\n"
+    "measured*: the runs are there and do not have the result.\n"
+    "\n"
+    "A *finding* is the source's own, a *check* ours (an identity, a closed form, a stop rule), *beyond* what the\n"
+    "source does not have. Each statement counts once: by its full form where that has a result, else by its quick\n"
+    "form; the verdict that counts is in bold, others stand in brackets.\n";
 
-/// Reads every built-in table of statements.
-static scree_status read_table(size_t index, scree_arena *arena, scree_statement_table *table, scree_error *error)
+/// Text of a table: a file, or a built-in one.
+static scree_status read_table(const page *p, const char *name, scree_arena *arena, scree_statement_table *table,
+                               scree_problems **problems)
 {
-    const scree_template *built_in = &scree_statement_templates[index];
-    scree_problems *problems = NULL;
-    scree_status status =
-        scree_statements_read(built_in->name, built_in->text, built_in->length, arena, table, &problems);
-    if (status && scree_problems_count(problems) > 0)
-        *error = *scree_problems_get(problems, 0);
-    else if (status)
-        scree_error_set_memory(error, built_in->length);
-    scree_problems_free(problems);
+    for (size_t i = 0; i < scree_statement_templates_count; i++) {
+        const scree_template *built_in = &scree_statement_templates[i];
+        if (strcmp(built_in->name, name) == 0)
+            return scree_statements_read(name, built_in->text, built_in->length, NULL, arena, table, problems);
+    }
+    char *text = NULL;
+    size_t length;
+    scree_status status = scree_case_text(name, &text, &length, problems);
+    if (!status) status = scree_statements_read(name, text, length, p->findings, arena, table, problems);
+    scree_release(&text);
     return status;
 }
 
-/// All tables into `body`, counting verdicts.
-static scree_status put_tables(FILE *body, const scree_findings *findings, size_t counts[VERDICTS], scree_error *error)
+static void put_counts(FILE *file, counts *all, const char *begin)
+{
+    const size_t *n = (*all)[SCREE_CLASS_FINDING];
+    (void)fprintf(file, "%s**%zu agree, %zu differ, %zu are undecided**, %zu were not measured, %zu were not run. ",
+                  begin, n[SCREE_AGREES], n[SCREE_DIFFERS], n[SCREE_UNDECIDED], n[SCREE_NOT_MEASURED],
+                  n[SCREE_NOT_RUN]);
+    static const char *const names[] = {"", "Own checks", "Beyond the source"};
+    for (int k = SCREE_CLASS_CHECK; k < SCREE_CLASSES; k++) {
+        n = (*all)[k];
+        (void)fprintf(file, "%s: %zu agree, %zu differ, %zu undecided, %zu not measured, %zu not run.%s", names[k],
+                      n[SCREE_AGREES], n[SCREE_DIFFERS], n[SCREE_UNDECIDED], n[SCREE_NOT_MEASURED], n[SCREE_NOT_RUN],
+                      k + 1 < SCREE_CLASSES ? " " : "\n");
+    }
+}
+
+/// One source: its headline, then its groups. The headline of each also goes into `head`.
+static scree_status put_source(page *p, const char *name, FILE *head, scree_problems **problems)
+{
+    scree_arena arena = {0};
+    scree_statement_table table;
+    counts mine = {{0}};
+    char *text = NULL, begin[400];
+    size_t length;
+    page part = *p;
+    part.counts = &mine;
+    scree_status status = read_table(p, name, &arena, &table, problems);
+    if (status && scree_problems_count(*problems) > 0) *p->error = *scree_problems_get(*problems, 0);
+    if (status && scree_problems_count(*problems) == 0) scree_error_set_memory(p->error, 4096);
+    part.file = status ? NULL : open_memstream(&text, &length);
+    if (!status && !part.file) status = scree_error_set_memory(p->error, 4096);
+    for (int64_t k = 0; !status && k < table.case_count; k++) status = put_group(&part, &table.cases[k]);
+    if (part.file && fclose(part.file) != 0 && !status) status = scree_error_set_memory(p->error, 4096);
+    if (!status) {
+        (void)snprintf(begin, sizeof begin, "\n%.300s. Findings: ", table.source);
+        put_counts(head, &mine, begin);
+        (void)fprintf(p->file, "\n## %s\n%s", table.source, text);
+    }
+    free(text);
+    scree_arena_release(&arena);
+    return status;
+}
+
+static scree_status put_sources(page *p, const scree_report_options *options, FILE *head, scree_problems **problems)
 {
     scree_status status = SCREE_OK;
-    for (size_t i = 0; i < scree_statement_templates_count && !status; i++) {
-        scree_arena arena = {0};
-        scree_statement_table table;
-        status = read_table(i, &arena, &table, error);
-        if (!status) (void)fprintf(body, "\n## %s\n", table.source);
-        for (int64_t k = 0; !status && k < table.case_count; k++)
-            status = put_group(body, findings, &table.cases[k], counts, error);
-        scree_arena_release(&arena);
-    }
+    size_t count = options->statement_count > 0 ? options->statement_count : scree_statement_templates_count;
+    for (size_t i = 0; i < count && !status; i++)
+        status =
+            put_source(p, options->statement_count > 0 ? options->statements[i] : scree_statement_templates[i].name,
+                       head, problems);
     return status;
 }
 
-scree_status scree_report_write(const char *const *directories, size_t count, FILE *file, scree_error *error)
+scree_status scree_report_write(const scree_report_options *options, FILE *file, scree_problems **problems,
+                                scree_error *error)
 {
     scree_findings findings = {0};
-    size_t counts[VERDICTS] = {0}, length;
-    char *text = NULL;
+    char *head_text = NULL, *body_text = NULL;
+    size_t length;
     scree_error local;
+    scree_problems *own = NULL;
     if (!error) error = &local;
     scree_status status = SCREE_OK;
-    for (size_t i = 0; i < count && !status; i++) status = scree_findings_add(&findings, directories[i], error);
-    FILE *body = status ? NULL : open_memstream(&text, &length);
-    if (!status && !body) status = scree_error_set_memory(error, 4096);
-    if (!status) status = put_tables(body, &findings, counts, error);
+    for (size_t i = 0; i < options->directory_count && !status; i++)
+        status = scree_findings_add(&findings, options->directory[i], error);
+    FILE *head = open_memstream(&head_text, &length), *body = open_memstream(&body_text, &length);
+    if (!status && (!head || !body)) status = scree_error_set_memory(error, 4096);
+    page p = {.file = body, .findings = &findings, .error = error};
+    if (!status) status = put_sources(&p, options, head, &own);
+    if (head && fclose(head) != 0 && !status) status = scree_error_set_memory(error, 4096);
     if (body && fclose(body) != 0 && !status) status = scree_error_set_memory(error, 4096);
     if (!status) {
-        (void)fprintf(file, "%s\n**%zu agree, %zu differ, %zu were not measured, %zu were not run.**\n%s", introduction,
-                      counts[AGREES], counts[DIFFERS], counts[NOT_MEASURED], counts[NOT_RUN], text);
+        (void)fprintf(file, "%s%s%s", introduction, head_text, body_text);
         if (fflush(file) != 0 || ferror(file))
             status = scree_error_set_errno(error, SCREE_ERROR_IO, "the report cannot be written");
     }
-    free(text);
+    free(head_text);
+    free(body_text);
     scree_findings_destroy(&findings);
+    if (problems)
+        *problems = own;
+    else
+        scree_problems_free(own);
     return status;
 }

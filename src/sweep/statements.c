@@ -3,6 +3,7 @@
 
 #include "base/units.h"
 #include "sweep/expression.h"
+#include "sweep/findings.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -31,6 +32,19 @@ static const scree_choice forms[] = {
     {0},
 };
 
+static const scree_choice classes[] = {
+    {"finding", SCREE_CLASS_FINDING, "a finding of the source"},
+    {"check", SCREE_CLASS_CHECK, "a check of our own: an identity, a stop rule, a closed form"},
+    {"beyond", SCREE_CLASS_BEYOND, "beyond the source"},
+    {0},
+};
+static const scree_choice averages[] = {
+    {"auto", SCREE_AVERAGE_AUTO, "logarithms of a quotient of results, else plain"},
+    {"plain", SCREE_AVERAGE_PLAIN, "mean of the values"},
+    {"logarithms", SCREE_AVERAGE_LOGARITHMS, "geometric mean: the value is a ratio"},
+    {0},
+};
+
 typedef scree_statement statement;
 static const scree_key statement_keys[] = {
     KEY(statement, id, "id", SCREE_KEY_WORD, FROM("1"), TO("63"), .meaning = "Unique name."),
@@ -40,9 +54,16 @@ static const scree_key statement_keys[] = {
     TEXT(statement, value, "value", .meaning = "Expression of results, CASE/LABEL.RESULT."),
     TEXT(statement, criterion, "criterion",
          .meaning = "within 10 %, greater than 2, less than 3, between 2 and 4, or holds."),
+    KEY(statement, class, "kind", SCREE_KEY_CHOICE, .choices = classes, .meaning = "What kind of statement it is."),
+    KEY(statement, deterministic, "deterministic", SCREE_KEY_FLAG, .standard = "no",
+        .meaning = "It does not depend on the sample: one realisation decides."),
+    KEY(statement, average, "average", SCREE_KEY_CHOICE, .choices = averages, .standard = "auto",
+        .meaning = "How realisations are averaged."),
     KEY(statement, unit, "unit", SCREE_KEY_TEXT, .standard = "", FROM("0"), TO("30"), .meaning = "Shown behind."),
     KEY(statement, form, "form", SCREE_KEY_CHOICE, .choices = forms, .standard = "any",
         .meaning = "Forms of the case that it is about."),
+    KEY(statement, reason, "reason", SCREE_KEY_TEXT, .standard = "", FROM("0"), TO("2000"),
+        .meaning = "Why the other form cannot decide it; required with `form`."),
     KEY(statement, explanation, "explanation", SCREE_KEY_TEXT, .standard = "", FROM("0"), TO("2000"),
         .meaning = "Why it comes out differently, shown where it does."),
 };
@@ -75,22 +96,23 @@ static bool read_bound(const char *text, const char *end, double *bound)
     return scree_units_parse(part, "1", bound, NULL) == SCREE_OK;
 }
 
+/// Criteria by how they begin.
+static const char *const criteria[] = {[SCREE_CRITERION_WITHIN] = "within",
+                                       [SCREE_CRITERION_GREATER] = "greater than",
+                                       [SCREE_CRITERION_LESS] = "less than",
+                                       [SCREE_CRITERION_BETWEEN] = "between",
+                                       [SCREE_CRITERION_HOLDS] = "holds"};
+
 /// Criterion as text to kind and bounds; false when it is not one.
 static bool read_criterion(scree_statement *s)
 {
-    static const struct {
-        const char *begin;
-        scree_criterion kind;
-    } forms_of[] = {{"within ", SCREE_CRITERION_WITHIN},
-                    {"greater than ", SCREE_CRITERION_GREATER},
-                    {"less than ", SCREE_CRITERION_LESS},
-                    {"between ", SCREE_CRITERION_BETWEEN}};
     s->kind = SCREE_CRITERION_HOLDS;
-    if (strcmp(s->criterion, "holds") == 0) return true;
-    for (size_t i = 0; i < COUNT(forms_of); i++) {
-        const char *rest = s->criterion + strlen(forms_of[i].begin);
-        if (strncmp(s->criterion, forms_of[i].begin, strlen(forms_of[i].begin)) != 0) continue;
-        s->kind = forms_of[i].kind;
+    if (strcmp(s->criterion, criteria[SCREE_CRITERION_HOLDS]) == 0) return true;
+    for (int kind = 0; kind < SCREE_CRITERION_HOLDS; kind++) {
+        size_t length = strlen(criteria[kind]);
+        if (strncmp(s->criterion, criteria[kind], length) != 0 || s->criterion[length] != ' ') continue;
+        const char *rest = s->criterion + length + 1;
+        s->kind = (scree_criterion)kind;
         if (s->kind != SCREE_CRITERION_BETWEEN) return read_bound(rest, NULL, &s->bound[0]);
         const char *and = strstr(rest, " and ");
         return and&&read_bound(rest, and, &s->bound[0]) && read_bound(and+5, NULL, &s->bound[1]) &&
@@ -99,12 +121,24 @@ static bool read_criterion(scree_statement *s)
     return false;
 }
 
+/// The nearest criterion to what stands before the first number, or all of them.
+static const char *suggest_criterion(const char *text)
+{
+    char words[40];
+    size_t length = strcspn(text, "+-.0123456789");
+    while (length > 0 && text[length - 1] == ' ') length--;
+    (void)snprintf(words, sizeof words, "%.*s", (int)length, text);
+    const char *nearest = scree_nearest(words, criteria, COUNT(criteria));
+    bool right = nearest && strcmp(nearest, words) == 0;
+    return nearest && !right ? nearest : "within 10 %, greater than 2, less than 3, between 2 and 4, holds";
+}
+
 /// Every name of an expression has a result of a run.
 static double check_name(void *user, const char *name)
 {
-    const char *dot = strrchr(name, '.');
+    scree_reference reference;
     bool *good = user;
-    *good &= dot && dot[1] && dot != name;
+    *good &= scree_reference_read(name, &reference);
     return 1.5;
 }
 
@@ -115,9 +149,11 @@ static void check_statement(scree_reader *reader, scree_statement *s, const scre
     scree_error error;
     if (!s->id || !s->criterion || !s->value || !s->given) return; // noted
     const scree_node *criterion = scree_node_find(node, "criterion"), *expression = scree_node_find(node, "value");
+    s->place = node->place;
+    s->value_place = expression->place;
     if (!read_criterion(s))
-        scree_problem_add(reader, criterion->place, s->id, s->criterion,
-                          "within 10 %, greater than 2, less than 3, between 2 and 4, holds", "is not a criterion");
+        scree_problem_add(reader, criterion->place, s->id, s->criterion, suggest_criterion(s->criterion),
+                          "is not a criterion");
     if (scree_expression_evaluate(s->value, check_name, &good, &value, &error))
         scree_problem_add(reader, expression->place, s->id, s->value, NULL, "%s", error.message);
     else if (!good)
@@ -125,6 +161,9 @@ static void check_statement(scree_reader *reader, scree_statement *s, const scre
                           "names are not of this form");
     if (s->kind == SCREE_CRITERION_WITHIN && scree_units_parse(s->given, "1", &s->bound[1], NULL))
         scree_problem_add(reader, node->place, s->id, s->given, "a number", "'within' needs a number in 'given'");
+    if (s->form != SCREE_FORM_ANY && s->reason && !s->reason[0])
+        scree_problem_add(reader, node->place, s->id, NULL, "reason: why the other form cannot decide it",
+                          "'form' needs a 'reason'");
 }
 
 /// The id must not have been used before statement k of case i.
@@ -140,39 +179,50 @@ static void check_id(scree_reader *reader, const scree_statement_table *table, i
         }
 }
 
+typedef struct reading {
+    scree_statement_table *table;
+    const scree_findings *findings;
+} reading;
+
 static void check_table(scree_reader *reader, void *user)
 {
-    scree_statement_table *table = user;
+    const reading *r = user;
+    scree_statement_table *table = r->table;
     const scree_node *cases = scree_node_find(reader->root, "cases");
     for (int64_t i = 0; i < table->case_count; i++) {
-        const scree_node *list = scree_node_find(scree_node_at(cases, (size_t)i), "statements");
+        const scree_node *entry = scree_node_at(cases, (size_t)i), *list = scree_node_find(entry, "statements");
+        const scree_node *name = scree_node_find(entry, "case");
+        if (name) table->cases[i].place = name->place;
         for (int64_t k = 0; k < table->cases[i].statement_count; k++) {
             check_statement(reader, &table->cases[i].statements[k], scree_node_at(list, (size_t)k));
             check_id(reader, table, i, k, scree_node_at(list, (size_t)k));
         }
     }
+    if (r->findings) scree_statements_check_names(reader, table, r->findings);
 }
 
-scree_status scree_statements_read(const char *name, const char *text, size_t length, scree_arena *arena,
-                                   scree_statement_table *table, scree_problems **problems)
+scree_status scree_statements_read(const char *name, const char *text, size_t length, const scree_findings *findings,
+                                   scree_arena *arena, scree_statement_table *table, scree_problems **problems)
 {
-    scree_document document = {&schema, check_table, table, name, text, length};
+    reading r = {table, findings};
+    scree_document document = {&schema, check_table, &r, name, text, length};
     return scree_document_read(&document, arena, table, sizeof *table, problems);
 }
 
-bool scree_statement_agrees(const scree_statement *s, double value)
+scree_statement_range scree_statement_accepts(const scree_statement *s)
 {
     switch (s->kind) {
     case SCREE_CRITERION_WITHIN:
-        return fabs(value - s->bound[1]) <= s->bound[0] * fabs(s->bound[1]);
+        return (scree_statement_range){s->bound[1] - s->bound[0] * fabs(s->bound[1]),
+                                       s->bound[1] + s->bound[0] * fabs(s->bound[1]), true};
     case SCREE_CRITERION_GREATER:
-        return value > s->bound[0];
+        return (scree_statement_range){s->bound[0], INFINITY, false};
     case SCREE_CRITERION_LESS:
-        return value < s->bound[0];
+        return (scree_statement_range){-INFINITY, s->bound[0], false};
     case SCREE_CRITERION_BETWEEN:
-        return value >= s->bound[0] && value <= s->bound[1];
+        return (scree_statement_range){s->bound[0], s->bound[1], true};
     case SCREE_CRITERION_HOLDS:
-        return value > 0.5;
+        break;
     }
-    return false;
+    return (scree_statement_range){0.5, INFINITY, false};
 }

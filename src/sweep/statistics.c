@@ -10,7 +10,7 @@
 
 scree_estimate scree_estimate_mean(const double *value, size_t count, double confidence)
 {
-    scree_estimate e = {0, NAN, NAN, NAN, {NAN, NAN}};
+    scree_estimate e = {0, count, NAN, NAN, NAN, {NAN, NAN}};
     double sum = 0, squares = 0;
     for (size_t i = 0; i < count; i++) {
         if (!isfinite(value[i])) continue;

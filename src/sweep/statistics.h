@@ -6,6 +6,7 @@
 
 typedef struct scree_estimate {
     size_t count;     ///< finite values
+    size_t of;        ///< all values: what is not there, or has no number, is counted
     double mean;      ///< NAN without a value
     double deviation; ///< standard deviation of the sample (n - 1), NAN below two values
     double half;      ///< half of the confidence interval of the mean, NAN below two values
@@ -13,7 +14,7 @@ typedef struct scree_estimate {
 } scree_estimate;
 
 /// Mean of the finite ones of `value` with the two-sided interval of Student's t: half = t(1 - (1 - confidence)/2,
-/// n - 1) s / sqrt(n). Exact for normally distributed values.
+/// n - 1) s / sqrt(n). Exact for normally distributed values. How many there were in all is kept in `of`.
 scree_estimate scree_estimate_mean(const double *value, size_t count, double confidence);
 
 /// One curve of a member: `count` places of rising x.

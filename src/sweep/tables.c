@@ -79,7 +79,7 @@ static bool put_members(FILE *file, const scree_sweep_results *results)
 static bool put_points(FILE *file, const scree_sweep_results *results)
 {
     const scree_sweep *sweep = results->sweep;
-    static const char *const tails[] = {"", ".deviation", ".low", ".high", ".n"};
+    static const char *const tails[] = {"", ".deviation", ".low", ".high", ".n", ".of"};
     (void)fputs("point,name", file);
     put_parameter_heads(file, sweep);
     for (size_t k = 0; k < sweep->measure_count; k++)
@@ -95,7 +95,7 @@ static bool put_points(FILE *file, const scree_sweep_results *results)
                 (void)fputc(',', file);
                 put_number(file, shown[j]);
             }
-            (void)fprintf(file, ",%zu", e->count);
+            (void)fprintf(file, ",%zu,%zu", e->count, e->of);
         }
     }
     (void)fputc('\n', file);

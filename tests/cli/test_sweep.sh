@@ -74,7 +74,7 @@ for file in restitution-over-damping_time.png relaxation_time-over-restitution.s
     grep -q 'closed form' "r/figures/${file%.*}.gp" || complain "no closed form in $file"
 done
 [ -e r/figures/restitution_theory-over-damping_time.png ] && complain "a closed form has a figure of its own"
-awk -F, 'NR > 1 && ($5 / $10 - 1)^2 > 1e-6 { exit 1 }' r/table.csv || complain "restitution is not that of the closed form: $(cat r/table.csv)"
+awk -F, 'NR > 1 && ($5 / $11 - 1)^2 > 1e-6 { exit 1 }' r/table.csv || complain "restitution is not that of the closed form: $(cat r/table.csv)"
 sed 's/friction, values/friction, quick_values: [0.1, 0.3], names: [a, b], values/' tiny.yaml >quick.yaml
 expect 0 '^001-b-seed=1: .*friction=0.3' "$scree" sweep quick.yaml --dry-run
 sed 's/, names: .a, b.//' quick.yaml >wrong.yaml
@@ -119,6 +119,8 @@ expect 2 "^wrong.yaml:11:19: measures.1: a text has no mean: 'state_checksum'" "
 [ -e never ] && complain "a refused sweep left a folder"
 same "$(cut -d, -f6,7 f/members.csv | sed 's/,.*//' | tail -2 | tr '\n' ' ')" 'strict usual '
 grep -q '^0,.*,failed,' f/members.csv || complain "members.csv does not have the failed member"
+head -1 f/table.csv | grep -q 'steps.n,steps.of' || complain "table.csv does not say of how many"
+grep -q '^0,strict,strict,nan,nan,nan,nan,0,1,' f/table.csv || complain "table.csv hides the failed member: $(cat f/table.csv)"
 grep -q '^1,usual,usual,[0-9]' f/table.csv || complain "table.csv does not have the mean of the others"
 touch stamp
 expect 3 '1 of 2 members are done, 1 have failed, 0 to run' "$scree" sweep failing.yaml -o f --no-figures
@@ -150,6 +152,7 @@ pgrep -f "$scratch/cut/members" >/dev/null && complain "a member goes on after t
 expect 0 'means in' "$scree" sweep tiny.yaml -o cut "${long[@]}"
 grep -q 'restarted' cut/members/*/log.txt || complain "the interrupted member was not continued"
 same "$(sums cut)" "$(sums whole)" "checksums after an interrupt"
+grep -q '"sweep": "tiny"' cut/sweep.json || complain "a report would not know the members of an interrupted sweep"
 # One that dies with the sweep is continued too.
 rm -r cut
 "$scree" sweep tiny.yaml -o cut --jobs 1 "${long[@]}" 2>/dev/null &
@@ -172,17 +175,18 @@ expect 0 'means in array' "$scree" sweep tiny.yaml -o array --no-figures --colle
 same "$(sums array)" "$(sums s)" "checksums of the job array"
 
 # --- the report: statements that nothing was run for, and one that something was
-expect 0 '\*\*0 agree, 0 differ, 0 were not measured, [0-9]+ were not run' "$scree" report s
+expect 0 'Findings: \*\*0 agree, 0 differ, 0 are undecided\*\*, 0 were not measured, [0-9]+ were not run' "$scree" report s
 expect 0 '' "$scree" report s -o page.md
 "$scree" report s | cmp -s - page.md || complain "the page is not the same each time"
 # Members of a sweep stand for a published case when they have its name.
 sed 's/^name: tiny/name: triaxial/' tiny.yaml | sed '/^vary/,$d' >triaxial.yaml
 expect 0 '' "$scree" sweep triaxial.yaml -o pages/triaxial -q --no-figures
-expect 0 '^\| triaxial-dilation .*\| (agrees|\*\*differs\*\*) \| quick \|$' "$scree" report pages
+expect 0 '^\| triaxial-dilation .*\| \*\*(agrees|differs|undecided)\*\* \| quick \|' "$scree" report pages
+expect 0 '^\| triaxial \| quick \| 1, 2 \| 0, 0 \| [^|]+ \| 0.4 \| 0\.[0-9]+ - 0\.[0-9]+ \| ' "$scree" report pages
 sed 's/^name: triaxial/name: rotation-length/' triaxial.yaml >rotation-length.yaml
 expect 0 '' "$scree" sweep rotation-length.yaml -o pages/rotation-length -q --no-figures
-expect 0 '^\| rotation-reach .* \| - \| .* \| not measured \| quick \|$' "$scree" report pages
-expect 0 '^\| triaxial-dilation .*\(n = 2\)' "$scree" report pages/triaxial
+expect 0 "^\| rotation-reach .* \| - \| .* \| \*\*not measured\*\* \| quick \| no result 'rotation_reach'" "$scree" report pages
+expect 0 '^\| triaxial-dilation .*\| 2 of 2 \|' "$scree" report pages/triaxial
 expect 4 'cannot read the folder' "$scree" report nowhere
 
 # --- reproduce: what has no case is not available, and the page is written all the same

@@ -228,6 +228,32 @@ static void minimal_conditions_meet_their_rates(void **unused)
     }
 }
 
+/// The multiplier of a step is not known when its quanta are chosen: where it leaves the room of the integers, nothing
+/// is applied, and the run stops.
+static void a_multiplier_out_of_range_stops_the_run(void **unused)
+{
+    (void)unused;
+    const scree_boundary *minimal = scree_boundary_get(SCREE_BOUNDARY_MINIMAL);
+    for (int k = 0; k < 4; k++) {
+        bench b;
+        bench_create(&b, 2 + k / 2);
+        scree_state *state = &b.state;
+        state->drive.prescribed[4] = SCREE_FULL;
+        // A rate whose force is some 1e25 times the largest of the integers, or one that is not a number.
+        state->drive.target[4] = k % 2 ? NAN : 1e40;
+        state->drive.viscosity = INFINITY;
+        assert_int_equal(minimal->refresh(&b.model, state, NULL), SCREE_OK);
+        minimal->forces(&b.model, state, &b.work);
+        assert_int_equal(b.work.flags, SCREE_FLAG_FORCE_RANGE);
+        for (size_t r = 0; r < state->count; r++) assert_true(state->sum[r].fx == 0 && state->sum[r].fy == 0);
+        state->drive.target[4] = 1;
+        b.work.flags = 0;
+        minimal->forces(&b.model, state, &b.work);
+        assert_int_equal(b.work.flags, 0);
+        scree_state_destroy(state);
+    }
+}
+
 /// A strain rate is imposed without any moment: a rotating body goes on rotating.
 static void a_strain_rate_has_no_moment(void **unused)
 {
@@ -361,6 +387,7 @@ int main(void)
         cmocka_unit_test(area_vectors_integrate_the_normal),
         cmocka_unit_test(the_power_of_a_stress_is_volume_stress_rate),
         cmocka_unit_test(minimal_conditions_meet_their_rates),
+        cmocka_unit_test(a_multiplier_out_of_range_stops_the_run),
         cmocka_unit_test(a_strain_rate_has_no_moment),
         cmocka_unit_test(penalty_is_stable_and_booked),
         cmocka_unit_test(affine_bodies_move_with_the_gradient),

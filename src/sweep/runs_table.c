@@ -1,0 +1,84 @@
+/// One row a point of the grid and form: seeds that are done, builds, friction of the confinement, solid fraction and
+/// coordination at the begin of loading.
+#include "sweep/runs_table.h"
+
+#include <math.h>
+#include <string.h>
+
+/// Whether two runs belong to one row.
+static bool same_row(const scree_finding *a, const scree_finding *b)
+{
+    return a->form == b->form && strcmp(a->name, b->name) == 0 && strcmp(a->label, b->label) == 0;
+}
+
+/// Least and largest of a number that runs have, as one where they are equal.
+static void put_range(FILE *file, double low, double high)
+{
+    if (isnan(low))
+        (void)fputs("- | ", file);
+    else if (low == high)
+        (void)fprintf(file, "%.4g | ", low);
+    else
+        (void)fprintf(file, "%.4g - %.4g | ", low, high);
+}
+
+static void put_builds(FILE *file, const scree_findings *findings, const scree_finding *row)
+{
+    const scree_finding *end = findings->item + findings->count;
+    bool any = false;
+    for (const scree_finding *f = row; f < end; f++) {
+        if (!same_row(f, row) || f->state != SCREE_FINDING_DONE || !f->build[0]) continue;
+        bool known = false;
+        for (const scree_finding *g = row; g < f && !known; g++)
+            known = same_row(g, row) && g->state == SCREE_FINDING_DONE && strcmp(g->build, f->build) == 0;
+        if (!known) (void)fprintf(file, "%s%s", any ? ", " : "", f->build);
+        any |= !known;
+    }
+    (void)fputs(any ? " | " : "- | ", file);
+}
+
+static void put_row(FILE *file, const scree_findings *findings, const scree_finding *row)
+{
+    static const char *const forms[] = {"full", "quick", "run"};
+    double friction[2] = {NAN, NAN}, solid[2] = {NAN, NAN}, contacts[2] = {NAN, NAN};
+    size_t state[3] = {0};
+    (void)fprintf(file, "| %s%s%s | %s | ", row->name, row->label[0] ? "/" : "", row->label, forms[row->form]);
+    const char *separator = "";
+    for (const scree_finding *f = row; f < findings->item + findings->count; f++) {
+        if (!same_row(f, row)) continue;
+        state[f->state]++;
+        if (f->state != SCREE_FINDING_DONE) continue;
+        (void)fprintf(file, "%s%lld", separator, f->seed);
+        separator = ", ";
+        const double value[3] = {f->friction, f->solid_fraction, f->coordination};
+        double *range[3] = {friction, solid, contacts};
+        for (int k = 0; k < 3; k++) {
+            range[k][0] = fmin(range[k][0], value[k]);
+            range[k][1] = fmax(range[k][1], value[k]);
+        }
+    }
+    (void)fprintf(file, "%s | %zu, %zu | ", separator[0] ? "" : "-", state[SCREE_FINDING_FAILED],
+                  state[SCREE_FINDING_MISSING]);
+    put_builds(file, findings, row);
+    put_range(file, friction[0], friction[1]);
+    put_range(file, solid[0], solid[1]);
+    put_range(file, contacts[0], contacts[1]);
+    (void)fputs("\n", file);
+}
+
+void scree_runs_table_write(const scree_findings *findings, const char *name, FILE *file)
+{
+    bool any = false;
+    for (size_t i = 0; i < findings->count; i++) {
+        const scree_finding *f = &findings->item[i], *first = findings->item;
+        if (strcmp(f->name, name) != 0) continue;
+        while (!same_row(first, f)) first++;
+        if (first != f) continue;
+        if (!any)
+            (void)fputs("\n| runs | form | seeds | failed, missing | build | friction of the confinement | solid "
+                        "fraction at the begin of loading | coordination there |\n|---|---|---|---|---|---|---|---|\n",
+                        file);
+        any = true;
+        put_row(file, findings, f);
+    }
+}

@@ -1,0 +1,12 @@
+/// The runs behind a page: which, how many, of what build and what preparation.
+#ifndef SCREE_SWEEP_RUNS_TABLE_H
+#define SCREE_SWEEP_RUNS_TABLE_H
+
+#include "sweep/findings.h"
+
+#include <stdio.h>
+
+/// A table with a row for each point and form of the runs called `name`; nothing when there are none.
+void scree_runs_table_write(const scree_findings *findings, const char *name, FILE *file);
+
+#endif

@@ -1,0 +1,86 @@
+#!/usr/bin/env bash
+# scree report on made-up runs: which row counts, what the headline counts, several sources, and wrong tables.
+# shellcheck source=tests/cli/check.sh
+. "$(dirname "$0")/check.sh"
+
+# sweep FOLDER NAME QUICK POINT: its members from lines "seed status solid build value" on standard input.
+sweep() {
+    local folder=$1 name=$2 quick=$3 point=$4 members='' comma='' seed status solid build value
+    mkdir -p "$folder"
+    while read -r seed status solid build value; do
+        members="$members$comma{\"folder\": \"$seed\", \"point\": 0, \"seed\": $seed, \"status\": \"$status\"}"
+        comma=', '
+        [ "$status" = done ] || continue
+        mkdir -p "$folder/members/$seed"
+        echo "{\"status\": \"done\", \"commit\": \"$build\", \"particles\": 9, \"confine_friction\": 0.2, \"coordination_at_start\": 3.5," \
+            "\"solid_fraction_at_start\": $solid, \"r\": $value}" >"$folder/members/$seed/summary.json"
+    done
+    echo "{\"sweep\": \"$name\", \"quick\": $quick, \"points\": [{\"name\": \"$point\"}], \"members\": [$members]}" >"$folder/sweep.json"
+}
+row() { grep -E "^\| $1 " page.md; }
+
+sweep runs/full mine false '' <<'END'
+1 done 0.81 aaa 2.0
+2 done 0.82 aaa 2.1
+3 failed 0 x 0
+4 done 0.83 bbb 2.2
+5 missing 0 x 0
+END
+sweep runs/quick mine true '' <<'END'
+1 done 0.81 aaa 1.0
+2 done 0.82 aaa 1.1
+END
+cat >mine.yaml <<'END'
+# My source
+source: "Mine (Q)"
+cases:
+  - case: mine
+    meaning: What it is.
+    statements:
+      - {id: large, statement: "It is | large", source: Q 1, given: above 1, value: mine.r, criterion: greater than 1, kind: finding}
+      - {id: huge, statement: It is huge, source: Q 2, given: above 9, value: mine.r, criterion: greater than 9, kind: finding,
+         explanation: It is not.}
+      - {id: ours, statement: It is there, source: ours, given: 2, value: mine.r, criterion: within 50 %, kind: check}
+      - {id: more, statement: It is new, source: ours, given: x, value: mine.r, criterion: less than 2.1, kind: beyond, form: full,
+         reason: because.}
+      - {id: other, statement: It is not there, source: Q 3, given: x, value: mine.other, criterion: less than 2, kind: finding}
+END
+# A name that no run has is misspelt, or this table is about another program.
+expect 2 "mine.yaml:13:[0-9]+: other: there is no result 'other'" "$scree" report runs --statements mine.yaml
+sed -i '/id: other/d' mine.yaml
+expect 0 '' "$scree" report runs --statements mine.yaml -o page.md
+# 2.1 with deviation 0.1: 4.3027 x 0.1 / sqrt 3 = 0.2484; 90 %: 2.92 x 0.1 / sqrt 3 = 0.1686.
+row large | head -1 | grep -qF '| finding | It is \| large | Q 1 | above 1 | greater than 1 | 2.1 [1.852, 2.348] | 3 of 5 | **agrees** | full | builds differ: aaa, bbb; 1 failed |' ||
+    complain "full form: $(row large)"
+row large | tail -1 | grep -qF '|  |  |  |  |  | 1.05 [0.4147, 1.685] | 2 of 2 | (undecided) | quick |  |' || complain "quick form: $(row large)"
+row ours | head -1 | grep -qF '2.1 [1.931, 2.269] | 3 of 5 | **agrees** | full' || complain "90 %: $(row ours)"
+same "$(row more | wc -l)" 1 "rows of a statement about the full form"
+grep -qF -- '- huge: It is not.' page.md || complain "no explanation"
+grep -qF -- '- more, full form only: because.' page.md || complain "no reason"
+grep -qF 'Mine (Q). Findings: **1 agree, 1 differ, 0 are undecided**, 0 were not measured, 0 were not run. Own checks: 1 agree,' page.md ||
+    complain "headline: $(grep Findings page.md)"
+grep -qF 'Beyond the source: 0 agree, 0 differ, 1 undecided,' page.md || complain "headline: $(grep Findings page.md)"
+grep -qF '| mine | full | 1, 2, 4 | 1, 1 | aaa, bbb | 0.2 | 0.81 - 0.83 | 3.5 |' page.md || complain "runs: $(grep '| mine ' page.md)"
+# Without the full form the quick one counts.
+expect 0 '' "$scree" report runs/quick --statements mine.yaml -o page.md
+row large | grep -qF '| **undecided** | quick |' || complain "quick form alone: $(row large)"
+row more | grep -qF '| **not run** | full |' || complain "no full form: $(row more)"
+# Several sources; what is built in stays as it is.
+expect 0 '' "$scree" report runs -s mine.yaml --statements padbidri2010 -o page.md
+same "$(grep -c '^## ' page.md)" 2 "sources on the page"
+same "$(grep -c 'Findings: ' page.md)" 2 "headlines"
+
+# Wrong tables: place and nearest right name; the page stays as it was.
+wrong() {
+    sed "$1" mine.yaml >wrong.yaml
+    expect 2 "^wrong.yaml:$2" "$scree" report runs -s wrong.yaml -o page.md
+}
+cp page.md before.md
+wrong 's/kind: check/kind: chek/' "10:[0-9]+: cases.0.statements.2.kind: .*did you mean 'check'"
+wrong 's/greater than 9/greatr than 9/' "8:[0-9]+: huge: is not a criterion .accepted: greater than."
+wrong 's/case: mine/case: mien/' "4:11: case: there is no sweep or case 'mien'; did you mean 'mine'"
+wrong 's/value: mine.r, criterion: within/value: mine\/III.r, criterion: within/' "10:[0-9]+: ours: there is no point 'III'"
+wrong 's/reason: because/unit: m/' "11:[0-9]+: more: 'form' needs a 'reason'"
+cmp -s page.md before.md || complain "a wrong table changed the page"
+expect 4 'nothing.yaml' "$scree" report runs -s nothing.yaml
+finish ""
