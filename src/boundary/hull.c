@@ -12,6 +12,7 @@
 
 #include "boundary/facing.h"
 #include "boundary/pressed_facet.h"
+#include "measure/facets.h"
 #include "measure/hull.h"
 #include "measure/measure.h"
 #include "search/tetrahedra.h"
@@ -24,8 +25,11 @@ static scree_status find_surface(const scree_model *model, const scree_state *st
                                  scree_error *error)
 {
     double *points = NULL, *radius = NULL;
+    scree_peel_rule rule;
+    uint32_t *past;
     *surface = (scree_triangle_surface){0};
-    scree_status status = scree_allocate(&points, 3 * state->grains, sizeof *points, error);
+    scree_status status = scree_facet_rule(model, state, &rule, &past, error);
+    if (!status) status = scree_allocate(&points, 3 * state->grains, sizeof *points, error);
     if (!status) status = scree_allocate(&radius, state->grains, sizeof *radius, error);
     if (!status) {
         for (size_t id = 0; id < state->grains; id++) {
@@ -33,9 +37,9 @@ static scree_status find_surface(const scree_model *model, const scree_state *st
             scree_body_place(state, row, points + 3 * id);
             radius[id] = state->row[row].radius;
         }
-        double diameter = 2 * model->mean_radius, gap_limit = model->config->boundary.gap_limit * diameter;
-        status = scree_outer_surface(points, radius, state->grains, diameter, gap_limit, surface, error);
+        status = scree_outer_surface(points, radius, state->grains, 2 * model->mean_radius, &rule, surface, error);
     }
+    scree_release(&past);
     scree_release(&points);
     scree_release(&radius);
     return status;
@@ -93,11 +97,10 @@ scree_status scree_hull_renew(const scree_model *model, scree_state *state, scre
     if (!status) status = fill_hull(state, &surface, node_of, &fresh, error);
     if (!status) status = scree_hull_mark_loaded(model, state, &fresh, error);
     if (!status) {
-        scree_strain closed;
-        scree_strain_measure(state, closed.gradient);
-        state->strain = closed;
+        double enclosed = scree_strain_close(state);
         hull_destroy(&state->hull);
         state->hull = fresh;
+        scree_strain_redetected(state, enclosed);
     } else {
         hull_destroy(&fresh);
     }

@@ -20,6 +20,7 @@
 #include "boundary/corners.h"
 #include "boundary/facing.h"
 #include "boundary/hull.h"
+#include "measure/facets.h"
 #include "measure/measure.h"
 #include "measure/outline.h"
 #include "search/delaunay.h"
@@ -46,7 +47,10 @@ static scree_status find_loop(const scree_model *model, const scree_state *state
                               scree_error *error)
 {
     double *points = NULL, *radius = NULL;
-    scree_status status = scree_allocate(&points, 2 * state->grains, sizeof *points, error);
+    scree_peel_rule rule;
+    uint32_t *past;
+    scree_status status = scree_facet_rule(model, state, &rule, &past, error);
+    if (!status) status = scree_allocate(&points, 2 * state->grains, sizeof *points, error);
     if (!status) status = scree_allocate(&radius, state->grains, sizeof *radius, error);
     if (!status) {
         for (size_t id = 0; id < state->grains; id++) {
@@ -55,9 +59,9 @@ static scree_status find_loop(const scree_model *model, const scree_state *state
             points[2 * id + 1] = row->y;
             radius[id] = row->radius;
         }
-        double diameter = 2 * model->mean_radius, gap_limit = model->config->boundary.gap_limit * diameter;
-        status = scree_outer_loop(points, radius, state->grains, diameter, gap_limit, ids, count, error);
+        status = scree_outer_loop(points, radius, state->grains, 2 * model->mean_radius, &rule, ids, count, error);
     }
+    scree_release(&past);
     scree_release(&points);
     scree_release(&radius);
     return status;
@@ -67,9 +71,7 @@ static scree_status find_loop(const scree_model *model, const scree_state *state
 static void replace_loop(const scree_model *model, scree_state *state, const uint32_t *ids, size_t count)
 {
     scree_loop *loop = &state->loop;
-    scree_strain closed;
-    scree_strain_measure(state, closed.gradient);
-    state->strain = closed;
+    double enclosed = scree_strain_close(state);
     loop->count = count;
     loop->updated = state->step;
     memcpy(loop->id, ids, count * sizeof *ids);
@@ -80,6 +82,7 @@ static void replace_loop(const scree_model *model, scree_state *state, const uin
         loop->y[k] = x[1];
         loop->fx[k] = loop->fy[k] = 0;
     }
+    scree_strain_redetected(state, enclosed);
     scree_loop_mark_loaded(model, state);
 }
 

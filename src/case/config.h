@@ -92,6 +92,7 @@ typedef struct scree_config_boundary {
     int lateral;               ///< scree_boundary_kind, of what holds the sides until a stage chooses its own boundary
     int64_t every;             ///< steps between two updates of the Delaunay boundary
     double gap_limit;          ///< 1, boundary edges with a free gap above this many mean diameters are cut
+    double gap_hysteresis;     ///< 1, share of the limits by which a facet stays, or stays away (search/peel_rule.h)
     double servo_gain;         ///< 1, admittance of a plate under servo over that of the sample (1: absorbs waves)
     double servo_velocity;     ///< m/s, largest plate velocity under servo; auto
     double penalty;            ///< Pa s, stress over error of the rate of minimal conditions; auto

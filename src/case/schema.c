@@ -222,6 +222,9 @@ static const scree_key boundary_keys[] = {
                 "Steps between two updates of the Delaunay boundary; with two_timescales steps of N_S small ones."),
     NUMBER(boundary, gap_limit, "1", .standard = "0.5", FROM("0"), TO("100"),
            .meaning = "Boundary edges with a free gap above this many mean diameters are cut."),
+    NUMBER(boundary, gap_hysteresis, "1", .standard = "0.2", FROM("0"), BELOW("1"),
+           .meaning = "An edge that is on the boundary stays until its gap is above the limit by this share; one that is "
+                      "not comes back when it is as much below. 0: the boundary has no memory."),
     NUMBER(boundary, servo_gain, "1", .standard = "1", ABOVE("0"), TO("10"),
            .meaning = "Admittance of a plate under servo over that of the sample; 1 absorbs waves."),
     NUMBER(boundary, servo_velocity, "m/s", .standard = "auto", ABOVE("0 m/s"), TO("1000 m/s"),

@@ -150,8 +150,8 @@ static scree_status find_triangles(const scree_assembly *assembly, const double 
         .count = triangulation.count, .triangle = triangulation.vertex, .triangle_neighbour = triangulation.neighbour};
     status = scree_allocate(&all.outside, all.count, 1, error);
     if (!status)
-        status = scree_boundary_loop(&triangulation, points, assembly->radius, assembly->count, gap_limit, &loop,
-                                     &loop_count, all.outside, error);
+        status = scree_boundary_loop(&triangulation, points, assembly->radius, assembly->count,
+                                     SCREE_PEEL_RULE(gap_limit), &loop, &loop_count, all.outside, error);
     for (size_t t = 0; t < all.count && !status; t++) {
         const double *p[3];
         for (int n = 0; n < 3; n++) p[n] = points + 2 * (size_t)all.triangle[t][n];
@@ -196,8 +196,8 @@ static scree_status find_tetrahedra(const scree_assembly *assembly, const double
         .count = tetrahedra.count, .tetrahedron = tetrahedra.vertex, .tetrahedron_neighbour = tetrahedra.neighbour};
     status = scree_allocate(&all.outside, all.count, 1, error);
     if (!status)
-        status = scree_boundary_surface(&tetrahedra, points, assembly->radius, assembly->count, gap_limit, &surface,
-                                        all.outside, error);
+        status = scree_boundary_surface(&tetrahedra, points, assembly->radius, assembly->count,
+                                        SCREE_PEEL_RULE(gap_limit), &surface, all.outside, error);
     for (size_t t = 0; t < all.count && !status; t++)
         all.outside[t] = all.outside[t] == SCREE_TRIANGLE_CUT || shape_of(points, all.tetrahedron[t]) < 1e-9;
     if (!status) status = keep_inside(&all, assembly, cells, error);

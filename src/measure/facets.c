@@ -30,6 +30,27 @@ scree_facet scree_facet_get(const scree_state *state, size_t index)
     return facet;
 }
 
+scree_status scree_facet_rule(const scree_model *model, const scree_state *state, scree_peel_rule *rule, uint32_t **ids,
+                              scree_error *error)
+{
+    const scree_config_boundary *boundary = &model->config->boundary;
+    size_t d = (size_t)state->dimension, count = scree_facet_count(state);
+    *ids = NULL;
+    *rule = (scree_peel_rule){.gap_limit = boundary->gap_limit * 2 * model->mean_radius,
+                              .hysteresis = boundary->gap_hysteresis,
+                              .facet_count = count};
+    if (count == 0) return SCREE_OK;
+    scree_status status = scree_allocate(ids, count * d, sizeof **ids, error);
+    if (status) return status;
+    for (size_t k = 0; k < count; k++) {
+        scree_facet facet = scree_facet_get(state, k);
+        for (size_t c = 0; c < d; c++) (*ids)[k * d + c] = state->id[scree_boundary_row(state, facet.node[c])];
+    }
+    scree_peel_rule_sort(*ids, count, state->dimension);
+    rule->facet = *ids;
+    return SCREE_OK;
+}
+
 /// Share of each corner in the area vector of the facet [m2].
 static void corner_area(const scree_model *model, const scree_facet *facet, scree_vector area)
 {

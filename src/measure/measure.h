@@ -43,10 +43,22 @@ void scree_stress_from_plates(const scree_model *model, const scree_state *state
 void scree_loop_gradient(const double *x, const double *y, const double *ux, const double *uy, size_t count,
                          double gradient[4]);
 
-/// Displacement gradient accumulated up to now (sum of increments over the current configuration, so its trace is the
-/// logarithmic volume change): the closed increments in state->strain plus that of the present loop. Of a whole
-/// periodic cell the integral of its velocity gradient. Tension positive.
+/// Displacement gradient accumulated up to now: the closed increments in state->strain plus that of the present loop. A
+/// sum of increments over the current configuration, so its trace is the logarithmic volume change of the regions,
+/// without what re-detections change in what is enclosed (strain.c). Of a whole periodic cell the integral of its
+/// velocity gradient. Tension positive.
 void scree_strain_measure(const scree_state *state, double gradient[9]);
+
+/// Re-detection of the boundary: the first call closes the increment of the present one and returns what it encloses
+/// [m2, in 3D m3], the second books in state->strain.redetected by how much the new one, at the same positions,
+/// encloses more.
+double scree_strain_close(scree_state *state);
+void scree_strain_redetected(scree_state *state, double enclosed);
+
+/// Logarithm of what the boundary encloses (2D: m2, 3D: m3), the polygon or polyhedron through the centres of its
+/// bodies. Its change is that of the trace of scree_strain_measure plus that of
+/// state->strain.redetected, to third order in the increments. NAN without a boundary.
+double scree_enclosed_logarithm(const scree_state *state);
 
 typedef struct scree_coordination {
     double mean;                  ///< contacts per body, all bodies, walls counted
@@ -107,8 +119,8 @@ double scree_fluctuations(int dimension, const double *const *from, const double
 
 /// The same in a whole periodic cell, between two states of one loading stage: relative to the affine field of the cell
 /// itself and to the mean, between the images that are nearest after it. Fluctuations must be less than half the cell.
-double scree_periodic_fluctuations(const scree_periodic_cell *from_cell, const scree_periodic_cell *to_cell, int dimension,
-                               const double *const *from, const double *const *to, size_t count,
-                               double *const *fluctuation);
+double scree_periodic_fluctuations(const scree_periodic_cell *from_cell, const scree_periodic_cell *to_cell,
+                                   int dimension, const double *const *from, const double *const *to, size_t count,
+                                   double *const *fluctuation);
 
 #endif

@@ -1,8 +1,18 @@
 /// Strain from the motion of a closed loop or hull (Bagi 1996; P 3.1-3.3): see polygon.h and polyhedron.h for the
 /// formula and its exactness.
 /// Accumulation: each increment is taken on its own mid configuration, so the sum is the logarithmic strain of the
-/// region to third order in the increments, and its trace the logarithm of the area (volume) ratio. Cost: O(length
-/// of the loop), O(triangles of the hull).
+/// region to third order in the increments.
+///
+/// The region is another one after each re-detection of the boundary: bodies that have come near its edge are taken in,
+/// cells that have opened are left out. That change of what is enclosed happens at fixed positions, is no strain of any
+/// region, and is in no increment. So the trace is the logarithm of the volume ratio only as long as the boundary
+/// consists of the same bodies; in general
+///     log V(t) / V(0) = trace + redetected,    redetected = sum over re-detections of log (V after / V before).
+/// Where the surface is free to open (minimal conditions) the second term can be many times the first: a grain that has
+/// come loose spans a bay with the rest (boundary_loop.c cannot cut where the loop would be pinched), the pressure
+/// closes the bay, which is compression of the region, and the next boundary spans another. The sum of rates of a
+/// boundary that is found again and again (P 3.1) then shows compression that the solid fraction does not have
+/// (docs/theory.md). Cost: O(length of the loop), O(triangles of the hull).
 #include "measure/measure.h"
 
 #include "measure/hull.h"
@@ -11,6 +21,7 @@
 #include "measure/polyhedron.h"
 #include "state/periodic.h"
 
+#include <math.h>
 #include <string.h>
 
 void scree_loop_gradient(const double *x, const double *y, const double *ux, const double *uy, size_t count,
@@ -67,6 +78,32 @@ static void hull_increment(const scree_state *state, double increment[9])
         scree_polyhedron_add(&sum, x, u);
     }
     scree_polyhedron_finish(&sum, increment);
+}
+
+/// Area or volume inside the boundary; 0 without one.
+static double enclosed(const scree_state *state)
+{
+    return state->dimension == 3 ? scree_hull_volume(state) : scree_loop_area(state);
+}
+
+double scree_strain_close(scree_state *state)
+{
+    double closed[9];
+    scree_strain_measure(state, closed);
+    memcpy(state->strain.gradient, closed, sizeof closed);
+    return enclosed(state);
+}
+
+void scree_strain_redetected(scree_state *state, double before)
+{
+    double after = enclosed(state);
+    if (before > 0 && after > 0) state->strain.redetected += log(after / before);
+}
+
+double scree_enclosed_logarithm(const scree_state *state)
+{
+    double volume = enclosed(state);
+    return volume > 0 ? log(volume) : NAN;
 }
 
 void scree_strain_measure(const scree_state *state, double gradient[9])

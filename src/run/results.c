@@ -115,6 +115,22 @@ static double initial_slip(const loading *l)
     return sum / rows;
 }
 
+/// The volumetric strains beside each other: at the end, and the largest dilation by the solid fraction.
+static void summarise_volume(const loading *l, const scree_series *series, scree_summary *summary)
+{
+    static const char *const names[] = {"volumetric_strain", "volumetric_strain_redetected",
+                                        "volumetric_strain_enclosed", "volumetric_strain_solid"};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        char name[64];
+        (void)snprintf(name, sizeof name, "final_%s", names[k]);
+        scree_summary_set_number(summary, name, scree_series_get(series, names[k])[l->last - 1]);
+    }
+    const double *solid = scree_series_get(series, "volumetric_strain_solid");
+    double dilation = 0;
+    for (size_t k = l->first; k < l->last; k++) dilation = fmax(dilation, -solid[k]);
+    scree_summary_set_number(summary, "max_volumetric_dilation_solid", dilation);
+}
+
 static void summarise_loading(const loading *l, scree_summary *summary)
 {
     double compaction = 0, dilation = 0, strain_at_compaction = NAN, strain_at_dilation = NAN;
@@ -173,7 +189,10 @@ static void summarise_start(const scree_series *series, const scree_config *conf
 static void summarise_series(const scree_series *series, double turnover, scree_summary *summary)
 {
     loading l;
-    if (find_loading(series, &l)) summarise_loading(&l, summary);
+    if (find_loading(series, &l)) {
+        summarise_loading(&l, summary);
+        summarise_volume(&l, series, summary);
+    }
     const double *residual = scree_series_get(series, "energy_residual");
     double largest = 0;
     for (size_t k = 0; k < series->row_count; k++) largest = fmax(largest, fabs(residual[k]));

@@ -18,7 +18,17 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
                                    "strain that the stage imposes: axial, engineering, compression positive, from the "
                                    "plates or the Delaunay boundary; of a deform stage its largest component"},
     [SCREE_SAMPLE_VOLUMETRIC_STRAIN] = {"volumetric_strain", "1",
-                                        "from the Delaunay boundary (Bagi), logarithmic, compression positive"},
+                                        "sum of the increments of the Delaunay boundary (Bagi), logarithmic, "
+                                        "compression positive; without what re-detections of the boundary change"},
+    [SCREE_SAMPLE_VOLUMETRIC_REDETECTED] =
+        {"volumetric_strain_redetected", "1",
+         "change of the enclosed volume by re-detections of the Delaunay boundary, logarithmic, compression positive"},
+    [SCREE_SAMPLE_VOLUMETRIC_ENCLOSED] =
+        {"volumetric_strain_enclosed", "1",
+         "from the volume inside the Delaunay boundary, logarithmic, compression positive: the sum of both"},
+    [SCREE_SAMPLE_VOLUMETRIC_SOLID] = {"volumetric_strain_solid", "1",
+                                       "from the solid fraction inside the Delaunay boundary, logarithmic, compression "
+                                       "positive: does not depend on which bodies the boundary runs through"},
     [SCREE_SAMPLE_BOUNDARY_AXIAL] = {"boundary_axial_strain", "1",
                                      "axial strain from the Delaunay boundary, compression positive"},
     [SCREE_SAMPLE_BOUNDARY_LATERAL] = {"boundary_lateral_strain", "1",
@@ -103,6 +113,24 @@ static void sample_strain(const scree_simulation *s, double *value)
     value[SCREE_SAMPLE_BOUNDARY_LATERAL] = (volumetric - strain[axial]) / axial;
     value[SCREE_SAMPLE_BOUNDARY_LATERAL_Y] = axial == 2 ? strain[1] : NAN;
     value[SCREE_SAMPLE_VOLUMETRIC_STRAIN] = volumetric;
+}
+
+/// Volumetric strains that do not depend on the path of the boundary; the first sample of the stage is their zero.
+static void sample_volume(scree_simulation *s, double *value)
+{
+    double *begin = s->state.stage.reference, enclosed = scree_enclosed_logarithm(&s->state);
+    double redetected = s->state.strain.redetected, solid = value[SCREE_SAMPLE_SOLID_FRACTION];
+    value[SCREE_SAMPLE_VOLUMETRIC_REDETECTED] = value[SCREE_SAMPLE_VOLUMETRIC_ENCLOSED] =
+        value[SCREE_SAMPLE_VOLUMETRIC_SOLID] = NAN;
+    if (!s->stage->loading) return;
+    if (s->state.step == s->state.stage.first_step) {
+        begin[SCREE_LOADING_ENCLOSED] = enclosed;
+        begin[SCREE_LOADING_REDETECTED] = redetected;
+        begin[SCREE_LOADING_SOLID] = solid;
+    }
+    value[SCREE_SAMPLE_VOLUMETRIC_REDETECTED] = begin[SCREE_LOADING_REDETECTED] - redetected;
+    value[SCREE_SAMPLE_VOLUMETRIC_ENCLOSED] = begin[SCREE_LOADING_ENCLOSED] - enclosed;
+    value[SCREE_SAMPLE_VOLUMETRIC_SOLID] = log(solid / begin[SCREE_LOADING_SOLID]);
 }
 
 /// Normal stress across the sides: in 3D the mean of both directions.
@@ -194,6 +222,7 @@ scree_status scree_sample_take(scree_simulation *s, scree_error *error)
     sample_strain(s, value);
     sample_stress(s, value);
     if ((status = sample_structure(s, value, error))) return status;
+    sample_volume(s, value);
     sample_energy(s, value);
     value[SCREE_SAMPLE_RATE_RATIO] = scree_drive_take_ratio(&s->state);
     remember_velocities(s);

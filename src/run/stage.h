@@ -74,6 +74,10 @@ enum {
     SCREE_LOADING_SIDES,       ///< 2: impedance and mass of the side plates
     SCREE_LOADING_STRAIN = 4,  ///< 9: accumulated boundary strain at the begin
     SCREE_LOADING_OTHERS = 13, ///< free for the stage
+    // all loading stages, periodic ones too; set by the first sample (run/sample.c)
+    SCREE_LOADING_ENCLOSED = 20, ///< 1, scree_enclosed_logarithm
+    SCREE_LOADING_REDETECTED,    ///< 1, state.strain.redetected
+    SCREE_LOADING_SOLID,         ///< 1, solid fraction
 };
 
 /// state.stage.reference of rotate_particle.

@@ -3,6 +3,7 @@
 /// A triangle with an edge a-b on the loop and its third point c inside is cut (a-b is replaced by a-c, c-b) when
 ///   - it is a sliver: the angle at c is above 150 degrees, so c lies all but on the edge; or
 ///   - its edge is open: the free gap |x_a - x_b| - R_a - R_b is above the limit (and it is not flat to round-off).
+/// Both limits have a hysteresis where the loop before is known (peel_rule.h).
 /// Slivers go first, flattest first; then open edges, widest gap first; ties by the indices of the points. Only the
 /// third point matters for what is allowed: if c is already on the loop, the cut would pinch the loop in c or drop a
 /// point out of it, so the triangle stays. Hence after every cut the loop is still one simple polygon made of whole
@@ -18,8 +19,6 @@
 #include <stdbool.h>
 
 #define OUTSIDE UINT32_MAX
-/// cos 150 degrees.
-#define SLIVER_COSINE (-0.86602540378443864676)
 /// Twice the area over the square of the outer edge, below which a triangle is flat: only round-off says on which side
 /// of the edge its third point lies, and cutting one that does not lie between the ends would fold the loop onto
 /// itself.
@@ -36,7 +35,7 @@ typedef struct peel_edge {
 typedef struct peeling {
     const scree_triangulation *triangulation;
     const double *points, *radius;
-    double gap_limit;
+    const scree_peel_rule *rule;
     uint8_t *marks; ///< scree_triangle_mark by triangle, or NULL
     uint32_t *next; ///< next point along the loop, OUTSIDE for points that are not on it
     peel_edge *heap;
@@ -95,9 +94,12 @@ static scree_status consider(peeling *peel, uint32_t triangle, int corner, scree
     double cosine = (ca[0] * cb[0] + ca[1] * cb[1]) / (hypot(ca[0], ca[1]) * hypot(cb[0], cb[1]));
     double length = hypot(ab[0], ab[1]), gap = length - peel->radius[edge.a] - peel->radius[edge.b];
     bool flat = ca[0] * cb[1] - ca[1] * cb[0] < FLAT * length * length;
-    edge.sliver = cosine < SLIVER_COSINE;
+    const uint32_t ends[2] = {edge.a, edge.b};
+    double share = scree_peel_rule_share(peel->rule, 2, ends);
+    edge.sliver = -cosine > cos(SCREE_SLIVER_TURN * (2 - share));
     edge.key = edge.sliver ? -cosine : gap;
-    return edge.sliver || (!flat && gap > peel->gap_limit) ? heap_push(peel, edge, error) : SCREE_OK;
+    bool open = !flat && gap > peel->rule->gap_limit * share;
+    return edge.sliver || open ? heap_push(peel, edge, error) : SCREE_OK;
 }
 
 /// Links the edges without a neighbour into the loop to start from. Errors: they are not one simple loop.
@@ -152,11 +154,10 @@ static scree_status cut_triangles(peeling *peel, size_t *loop_count, uint32_t *l
 }
 
 scree_status scree_boundary_loop(const scree_triangulation *triangulation, const double *points, const double *radius,
-                                 size_t count, double gap_limit, uint32_t **loop, size_t *loop_count, uint8_t *marks,
-                                 scree_error *error)
+                                 size_t count, const scree_peel_rule *rule, uint32_t **loop, size_t *loop_count,
+                                 uint8_t *marks, scree_error *error)
 {
-    peeling peel = {
-        .triangulation = triangulation, .points = points, .radius = radius, .gap_limit = gap_limit, .marks = marks};
+    peeling peel = {.triangulation = triangulation, .points = points, .radius = radius, .rule = rule, .marks = marks};
     uint32_t lowest = OUTSIDE;
     *loop = NULL;
     *loop_count = 0;

@@ -10,7 +10,8 @@
 ///     from the third corner. The gap is sqrt(3) times that distance less the mean diameter of the three: that of
 ///     bodies at the corners of an equilateral triangle with the same passage. (Through a dense random packing a
 ///     connected way leads where gaps of about 0.2 diameters are open; the default, 0.5, is far from it.)
-/// Slivers go first, flattest first; then open faces, widest first; ties by the index of the tetrahedron.
+/// Slivers go first, flattest first; then open faces, widest first; ties by the index of the tetrahedron. Both limits
+/// have a hysteresis where the surface before is known (peel_rule.h).
 ///
 /// Allowed are two cuts, which keep the surface what it is, combinatorially a sphere:
 ///   - ONE outer face a-b-c, the fourth point d not on the surface: a-b-c is divided into three triangles at d;
@@ -33,8 +34,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// cos 30 degrees.
-#define SLIVER_COSINE 0.86602540378443864676
 /// Six volumes over the cube of the longest edge of the outer faces, below which a tetrahedron is flat: only round-off
 /// says on which side of the face its fourth point lies, and cutting one that does not lie above it would fold the
 /// surface onto itself.
@@ -55,7 +54,7 @@ typedef struct candidates {
 typedef struct peeling {
     const scree_tetrahedra *tetrahedra;
     const double *points, *radius;
-    double gap_limit;
+    const scree_peel_rule *rule;
     uint8_t *marks;      ///< scree_triangle_mark by tetrahedron
     uint8_t *on_surface; ///< by point
     candidates heap;
@@ -195,24 +194,37 @@ static double six_volumes(const peeling *peel, size_t tetrahedron)
     return scree_dot(normal, up);
 }
 
-/// Queues a tetrahedron that has just got an outer face if it is one to be cut.
+/// What the limits of a face are multiplied by (peel_rule.h).
+static double face_share(const peeling *peel, size_t tetrahedron, int face)
+{
+    uint32_t corner[3];
+    for (int k = 0; k < 3; k++) corner[k] = peel->tetrahedra->vertex[tetrahedron][scree_tetrahedron_face[face][k]];
+    return scree_peel_rule_share(peel->rule, 3, corner);
+}
+
+/// Queues a tetrahedron that has just got an outer face if it is one to be cut. Of two outer faces one that was on the
+/// surface before keeps a sliver, as both go with it.
 static scree_status consider(peeling *peel, uint32_t tetrahedron, scree_error *error)
 {
     peel->marks[tetrahedron] = SCREE_TRIANGLE_OUTER;
     uint8_t outer = outer_faces(peel, tetrahedron);
     if (__builtin_popcount(outer) > 2) return SCREE_OK;
     candidate item = {.tetrahedron = tetrahedron, .outer = outer, .key = turn_cosine(peel, tetrahedron, outer)};
-    item.sliver = item.key > SLIVER_COSINE;
-    if (item.sliver) return heap_push(&peel->heap, item, error);
-    double longest = 0, gap = -INFINITY, square;
+    double longest = 0, gap = -INFINITY, share = 1 - peel->rule->hysteresis, square;
+    bool open = false;
     for (int face = 0; face < 4; face++) {
         if (!(outer >> face & 1)) continue;
-        gap = fmax(gap, face_gap(peel, tetrahedron, face, &square));
+        double free = face_gap(peel, tetrahedron, face, &square), of_face = face_share(peel, tetrahedron, face);
+        open = open || free > peel->rule->gap_limit * of_face;
+        gap = fmax(gap, free);
         longest = fmax(longest, square);
+        share = fmax(share, of_face);
     }
+    item.sliver = item.key > cos(SCREE_SLIVER_TURN * (2 - share));
+    if (item.sliver) return heap_push(&peel->heap, item, error);
     item.key = gap;
     bool flat = six_volumes(peel, tetrahedron) < FLAT * longest * sqrt(longest);
-    return !flat && gap > peel->gap_limit ? heap_push(&peel->heap, item, error) : SCREE_OK;
+    return !flat && open ? heap_push(&peel->heap, item, error) : SCREE_OK;
 }
 
 /// Whether the edge between two corners is on the surface: going round it through uncut tetrahedra comes to an end.
@@ -351,10 +363,10 @@ static scree_status collect(const peeling *peel, scree_triangle_surface *surface
 }
 
 scree_status scree_boundary_surface(const scree_tetrahedra *tetrahedra, const double *points, const double *radius,
-                                    size_t count, double gap_limit, scree_triangle_surface *surface, uint8_t *marks,
-                                    scree_error *error)
+                                    size_t count, const scree_peel_rule *rule, scree_triangle_surface *surface,
+                                    uint8_t *marks, scree_error *error)
 {
-    peeling peel = {.tetrahedra = tetrahedra, .points = points, .radius = radius, .gap_limit = gap_limit};
+    peeling peel = {.tetrahedra = tetrahedra, .points = points, .radius = radius, .rule = rule};
     *surface = (scree_triangle_surface){0};
     scree_status status = scree_allocate(&peel.marks, tetrahedra->count, sizeof *peel.marks, error);
     if (!status) status = scree_allocate(&peel.on_surface, count, sizeof *peel.on_surface, error);

@@ -3,6 +3,7 @@
 #define SCREE_SEARCH_DELAUNAY_H
 
 #include "base/memory.h"
+#include "search/peel_rule.h"
 
 /// Triangles of point indices, counter-clockwise, with neighbours across the edge opposite to each vertex (-1:
 /// outside).
@@ -27,19 +28,20 @@ typedef enum scree_triangle_mark {
 } scree_triangle_mark;
 
 /// Outer boundary of the triangulation after cleaning: boundary triangles whose outer edge leaves a free gap
-/// |x_a - x_b| - R_a - R_b > gap_limit (m), or which are slivers (an angle above 150 degrees opposite to the outer
-/// edge), are cut, slivers first, then the widest gap first, unless their third point is on the loop already: so the
-/// loop stays ONE simple closed polygon with all points inside or on it.
-/// marks[t]: scree_triangle_mark of triangle t, may be NULL. loop: point indices counter-clockwise from the lowest,
-/// caller frees with scree_release. Cost: O(n + h log h).
+/// |x_a - x_b| - R_a - R_b above the rule's limit, or which are slivers (an angle above 150 degrees opposite to the
+/// outer edge), are cut, slivers first, then the widest gap first, unless their third point is on the loop already: so
+/// the loop stays ONE simple closed polygon with all points inside or on it. marks[t]: scree_triangle_mark of triangle
+/// t, may be NULL. loop: point indices counter-clockwise from the lowest, caller frees with scree_release. Cost: O(n +
+/// h log h).
 scree_status scree_boundary_loop(const scree_triangulation *triangulation, const double *points, const double *radius,
-                                 size_t count, double gap_limit, uint32_t **loop, size_t *loop_count, uint8_t *marks,
-                                 scree_error *error) SCREE_MUST_USE;
+                                 size_t count, const scree_peel_rule *rule, uint32_t **loop, size_t *loop_count,
+                                 uint8_t *marks, scree_error *error) SCREE_MUST_USE;
 
 /// The loop of scree_boundary_loop on the Delaunay triangulation of all points, found from those near the outside alone
 /// where that provably gives the same (outer_loop.c). spacing: m, mean distance of neighbours; it steers the cost, not
 /// the result. Errors: as scree_triangulation_build. Cost: O(n) plus a triangulation of the band.
 scree_status scree_outer_loop(const double *points, const double *radius, size_t count, double spacing,
-                              double gap_limit, uint32_t **loop, size_t *loop_count, scree_error *error) SCREE_MUST_USE;
+                              const scree_peel_rule *rule, uint32_t **loop, size_t *loop_count,
+                              scree_error *error) SCREE_MUST_USE;
 
 #endif

@@ -40,15 +40,17 @@ static bool is_certain(scree_band *b, const scree_triangulation *triangulation, 
 
 /// The loop of the whole from the band, in indices of the whole; *certain false (and no loop) when it may be another
 /// one.
-static scree_status loop_of_band(scree_band *b, double gap_limit, uint32_t **loop, size_t *loop_count, bool *certain,
-                                 scree_error *error)
+static scree_status loop_of_band(scree_band *b, const scree_peel_rule *rule, uint32_t **loop, size_t *loop_count,
+                                 bool *certain, scree_error *error)
 {
+    scree_peel_rule of_band = *rule;
+    of_band.index = b->index;
     scree_triangulation triangulation;
     uint8_t *marks = NULL;
     scree_status status = scree_triangulation_build(b->points, b->count, &triangulation, error);
     if (!status) status = scree_allocate(&marks, triangulation.count, sizeof *marks, error);
     if (!status)
-        status = scree_boundary_loop(&triangulation, b->points, b->radius, b->count, gap_limit, loop, loop_count, marks,
+        status = scree_boundary_loop(&triangulation, b->points, b->radius, b->count, &of_band, loop, loop_count, marks,
                                      error);
     *certain = !status && is_certain(b, &triangulation, marks);
     for (size_t k = 0; k < *loop_count; k++) (*loop)[k] = b->index[(*loop)[k]];
@@ -61,19 +63,19 @@ static scree_status loop_of_band(scree_band *b, double gap_limit, uint32_t **loo
     return status;
 }
 
-static scree_status loop_of_all(const double *points, const double *radius, size_t count, double gap_limit,
+static scree_status loop_of_all(const double *points, const double *radius, size_t count, const scree_peel_rule *rule,
                                 uint32_t **loop, size_t *loop_count, scree_error *error)
 {
     scree_triangulation triangulation;
     scree_status status = scree_triangulation_build(points, count, &triangulation, error);
     if (!status)
-        status = scree_boundary_loop(&triangulation, points, radius, count, gap_limit, loop, loop_count, NULL, error);
+        status = scree_boundary_loop(&triangulation, points, radius, count, rule, loop, loop_count, NULL, error);
     scree_triangulation_destroy(&triangulation);
     return status;
 }
 
 scree_status scree_outer_loop(const double *points, const double *radius, size_t count, double spacing,
-                              double gap_limit, uint32_t **loop, size_t *loop_count, scree_error *error)
+                              const scree_peel_rule *rule, uint32_t **loop, size_t *loop_count, scree_error *error)
 {
     *loop = NULL;
     *loop_count = 0;
@@ -81,10 +83,10 @@ scree_status scree_outer_loop(const double *points, const double *radius, size_t
     bool certain = false;
     scree_status status = scree_band_build(points, radius, count, 2, spacing, &b, error);
     while (!status && !certain && b.count > 0) {
-        status = loop_of_band(&b, gap_limit, loop, loop_count, &certain, error);
+        status = loop_of_band(&b, rule, loop, loop_count, &certain, error);
         if (!status && !certain) status = scree_band_extend(&b, error);
     }
     scree_band_destroy(&b);
     if (status || certain) return status;
-    return loop_of_all(points, radius, count, gap_limit, loop, loop_count, error);
+    return loop_of_all(points, radius, count, rule, loop, loop_count, error);
 }

@@ -56,15 +56,17 @@ static bool is_certain(scree_band *b, const scree_tetrahedra *tetrahedra, const 
 
 /// The surface of the whole from the band, in indices of the whole; *certain false (and no surface) when it may be
 /// another one.
-static scree_status surface_of_band(scree_band *b, double gap_limit, scree_triangle_surface *surface, bool *certain,
-                                    scree_error *error)
+static scree_status surface_of_band(scree_band *b, const scree_peel_rule *rule, scree_triangle_surface *surface,
+                                    bool *certain, scree_error *error)
 {
+    scree_peel_rule of_band = *rule;
+    of_band.index = b->index;
     scree_tetrahedra tetrahedra;
     uint8_t *marks = NULL;
     scree_status status = scree_tetrahedra_build(b->points, b->count, &tetrahedra, error);
     if (!status) status = scree_allocate(&marks, tetrahedra.count, sizeof *marks, error);
     if (!status)
-        status = scree_boundary_surface(&tetrahedra, b->points, b->radius, b->count, gap_limit, surface, marks, error);
+        status = scree_boundary_surface(&tetrahedra, b->points, b->radius, b->count, &of_band, surface, marks, error);
     *certain = !status && is_certain(b, &tetrahedra, marks);
     for (size_t t = 0; t < surface->count; t++)
         for (int k = 0; k < 3; k++) surface->triangle[t][k] = b->index[surface->triangle[t][k]];
@@ -74,28 +76,28 @@ static scree_status surface_of_band(scree_band *b, double gap_limit, scree_trian
     return status;
 }
 
-static scree_status surface_of_all(const double *points, const double *radius, size_t count, double gap_limit,
-                                   scree_triangle_surface *surface, scree_error *error)
+static scree_status surface_of_all(const double *points, const double *radius, size_t count,
+                                   const scree_peel_rule *rule, scree_triangle_surface *surface, scree_error *error)
 {
     scree_tetrahedra tetrahedra;
     scree_status status = scree_tetrahedra_build(points, count, &tetrahedra, error);
-    if (!status) status = scree_boundary_surface(&tetrahedra, points, radius, count, gap_limit, surface, NULL, error);
+    if (!status) status = scree_boundary_surface(&tetrahedra, points, radius, count, rule, surface, NULL, error);
     scree_tetrahedra_destroy(&tetrahedra);
     return status;
 }
 
 scree_status scree_outer_surface(const double *points, const double *radius, size_t count, double spacing,
-                                 double gap_limit, scree_triangle_surface *surface, scree_error *error)
+                                 const scree_peel_rule *rule, scree_triangle_surface *surface, scree_error *error)
 {
     *surface = (scree_triangle_surface){0};
     scree_band b;
     bool certain = false;
     scree_status status = scree_band_build(points, radius, count, 3, spacing, &b, error);
     while (!status && !certain && b.count > 0) {
-        status = surface_of_band(&b, gap_limit, surface, &certain, error);
+        status = surface_of_band(&b, rule, surface, &certain, error);
         if (!status && !certain) status = scree_band_extend(&b, error);
     }
     scree_band_destroy(&b);
     if (status || certain) return status;
-    return surface_of_all(points, radius, count, gap_limit, surface, error);
+    return surface_of_all(points, radius, count, rule, surface, error);
 }

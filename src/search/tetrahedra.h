@@ -4,6 +4,7 @@
 #define SCREE_SEARCH_TETRAHEDRA_H
 
 #include "base/memory.h"
+#include "search/peel_rule.h"
 
 #include <stdbool.h>
 
@@ -35,17 +36,18 @@ typedef struct scree_triangle_surface {
 void scree_triangle_surface_destroy(scree_triangle_surface *surface);
 
 /// Outer surface of the tetrahedra after cleaning: tetrahedra on the boundary whose outer face has a free gap above
-/// gap_limit (m), or which are slivers, are cut as long as the surface stays ONE closed surface without handles, every
-/// edge of which belongs to two triangles, and no point falls out of it (boundary_surface.c).
-/// marks[t]: scree_triangle_mark (delaunay.h) of tetrahedron t, may be NULL. Cost: O(n + h log h).
+/// the rule's limit, or which are slivers, are cut as long as the surface stays ONE closed surface without handles,
+/// every edge of which belongs to two triangles, and no point falls out of it (boundary_surface.c). marks[t]:
+/// scree_triangle_mark (delaunay.h) of tetrahedron t, may be NULL. Cost: O(n + h log h).
 scree_status scree_boundary_surface(const scree_tetrahedra *tetrahedra, const double *points, const double *radius,
-                                    size_t count, double gap_limit, scree_triangle_surface *surface, uint8_t *marks,
-                                    scree_error *error) SCREE_MUST_USE;
+                                    size_t count, const scree_peel_rule *rule, scree_triangle_surface *surface,
+                                    uint8_t *marks, scree_error *error) SCREE_MUST_USE;
 
 /// The surface of scree_boundary_surface on the Delaunay tetrahedra of all points, found from those near the outside
 /// alone where that provably gives the same (outer_surface.c). spacing: m, mean distance of neighbours; it steers the
 /// cost, not the result. Errors: as scree_tetrahedra_build. Cost: O(n) plus the tetrahedra of the band.
 scree_status scree_outer_surface(const double *points, const double *radius, size_t count, double spacing,
-                                 double gap_limit, scree_triangle_surface *surface, scree_error *error) SCREE_MUST_USE;
+                                 const scree_peel_rule *rule, scree_triangle_surface *surface,
+                                 scree_error *error) SCREE_MUST_USE;
 
 #endif

@@ -219,6 +219,8 @@ const scree_field scree_members[] = {
 
     ONE("strain/gradient", SCREE_FIELD_DOUBLE, 9, "1", strain.gradient,
         "displacement gradient accumulated from the boundary, 3 x 3 by rows, extension positive"),
+    ONE("strain/redetected", SCREE_FIELD_DOUBLE, 1, "1", strain.redetected,
+        "sum of log (enclosed volume after / before) over the re-detections of the boundary"),
 
     ONE("forced/id", SCREE_FIELD_INT64, 1, "1", forced.id, "body whose spin is prescribed"),
     ONE("forced/active", SCREE_FIELD_INT64, 1, "1", forced.active, "0: there is none"),

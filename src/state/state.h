@@ -228,6 +228,7 @@ typedef struct scree_membrane {
 /// Strain accumulated from the Delaunay boundary (Bagi), see measure/strain.h; compression is NEGATIVE here (tensor).
 typedef struct scree_strain {
     double gradient[9]; ///< accumulated displacement gradient, row-major (d u_row / d x_column)
+    double redetected;  ///< 1, sum of log (enclosed volume after / before) over the re-detections of the boundary
 } scree_strain;
 
 /// The periodic cell; `directions` zero: there is none. Geometry in state/periodic.h, motion in boundary/periodic.c.

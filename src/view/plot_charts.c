@@ -29,7 +29,9 @@ static const struct chart_entry {
     curve curve[CURVES]; ///< ended by a column that is NULL
 } charts[] = {
     {"volumetric-strain", "Volumetric strain", "dilation −ε_v (%), positive: volume grows", false, {
-        {"volumetric_strain", NULL, -100, BLUE, false}}},
+        {"volumetric_strain", "sum of increments", -100, BLUE, false},
+        {"volumetric_strain_enclosed", "enclosed volume", -100, SKY, true},
+        {"volumetric_strain_solid", "solid fraction", -100, VERMILLION, false}}},
     {"stress-ratio", "Stress ratio", "axial over lateral stress (1)", false, {
         {"stress_ratio", "applied", 1, BLUE, false},
         {"stress_ratio_contacts", "from contacts", 1, VERMILLION, true}}},

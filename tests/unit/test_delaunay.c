@@ -141,7 +141,8 @@ static void check_cloud(const cloud *c, double gap_limit, size_t *loop_count)
     size_t count;
     assert_int_equal(scree_triangulation_build(c->points, c->count, &t, &error), SCREE_OK);
     assert_int_equal(scree_allocate(&marks, t.count, 1, &error), SCREE_OK);
-    assert_int_equal(scree_boundary_loop(&t, c->points, c->radius, c->count, gap_limit, &loop, &count, marks, &error),
+    assert_int_equal(scree_boundary_loop(&t, c->points, c->radius, c->count, SCREE_PEEL_RULE(gap_limit), &loop, &count,
+                                         marks, &error),
                      SCREE_OK);
     check_loop(c, &t, loop, count, marks, gap_limit);
     if (loop_count) *loop_count = count;
@@ -299,12 +300,12 @@ static void the_band_gives_the_loop_of_all(void **user)
         size_t whole_count, banded_count;
         for (int limit = 0; limit < 2; limit++) {
             assert_int_equal(scree_triangulation_build(c.points, c.count, &t, NULL), SCREE_OK);
-            assert_int_equal(scree_boundary_loop(&t, c.points, c.radius, c.count, 0.1 + 0.5 * limit, &whole,
-                                                 &whole_count, NULL, NULL),
+            assert_int_equal(scree_boundary_loop(&t, c.points, c.radius, c.count, SCREE_PEEL_RULE(0.1 + 0.5 * limit),
+                                                 &whole, &whole_count, NULL, NULL),
                              SCREE_OK);
             for (size_t k = 0; k < sizeof spacing / sizeof *spacing; k++) {
-                assert_int_equal(scree_outer_loop(c.points, c.radius, c.count, spacing[k], 0.1 + 0.5 * limit, &banded,
-                                                  &banded_count, NULL),
+                assert_int_equal(scree_outer_loop(c.points, c.radius, c.count, spacing[k],
+                                                  SCREE_PEEL_RULE(0.1 + 0.5 * limit), &banded, &banded_count, NULL),
                                  SCREE_OK);
                 assert_int_equal(banded_count, whole_count);
                 assert_memory_equal(banded, whole, whole_count * sizeof *whole);
@@ -327,7 +328,9 @@ static void a_lone_disc_stays_on_the_loop(void **user)
     uint32_t *loop;
     size_t count, spike = 0;
     assert_int_equal(scree_triangulation_build(c.points, c.count, &t, NULL), SCREE_OK);
-    assert_int_equal(scree_boundary_loop(&t, c.points, c.radius, c.count, 0.5, &loop, &count, NULL, NULL), SCREE_OK);
+    assert_int_equal(
+        scree_boundary_loop(&t, c.points, c.radius, c.count, SCREE_PEEL_RULE(0.5), &loop, &count, NULL, NULL),
+        SCREE_OK);
     while (spike < count && loop[spike] != 40) spike++;
     assert_true(spike < count);
     // The root of the spike: its two neighbours in the loop are neighbours of each other in the packing.
@@ -352,8 +355,9 @@ static void the_same_points_give_the_same_loop(void **user)
         uint32_t *loop;
         size_t count;
         assert_int_equal(scree_triangulation_build(c.points, c.count, &t, NULL), SCREE_OK);
-        assert_int_equal(scree_boundary_loop(&t, c.points, c.radius, c.count, -0.5, &loop, &count, NULL, NULL),
-                         SCREE_OK);
+        assert_int_equal(
+            scree_boundary_loop(&t, c.points, c.radius, c.count, SCREE_PEEL_RULE(-0.5), &loop, &count, NULL, NULL),
+            SCREE_OK);
         if (k == 0) {
             first = loop;
             first_count = count;
@@ -407,9 +411,12 @@ static void failed_allocations_are_reported(void **user)
         scree_error error;
         scree_allocation_fail_after(n);
         scree_status status = scree_triangulation_build(c.points, c.count, &t, &error);
-        if (!status) status = scree_boundary_loop(&t, c.points, c.radius, c.count, 0.2, &loop, &count, NULL, &error);
+        if (!status)
+            status =
+                scree_boundary_loop(&t, c.points, c.radius, c.count, SCREE_PEEL_RULE(0.2), &loop, &count, NULL, &error);
         scree_release(&loop);
-        if (!status) status = scree_outer_loop(c.points, c.radius, c.count, 1, 0.2, &loop, &count, &error);
+        if (!status)
+            status = scree_outer_loop(c.points, c.radius, c.count, 1, SCREE_PEEL_RULE(0.2), &loop, &count, &error);
         scree_allocation_fail_after(0);
         failed = status != SCREE_OK;
         if (failed) assert_int_equal(status, SCREE_ERROR_IO);

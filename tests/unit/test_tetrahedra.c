@@ -197,8 +197,9 @@ static size_t check_cloud(const cloud *c, double gap_limit)
     uint8_t *marks;
     assert_int_equal(scree_tetrahedra_build(c->points, c->count, &t, &error), SCREE_OK);
     assert_int_equal(scree_allocate(&marks, t.count, 1, &error), SCREE_OK);
-    assert_int_equal(scree_boundary_surface(&t, c->points, c->radius, c->count, gap_limit, &s, marks, &error),
-                     SCREE_OK);
+    assert_int_equal(
+        scree_boundary_surface(&t, c->points, c->radius, c->count, SCREE_PEEL_RULE(gap_limit), &s, marks, &error),
+        SCREE_OK);
     check_surface(c, &t, &s, marks);
     size_t triangles = s.count;
     scree_triangle_surface_destroy(&s);
@@ -399,7 +400,7 @@ static void a_lone_sphere_stays_on_the_surface(void **user)
         lone[2] = 4.1;
         check_cloud(&c, 0.5);
         scree_triangle_surface s;
-        assert_int_equal(scree_outer_surface(c.points, c.radius, c.count, 1, 0.5, &s, NULL), SCREE_OK);
+        assert_int_equal(scree_outer_surface(c.points, c.radius, c.count, 1, SCREE_PEEL_RULE(0.5), &s, NULL), SCREE_OK);
         size_t triangles = 0;
         for (size_t t = 0; t < s.count; t++)
             for (int k = 0; k < 3; k++) triangles += s.triangle[t][k] == 17;
@@ -420,8 +421,11 @@ static void expect_same(const scree_triangle_surface *a, const scree_triangle_su
 static void compare_with_all(const cloud *c, const scree_tetrahedra *t, double gap_limit)
 {
     scree_triangle_surface band, all;
-    assert_int_equal(scree_outer_surface(c->points, c->radius, c->count, 1, gap_limit, &band, NULL), SCREE_OK);
-    assert_int_equal(scree_boundary_surface(t, c->points, c->radius, c->count, gap_limit, &all, NULL, NULL), SCREE_OK);
+    assert_int_equal(scree_outer_surface(c->points, c->radius, c->count, 1, SCREE_PEEL_RULE(gap_limit), &band, NULL),
+                     SCREE_OK);
+    assert_int_equal(
+        scree_boundary_surface(t, c->points, c->radius, c->count, SCREE_PEEL_RULE(gap_limit), &all, NULL, NULL),
+        SCREE_OK);
     expect_same(&band, &all);
     scree_triangle_surface_destroy(&band);
     scree_triangle_surface_destroy(&all);
@@ -503,8 +507,8 @@ static void the_order_does_not_show(void **user)
         for (size_t k = 0; k < 3; k++) d.points[3 * to + k] = c.points[3 * i + k];
     }
     scree_triangle_surface a, b;
-    assert_int_equal(scree_outer_surface(c.points, c.radius, c.count, 1, 0.3, &a, NULL), SCREE_OK);
-    assert_int_equal(scree_outer_surface(d.points, d.radius, d.count, 1, 0.3, &b, NULL), SCREE_OK);
+    assert_int_equal(scree_outer_surface(c.points, c.radius, c.count, 1, SCREE_PEEL_RULE(0.3), &a, NULL), SCREE_OK);
+    assert_int_equal(scree_outer_surface(d.points, d.radius, d.count, 1, SCREE_PEEL_RULE(0.3), &b, NULL), SCREE_OK);
     assert_int_equal(a.count, b.count);
     for (size_t t = 0; t < a.count; t++) {
         uint32_t v[3];
@@ -536,14 +540,17 @@ static void bad_points_give_errors(void **user)
     assert_non_null(strstr(error.message, "at least 4 points"));
     double kept = c.points[10];
     c.points[10] = NAN;
-    assert_int_equal(scree_outer_surface(c.points, c.radius, c.count, 1, 0.5, &s, &error), SCREE_ERROR_GUARD);
+    assert_int_equal(scree_outer_surface(c.points, c.radius, c.count, 1, SCREE_PEEL_RULE(0.5), &s, &error),
+                     SCREE_ERROR_GUARD);
     assert_non_null(strstr(error.message, "not finite"));
     c.points[10] = kept;
     memcpy(c.points, c.points + 30, 3 * sizeof(double));
-    assert_int_equal(scree_outer_surface(c.points, c.radius, c.count, 1, 0.5, &s, &error), SCREE_ERROR_GUARD);
+    assert_int_equal(scree_outer_surface(c.points, c.radius, c.count, 1, SCREE_PEEL_RULE(0.5), &s, &error),
+                     SCREE_ERROR_GUARD);
     assert_non_null(strstr(error.message, "coincides"));
     for (size_t i = 0; i < c.count; i++) c.points[3 * i + 2] = 1;
-    assert_int_equal(scree_outer_surface(c.points, c.radius, c.count, 1, 0.5, &s, &error), SCREE_ERROR_GUARD);
+    assert_int_equal(scree_outer_surface(c.points, c.radius, c.count, 1, SCREE_PEEL_RULE(0.5), &s, &error),
+                     SCREE_ERROR_GUARD);
     assert_non_null(strstr(error.message, "in a plane"));
     cloud_destroy(&c);
 }
@@ -559,7 +566,7 @@ static void failed_allocations_are_reported(void **user)
         scree_triangle_surface s;
         scree_allocation_statistics(&before, NULL);
         scree_allocation_fail_after(n);
-        scree_status status = scree_outer_surface(c.points, c.radius, c.count, 1, 0.2, &s, &error);
+        scree_status status = scree_outer_surface(c.points, c.radius, c.count, 1, SCREE_PEEL_RULE(0.2), &s, &error);
         scree_allocation_fail_after(0);
         failed = status != SCREE_OK;
         if (failed) assert_int_equal(status, SCREE_ERROR_IO);
