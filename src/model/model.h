@@ -10,6 +10,9 @@
 
 #define SCREE_MAX_MATERIALS 16
 
+/// Number of the material that the particles are made of.
+enum { SCREE_PARTICLE_MATERIAL = 0 };
+
 /// Constants of a contact between two materials (or a grain and a plate). Symmetric in the two materials.
 /// Sources: Hertz 1882; Mindlin 1949; Brilliantov et al. 1996; Tsuji et al. 1992 for the damping coefficient.
 typedef struct scree_pair_constants {

@@ -46,15 +46,20 @@ void scree_simulation_close(scree_simulation *s)
     scree_state_destroy(&s->state);
 }
 
-/// The first stage with contacts opens the energy ledger.
-static void open_ledger(scree_simulation *s)
+/// A stage that has placed the bodies opens the energy ledger with what they hold: motion, and overlaps that they were
+/// placed with.
+static scree_status open_ledger(scree_simulation *s, scree_error *error)
 {
-    s->state.ledger = (scree_ledger){0};
+    scree_state *state = &s->state;
     scree_energy energy;
-    scree_contact_table empty = {0};
-    scree_energy_measure(&s->stage_model, &s->state, &empty, &energy);
-    s->state.ledger.initial = energy.kinetic + energy.kinetic_rotation;
-    s->state.ledger.gravity = energy.gravity;
+    state->ledger = (scree_ledger){0};
+    scree_status status = scree_neighbours_refresh(&s->stage_model, state, &s->work, error);
+    if (!status) status = scree_contact_table_build(&s->stage_model, state, &s->work, &s->table, error);
+    if (status) return status;
+    scree_energy_measure(&s->stage_model, state, &s->table, &energy);
+    state->ledger.initial = energy.kinetic + energy.kinetic_rotation + energy.elastic_normal + energy.elastic_tangential;
+    state->ledger.gravity = energy.gravity;
+    return SCREE_OK;
 }
 
 /// Changes to the boundary of the stage that begins. What walls that go hold in their contacts goes with them; bodies
@@ -95,8 +100,8 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
         scree_forced_spin_end(&s->state);
         scree_status status = s->stage->begin(s, error);
         if (status) return status;
-        if (s->stage->instant) open_ledger(s);
-        if (!s->stage->instant && (status = change_boundary(s, error))) return status;
+        status = s->stage->instant ? open_ledger(s, error) : change_boundary(s, error);
+        if (status) return status;
     }
     if (s->stage->plan) s->stage->plan(s);
     return SCREE_OK;
