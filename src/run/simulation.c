@@ -13,8 +13,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// state.stage.counter of a stage that has not begun.
-enum { NOT_BEGUN = -1 };
+/// state.stage.counter of a stage that has not begun, and of one that has ended. It stays the present one, for whoever
+/// looks at it or stores it, until the next step.
+enum { NOT_BEGUN = -1, ENDED = -2 };
 #define BODIES_A_THREAD 4000
 
 scree_status scree_simulation_open(const scree_case *c, int threads, scree_simulation *s, scree_error *error)
@@ -107,12 +108,14 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
     return SCREE_OK;
 }
 
-/// Marks the present stage as ended; the next step begins the next one.
 static void end_stage(scree_simulation *s)
 {
     s->stage_ended = true;
-    s->state.stage.first_time = scree_state_time(&s->state);
-    s->state.stage.first_step = s->state.step;
+    s->state.stage.counter = ENDED;
+}
+
+static void leave_stage(scree_simulation *s)
+{
     s->state.stage.index++;
     s->state.stage.counter = NOT_BEGUN;
 }
@@ -135,6 +138,7 @@ static scree_status begin_next(scree_simulation *s, scree_error *error)
 scree_status scree_simulation_step(scree_simulation *s, scree_error *error)
 {
     s->sampled = s->stage_ended = false;
+    if (s->state.stage.counter == ENDED) leave_stage(s);
     if (s->state.stage.counter == NOT_BEGUN) return begin_next(s, error);
     scree_status status = scree_step(s, error);
     if (status) return status;
@@ -164,13 +168,11 @@ scree_status scree_simulation_advance(scree_simulation *s, uint64_t steps, bool 
 {
     uint64_t target = s->state.evaluations + steps;
     scree_status status = SCREE_OK;
-    *done = false;
-    while (!status && s->state.evaluations < target) {
+    *done = s->state.stage.index >= s->model.config->stage_count;
+    // What follows a stage that has ended is no step.
+    while (!status && !*done && (s->state.evaluations < target || s->stage_ended)) {
         status = scree_simulation_step(s, error);
-        if (!status && s->state.stage.index >= s->model.config->stage_count) {
-            *done = true;
-            break;
-        }
+        *done = s->state.stage.index >= s->model.config->stage_count;
     }
     return status;
 }

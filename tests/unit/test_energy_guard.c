@@ -5,29 +5,31 @@
 
 #include <stdlib.h>
 
-static const char pair_text[] = "scree: 1\n"
-                                "materials:\n"
-                                "  - {name: quartz, young_modulus: 30 GPa, poisson_ratio: 0.3, density: 2.675e8 kg/m3,\n"
-                                "     friction: 0.45}\n"
-                                "particles: {material: quartz, count: 2, distribution: equal, radius: 0.75 mm}\n"
-                                "contact: {law: hertz_brilliantov, damping_time: 1 ms, reference_velocity: 7.5e-6 m/s}\n"
-                                "stages:\n"
-                                "  - {stage: prepare, method: pair}\n"
-                                "  - {stage: collide}\n"
-                                "measure: {cells: no}\n";
+static const char pair_text[] =
+    "scree: 1\n"
+    "materials:\n"
+    "  - {name: quartz, young_modulus: 30 GPa, poisson_ratio: 0.3, density: 2.675e8 kg/m3,\n"
+    "     friction: 0.45}\n"
+    "particles: {material: quartz, count: 2, distribution: equal, radius: 0.75 mm}\n"
+    "contact: {law: hertz_brilliantov, damping_time: 1 ms, reference_velocity: 7.5e-6 m/s}\n"
+    "stages:\n"
+    "  - {stage: prepare, method: pair}\n"
+    "  - {stage: collide}\n"
+    "measure: {cells: no}\n";
 
 /// Discs that fly about in a periodic cell, and lose next to nothing when they meet.
-static const char gas_text[] = "scree: 1\n"
-                               "materials:\n"
-                               "  - {name: glass, young_modulus: 1 GPa, poisson_ratio: 0.3, density: 2500 kg/m3,\n"
-                               "     friction: 0, restitution: 0.999999}\n"
-                               "particles: {material: glass, count: 40, distribution: equal, radius: 1 mm}\n"
-                               "boundary: {periodic: xy}\n"
-                               "stages:\n"
-                               "  - {stage: prepare, method: gas, solid_fraction: 30 %, velocity: 0.1 m/s, aspect_ratio: 1}\n"
-                               "  - {stage: relax, duration: 20 ms}\n"
-                               "measure: {samples: 500, cells: no}\n"
-                               "output: {snapshots: 0, figures: no, paraview: no}\n";
+static const char gas_text[] =
+    "scree: 1\n"
+    "materials:\n"
+    "  - {name: glass, young_modulus: 1 GPa, poisson_ratio: 0.3, density: 2500 kg/m3,\n"
+    "     friction: 0, restitution: 0.999999}\n"
+    "particles: {material: glass, count: 40, distribution: equal, radius: 1 mm}\n"
+    "boundary: {periodic: xy}\n"
+    "stages:\n"
+    "  - {stage: prepare, method: gas, solid_fraction: 30 %, velocity: 0.1 m/s, aspect_ratio: 1}\n"
+    "  - {stage: relax, duration: 20 ms}\n"
+    "measure: {samples: 500, cells: no}\n"
+    "output: {snapshots: 0, figures: no, paraview: no}\n";
 
 /// Bodies on a lattice, each just touching the next; nothing acts on them but `gravity`, and plates stand around.
 static const char lattice_text[] = "scree: 1\n"
@@ -125,8 +127,10 @@ static void the_summary_divides_by_the_same(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_impact_keeps_what_it_began_with), cmocka_unit_test(an_elastic_gas_goes_on),
-        cmocka_unit_test(bodies_at_rest_are_round_off),       cmocka_unit_test(growing_energy_is_caught),
+        cmocka_unit_test(an_impact_keeps_what_it_began_with),
+        cmocka_unit_test(an_elastic_gas_goes_on),
+        cmocka_unit_test(bodies_at_rest_are_round_off),
+        cmocka_unit_test(growing_energy_is_caught),
         cmocka_unit_test_setup_teardown(the_summary_divides_by_the_same, make_scratch, remove_scratch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
