@@ -20,7 +20,7 @@ static scree_status place(const scree_model *model, const scree_config_stage *st
         return scree_prepare_error(error, model, stage, "speed",
                                    "without a reference velocity auto is no speed: give one, or "
                                    "contact.reference_velocity");
-    int material = scree_model_particle_material(model);
+    const int material = SCREE_PARTICLE_MATERIAL;
     double one = scree_model_mass(model, material, a), other = scree_model_mass(model, material, b);
     double mass = one * other / (one + other);
     double stiffness = model->pairs[material][material].normal_stiffness * sqrt(a * b / (a + b));
