@@ -15,7 +15,7 @@ printf '%-52s %s\n' \
     'peak of axial over lateral stress' "$(value peak_stress_ratio)" \
     'the same over the last fifth of the strain' "$(value final_stress_ratio)" \
     'largest dilation of the volume' "$(value max_volumetric_dilation)" \
-    'energy that is unaccounted for, over the work done' "$(value energy_residual)" \
+    'energy that is unaccounted for, over all energy' "$(value energy_residual)" \
     'stress of plates against stress of contacts' "$(value stress_disagreement)" \
     'checksum of the final state' "$("$scree" get "$folder" state_checksum)"
 echo

@@ -69,7 +69,7 @@ scree_servo scree_servo_for(const scree_model *model, const scree_state *state, 
     double area = scree_plate_area(model, state, index),
            density = sample_mass(state) / scree_sample_volume(model, state);
     double diameter = 2 * model->mean_radius, depth = state->dimension == 3 ? diameter : model->thickness;
-    double k = model->pairs[0][0].normal_stiffness * sqrt(0.5 * model->mean_radius);
+    double k = model->pairs[SCREE_PARTICLE_MATERIAL][SCREE_PARTICLE_MATERIAL].normal_stiffness * sqrt(0.5 * model->mean_radius);
     double stiffness = 1.5 * cbrt(k * k * pressure * diameter * depth) / depth;
     return (scree_servo){.impedance = area * sqrt(stiffness * density) / model->config->boundary.servo_gain,
                          .mass = density * area * diameter};

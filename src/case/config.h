@@ -227,7 +227,7 @@ typedef struct scree_config_output {
 
 typedef struct scree_config_guard {
     double overlap;       ///< 1, largest indentation over the smaller radius
-    double energy_growth; ///< 1, largest energy-ledger residual over the work done
+    double energy_growth; ///< 1, largest energy-ledger residual over all energy that there is and was
 } scree_config_guard;
 
 typedef struct scree_config {

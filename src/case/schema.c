@@ -477,7 +477,8 @@ static const scree_key guard_keys[] = {
     NUMBER(guard, overlap, "1", .standard = "20 %", ABOVE("0 %"), TO("100 %"),
            .meaning = "Largest indentation over the smaller radius."),
     NUMBER(guard, energy_growth, "1", .standard = "5 %", ABOVE("0 %"), TO("10000 %"),
-           .meaning = "Largest residual of the energy ledger over the work done."),
+           .meaning = "Largest residual of the energy ledger over all energy that there is and was: at the begin, turned "
+                      "over, stored now. Energy that grows without end tends to 100 %."),
 };
 
 #define TABLE(title, text, keys)                                                                                       \

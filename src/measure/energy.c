@@ -14,11 +14,23 @@
 /// (two_timescales.c): with v(n) = v(n-1/2) + h/2 a(n), T = sum 1/2 m (v(n)^2 - h^2/4 a(n)^2), and likewise for spins.
 /// The difference, sum m a^2 (h^2 - h'^2) / 8, is booked as `scheme`; it goes to zero with the square of the step.
 /// J = m R^2 / 2 (disc), 2 m R^2 / 5 (sphere). Cost: O(bodies + contacts).
+///
+/// The residual is judged against all energy that there is and was: what there was at the begin, what has been turned
+/// over (dissipation included), what gravity did on balance, what is stored now. Nothing is ever exactly at rest, so
+/// round-off, which has no such energy to be measured by, has its own part of the scale. Positions are known to
+/// d = ROUNDING units in the last place of the largest coordinate L, hence
+///     a contact force f or a weight m g    to an energy    f d, m g d     (quanta of forces are finer: base/fixed.h),
+///     two bodies that should just touch    to              (2/5) K sqrt(R) d^(5/2), which may be felt after they part,
+///     the sum of N terms m g . x           to              N / 2 units in the last place of the sum of |m g . x|.
+/// The sums of kinetic and elastic energy have errors of the same kind, but against themselves, which are in the scale.
 #include "measure/measure.h"
 
 #include "integrate/integrate.h"
 
+#include <float.h>
 #include <math.h>
+
+#define ROUNDING 16.0
 
 /// v(n-1/2) . v(n+1/2) of a body, translation and rotation.
 static void add_kinetic(const scree_model *model, const scree_state *state, size_t index, scree_energy *energy)
@@ -62,29 +74,63 @@ void scree_energy_change_step(const scree_model *model, scree_state *state, doub
     state->ledger.scheme += 0.125 * (before * before - after * after) * sum;
 }
 
+/// What the scale of the residual needs of gravity and coordinates, beside the energies themselves.
+typedef struct coordinates {
+    double largest;    ///< m, magnitude
+    double mass;       ///< kg
+    double potential;  ///< J, sum of m g . x
+    double magnitudes; ///< J, sum of |m g . x|
+} coordinates;
+
+static void add_body(const scree_model *model, const scree_state *state, size_t row, coordinates *sum)
+{
+    scree_vector place;
+    double mass = state->row[row].mass;
+    scree_body_place(state, row, place);
+    for (int k = 0; k < state->dimension; k++) {
+        double potential = mass * model->gravity[k] * place[k];
+        sum->potential += potential;
+        sum->magnitudes += fabs(potential);
+        sum->largest = fmax(sum->largest, fabs(place[k]));
+    }
+    sum->mass += mass;
+}
+
+/// Energy to which round-off lets the balance be known: the head of this file.
+static double energy_of_rounding(const scree_model *model, const scree_state *state, const coordinates *sum,
+                                 double contact_force)
+{
+    double distance = ROUNDING * DBL_EPSILON * sum->largest;
+    double weight = sum->mass * scree_length(model->gravity), bodies = (double)state->count;
+    double stiffness = model->pairs[SCREE_PARTICLE_MATERIAL][SCREE_PARTICLE_MATERIAL].normal_stiffness;
+    return distance * (contact_force + weight) +
+           bodies * 0.4 * stiffness * sqrt(model->mean_radius) * pow(distance, 2.5) +
+           0.5 * DBL_EPSILON * bodies * sum->magnitudes;
+}
+
 void scree_energy_measure(const scree_model *model, const scree_state *state, const scree_contact_table *table,
                           scree_energy *energy)
 {
     const scree_ledger *ledger = &state->ledger;
     *energy = (scree_energy){0};
-    double potential = 0;
+    coordinates sum = {0};
+    double contact_force = 0;
     for (size_t id = 0; id < state->count; id++) {
-        size_t row = state->row_of_id[id];
-        add_kinetic(model, state, row, energy);
-        scree_vector place;
-        scree_body_place(state, row, place);
-        for (int k = 0; k < state->dimension; k++) potential += state->row[row].mass * model->gravity[k] * place[k];
+        add_kinetic(model, state, state->row_of_id[id], energy);
+        add_body(model, state, state->row_of_id[id], &sum);
     }
     for (size_t c = 0; c < table->count; c++) {
         energy->elastic_normal += table->contact[c].elastic_normal;
         energy->elastic_tangential += table->contact[c].elastic_tangential;
+        contact_force += table->contact[c].normal_force;
     }
-    energy->gravity = potential - ledger->gravity;
+    energy->gravity = sum.potential - ledger->gravity;
     double stored = energy->kinetic + energy->kinetic_rotation + energy->elastic_normal + energy->elastic_tangential;
     energy->residual =
         (stored - ledger->initial) -
         (ledger->plates + ledger->pressure + ledger->boundary + ledger->periodic + ledger->forced + energy->gravity) +
         ledger->damping + ledger->friction - ledger->stiffness - ledger->scheme;
-    double turnover = ledger->turnover + fabs(energy->gravity);
-    energy->relative = turnover > 0 ? fabs(energy->residual) / turnover : 0;
+    energy->scale = ledger->initial + ledger->turnover + fabs(energy->gravity) + stored +
+                    energy_of_rounding(model, state, &sum, contact_force);
+    energy->relative = energy->scale > 0 ? fabs(energy->residual) / energy->scale : 0;
 }

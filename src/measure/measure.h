@@ -101,13 +101,15 @@ typedef struct scree_energy {
     double elastic_normal, elastic_tangential;
     double gravity;  ///< J, work of gravity since the ledger was opened: sum of m g . x minus ledger.gravity
     double residual; ///< J, of the balance
-    double relative; ///< |residual| / turnover of work
+    double scale;    ///< J, all energy that there is and was, and what round-off may make of none (energy.c)
+    double relative; ///< |residual| / scale
 } scree_energy;
-/// Energies at step n by the scheme's own discrete definition (kinetic = 1/2 m v(n-1/2).v(n+1/2)), and the residual.
+
 /// Books what a change of the step from `before` to `after` [s] does to the kinetic energy of the scheme; between two
 /// steps.
 void scree_energy_change_step(const scree_model *model, scree_state *state, double before, double after);
 
+/// Energies at step n by the scheme's own discrete definition (kinetic = 1/2 m v(n-1/2).v(n+1/2)), and the residual.
 void scree_energy_measure(const scree_model *model, const scree_state *state, const scree_contact_table *table,
                           scree_energy *energy);
 

@@ -152,7 +152,7 @@ static double impact_force(double stiffness, double effective_mass, double speed
 
 double scree_critical_step_estimate(const scree_model *model)
 {
-    int material = scree_model_particle_material(model);
+    const int material = SCREE_PARTICLE_MATERIAL;
     const scree_pair_constants *pair = &model->pairs[material][material];
     double mass = scree_model_mass(model, material, model->radius_min);
     double effective_radius = model->radius_min / 2, effective_mass = mass / 2;

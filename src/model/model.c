@@ -32,14 +32,6 @@ static scree_status indexed_error(scree_error *error, const char *list, int64_t 
     return FIELD_ERROR(error, path, "%s", text);
 }
 
-int scree_model_particle_material(const scree_model *model)
-{
-    const scree_config *config = model->config;
-    for (int i = 0; i < model->material_count; i++)
-        if (strcmp(config->materials[i].name, config->particles.material) == 0) return i;
-    return -1;
-}
-
 bool scree_model_is_wholly_periodic(const scree_model *model)
 {
     return model->config->boundary.periodic == (1 << model->dimension) - 1;
@@ -67,29 +59,60 @@ static scree_pair_constants pair_constants(const scree_config_material *a, const
     };
 }
 
-static scree_status resolve_materials(scree_model *model, scree_error *error)
+static scree_status check_materials(const scree_model *model, scree_error *error)
 {
     const scree_config *config = model->config;
     if (config->material_count < 1 || config->material_count > SCREE_MAX_MATERIALS)
         return FIELD_ERROR(error, "materials", "a case has 1 to %d materials, this one has %lld", SCREE_MAX_MATERIALS,
                            (long long)config->material_count);
-    model->material_count = (int)config->material_count;
-    for (int i = 0; i < model->material_count; i++) {
-        const scree_config_material *material = &config->materials[i];
+    for (int i = 0; i < config->material_count; i++) {
         for (int j = 0; j < i; j++)
-            if (strcmp(material->name, config->materials[j].name) == 0)
+            if (strcmp(config->materials[i].name, config->materials[j].name) == 0)
                 return indexed_error(error, "materials", i, "name", "two materials have the same name");
-        if (model->law == SCREE_LAW_HERTZ_MINDLIN && !(material->restitution > 0))
+        if (model->law == SCREE_LAW_HERTZ_MINDLIN && !(config->materials[i].restitution > 0))
             return indexed_error(error, "materials", i, "restitution",
                                  "hertz_mindlin reaches a restitution of zero only with infinite damping; "
                                  "give a value above 0, such as 0.05");
+    }
+    return SCREE_OK;
+}
+
+/// Something is made of it.
+static bool is_used(const scree_config *config, const scree_config_material *material)
+{
+    return strcmp(material->name, config->particles.material) == 0;
+}
+
+/// Materials in use, that of the particles first, then the others: what nothing is made of has constants, but counts
+/// in nothing. Returns the number of those in use.
+static int order_materials(const scree_config *config, const scree_config_material *order[])
+{
+    int used = 0, count = 0;
+    for (int pass = 0; pass < 2; pass++) {
+        for (int i = 0; i < config->material_count; i++)
+            if (is_used(config, &config->materials[i]) == (pass == 0)) order[count++] = &config->materials[i];
+        if (pass == 0) used = count;
+    }
+    return used;
+}
+
+static scree_status resolve_materials(scree_model *model, scree_error *error)
+{
+    const scree_config *config = model->config;
+    const scree_config_material *order[SCREE_MAX_MATERIALS];
+    scree_status status = check_materials(model, error);
+    if (status) return status;
+    model->material_count = order_materials(config, order);
+    for (int i = 0; i < config->material_count; i++) {
+        const scree_config_material *material = order[i];
         for (int j = 0; j <= i; j++)
-            model->pairs[i][j] = model->pairs[j][i] = pair_constants(material, &config->materials[j], model->law);
+            model->pairs[i][j] = model->pairs[j][i] = pair_constants(material, order[j], model->law);
         model->walls[i] = model->pairs[i][i];
         if (!isnan(material->wall_friction)) model->walls[i].friction = material->wall_friction;
         model->density[i] = material->density;
         bool rolls = material->rolling_friction > 0 || material->twisting_friction > 0;
-        model->rolling = model->rolling || (rolls && model->law == SCREE_LAW_HERTZ_MINDLIN);
+        if (i < model->material_count && model->law == SCREE_LAW_HERTZ_MINDLIN)
+            model->rolling = model->rolling || rolls;
     }
     return SCREE_OK;
 }
@@ -97,10 +120,10 @@ static scree_status resolve_materials(scree_model *model, scree_error *error)
 static scree_status resolve_particles(scree_model *model, scree_error *error)
 {
     const scree_config_particles *particles = &model->config->particles;
-    if (scree_model_particle_material(model) < 0) {
+    if (model->material_count == 0) {
         scree_status status =
             FIELD_ERROR(error, "particles.material", "there is no material '%s' in this case", particles->material);
-        for (int i = 0; error && i < model->material_count; i++) {
+        for (int i = 0; error && i < model->config->material_count; i++) {
             size_t used = strlen(error->accepted);
             (void)snprintf(error->accepted + used, sizeof error->accepted - used, "%s%s", i ? ", " : "",
                            model->config->materials[i].name);
@@ -172,8 +195,8 @@ static scree_status resolve_membrane(scree_model *model, scree_error *error)
     if (model->material_count == SCREE_MAX_MATERIALS)
         return FIELD_ERROR(error, "materials", "a case with a membrane has at most %d materials",
                            SCREE_MAX_MATERIALS - 1);
-    int grains = scree_model_particle_material(model), m = model->membrane_material = model->material_count;
-    for (int i = 0; i < model->material_count; i++) model->pairs[m][i] = model->pairs[i][m] = model->pairs[grains][i];
+    const int grains = SCREE_PARTICLE_MATERIAL, m = model->membrane_material = model->material_count;
+    for (int i = 0; i < m; i++) model->pairs[m][i] = model->pairs[i][m] = model->pairs[grains][i];
     model->pairs[m][m] = model->pairs[grains][grains];
     model->walls[m] = model->walls[grains];
     model->density[m] = model->density[grains];
@@ -248,7 +271,7 @@ double scree_model_loading_rate(const scree_config_stage *stage)
 /// Sides [m] of the box of a gas; in 2D the third is infinite.
 static void gas_sides(const scree_model *model, const scree_config_stage *stage, double side[3])
 {
-    int material = scree_model_particle_material(model);
+    const int material = SCREE_PARTICLE_MATERIAL;
     double depth = model->dimension == 3 ? 1 : model->thickness;
     double solid = (double)model->config->particles.count * mean_mass(model, material) / model->density[material];
     double room = solid / depth / scree_model_gas_fraction(model, stage);
@@ -315,7 +338,7 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
                            "give contact.reference_velocity");
     model->phi = model->psi = NAN;
     if (isnan(rate) || isnan(pressure)) return SCREE_OK;
-    double mass = mean_mass(model, scree_model_particle_material(model));
+    double mass = mean_mass(model, SCREE_PARTICLE_MATERIAL);
     scree_quasistatic_numbers(model->dimension, (double)config->particles.count, mass, model->mean_radius,
                               model->thickness, rate, pressure, &model->phi, &model->psi);
     return SCREE_OK;

@@ -10,6 +10,9 @@
 
 #define SCREE_MAX_MATERIALS 16
 
+/// Number of the material that the particles are made of.
+enum { SCREE_PARTICLE_MATERIAL = 0 };
+
 /// Constants of a contact between two materials (or a grain and a plate). Symmetric in the two materials.
 /// Sources: Hertz 1882; Mindlin 1949; Brilliantov et al. 1996; Tsuji et al. 1992 for the damping coefficient.
 typedef struct scree_pair_constants {
@@ -44,7 +47,7 @@ typedef struct scree_model {
     int membrane_material;     ///< index of its constants below, frictionless, else those of the particles
     double membrane_radius;    ///< m; 0 without a membrane
     double membrane_stiffness; ///< N/m, of one spring
-    int material_count;
+    int material_count; ///< in use; they are numbered from 0, and what no body is made of has no part in anything
     scree_pair_constants pairs[SCREE_MAX_MATERIALS][SCREE_MAX_MATERIALS]; ///< grain on grain
     scree_pair_constants walls[SCREE_MAX_MATERIALS];                      ///< grain on a plate of the same material
     bool friction_of_stage; ///< the stage's own friction holds for all contacts, the walls of the case included
@@ -81,9 +84,6 @@ static inline double scree_model_mass(const scree_model *model, int material, do
 
 /// Strain rate that a stage imposes [1/s]; of a deform stage the largest component. NAN: it loads nothing.
 double scree_model_loading_rate(const scree_config_stage *stage);
-
-/// Index of the material that the particles are made of.
-int scree_model_particle_material(const scree_model *model);
 
 /// Solid fraction of a gas that `stage` prepares: what it says, 30 % of discs or 15 % of spheres where that is auto.
 double scree_model_gas_fraction(const scree_model *model, const scree_config_stage *stage);

@@ -20,12 +20,12 @@ static scree_status place(const scree_model *model, const scree_config_stage *st
         return scree_prepare_error(error, model, stage, "speed",
                                    "without a reference velocity auto is no speed: give one, or "
                                    "contact.reference_velocity");
-    int material = scree_model_particle_material(model);
+    const int material = SCREE_PARTICLE_MATERIAL;
     double one = scree_model_mass(model, material, a), other = scree_model_mass(model, material, b);
     double mass = one * other / (one + other);
     double stiffness = model->pairs[material][material].normal_stiffness * sqrt(a * b / (a + b));
     double gap = isnan(stage->gap) ? pow(mass * speed * speed / stiffness, 0.4) : stage->gap;
-    packing->box.width = 2 * (a + b) + gap;
+    packing->box.width = 3 * (a + b) + gap;
     packing->box.height = packing->box.depth = 4 * largest;
     for (int i = 0; i < packing->dimension; i++) packing->place[i][0] = packing->place[i][1] = 2 * largest;
     packing->place[0][0] = 1.5 * a + 0.5 * b;

@@ -62,7 +62,7 @@ void scree_draw_radii(const scree_model *model, double *radius, size_t count)
 
 static void fill_rows(const scree_model *model, const scree_packing *packing, scree_state *state)
 {
-    int material = scree_model_particle_material(model);
+    const int material = SCREE_PARTICLE_MATERIAL;
     for (size_t i = 0; i < state->count; i++) {
         double radius = packing->radius[i];
         state->row[i] = (scree_row){
@@ -81,14 +81,14 @@ static void fill_rows(const scree_model *model, const scree_packing *packing, sc
 }
 
 /// Walls of the box. Those of a round sample say where it is, but do not exist.
-static void stand_walls(const scree_model *model, const scree_box *box, bool active, scree_state *state)
+static void stand_walls(const scree_box *box, bool active, scree_state *state)
 {
     const int axis[SCREE_WALL_COUNT] = {state->dimension - 1, state->dimension - 1, 0, 0, 1, 1};
     const double far[SCREE_WALL_COUNT / 2] = {box->height, box->width, box->depth};
     for (int w = 0; w < 2 * state->dimension; w++) {
         scree_wall *wall = &state->wall[w];
-        *wall = (scree_wall){
-            .position = w % 2 ? -far[w / 2] : 0, .active = active, .material = scree_model_particle_material(model)};
+        *wall =
+            (scree_wall){.position = w % 2 ? -far[w / 2] : 0, .active = active, .material = SCREE_PARTICLE_MATERIAL};
         wall->normal[axis[w]] = w % 2 ? -1 : 1;
         // No walls where the sample repeats itself.
         if (box->periodic >> axis[w] & 1) wall->active = 0;
@@ -123,7 +123,7 @@ scree_status scree_prepare(const scree_model *model, const scree_config_stage *s
     }
     if (!status) {
         fill_rows(model, &packing, state);
-        stand_walls(model, &packing.box, !round, state);
+        stand_walls(&packing.box, !round, state);
         state->tick = model->step;
         state->step_size = state->kick_size = (double)model->largest_step * model->step;
         if (method->set_moving) method->set_moving(model, stage, state);

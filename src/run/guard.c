@@ -80,7 +80,7 @@ scree_status scree_guard_sample(const scree_simulation *s, double relative_resid
     double limit = s->model.config->guard.energy_growth;
     if (relative_residual <= limit) return SCREE_OK;
     return scree_error_set(error, SCREE_ERROR_GUARD,
-                           "step %llu: the energy balance is open by %.2g of the work done (guard.energy_growth %.2g); "
+                           "step %llu: the energy balance is open by %.2g of all energy (guard.energy_growth %.2g); "
                            "energy appears from nowhere: try integrator.step=%.2g s",
                            (unsigned long long)s->state.step, relative_residual, limit, 0.25 * s->state.tick);
 }

@@ -10,9 +10,8 @@
 /// axis; with imposed rates, mean, least and largest ratio of actual and imposed rate (`rate_ratio_...`, of the
 /// intervals between two samples) from STARTED of the strain on. Over the loading, from the bodies:
 /// `corner_distortion`, `boundary_roughness` (files of these names in measure/); and what it
-/// cost. Over the whole run: largest residual of the energy balance over the energy at the begin and the work turned
-/// over by the end
-/// (`energy_residual`). Of each wall of the case `NAME_work`, `NAME_force`, `NAME_torque`.
+/// cost. Over the whole run: largest residual of the energy balance over the scale of the guard (measure/energy.c) at
+/// the end (`energy_residual`). Of each wall of the case `NAME_work`, `NAME_force`, `NAME_torque`.
 #include "run/results.h"
 
 #include "io/run_directory.h"
@@ -186,17 +185,29 @@ static void summarise_start(const scree_series *series, const scree_config *conf
     scree_summary_set_number(summary, "solid_fraction_at_start", scree_series_get(series, "solid_fraction")[l.first]);
 }
 
-static void summarise_series(const scree_series *series, double turnover, scree_summary *summary)
+/// The contacts of now: the last sample may be older than the end, or from before a restart.
+static scree_status summarise_energy(const scree_series *series, scree_simulation *s, scree_summary *summary,
+                                     scree_error *error)
+{
+    const double *residual = scree_series_get(series, "energy_residual");
+    double largest = 0;
+    for (size_t k = 0; k < series->row_count; k++) largest = fmax(largest, fabs(residual[k]));
+    scree_energy energy;
+    scree_status status = SCREE_OK;
+    if (s->work.valid) status = scree_contact_table_build(&s->stage_model, &s->state, &s->work, &s->table, error);
+    if (status) return status;
+    scree_energy_measure(&s->stage_model, &s->state, &s->table, &energy);
+    if (energy.scale > 0) scree_summary_set_number(summary, "energy_residual", largest / energy.scale);
+    return SCREE_OK;
+}
+
+static void summarise_series(const scree_series *series, scree_summary *summary)
 {
     loading l;
     if (find_loading(series, &l)) {
         summarise_loading(&l, summary);
         summarise_volume(&l, series, summary);
     }
-    const double *residual = scree_series_get(series, "energy_residual");
-    double largest = 0;
-    for (size_t k = 0; k < series->row_count; k++) largest = fmax(largest, fabs(residual[k]));
-    if (turnover > 0) scree_summary_set_number(summary, "energy_residual", largest / turnover);
     if (series->row_count == 0) return;
     static const char *const finals[] = {"coordination", "coordination_without_rattlers", "rattler_fraction",
                                          "solid_fraction", "unbalanced_ratio"};
@@ -301,10 +312,11 @@ scree_status scree_results_collect(const scree_recorder *recorder, scree_simulat
     if (!status) {
         summarise_run(recorder, s, *summary);
         summarise_start(&series, s->model.config, *summary);
-        summarise_series(&series, s->state.ledger.turnover + s->state.ledger.initial, *summary);
+        summarise_series(&series, *summary);
         summarise_walls(s, *summary);
-        status = summarise_stage(s, *summary, error);
+        status = summarise_energy(&series, s, *summary, error);
     }
+    if (!status) status = summarise_stage(s, *summary, error);
     if (!status && s->model.config->measure.cells && !s->state.periodic.directions)
         status = scree_cell_results_write(recorder->directory, s->model.config, &series, *summary, error);
     if (!status) status = scree_collide_results(s, *summary, error);

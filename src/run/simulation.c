@@ -13,8 +13,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// state.stage.counter of a stage that has not begun.
-enum { NOT_BEGUN = -1 };
+/// state.stage.counter of a stage that has not begun, and of one that has ended. It stays the present one, for whoever
+/// looks at it or stores it, until the next step.
+enum { NOT_BEGUN = -1, ENDED = -2 };
 #define BODIES_A_THREAD 4000
 
 scree_status scree_simulation_open(const scree_case *c, int threads, scree_simulation *s, scree_error *error)
@@ -46,15 +47,20 @@ void scree_simulation_close(scree_simulation *s)
     scree_state_destroy(&s->state);
 }
 
-/// The first stage with contacts opens the energy ledger.
-static void open_ledger(scree_simulation *s)
+/// A stage that has placed the bodies opens the energy ledger with what they hold: motion, and overlaps that they were
+/// placed with.
+static scree_status open_ledger(scree_simulation *s, scree_error *error)
 {
-    s->state.ledger = (scree_ledger){0};
+    scree_state *state = &s->state;
     scree_energy energy;
-    scree_contact_table empty = {0};
-    scree_energy_measure(&s->stage_model, &s->state, &empty, &energy);
-    s->state.ledger.initial = energy.kinetic + energy.kinetic_rotation;
-    s->state.ledger.gravity = energy.gravity;
+    state->ledger = (scree_ledger){0};
+    scree_status status = scree_neighbours_refresh(&s->stage_model, state, &s->work, error);
+    if (!status) status = scree_contact_table_build(&s->stage_model, state, &s->work, &s->table, error);
+    if (status) return status;
+    scree_energy_measure(&s->stage_model, state, &s->table, &energy);
+    state->ledger.initial = energy.kinetic + energy.kinetic_rotation + energy.elastic_normal + energy.elastic_tangential;
+    state->ledger.gravity = energy.gravity;
+    return SCREE_OK;
 }
 
 /// Changes to the boundary of the stage that begins. What walls that go hold in their contacts goes with them; bodies
@@ -95,19 +101,21 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
         scree_forced_spin_end(&s->state);
         scree_status status = s->stage->begin(s, error);
         if (status) return status;
-        if (s->stage->instant) open_ledger(s);
-        if (!s->stage->instant && (status = change_boundary(s, error))) return status;
+        status = s->stage->instant ? open_ledger(s, error) : change_boundary(s, error);
+        if (status) return status;
     }
     if (s->stage->plan) s->stage->plan(s);
     return SCREE_OK;
 }
 
-/// Marks the present stage as ended; the next step begins the next one.
 static void end_stage(scree_simulation *s)
 {
     s->stage_ended = true;
-    s->state.stage.first_time = scree_state_time(&s->state);
-    s->state.stage.first_step = s->state.step;
+    s->state.stage.counter = ENDED;
+}
+
+static void leave_stage(scree_simulation *s)
+{
     s->state.stage.index++;
     s->state.stage.counter = NOT_BEGUN;
 }
@@ -130,6 +138,7 @@ static scree_status begin_next(scree_simulation *s, scree_error *error)
 scree_status scree_simulation_step(scree_simulation *s, scree_error *error)
 {
     s->sampled = s->stage_ended = false;
+    if (s->state.stage.counter == ENDED) leave_stage(s);
     if (s->state.stage.counter == NOT_BEGUN) return begin_next(s, error);
     scree_status status = scree_step(s, error);
     if (status) return status;
@@ -159,13 +168,11 @@ scree_status scree_simulation_advance(scree_simulation *s, uint64_t steps, bool 
 {
     uint64_t target = s->state.evaluations + steps;
     scree_status status = SCREE_OK;
-    *done = false;
-    while (!status && s->state.evaluations < target) {
+    *done = s->state.stage.index >= s->model.config->stage_count;
+    // What follows a stage that has ended is no step.
+    while (!status && !*done && (s->state.evaluations < target || s->stage_ended)) {
         status = scree_simulation_step(s, error);
-        if (!status && s->state.stage.index >= s->model.config->stage_count) {
-            *done = true;
-            break;
-        }
+        *done = s->state.stage.index >= s->model.config->stage_count;
     }
     return status;
 }

@@ -39,8 +39,9 @@ void scree_simulation_close(scree_simulation *s);
 /// Begins the stage in state.stage.index (a new stage), or takes it up again after a restart.
 scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *error) SCREE_MUST_USE;
 
-/// One step with all that hangs on it: sample when due, end of the stage, begin of the next. Sets sampled, stage_ended;
-/// stage becomes NULL at the end of the case.
+/// One step with all that hangs on it: sample when due, end of the stage. A stage that has ended stays the present one
+/// until the next call, which begins the next stage, and is no step. Sets sampled, stage_ended; after the last stage
+/// `stage` becomes NULL and state.stage.index the number of stages.
 scree_status scree_simulation_step(scree_simulation *s, scree_error *error) SCREE_MUST_USE;
 
 #endif

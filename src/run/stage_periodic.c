@@ -9,8 +9,7 @@
 /// shear. Rates are reached smoothly within `rise_time`.
 ///
 /// reference: [0] confine: pressure at the begin, compress: width at the begin; [1] wave time, [2, 3, 13] inertia,
-/// damping and limit of components under stress, [4..12] strain of the cell at the begin (3 x 3), [14] deform: number
-/// of its fastest component.
+/// damping and limit of components under stress, [4..12] strain of the cell at the begin (3 x 3).
 #include "base/matrix.h"
 #include "run/sample.h"
 #include "run/simulation.h"
@@ -19,7 +18,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { WAVE_TIME = 1, INERTIA, DAMPING, STRAIN, LIMIT = 13, LEADER };
+enum { WAVE_TIME = 1, INERTIA, DAMPING, STRAIN, LIMIT = 13 };
 enum { CALM = 5, SAMPLES_A_WAVE = 4 };
 #define STRESS_TOLERANCE 0.02
 #define RAMP_WAVES       6.0
@@ -215,9 +214,8 @@ static scree_status begin_deform(scree_simulation *s, scree_error *error)
 {
     (void)error;
     const scree_config_stage *stage = scree_stage_config(s);
-    double held = scree_held_pressure(stage), rate[9];
+    double held = scree_held_pressure(stage);
     measure_sample(s, held > 0 ? held : s->state.pressure);
-    s->state.stage.reference[LEADER] = find_rates(stage, rate);
     set_reference(&s->state);
     return SCREE_OK;
 }
@@ -238,8 +236,8 @@ static void control_deform(scree_simulation *s)
 
 static double deform_strain(const scree_simulation *s)
 {
-    // Asked for after the end of the stage too, when the config is that of the next.
-    int leader = (int)s->state.stage.reference[LEADER];
+    double rate[9];
+    int leader = find_rates(scree_stage_config(s), rate);
     return fabs(s->state.periodic.strain[leader] - s->state.stage.reference[STRAIN + leader]);
 }
 

@@ -33,7 +33,7 @@ static scree_status make_probe(const scree_model *model, scree_state *state, scr
         state->row[k] = (scree_row){.x = spacing * ((double)i + 0.5 * (double)(j % 2)),
                                     .y = spacing * sqrt(0.75) * (double)j,
                                     .radius = radius,
-                                    .mass = model->density[0] * M_PI * radius * radius * model->thickness};
+                                    .mass = model->density[SCREE_PARTICLE_MATERIAL] * M_PI * radius * radius * model->thickness};
     }
     return SCREE_OK;
 }
@@ -68,8 +68,8 @@ static double expected_wave_time(const scree_model *model, double count, double 
 {
     double disc = M_PI * model->mean_radius * model->mean_radius;
     double area = count * disc / TYPICAL_SOLID_FRACTION;
-    double mass_per_area = model->density[0] * model->thickness * TYPICAL_SOLID_FRACTION;
-    double k = model->pairs[0][0].normal_stiffness * sqrt(0.5 * model->mean_radius);
+    double mass_per_area = model->density[SCREE_PARTICLE_MATERIAL] * model->thickness * TYPICAL_SOLID_FRACTION;
+    double k = model->pairs[SCREE_PARTICLE_MATERIAL][SCREE_PARTICLE_MATERIAL].normal_stiffness * sqrt(0.5 * model->mean_radius);
     double stiffness = 1.5 * cbrt(k * k * pressure * 2 * model->mean_radius * model->thickness);
     return sqrt(area * fmax(aspect_ratio, 1 / aspect_ratio) * mass_per_area / stiffness);
 }

@@ -549,8 +549,9 @@ static void every_term_of_the_balance_has_its_sign(void **user)
     assert_true(near(energy.gravity, 2e-3, 1e-13, 1e-3));
     // Stored 4.5 - 1 = 3.5; put in 5 + 1 + 2 = 8; lost 6; given by the stiffness 0.5: 3.5 - 8 + 6 - 0.5 = 1.
     assert_true(near(energy.residual, 1e-3, 1e-12, 1e-3));
-    // Over the energy turned over, and the work of gravity.
-    assert_true(near(energy.relative, 1e-3 / (0.1 + 2e-3), 1e-12, 1e-2));
+    // Over the energy at the begin, what was turned over, the work of gravity, and what is stored.
+    assert_true(near(energy.scale, 1e-3 + 0.1 + 2e-3 + 4.5e-3, 1e-12, 0.1));
+    assert_true(near(energy.relative, 1e-3 / energy.scale, 1e-12, 1e-2));
     scree_state_destroy(&b.state);
 }
 

@@ -238,7 +238,7 @@ static void test_state_is_complete(void **unused)
     for (size_t i = 0; i < s.state.count; i++) {
         const scree_row *p = &s.state.row[i];
         highest = fmax(highest, p->y + p->radius);
-        assert_true(p->material == 1 && p->vx == 0 && p->vy == 0 && p->spin == 0);
+        assert_true(p->material == SCREE_PARTICLE_MATERIAL && p->vx == 0 && p->vy == 0 && p->spin == 0);
         assert_true(fabs(p->mass / (8e3 * M_PI * p->radius * p->radius * 1.5e-3) - 1) < 1e-14);
         assert_true(s.state.reference[i][0] == p->x && s.state.reference[i][1] == p->y && s.state.id[i] == i);
     }
@@ -246,7 +246,8 @@ static void test_state_is_complete(void **unused)
     assert_true(s.state.step_size == s.model.step);
     const double normals[][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
     for (int w = 0; w <= SCREE_WALL_RIGHT; w++) {
-        assert_true(s.state.wall[w].active && s.state.wall[w].material == 1 && s.state.wall[w].velocity == 0);
+        assert_true(s.state.wall[w].active && s.state.wall[w].material == SCREE_PARTICLE_MATERIAL &&
+                    s.state.wall[w].velocity == 0);
         assert_true(s.state.wall[w].normal[0] == normals[w][0] && s.state.wall[w].normal[1] == normals[w][1]);
     }
     assert_true(s.state.wall[SCREE_WALL_BOTTOM].position == 0 && s.state.wall[SCREE_WALL_LEFT].position == 0);

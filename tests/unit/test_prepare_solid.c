@@ -309,7 +309,7 @@ static void states_of_spheres_are_complete(void **unused)
     sample_prepare(&s);
     for (size_t i = 0; i < s.state.count; i++) {
         const scree_row *p = &s.state.row[i];
-        assert_true(s.state.turn[i].material == 1 && s.state.id[i] == i);
+        assert_true(s.state.turn[i].material == SCREE_PARTICLE_MATERIAL && s.state.id[i] == i);
         assert_true(fabs(p->mass / (8e3 * 4 / 3 * M_PI * p->radius * p->radius * p->radius) - 1) < 1e-14);
         const double *x = s.state.reference[i];
         assert_true(x[0] == p->x && x[1] == p->y && x[2] == p->z);
@@ -318,7 +318,7 @@ static void states_of_spheres_are_complete(void **unused)
         const double *n = s.state.wall[w].normal;
         const int axis = w < 2 ? 2 : w < 4 ? 0 : 1;
         for (int c = 0; c < 3; c++) assert_true(n[c] == (c != axis ? 0 : w % 2 ? -1 : 1));
-        assert_true(s.state.wall[w].active == 1 && s.state.wall[w].material == 1);
+        assert_true(s.state.wall[w].active == 1 && s.state.wall[w].material == SCREE_PARTICLE_MATERIAL);
     }
     scree_state_destroy(&s.state);
 }

@@ -135,8 +135,8 @@ static void the_energy_balance_closes(void **unused)
     start(&r, 1, overrides, 3);
     double residual = r.s.sample.value[SCREE_SAMPLE_ENERGY_RESIDUAL], turnover = r.s.state.ledger.turnover;
     double scheme = r.s.state.ledger.scheme, worst = 0;
-    while (r.s.stage->loading && r.s.state.stage.index < r.s.model.config->stage_count) {
-        advance(&r, 1);
+    while (simulation_goes_on(&r.s)) {
+        simulation_step(&r.s);
         if (!r.s.sampled) continue;
         double change = r.s.sample.value[SCREE_SAMPLE_ENERGY_RESIDUAL] - residual;
         worst = fmax(worst, fabs(change) / (r.s.state.ledger.turnover - turnover));
@@ -155,7 +155,7 @@ static double mean_slip(const char *const *overrides, size_t count)
     double slip = 0, samples = 0;
     start(&r, 1, overrides, count);
     while (simulation_goes_on(&r.s)) {
-        advance(&r, 1);
+        simulation_step(&r.s);
         if (!r.s.sampled || !(scree_axial_strain(&r.s) > 2e-3)) continue;
         slip += r.s.sample.value[SCREE_SAMPLE_SLIP_RATIO];
         samples++;
