@@ -140,7 +140,8 @@ static void keep_lowest(const drop *d, double *sorted, scree_packing *packing)
     for (size_t k = 0; k < packing->count; k++) equal += sorted[k] == last;
     packing->box.height = 0;
     for (size_t i = 0; i < from->count; i++) {
-        if (d->level[i] > last || (d->level[i] == last && equal-- == 0)) continue;
+        if (d->level[i] > last || (d->level[i] == last && equal == 0)) continue;
+        equal -= d->level[i] == last;
         packing->radius[kept] = from->radius[i];
         for (int c = 0; c < packing->dimension; c++) packing->place[c][kept] = from->place[c][i];
         packing->box.height = fmax(packing->box.height, from->place[up][i] + from->radius[i]);

@@ -5,7 +5,8 @@
 /// The point falls vertically onto the highest sphere below it, and slides down on it along the meridian; when it meets
 /// a second sphere or a wall it slides down along both (about the axis through the two centres), and so on. Each time
 /// that it meets a surface, or that a surface no longer holds it back, arc.c says which of those that it touches hold
-/// it now: none (it falls), one, two, or three (it rests). On the floor it rests as well.
+/// it now: none (it falls), one, two, or three (it rests). On the floor it rests as well. A surface that it touches and
+/// that does not hold it is met again only where the arc comes back to it.
 ///
 /// Accuracy: a place of rest is the end of a chain of circles through points that have been rounded to doubles: gaps
 /// and overlaps of a few units in the last place of the coordinates, 1e-13 R in a packing of 1000 R.
@@ -22,14 +23,13 @@
 
 /// Names of the planes, above all spheres; the floor is the last.
 #define PLANE(k) (UINT32_MAX - (uint32_t)(k))
-enum { PLANES = 5, FLOOR = 4, MOST_CONTACTS = 12, MOST_EVENTS = 100000 };
+enum { PLANES = 5, FLOOR = 4, MOST_EVENTS = 100000 };
 #define NOTHING (UINT32_MAX - PLANES)
 static const double TOUCH = 1e-9; // arcs shorter than this (in radians) do not move the point
-static const double APART = 1e-6; // a surface that has been left is not met again sooner (in radians)
 
 /// Names of surfaces.
 typedef struct contact_set {
-    uint32_t name[MOST_CONTACTS];
+    uint32_t name[SCREE_ARC_MOST];
     int count;
 } contact_set;
 
@@ -38,7 +38,7 @@ typedef struct mover {
     double radius;
     double at[3];
     contact_set touched; ///< surfaces that may hold it
-    contact_set left;    ///< surfaces that it has just left
+    contact_set left;    ///< surfaces that have let it go where it is
 } mover;
 
 /// Next thing on the path.
@@ -110,7 +110,13 @@ static bool contains(const contact_set *set, uint32_t name)
 
 static void add(contact_set *set, uint32_t name)
 {
-    if (set->count < MOST_CONTACTS && !contains(set, name)) set->name[set->count++] = name;
+    if (set->count < SCREE_ARC_MOST && !contains(set, name)) set->name[set->count++] = name;
+}
+
+/// Touched, and known not to hold the point once those that hold it are found.
+static bool is_released(const mover *sphere, uint32_t name)
+{
+    return contains(&sphere->touched, name) || contains(&sphere->left, name);
 }
 
 /// The surface that the point must not enter.
@@ -159,7 +165,8 @@ static double hit(const scree_heap *heap, const mover *sphere, uint32_t k)
     double reach = heap->radius[k] + sphere->radius;
     double dx = sphere->at[0] - heap->x[k], dy = sphere->at[1] - heap->y[k];
     double rise2 = reach * reach - dx * dx - dy * dy;
-    if (rise2 <= 0 || heap->z[k] >= sphere->at[2] || contains(&sphere->left, k)) return -1;
+    double least = SCREE_ARC_EQUATOR * reach;
+    if (rise2 <= least * least || heap->z[k] >= sphere->at[2] || is_released(sphere, k)) return -1;
     double z = heap->z[k] + sqrt(rise2);
     return z <= sphere->at[2] + TOUCH * sphere->radius ? z : -1;
 }
@@ -202,8 +209,9 @@ static void consider(const scree_heap *heap, const mover *sphere, const scree_ar
 {
     scree_arc_surface surface = surface_of(heap, sphere->radius, name);
     meeting met = {.name = name};
-    if (!scree_arc_enters(arc, &surface, &met.measure, met.at) || met.measure >= nearest->measure) return;
-    if (met.measure < APART && contains(&sphere->left, name)) return;
+    if (!scree_arc_enters(arc, &surface, is_released(sphere, name), &met.measure, met.at) ||
+        met.measure >= nearest->measure)
+        return;
     *nearest = met;
 }
 
@@ -212,7 +220,7 @@ static void consider_parting(const scree_arc *arc, uint32_t name, double height,
 {
     scree_arc_surface plane = {.plane = true, .centre = {0, 0, 1}, .reach = height};
     meeting met = {.name = name, .parting = true};
-    if (!scree_arc_enters(arc, &plane, &met.measure, met.at) || met.measure >= nearest->measure) return;
+    if (!scree_arc_enters(arc, &plane, false, &met.measure, met.at) || met.measure >= nearest->measure) return;
     *nearest = met;
 }
 
@@ -240,28 +248,24 @@ static meeting look_ahead(const scree_heap *heap, const mover *sphere, const scr
 }
 
 /// Moves the point along the surfaces that hold it to the next event, which changes the surfaces that it touches.
-static void roll(const scree_heap *heap, mover *sphere, const contact_set *holders, const double velocity[3])
+/// False: there is none.
+static bool roll(const scree_heap *heap, mover *sphere, const contact_set *holders, const scree_arc *arc)
 {
-    scree_arc_surface one = surface_of(heap, sphere->radius, holders->name[0]);
-    scree_arc_surface other = surface_of(heap, sphere->radius, holders->name[holders->count - 1]);
-    bool both = holders->count == 2, swapped = both && one.plane;
-    if (swapped) {
-        scree_arc_surface kept = one;
-        one = other;
-        other = kept;
-    }
-    scree_arc arc = scree_arc_make(&one, both ? &other : NULL, sphere->at, velocity);
+    const bool both = holders->count == 2;
+    const uint32_t name[2] = {holders->name[0], holders->name[holders->count - 1]};
+    scree_arc_surface surface[2];
     double normal[2][3];
-    scree_arc_surface_normal(&one, sphere->at, normal[0]);
-    scree_arc_surface_normal(&other, sphere->at, normal[1]);
-    double cosine = scree_dot(normal[0], normal[1]);
+    for (int k = 0; k < 2; k++) surface[k] = surface_of(heap, sphere->radius, name[k]);
+    for (int k = 0; k < 2; k++) scree_arc_surface_normal(&surface[k], sphere->at, normal[k]);
+    double cosine = scree_dot(normal[0], normal[1]), lowest = -1;
     meeting next = {.measure = INFINITY};
-    double parting = scree_arc_parting(&one, both ? &other : NULL, cosine), lowest = parting;
-    if (parting >= 0) consider_parting(&arc, holders->name[swapped], parting, &next);
-    if (both) parting = scree_arc_parting(&other, &one, cosine);
-    if (both && parting >= 0) consider_parting(&arc, holders->name[!swapped], parting, &next);
-    if (both) lowest = -1;
-    next = look_ahead(heap, sphere, &arc, holders, lowest, next);
+    for (int k = 0; k < holders->count; k++) {
+        double parting = scree_arc_parting(&surface[k], both ? &surface[!k] : NULL, cosine);
+        if (parting >= 0) consider_parting(arc, name[k], parting, &next);
+        if (!both) lowest = parting;
+    }
+    next = look_ahead(heap, sphere, arc, holders, lowest, next);
+    if (isinf(next.measure)) return false;
 
     // As long as the point does not move, it touches all that it has touched.
     contact_set before = next.measure < TOUCH ? sphere->touched : *holders;
@@ -271,6 +275,7 @@ static void roll(const scree_heap *heap, mover *sphere, const contact_set *holde
         if (!next.parting || before.name[k] != next.name) add(&sphere->touched, before.name[k]);
     add(next.parting ? &sphere->left : &sphere->touched, next.name);
     for (int c = 0; c < 3; c++) sphere->at[c] = next.at[c];
+    return true;
 }
 
 /// Falls to the next support, which is the floor at last.
@@ -286,24 +291,21 @@ static void fall(const scree_heap *heap, mover *sphere)
 /// Which of the surfaces that the point touches hold it.
 static scree_hold held_by(const scree_heap *heap, mover *sphere, contact_set *holders)
 {
-    double normal[MOST_CONTACTS][3];
-    for (int k = 0; k < sphere->touched.count; k++) {
-        scree_arc_surface surface = surface_of(heap, sphere->radius, sphere->touched.name[k]);
-        scree_arc_surface_normal(&surface, sphere->at, normal[k]);
-    }
-    scree_hold hold = scree_hold_find((const double(*)[3])normal, sphere->touched.count);
+    scree_arc_surface surface[SCREE_ARC_MOST];
+    for (int k = 0; k < sphere->touched.count; k++)
+        surface[k] = surface_of(heap, sphere->radius, sphere->touched.name[k]);
+    scree_hold hold = scree_hold_find(surface, sphere->touched.count, sphere->at);
     holders->count = 0;
     for (int k = 0; k < hold.count; k++) add(holders, sphere->touched.name[hold.by[k]]);
     return hold;
 }
 
-/// Rests sphere `index` at its place on its holders.
-static scree_status rest(scree_heap *heap, size_t index, const mover *sphere, const contact_set *holders,
-                         scree_error *error)
+/// Rests sphere `index` at its place on what it touches.
+static scree_status rest(scree_heap *heap, size_t index, const mover *sphere, scree_error *error)
 {
     double level = sphere->at[2];
-    for (int k = 0; k < holders->count; k++)
-        if (holders->name[k] < NOTHING) level = fmax(level, heap->level[holders->name[k]]);
+    for (int k = 0; k < sphere->touched.count; k++)
+        if (sphere->touched.name[k] < NOTHING) level = fmax(level, heap->level[sphere->touched.name[k]]);
     heap->level[index] = level;
     return insert(heap, index, sphere->at, error);
 }
@@ -314,16 +316,13 @@ scree_status scree_heap_drop(scree_heap *heap, size_t index, double x, double y,
     fall(heap, &sphere);
     for (int events = 0; events < MOST_EVENTS; events++) {
         contact_set holders = {.count = 0};
-        if (contains(&sphere.touched, PLANE(FLOOR))) return rest(heap, index, &sphere, &holders, error);
+        if (contains(&sphere.touched, PLANE(FLOOR))) return rest(heap, index, &sphere, error);
         scree_hold hold = held_by(heap, &sphere, &holders);
-        if (hold.count == 3) return rest(heap, index, &sphere, &holders, error);
-        // What it touches and what does not hold it is left behind.
-        for (int k = 0; k < sphere.touched.count; k++)
-            if (!contains(&holders, sphere.touched.name[k])) add(&sphere.left, sphere.touched.name[k]);
+        if (hold.count == 3) return rest(heap, index, &sphere, error);
         if (hold.count == 0)
             fall(heap, &sphere);
-        else
-            roll(heap, &sphere, &holders, hold.velocity);
+        else if (!roll(heap, &sphere, &holders, &hold.path))
+            break;
     }
     return scree_error_set(error, SCREE_ERROR_INPUT, "sphere %zu of radius %g m finds no place of rest", index,
                            sphere.radius);

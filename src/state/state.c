@@ -110,11 +110,21 @@ static void permute_array(void *array, size_t size, const uint32_t *order, size_
     memcpy(array, scratch, count * size);
 }
 
+size_t scree_state_widest(const scree_state *state)
+{
+    scree_state view = *state;
+    body_array arrays[BODY_ARRAYS];
+    size_t widest = sizeof *state->foreseen, array_count = body_arrays(&view, arrays);
+    for (size_t k = 0; k < array_count; k++)
+        if (arrays[k].size > widest) widest = arrays[k].size;
+    return widest;
+}
+
 scree_status scree_state_permute(scree_state *state, const uint32_t *order, scree_error *error)
 {
     unsigned char *scratch;
     if (state->count == 0) return SCREE_OK;
-    scree_status status = scree_allocate(&scratch, state->count, sizeof(scree_row), error);
+    scree_status status = scree_allocate(&scratch, state->count, scree_state_widest(state), error);
     if (status) return status;
     body_array arrays[BODY_ARRAYS];
     size_t array_count = body_arrays(state, arrays);

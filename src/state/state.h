@@ -382,7 +382,11 @@ scree_status scree_state_append(scree_state *state, size_t more, scree_error *er
 /// s; never accumulated.
 double scree_state_time(const scree_state *state);
 
-/// Moves every body array to the order row k <- row order[k], and renews row_of_id. `scratch` is grown when needed.
+/// Bytes of the widest of the elements that bodies have in the arrays that move with the rows.
+size_t scree_state_widest(const scree_state *state);
+
+/// Moves every body array to the order row k <- row order[k], and renews row_of_id. Errors: memory; nothing has moved
+/// then.
 scree_status scree_state_permute(scree_state *state, const uint32_t *order, scree_error *error) SCREE_MUST_USE;
 
 /// 64-bit checksum over every state field in id order (bits, not values), contacts, walls, loop, strain and ledger.
