@@ -69,14 +69,14 @@ void contact_find_faults(const scree_model *model, const scree_state *state, scr
                      second = contact_body_get(state, pairs->second[p]);
         memory_rows memory = contact_memory_of(work, CONTACT_PAIR, p);
         double radius = fmin(first.row.radius, second.row.radius);
-        if (contact_of_pair(model, state->dimension, &first, &second, &memory, &c))
+        if (contact_of_pair(model, state, &first, &second, &memory, &c))
             check_contact(&c, limit * radius, force_limit, state->id[pairs->first[p]], &f);
     }
     const scree_wall_pair_list *walls = &work->wall_pairs;
     for (size_t p = 0; p < walls->count; p++) {
         contact_body body = contact_body_get(state, walls->body[p]);
         memory_rows memory = contact_memory_of(work, CONTACT_PLATE, p);
-        if (contact_of_wall(model, state->dimension, &body, &state->wall[walls->wall[p]], &memory, &c))
+        if (contact_of_wall(model, state, &body, &state->wall[walls->wall[p]], &memory, &c))
             check_contact(&c, limit * body.row.radius, force_limit, state->id[walls->body[p]], &f);
     }
     check_elements(model, state, work, force_limit, &f);

@@ -19,7 +19,8 @@
 ///
 /// History row, at n - 1: in 2D tangential force and normal damping force [N], in 3D x, y, z of the tangential force
 /// and the normal damping force; the tangential force for the ledger and the implicit update, the other for the ledger.
-/// Ledger: damping <f_n - K d^1.5> delta, friction -<f_t> . sigma (mean forces and middle increments: motion.h).
+/// Ledger: damping <f_n - K d^1.5> d' dt, friction -<f_t> . s dt (mean forces, rates of the middle of the step:
+/// motion.h).
 /// Cost: 2 roots, 2 divisions (3D: 3 and 3), one logarithm, one exponential a contact; implicit: 7 divisions and two
 /// logarithms and exponentials more.
 #ifndef SCREE_CONTACT_HERTZ_BRILLIANTOV_H
@@ -101,9 +102,8 @@ SCREE_INLINE law_force hertz_brilliantov(variant v, const law_constants *constan
         .normal = normal,
         .tangential = tangential,
         .couple = vector_none(),
-        .damping = 0.5 * (damping + damping_before) * m->approached,
-        .friction =
-            vector_dot(count, vector_times(count, both, lanes_all(-0.5)), motion_slipped(count, m, settings->step)),
+        .damping = 0.5 * (damping + damping_before) * (m->approach * settings->step),
+        .friction = (-0.5 * settings->step) * vector_dot(count, both, m->slip),
         .stiffness = none,
         .elastic_normal = 0.4 * (elastic * d),
         .elastic_tangential = none,

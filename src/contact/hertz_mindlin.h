@@ -24,7 +24,7 @@
 /// dashpot's part. scree_rolling: 2D rolling stretch and its spring force, 3D rolling stretch and angle of twist;
 /// their dashpots booked beside.
 ///
-/// Ledger, with the middle increment delta (motion.h): damping <f_n - k_n d> delta, the rest by slider.h.
+/// Ledger: damping <f_n - k_n d> d' dt with the rate of the middle of the step (motion.h), the rest by slider.h.
 /// Cost: 3 roots, 3 divisions a contact in 2D; 3 and 2 in 3D, 5 and 4 in a group of lanes where one slides; rolling and
 /// twisting 3 and 4 more.
 #ifndef SCREE_CONTACT_HERTZ_MINDLIN_H
@@ -73,9 +73,8 @@ SCREE_INLINE void resist_turning(int dimension, const law_constants *constants, 
 {
     const int count = tangential_count(dimension);
     slider_memory rolled = remembered_roll(dimension, m, before);
-    slider_motion move = {m->roll, m->roll_excess, step};
-    slider roll =
-        slider_move(count, &rolled, &move, tangential_stiffness, eta, constants->rolling_friction * normal, touching);
+    slider roll = slider_move(count, &rolled, m->roll, step, tangential_stiffness, eta,
+                              constants->rolling_friction * normal, touching);
     f->couple = vector_times(count, moment_of(dimension, m->normal, roll.resistance), -m->reduced_radius);
     book_slider(f, &roll);
     if (dimension == 2) {
@@ -90,9 +89,8 @@ SCREE_INLINE void resist_turning(int dimension, const law_constants *constants, 
     lanes stiffness_before = before->value[3] * (0.5 * (radius_before * radius_before));
     slider_memory twisted = {
         {.x = before->rolling[3]}, {.x = stiffness_before * before->rolling[3]}, {.x = before->rolling_booked[3]}};
-    move = (slider_motion){{.x = m->twist}, {.x = m->twisted - m->twist * step}, step};
-    slider twist = slider_move(1, &twisted, &move, tangential_stiffness * half_square, eta * half_square,
-                               constants->twisting_friction * m->reduced_radius * normal, touching);
+    slider twist = slider_move(1, &twisted, (vector){.x = m->twist}, step, tangential_stiffness * half_square,
+                               eta * half_square, constants->twisting_friction * m->reduced_radius * normal, touching);
     f->couple = vector_minus(3, f->couple, vector_times(3, m->normal, twist.resistance.x));
     book_slider(f, &twist);
     vector stretch = roll.now.stretch, dashpot = roll.now.dashpot;
@@ -115,9 +113,8 @@ SCREE_INLINE law_force hertz_mindlin(variant v, const law_constants *constants, 
     lanes damping = normal - elastic;
 
     slider_memory slipped = remembered_slip(dimension, m, before);
-    slider_motion move = {m->slip, m->slip_excess, settings->step};
-    slider slip =
-        slider_move(count, &slipped, &move, tangential_stiffness, eta, constants->friction * normal, touching);
+    slider slip = slider_move(count, &slipped, m->slip, settings->step, tangential_stiffness, eta,
+                              constants->friction * normal, touching);
     vector stretch = slip.now.stretch, dashpot = slip.now.dashpot;
     lanes damping_before = before->value[2];
     *after = (law_memory){.value = {stretch.x, slip.now.spring.x, damping, dashpot.x}};
@@ -130,7 +127,7 @@ SCREE_INLINE law_force hertz_mindlin(variant v, const law_constants *constants, 
         .normal = normal,
         .tangential = vector_opposite(count, slip.resistance),
         .couple = vector_none(),
-        .damping = 0.5 * ((damping + damping_before) * m->approached + slip.damping),
+        .damping = 0.5 * ((damping + damping_before) * (m->approach * settings->step) + slip.damping),
         .friction = 0.5 * slip.friction,
         .stiffness = 0.5 * slip.stiffness,
         .elastic_normal = 0.4 * (elastic * d),

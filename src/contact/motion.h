@@ -1,6 +1,6 @@
 /// Relative motion of two bodies at their contact, in lanes: what every law needs.
 ///
-/// With r = x_first - x_second, u = v_first - v_second at n - 1/2, L = |r|, n = r / L, P = 1 - n n:
+/// With r = x_first - x_second, u = v_first - v_second, L = |r|, n = r / L, P = 1 - n n:
 ///   indentation d = R_first + R_second - L,      its rate d' = -u . n  (P 2.A2, 2.A3 corrected)
 ///   lever arms a = R - d / 2,                    slip s = P u - (a_first w_first + a_second w_second) x n
 /// which is one number along t = (-n_y, n_x) in two dimensions, s = u . t - (a_first w_first + a_second w_second).
@@ -12,21 +12,29 @@
 /// in opposite senses (Luding 2008), (w_first - w_second) . n the rate of twist (Marshall 2009).
 ///
 /// What the contact remembers turns with it: from n - 1 to n, n turns by phi = P u dt / L, and the pair about its
-/// normal by psi = (w_first + w_second) . n dt / 2 (the mean of both surfaces: a pair that turns rigidly takes its
-/// spring along). motion_carry projects into the present tangent plane, which is that turn up to second order in phi;
-/// motion_carry_whole also gives back the length that the projection takes, up to fourth order,
+/// normal by psi = (w_first + w_second) . (n - phi / 2) dt / 2 (the mean of both surfaces: a pair that turns rigidly
+/// takes its spring along). motion_carry projects into the present tangent plane, which is that turn up to second order
+/// in phi; motion_carry_whole also gives back the length that the projection takes, up to fourth order,
 ///   a <- (1 - psi^2 / 2) b + psi n x b,    b = a - (n - phi L / (2 L(n-1))) (a . n)
+///
+/// Rates in the middle of the step. Velocities and spins are those of n - 1/2, normal, distance and arms those of n.
+/// Put together as they are, they give a pair that turns rigidly with w the slip dt/2 L (w . n) P w, and one that
+/// closes while it turns d' dt w: errors of first order in the step. So all rates are those of the geometry of n - 1/2,
+/// turned into the directions of n. There the normal is n - phi / 2, each arm longer by D / 4 where D is the increment
+/// of the indentation, and what lies in the tangent plane is turned by phi / 2 and psi / 2: with W = w_first +
+/// w_second, V = w_first - w_second, A = a_first w_first + a_second w_second,
+///   approach  D / dt = d' + phi . P u / 2                         (D = d(n) - d(n-1))
+///   slip      (1 + psi/2 n x) (P u - D / dt phi / 2 - (A + (A . n) phi / 2 + D W / 4) x n)
+///   twist     V . (n - phi / 2)
+///   rolling   (1 + psi/2 n x) R_eff (V + V . n phi / 2) x n
+/// up to second order in dt. Springs are stretched by these rates times dt, so a rigid rotation about any axis leaves
+/// them as they are up to third order a step, second order in all; dashpots and viscous friction follow the same rates.
 ///
 /// Work over a step. In a leapfrog scheme the kinetic energy 1/2 m v(n-1/2) . v(n+1/2) changes by exactly
 /// (F(n-1) + F(n))/2 . v(n-1/2) dt. F(n-1) acted along the normal of n - 1, so its power belongs to the geometry of n -
-/// 1: the two half-steps together see, up to third order in dt and in the directions of n,
-///   indentation increment  d' dt + phi . P u dt / 2                            (= d(n) - d(n-1), called D)
-///   slip increment         s dt - D phi / 2 + n x (A . n dt phi + psi s dt + D W dt / 2) / 2
-///   rolling increment      s_r dt + n x (psi s_r dt - R_eff (w_first - w_second) . n dt phi) / 2
-///   twist increment        (w_first - w_second) . (n dt - phi dt / 2)
-/// W = w_first + w_second, A = a_first w_first + a_second w_second. (F(n-1) turned along with its contact has the power
-/// of F(n-1) when the velocity is turned too; the geometry of n - 1 is that of n with n - phi, arms longer by D / 2.)
-/// With these middle increments the trapezoids of the ledger close with the second order of the scheme itself.
+/// 1: F(n-1) turned along with its contact has the power of F(n-1) when the velocity is turned too. The mean of both
+/// half-steps is the geometry in between, so the work is (F(n-1) + F(n))/2 times the rates above times dt, up to third
+/// order: the trapezoids of the ledger close with the second order of the scheme itself.
 #ifndef SCREE_CONTACT_MOTION_H
 #define SCREE_CONTACT_MOTION_H
 
@@ -38,6 +46,7 @@ typedef struct bodies {
     lanes radius, mass, material;
 } bodies;
 
+/// Rates are those of the middle of the step.
 typedef struct motion {
     vector normal;               ///< n, from second to first
     lanes indentation;           ///< m, negative when apart
@@ -52,11 +61,8 @@ typedef struct motion {
     lanes half;                  ///< 1, half of L / L(n - 1), in space
     vector turned;               ///< rad, psi n, in space
     lanes turn;                  ///< rad, psi, in space
-    lanes approached, twisted;   ///< middle increments over the step, for the ledger
-    vector slip_excess;          ///< by what the middle increments exceed the rates times the step
-    vector roll_excess;
-    vector foreseen_slip; ///< m/s, slip after the coming kick if all forces stay as they are (motion_foresee)
-    lanes mobility;       ///< 1/kg, slip per tangential impulse of the contact's share of the bodies
+    vector foreseen_slip;        ///< m/s, slip after the coming kick if all forces stay as they are (motion_foresee)
+    lanes mobility;              ///< 1/kg, slip per tangential impulse of the contact's share of the bodies
 } motion;
 
 /// scree_foreseen in lanes.
@@ -89,30 +95,28 @@ SCREE_INLINE vector motion_carry_whole(int dimension, const motion *m, vector a)
     return vector_plus(3, vector_times(3, upright, shorter), vector_cross(m->turned, upright));
 }
 
-/// Middle increment of the slip.
-SCREE_INLINE vector motion_slipped(int count, const motion *m, double step)
+/// For what has been evaluated already: what the contact remembers is that of now, and is carried no further.
+SCREE_INLINE void motion_hold(motion *m)
 {
-    return vector_plus(count, vector_times(count, m->slip, lanes_all(step)), m->slip_excess);
+    m->tilted = m->turned = vector_none();
+    m->turn = lanes_all(0);
 }
 
-/// What turning bodies add to the middle increments, in space.
-SCREE_INLINE void motion_turn(motion *m, vector lever, vector spins, vector relative, double step)
+/// A rate in the tangent plane of the middle, turned on by psi / 2.
+SCREE_INLINE vector turn_half(const motion *m, vector rate)
 {
-    const double half = 0.5 * step;
-    vector n = m->normal, tilted = m->tilted;
-    m->twist = vector_dot(3, relative, n);
-    m->twisted = m->twist * step - half * vector_dot(3, relative, tilted);
-    m->turn = half * vector_dot(3, spins, n);
-    m->turned = vector_times(3, n, m->turn);
+    return vector_plus(3, rate, vector_times(3, vector_cross(m->turned, rate), lanes_all(0.5)));
+}
 
-    lanes turning = m->turn * half;
-    vector screw =
-        vector_plus(3, vector_times(3, tilted, half * vector_dot(3, lever, n)), vector_times(3, m->slip, turning));
-    screw = vector_plus(3, screw, vector_times(3, spins, m->approached * (0.5 * half)));
-    m->slip_excess = vector_minus(3, vector_cross(n, screw), vector_times(3, tilted, 0.5 * m->approached));
-    screw = vector_minus(3, vector_times(3, m->roll, turning),
-                         vector_times(3, tilted, m->reduced_radius * m->twist * half));
-    m->roll_excess = vector_cross(n, screw);
+/// Turn, twist and rolling, in space.
+SCREE_INLINE void motion_turn(motion *m, vector spins, vector relative, double step)
+{
+    vector half = vector_times(3, m->tilted, lanes_all(0.5)), middle = vector_minus(3, m->normal, half);
+    m->turn = (0.5 * step) * vector_dot(3, spins, middle);
+    m->turned = vector_times(3, m->normal, m->turn);
+    m->twist = vector_dot(3, relative, middle);
+    relative = vector_plus(3, relative, vector_times(3, half, m->twist));
+    m->roll = turn_half(m, vector_times(3, vector_cross(relative, m->normal), m->reduced_radius));
 }
 
 /// Everything that depends on velocities; normal, indentation, arms and reduced radius are set.
@@ -123,18 +127,19 @@ SCREE_INLINE void motion_advance(int dimension, motion *m, vector velocity, vect
     const int count = tangential_count(dimension);
     vector n = m->normal, along = vector_across(dimension, velocity, n);
     vector spins = vector_plus(count, spin_first, spin_second), relative = vector_minus(count, spin_first, spin_second);
-    m->approach = -vector_dot(dimension, velocity, n);
-    m->slip = vector_minus(count, along, spin_across(dimension, lever, n));
-    m->roll = vector_times(count, spin_across(dimension, relative, n), m->reduced_radius);
     m->tilted = vector_times(count, along, step * inverse_distance);
-    m->approached = step * (m->approach + 0.5 * vector_dot(count, along, m->tilted));
-    if (dimension == 3) {
-        m->half = 0.5 - (0.5 * m->approached) * inverse_distance;
-        motion_turn(m, lever, spins, relative, step);
-        return;
-    }
-    m->slip_excess.x = (m->tilted.x + spins.x * (0.5 * step)) * (m->approached * -0.5);
-    m->roll_excess.x = lanes_all(0);
+    vector half = vector_times(count, m->tilted, lanes_all(0.5));
+    m->approach = vector_dot(count, along, half) - vector_dot(dimension, velocity, n);
+
+    lever = vector_plus(count, lever, vector_times(count, spins, m->approach * (0.25 * step)));
+    if (dimension == 3) lever = vector_plus(3, lever, vector_times(3, half, vector_dot(3, lever, n)));
+    along = vector_minus(count, along, vector_times(count, half, m->approach));
+    m->slip = vector_minus(count, along, spin_across(dimension, lever, n));
+    m->roll = vector_times(count, relative, m->reduced_radius);
+    if (dimension == 2) return;
+    m->half = 0.5 - (0.5 * step) * (m->approach * inverse_distance);
+    motion_turn(m, spins, relative, step);
+    m->slip = turn_half(m, m->slip);
 }
 
 /// 1 / m + a^2 / J times the number of contacts that pull at the body: each may move its share of the mass alone.

@@ -1,4 +1,5 @@
-/// With a step of zero the laws advance nothing: a spring gives again the force that it gave when it was advanced.
+/// With a step of zero the laws advance nothing: a spring gives again the force that it gave when it was advanced. The
+/// motion is that of the last step, with the rates that the force was evaluated with.
 /// A contact slides when its tangential force has reached mu f_n; for hertz_brilliantov that is a slip speed of v_R.
 #include "contact/single.h"
 
@@ -29,9 +30,10 @@ static void describe_tangent(int dimension, const motion *m, const law_force *f,
     contact->slip = sqrt(vector_dot(3, m->slip, m->slip));
 }
 
-static void describe(const scree_model *model, int dimension, const scree_pair_constants *constants, const motion *m,
+static void describe(const scree_model *model, int dimension, const scree_pair_constants *constants, motion *m,
                      const memory_rows *memory, scree_contact *contact)
 {
+    motion_hold(m);
     variant v = {.dimension = dimension, .law = model->law, .many_materials = true, .rolling = model->rolling};
     law_constants c = constants_get(constants);
     law_settings settings = law_settings_get(model, 0);
@@ -54,13 +56,14 @@ static void place(int dimension, const bodies *first, const motion *m, scree_con
     set_vector(contact->point, vector_minus(dimension, first->place, arm));
 }
 
-bool contact_of_pair(const scree_model *model, int dimension, const contact_body *first, const contact_body *second,
-                     const memory_rows *memory, scree_contact *contact)
+bool contact_of_pair(const scree_model *model, const scree_state *state, const contact_body *first,
+                     const contact_body *second, const memory_rows *memory, scree_contact *contact)
 {
+    const int dimension = state->dimension;
     if (!pair_touches(dimension, &first->row, &second->row)) return false;
     bodies one = body_get(dimension, &first->row, &first->turn);
     bodies other = body_get(dimension, &second->row, &second->turn);
-    motion m = motion_of_pair(dimension, &one, &other, 0);
+    motion m = motion_of_pair(dimension, &one, &other, state->step_size);
     describe(model, dimension, &model->pairs[(int)one.material][(int)other.material], &m, memory, contact);
     place(dimension, &one, &m, contact);
     contact->wall = false;
@@ -70,7 +73,7 @@ bool contact_of_pair(const scree_model *model, int dimension, const contact_body
 
 /// Between a body and anything that is not one.
 static void describe_wall(const scree_model *model, int dimension, const scree_pair_constants *constants,
-                          const bodies *one, const motion *m, const memory_rows *memory, scree_contact *contact)
+                          const bodies *one, motion *m, const memory_rows *memory, scree_contact *contact)
 {
     describe(model, dimension, constants, m, memory, contact);
     place(dimension, one, m, contact);
@@ -79,12 +82,13 @@ static void describe_wall(const scree_model *model, int dimension, const scree_p
     for (int k = 0; k < 3; k++) contact->branch[k] = centre[k] - contact->point[k];
 }
 
-bool contact_of_wall(const scree_model *model, int dimension, const contact_body *body, const scree_wall *wall,
-                     const memory_rows *memory, scree_contact *contact)
+bool contact_of_wall(const scree_model *model, const scree_state *state, const contact_body *body,
+                     const scree_wall *wall, const memory_rows *memory, scree_contact *contact)
 {
+    const int dimension = state->dimension;
     if (!wall_touches(dimension, &body->row, wall)) return false;
     bodies one = body_get(dimension, &body->row, &body->turn);
-    motion m = motion_of_wall(dimension, &one, wall, 0);
+    motion m = motion_of_wall(dimension, &one, wall, state->step_size);
     describe_wall(model, dimension, &model->walls[(int)one.material], &one, &m, memory, contact);
     return true;
 }
@@ -97,7 +101,7 @@ void contact_of_element(const scree_model *model, const scree_state *state, cons
     scree_site site;
     scree_element_site(work->container, element, (const double[3]){one.place.x, one.place.y, one.place.z}, &site);
     const scree_surface *surface = contact_surface_of(work->container, element);
-    motion m = motion_of_surface(dimension, &one, surface, &site, state->surface_moving != 0, 0);
+    motion m = motion_of_surface(dimension, &one, surface, &site, state->surface_moving != 0, state->step_size);
     scree_pair_constants constants = contact_surface_constants(model, surface, (int)one.material);
     describe_wall(model, dimension, &constants, &one, &m, memory, contact);
 }

@@ -30,12 +30,12 @@ static inline memory_rows contact_memory_of(const scree_work *work, contact_list
 }
 
 /// Two bodies; false when they do not touch. Leaves `first` and `second` of the contact alone.
-bool contact_of_pair(const scree_model *model, int dimension, const contact_body *first, const contact_body *second,
-                     const memory_rows *memory, scree_contact *contact);
+bool contact_of_pair(const scree_model *model, const scree_state *state, const contact_body *first,
+                     const contact_body *second, const memory_rows *memory, scree_contact *contact);
 
 /// A body and a wall.
-bool contact_of_wall(const scree_model *model, int dimension, const contact_body *body, const scree_wall *wall,
-                     const memory_rows *memory, scree_contact *contact);
+bool contact_of_wall(const scree_model *model, const scree_state *state, const contact_body *body,
+                     const scree_wall *wall, const memory_rows *memory, scree_contact *contact);
 
 /// A body and an element of the walls of the case that it touches, as the state has them now.
 void contact_of_element(const scree_model *model, const scree_state *state, const scree_work *work,

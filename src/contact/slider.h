@@ -3,11 +3,13 @@
 /// The spring alone is kept and capped, then the sum with the dashpot: a spring that slides stretches no further.
 /// One component (2D, twisting) or three in the present tangent plane.
 ///
-/// Ledger of a step, with the middle increment sigma (motion.h) and mean forces <f> = (f(n-1) + f(n))/2:
-///   damping    <dashpot> . sigma
+/// with the rate s of the middle of the step (motion.h).
+///
+/// Ledger of a step, with mean forces <f> = (f(n-1) + f(n))/2:
+///   damping    <dashpot> . s dt
 ///   friction   <k h> . (s dt - (h(n) - h(n-1)))           exactly zero while the spring sticks
-///   stiffness  1/2 (k(n) - k(n-1)) h(n) . h(n-1) - <k h> . (sigma - s dt)
-/// The work done on the spring, <k h> . sigma, minus the change of its energy 1/2 k h^2 is friction - stiffness,
+///   stiffness  1/2 (k(n) - k(n-1)) h(n) . h(n-1)
+/// The work done on the spring, <k h> . s dt, minus the change of its energy 1/2 k h^2 is friction - stiffness,
 /// exactly. Where a contact has opened, forces and h at n are zero: the same lines book what the spring still held as
 /// friction.
 #ifndef SCREE_CONTACT_SLIDER_H
@@ -21,13 +23,6 @@ typedef struct slider_memory {
     vector spring;  ///< k h, for the ledger
     vector dashpot; ///< the dashpot's part of -f, for the ledger
 } slider_memory;
-
-/// How it moves in this step.
-typedef struct slider_motion {
-    vector rate;   ///< s, at n
-    vector excess; ///< sigma - s dt
-    double step;   ///< dt; 0 evaluates without moving
-} slider_motion;
 
 typedef struct slider {
     slider_memory now;                  ///< for the next step
@@ -61,12 +56,13 @@ SCREE_INLINE void slider_limit(int count, slider *s, vector viscous, lanes stiff
     s->resistance = vector_at_most(count, vector_plus(count, s->now.spring, viscous), cap);
 }
 
-SCREE_INLINE slider slider_move(int count, const slider_memory *before, const slider_motion *move, lanes stiffness,
+/// step: dt; 0 evaluates without moving.
+SCREE_INLINE slider slider_move(int count, const slider_memory *before, vector rate, double step, lanes stiffness,
                                 lanes viscosity, lanes cap, lanes_bits touching)
 {
-    vector step = vector_times(count, move->rate, lanes_all(move->step));
-    vector reached = vector_plus(count, before->stretch, step);
-    vector viscous = vector_times(count, move->rate, viscosity);
+    vector moved = vector_times(count, rate, lanes_all(step));
+    vector reached = vector_plus(count, before->stretch, moved);
+    vector viscous = vector_times(count, rate, viscosity);
     slider s = {.now = {.stretch = reached, .spring = vector_times(count, reached, stiffness)},
                 .friction = lanes_all(0)};
     s.resistance = vector_plus(count, s.now.spring, viscous);
@@ -80,9 +76,8 @@ SCREE_INLINE slider slider_move(int count, const slider_memory *before, const sl
     s.now.dashpot = vector_minus(count, s.resistance, s.now.spring);
 
     vector dashpots = vector_plus(count, s.now.dashpot, before->dashpot);
-    s.damping = vector_dot(count, dashpots, vector_plus(count, step, move->excess));
-    s.stiffness = vector_dot(count, s.now.spring, before->stretch) - vector_dot(count, before->spring, s.now.stretch) -
-                  vector_dot(count, springs, move->excess);
+    s.damping = vector_dot(count, dashpots, moved);
+    s.stiffness = vector_dot(count, s.now.spring, before->stretch) - vector_dot(count, before->spring, s.now.stretch);
     s.elastic = 0.5 * vector_dot(count, s.now.spring, s.now.stretch);
     return s;
 }

@@ -84,7 +84,7 @@ static void fill(const scree_model *model, const scree_state *state, const scree
     contact->membrane = !scree_body_is_grain(state, contact->first);
     contact_body first = body_at_half_step(model, state, work, one);
     if (list == CONTACT_PLATE) {
-        contact_of_wall(model, state->dimension, &first, &state->wall[other], &memory, contact);
+        contact_of_wall(model, state, &first, &state->wall[other], &memory, contact);
         return;
     }
     if (list == CONTACT_ELEMENT) {
@@ -93,7 +93,7 @@ static void fill(const scree_model *model, const scree_state *state, const scree
         return;
     }
     contact_body second = body_at_half_step(model, state, work, other);
-    contact_of_pair(model, state->dimension, &first, &second, &memory, contact);
+    contact_of_pair(model, state, &first, &second, &memory, contact);
     if (one != contact->first) move_point(state, one, contact);
     contact->membrane = contact->membrane || !scree_body_is_grain(state, contact->second);
 }

@@ -104,7 +104,9 @@ static void a_checkpoint_keeps_rolling_and_booking(void **unused)
 static void the_energy_balance_closes(void **unused)
 {
     (void)unused;
-    const char *const fine[] = {"integrator.step=1e-5 s"};
+    // At 1e-5 s the residual of this short stage is anything from 0.5e-6 to 8e-6 as the step is varied by a few
+    // percent.
+    const char *const fine[] = {"integrator.step=5e-6 s"};
     scree_case *c = case_read(CASE, fine, 1);
     scree_simulation s;
     double worst = 0, begin = 0, turnover = 0;

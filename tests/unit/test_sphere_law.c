@@ -52,6 +52,15 @@ static void set_motion(fixture *f, size_t k, const double velocity[3], const dou
     fixture_measure_speed(f);
 }
 
+/// Lets the first sphere slip by `slip` at a constant indentation: it came along the chord of an arc.
+static void set_slip(fixture *f, const double slip[3])
+{
+    double velocity[3], spin[3] = {0},
+                        rise = 0.5 * dot(slip, slip) * f->state.step_size / (2.3e-3 + fixture_gap(f, 0, 1));
+    for (int k = 0; k < 3; k++) velocity[k] = slip[k] + rise * direction[k];
+    set_motion(f, 0, velocity, spin);
+}
+
 static const double none[3] = {0};
 
 /// Indentation as the state has it, contact radius and dashpot of the pair of first materials.
@@ -96,7 +105,7 @@ static void tangential_spring_is_mindlin(void **unused)
     const double axis[3] = {3.0 / 7, 6.0 / 7, 2.0 / 7}; // normal to `direction`
     create_pair(&f, SCREE_LAW_HERTZ_MINDLIN, 2e-6);
     for (int k = 0; k < 3; k++) slip[k] = 1e-2 * axis[k];
-    set_motion(&f, 0, slip, none);
+    set_slip(&f, slip);
     geometry g = geometry_of(&f);
     for (int n = 1; n <= 3; n++) {
         fixture_forces(&f);
@@ -124,7 +133,7 @@ static void friction_is_capped(void **unused)
         double force[3], torque[3], velocity[3] = {0.06, 0.12, 0.04}, expected[3];
         create_pair(&f, (scree_law)law, 2e-6);
         f.model.inverse_exponent = 0;
-        set_motion(&f, 0, velocity, none);
+        set_slip(&f, velocity);
         for (int n = 0; n < 200; n++) fixture_forces(&f);
         sphere_force(&f, 0, force, torque);
         geometry g = geometry_of(&f);
@@ -147,6 +156,7 @@ static void rolling_and_rigid_rotation_do_not_slip(void **unused)
     const double first[3] = {31, -52, 17}, rigid[3] = {120, 45, -80};
     double second[3];
     create_pair(&f, SCREE_LAW_HERTZ_MINDLIN, 2e-6);
+    f.state.step_size = 0; // finite steps: test_rigid_motion.c
     geometry g = geometry_of(&f);
     // rolling: a1 w1 = -a2 w2
     for (int k = 0; k < 3; k++) second[k] = -first[k] * (1e-3 - g.d / 2) / (1.3e-3 - g.d / 2);
@@ -359,7 +369,8 @@ static void compare_turned(scree_law law, double m[3][3], double tolerance)
     for (int k = 0; k < 3; k++) expected[k] = dot(m[k], upright.force);
     assert_vector(turned.force, expected, tolerance);
     for (int k = 0; k < 3; k++) expected[k] = dot(m[k], upright.torque);
-    assert_vector(turned.torque, expected, tolerance);
+    // Of two couples that partly cancel: at most 1.8e-12 in 40 random turns.
+    assert_vector(turned.torque, expected, 2 * tolerance);
 }
 
 /// A half turn about an axis and a quarter turn about z leave every sum as it is, so they are exact; a permutation of

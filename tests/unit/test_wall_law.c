@@ -135,6 +135,7 @@ static void check_contact(world *w, const double foot[3], const double normal[3]
         scree_vector found, turned;
         for (int k = 0; k < 3; k++) place[k] = foot[k] + distance * normal[k];
         put(w, place, speeds[moves], spins[moves]);
+        w->f.state.step_size = 0; // rates are those of now
         world_forces(w);
         expected_force(w, place, speeds[moves], spins[moves], normal, distance, force, torque);
         scree_body_force(&w->f.model, &w->f.state, 0, found, turned);
