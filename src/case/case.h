@@ -17,6 +17,11 @@ struct scree_case {
 /// Errors: as scree_case_read, also as the only one of *problems (which may be NULL).
 scree_status scree_case_text(const char *path, char **bytes, size_t *length, scree_problems **problems);
 
+/// FNV-1a (Fowler, Noll, Vo) of the values of the resolved case: a checkpoint belongs to one case. Limits that only stop
+/// a run (guard, time_limit) and comments are left out, so that a run goes on when they have been changed. Errors:
+/// memory.
+scree_status scree_case_checksum(const scree_case *c, uint64_t *checksum, scree_error *error) SCREE_MUST_USE;
+
 /// Fills file, line, column and value of `error` from its `field` (a key path). A key that the case does not give has
 /// its default as value and the position of its section.
 void scree_case_locate(const scree_case *c, scree_error *error);
