@@ -2,6 +2,7 @@
 #include "io/run_directory.h"
 #include "io/snapshot.h"
 #include "run/recorder.h"
+#include "run/restart.h"
 #include "run/results.h"
 #include "search/neighbours.h"
 #include "shape/container.h"
@@ -131,33 +132,18 @@ scree_status scree_run(const scree_case *c, const scree_run_options *options, sc
     return status;
 }
 
-/// Reads the case of a run directory; all its problems fit into one error, the first.
-static scree_status read_case(const char *directory, scree_case **c, scree_error *error)
-{
-    char path[4096];
-    scree_problems *problems = NULL;
-    scree_case_options plain = {0};
-    scree_status status = scree_path_join(path, sizeof path, directory, SCREE_FILE_CASE, error);
-    if (status) return status;
-    status = scree_case_read(path, &plain, c, &problems);
-    if (status && scree_problems_count(problems) > 0) *error = *scree_problems_get(problems, 0);
-    scree_problems_free(problems);
-    return status;
-}
-
 scree_status scree_restart(const char *directory, const scree_run_options *options, scree_error *error)
 {
     uint64_t checksum;
     scree_case *c = NULL;
     scree_simulation s = {0};
-    scree_status status = read_case(directory, &c, error);
+    scree_status status = scree_restart_case(directory, &c, error);
     if (status) return status;
     status = scree_simulation_open(c, options->threads, &s, error);
     if (!status) status = scree_case_checksum(c, &checksum, error);
     // A message without a failure tells that an older checkpoint had to serve.
     scree_error note = {0};
-    if (!status && (status = scree_checkpoint_read(directory, s.model.dimension, &s.state, checksum, &note)))
-        *error = note;
+    if (!status && (status = scree_restart_read(&s, directory, checksum, &note))) *error = note;
     // Samples, checkpoints and the checksum may read the contacts before the first step.
     if (!status && s.state.count > 0) status = scree_neighbours_refresh(&s.model, &s.state, &s.work, error);
     if (!status && s.state.stage.counter >= 0) status = scree_stage_enter(&s, true, error);

@@ -8,6 +8,8 @@
 
 #include <math.h>
 
+#define MOST_STEPS 1e15
+
 const scree_stage *scree_stage_get(scree_stage_kind kind, bool wholly_periodic)
 {
     static const scree_stage *const table[][2] = {
@@ -27,6 +29,11 @@ const scree_config_stage *scree_stage_config(const scree_simulation *s)
     return &s->model.config->stages[s->state.stage.index];
 }
 
+int scree_stage_deform_component(bool wholly_periodic)
+{
+    return wholly_periodic ? SCREE_PERIODIC_LEADER : SCREE_LOADING_OTHERS;
+}
+
 double scree_stage_elapsed(const scree_simulation *s)
 {
     return (double)(s->state.step - s->state.stage.first_step) * s->state.tick;
@@ -35,7 +42,8 @@ double scree_stage_elapsed(const scree_simulation *s)
 uint64_t scree_stage_ticks(const scree_simulation *s, double time)
 {
     uint64_t largest = s->model.largest_step;
-    return (uint64_t)fmax(1, ceil(time / ((double)largest * s->state.tick))) * largest;
+    // A time that no run lasts is cut before it leaves the integers.
+    return (uint64_t)fmin(fmax(1, ceil(time / ((double)largest * s->state.tick))), MOST_STEPS) * largest;
 }
 
 /// Logarithmic axial strain of the Delaunay boundary since the begin of the loading stage, extension positive.

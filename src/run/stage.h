@@ -74,6 +74,7 @@ enum {
     SCREE_LOADING_SIDES,       ///< 2: impedance and mass of the side plates
     SCREE_LOADING_STRAIN = 4,  ///< 9: accumulated boundary strain at the begin
     SCREE_LOADING_OTHERS = 13, ///< free for the stage
+    SCREE_PERIODIC_LEADER,     ///< deform in a periodic cell, after its own numbers: the component that it follows
 };
 
 /// state.stage.reference of rotate_particle.
@@ -96,6 +97,9 @@ double scree_smooth_ramp(double fraction);
 
 /// Side plates under servo to `pressure`, where they are active.
 void scree_servo_sides(scree_simulation *s, double pressure);
+
+/// Which number of state.stage.reference says the component of the velocity gradient that a deform stage follows.
+int scree_stage_deform_component(bool wholly_periodic);
 
 /// Distance between bottom and top plate or the faces of the periodic cell [m]; without either the height that the
 /// loading began with, changed as the Delaunay boundary was strained.

@@ -19,7 +19,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { WAVE_TIME = 1, INERTIA, DAMPING, STRAIN, LIMIT = 13, LEADER };
+enum { WAVE_TIME = 1, INERTIA, DAMPING, STRAIN, LIMIT = 13, LEADER = SCREE_PERIODIC_LEADER };
 enum { CALM = 5, SAMPLES_A_WAVE = 4 };
 #define STRESS_TOLERANCE 0.02
 #define RAMP_WAVES       6.0
