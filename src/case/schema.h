@@ -6,6 +6,7 @@
 
 #include "case/config.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 typedef enum scree_key_type {
@@ -48,6 +49,7 @@ typedef struct scree_key {
                           ///< vectors have "[]" and "[0, 0]", sections none
     scree_limit least, most;
     const scree_choice *choices;
+    bool guard;          ///< only stops a run: no part of what makes a case (scree_case_checksum)
     const char *when;    ///< "key=value|value": used only then; key of the same section, or "section.key". NULL: always
     const char *meaning; ///< one line, ends with a full stop
     size_t offset;       ///< of the member in its section's struct

@@ -4,6 +4,7 @@
 #include "case/check.h"
 
 #include <ctype.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { COMMENT_COLUMN = 40 };
@@ -12,6 +13,7 @@ enum { COMMENT_COLUMN = 40 };
 typedef struct writer {
     FILE *file;
     const scree_node *root;
+    bool bare; ///< without comments and guards: what makes the case
     int column;
 } writer;
 
@@ -24,7 +26,7 @@ static void put(writer *w, const char *text)
 
 static void end_line(writer *w, const char *comment)
 {
-    if (comment) {
+    if (comment && !w->bare) {
         int gap = w->column < COMMENT_COLUMN ? COMMENT_COLUMN - w->column : 1;
         (void)fprintf(w->file, "%*s# %s", gap, "", comment);
     }
@@ -83,7 +85,7 @@ static void put_value(writer *w, const scree_node *node)
 
 void scree_node_write(FILE *file, const scree_node *node)
 {
-    writer w = {file, NULL, 0};
+    writer w = {.file = file};
     // The text of a single value is all of it: quotes are needed within lists only.
     if (node->kind == SCREE_NODE_SCALAR)
         put(&w, node->text);
@@ -99,6 +101,7 @@ static void write_values(writer *w, const scree_section *section, const scree_no
     for (size_t i = 0; i < section->count; i++) {
         const scree_key *key = &section->keys[i];
         bool value = key->type != SCREE_KEY_SECTION && key->type != SCREE_KEY_LIST && key->type != SCREE_KEY_PATHS;
+        if (w->bare && key->guard) continue;
         if (!value || scree_key_usage(w->root, section, mapping, key).use != SCREE_USED) continue;
         const scree_node *node = scree_node_find(mapping, key->name);
         put(w, before);
@@ -130,13 +133,33 @@ static void write_key(writer *w, const scree_key *key)
         write_values(w, scree_element_section(key, element), element, "  - ", "    ");
 }
 
-scree_status scree_case_write(const scree_case *c, FILE *file, scree_error *error)
+static scree_status write_case(const scree_case *c, bool bare, FILE *file, scree_error *error)
 {
-    writer w = {file, scree_case_root(c), 0};
-    (void)fprintf(file, "# The case with every value that it uses, written by Scree %s.\n", SCREE_VERSION);
+    writer w = {.file = file, .root = scree_case_root(c), .bare = bare};
+    if (!bare) (void)fprintf(file, "# The case with every value that it uses, written by Scree %s.\n", SCREE_VERSION);
     write_values(&w, &scree_schema, w.root, "", "");
     for (size_t i = 0; i < scree_schema.count; i++) write_key(&w, &scree_schema.keys[i]);
     if (fflush(file) != 0 || ferror(file))
         return scree_error_set_errno(error, SCREE_ERROR_IO, "the case cannot be written");
     return SCREE_OK;
+}
+
+scree_status scree_case_write(const scree_case *c, FILE *file, scree_error *error)
+{
+    return write_case(c, false, file, error);
+}
+
+scree_status scree_case_checksum(const scree_case *c, uint64_t *checksum, scree_error *error)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *memory = open_memstream(&text, &length);
+    if (!memory) return scree_error_set_memory(error, 4096);
+    scree_status status = write_case(c, true, memory, error);
+    if (fclose(memory) != 0 && !status) status = scree_error_set_memory(error, 4096);
+    *checksum = UINT64_C(0xcbf29ce484222325);
+    for (size_t k = 0; !status && k < length; k++)
+        *checksum = (*checksum ^ (unsigned char)text[k]) * UINT64_C(0x100000001b3);
+    free(text);
+    return status;
 }

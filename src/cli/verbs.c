@@ -10,7 +10,7 @@ const char scree_purpose[] =
 const scree_exit_status scree_exit_statuses[] = {
     {SCREE_OK, "done"},
     {SCREE_ERROR_INPUT, "the input is wrong: the case, an option, a name, or a folder that is in use"},
-    {SCREE_ERROR_GUARD, "a physics guard stopped the run, after a checkpoint; members of a sweep failed"},
+    {SCREE_ERROR_GUARD, "a physics guard stopped the run; members of a sweep failed"},
     {SCREE_ERROR_IO, "reading or writing failed, or memory ran out"},
     {SCREE_INTERRUPTED, "interrupted by a signal, after a checkpoint"},
     {0, NULL},

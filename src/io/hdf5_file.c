@@ -4,6 +4,7 @@
 #include "io/run_directory.h"
 #include "io/seal.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -35,6 +36,16 @@ void scree_hdf5_damaged(scree_hdf5 *hdf5, const char *reason)
     if (hdf5->status) return;
     hdf5->damaged = true;
     hdf5->status = scree_error_set(hdf5->error, SCREE_ERROR_IO, "'%s' is damaged: %s", hdf5->path, reason);
+}
+
+void scree_hdf5_refuse(scree_hdf5 *hdf5, const char *format, ...)
+{
+    char reason[256];
+    va_list values;
+    va_start(values, format);
+    (void)vsnprintf(reason, sizeof reason, format, values);
+    va_end(values);
+    scree_hdf5_damaged(hdf5, reason);
 }
 
 // ---- opening and closing -----------------------------------------------------------------------------------------

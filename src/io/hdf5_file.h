@@ -42,6 +42,9 @@ void scree_hdf5_fail(scree_hdf5 *hdf5, const char *action, const char *name);
 /// Records that what was read makes no sense.
 void scree_hdf5_damaged(scree_hdf5 *hdf5, const char *reason);
 
+/// The same with a reason that names dataset, row and value.
+__attribute__((format(printf, 2, 3))) void scree_hdf5_refuse(scree_hdf5 *hdf5, const char *format, ...);
+
 /// Group `name` with all groups above it; nothing happens when it is there.
 void scree_hdf5_group(scree_hdf5 *hdf5, const char *name);
 

@@ -42,6 +42,19 @@ scree_status scree_checkpoint_write(const char *directory, const scree_state *st
 scree_status scree_checkpoint_read(const char *directory, int dimension, scree_state *state, uint64_t case_checksum,
                                    scree_error *error) SCREE_MUST_USE;
 
+/// What a checkpoint must be. `usable` (may be NULL) looks at a state that was read and fills the error when it cannot
+/// be used; the next older one is tried then, as if it were damaged.
+typedef struct scree_checkpoint_wanted {
+    int dimension;
+    uint64_t case_checksum;
+    scree_status (*usable)(void *context, const scree_state *state, scree_error *error);
+    void *context;
+} scree_checkpoint_wanted;
+
+/// scree_checkpoint_read with these.
+scree_status scree_checkpoint_find(const char *directory, const scree_checkpoint_wanted *wanted, scree_state *state,
+                                   scree_error *error) SCREE_MUST_USE;
+
 /// Drops the snapshots with numbers from `from_index` on: a run that continues from an older step writes them anew. A
 /// finished run.h5 is taken apart into parts again. Call before the first snapshot after a restart.
 scree_status scree_snapshots_truncate(const char *directory, int64_t from_index, scree_error *error) SCREE_MUST_USE;
@@ -74,7 +87,7 @@ typedef struct scree_snapshot {
     size_t wall_triangle_count;
     double *wall_triangle; ///< m, walls of the case: 9 each, three corners; in 2D lines, the last two corners the same
     size_t wall_line_count;
-    double *wall_line; ///< m, of a projection or section: 4 each, the ends of a line on the page
+    double *wall_line;            ///< m, of a projection or section: 4 each, the ends of a line on the page
     scree_periodic_cell periodic; ///< directions 0: none
 } scree_snapshot;
 scree_status scree_snapshot_count(const char *directory, size_t *count, scree_error *error) SCREE_MUST_USE;

@@ -113,7 +113,8 @@ static scree_status picture_walls(const scree_simulation *s, scree_wall_triangle
     return scree_container_triangles(s->work.container, low, high, walls, error);
 }
 
-static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s, scree_error *error)
+/// `sound`: the guards have passed the state; else it is only shown.
+static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s, bool sound, scree_error *error)
 {
     scree_snapshot_info info = {.index = s->state.stage.snapshots,
                                 .time = scree_state_time(&s->state),
@@ -124,7 +125,7 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
     scree_wall_triangles walls = {0};
     scree_status status = picture_walls(s, &walls, error);
     info.walls = &walls;
-    if (!status && s->model.config->measure.cells && !s->state.periodic.directions) {
+    if (!status && sound && s->model.config->measure.cells && !s->state.periodic.directions) {
         status = scree_cells_measure(model, &s->state, &s->table, &cells, error);
         // A few bodies, or bodies on a line, have no triangulation and so no cells.
         if (!status) info.cells = &cells;
@@ -136,6 +137,16 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
     if (!status) s->state.stage.snapshots++;
     scree_cells_destroy(&cells);
     scree_wall_triangles_destroy(&walls);
+    return status;
+}
+
+scree_status scree_recorder_last_look(scree_recorder *recorder, scree_simulation *s, scree_error *error)
+{
+    int64_t index = s->state.stage.snapshots;
+    scree_status status = scree_contact_table_build(&s->stage_model, &s->state, &s->work, &s->table, error);
+    if (!status) status = write_snapshot(recorder, s, false, error);
+    if (!status)
+        scree_log_write(&recorder->log, SCREE_LOG_INFO, "snapshot %lld shows what the guard stopped", (long long)index);
     return status;
 }
 
@@ -186,7 +197,7 @@ scree_status scree_recorder_follow(scree_recorder *recorder, scree_simulation *s
         if ((status = scree_wall_series_append(&recorder->walls, s, error))) return status;
         s->state.stage.samples++;
     }
-    if (snapshot_due(s) && (status = write_snapshot(recorder, s, error))) return status;
+    if (snapshot_due(s) && (status = write_snapshot(recorder, s, true, error))) return status;
     if (s->stage_ended)
         scree_log_write(&recorder->log, SCREE_LOG_INFO, "stage %s ended at step %llu, time %.6g s: %s", s->stage->name,
                         (unsigned long long)s->state.step, scree_state_time(&s->state), s->reason);

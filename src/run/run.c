@@ -3,36 +3,24 @@
 #include "io/run_directory.h"
 #include "io/snapshot.h"
 #include "run/recorder.h"
+#include "run/restart.h"
 #include "run/results.h"
 #include "search/neighbours.h"
 #include "shape/container.h"
 #include "view/plot.h"
 
-#include <stdlib.h>
 #include <string.h>
 
-/// FNV-1a (Fowler, Noll, Vo) of the resolved case text: a checkpoint belongs to one case. Writes the text too.
-static scree_status case_text(const scree_case *c, char **text, size_t *length, uint64_t *checksum, scree_error *error)
-{
-    FILE *memory = open_memstream(text, length);
-    if (!memory) return scree_error_set_memory(error, 4096);
-    scree_status status = scree_case_write(c, memory, error);
-    if (fclose(memory) != 0 && !status) status = scree_error_set_memory(error, 4096);
-    *checksum = UINT64_C(0xcbf29ce484222325);
-    for (size_t k = 0; !status && k < *length; k++)
-        *checksum = (*checksum ^ (unsigned char)(*text)[k]) * UINT64_C(0x100000001b3);
-    return status;
-}
-
-static scree_status save_case(const char *directory, const char *text, size_t length, scree_error *error)
+static scree_status save_case(const char *directory, const scree_case *c, scree_error *error)
 {
     char path[4096];
     FILE *file;
     scree_status status = scree_path_join(path, sizeof path, directory, SCREE_FILE_CASE, error);
     if (!status) status = scree_replace_begin(path, &file, error);
     if (status) return status;
-    bool whole = fwrite(text, 1, length, file) == length;
-    return scree_replace_finish(path, file, whole, error);
+    status = scree_case_write(c, file, error);
+    scree_status finished = scree_replace_finish(path, file, !status, status ? NULL : error);
+    return status ? status : finished;
 }
 
 /// Steps until the case ends, somebody asks to stop, or something fails.
@@ -59,14 +47,15 @@ static scree_status drive(scree_recorder *recorder, scree_simulation *s, scree_e
     return status;
 }
 
-/// A guard has stopped the run: what it had is kept for inspection.
+/// A guard has stopped the run: what it had is kept for inspection, as a snapshot. There is no checkpoint: what goes on
+/// from the last one, which all guards have passed, stops here again, unless the limit is another one.
 static void save_after_failure(scree_recorder *recorder, scree_simulation *s, const scree_error *error)
 {
     scree_error second;
     scree_log_write(&recorder->log, SCREE_LOG_ERROR, "%s", error->message);
-    if (error->status != SCREE_ERROR_GUARD || s->state.count == 0) return;
-    if (scree_recorder_checkpoint(recorder, s, &second))
-        scree_log_write(&recorder->log, SCREE_LOG_ERROR, "no checkpoint: %s", second.message);
+    if (error->status != SCREE_ERROR_GUARD || s->state.count == 0 || !s->stage) return;
+    if (scree_recorder_last_look(recorder, s, &second))
+        scree_log_write(&recorder->log, SCREE_LOG_ERROR, "no snapshot of what the guard stopped: %s", second.message);
 }
 
 /// A line in log.txt alone: what ends the run comes back as its error, and is printed as that.
@@ -177,54 +166,35 @@ static scree_status record(scree_simulation *s, const scree_run_options *options
 
 scree_status scree_run(const scree_case *c, const scree_run_options *options, scree_error *error)
 {
-    char *text = NULL;
-    size_t length;
     uint64_t checksum;
     scree_simulation s;
     scree_folder_lock lock = {0};
     scree_error note = {0};
     // Everything that can be wrong with the case is found before anything is written.
     scree_status status = scree_simulation_open(c, options->threads, &s, error);
-    if (!status) status = case_text(c, &text, &length, &checksum, error);
+    if (!status) status = scree_case_checksum(c, &checksum, error);
     if (!status) status = scree_run_directory_lock(options->output, &lock, error);
     if (!status && (status = scree_run_directory_create(options->output, options->force, &note))) *error = note;
-    if (!status) status = save_case(options->output, text, length, error);
+    if (!status) status = save_case(options->output, c, error);
     if (!status) status = record(&s, options, &lock, checksum, false, note.message, error);
     scree_folder_lock_release(&lock);
     scree_simulation_close(&s);
-    free(text);
-    return status;
-}
-
-/// Reads the case of a run directory; all its problems fit into one error, the first.
-static scree_status read_case(const char *directory, scree_case **c, scree_error *error)
-{
-    char path[4096];
-    scree_problems *problems = NULL;
-    scree_status status = scree_path_join(path, sizeof path, directory, SCREE_FILE_CASE, error);
-    if (status) return status;
-    status = scree_case_reread(path, scree_former_keys, c, &problems);
-    if (status && scree_problems_count(problems) > 0) *error = *scree_problems_get(problems, 0);
-    scree_problems_free(problems);
     return status;
 }
 
 static scree_status restart(const char *directory, const scree_run_options *options, const scree_folder_lock *lock,
                             scree_error *error)
 {
-    char *text = NULL;
-    size_t length;
     uint64_t checksum;
     scree_case *c = NULL;
     scree_simulation s = {0};
-    scree_status status = read_case(directory, &c, error);
+    scree_status status = scree_restart_case(directory, &c, error);
     if (status) return status;
     status = scree_simulation_open(c, options->threads, &s, error);
-    if (!status) status = case_text(c, &text, &length, &checksum, error);
+    if (!status) status = scree_case_checksum(c, &checksum, error);
     // A message without a failure tells that an older checkpoint had to serve.
     scree_error note = {0};
-    if (!status && (status = scree_checkpoint_read(directory, s.model.dimension, &s.state, checksum, &note)))
-        *error = note;
+    if (!status && (status = scree_restart_read(&s, directory, checksum, &note))) *error = note;
     // Samples, checkpoints and the checksum may read the contacts before the first step.
     if (!status && s.state.count > 0) status = scree_neighbours_refresh(&s.model, &s.state, &s.work, error);
     if (!status && s.state.stage.counter >= 0) status = scree_stage_enter(&s, true, error);
@@ -232,7 +202,6 @@ static scree_status restart(const char *directory, const scree_run_options *opti
     if (!status) status = record(&s, options, lock, checksum, true, note.message, error);
     scree_simulation_close(&s);
     scree_case_free(c);
-    free(text);
     return status;
 }
 

@@ -8,6 +8,8 @@
 
 #include <math.h>
 
+#define MOST_STEPS 1e15
+
 const scree_stage *scree_stage_get(scree_stage_kind kind, bool wholly_periodic)
 {
     static const scree_stage *const table[][2] = {
@@ -35,7 +37,8 @@ double scree_stage_elapsed(const scree_simulation *s)
 uint64_t scree_stage_ticks(const scree_simulation *s, double time)
 {
     uint64_t largest = s->model.largest_step;
-    return (uint64_t)fmax(1, ceil(time / ((double)largest * s->state.tick))) * largest;
+    // A time that no run lasts is cut before it leaves the integers.
+    return (uint64_t)fmin(fmax(1, ceil(time / ((double)largest * s->state.tick))), MOST_STEPS) * largest;
 }
 
 /// Logarithmic axial strain of the Delaunay boundary since the begin of the loading stage, extension positive.

@@ -3,8 +3,7 @@
 /// Components of `velocity_gradient` are prescribed themselves, those of `strain_rate` for the mean of xy and yx.
 ///
 /// Stop rule: the largest prescribed component, as the Delaunay boundary has been strained since the begin
-/// (logarithmic, sum of increments), has reached `strain`. reference: run/stage.h, SCREE_LOADING_...; [13] the
-/// component of the stop rule.
+/// (logarithmic, sum of increments), has reached `strain`. reference: run/stage.h, SCREE_LOADING_...
 #include "boundary/minimal.h"
 #include "measure/measure.h"
 #include "run/simulation.h"
@@ -32,7 +31,7 @@ static scree_status begin(scree_simulation *s, scree_error *error)
     double target[9], penalty = s->model.config->boundary.penalty;
     scree_loading_begin(s);
     memset(drive->target, 0, sizeof drive->target);
-    s->state.stage.reference[SCREE_LOADING_OTHERS] = find_target(scree_stage_config(s), target, drive->prescribed);
+    (void)find_target(scree_stage_config(s), target, drive->prescribed);
     drive->viscosity = isnan(penalty) ? scree_minimal_viscosity(s->state.pressure, target) : penalty;
     return SCREE_OK;
 }
@@ -58,10 +57,9 @@ static void control(scree_simulation *s)
 /// The component of the stop rule as measured, in the sense of its target.
 static double strain(const scree_simulation *s)
 {
-    int c = (int)s->state.stage.reference[SCREE_LOADING_OTHERS], mirror = 3 * (c % 3) + c / 3;
     double target[9], gradient[9];
     int64_t prescribed[9];
-    (void)find_target(scree_stage_config(s), target, prescribed);
+    int c = find_target(scree_stage_config(s), target, prescribed), mirror = 3 * (c % 3) + c / 3;
     scree_strain_measure(&s->state, gradient);
     for (int i = 0; i < 9; i++) gradient[i] -= s->state.stage.reference[SCREE_LOADING_STRAIN + i];
     double reached = prescribed[c] == SCREE_FULL ? gradient[c] : 0.5 * (gradient[c] + gradient[mirror]);

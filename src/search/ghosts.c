@@ -50,9 +50,18 @@ static image_range measure_range(const scree_state *state, const scree_work *wor
     return range;
 }
 
-static scree_status check_width(const scree_state *state, const image_range *range, double skin, scree_error *error)
+/// Bodies are put back when they leave the cell: those that are this many cells apart have been hurled out of it.
+#define MOST_CELLS 100.0
+
+static scree_status check_range(const scree_state *state, const image_range *range, double skin, scree_error *error)
 {
     double needed = 4 * range->radius + 2 * skin;
+    for (int k = 0; k < state->dimension; k++)
+        if (scree_periodic_repeats(&state->periodic, k) && !(range->high[k] - range->low[k] <= MOST_CELLS))
+            return scree_error_set(error, SCREE_ERROR_GUARD,
+                                   "step %llu: particles are %.3g periodic cells apart along lattice vector %d: their "
+                                   "motion is no longer physical, try a smaller integrator.step",
+                                   (unsigned long long)state->step, range->high[k] - range->low[k], k + 1);
     for (int k = 0; k < state->dimension; k++)
         if (scree_periodic_repeats(&state->periodic, k) && !(range->width[k] >= needed))
             return scree_error_set(
@@ -111,7 +120,7 @@ scree_status scree_ghosts_make(scree_state *state, scree_work *work, scree_error
     scree_matrix_invert(state->periodic.lattice, list->lattice_inverse);
     image_range range = measure_range(state, work);
     list->largest_radius = range.radius;
-    scree_status status = check_width(state, &range, work->skin, error);
+    scree_status status = check_range(state, &range, work->skin, error);
     for (size_t row = 0; row < state->count && !status; row++)
         status = append_images(state, work, &range, (uint32_t)row, error);
     if (!status) status = scree_state_reserve_rows(state, scree_row_count(state, work), error);

@@ -188,7 +188,7 @@ static void no_whole_one_is_an_error(void **unused)
         checkpoint_path(k, path, sizeof path);
         assert_int_equal(truncate(path, 1000), 0);
     }
-    assert_non_null(strstr(read_checkpoint(0, SCREE_ERROR_IO, CASE), "is whole"));
+    assert_non_null(strstr(read_checkpoint(0, SCREE_ERROR_IO, CASE), "can be used"));
 }
 
 /// Flips single bits all over a file, to its last byte: each one is found, and HDF5 is never given the file.

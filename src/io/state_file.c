@@ -1,0 +1,199 @@
+/// A state in HDF5: every array of the two tables in state/fields.h is a dataset of its own, with unit and description,
+/// so it can be read by a person and by h5py; nothing is a dump of memory.
+///
+/// Attributes of the group: `layout` is a checksum over names, types and shapes of the tables and tells whether this
+/// build knows what it reads; `case_checksum` tells which case it belongs to. Cost: about 125 bytes a body and 40 a
+/// contact.
+#include "io/state_file.h"
+
+#include "base/checksum.h"
+
+#include <scree/scree.h>
+
+#include <string.h>
+
+// ---- the tables as one list --------------------------------------------------------------------------------------
+
+static size_t stored_count(void)
+{
+    return scree_field_count + scree_member_count;
+}
+
+/// The index-th of all fields and members; NULL when it is derived and therefore not stored, or of the other dimension.
+static const scree_field *stored_field(int dimension, size_t index)
+{
+    const scree_field *field =
+        index < scree_field_count ? &scree_fields[index] : &scree_members[index - scree_field_count];
+    return field->role == SCREE_FIELD_STATE && scree_field_exists(field, dimension) ? field : NULL;
+}
+
+static uint64_t layout_checksum(int dimension)
+{
+    uint64_t checksum = (uint64_t)dimension;
+    for (size_t k = 0; k < stored_count(); k++) {
+        const scree_field *field = stored_field(dimension, k);
+        if (!field) continue;
+        checksum = scree_checksum_bytes(checksum, field->name, strlen(field->name));
+        checksum = scree_checksum_word(checksum, (uint64_t)field->type << 32 | (uint32_t)field->components);
+        checksum = scree_checksum_word(checksum, field->rows);
+    }
+    return checksum;
+}
+
+// ---- writing -----------------------------------------------------------------------------------------------------
+
+void scree_state_write(scree_hdf5 *part, const char *group, const scree_state *state, uint64_t case_checksum)
+{
+    scree_hdf5_group(part, group);
+    scree_hdf5_set_text(part, group, "program", "Scree " SCREE_VERSION);
+    scree_hdf5_set_integer(part, group, "layout", layout_checksum(state->dimension));
+    scree_hdf5_set_integer(part, group, "case_checksum", case_checksum);
+    scree_hdf5_set_number(part, group, "wall_time", state->spent.run);
+    scree_hdf5_set_number(part, group, "stage_wall_time", state->spent.stage);
+    scree_hdf5_set_number(part, group, "stage_processor_time", state->spent.processor);
+    for (size_t k = 0; k < stored_count() && !part->status; k++) {
+        const scree_field *field = stored_field(state->dimension, k);
+        if (!field) continue;
+        scree_array array;
+        part->status = scree_array_from_field(state, field, false, &array, part->error);
+        scree_hdf5_write(part, group, &array);
+        scree_array_destroy(&array);
+    }
+}
+
+// ---- reading -----------------------------------------------------------------------------------------------------
+
+/// Refuses what is whole but not ours: another version of the tables, another case.
+static void check_origin(scree_hdf5 *file, const char *group, int dimension, uint64_t case_checksum)
+{
+    char program[64];
+    uint64_t layout = 0, origin = 0;
+    scree_hdf5_get_text(file, group, "program", program, sizeof program);
+    scree_hdf5_get_integer(file, group, "layout", &layout);
+    scree_hdf5_get_integer(file, group, "case_checksum", &origin);
+    if (file->status) return;
+    if (layout != layout_checksum(dimension))
+        file->status = scree_error_set(file->error, SCREE_ERROR_INPUT,
+                                       "'%s' is a checkpoint of another version of the state: it was written by %s, "
+                                       "this is Scree %s",
+                                       file->path, program, SCREE_VERSION);
+    else if (origin != case_checksum)
+        file->status =
+            scree_error_set(file->error, SCREE_ERROR_INPUT, "'%s' is a checkpoint of another case", file->path);
+}
+
+/// Makes an empty loop of `rows` vertices.
+static scree_status make_loop(scree_loop *loop, size_t rows, scree_error *error)
+{
+    scree_status status = scree_allocate(&loop->id, rows, sizeof *loop->id, error);
+    if (!status) status = scree_allocate(&loop->loaded, rows, sizeof *loop->loaded, error);
+    if (!status) status = scree_allocate(&loop->x, rows, sizeof *loop->x, error);
+    if (!status) status = scree_allocate(&loop->y, rows, sizeof *loop->y, error);
+    if (!status) status = scree_allocate(&loop->fx, rows, sizeof *loop->fx, error);
+    if (!status) status = scree_allocate(&loop->fy, rows, sizeof *loop->fy, error);
+    if (!status) loop->count = loop->capacity = rows;
+    return status;
+}
+
+/// Makes bodies in a state that has only its dimension.
+static scree_status make_bodies(scree_state *state, size_t rows, scree_error *error)
+{
+    return scree_state_create(state, state->dimension, rows, error);
+}
+
+/// Makes an empty hull of `rows` nodes, or of as many triangles.
+static scree_status make_hull_nodes(scree_hull *hull, size_t rows, scree_error *error)
+{
+    scree_status status = scree_allocate(&hull->id, rows, sizeof *hull->id, error);
+    if (!status) status = scree_allocate(&hull->place, rows, sizeof *hull->place, error);
+    if (!status) status = scree_allocate(&hull->force, rows, sizeof *hull->force, error);
+    if (!status) hull->node_count = hull->node_capacity = rows;
+    return status;
+}
+
+static scree_status make_hull_triangles(scree_hull *hull, size_t rows, scree_error *error)
+{
+    scree_status status = scree_allocate(&hull->triangle, rows, sizeof *hull->triangle, error);
+    if (!status) status = scree_allocate(&hull->loaded, rows, sizeof *hull->loaded, error);
+    if (!status) hull->triangle_count = hull->triangle_capacity = rows;
+    return status;
+}
+
+static scree_status make_drive(scree_drive *drive, size_t rows, scree_error *error)
+{
+    scree_status status = scree_allocate(&drive->force, rows, sizeof *drive->force, error);
+    if (!status) drive->count = drive->capacity = rows;
+    return status;
+}
+
+static scree_status make_membrane(scree_membrane *membrane, size_t rows, scree_error *error)
+{
+    scree_status status = scree_allocate(&membrane->rest, rows, sizeof *membrane->rest, error);
+    if (!status) status = scree_allocate(&membrane->press, rows, sizeof *membrane->press, error);
+    if (!status) status = scree_allocate(&membrane->force, rows, sizeof *membrane->force, error);
+    if (!status) membrane->count = membrane->capacity = rows;
+    return status;
+}
+
+/// Makes the part of `state` that `field` describes have `rows` rows, when it has none yet.
+static scree_status make_room(scree_state *state, const scree_field *field, size_t rows, scree_error *error)
+{
+    if (field->rows == SCREE_ROWS_BODIES && !state->row) return make_bodies(state, rows, error);
+    if (field->rows == SCREE_ROWS_LOOP && state->loop.count == 0) return make_loop(&state->loop, rows, error);
+    scree_hull *hull = &state->hull;
+    if (field->rows == SCREE_ROWS_HULL_NODES && hull->node_count == 0) return make_hull_nodes(hull, rows, error);
+    if (field->rows == SCREE_ROWS_HULL_TRIANGLES && hull->triangle_count == 0)
+        return make_hull_triangles(hull, rows, error);
+    if (field->rows == SCREE_ROWS_DRIVE && state->drive.count == 0) return make_drive(&state->drive, rows, error);
+    if (field->rows == SCREE_ROWS_MEMBRANE && state->membrane.count == 0)
+        return make_membrane(&state->membrane, rows, error);
+    if (field->rows == SCREE_ROWS_BOOKING && rows > 0) return scree_state_add_booking(state, error);
+    if (field->rows == SCREE_ROWS_ROLLING && rows > 0) return scree_state_add_rolling(state, error);
+    if (field->rows != SCREE_ROWS_CONTACTS || state->contact_count > 0) return SCREE_OK;
+    scree_status status = scree_state_reserve_contacts(state, rows, error);
+    if (!status) state->contact_count = rows;
+    return status;
+}
+
+static void read_field(scree_hdf5 *file, const char *group, const scree_field *field, scree_state *state)
+{
+    scree_array array = scree_array_of_field(state, field);
+    scree_hdf5_read(file, group, &array);
+    if (!file->status) file->status = make_room(state, field, array.rows, file->error);
+    if (!file->status && array.rows != scree_field_rows_count(state, field))
+        scree_hdf5_damaged(file, "arrays of one kind have different lengths");
+    if (!file->status) scree_array_to_field(&array, field, state);
+    scree_array_destroy(&array);
+}
+
+/// Finds the row of each id.
+static void find_rows(scree_hdf5 *file, scree_state *state)
+{
+    if (file->status) return;
+    memset(state->row_of_id, 0xff, state->count * sizeof *state->row_of_id);
+    for (size_t row = 0; row < state->count && !file->status; row++)
+        if (state->id[row] < state->count && state->row_of_id[state->id[row]] == UINT32_MAX)
+            state->row_of_id[state->id[row]] = (uint32_t)row;
+        else
+            scree_hdf5_refuse(file, "dataset 'id', row %zu: %u (accepted: each of 0 to %zu once)", row, state->id[row],
+                              state->count - 1);
+}
+
+void scree_state_read(scree_hdf5 *file, const char *group, int dimension, uint64_t case_checksum, scree_state *state)
+{
+    *state = (scree_state){.dimension = dimension};
+    check_origin(file, group, dimension, case_checksum);
+    scree_time_spent spent = {0};
+    scree_hdf5_get_number(file, group, "wall_time", &spent.run);
+    scree_hdf5_get_number(file, group, "stage_wall_time", &spent.stage);
+    scree_hdf5_get_number(file, group, "stage_processor_time", &spent.processor);
+    for (size_t k = 0; k < stored_count() && !file->status; k++) {
+        const scree_field *field = stored_field(dimension, k);
+        if (field) read_field(file, group, field, state);
+    }
+    find_rows(file, state);
+    state->spent = spent;
+    if (!file->status) return;
+    scree_state_destroy(state);
+    state->dimension = dimension;
+}

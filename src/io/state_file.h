@@ -1,0 +1,16 @@
+/// A whole state as a group of an HDF5 file, bit for bit.
+#ifndef SCREE_IO_STATE_FILE_H
+#define SCREE_IO_STATE_FILE_H
+
+#include "io/hdf5_file.h"
+
+/// Writes everything that is needed to continue into `group` of an open part. Contacts must have been saved.
+void scree_state_write(scree_hdf5 *part, const char *group, const scree_state *state, uint64_t case_checksum);
+
+/// Reads it back into *state, which must own nothing and stays empty on failure. Rows are in the order in which they
+/// were written; derived arrays but row_of_id are zero. Errors, in file->status: SCREE_ERROR_INPUT for another case or
+/// another version of the state; SCREE_ERROR_IO (file->damaged) for ids that are no permutation, lengths that do not
+/// agree. Values are not looked at: state/check.h.
+void scree_state_read(scree_hdf5 *file, const char *group, int dimension, uint64_t case_checksum, scree_state *state);
+
+#endif

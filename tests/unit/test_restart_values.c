@@ -1,0 +1,220 @@
+/// Values of a checkpoint that no run could have written, in files whose checksums are right: they are refused with
+/// file, dataset, row and value; and whatever is not refused does no harm.
+#include "run_fixture.h"
+
+#include "io/run_file.h"
+#include "io/seal.h"
+#include "io_scratch.h"
+#include "run/restart.h"
+#include "state/check.h"
+#include "state/fields.h"
+
+#define COMMON(dimension, shape, count)                                                                                \
+    "scree: 1\n"                                                                                                       \
+    "name: small\n"                                                                                                    \
+    "dimension: " dimension "\n"                                                                                       \
+    "seed: 3\n"                                                                                                        \
+    "gravity: [0, 0, 0]\n"                                                                                             \
+    "materials:\n"                                                                                                     \
+    "  - {name: quartz, young_modulus: 30 GPa, density: 2.675e8 kg/m3, friction: 0.45, restitution: 0.2}\n"            \
+    "particles: {material: quartz, shape: " shape ", count: " count ", radius_min: 0.6 mm, radius_max: 0.9 mm}\n"      \
+    "contact: {law: hertz_mindlin, reference_velocity: 1e-4 m/s}\n"                                                    \
+    "integrator: {scheme: velocity_verlet, step: 2e-5 s}\n"                                                            \
+    "measure: {samples: 20, cells: no}\n"                                                                              \
+    "output: {snapshots: 0, paraview: no, figures: no}\n"
+#define CONFINED                                                                                                       \
+    "boundary: {every: 100}\n"                                                                                         \
+    "stages:\n"                                                                                                        \
+    "  - {stage: prepare, aspect_ratio: 1.5}\n"                                                                        \
+    "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 0.9, ramp_time: 1 ms}\n"
+
+/// Samples whose states have all that a state can have, between them.
+static const char *const cases[] = {
+    COMMON("2", "disc", "30") CONFINED
+    "  - {stage: deform, strain: 0.3 %, boundary: minimal, strain_rate: {xy: 3e-2 1/s, yy: 0}}\n",
+    COMMON("3", "sphere", "30") CONFINED
+    "  - {stage: deform, strain: 0.3 %, boundary: minimal, strain_rate: {xz: 3e-2 1/s, zz: 0}}\n",
+    COMMON("2", "disc", "30") CONFINED "  - {stage: compress, strain: 0.5 %, rate: 0.2 1/s, boundary: membrane}\n",
+    COMMON("2", "disc", "30") "boundary: {periodic: xy}\n"
+                              "stages:\n"
+                              "  - {stage: prepare, method: gas, solid_fraction: 45 %, velocity: 20 mm/s}\n"
+                              "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 0.9, ramp_time: 1 ms}\n"
+                              "  - {stage: deform, strain: 70 %, velocity_gradient: {xy: 0.8 1/s, yx: 0}}\n",
+};
+enum { CASES = sizeof cases / sizeof *cases, STEPS = 150, SEQUEL = 8 };
+
+/// A checkpoint of case k in the scratch folder, STEPS steps into its last stage.
+static scree_case *write_one(int k, uint64_t *checksum)
+{
+    scree_error error;
+    scree_simulation s;
+    scree_case *c = case_read(cases[k], NULL, 0);
+    check(scree_case_checksum(c, checksum, &error), &error);
+    simulation_open(c, 1, &s);
+    while (simulation_last_steps(&s) < STEPS) simulation_step(&s);
+    check(scree_contacts_save(&s.state, &s.work, &error), &error);
+    check(scree_checkpoint_write(scratch, &s.state, *checksum, &error), &error);
+    scree_simulation_close(&s);
+    return c;
+}
+
+/// Goes on from the state of `s`, whose values were accepted; any guard may stop it.
+static void go_on(scree_simulation *s)
+{
+    scree_error error;
+    if (scree_neighbours_refresh(&s->model, &s->state, &s->work, &error)) return;
+    if (scree_stage_enter(s, true, &error)) return;
+    for (int k = 0; k < SEQUEL && simulation_goes_on(s); k++)
+        if (scree_simulation_step(s, &error)) return;
+}
+
+static const double reals[] = {(double)NAN, (double)INFINITY, -(double)INFINITY, -1, 0, 1e300, 7.5};
+static const int64_t integers[] = {-1, INT64_MIN, INT64_MAX, INT32_MAX, 30, 2, 0};
+enum { REALS = sizeof reals / sizeof *reals, INTEGERS = sizeof integers / sizeof *integers };
+
+static bool is_real(const scree_field *field)
+{
+    return field->type == SCREE_FIELD_DOUBLE || field->type == SCREE_FIELD_FLOAT;
+}
+
+static void spoil(scree_state *state, const scree_field *field, size_t row, int component, int which)
+{
+    size_t size = scree_field_size(field->type);
+    unsigned char *at = (unsigned char *)scree_field_get_mutable(state, field, row) + (size_t)component * size;
+    float single = (float)reals[which % REALS];
+    if (field->type == SCREE_FIELD_DOUBLE)
+        memcpy(at, &reals[which], size);
+    else if (field->type == SCREE_FIELD_FLOAT)
+        memcpy(at, &single, size);
+    else
+        memcpy(at, &integers[which], size); // little-endian: the low bytes
+}
+
+/// Spoils one value of a state that is read anew. Returns whether it was accepted.
+static bool try_one(const scree_case *c, uint64_t checksum, const scree_field *field, size_t row, int component,
+                    int which)
+{
+    scree_error error;
+    scree_simulation s;
+    simulation_open(c, 1, &s);
+    check(scree_restart_read(&s, scratch, checksum, &error), &error);
+    spoil(&s.state, field, row, component, which);
+    bool permuted = strcmp(field->name, "id") == 0; // looked at when it is read
+    bool accepted = !permuted && scree_restart_check(&s, &s.state, &error) == SCREE_OK;
+    if (!accepted && !permuted && !strstr(error.message, "dataset '")) fail_msg("'%s' names no dataset", error.message);
+    if (accepted) go_on(&s);
+    scree_simulation_close(&s);
+    return accepted;
+}
+
+/// Every kind of value, spoiled in its first, a middle and its last place.
+static void no_value_does_harm(void **unused)
+{
+    (void)unused;
+    for (int k = 0; k < CASES; k++) {
+        uint64_t checksum;
+        int tried = 0, passed = 0;
+        scree_error error;
+        scree_simulation s;
+        scree_case *c = write_one(k, &checksum);
+        simulation_open(c, 1, &s);
+        check(scree_restart_read(&s, scratch, checksum, &error), &error);
+        for (size_t f = 0; f < scree_field_count + scree_member_count; f++) {
+            const scree_field *field = f < scree_field_count ? &scree_fields[f] : &scree_members[f - scree_field_count];
+            if (field->role != SCREE_FIELD_STATE || !scree_field_exists(field, s.state.dimension)) continue;
+            size_t rows = scree_field_rows_count(&s.state, field);
+            int components = scree_components(field->components, s.state.dimension);
+            for (int which = 0; rows > 0 && which < (is_real(field) ? REALS : INTEGERS); which++) {
+                size_t row = which % 3 == 0 ? 0 : which % 3 == 1 ? rows / 2 : rows - 1;
+                bool accepted = try_one(c, checksum, field, row, which % components, which);
+                bool number = !is_real(field) || strcmp(field->name, "stage/reference") == 0 || which > 2;
+                bool infinite = strcmp(field->name, "drive/viscosity") == 0 && which == 1;
+                if (accepted && !number && !infinite) fail_msg("%s may be %g", field->name, reals[which]);
+                tried++;
+                passed += accepted;
+            }
+        }
+        print_message("%d of %d values are refused\n", tried - passed, tried);
+        assert_true(tried > 500 && tried - passed > tried / 3);
+        scree_simulation_close(&s);
+        scree_case_free(c);
+    }
+}
+
+/// Writes one number into a dataset of the checkpoint and seals the file again.
+static void forge(const char *path, const char *dataset, hsize_t at, hid_t type, const void *value)
+{
+    char name[96];
+    scree_hdf5 file;
+    scree_hdf5_extend(&file, path, NULL);
+    (void)snprintf(name, sizeof name, "/checkpoints/000000/%s", dataset);
+    hid_t set = H5Dopen2(file.file, name, H5P_DEFAULT), space = H5Dget_space(set), one = H5Screate(H5S_SCALAR);
+    assert_true(set >= 0 && one >= 0);
+    const hsize_t place[2] = {at, 0};
+    if (H5Sget_simple_extent_ndims(space) > 0) assert_true(H5Sselect_elements(space, H5S_SELECT_SET, 1, place) >= 0);
+    assert_true(H5Dwrite(set, type, one, space, H5P_DEFAULT, value) >= 0);
+    assert_true(H5Sclose(one) >= 0 && H5Sclose(space) >= 0 && H5Dclose(set) >= 0);
+    assert_int_equal(scree_hdf5_close(&file), SCREE_OK);
+    assert_int_equal(scree_seal_append(path, NULL), SCREE_OK);
+}
+
+static void a_forged_file_is_refused(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *dataset;
+        bool real;
+        double value;
+        const char *words;
+    } forged[] = {
+        {"radius", true, -0.001, "dataset 'radius', body "},
+        {"radius", true, 0.001, "0.001 (accepted: more than 0, at most 0.0009"},
+        {"mass", true, 0, ": 0 (accepted: finite, more than 0)"},
+        {"material", true, 1, ": 1 (accepted: a whole number, at least 0, at most 0)"},
+        {"material", true, 0.5, ": 0.5 (accepted"},
+        {"position", true, (double)NAN, ": nan (accepted: a finite number)"},
+        {"id", false, 30, "dataset 'id', row 0: 30 (accepted: each of 0 to 29 once)"},
+        {"id", false, -1, "each of 0 to 29 once"},
+        {"contacts/first", false, 4e6, "dataset 'contacts/first', contact 0: 4000000"},
+        {"contacts/second", false, 2e9, "2000000000 is no body"},
+        {"boundary/id", false, 31, "dataset 'boundary/id', row 0: 31"},
+        {"walls/material", false, 3, "dataset 'walls/material', wall 0: 3"},
+        {"drive/prescribed", false, 3, "dataset 'drive/prescribed': 3"},
+        {"scalars/tick", true, 1e-5, "dataset 'scalars/tick'"},
+        {"scalars/grains", false, 29, "dataset 'membrane/rest'"},
+        {"stage/index", false, 4, "dataset 'stage/index': 4 (accepted: at least 0, at most 3)"},
+        {"stage/samples", false, -2, "dataset 'stage/samples': -2"},
+    };
+    char path[128], kept[144];
+    uint64_t checksum;
+    scree_case *c = write_one(0, &checksum);
+    assert_int_equal(scree_part_path(scratch, SCREE_PART_CHECKPOINT, 0, path, sizeof path, NULL), SCREE_OK);
+    (void)snprintf(kept, sizeof kept, "%s.kept", path);
+    assert_int_equal(rename(path, kept), 0);
+    for (size_t k = 0; k < sizeof forged / sizeof *forged; k++) {
+        char copy[320];
+        int64_t integer = (int64_t)forged[k].value;
+        (void)snprintf(copy, sizeof copy, "cp %s %s", kept, path);
+        assert_int_equal(system(copy), 0);
+        forge(path, forged[k].dataset, 0, forged[k].real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64,
+              forged[k].real ? (const void *)&forged[k].value : (const void *)&integer);
+        scree_error error = {0};
+        scree_simulation s;
+        simulation_open(c, 1, &s);
+        assert_int_equal(scree_restart_read(&s, scratch, checksum, &error), SCREE_ERROR_IO);
+        if (!strstr(error.message, forged[k].words) || !strstr(error.message, "checkpoint-000000.h5"))
+            fail_msg("%s: '%s' does not hold '%s'", forged[k].dataset, error.message, forged[k].words);
+        scree_simulation_close(&s);
+    }
+    scree_case_free(c);
+}
+
+#define WITH_SCRATCH(test) cmocka_unit_test_setup_teardown(test, make_scratch, remove_scratch)
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        WITH_SCRATCH(no_value_does_harm),
+        WITH_SCRATCH(a_forged_file_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
