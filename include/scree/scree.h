@@ -24,6 +24,12 @@ extern "C" {
 /// Version text, with the compiler and the instruction set that the kernels use on this machine.
 const char *scree_version(void);
 
+/// Chooses the instruction set of the kernels, "v2", "v3" or "v4" (x86-64-v2 and so on), for everything that this
+/// process computes from now on; NULL or "auto": the best that this processor has, as without a call. Results have the
+/// same bits with each. The library reads no environment variable; the program `scree` calls this with SCREE_ISA.
+/// Errors: SCREE_ERROR_INPUT: no such word, or this processor does not have it; nothing is changed then.
+scree_status scree_instruction_set_choose(const char *name, scree_error *error);
+
 /// Nearest of `names` to `text` (Damerau-Levenshtein, at most a third of the letters wrong), or NULL.
 const char *scree_nearest(const char *text, const char *const *names, size_t count);
 
