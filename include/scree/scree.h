@@ -99,7 +99,8 @@ typedef struct scree_progress {
 
 typedef struct scree_run_options {
     const char *output;       ///< run directory
-    int threads;              ///< 0: one for every 4000 bodies, at most all cores
+    int threads;              ///< at most; 0: one for every 4000 bodies, at most all cores. Fewer work while other
+                              ///< programs hold the cores and fewer are faster
     bool force;               ///< write into a directory that holds another run (replaces it)
     bool figures;             ///< draw figures at the end
     const volatile int *stop; ///< becomes non-zero (signal number) to ask for a checkpoint and an orderly end

@@ -141,7 +141,7 @@ const scree_verb scree_verbs[] = {
                    {.name = "threads",
                     .letter = 't',
                     .value = "N",
-                    .meaning = "number of threads; the results do not depend on it",
+                    .meaning = "most threads; fewer work while the machine is busy; the results do not depend on it",
                     .preset = "one for every 4000 bodies"},
                    {.name = "force", .letter = 'f', .meaning = "replace the run that DIR holds"},
                    {.name = "no-figures", .meaning = "leave the figures out; `scree plot` draws them later"},

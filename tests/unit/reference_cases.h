@@ -3,7 +3,7 @@
 #ifndef SCREE_TESTS_REFERENCE_CASES_H
 #define SCREE_TESTS_REFERENCE_CASES_H
 
-#include <scree/scree.h>
+#include "run/simulation.h"
 
 #include <glob.h>
 #include <inttypes.h>
@@ -47,6 +47,8 @@ static inline scree_status reference_run(const char *path, const char *override,
     scree_status status = reference_read(path, override, &c);
     if (status) return status;
     status = scree_simulation_create(c, threads, &s, &error);
+    // Also where the machine is busy.
+    if (!status) s->work.keep_threads = true;
     if (!status) status = scree_simulation_advance(s, most, &done, &error);
     if (status)
         fprintf(stderr, "%s: %s\n", path, error.message);
