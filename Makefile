@@ -3,7 +3,7 @@ BUILD ?= build
 JOBS  ?= $(shell nproc)
 PREFIX ?= /usr/local
 
-.PHONY: all packages demo test reproduce reproduce-full bench install clean help sanitize
+.PHONY: all packages demo test reproduce reproduce-full reference reference-check bench install clean help sanitize
 all: ## build/scree and libscree (static and shared)
 	@mkdir -p $(BUILD)
 	@cmake --preset release -B $(BUILD) >$(BUILD)/configure.log 2>&1 || \
@@ -28,6 +28,13 @@ reproduce: all ## the published experiments in their quick forms, compared in do
 reproduce-full: all ## the same with the sources' own numbers: many hours; interrupt it and call it again
 	@$(BUILD)/scree reproduce --full -o out-reproduce/full; status=$$?; \
 	    $(BUILD)/scree report out-reproduce -o docs/reproduction.md || status=$$?; exit $$status
+
+reference: all ## store the state checksums anew: after a change that means to alter bits, and says so in CHANGELOG.md
+	@$(BUILD)/tests/write_reference >$(BUILD)/small.txt && cp $(BUILD)/small.txt tests/reference/small.txt
+	@bash tests/reference/quick.sh $(BUILD)/scree write
+
+reference-check: all ## the built-in cases in their quick forms against the stored checksums: minutes
+	@bash tests/reference/quick.sh $(BUILD)/scree compare
 
 bench: all ## particle-steps per second, memory, and peers where they are installed
 	@cmake --build $(BUILD) -j $(JOBS) --target benches

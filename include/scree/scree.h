@@ -27,6 +27,12 @@ const char *scree_version(void);
 /// The commit that was built, with a "+" where tracked files differed from it; "" when the sources were no checkout.
 const char *scree_commit(void);
 
+/// Chooses the instruction set of the kernels, "v2", "v3" or "v4" (x86-64-v2 and so on), for everything that this
+/// process computes from now on; NULL or "auto": the best that this processor has, as without a call. Results have the
+/// same bits with each. The library reads no environment variable; the program `scree` calls this with SCREE_ISA.
+/// Errors: SCREE_ERROR_INPUT: no such word, or this processor does not have it; nothing is changed then.
+scree_status scree_instruction_set_choose(const char *name, scree_error *error);
+
 /// Nearest of `names` to `text` (Damerau-Levenshtein, at most a third of the letters wrong), or NULL.
 const char *scree_nearest(const char *text, const char *const *names, size_t count);
 
@@ -96,7 +102,8 @@ typedef struct scree_progress {
 
 typedef struct scree_run_options {
     const char *output;       ///< run directory
-    int threads;              ///< 0: one for every 4000 bodies, at most all cores
+    int threads;              ///< at most; 0: one for every 4000 bodies, at most all cores. Fewer work while other
+                              ///< programs hold the cores and fewer are faster
     bool force;               ///< write into a directory that holds another run (replaces it)
     bool figures;             ///< draw figures at the end
     const volatile int *stop; ///< becomes non-zero (signal number) to ask for a checkpoint and an orderly end

@@ -15,6 +15,23 @@ static inline uint64_t scree_checksum_word(uint64_t checksum, uint64_t word)
     return z ^ (z >> 31);
 }
 
+/// A number by its bits; zeros without their sign and all NaN alike, since neither says anything about the physics.
+static inline uint64_t scree_checksum_number(uint64_t checksum, double number)
+{
+    uint64_t word = 0;
+    if (number != number)
+        word = UINT64_C(0x7ff8000000000000);
+    else if (number != 0)
+        memcpy(&word, &number, sizeof word);
+    return scree_checksum_word(checksum, word);
+}
+
+static inline uint64_t scree_checksum_numbers(uint64_t checksum, const double *numbers, size_t count)
+{
+    for (size_t k = 0; k < count; k++) checksum = scree_checksum_number(checksum, numbers[k]);
+    return checksum;
+}
+
 /// Any number of bytes; the last word is filled with zeros.
 static inline uint64_t scree_checksum_bytes(uint64_t checksum, const void *bytes, size_t size)
 {

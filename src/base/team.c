@@ -1,20 +1,35 @@
-/// Method. The caller writes the task, sets the number of members that have not finished, and counts up `generation`;
-/// each member that sees a new generation does its share and counts itself off; the caller spins until none is left. A
-/// member that has spun SPINS times goes to sleep on a condition; the caller looks at `sleeping` after it has counted
-/// up the generation, the member at the generation after it has counted itself as sleeping (both sequentially
-/// consistent), so no call is missed.
+/// Method. Each member has a word of its own: nothing to do, a share is offered, the member sleeps, the end. The caller
+/// writes the task, offers each member its share, does its own, and then takes back every offer that nobody has
+/// accepted yet and does that share too: a member that sleeps, or whose processor is busy with another program, holds
+/// nobody up. Only shares that were begun are waited for. Whoever accepts or takes back does so by a compare-and-swap,
+/// and reads the task after it, so nobody sees a task of another time.
+///
+/// A member spins SPINS times (some 30 us) for an offer, then sleeps in the kernel (futex(2)) on its word. The caller
+/// spins for the last shares, then gives its processor to whoever wants it (the member may be waiting for just that),
+/// then sleeps. Time that it waits longer than spinning lasts is counted: the shares of a task are nearly equal, so it
+/// says that other programs have taken processors away (team_size.h).
 #include "base/team.h"
 
 #include "base/memory.h"
 
+#include <limits.h>
+#include <linux/futex.h>
 #include <pthread.h>
 #include <sched.h>
 #include <stdatomic.h>
 #include <stdbool.h>
+#include <sys/syscall.h>
+#include <time.h>
+#include <unistd.h>
 
 enum { SPINS = 2000, SPINS_BEFORE_YIELD = 1000 };
+static const double yield_seconds = 1e-3;
+
+/// What a member's word says.
+enum { NOTHING, OFFERED, SLEEPING, ENDED };
 
 typedef struct member {
+    _Alignas(64) atomic_int word; // on a cache line of its own
     scree_team *team;
     pthread_t thread;
     int index;
@@ -23,15 +38,12 @@ typedef struct member {
 struct scree_team {
     int count, started; ///< threads with the caller's; those that were started, count - 1 when all could be
     int shares;         ///< of the present task, at most count
-    member members[SCREE_TEAM_MOST];
-    scree_team_task *task; ///< NULL: end
+    scree_team_task *task;
     void *argument;
-    pthread_mutex_t mutex;
-    pthread_cond_t called;
-    // each on a cache line of its own
-    _Alignas(64) atomic_uint generation;
-    _Alignas(64) atomic_int unfinished;
-    _Alignas(64) atomic_int sleeping;
+    double stalled;                     ///< s
+    _Alignas(64) atomic_int unfinished; ///< shares of others
+    _Alignas(64) atomic_int waiting;    ///< 1: the caller sleeps until there are none
+    member members[SCREE_TEAM_MOST];
 };
 
 static inline void relax(void)
@@ -41,44 +53,63 @@ static inline void relax(void)
 #endif
 }
 
-static void sleep_until_called(scree_team *team, unsigned seen)
+/// Sleeps while the word has this value; may return early.
+static void sleep_on(atomic_int *word, int value)
 {
-    pthread_mutex_lock(&team->mutex);
-    atomic_fetch_add(&team->sleeping, 1);
-    while (atomic_load(&team->generation) == seen) pthread_cond_wait(&team->called, &team->mutex);
-    atomic_fetch_sub(&team->sleeping, 1);
-    pthread_mutex_unlock(&team->mutex);
+    (void)syscall(SYS_futex, word, FUTEX_WAIT_PRIVATE, value, NULL, NULL, 0);
+}
+
+static void wake(atomic_int *word)
+{
+    (void)syscall(SYS_futex, word, FUTEX_WAKE_PRIVATE, 1, NULL, NULL, 0);
+}
+
+static double clock_now(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/// Accepts an offer, or takes it back.
+static bool take_offer(member *m)
+{
+    int offered = OFFERED;
+    return atomic_compare_exchange_strong(&m->word, &offered, NOTHING);
+}
+
+/// Puts a word in front of a member and wakes it where it sleeps.
+static void tell(member *m, int word)
+{
+    if (atomic_exchange(&m->word, word) == SLEEPING) wake(&m->word);
+}
+
+/// Waits until this member has a share; false at the end.
+static bool wait_for_share(member *self)
+{
+    for (;;) {
+        for (int spins = 0; spins < SPINS; spins++) {
+            int word = atomic_load_explicit(&self->word, memory_order_acquire);
+            if (word == ENDED) return false;
+            if (word == OFFERED && take_offer(self)) return true;
+            if (word == SLEEPING) break; // woken for nothing
+            relax();
+        }
+        int nothing = NOTHING;
+        (void)atomic_compare_exchange_strong(&self->word, &nothing, SLEEPING);
+        if (atomic_load(&self->word) == SLEEPING) sleep_on(&self->word, SLEEPING);
+    }
 }
 
 static void *serve(void *argument)
 {
-    const member *self = argument;
+    member *self = argument;
     scree_team *team = self->team;
-    for (unsigned seen = 0;; seen++) {
-        int spins = 0;
-        while (atomic_load_explicit(&team->generation, memory_order_acquire) == seen && spins < SPINS) {
-            relax();
-            spins++;
-        }
-        if (spins == SPINS) sleep_until_called(team, seen);
-        if (!team->task) return NULL;
-        if (self->index < team->shares) team->task(team->argument, self->index, team->shares);
-        atomic_fetch_sub_explicit(&team->unfinished, 1, memory_order_release);
+    while (wait_for_share(self)) {
+        team->task(team->argument, self->index, team->shares);
+        if (atomic_fetch_sub(&team->unfinished, 1) == 1 && atomic_load(&team->waiting)) wake(&team->unfinished);
     }
-}
-
-/// Tells the members that there is something new.
-static void call(scree_team *team, int shares, scree_team_task *task, void *argument)
-{
-    team->shares = shares;
-    team->task = task;
-    team->argument = argument;
-    atomic_store(&team->unfinished, team->started);
-    atomic_fetch_add(&team->generation, 1);
-    if (atomic_load(&team->sleeping) == 0) return;
-    pthread_mutex_lock(&team->mutex);
-    pthread_cond_broadcast(&team->called);
-    pthread_mutex_unlock(&team->mutex);
+    return NULL;
 }
 
 static scree_team *create(int count)
@@ -86,10 +117,9 @@ static scree_team *create(int count)
     scree_team *team;
     if (scree_allocate(&team, 1, sizeof *team, NULL)) return NULL;
     team->count = count;
-    pthread_mutex_init(&team->mutex, NULL);
-    pthread_cond_init(&team->called, NULL);
     for (int k = 1; k < count; k++) {
-        team->members[k] = (member){.team = team, .index = k};
+        team->members[k].team = team;
+        team->members[k].index = k;
         if (pthread_create(&team->members[k].thread, NULL, serve, &team->members[k])) break;
         team->started++;
     }
@@ -100,11 +130,32 @@ void scree_team_destroy(scree_team **team)
 {
     scree_team *t = *team;
     if (!t) return;
-    call(t, 0, NULL, NULL);
+    for (int k = 1; k <= t->started; k++) tell(&t->members[k], ENDED);
     for (int k = 1; k <= t->started; k++) pthread_join(t->members[k].thread, NULL);
-    pthread_cond_destroy(&t->called);
-    pthread_mutex_destroy(&t->mutex);
     scree_release(team);
+}
+
+double scree_team_stalled(const scree_team *team)
+{
+    return team ? team->stalled : 0;
+}
+
+/// Waits for shares that members have begun.
+static void wait_for_others(scree_team *team)
+{
+    for (int spins = 0; spins < SPINS_BEFORE_YIELD; spins++) {
+        if (atomic_load_explicit(&team->unfinished, memory_order_acquire) == 0) return;
+        relax();
+    }
+    double begin = clock_now(), passed = 0;
+    while (atomic_load(&team->unfinished) > 0 && passed < yield_seconds) {
+        sched_yield();
+        passed = clock_now() - begin;
+    }
+    atomic_store(&team->waiting, 1);
+    for (int left; (left = atomic_load(&team->unfinished)) > 0;) sleep_on(&team->unfinished, left);
+    atomic_store(&team->waiting, 0);
+    team->stalled += clock_now() - begin;
 }
 
 void scree_team_run(scree_team **team, int count, scree_team_task *task, void *argument)
@@ -112,12 +163,20 @@ void scree_team_run(scree_team **team, int count, scree_team_task *task, void *a
     if (*team && (*team)->count < count) scree_team_destroy(team);
     if (!*team && count > 1) *team = create(count);
     scree_team *t = count > 1 ? *team : NULL;
-    if (t) call(t, count, task, argument);
-    task(argument, 0, count);
-    for (int k = t ? t->started + 1 : 1; k < count; k++) task(argument, k, count);
-    // A member may have lost its processor to another program.
-    for (int spins = 0; t && atomic_load_explicit(&t->unfinished, memory_order_acquire) > 0; spins++) {
-        relax();
-        if (spins > SPINS_BEFORE_YIELD) sched_yield();
+    int members = !t ? 0 : t->started < count - 1 ? t->started : count - 1;
+    if (t) {
+        t->shares = count;
+        t->task = task;
+        t->argument = argument;
+        atomic_store(&t->unfinished, members);
     }
+    for (int k = 1; k <= members; k++) tell(&t->members[k], OFFERED);
+    task(argument, 0, count);
+    int taken_back = 0;
+    for (int k = 1; k < count; k++) {
+        if (k <= members && !take_offer(&t->members[k])) continue;
+        task(argument, k, count);
+        taken_back += k <= members;
+    }
+    if (t && atomic_fetch_sub(&t->unfinished, taken_back) > taken_back) wait_for_others(t);
 }

@@ -3,7 +3,8 @@
 ///
 /// A step of a small sample takes 20 to 50 us and is cut three times; starting and joining threads with OpenMP cost 3
 /// to 10 us each time on the machine of docs/performance.md, a task of this team about 1. A member that has found
-/// nothing to do for some 50 us sleeps, so that a team does not hold a processor between its runs.
+/// nothing to do for some 30 us sleeps, so that a team does not hold processors between its runs, and what it has not
+/// begun the caller does, so that a processor that is busy with another program holds nobody up for long.
 #ifndef SCREE_BASE_TEAM_H
 #define SCREE_BASE_TEAM_H
 
@@ -16,9 +17,10 @@ typedef struct scree_team scree_team;
 /// One member's share of a task: `index` of `count`.
 typedef void scree_team_task(void *argument, int index, int count);
 
-/// Calls task(argument, k, count) for every k < count, each in its own thread (k = 0 in the caller's), and returns when
-/// all have. *team is NULL at first and made when it is needed, anew for a larger count; without memory or threads for
-/// it the caller does all shares itself, one after the other. count: 1 to SCREE_TEAM_MOST. One caller at a time.
+/// Calls task(argument, k, count) for every k < count, at most one in each thread besides the caller's (k = 0 is the
+/// caller's), and returns when all have. *team is NULL at first and made when it is needed, anew for a larger count;
+/// without memory or threads for it the caller does all shares itself, one after the other. count: 1 to
+/// SCREE_TEAM_MOST. One caller at a time.
 void scree_team_run(scree_team **team, int count, scree_team_task *task, void *argument);
 
 /// Where the share `index` of `count` begins among `items` things; it ends where the next one begins.
@@ -26,6 +28,10 @@ static inline size_t scree_team_begin(size_t items, int index, int count)
 {
     return items * (size_t)index / (size_t)count;
 }
+
+/// s, in which the caller has waited for shares of others longer than their differences explain, since the team was
+/// made.
+double scree_team_stalled(const scree_team *team);
 
 /// Ends the threads; *team becomes NULL.
 void scree_team_destroy(scree_team **team);

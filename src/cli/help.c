@@ -59,6 +59,8 @@ void scree_help_write(FILE *file)
         (void)snprintf(number, sizeof number, "%d", row->status);
         write_term(file, number, row->meaning);
     }
+    fprintf(file, "\nEnvironment:\n");
+    for (const scree_verb_example *row = scree_environment; row->line; row++) write_term(file, row->line, row->meaning);
     fprintf(file, "\nA first run:\n");
     fprintf(file, "  scree new biaxial > my.yaml\n  scree run my.yaml --quick -o out\n  scree get out\n");
 }

@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -15,6 +16,16 @@ static void keep_standard_streams(void)
 {
     for (int stream = 0; stream <= 2; stream++)
         if (fcntl(stream, F_GETFD) < 0) (void)open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
+}
+
+/// SCREE_ISA in the environment forces an instruction set (docs/performance.md).
+static scree_status choose_instruction_set(void)
+{
+    scree_error error;
+    const char *name = getenv("SCREE_ISA");
+    if (!name || !*name || !scree_instruction_set_choose(name, &error)) return SCREE_OK;
+    (void)snprintf(error.field, sizeof error.field, "SCREE_ISA");
+    return scree_terminal_error(NULL, &error);
 }
 
 /// What was printed has to arrive. A verb that failed has said why; a reader that has gone away (`scree get out | head
@@ -52,9 +63,10 @@ int main(int argc, char **argv)
         scree_help_write(stderr);
         return SCREE_ERROR_INPUT;
     }
+    scree_status status = choose_instruction_set();
+    if (status) return (int)status;
     const char *first = argv[1];
     const scree_verb *verb = scree_verb_find(first);
-    scree_status status = SCREE_OK;
     if (verb)
         status = call_verb(verb, argc - 2, argv + 2);
     else if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0)

@@ -95,6 +95,6 @@ void scree_help_write_manual(FILE *file)
         write_term(file, number, row->meaning);
     }
     fprintf(file, ".SH ENVIRONMENT\n");
-    write_term(file, "NO_COLOR", "not empty: no colours, and no line that is rewritten");
+    for (const scree_verb_example *row = scree_environment; row->line; row++) write_term(file, row->line, row->meaning);
     fprintf(file, ".SH COPYRIGHT\nGPL\\-3.0\\-or\\-later.\n");
 }

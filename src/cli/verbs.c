@@ -16,6 +16,13 @@ const scree_exit_status scree_exit_statuses[] = {
     {0, NULL},
 };
 
+const scree_verb_example scree_environment[] = {
+    {"NO_COLOR", "not empty: no colours, and no line that is rewritten"},
+    {"SCREE_ISA", "v2, v3 or v4: compute with the instructions of x86-64-v2, -v3 or -v4 in place of the best that this "
+                  "processor has; the results do not depend on it"},
+    {NULL, NULL},
+};
+
 const scree_verb_option scree_common_options[] = {
     {.name = "help", .letter = 'h', .meaning = "print this help and stop"},
     {0},
@@ -135,7 +142,7 @@ const scree_verb scree_verbs[] = {
                    {.name = "threads",
                     .letter = 't',
                     .value = "N",
-                    .meaning = "number of threads; the results do not depend on it",
+                    .meaning = "most threads; fewer work while the machine is busy; the results do not depend on it",
                     .preset = "one for every 4000 bodies"},
                    {.name = "force", .letter = 'f', .meaning = "replace the run that DIR holds"},
                    {.name = "no-figures", .meaning = "leave the figures out; `scree plot` draws them later"},

@@ -63,6 +63,9 @@ extern const size_t scree_verbs_count;
 /// Options that every verb has.
 extern const scree_verb_option scree_common_options[];
 
+/// Variables that the program reads: name and meaning; ends with a NULL line.
+extern const scree_verb_example scree_environment[];
+
 /// What the program is, for the head of the help and the man page.
 extern const char scree_purpose[];
 

@@ -106,9 +106,9 @@ static scree_status cut(contact_scratch *scratch, const scree_work *work, const 
 
 static bool is_current(const contact_scratch *scratch, const scree_work *work, size_t rows)
 {
-    return scratch->part_count > 0 && scratch->rebuilds == work->rebuilds && scratch->first == work->pairs.first &&
-           scratch->count == work->pairs.count && scratch->touching_count == work->pairs.touching_count &&
-           scratch->threads == work->threads && scratch->rows == rows;
+    return scratch->part_count == scree_work_shares(work) && scratch->rebuilds == work->rebuilds &&
+           scratch->first == work->pairs.first && scratch->count == work->pairs.count &&
+           scratch->touching_count == work->pairs.touching_count && scratch->rows == rows;
 }
 
 contact_scratch *contact_scratch_refresh(scree_work *work, const scree_state *state)
@@ -127,7 +127,6 @@ contact_scratch *contact_scratch_refresh(scree_work *work, const scree_state *st
     scratch->first = work->pairs.first;
     scratch->count = work->pairs.count;
     scratch->touching_count = work->pairs.touching_count;
-    scratch->threads = work->threads;
     scratch->rows = scree_row_count(state, work);
     return scratch;
 }

@@ -23,11 +23,10 @@ typedef struct contact_scratch {
     int part_count, part_capacity;
     uint8_t *near_touched; ///< one bit a near pair: it touched in the last evaluation
     size_t near_capacity;
-    // the list and the number of threads that all this belongs to
+    // the list that all this belongs to
     uint64_t rebuilds;
     const uint32_t *first;
     size_t count, touching_count, rows;
-    int threads;
 } contact_scratch;
 
 /// The partition of the present list, made anew when the list is. NULL when there is no memory for it.

@@ -12,8 +12,10 @@
 #include <string.h>
 #include <time.h>
 
-/// Wall time between two progress reports, and steps between two looks at the clock.
+/// Wall time between two progress reports, and between two lines about threads, and steps between two looks at the
+/// clock.
 #define PROGRESS_SECONDS 0.5
+#define THREADS_SECONDS  60.0
 enum { CLOCK_STEPS = 16 };
 
 static double read_clock(clockid_t which)
@@ -50,6 +52,8 @@ scree_status scree_recorder_open(scree_recorder *recorder, const scree_simulatio
     if (!status) status = scree_wall_series_open(&recorder->walls, s, directory, restart, error);
     recorder->clocked[1] = read_clock(CLOCK_PROCESS_CPUTIME_ID);
     recorder->started = recorder->clocked[0] = recorder->last_checkpoint = recorder->last_progress = scree_clock();
+    recorder->last_threads = -INFINITY;
+    recorder->threads = s->work.threads;
     recorder->progress_step = s->state.step;
     recorder->first_evaluations = recorder->progress_evaluations = recorder->checkpoint_evaluations =
         s->state.evaluations;
@@ -181,6 +185,18 @@ static void report_progress(scree_recorder *recorder, const scree_simulation *s,
     recorder->options->progress(recorder->options->user, &progress);
 }
 
+/// Says when other programs leave room for fewer threads, or for more again.
+static void report_threads(scree_recorder *recorder, const scree_simulation *s, double now)
+{
+    int kept = s->work.size.kept;
+    if (kept == 0 || kept == recorder->threads || now - recorder->last_threads < THREADS_SECONDS) return;
+    scree_log_write(&recorder->log, SCREE_LOG_INFO, "%s: %d of %d threads from here on",
+                    kept < recorder->threads ? "other programs keep the processors busy" : "processors are free again",
+                    kept, s->work.threads);
+    recorder->threads = kept;
+    recorder->last_threads = now;
+}
+
 static bool checkpoint_due(const scree_recorder *recorder, const scree_simulation *s, double now)
 {
     const scree_config_output *output = &s->model.config->output;
@@ -204,6 +220,9 @@ scree_status scree_recorder_follow(scree_recorder *recorder, scree_simulation *s
     if (s->state.evaluations % CLOCK_STEPS != 0 && !s->stage_ended) return SCREE_OK;
     double now = scree_clock();
     if (s->stage_ended || checkpoint_due(recorder, s, now)) status = scree_recorder_checkpoint(recorder, s, error);
-    if (now - recorder->last_progress > PROGRESS_SECONDS) report_progress(recorder, s, now);
+    if (now - recorder->last_progress > PROGRESS_SECONDS) {
+        report_progress(recorder, s, now);
+        report_threads(recorder, s, now);
+    }
     return status;
 }

@@ -15,7 +15,8 @@ typedef struct scree_recorder {
     uint64_t case_checksum;
     double started;    ///< s, monotonic clock at the begin of this process's part of the run
     double clocked[2]; ///< s, until when the state's time is counted: wall, processor
-    double last_progress, last_checkpoint;
+    double last_progress, last_checkpoint, last_threads;
+    int threads; ///< as the log has it
     uint64_t progress_step, progress_evaluations, checkpoint_evaluations;
     uint64_t first_evaluations; ///< at `started`
     double stepping;            ///< s of wall time in the stepping loop

@@ -181,7 +181,7 @@ uint64_t scree_simulation_checksum(scree_simulation *s)
 {
     scree_error error;
     if (scree_contacts_save(&s->state, &s->work, &error)) return 0;
-    return scree_state_checksum(&s->state);
+    return scree_state_checksum(&s->model, &s->state);
 }
 
 void scree_simulation_free(scree_simulation *s)

@@ -86,6 +86,11 @@ enum {
     SCREE_ROTATE_TURN,                              ///< rad, that the particle turns by in the whole stage
 };
 
+/// A stage has reached its strain when so many ticks of it are left at its last step: the sum of rates over the rise,
+/// taken from the left, is half a tick short of its integral; the rest is for round-off. Less would end it a whole sample
+/// later, at a time that depends on the number of samples.
+#define SCREE_LOADING_SHORT 0.51
+
 /// Plan of a loading stage that lasts `time` [s] at its full rate: samples, rise of the rate, steps.
 scree_stage_plan scree_loading_plan(const scree_simulation *s, double time);
 

@@ -54,9 +54,9 @@ static void control(scree_simulation *s)
 static scree_status finished(scree_simulation *s, bool *done, scree_error *error)
 {
     double strain = scree_axial_strain(s);
-    // The last sample lies on the planned last step; half a tick of strain covers round-off.
+    // The last sample lies on the planned last step.
     double step = scree_stage_config(s)->rate * s->state.tick;
-    *done = strain >= scree_stage_config(s)->strain - 0.5 * step;
+    *done = strain >= scree_stage_config(s)->strain - SCREE_LOADING_SHORT * step;
     (void)snprintf(s->reason, sizeof s->reason, "axial strain %.4g reached", strain);
     return *done ? SCREE_OK : scree_loading_check(s, error);
 }

@@ -152,8 +152,8 @@ static scree_status loading_finished(scree_simulation *s, bool *done, scree_erro
 {
     (void)error;
     double strain = scree_loading_strain(s), gradient = scree_matrix_norm(s->state.periodic.gradient);
-    // The last sample lies on the planned last step; half a tick of strain covers round-off.
-    *done = strain >= scree_stage_config(s)->strain - 0.5 * gradient * s->state.tick;
+    // The last sample lies on the planned last step.
+    *done = strain >= scree_stage_config(s)->strain - SCREE_LOADING_SHORT * gradient * s->state.tick;
     (void)snprintf(s->reason, sizeof s->reason, "strain %.4g reached", strain);
     return SCREE_OK;
 }

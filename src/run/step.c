@@ -26,6 +26,7 @@ scree_status scree_step(scree_simulation *s, scree_error *error)
     scree_work *work = &s->work;
     scree_status status;
 
+    (void)scree_team_size_follow(&work->size, work->team, work->threads);
     if (scree_model_foresees(model) && (status = scree_state_foresee(state, error))) return status;
     uint64_t ticks = choose_step(s);
     // Boundaries decide their velocities from the stresses at n, then everything moves to n + 1.

@@ -1,7 +1,5 @@
-/// Life, order and checksum of the state.
+/// Life and order of the state.
 #include "state/state.h"
-
-#include "base/checksum.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -189,87 +187,3 @@ scree_status scree_state_add_rolling(scree_state *state, scree_error *error)
 
 _Static_assert(sizeof(scree_row) == 64 && sizeof(scree_sum_row) == 32, "hot rows have fixed sizes");
 _Static_assert(sizeof(scree_contact_memory) == 8 + sizeof(scree_history), "no padding in contact memory");
-
-/// Every array of the bodies but the derived `rebuild`, body by body.
-static uint64_t checksum_bodies(const scree_state *state, uint64_t c)
-{
-    scree_state view = *state;
-    body_array arrays[BODY_ARRAYS];
-    size_t array_count = body_arrays(&view, arrays);
-    for (size_t id = 0; id < state->count; id++)
-        for (size_t k = 0; k < array_count; k++) {
-            if (arrays[k].array == &view.rebuild) continue;
-            const unsigned char *bytes = *(unsigned char **)arrays[k].array;
-            c = scree_checksum_bytes(c, bytes + state->row_of_id[id] * arrays[k].size, arrays[k].size);
-        }
-    return c;
-}
-
-static uint64_t checksum_walls(const scree_state *state, uint64_t c)
-{
-    for (int w = 0; w < SCREE_WALL_COUNT; w++) {
-        const scree_wall *wall = &state->wall[w];
-        c = scree_checksum_bytes(c, &wall->position, offsetof(scree_wall, active) - offsetof(scree_wall, position));
-        c = scree_checksum_word(c, (uint64_t)(uint32_t)wall->active << 32 | (uint32_t)wall->material);
-    }
-    c = scree_checksum_bytes(c, state->surface, sizeof state->surface);
-    c = scree_checksum_bytes(c, &state->surface_speed, sizeof state->surface_speed);
-    return scree_checksum_word(scree_checksum_word(c, state->surface_moving), state->surface_ticks);
-}
-
-static uint64_t checksum_boundary(const scree_state *state, uint64_t c)
-{
-    const scree_loop *loop = &state->loop;
-    for (size_t k = 0; k < loop->count; k++) {
-        const double values[] = {loop->x[k], loop->y[k], loop->fx[k], loop->fy[k]};
-        c = scree_checksum_word(c, (uint64_t)loop->id[k] << 8 | loop->loaded[k]);
-        c = scree_checksum_bytes(c, values, sizeof values);
-    }
-    const scree_hull *hull = &state->hull;
-    c = scree_checksum_bytes(c, hull->id, hull->node_count * sizeof *hull->id);
-    c = scree_checksum_bytes(c, hull->place, hull->node_count * sizeof *hull->place);
-    c = scree_checksum_bytes(c, hull->force, hull->node_count * sizeof *hull->force);
-    c = scree_checksum_bytes(c, hull->triangle, hull->triangle_count * sizeof *hull->triangle);
-    c = scree_checksum_bytes(c, hull->loaded, hull->triangle_count * sizeof *hull->loaded);
-    return scree_checksum_word(scree_checksum_word(c, loop->updated), hull->updated);
-}
-
-/// What a boundary imposes, and the membrane.
-static uint64_t checksum_imposed(const scree_state *state, uint64_t c)
-{
-    const scree_drive *drive = &state->drive;
-    c = scree_checksum_bytes(c, drive->target, sizeof drive->target);
-    c = scree_checksum_bytes(c, drive->prescribed, sizeof drive->prescribed);
-    c = scree_checksum_bytes(c, drive->rate, sizeof drive->rate);
-    c = scree_checksum_bytes(c, drive->stress, sizeof drive->stress);
-    const double rates[] = {drive->viscosity, drive->achieved, drive->wanted};
-    c = scree_checksum_bytes(c, rates, sizeof rates);
-    c = scree_checksum_bytes(c, drive->force, drive->count * sizeof *drive->force);
-    const scree_membrane *membrane = &state->membrane;
-    const double numbers[] = {membrane->radius, membrane->ramp_time, membrane->share};
-    c = scree_checksum_bytes(c, membrane->rest, membrane->count * sizeof *membrane->rest);
-    c = scree_checksum_bytes(c, membrane->press, membrane->count * sizeof *membrane->press);
-    c = scree_checksum_bytes(c, membrane->force, membrane->count * sizeof *membrane->force);
-    const uint64_t bodies[] = {membrane->right, membrane->around};
-    return scree_checksum_bytes(scree_checksum_bytes(c, numbers, sizeof numbers), bodies, sizeof bodies);
-}
-
-uint64_t scree_state_checksum(const scree_state *state)
-{
-    uint64_t c = checksum_bodies(state, scree_checksum_word(state->step, state->count));
-    const double scalars[] = {state->tick,           state->step_size,       state->kick_size,     state->force_quantum,
-                              state->torque_quantum, state->largest_overlap, state->largest_speed, state->pressure};
-    c = scree_checksum_bytes(c, scalars, sizeof scalars);
-    c = scree_checksum_bytes(c, state->contact, state->contact_count * sizeof *state->contact);
-    if (state->booking) c = scree_checksum_bytes(c, state->booking, state->contact_count * sizeof *state->booking);
-    if (state->rolling) c = scree_checksum_bytes(c, state->rolling, state->contact_count * sizeof *state->rolling);
-    c = checksum_imposed(state, checksum_boundary(state, checksum_walls(state, c)));
-    c = scree_checksum_word(c, state->grains);
-    c = scree_checksum_word(c, state->sampled_step);
-    c = scree_checksum_word(c, state->evaluations);
-    c = scree_checksum_bytes(c, &state->periodic, sizeof state->periodic);
-    c = scree_checksum_bytes(c, &state->strain, sizeof state->strain);
-    c = scree_checksum_bytes(c, &state->forced, sizeof state->forced);
-    c = scree_checksum_bytes(c, &state->ledger, sizeof state->ledger);
-    return scree_checksum_bytes(c, &state->stage, sizeof state->stage);
-}

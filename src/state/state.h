@@ -258,8 +258,7 @@ typedef struct scree_stage_state {
     int64_t counter; ///< stage-specific
 } scree_stage_state;
 
-/// Time spent so far, all processes of the run together. Kept in checkpoints beside the state: it is no part of the
-/// checksum and nothing depends on it.
+/// Time spent so far, all processes of the run together. Kept in checkpoints beside the state: nothing depends on it.
 typedef struct scree_time_spent {
     double run, stage; ///< s, on the wall, of the run and of its present or last stage
     double processor;  ///< s, of the stage, all threads together
@@ -389,9 +388,10 @@ size_t scree_state_widest(const scree_state *state);
 /// then.
 scree_status scree_state_permute(scree_state *state, const uint32_t *order, scree_error *error) SCREE_MUST_USE;
 
-/// 64-bit checksum over every state field in id order (bits, not values), contacts, walls, loop, strain and ledger.
-/// Contacts must have been saved. Equal states in different row orders give the same number.
-uint64_t scree_state_checksum(const scree_state *state);
+/// Checksum of what the state is physically, by the definition in docs/architecture.md, which does not depend on how
+/// the structs are laid out. Contacts must have been saved. Equal for any order of rows, any number of threads and any
+/// bookkeeping of stages, boundaries, samples and quanta. Cost: some 50 ns a body and 20 ns a contact.
+uint64_t scree_state_checksum(const scree_model *model, const scree_state *state);
 
 /// Grows the contact memory to hold `count`, and the booking and rolling rows beside it where there are any.
 scree_status scree_state_reserve_contacts(scree_state *state, size_t count, scree_error *error) SCREE_MUST_USE;

@@ -2,7 +2,7 @@
 #ifndef SCREE_STATE_WORK_H
 #define SCREE_STATE_WORK_H
 
-#include "base/team.h"
+#include "base/team_size.h"
 #include "state/state.h"
 
 /// Flags that kernels and integrators raise; the guard looks once a step.
@@ -68,8 +68,10 @@ typedef struct scree_work {
     double budget; ///< m, distance that bodies may still move before the list must be checked
     bool valid;    ///< false: rebuild before the next force evaluation
     uint64_t rebuilds;
-    double next_kick; ///< s, in which the forces of this step will act (integrate.h), for boundaries that foresee it
-    int threads;
+    double next_kick;  ///< s, in which the forces of this step will act (integrate.h), for boundaries that foresee it
+    int threads;       ///< at most
+    bool keep_threads; ///< use all of them, however busy the machine is (tests)
+    scree_team_size size;  ///< how many of them are worth while now
     scree_team *team;      ///< of `threads` members, for loops of some microseconds; made at their first use
     bool ledger;           ///< dissipated energies are accumulated (default true)
     bool reference_kernel; ///< use the plain scalar core with runtime arguments (tests)
@@ -92,10 +94,11 @@ static inline uint32_t scree_parent_row(const scree_state *state, const scree_wo
     return row < state->count ? row : work->ghosts.ghost[row - state->count].parent;
 }
 
-/// Members of the team.
+/// Threads that work now.
 static inline int scree_work_shares(const scree_work *work)
 {
-    return work->threads < 1 ? 1 : work->threads > SCREE_TEAM_MOST ? SCREE_TEAM_MOST : work->threads;
+    int most = work->threads < 1 ? 1 : work->threads > SCREE_TEAM_MOST ? SCREE_TEAM_MOST : work->threads;
+    return work->size.now > 0 && work->size.now < most && !work->keep_threads ? work->size.now : most;
 }
 
 #endif

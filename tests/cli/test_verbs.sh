@@ -24,6 +24,18 @@ expect 0 '^\.TH SCREE 1' "$scree" help --man
 for verb in "${verbs[@]}"; do grep -q "^.SS scree $verb" <<<"$output" || complain "the man page does not have $verb"; done
 expect 0 'case|key|material' "$scree" help --case-reference
 
+# --- the instruction set can be forced; results do not show it
+best=$("$scree" --version | sed -nE 's/.*x86-64-(v[234]).*/\1/p')
+expect 0 'SCREE_ISA' "$scree" --help
+expect 0 'SCREE_ISA' "$scree" help --man
+if [ -n "$best" ]; then
+    expect 0 'x86-64-v2' env SCREE_ISA=v2 "$scree" --version
+    expect 0 "x86-64-$best" env SCREE_ISA=auto "$scree" --version
+    [ "$best" = v4 ] || expect 2 "SCREE_ISA: .*'v4': this processor does not have it; its best is $best" env SCREE_ISA=v4 "$scree" list
+fi
+expect 2 "SCREE_ISA: .*'v5': " env SCREE_ISA=v5 "$scree" list
+expect 0 biaxial env SCREE_ISA= "$scree" list
+
 # --- completion, in the shell it is for
 "$scree" help --completion bash >completion.bash
 complete_line() {
@@ -59,6 +71,11 @@ sed 's/^name: .*/name: mine/' my.yaml >biaxial
 expect 0 '' "$scree" run biaxial -q --output=mine --threads=1 "${small[@]}"
 same "$("$scree" get mine case)" mine
 same "$("$scree" get mine state_checksum)" "$("$scree" get out state_checksum)" "checksum with one thread and with two"
+if [ -n "$best" ]; then
+    expect 0 '' env SCREE_ISA=v2 "$scree" run my.yaml "${small[@]}" -o old --quiet
+    same "$("$scree" get old state_checksum)" "$("$scree" get out state_checksum)" "checksum with x86-64-v2 and with $best"
+    same "$("$scree" get old version | grep -o 'v[234]')" v2 "version in the summary"
+fi
 # What is meant for a closed stream does not end up in the file that got its number.
 "$scree" run biaxial -omine -f -t1 "${small[@]}" 2>&- || complain "a run without standard error"
 foreign=$(grep -vcE '^[0-9]{4}-[0-9-]+T[0-9:]+Z ' mine/log.txt)

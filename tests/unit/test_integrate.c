@@ -5,6 +5,7 @@
 #include "base/fixed.h"
 #include "integrate/integrate.h"
 #include "measure/measure.h"
+#include "state_bits.h"
 
 #include <math.h>
 #include <string.h>
@@ -311,7 +312,7 @@ static void threads_give_the_same_bits(void **unused)
             integrator->first(&model, &state, &work);
             integrator->second(&model, &state, &work);
         }
-        checksum[threads - 1] = scree_state_checksum(&state);
+        checksum[threads - 1] = state_bits(&state);
         scree_team_destroy(&work.team);
         scree_state_destroy(&state);
     }
@@ -380,15 +381,15 @@ static void order_and_checksum(void **unused)
     scree_state state;
     scree_error error;
     make_state(&state, 4, 0.01);
-    uint64_t before = scree_state_checksum(&state);
+    uint64_t before = state_bits(&state);
     const uint32_t order[4] = {2, 0, 3, 1};
     assert_int_equal(scree_state_permute(&state, order, &error), SCREE_OK);
     assert_int_equal(state.id[0], 2);
     assert_int_equal(state.row_of_id[2], 0);
     assert_true(state.row[0].x == 3);
-    assert_true(scree_state_checksum(&state) == before);
+    assert_true(state_bits(&state) == before);
     state.row[1].spin = nextafter(state.row[1].spin, 1);
-    assert_true(scree_state_checksum(&state) != before);
+    assert_true(state_bits(&state) != before);
     scree_state_destroy(&state);
 }
 

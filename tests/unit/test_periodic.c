@@ -1,5 +1,6 @@
 /// The periodic cell: contacts through faces, motion, energy, lattices, control.
 #include "periodic_fixture.h"
+#include "state_bits.h"
 
 static const double at_rest[3] = {0, 0, 0};
 
@@ -420,7 +421,7 @@ static uint64_t flow_checksum(int dimension, int threads, int discard)
         if (discard > 0 && step % discard == 0) scree_neighbours_invalidate(&s.work);
     }
     check(scree_contacts_save(&s.state, &s.work, &error), &error);
-    uint64_t checksum = scree_state_checksum(&s.state);
+    uint64_t checksum = state_bits(&s.state);
     periodic_destroy(&s);
     return checksum;
 }

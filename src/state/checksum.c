@@ -1,0 +1,155 @@
+/// The state checksum, by the definition in docs/architecture.md ("The state checksum"): a change here is a change
+/// there, and of every number under tests/reference/. Every value goes in by itself as one 64-bit word, none as the
+/// bytes of a struct, so that structs may change.
+#include "state/state.h"
+
+#include "base/checksum.h"
+#include "base/fixed.h"
+
+/// A material by its constants, as one word; not by its index, which depends on materials that nothing is made of.
+static uint64_t material_word(const scree_model *model, int material)
+{
+    const scree_pair_constants *pair = &model->pairs[material][material];
+    const double constants[] = {model->density[material], pair->normal_stiffness, pair->tangential_stiffness,
+                                pair->friction,           pair->damping,          pair->rolling_friction,
+                                pair->twisting_friction};
+    return scree_checksum_numbers(0, constants, sizeof constants / sizeof *constants);
+}
+
+/// Force and torque [N, N m] on a body.
+static uint64_t checksum_forces(const scree_state *state, size_t row, uint64_t c)
+{
+    const scree_sum_row *sum = &state->sum[row];
+    const int64_t force[] = {sum->fx, sum->fy, sum->fz};
+    for (int k = 0; k < state->dimension; k++)
+        c = scree_checksum_number(c, scree_fixed_to(force[k], state->force_quantum));
+    if (state->dimension == 2) return scree_checksum_number(c, scree_fixed_to(sum->torque, state->torque_quantum));
+    const int64_t torque[] = {state->torque[row].x, state->torque[row].y, state->torque[row].z};
+    for (int k = 0; k < 3; k++) c = scree_checksum_number(c, scree_fixed_to(torque[k], state->torque_quantum));
+    return c;
+}
+
+static uint64_t checksum_bodies(const scree_model *model, const scree_state *state, uint64_t c)
+{
+    const size_t dimension = (size_t)state->dimension, turns = dimension == 3 ? 3 : 1;
+    uint64_t material[SCREE_MAX_MATERIALS];
+    for (int m = 0; m < SCREE_MAX_MATERIALS; m++) material[m] = material_word(model, m);
+    c = scree_checksum_word(c, state->count);
+    for (size_t id = 0; id < state->count; id++) {
+        size_t row = state->row_of_id[id];
+        scree_vector place, velocity, spin;
+        scree_body_place(state, row, place);
+        scree_body_motion(state, row, velocity, spin);
+        c = scree_checksum_numbers(c, place, dimension);
+        c = scree_checksum_numbers(c, velocity, dimension);
+        c = scree_checksum_numbers(c, spin + 3 - turns, turns);
+        c = scree_checksum_number(c, state->row[row].radius);
+        c = scree_checksum_number(c, state->row[row].mass);
+        c = scree_checksum_word(c, material[scree_body_material(state, row)]);
+        c = checksum_forces(state, row, c);
+    }
+    return c;
+}
+
+/// What a contact remembers of its tangential displacement (or force), and of rolling and twisting.
+typedef struct remembered {
+    double slip[3], rolling[4];
+    size_t slips, rollings; ///< of these numbers exist
+} remembered;
+
+static remembered remembered_of(const scree_state *state, size_t contact)
+{
+    bool solid = state->dimension == 3;
+    remembered r = {.slips = solid ? 3 : 1, .rollings = !state->rolling ? 0 : solid ? 4 : 1};
+    for (size_t k = 0; k < r.slips; k++) r.slip[k] = state->contact[contact].history.value[k];
+    for (size_t k = 0; k < r.rollings; k++) r.rolling[k] = state->rolling[contact].value[k];
+    return r;
+}
+
+static bool is_zero(const double *numbers, size_t count)
+{
+    size_t zeros = 0;
+    while (zeros < count && numbers[zeros] == 0) zeros++;
+    return zeros == count;
+}
+
+/// What the second partner of a contact is, and its number among its like.
+static uint64_t checksum_partner(uint32_t second, uint64_t c)
+{
+    enum { BODY, ELEMENT, PLATE };
+    if (second >= SCREE_WALL_ID) return scree_checksum_word(scree_checksum_word(c, PLATE), second - SCREE_WALL_ID);
+    if (second >= SCREE_ELEMENT_ID)
+        return scree_checksum_word(scree_checksum_word(c, ELEMENT), second - SCREE_ELEMENT_ID);
+    return scree_checksum_word(scree_checksum_word(c, BODY), second);
+}
+
+/// The contacts that remember something; they lie by pairs of ids, bodies before elements of walls before plates.
+static uint64_t checksum_contacts(const scree_state *state, uint64_t c)
+{
+    uint64_t count = 0;
+    for (size_t k = 0; k < state->contact_count; k++) {
+        remembered r = remembered_of(state, k);
+        if (is_zero(r.slip, r.slips) && is_zero(r.rolling, r.rollings)) continue;
+        c = checksum_partner(state->contact[k].second, scree_checksum_word(c, state->contact[k].first));
+        c = scree_checksum_numbers(c, r.slip, r.slips);
+        c = scree_checksum_numbers(c, r.rolling, r.rollings);
+        count++;
+    }
+    return scree_checksum_word(c, count);
+}
+
+/// The plates that stand now, then the walls of the case.
+static uint64_t checksum_walls(const scree_model *model, const scree_state *state, uint64_t c)
+{
+    for (uint64_t w = 0; w < SCREE_WALL_COUNT; w++) {
+        const scree_wall *wall = &state->wall[w];
+        if (!wall->active) continue;
+        c = scree_checksum_word(c, w);
+        c = scree_checksum_number(c, wall->position);
+        c = scree_checksum_number(c, wall->velocity);
+        c = scree_checksum_numbers(c, wall->tangential_velocity, 3);
+    }
+    double time = (double)state->surface_ticks * state->tick;
+    for (int64_t w = 0; w < model->config->wall_count; w++) {
+        const scree_config_wall *wall = &model->config->walls[w];
+        for (int k = 0; k < 3; k++) {
+            c = scree_checksum_number(c, wall->centre[k] + wall->velocity[k] * time);
+            c = scree_checksum_number(c, wall->spin[k] * time);
+            c = scree_checksum_number(c, state->surface_moving ? wall->velocity[k] : 0);
+            c = scree_checksum_number(c, state->surface_moving ? wall->spin[k] : 0);
+        }
+    }
+    return c;
+}
+
+/// The periodic cell, where there is one.
+static uint64_t checksum_cell(const scree_state *state, uint64_t c)
+{
+    const scree_periodic_cell *cell = &state->periodic;
+    if (!cell->directions) return c;
+    c = scree_checksum_word(c, cell->directions);
+    c = scree_checksum_numbers(c, cell->lattice, 9);
+    c = scree_checksum_numbers(c, cell->gradient, 9);
+    return scree_checksum_numbers(c, cell->strain, 9);
+}
+
+static uint64_t checksum_ledger(const scree_ledger *ledger, uint64_t c)
+{
+    const double energies[] = {ledger->damping,  ledger->friction, ledger->stiffness, ledger->plates,
+                               ledger->pressure, ledger->boundary, ledger->periodic,  ledger->forced,
+                               ledger->gravity,  ledger->initial,  ledger->scheme,    ledger->turnover};
+    return scree_checksum_numbers(c, energies, sizeof energies / sizeof *energies);
+}
+
+uint64_t scree_state_checksum(const scree_model *model, const scree_state *state)
+{
+    uint64_t c = scree_checksum_word(0, (uint64_t)state->dimension);
+    c = scree_checksum_word(c, state->step);
+    c = scree_checksum_number(c, state->tick);
+    c = checksum_bodies(model, state, c);
+    c = checksum_contacts(state, c);
+    c = checksum_walls(model, state, c);
+    c = checksum_cell(state, c);
+    c = scree_checksum_numbers(c, state->strain.gradient, 9);
+    return checksum_ledger(&state->ledger, c);
+}
