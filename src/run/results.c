@@ -19,6 +19,7 @@
 #include "io/summary.h"
 #include "measure/measure.h"
 #include "run/cell_results.h"
+#include "run/quasistatic.h"
 #include "run/rotation_results.h"
 #include "run/sample.h"
 #include "run/stage_collide.h"
@@ -264,6 +265,7 @@ scree_status scree_results_write(const scree_recorder *recorder, scree_simulatio
     if (!result) {
         summarise_run(recorder, s, status, summary);
         summarise_series(&series, s->state.ledger.turnover + s->state.ledger.initial, summary);
+        scree_quasistatic_results(&s->model, &series, summary);
         summarise_walls(s, summary);
         result = summarise_stage(s, summary, error);
     }
