@@ -18,7 +18,9 @@
 #include <math.h>
 #include <string.h>
 
-enum { EARLY = 10, TEXT = 512 };
+/// A loading is warned of when 1 / EARLY of its samples are there and CLEARLY times the limit is passed, else at its
+/// end.
+enum { EARLY = 10, CLEARLY = 2, TEXT = 512 };
 
 // ---- what a case says before it runs -------------------------------------------------------------------------------
 
@@ -160,13 +162,14 @@ void scree_quasistatic_follow(scree_quasistatic_watch *watch, const scree_simula
     watch->kinetic += value[SCREE_SAMPLE_KINETIC];
     watch->elastic += value[SCREE_SAMPLE_ELASTIC_NORMAL] + value[SCREE_SAMPLE_ELASTIC_TANGENTIAL];
     watch->samples++;
-    bool enough = config->kind == SCREE_STAGE_CONFINE
-                      ? s->stage_ended
-                      : watch->samples * EARLY >= (uint64_t)s->model.config->measure.samples || s->stage_ended;
+    double ratio = watch->kinetic / watch->elastic;
+    bool early = watch->samples * EARLY >= (uint64_t)s->model.config->measure.samples &&
+                 ratio > CLEARLY * scree_quasistatic_limits[SCREE_QUASISTATIC_KINETIC].limit;
+    bool enough = s->stage_ended || (early && config->kind != SCREE_STAGE_CONFINE);
     if (!enough || watch->warned || !means_to_be_quasistatic(config)) return;
     char text[TEXT];
     scree_quasistatic q = scree_quasistatic_expect(&s->model, stage);
-    q.value[SCREE_QUASISTATIC_KINETIC] = watch->kinetic / watch->elastic;
+    q.value[SCREE_QUASISTATIC_KINETIC] = ratio;
     watch->warned = scree_quasistatic_explain(&s->model, &q, SCREE_QUASISTATIC_KINETIC, true, text, sizeof text);
     if (watch->warned) scree_log_write(log, SCREE_LOG_WARNING, "%s", text);
 }

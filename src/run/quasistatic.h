@@ -37,7 +37,8 @@ typedef struct scree_quasistatic_watch {
     bool warned;
 } scree_quasistatic_watch;
 
-/// After every sample: warns once a stage, when a tenth of its samples are there (a confinement: when it has ended).
+/// After every sample: warns once a stage, at its end, or of a loading when a tenth of its samples show twice the
+/// limit.
 void scree_quasistatic_follow(scree_quasistatic_watch *watch, const scree_simulation *s, scree_log *log);
 
 /// Inertial number now: of the rate imposed now, under the confining pressure or `mean_stress` [Pa] of the contacts,
