@@ -11,6 +11,8 @@ value() { LC_ALL=C printf '%.4g' "$("$scree" get "$folder" "$1")"; }
 echo
 printf '%-52s %s\n' \
     'quasistatic coefficient phi' "$(value phi)" \
+    'inertial number (quasistatic: below 1e-3)' "$(value inertial_number)" \
+    'kinetic over elastic energy (below 0.1)' "$(value kinetic_over_elastic)" \
     'size coefficient psi' "$(value psi)" \
     'peak of axial over lateral stress' "$(value peak_stress_ratio)" \
     'the same over the last fifth of the strain' "$(value final_stress_ratio)" \

@@ -71,6 +71,7 @@ typedef struct scree_case_summary {
     double step, critical_step;    ///< s; step: the small one of two_timescales
     uint64_t largest_step;         ///< in steps: N_S of two_timescales, else 1
     double phi, psi;               ///< quasistatic and size coefficients, NAN without a loading stage
+    double inertial_number;        ///< of the first loading stage at its full rate, NAN without one
     double mean_radius, thickness; ///< m
     double reference_velocity;     ///< m/s
     double steps;                  ///< expected number of steps (force evaluations) of all stages
@@ -79,6 +80,11 @@ typedef struct scree_case_summary {
     double memory; ///< bytes
 } scree_case_summary;
 scree_status scree_case_summarise(const scree_case *c, scree_case_summary *summary, scree_error *error);
+
+/// Calls `visit` with a sentence for each stage that means to be quasistatic and will not be: what, its limit, and what
+/// to change. A run writes the same into its log.
+scree_status scree_case_warn(const scree_case *c, void (*visit)(void *user, const char *line), void *user,
+                             scree_error *error);
 
 /// Built-in cases: template texts with comments. NULL when the index or name does not exist.
 size_t scree_template_count(void);

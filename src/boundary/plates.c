@@ -64,13 +64,18 @@ static double sample_mass(const scree_state *state)
     return mass;
 }
 
+double scree_confined_modulus(const scree_model *model, double pressure)
+{
+    double diameter = 2 * model->mean_radius, depth = model->dimension == 3 ? diameter : model->thickness;
+    double k = model->pairs[SCREE_PARTICLE_MATERIAL][SCREE_PARTICLE_MATERIAL].normal_stiffness * sqrt(0.5 * model->mean_radius);
+    return 1.5 * cbrt(k * k * pressure * diameter * depth) / depth;
+}
+
 scree_servo scree_servo_for(const scree_model *model, const scree_state *state, int index, double pressure)
 {
     double area = scree_plate_area(model, state, index),
            density = sample_mass(state) / scree_sample_volume(model, state);
-    double diameter = 2 * model->mean_radius, depth = state->dimension == 3 ? diameter : model->thickness;
-    double k = model->pairs[SCREE_PARTICLE_MATERIAL][SCREE_PARTICLE_MATERIAL].normal_stiffness * sqrt(0.5 * model->mean_radius);
-    double stiffness = 1.5 * cbrt(k * k * pressure * diameter * depth) / depth;
+    double diameter = 2 * model->mean_radius, stiffness = scree_confined_modulus(model, pressure);
     return (scree_servo){.impedance = area * sqrt(stiffness * density) / model->config->boundary.servo_gain,
                          .mass = density * area * diameter};
 }

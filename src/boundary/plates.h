@@ -13,6 +13,9 @@ typedef struct scree_servo {
     double mass;      ///< kg
 } scree_servo;
 
+/// Longitudinal modulus [Pa] of a packing of the model's grains under `pressure` [Pa], estimated as above.
+double scree_confined_modulus(const scree_model *model, double pressure);
+
 /// The servo of wall `index` that suits the present sample at `pressure` [Pa].
 scree_servo scree_servo_for(const scree_model *model, const scree_state *state, int index, double pressure);
 

@@ -34,6 +34,7 @@ static void print_summary(const scree_case_summary *summary)
     print_quantity("mean radius", summary->mean_radius, "m");
     print_quantity("thickness", summary->thickness, "m");
     print_coefficient("phi", summary->phi, "quasistatic coefficient (inertia against pressure)");
+    print_coefficient("inertial number", summary->inertial_number, "of the grains at the imposed rate");
     print_coefficient("psi", summary->psi, "size coefficient (grain against sample)");
     if (!isnan(summary->reference_velocity)) print_quantity("reference velocity", summary->reference_velocity, "m/s");
     scree_human_quantity(text, sizeof text, summary->step, "s");
@@ -57,6 +58,12 @@ static void print_summary(const scree_case_summary *summary)
     print_quantity("memory", summary->memory, "B");
 }
 
+static void print_warning(void *user, const char *line)
+{
+    (void)user;
+    print_line("warning", line, "");
+}
+
 scree_status scree_verb_check(const scree_command *command)
 {
     scree_case *c;
@@ -66,10 +73,11 @@ scree_status scree_verb_check(const scree_command *command)
     scree_error error = {0};
     status = scree_case_summarise(c, &summary, &error);
     if (!status) status = scree_case_write(c, stdout, &error);
-    if (status)
-        status = scree_terminal_error("check", &error);
-    else
+    if (!status) {
         print_summary(&summary);
+        status = scree_case_warn(c, print_warning, NULL, &error);
+    }
+    if (status) status = scree_terminal_error("check", &error);
     scree_case_free(c);
     return status;
 }

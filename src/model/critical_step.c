@@ -50,8 +50,8 @@
 
 static const double STRONG = 3;
 static const double FAST = 6; // in root-mean-square velocity components
-/// Solid fraction of a packing under its weight.
-static double solid_fraction(const scree_model *model)
+
+double scree_expected_solid_fraction(const scree_model *model)
 {
     return model->dimension == 3 ? 0.64 : 0.8;
 }
@@ -99,12 +99,11 @@ static const scree_config_stage *prepare_stage(const scree_config *config)
     return NULL;
 }
 
-/// Height of the sample as prepared.
-static double sample_height(const scree_model *model, const scree_config_stage *stage)
+double scree_expected_height(const scree_model *model, double phi)
 {
     const scree_config *config = model->config;
-    bool gas = stage && stage->method == SCREE_PREPARE_GAS;
-    double phi = gas ? scree_model_gas_fraction(model, stage) : solid_fraction(model), radius = model->mean_radius;
+    const scree_config_stage *stage = prepare_stage(config);
+    double radius = model->mean_radius;
     bool box = stage && stage->outline == SCREE_SAMPLE_BOX;
     double aspect = box ? stage->aspect_ratio : 1, count = (double)config->particles.count;
     if (model->dimension == 3) {
@@ -119,7 +118,7 @@ static double sample_height(const scree_model *model, const scree_config_stage *
     return sqrt(area * aspect);
 }
 
-static double gravity_of(const scree_model *model)
+double scree_model_gravity(const scree_model *model)
 {
     return hypot(hypot(model->gravity[0], model->gravity[1]), model->gravity[2]);
 }
@@ -128,7 +127,8 @@ static double gravity_of(const scree_model *model)
 static double strong_static_force(const scree_model *model, double height, int material)
 {
     const scree_config *config = model->config;
-    double pressure = gravity_of(model) * model->density[material] * solid_fraction(model) * height;
+    double pressure =
+        scree_model_gravity(model) * model->density[material] * scree_expected_solid_fraction(model) * height;
     for (int64_t i = 0; i < config->stage_count; i++)
         pressure = fmax(pressure, scree_held_pressure(&config->stages[i]));
     double diameter = 2 * model->mean_radius;
@@ -159,10 +159,12 @@ double scree_critical_step_estimate(const scree_model *model)
     double stiffness = pair->normal_stiffness * sqrt(effective_radius);
 
     const scree_config_stage *stage = prepare_stage(model->config);
-    double height = sample_height(model, stage);
+    bool gas = stage && stage->method == SCREE_PREPARE_GAS;
+    double height = scree_expected_height(model, gas ? scree_model_gas_fraction(model, stage)
+                                                     : scree_expected_solid_fraction(model));
     double force = strong_static_force(model, height, material);
-    if (stage && stage->method == SCREE_PREPARE_GAS) {
-        double fall = sqrt(2 * gravity_of(model) * height), speed = fmax(stage->velocity, shear_speed(model));
+    if (gas) {
+        double fall = sqrt(2 * scree_model_gravity(model) * height), speed = fmax(stage->velocity, shear_speed(model));
         force = fmax(force, impact_force(stiffness, effective_mass, fmax(FAST * speed, fall)));
     }
     if (stage && stage->method == SCREE_PREPARE_PAIR)

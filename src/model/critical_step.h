@@ -23,4 +23,10 @@ double scree_critical_step_lattice(int dimension, const scree_contact_tangent *t
 /// but the step.
 double scree_critical_step_estimate(const scree_model *model);
 
+/// What a case says of its sample before there is one: solid fraction of a packing, height [m] along the last axis of
+/// the sample at the solid fraction `phi`, size of gravity [m/s2].
+double scree_expected_solid_fraction(const scree_model *model);
+double scree_expected_height(const scree_model *model, double phi);
+double scree_model_gravity(const scree_model *model);
+
 #endif

@@ -238,9 +238,10 @@ static scree_status check_prepare(const scree_model *model, int64_t index, scree
     return SCREE_OK;
 }
 
-/// Mean mass of the distribution of radii. Two sizes are equally frequent.
-static double mean_mass(const scree_model *model, int material)
+// Two sizes are equally frequent.
+double scree_model_mean_mass(const scree_model *model)
 {
+    int material = SCREE_PARTICLE_MATERIAL;
     double a = model->radius_min, b = model->radius_max;
     double at_ends = (scree_model_mass(model, material, a) + scree_model_mass(model, material, b)) / 2;
     if (model->config->particles.distribution != SCREE_SIZE_UNIFORM) return at_ends;
@@ -273,7 +274,7 @@ static void gas_sides(const scree_model *model, const scree_config_stage *stage,
 {
     const int material = SCREE_PARTICLE_MATERIAL;
     double depth = model->dimension == 3 ? 1 : model->thickness;
-    double solid = (double)model->config->particles.count * mean_mass(model, material) / model->density[material];
+    double solid = (double)model->config->particles.count * scree_model_mean_mass(model) / model->density[material];
     double room = solid / depth / scree_model_gas_fraction(model, stage);
     side[0] = stage->width;
     side[1] = stage->depth;
@@ -338,7 +339,7 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
                            "give contact.reference_velocity");
     model->phi = model->psi = NAN;
     if (isnan(rate) || isnan(pressure)) return SCREE_OK;
-    double mass = mean_mass(model, SCREE_PARTICLE_MATERIAL);
+    double mass = scree_model_mean_mass(model);
     scree_quasistatic_numbers(model->dimension, (double)config->particles.count, mass, model->mean_radius,
                               model->thickness, rate, pressure, &model->phi, &model->psi);
     return SCREE_OK;

@@ -82,6 +82,9 @@ static inline double scree_model_mass(const scree_model *model, int material, do
     return model->density[material] * M_PI * radius * radius * length;
 }
 
+/// Mean mass [kg] of the particles, over the distribution of radii.
+double scree_model_mean_mass(const scree_model *model);
+
 /// Strain rate that a stage imposes [1/s]; of a deform stage the largest component. NAN: it loads nothing.
 double scree_model_loading_rate(const scree_config_stage *stage);
 

@@ -212,6 +212,7 @@ scree_status scree_recorder_follow(scree_recorder *recorder, scree_simulation *s
         if ((status = scree_series_append(&recorder->series, s->sample.value, error))) return status;
         if ((status = scree_wall_series_append(&recorder->walls, s, error))) return status;
         s->state.stage.samples++;
+        scree_quasistatic_follow(&recorder->watch, s, &recorder->log);
     }
     if (snapshot_due(s) && (status = write_snapshot(recorder, s, true, error))) return status;
     if (s->stage_ended)

@@ -4,6 +4,7 @@
 
 #include "base/log.h"
 #include "io/series.h"
+#include "run/quasistatic.h"
 #include "run/simulation.h"
 
 typedef struct scree_recorder {
@@ -12,6 +13,7 @@ typedef struct scree_recorder {
     scree_log log;
     scree_series_writer series;
     scree_series_writer walls; ///< of the walls of the case; not open without them
+    scree_quasistatic_watch watch;
     uint64_t case_checksum;
     double started;    ///< s, monotonic clock at the begin of this process's part of the run
     double clocked[2]; ///< s, until when the state's time is counted: wall, processor

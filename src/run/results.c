@@ -18,6 +18,7 @@
 #include "io/summary.h"
 #include "measure/measure.h"
 #include "run/cell_results.h"
+#include "run/quasistatic.h"
 #include "run/rotation_results.h"
 #include "run/sample.h"
 #include "run/stage_collide.h"
@@ -313,6 +314,7 @@ scree_status scree_results_collect(const scree_recorder *recorder, scree_simulat
         summarise_run(recorder, s, *summary);
         summarise_start(&series, s->model.config, *summary);
         summarise_series(&series, *summary);
+        scree_quasistatic_results(&s->model, &series, *summary);
         summarise_walls(s, *summary);
         status = summarise_energy(&series, s, *summary, error);
     }

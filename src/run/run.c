@@ -153,6 +153,7 @@ static scree_status record(scree_simulation *s, const scree_run_options *options
         scree_log_write(&recorder.log, SCREE_LOG_INFO, "step %.4g s (N_S %llu, critical %.4g s), phi %.4g, psi %.4g",
                         s->model.step, (unsigned long long)s->model.largest_step, s->model.critical_step, s->model.phi,
                         s->model.psi);
+        if (!restarted) scree_quasistatic_warn(&s->model, &recorder.log);
         log_meshes(&recorder, s->work.container);
         status = drive(&recorder, s, error);
         if (status)

@@ -6,6 +6,7 @@
 #include "measure/facets.h"
 #include "measure/measure.h"
 #include "run/guard.h"
+#include "run/quasistatic.h"
 #include "state/periodic.h"
 
 #include <math.h>
@@ -95,6 +96,10 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
     [SCREE_SAMPLE_WORK_PERIODIC] = {"work_periodic", "J", "work of the deforming periodic cell"},
     [SCREE_SAMPLE_SHEAR_RATIO] = {"shear_ratio", "1",
                                   "shear stress over axial normal stress from contacts, in a periodic cell"},
+    [SCREE_SAMPLE_INERTIAL_NUMBER] = {"inertial_number", "1",
+                                      "of the strain rate imposed now, under the confining pressure or the mean stress "
+                                      "of the contacts, whichever is less"},
+    [SCREE_SAMPLE_KINETIC_OVER_ELASTIC] = {"kinetic_over_elastic", "1", "kinetic over elastic energy of the contacts"},
 };
 
 static void sample_strain(const scree_simulation *s, double *value)
@@ -201,6 +206,16 @@ static void sample_energy(const scree_simulation *s, double *value)
     value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE] = energy.relative;
 }
 
+/// Numbers of a quasistatic loading (theory/quasistatic.c).
+static void sample_quasistatic(const scree_simulation *s, double *value)
+{
+    double lateral = value[SCREE_SAMPLE_LATERAL_CONTACTS], axial = value[SCREE_SAMPLE_AXIAL_CONTACTS];
+    double sides = (double)(s->state.dimension - 1);
+    double elastic = value[SCREE_SAMPLE_ELASTIC_NORMAL] + value[SCREE_SAMPLE_ELASTIC_TANGENTIAL];
+    value[SCREE_SAMPLE_INERTIAL_NUMBER] = scree_quasistatic_inertial_now(s, (sides * lateral + axial) / (sides + 1));
+    value[SCREE_SAMPLE_KINETIC_OVER_ELASTIC] = elastic > 0 ? value[SCREE_SAMPLE_KINETIC] / elastic : NAN;
+}
+
 /// From here on the mean unbalanced force of the next sample counts.
 static void remember_velocities(scree_simulation *s)
 {
@@ -224,6 +239,7 @@ scree_status scree_sample_take(scree_simulation *s, scree_error *error)
     if ((status = sample_structure(s, value, error))) return status;
     sample_volume(s, value);
     sample_energy(s, value);
+    sample_quasistatic(s, value);
     value[SCREE_SAMPLE_RATE_RATIO] = scree_drive_take_ratio(&s->state);
     remember_velocities(s);
     return scree_guard_sample(s, value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE], error);

@@ -54,6 +54,8 @@ typedef enum scree_sample_index {
     SCREE_SAMPLE_BOUNDARY_COUNT,
     SCREE_SAMPLE_WORK_PERIODIC,
     SCREE_SAMPLE_SHEAR_RATIO,
+    SCREE_SAMPLE_INERTIAL_NUMBER,
+    SCREE_SAMPLE_KINETIC_OVER_ELASTIC,
     SCREE_SAMPLE_COUNT
 } scree_sample_index;
 _Static_assert(SCREE_SAMPLE_COUNT == SCREE_SAMPLE_COLUMNS, "simulation.h holds one value a column");

@@ -9,7 +9,7 @@
 #include "run/stage.h"
 
 /// One row of series.csv; the columns are in sample.c.
-#define SCREE_SAMPLE_COLUMNS 48
+#define SCREE_SAMPLE_COLUMNS 50
 typedef struct scree_sample {
     double value[SCREE_SAMPLE_COLUMNS];
 } scree_sample;

@@ -4,10 +4,10 @@
 /// packing under the case's own law and scheme (about 10 ms). Steps of a confinement are not known in advance:
 /// CONFINE_WAVES wave times through the sample, the typical duration seen. Memory: rows, cold arrays and about 2.6
 /// listed pairs a disc.
-#include "boundary/plates.h"
 #include "case/case.h"
 #include "contact/contact.h"
 #include "integrate/integrate.h"
+#include "run/quasistatic.h"
 #include "run/recorder.h"
 #include "search/neighbours.h"
 #include "shape/container.h"
@@ -15,8 +15,7 @@
 #include <math.h>
 #include <string.h>
 
-#define CONFINE_WAVES          60.0
-#define TYPICAL_SOLID_FRACTION 0.82
+#define CONFINE_WAVES 60.0
 enum { PROBE_SIDE = 32, PROBE_STEPS = 60, BYTES_A_DISC = 330 };
 
 /// A square of discs of the mean radius on a hexagonal lattice, slightly pressed together.
@@ -63,17 +62,6 @@ static scree_status measure_rate(const scree_model *model, double *rate, scree_e
     return status;
 }
 
-/// Wave time through the sample at `pressure`, from the numbers of the model alone (see boundary/plates.c).
-static double expected_wave_time(const scree_model *model, double count, double aspect_ratio, double pressure)
-{
-    double disc = M_PI * model->mean_radius * model->mean_radius;
-    double area = count * disc / TYPICAL_SOLID_FRACTION;
-    double mass_per_area = model->density[SCREE_PARTICLE_MATERIAL] * model->thickness * TYPICAL_SOLID_FRACTION;
-    double k = model->pairs[SCREE_PARTICLE_MATERIAL][SCREE_PARTICLE_MATERIAL].normal_stiffness * sqrt(0.5 * model->mean_radius);
-    double stiffness = 1.5 * cbrt(k * k * pressure * 2 * model->mean_radius * model->thickness);
-    return sqrt(area * fmax(aspect_ratio, 1 / aspect_ratio) * mass_per_area / stiffness);
-}
-
 /// Force evaluations a tick while loading.
 static double evaluations_a_tick(const scree_model *model)
 {
@@ -83,12 +71,11 @@ static double evaluations_a_tick(const scree_model *model)
 static double expected_steps(const scree_model *model)
 {
     const scree_config *config = model->config;
-    double steps = 0, aspect_ratio = 1;
+    double steps = 0;
     for (int64_t k = 0; k < config->stage_count; k++) {
         const scree_config_stage *stage = &config->stages[k];
-        if (stage->kind == SCREE_STAGE_PREPARE && stage->aspect_ratio > 0) aspect_ratio = stage->aspect_ratio;
         if (stage->kind == SCREE_STAGE_CONFINE) {
-            double wave = expected_wave_time(model, (double)config->particles.count, aspect_ratio, stage->pressure);
+            double wave = scree_expected_wave_time(model, stage->pressure);
             steps += CONFINE_WAVES * wave / model->step / (double)model->largest_step;
         }
         double rate = scree_model_loading_rate(stage);
@@ -96,6 +83,15 @@ static double expected_steps(const scree_model *model)
         if (!isnan(rate)) steps += stage->strain / rate / model->step * evaluations_a_tick(model);
     }
     return steps;
+}
+
+/// Of the first stage that loads.
+static double first_inertial_number(const scree_model *model)
+{
+    double number = NAN;
+    for (int64_t k = 0; k < model->config->stage_count && isnan(number); k++)
+        number = scree_quasistatic_expect(model, k).value[SCREE_QUASISTATIC_INERTIAL];
+    return number;
 }
 
 scree_status scree_case_summarise(const scree_case *c, scree_case_summary *summary, scree_error *error)
@@ -111,6 +107,7 @@ scree_status scree_case_summarise(const scree_case *c, scree_case_summary *summa
                                     .largest_step = model.largest_step,
                                     .critical_step = model.critical_step,
                                     .phi = model.phi,
+                                    .inertial_number = first_inertial_number(&model),
                                     .psi = model.psi,
                                     .mean_radius = model.mean_radius,
                                     .thickness = model.thickness,
@@ -127,5 +124,32 @@ scree_status scree_case_summarise(const scree_case *c, scree_case_summary *summa
     status = measure_rate(&model, &summary->rate, error);
     summary->seconds = summary->steps * (double)summary->particles / summary->rate;
     summary->memory = BYTES_A_DISC * (double)summary->particles;
+    return status;
+}
+
+/// A log that goes nowhere but to the caller.
+typedef struct listener {
+    void (*visit)(void *user, const char *line);
+    void *user;
+} listener;
+
+static void forward(void *user, scree_log_level level, const char *line)
+{
+    const listener *to = user;
+    (void)level;
+    to->visit(to->user, line);
+}
+
+scree_status scree_case_warn(const scree_case *c, void (*visit)(void *user, const char *line), void *user,
+                             scree_error *error)
+{
+    scree_model model;
+    scree_status status = scree_model_build(&c->config, &model, error);
+    listener to = {visit, user};
+    scree_log log = {.sink = forward, .user = &to};
+    if (status)
+        scree_case_locate(c, error);
+    else
+        scree_quasistatic_warn(&model, &log);
     return status;
 }

@@ -62,13 +62,15 @@ expect 0 '^# psi' "$scree" check resolved.yaml
 same "$(grep -v '^#' <<<"$output")" "$(grep -v '^#' <<<"$resolved")" "a resolved case, resolved again"
 expect 0 'friction: 0?\.3\b' "$scree" check my.yaml --set materials.0.friction=0.3
 expect 0 '^# particles +600' "$scree" check my.yaml --quick
+expect 0 '^# inertial number +[0-9]' "$scree" check my.yaml --quick
+expect 0 '^# warning +stage 2 \(compress\): inertial number 0\.0[0-9]+, above 0\.001: .*a rate of 0\.01' "$scree" check my.yaml --set 'stages.compress.rate=0.5 1/s'
 
 # --- run: a file of the name wins over the built-in case
 expect 0 'results in out' "$scree" run biaxial -o out --threads 2 "${small[@]}"
 for file in case.yaml summary.json series.csv run.h5 log.txt; do [ -s "out/$file" ] || complain "no out/$file"; done
 same "$("$scree" get out case)" biaxial
 sed 's/^name: .*/name: mine/' my.yaml >biaxial
-expect 0 '' "$scree" run biaxial -q --output=mine --threads=1 "${small[@]}"
+expect 0 '^warning: stage 2 \(compress\): inertial number' "$scree" run biaxial -q --output=mine --threads=1 "${small[@]}"
 same "$("$scree" get mine case)" mine
 same "$("$scree" get mine state_checksum)" "$("$scree" get out state_checksum)" "checksum with one thread and with two"
 if [ -n "$best" ]; then
@@ -85,6 +87,9 @@ same "$foreign" 0 "lines in log.txt that the log did not write"
 expect 0 '^[-0-9.e]+$' "$scree" get out phi
 expect 0 '^psi [-0-9.e]+$' "$scree" get out phi psi
 same "$(wc -l <<<"$output")" 2
+expect 0 '^quasistatic no' "$scree" get out quasistatic inertial_number
+expect 0 '^inertial_number 0\.00' "$scree" get out quasistatic inertial_number
+expect 0 'warning stage 2 \(compress\): inertial number' cat out/log.txt
 expect 0 '^state_checksum +[0-9a-f]{16}$' "$scree" get out
 same "$(wc -l <<<"$output")" "$(python3 -c 'import json; print(len(json.load(open("out/summary.json"))))' 2>/dev/null || grep -c '^  "' out/summary.json)"
 

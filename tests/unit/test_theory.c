@@ -37,6 +37,39 @@ static void test_quasistatic_numbers_in_3d(void **unused)
     assert_true(fabs(psi * cbrt(3413) - 1) < 1e-13);
 }
 
+/// da Cruz et al. 2005, eq. 1 and GDR MiDi 2004. A disc of 1 mm and 1 mm length with 2000 kg/m3 has 2 pi/4 mg; at 8 1/s
+/// under 100 Pa I = 8 sqrt(pi/2 1e-6 / (100 1e-3)) in 2D and 8 1e-3 sqrt(20) for a sphere: their ratio is (pi/4)^(1/2)
+/// whatever the rest. Twice the rate doubles it, four times the pressure halves it.
+static void test_inertial_number(void **unused)
+{
+    (void)unused;
+    const double mass = 2000 * M_PI / 4 * 1e-9;
+    double disc = scree_inertial_number(2, mass, 0.5e-3, 2000, 1e-3, 8, 100);
+    double sphere = scree_inertial_number(3, NAN, 0.5e-3, 2000, NAN, 8, 100);
+    assert_true(fabs(sphere / (8e-3 * sqrt(20)) - 1) < 1e-14);
+    assert_true(fabs(disc / (8 * sqrt(M_PI / 2 * 1e-5)) - 1) < 1e-14);
+    assert_true(fabs(disc / sphere / sqrt(M_PI / 4) - 1) < 1e-14);
+    assert_true(fabs(scree_inertial_number(2, mass, 0.5e-3, 2000, 1e-3, 16, 400) / disc - 1) < 1e-14);
+    assert_true(isnan(scree_inertial_number(3, NAN, 0.5e-3, 2000, NAN, 8, 0)));
+    assert_true(isnan(scree_inertial_number(2, mass, 0.5e-3, 2000, 1e-3, 8, NAN)));
+    assert_true(scree_wave_speed(8, 4, 0.5) == 2);
+}
+
+/// A number at its limit keeps it, one that does not exist too; the modulus has a least value, the others a largest.
+static void test_quasistatic_limits(void **unused)
+{
+    (void)unused;
+    for (int k = 0; k < SCREE_QUASISTATIC_COUNT; k++) {
+        scree_quasistatic_criterion criterion = (scree_quasistatic_criterion)k;
+        double limit = scree_quasistatic_limits[k].limit;
+        bool least = k == SCREE_QUASISTATIC_MODULUS;
+        assert_true(scree_quasistatic_keeps(criterion, limit) && scree_quasistatic_keeps(criterion, NAN));
+        assert_true(scree_quasistatic_keeps(criterion, 1.01 * limit) == least);
+        assert_true(scree_quasistatic_keeps(criterion, 0.99 * limit) == !least);
+        assert_true(scree_quasistatic_keeps(criterion, INFINITY) == least);
+    }
+}
+
 /// Classical Runge-Kutta with a small fixed step on x'' = -(x^1.5 + damping x^power x'); speed at release.
 /// `attractive`: release at x = 0, else when the force has fallen to zero. Independent of the code under test.
 static double integrate_impact(double damping, double power, int attractive)
@@ -169,6 +202,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_quasistatic_numbers_of_padbidri),
         cmocka_unit_test(test_quasistatic_numbers_in_3d),
+        cmocka_unit_test(test_inertial_number),
+        cmocka_unit_test(test_quasistatic_limits),
         cmocka_unit_test(test_restitution_from_damping_is_the_impact),
         cmocka_unit_test(test_restitution_limits),
         cmocka_unit_test(test_damping_inverts_restitution),
