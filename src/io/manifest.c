@@ -16,7 +16,7 @@
 
 /// A run folder, and a name in it.
 typedef struct place {
-    char directory[PATH_MAX + 2];
+    char directory[PATH_MAX];
     char name[NAME_MAX + 16]; ///< "figures/" and a name
 } place;
 
@@ -32,39 +32,30 @@ static bool has_list(const char *directory)
     return !scree_path_join(path, sizeof path, directory, SCREE_FILE_MANIFEST, NULL) && access(path, F_OK) == 0;
 }
 
-/// Splits the last part off `path`; the rest is "." when there is none.
-static const char *split(char *path)
+/// The folder that `path` lies in, and the last part of the path.
+static const char *split(const char *path, char folder[PATH_MAX])
 {
-    char *slash = strrchr(path, '/');
-    if (!slash) {
-        char *name = path + 2;
-        memmove(name, path, strlen(path) + 1);
-        memcpy(path, ".", 2);
-        return name;
-    }
-    char *name = slash + 1;
-    while (slash > path && slash[-1] == '/') slash--;
-    // The root keeps its slash: "/" + 0 + "name" would overwrite the name's first letter otherwise.
-    if (slash == path) return NULL;
-    *slash = 0;
-    return name;
+    const char *slash = strrchr(path, '/');
+    int length = slash ? (int)(slash - path) : 0;
+    while (length > 0 && path[length - 1] == '/') length--;
+    (void)snprintf(folder, PATH_MAX, "%.*s%s", length, path, length > 0 ? "" : slash ? "/" : ".");
+    return slash ? slash + 1 : path;
 }
 
 /// The run folder that the file `path` lies in, and its name there; false when it lies in none.
 static bool find_place(const char *path, place *found)
 {
-    char rest[PATH_MAX + 2];
-    if (snprintf(rest, PATH_MAX, "%s", path) >= PATH_MAX) return false;
-    const char *name = split(rest);
-    if (!name || !name[0] || strlen(name) > NAME_MAX) return false;
+    char folder[PATH_MAX];
+    if (strlen(path) >= PATH_MAX) return false;
+    const char *name = split(path, folder);
+    if (strlen(name) > NAME_MAX) return false;
     (void)snprintf(found->name, sizeof found->name, "%s", name);
-    (void)snprintf(found->directory, sizeof found->directory, "%s", rest);
-    if (has_list(rest)) return true;
-    const char *folder = split(rest);
-    bool own = folder && (strcmp(folder, SCREE_FOLDER_FIGURES) == 0 || strcmp(folder, SCREE_FOLDER_PARAVIEW) == 0);
-    if (!own || !has_list(rest)) return false;
-    (void)snprintf(found->name, sizeof found->name, "%s/%s", folder, name);
-    (void)snprintf(found->directory, sizeof found->directory, "%s", rest);
+    memcpy(found->directory, folder, sizeof folder);
+    if (has_list(folder)) return true;
+    const char *last = split(folder, found->directory);
+    bool own = strcmp(last, SCREE_FOLDER_FIGURES) == 0 || strcmp(last, SCREE_FOLDER_PARAVIEW) == 0;
+    if (!own || !has_list(found->directory)) return false;
+    (void)snprintf(found->name, sizeof found->name, "%.10s/%s", last, name);
     return true;
 }
 
