@@ -145,6 +145,7 @@ typedef struct scree_config_stage {
     double pressure;         ///< Pa, compression positive
     double ramp_time;        ///< s; auto
     double unbalanced_limit; ///< 1, stop when the unbalanced force ratio stays below it
+    double stress_tolerance; ///< 1, of the pressure: stop when the stress is within it; auto: see the stages' files
     double time_limit;       ///< s; auto; reaching it is an error of the case, not a silent stop
     // compress
     double strain;    ///< 1, axial strain (engineering) at which to stop, compression positive

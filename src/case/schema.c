@@ -285,6 +285,11 @@ static const scree_key confine_keys[] = {
            .meaning = "Time in which the pressure is raised."),
     NUMBER(stage, unbalanced_limit, "1", .standard = "1e-3", FROM("1e-9"), BELOW("1"),
            .meaning = "The stage ends when the unbalanced force ratio stays below this."),
+    NUMBER(stage, stress_tolerance, "1", .standard = "auto", FROM("1e-9"), BELOW("1"),
+           .meaning =
+               "And when the normal stresses of a periodic cell (means since the last sample), or the stress of the "
+               "top plate, are this near to the pressure, relative to it; auto: 0.2 % in a periodic cell, 5 % "
+               "with plates."),
     NUMBER(stage, time_limit, "s", .standard = "auto", .guard = true, ABOVE("0 s"), TO("1e9 s"),
            .meaning = "The run stops with a message if equilibrium takes longer."),
     STAGE_BOUNDARY,
@@ -477,8 +482,9 @@ static const scree_key guard_keys[] = {
     NUMBER(guard, overlap, "1", .standard = "20 %", .guard = true, ABOVE("0 %"), TO("100 %"),
            .meaning = "Largest indentation over the smaller radius."),
     NUMBER(guard, energy_growth, "1", .standard = "5 %", .guard = true, ABOVE("0 %"), TO("10000 %"),
-           .meaning = "Largest residual of the energy ledger over all energy that there is and was: at the begin, turned "
-                      "over, stored now. Energy that grows without end tends to 100 %."),
+           .meaning =
+               "Largest residual of the energy ledger over all energy that there is and was: at the begin, turned "
+               "over, stored now. Energy that grows without end tends to 100 %."),
 };
 
 #define TABLE(title, text, keys)                                                                                       \

@@ -56,6 +56,11 @@ double scree_stage_elapsed(const scree_simulation *s);
 /// Ticks of `time` [s], rounded up to whole largest steps, where every sequence of steps ends; at least one of them.
 uint64_t scree_stage_ticks(const scree_simulation *s, double time);
 
+/// Stop rule of the confine stages (stage_confine.c): the stress called `what` is off the pressure by `off` of it. NULL:
+/// none is asked for.
+scree_status scree_confine_finished(scree_simulation *s, const char *what, double off, double tolerance, bool *done,
+                                    scree_error *error) SCREE_MUST_USE;
+
 /// The config of the stage that runs now.
 const scree_config_stage *scree_stage_config(const scree_simulation *s);
 

@@ -4,9 +4,9 @@
 /// sloping sides has a vertical resultant that only a standing plate can bear.)
 ///
 /// Stop rule: after the ramp, the mean unbalanced force over the mean contact force stays below `unbalanced_limit` and
-/// the top plate carries the pressure within PLATE_TOLERANCE (a sample whose friction depends on velocity creeps on,
-/// and its plate with it), for CALM samples in a row. Reaching the time limit is an error: the sample does not come to
-/// rest.
+/// the top plate carries the pressure within `stress_tolerance`, by default PLATE_TOLERANCE (a sample whose friction
+/// depends on velocity creeps on, and its plate with it), for CALM samples in a row. Reaching the time limit is an
+/// error: the sample does not come to rest.
 ///
 /// state.stage.reference: [0] pressure at the begin, [1] wave time, [2, 3] impedance and mass of the plates, [4, 5] of
 /// the side plates.
@@ -64,25 +64,38 @@ static void control(scree_simulation *s)
     scree_servo_sides(s, s->state.pressure);
 }
 
+scree_status scree_confine_finished(scree_simulation *s, const char *what, double off, double tolerance, bool *done,
+                                    scree_error *error)
+{
+    const scree_config_stage *stage = scree_stage_config(s);
+    double unbalanced = s->sample.value[SCREE_SAMPLE_UNBALANCED_RATIO];
+    char within[96] = "", apart[96] = "";
+    if (what) {
+        (void)snprintf(within, sizeof within, ", and %s within %.2g of the pressure,", what, tolerance);
+        (void)snprintf(apart, sizeof apart, ", %s off by %.2g of the pressure (stress_tolerance %.2g)", what, off,
+                       tolerance);
+    }
+    bool calm = scree_stage_elapsed(s) > s->plan.ramp_time && unbalanced < stage->unbalanced_limit && off < tolerance;
+    s->state.stage.counter = calm ? s->state.stage.counter + 1 : 0;
+    *done = s->state.stage.counter >= CALM;
+    (void)snprintf(s->reason, sizeof s->reason, "unbalanced force ratio %.2g below %.2g%s for %d samples", unbalanced,
+                   stage->unbalanced_limit, within, CALM);
+    if (*done || scree_stage_elapsed(s) < s->plan.time_limit) return SCREE_OK;
+    return scree_error_set(error, SCREE_ERROR_GUARD,
+                           "stage %lld (confine): not at rest after %.3g s: unbalanced force ratio %.2g "
+                           "(unbalanced_limit %.2g)%s; try a larger limit%s or time_limit, a denser preparation, or "
+                           "more damping",
+                           (long long)s->state.stage.index, scree_stage_elapsed(s), unbalanced, stage->unbalanced_limit,
+                           apart, what ? ", stress_tolerance" : "");
+}
+
 static scree_status finished(scree_simulation *s, bool *done, scree_error *error)
 {
     const scree_config_stage *stage = scree_stage_config(s);
-    const scree_model *model = &s->stage_model;
-    double unbalanced = s->sample.value[SCREE_SAMPLE_UNBALANCED_RATIO];
-    bool plates = scree_boundary_has_plates(s->boundary);
-    double top = plates ? scree_plate_stress(model, &s->state, SCREE_WALL_TOP) / stage->pressure - 1 : 0;
-    bool calm = scree_stage_elapsed(s) > s->plan.ramp_time && unbalanced < stage->unbalanced_limit &&
-                fabs(top) < PLATE_TOLERANCE;
-    s->state.stage.counter = calm ? s->state.stage.counter + 1 : 0;
-    *done = s->state.stage.counter >= CALM;
-    (void)snprintf(s->reason, sizeof s->reason, "unbalanced force ratio %.2g below %.2g for %d samples", unbalanced,
-                   stage->unbalanced_limit, CALM);
-    if (*done || scree_stage_elapsed(s) < s->plan.time_limit) return SCREE_OK;
-    return scree_error_set(
-        error, SCREE_ERROR_GUARD,
-        "stage %lld (confine): not at rest after %.3g s: unbalanced force ratio %.2g (limit %.2g), plate "
-        "stress off by %.2g; try a larger unbalanced_limit, a larger time_limit or more damping",
-        (long long)s->state.stage.index, scree_stage_elapsed(s), unbalanced, stage->unbalanced_limit, fabs(top));
+    double tolerance = isnan(stage->stress_tolerance) ? PLATE_TOLERANCE : stage->stress_tolerance;
+    if (!scree_boundary_has_plates(s->boundary)) return scree_confine_finished(s, NULL, 0, tolerance, done, error);
+    double top = scree_plate_stress(&s->stage_model, &s->state, SCREE_WALL_TOP) / stage->pressure - 1;
+    return scree_confine_finished(s, "the stress of the top plate", fabs(top), tolerance, done, error);
 }
 
 static double fraction(const scree_simulation *s)

@@ -83,7 +83,7 @@ static const range ranges[] = {
     {"stage/reference", ANY_NUMBER, .most = DBL_MAX, .undefined = true},
     {"stage/samples", 0, .most_is = MANY},
     {"stage/snapshots", 0, .most_is = MANY},
-    {"stage/counter", -1, .most_is = MANY},
+    {"stage/counter", -2, .most_is = MANY},
 };
 
 static const range *range_of(const char *name)
