@@ -48,7 +48,8 @@ typedef struct scree_key {
                           ///< vectors have "[]" and "[0, 0]", sections none
     scree_limit least, most;
     const scree_choice *choices;
-    const char *when;    ///< "key=value|value": used only then; key of the same section, or "section.key". NULL: always
+    const char *when;    ///< "key=value|value": used only then; key of the same section, or "section.key". Several such
+                         ///< conditions are joined by '&'. NULL: always
     const char *meaning; ///< one line, ends with a full stop
     size_t offset;       ///< of the member in its section's struct
     size_t count_offset, element_size; ///< lists and pairs

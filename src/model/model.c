@@ -32,12 +32,21 @@ static scree_status indexed_error(scree_error *error, const char *list, int64_t 
     return FIELD_ERROR(error, path, "%s", text);
 }
 
+static int material_called(const scree_model *model, const char *name)
+{
+    for (int i = 0; i < model->material_count; i++)
+        if (strcmp(model->config->materials[i].name, name) == 0) return i;
+    return -1;
+}
+
 int scree_model_particle_material(const scree_model *model)
 {
-    const scree_config *config = model->config;
-    for (int i = 0; i < model->material_count; i++)
-        if (strcmp(config->materials[i].name, config->particles.material) == 0) return i;
-    return -1;
+    return material_called(model, model->config->particles.material);
+}
+
+int scree_model_body_material(const scree_model *model, const scree_config_body *body)
+{
+    return body->material ? material_called(model, body->material) : scree_model_particle_material(model);
 }
 
 bool scree_model_is_wholly_periodic(const scree_model *model)
@@ -203,7 +212,12 @@ static scree_status check_prepare(const scree_model *model, int64_t index, scree
     if (lattice && model->radius_min < model->radius_max)
         return indexed_error(error, "stages", index, "method",
                              "a lattice needs particles of one radius: set particles.distribution to equal");
-    if (stage->outline != SCREE_SAMPLE_BOX) return SCREE_OK; // its sides are not the user's
+    for (int64_t i = 0; stage->method == SCREE_PREPARE_BODIES && i < stage->body_count; i++)
+        if (scree_model_body_material(model, &stage->bodies[i]) < 0)
+            return indexed_error(error, "stages", index, "bodies",
+                                 "a body is of a material that this case does not have");
+    // A round sample's sides are not the user's; and what bodies are listed has been judged (case/body_rules.c).
+    if (stage->outline != SCREE_SAMPLE_BOX || stage->method == SCREE_PREPARE_BODIES) return SCREE_OK;
     bool shallow = solid && !isnan(stage->depth) && stage->depth < 2 * model->radius_max;
     if (shallow || (!isnan(stage->width) && stage->width < 2 * model->radius_max)) {
         char text[160];

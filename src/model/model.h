@@ -85,6 +85,9 @@ double scree_model_loading_rate(const scree_config_stage *stage);
 /// Index of the material that the particles are made of.
 int scree_model_particle_material(const scree_model *model);
 
+/// Index of the material of a listed body.
+int scree_model_body_material(const scree_model *model, const scree_config_body *body);
+
 /// Solid fraction of a gas that `stage` prepares: what it says, 30 % of discs or 15 % of spheres where that is auto.
 double scree_model_gas_fraction(const scree_model *model, const scree_config_stage *stage);
 
