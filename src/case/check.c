@@ -80,7 +80,7 @@ static void refuse_unused(const scope *s, scree_node *child, const scree_usage *
     size_t equals = strcspn(usage->when, "=");
     char accepted[256];
     int length = snprintf(accepted, sizeof accepted, "only with %.*s: ", (int)equals, usage->when);
-    for (const char *c = usage->when + equals + 1; *c && (size_t)length + 5 < sizeof accepted; c++)
+    for (const char *c = usage->when + equals + 1; *c && *c != '&' && (size_t)length + 5 < sizeof accepted; c++)
         length += snprintf(accepted + length, sizeof accepted - (size_t)length, *c == '|' ? " or " : "%c", *c);
     scree_problem_add(s->reader, child->key_place, path, child->text, accepted, "not used with %.*s: %s", (int)equals,
                       usage->when, scree_show(usage->choice ? usage->choice->text : usage->chooser->standard).text);

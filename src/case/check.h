@@ -24,10 +24,13 @@ typedef struct scree_usage {
     scree_use use;
     const scree_key *chooser; ///< the key that `when` names, or NULL
     const scree_node *choice; ///< its value where it is given
-    const char *when;         ///< the condition that decides: of the key, or of one that its own condition names
+    const char *when;         ///< the condition that decides, up to a '&': of the key, or of one that its own names
 } scree_usage;
 scree_usage scree_key_usage(const scree_node *root, const scree_section *section, const scree_node *mapping,
                             const scree_key *key);
+
+/// The condition after the first of `when`, or NULL.
+const char *scree_next_condition(const char *when);
 
 /// The section of `list` that describes `element`, or NULL when its first key is missing or wrong.
 const scree_section *scree_element_section(const scree_key *list, const scree_node *element);
@@ -59,6 +62,9 @@ void scree_rules_check(scree_reader *reader, scree_config *config);
 
 /// Those of the boundaries of stages, and of the velocity gradients that they impose (boundary_rules.c).
 void scree_rules_check_boundaries(scree_reader *reader, const scree_config *config);
+
+/// Those of the bodies that a prepare stage lists (body_rules.c).
+void scree_rules_check_bodies(scree_reader *reader, const scree_config *config);
 
 /// Those of the walls of the case, and of the stages that they can be used in (wall_rules.c). Finds the files of
 /// meshes: their paths become absolute, and the case holds the checksum of their content.

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -118,8 +119,18 @@ typedef enum scree_prepare_method {
     SCREE_PREPARE_CUBIC,
     SCREE_PREPARE_GAS,
     SCREE_PREPARE_GROWTH,
-    SCREE_PREPARE_PAIR
+    SCREE_PREPARE_PAIR,
+    SCREE_PREPARE_BODIES
 } scree_prepare_method;
+
+/// A body of prepare method bodies.
+typedef struct scree_config_body {
+    double position[3]; ///< m, of its centre
+    double velocity[3]; ///< m/s
+    double spin[3];     ///< rad/s
+    double radius;      ///< m; auto: that of all particles
+    char *material;     ///< name in `materials`; auto: that of the particles
+} scree_config_body;
 
 /// Whether the walls of the case move in a stage.
 typedef enum scree_wall_motion { SCREE_WALLS_MOVE, SCREE_WALLS_STAND } scree_wall_motion;
@@ -141,6 +152,9 @@ typedef struct scree_config_stage {
     double velocity;       ///< m/s, gas only: root-mean-square velocity component
     double gap;            ///< m, pair only: between the surfaces; auto: see prepare/pair.c
     double speed;          ///< m/s, pair only: at which they approach; auto: v_R
+    double height;         ///< m, bodies only: of the box; auto: up to the highest of them
+    scree_config_body *bodies;
+    int64_t body_count;
     // confine
     double pressure;         ///< Pa, compression positive
     double ramp_time;        ///< s; auto
@@ -252,6 +266,12 @@ typedef struct scree_config {
     scree_config_output output;
     scree_config_guard guard;
 } scree_config;
+
+/// Radius [m] of a listed body.
+static inline double scree_config_body_radius(const scree_config *config, const scree_config_body *body)
+{
+    return isnan(body->radius) ? config->particles.radius_min : body->radius;
+}
 
 /// The boundary of stage `index`: periodic as the case says, else its own choice, or that of the last stage before it
 /// that made one, or the walls of the case, or `lateral`.

@@ -31,11 +31,13 @@ static const char introduction[] =
 
 static void write_when(FILE *file, const scree_key *key)
 {
-    if (!key->when) return;
-    size_t equals = strcspn(key->when, "=");
-    (void)fprintf(file, " Only with `%.*s: ", (int)equals, key->when);
-    for (const char *c = key->when + equals + 1; *c; c++) (void)(*c == '|' ? fputs("` or `", file) : fputc(*c, file));
-    (void)fputs("`.", file);
+    for (const char *when = key->when; when; when = scree_next_condition(when)) {
+        size_t equals = strcspn(when, "=");
+        (void)fprintf(file, "%s `%.*s: ", when == key->when ? " Only with" : "` and", (int)equals, when);
+        for (const char *c = when + equals + 1; *c && *c != '&'; c++)
+            (void)(*c == '|' ? fputs("` or `", file) : fputc(*c, file));
+    }
+    if (key->when) (void)fputs("`.", file);
 }
 
 static const char *type_name(scree_key_type type)
@@ -61,7 +63,7 @@ static void write_default(FILE *file, const scree_key *key)
         (void)fputs("required", file);
 }
 
-/// One table of keys, then the choices of those that have some.
+/// One table of keys, then the choices of those that have some, and tables of the lists in it.
 static void write_table(FILE *file, const scree_section *section)
 {
     (void)fputs("\n| key | type | unit | default | accepted | meaning |\n|---|---|---|---|---|---|\n", file);
@@ -81,6 +83,12 @@ static void write_table(FILE *file, const scree_section *section)
         (void)fprintf(file, "\nChoices of `%s`:\n\n", key->name);
         for (const scree_choice *choice = key->choices; choice->name; choice++)
             (void)fprintf(file, "- `%s`: %s\n", choice->name, choice->meaning);
+    }
+    for (size_t i = 0; i < section->count && section != &scree_schema; i++) {
+        const scree_key *key = &section->keys[i];
+        if (key->type != SCREE_KEY_LIST) continue;
+        (void)fprintf(file, "\nKeys of each element of `%s`:\n", key->name);
+        write_table(file, key->sections);
     }
 }
 

@@ -121,9 +121,11 @@ static void check_stage_order(scree_reader *reader, const scree_config *config)
             wrong = "a confine stage must come before: deform keeps its pressure";
         else if (kind == SCREE_STAGE_ROTATE && !confined)
             wrong = "a confine stage must come before: rotate_particle keeps its pressure";
-        else if (i > 0 && (kind == SCREE_STAGE_COLLIDE) != (config->stages[0].method == SCREE_PREPARE_PAIR))
-            wrong = kind == SCREE_STAGE_COLLIDE ? "collide needs two particles that approach: prepare method pair"
-                                                : "two particles can only collide";
+        else if (i > 0 && kind == SCREE_STAGE_COLLIDE && config->stages[0].method != SCREE_PREPARE_PAIR &&
+                 config->stages[0].method != SCREE_PREPARE_BODIES)
+            wrong = "collide needs two particles that approach: prepare method pair or bodies";
+        else if (i > 0 && kind != SCREE_STAGE_COLLIDE && config->stages[0].method == SCREE_PREPARE_PAIR)
+            wrong = "two particles can only collide";
         confined = confined || kind == SCREE_STAGE_CONFINE;
         if (!wrong) continue;
         char path[SCREE_PATH_BYTES];
@@ -196,7 +198,9 @@ static void check_preparation(scree_reader *reader, const scree_config *config)
 static void check_pair(scree_reader *reader, const scree_config *config)
 {
     const char *text;
-    if (config->stage_count == 0 || config->stages[0].method != SCREE_PREPARE_PAIR) return;
+    bool pair = config->stage_count > 0 && config->stages[0].method == SCREE_PREPARE_PAIR;
+    for (int64_t i = 1; i < config->stage_count; i++) pair = pair || config->stages[i].kind == SCREE_STAGE_COLLIDE;
+    if (!pair) return;
     scree_place place = place_of(scree_node_find(reader->root, "particles"), "count", &text);
     if (config->particles.count != 2)
         scree_problem_add(reader, place, "particles.count", text, "2", "a pair is two particles");
@@ -273,6 +277,7 @@ void scree_rules_check(scree_reader *reader, scree_config *config)
     check_pair(reader, config);
     check_windows(reader, config);
     check_timescales(reader, config);
+    scree_rules_check_bodies(reader, config);
     scree_rules_check_boundaries(reader, config);
     scree_rules_check_walls(reader, config);
 }

@@ -119,6 +119,7 @@ static const scree_choice methods[] = {
     {"growth", SCREE_PREPARE_GROWTH,
      "particles grow at random places and push each other away: dense and isotropic, without contacts"},
     {"pair", SCREE_PREPARE_PAIR, "two particles on the x axis that approach each other, for the stage collide"},
+    {"bodies", SCREE_PREPARE_BODIES, "the particles that `bodies` lists, each where it says and as fast"},
     {0},
 };
 static const scree_choice outlines[] = {
@@ -258,16 +259,32 @@ typedef scree_config_stage stage;
 #define TENSOR(owner, member, list, si, ...)                                                                           \
     KEY(owner, member, SCREE_KEY_TENSOR, .choices = list, .unit = si, .standard = "{}", __VA_ARGS__)
 
+typedef scree_config_body body;
+static const scree_key body_keys[] = {
+    KEY(body, position, SCREE_KEY_VECTOR, .unit = "m", FROM("-1e6 m"), TO("1e6 m"), .meaning = "Of its centre."),
+    KEY(body, velocity, SCREE_KEY_VECTOR, .unit = "m/s", .standard = "[0, 0]", FROM("-1e5 m/s"), TO("1e5 m/s"),
+        .meaning = "At the begin."),
+    KEY(body, spin, SCREE_KEY_VECTOR, .unit = "rad/s", .standard = "[0, 0]", FROM("-1e6 rad/s"), TO("1e6 rad/s"),
+        .meaning = "Angular velocity at the begin; in two dimensions [0, 0, about z]."),
+    NUMBER(body, radius, "m", .standard = "auto", FROM("1 nm"), TO("100 m"),
+           .meaning = "Radius, within the limits of `particles`; auto: the one that all particles have."),
+    KEY(body, material, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),
+        .meaning = "Name of one of the materials; auto: particles.material."),
+};
+static const scree_section body_table[] = {{"bodies", "A particle at a given position.", body_keys, COUNT(body_keys)}};
 static const scree_key prepare_keys[] = {
     STAGE_HEAD,
     CHOICE(stage, method, methods, .standard = "drop_and_roll", .meaning = "How the particles are placed."),
-    NUMBER(stage, aspect_ratio, "1", .standard = "2", FROM("0.01"), TO("100"), .when = "width=auto",
+    NUMBER(stage, aspect_ratio, "1", .standard = "2", FROM("0.01"), TO("100"),
+           .when = "width=auto&method=drop_and_roll|hexagonal|square|face_centred|cubic|gas|growth|pair",
            .meaning = "Height over width of the sample."),
     CHOICE(stage, outline, outlines, .standard = "box", .meaning = "Outline of the sample."),
     NUMBER(stage, width, "m", .standard = "auto", FROM("1 nm"), TO("100 km"), .when = "outline=box",
-           .meaning = "Width of the sample; auto: from `aspect_ratio`, and number and sizes of the particles."),
+           .meaning = "Width of the sample; auto: from `aspect_ratio`, and number and sizes of the particles; with "
+                      "`bodies` as far as they reach."),
     NUMBER(stage, depth, "m", .standard = "auto", FROM("1 nm"), TO("100 km"), .when = "particles.shape=sphere",
-           .meaning = "Depth of the sample, along y in three dimensions; auto: its width."),
+           .meaning = "Depth of the sample, along y in three dimensions; auto: its width; with `bodies` as far as they "
+                      "reach."),
     NUMBER(stage, solid_fraction, "1", .standard = "auto", ABOVE("0"), TO("90 %"), .when = "method=gas|growth",
            .meaning = "Area (volume) of the particles over that of the box; auto: 30 % of discs and 15 % of spheres in "
                       "a gas; with growth 80 % and 60 %, less what the walls take."),
@@ -277,6 +294,11 @@ static const scree_key prepare_keys[] = {
            .meaning = "Between the surfaces of the two; auto: about their indentation in the impact."),
     NUMBER(stage, speed, "m/s", .standard = "auto", ABOVE("0 m/s"), TO("1e5 m/s"), .when = "method=pair",
            .meaning = "Relative speed at which they approach; auto: contact.reference_velocity."),
+    NUMBER(stage, height, "m", .standard = "auto", FROM("1 nm"), TO("100 km"), .when = "method=bodies",
+           .meaning = "Height of the box, which begins at the origin; auto: as far as the bodies reach."),
+    KEY(stage, bodies, SCREE_KEY_LIST, FROM("1"), TO("1000"), .sections = body_table, .section_count = 1,
+        .count_offset = offsetof(stage, body_count), .element_size = sizeof(body), .when = "method=bodies",
+        .meaning = "The particles, numbered from 0; as many as particles.count says."),
 };
 static const scree_key confine_keys[] = {
     STAGE_HEAD,
@@ -517,7 +539,8 @@ static const scree_section stage_tables[] = {
     TABLE("relax",
           "Lets time pass under gravity, between plates that stand or the `walls` of the case, which move or stand.",
           relax_keys),
-    TABLE("collide", "Two particles, prepared as a `pair`, meet and part; nothing else acts on them.", collide_keys),
+    TABLE("collide", "Two particles, prepared as a `pair` or as `bodies`, meet and part; nothing else acts on them.",
+          collide_keys),
 };
 static const scree_section wall_tables[] = {
     TABLE("plane", "A half-space; in 2D a half-plane.", plane_keys),

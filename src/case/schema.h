@@ -50,7 +50,8 @@ typedef struct scree_key {
     scree_limit least, most;
     const scree_choice *choices;
     bool guard;          ///< only stops a run: no part of what makes a case (scree_case_checksum)
-    const char *when;    ///< "key=value|value": used only then; key of the same section, or "section.key". NULL: always
+    const char *when;    ///< "key=value|value": used only then; key of the same section, or "section.key". Several such
+                         ///< conditions are joined by '&'. NULL: always
     const char *meaning; ///< one line, ends with a full stop
     size_t offset;       ///< of the member in its section's struct
     size_t count_offset, element_size; ///< lists and pairs

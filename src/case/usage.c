@@ -4,32 +4,32 @@
 #include <stdio.h>
 #include <string.h>
 
-/// Whether `text` is one of the alternatives "a|b|c".
+/// Whether `text` is one of the alternatives "a|b|c", which end with the condition.
 static bool is_among(const char *text, const char *alternatives)
 {
     size_t length = strlen(text);
     for (const char *at = alternatives;; at++) {
-        size_t one = strcspn(at, "|");
+        size_t one = strcspn(at, "|&");
         if (one == length && strncmp(at, text, length) == 0) return true;
         at += one;
-        if (!*at) return false;
+        if (*at != '|') return false;
     }
 }
 
-scree_usage scree_key_usage(const scree_node *root, const scree_section *section, const scree_node *mapping,
-                            const scree_key *key)
+/// One condition of a key.
+static scree_usage condition_usage(const scree_node *root, const scree_section *section, const scree_node *mapping,
+                                   const char *when)
 {
-    scree_usage usage = {SCREE_USED, NULL, NULL, key->when};
-    if (!key->when) return usage;
-    size_t dot = strcspn(key->when, ".="), equals = strcspn(key->when, "=");
-    const char *name = key->when;
+    scree_usage usage = {SCREE_USED, NULL, NULL, when};
+    size_t dot = strcspn(when, ".="), equals = strcspn(when, "=");
+    const char *name = when;
     if (dot < equals) {
-        const scree_key *owner = scree_section_find(&scree_schema, key->when, dot);
+        const scree_key *owner = scree_section_find(&scree_schema, when, dot);
         section = owner->sections;
         mapping = scree_node_find(root, owner->name);
         name += dot + 1;
     }
-    usage.chooser = scree_section_find(section, name, (size_t)(key->when + equals - name));
+    usage.chooser = scree_section_find(section, name, (size_t)(when + equals - name));
     // What depends on a key that is not used is not used.
     scree_usage chooser = scree_key_usage(root, section, mapping, usage.chooser);
     if (chooser.use == SCREE_UNUSED) return chooser;
@@ -38,9 +38,24 @@ scree_usage scree_key_usage(const scree_node *root, const scree_section *section
     bool known = text && text[0] && (!usage.chooser->choices || scree_choice_find(usage.chooser->choices, text));
     if (!known)
         usage.use = SCREE_USE_UNKNOWN;
-    else if (!is_among(text, key->when + equals + 1))
+    else if (!is_among(text, when + equals + 1))
         usage.use = SCREE_UNUSED;
     return usage;
+}
+
+scree_usage scree_key_usage(const scree_node *root, const scree_section *section, const scree_node *mapping,
+                            const scree_key *key)
+{
+    scree_usage usage = {SCREE_USED, NULL, NULL, key->when};
+    for (const char *when = key->when; when && usage.use == SCREE_USED; when = scree_next_condition(when))
+        usage = condition_usage(root, section, mapping, when);
+    return usage;
+}
+
+const char *scree_next_condition(const char *when)
+{
+    const char *end = strchr(when, '&');
+    return end ? end + 1 : NULL;
 }
 
 const scree_section *scree_element_section(const scree_key *list, const scree_node *element)

@@ -93,18 +93,30 @@ void scree_node_write(FILE *file, const scree_node *node)
         put_value(&w, node);
 }
 
-/// Keys of a section that hold values. `first`: what stands before the first key ("  - "), `rest` before the others.
-static void write_values(writer *w, const scree_section *section, const scree_node *mapping, const char *first,
-                         const char *rest)
+static void write_element(writer *w, const scree_section *section, const scree_node *mapping, int depth,
+                          bool explained);
+
+/// The elements of a list, indented by `depth`; the first one explains the keys where all have the same.
+static void write_elements(writer *w, const scree_key *list, const scree_node *node, int depth)
 {
-    const char *before = first;
+    for (const scree_node *element = node->first; element; element = element->next)
+        write_element(w, scree_element_section(list, element), element, depth,
+                      list->section_count > 1 || depth == 0 || element == node->first);
+}
+
+/// Keys of a section that hold values. `first`: what stands before the first key, `depth`: spaces before the others.
+static void write_values(writer *w, const scree_section *section, const scree_node *mapping, const char *first,
+                         int depth, bool explained)
+{
     for (size_t i = 0; i < section->count; i++) {
         const scree_key *key = &section->keys[i];
         bool value = key->type != SCREE_KEY_SECTION && key->type != SCREE_KEY_LIST && key->type != SCREE_KEY_PATHS;
         if (w->bare && key->guard) continue;
         if (!value || scree_key_usage(w->root, section, mapping, key).use != SCREE_USED) continue;
         const scree_node *node = scree_node_find(mapping, key->name);
-        put(w, before);
+        for (int k = 0; !first && k < depth; k++) put(w, " ");
+        if (first) put(w, first);
+        first = NULL;
         put(w, key->name);
         put(w, ": ");
         if (node)
@@ -113,8 +125,26 @@ static void write_values(writer *w, const scree_section *section, const scree_no
             put(w, key->standard);
         else
             put_text(w, key->standard);
+        end_line(w, explained ? key->meaning : NULL);
+    }
+}
+
+/// An element of a list, with the lists in it after its values.
+static void write_element(writer *w, const scree_section *section, const scree_node *mapping, int depth, bool explained)
+{
+    char first[32];
+    (void)snprintf(first, sizeof first, "%*s- ", depth + 2, "");
+    write_values(w, section, mapping, first, depth + 4, explained);
+    for (size_t i = 0; i < section->count; i++) {
+        const scree_key *key = &section->keys[i];
+        const scree_node *node = scree_node_find(mapping, key->name);
+        bool used = key->type == SCREE_KEY_LIST && scree_key_usage(w->root, section, mapping, key).use == SCREE_USED;
+        if (!used || !node) continue;
+        for (int k = 0; k < depth + 4; k++) put(w, " ");
+        put(w, key->name);
+        put(w, ":");
         end_line(w, key->meaning);
-        before = rest;
+        write_elements(w, key, node, depth + 4);
     }
 }
 
@@ -127,17 +157,17 @@ static void write_key(writer *w, const scree_key *key)
     put(w, key->name);
     put(w, ":");
     end_line(w, key->meaning);
-    if (key->type == SCREE_KEY_SECTION) write_values(w, key->sections, node, "  ", "  ");
-    const scree_node *element = key->type == SCREE_KEY_LIST ? node->first : NULL;
-    for (; element; element = element->next)
-        write_values(w, scree_element_section(key, element), element, "  - ", "    ");
+    if (key->type == SCREE_KEY_SECTION)
+        write_values(w, key->sections, node, NULL, 2, true);
+    else
+        write_elements(w, key, node, 0);
 }
 
 static scree_status write_case(const scree_case *c, bool bare, FILE *file, scree_error *error)
 {
     writer w = {.file = file, .root = scree_case_root(c), .bare = bare};
     if (!bare) (void)fprintf(file, "# The case with every value that it uses, written by Scree %s.\n", SCREE_VERSION);
-    write_values(&w, &scree_schema, w.root, "", "");
+    write_values(&w, &scree_schema, w.root, NULL, 0, true);
     for (size_t i = 0; i < scree_schema.count; i++) write_key(&w, &scree_schema.keys[i]);
     if (fflush(file) != 0 || ferror(file))
         return scree_error_set_errno(error, SCREE_ERROR_IO, "the case cannot be written");

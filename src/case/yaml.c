@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { DEEPEST = 16, MOST_VALUES = 5000, LONGEST_PATH = 160 };
+enum { DEEPEST = 16, MOST_VALUES = 30000, LONGEST_PATH = 160 };
 
 typedef struct builder {
     scree_reader *reader;
@@ -127,7 +127,7 @@ static bool build_value(builder *b, struct fy_event *event, const struct fy_mark
 {
     bool scalar = event->type == FYET_SCALAR;
     bool wants_key = b->depth > 0 && b->open[b->depth - 1]->kind == SCREE_NODE_MAPPING && !b->key;
-    if (++b->values > MOST_VALUES) return refuse(b, mark, "more than 5000 keys and values: not a case file");
+    if (++b->values > MOST_VALUES) return refuse(b, mark, "more than 30000 keys and values: not a case file");
     if (wants_key && !scalar) return refuse(b, mark, "a key must be plain text");
     if (!scalar && b->depth == DEEPEST) return refuse(b, mark, "nested more than 16 levels deep: not a case file");
     const char *text = scalar ? scalar_text(b, event, mark) : NULL;

@@ -40,11 +40,14 @@
 ///
 /// Loads: the largest confining pressure; gravity as the weight of a column of the whole sample; velocities of a gas
 /// and falls through its box as the force of an elastic impact of two smallest discs at six times the root-mean-square
-/// velocity component. None of them counts above the force at the indentation where the guard would stop the run; a
-/// case without any load gets that force.
-/// Limits: an estimate. Grains of another material than the smallest ones, stresses far above the confining pressure
-/// and collapses at high speed are not seen; the guard on the energy ledger is.
+/// velocity component; listed bodies as that of an impact at their largest relative velocity, with the fall from the
+/// highest, in each of their materials. None of them counts above the force at the indentation where the guard would
+/// stop the run; a case without any load gets that force. Limits: an estimate. Grains of another material than the
+/// smallest ones, stresses far above the confining pressure and collapses at high speed are not seen; the guard on the
+/// energy ledger is.
 #include "model/critical_step.h"
+
+#include "base/vectors.h"
 
 #include <math.h>
 
@@ -99,11 +102,37 @@ static const scree_config_stage *prepare_stage(const scree_config *config)
     return NULL;
 }
 
+/// Top of the highest of the bodies that are listed.
+static double listed_height(const scree_model *model, const scree_config_stage *stage)
+{
+    double height = 0;
+    for (int64_t i = 0; i < stage->body_count; i++) {
+        const scree_config_body *body = &stage->bodies[i];
+        height = fmax(height, body->position[model->dimension - 1] + scree_config_body_radius(model->config, body));
+    }
+    return height;
+}
+
+/// Largest relative velocity of bodies that are listed, of each with what stands too.
+static double listed_speed(const scree_config_stage *stage)
+{
+    double fastest = 0;
+    for (int64_t i = 0; i < stage->body_count; i++)
+        for (int64_t k = 0; k <= i; k++) {
+            const double *a = stage->bodies[i].velocity, *b = stage->bodies[k].velocity;
+            double way[3] = {a[0], a[1], a[2]};
+            for (int c = 0; k < i && c < 3; c++) way[c] -= b[c];
+            fastest = fmax(fastest, scree_length(way));
+        }
+    return fastest;
+}
+
 double scree_expected_height(const scree_model *model, double phi)
 {
     const scree_config *config = model->config;
     const scree_config_stage *stage = prepare_stage(config);
     double radius = model->mean_radius;
+    if (stage && stage->method == SCREE_PREPARE_BODIES) return listed_height(model, stage);
     bool box = stage && stage->outline == SCREE_SAMPLE_BOX;
     double aspect = box ? stage->aspect_ratio : 1, count = (double)config->particles.count;
     if (model->dimension == 3) {
@@ -150,9 +179,9 @@ static double impact_force(double stiffness, double effective_mass, double speed
     return stiffness * pow(1.25 * effective_mass * speed * speed / stiffness, 0.6);
 }
 
-double scree_critical_step_estimate(const scree_model *model)
+/// The estimate for particles of one material.
+static double estimate_of(const scree_model *model, int material)
 {
-    const int material = SCREE_PARTICLE_MATERIAL;
     const scree_pair_constants *pair = &model->pairs[material][material];
     double mass = scree_model_mass(model, material, model->radius_min);
     double effective_radius = model->radius_min / 2, effective_mass = mass / 2;
@@ -163,10 +192,13 @@ double scree_critical_step_estimate(const scree_model *model)
     double height = scree_expected_height(model, gas ? scree_model_gas_fraction(model, stage)
                                                      : scree_expected_solid_fraction(model));
     double force = strong_static_force(model, height, material);
+    double fall = sqrt(2 * scree_model_gravity(model) * height);
     if (gas) {
-        double fall = sqrt(2 * scree_model_gravity(model) * height), speed = fmax(stage->velocity, shear_speed(model));
+        double speed = fmax(stage->velocity, shear_speed(model));
         force = fmax(force, impact_force(stiffness, effective_mass, fmax(FAST * speed, fall)));
     }
+    if (stage && stage->method == SCREE_PREPARE_BODIES)
+        force = fmax(force, impact_force(stiffness, effective_mass, hypot(listed_speed(stage), fall)));
     if (stage && stage->method == SCREE_PREPARE_PAIR)
         force = impact_force(stiffness, effective_mass, isnan(stage->speed) ? model->reference_velocity : stage->speed);
     double guard = stiffness * pow(model->config->guard.overlap * model->radius_min, 1.5);
@@ -174,4 +206,12 @@ double scree_critical_step_estimate(const scree_model *model)
 
     scree_contact_tangent tangent = scree_contact_linearise(model, pair, effective_radius, effective_mass, force);
     return scree_critical_step_lattice(model->dimension, &tangent, mass);
+}
+
+double scree_critical_step_estimate(const scree_model *model)
+{
+    double least = INFINITY;
+    for (int material = 0; material < model->material_count; material++)
+        least = fmin(least, estimate_of(model, material));
+    return least;
 }

@@ -32,6 +32,14 @@ static scree_status indexed_error(scree_error *error, const char *list, int64_t 
     return FIELD_ERROR(error, path, "%s", text);
 }
 
+int scree_model_body_material(const scree_model *model, const scree_config_body *body)
+{
+    if (!body->material) return SCREE_PARTICLE_MATERIAL;
+    for (int i = 0; i < model->material_count; i++)
+        if (strcmp(model->config->materials[model->listed[i]].name, body->material) == 0) return i;
+    return -1;
+}
+
 bool scree_model_is_wholly_periodic(const scree_model *model)
 {
     return model->config->boundary.periodic == (1 << model->dimension) - 1;
@@ -77,36 +85,49 @@ static scree_status check_materials(const scree_model *model, scree_error *error
     return SCREE_OK;
 }
 
-/// Something is made of it.
-static bool is_used(const scree_config *config, const scree_config_material *material)
+/// Some listed body is made of it.
+static bool is_of_bodies(const scree_config *config, const char *name)
 {
-    return strcmp(material->name, config->particles.material) == 0;
+    for (int64_t k = 0; k < config->stage_count; k++)
+        for (int64_t i = 0; i < config->stages[k].body_count; i++)
+            if (config->stages[k].bodies[i].material && strcmp(config->stages[k].bodies[i].material, name) == 0)
+                return true;
+    return false;
 }
 
-/// Materials in use, that of the particles first, then the others: what nothing is made of has constants, but counts
-/// in nothing. Returns the number of those in use.
-static int order_materials(const scree_config *config, const scree_config_material *order[])
+/// Materials in the order of their use: that of the particles, others that something is made of, and the rest, which
+/// has constants but counts in nothing.
+static int rank_of(const scree_config *config, const scree_config_material *material)
 {
-    int used = 0, count = 0;
-    for (int pass = 0; pass < 2; pass++) {
+    if (strcmp(material->name, config->particles.material) == 0) return 0;
+    return is_of_bodies(config, material->name) ? 1 : 2;
+}
+
+/// Numbers the materials; none is in use when there is none of the particles.
+static void number_materials(scree_model *model)
+{
+    const scree_config *config = model->config;
+    int count = 0;
+    for (int rank = 0; rank < 3; rank++) {
         for (int i = 0; i < config->material_count; i++)
-            if (is_used(config, &config->materials[i]) == (pass == 0)) order[count++] = &config->materials[i];
-        if (pass == 0) used = count;
+            if (rank_of(config, &config->materials[i]) == rank) model->listed[count++] = i;
+        if (rank == 0 && count == 0) return;
+        if (rank < 2) model->material_count = count;
     }
-    return used;
 }
 
 static scree_status resolve_materials(scree_model *model, scree_error *error)
 {
     const scree_config *config = model->config;
-    const scree_config_material *order[SCREE_MAX_MATERIALS];
+    const scree_config_material *listed = config->materials;
     scree_status status = check_materials(model, error);
     if (status) return status;
-    model->material_count = order_materials(config, order);
-    for (int i = 0; i < config->material_count; i++) {
-        const scree_config_material *material = order[i];
+    model->material_count = 0;
+    number_materials(model);
+    for (int i = 0; model->material_count > 0 && i < config->material_count; i++) {
+        const scree_config_material *material = &listed[model->listed[i]];
         for (int j = 0; j <= i; j++)
-            model->pairs[i][j] = model->pairs[j][i] = pair_constants(material, order[j], model->law);
+            model->pairs[i][j] = model->pairs[j][i] = pair_constants(material, &listed[model->listed[j]], model->law);
         model->walls[i] = model->pairs[i][i];
         if (!isnan(material->wall_friction)) model->walls[i].friction = material->wall_friction;
         model->density[i] = material->density;
@@ -226,7 +247,12 @@ static scree_status check_prepare(const scree_model *model, int64_t index, scree
     if (lattice && model->radius_min < model->radius_max)
         return indexed_error(error, "stages", index, "method",
                              "a lattice needs particles of one radius: set particles.distribution to equal");
-    if (stage->outline != SCREE_SAMPLE_BOX) return SCREE_OK; // its sides are not the user's
+    for (int64_t i = 0; stage->method == SCREE_PREPARE_BODIES && i < stage->body_count; i++)
+        if (scree_model_body_material(model, &stage->bodies[i]) < 0)
+            return indexed_error(error, "stages", index, "bodies",
+                                 "a body is of a material that this case does not have");
+    // A round sample's sides are not the user's; and what bodies are listed has been judged (case/body_rules.c).
+    if (stage->outline != SCREE_SAMPLE_BOX || stage->method == SCREE_PREPARE_BODIES) return SCREE_OK;
     bool shallow = solid && !isnan(stage->depth) && stage->depth < 2 * model->radius_max;
     if (shallow || (!isnan(stage->width) && stage->width < 2 * model->radius_max)) {
         char text[160];

@@ -47,6 +47,7 @@ typedef struct scree_model {
     int membrane_material;     ///< index of its constants below, frictionless, else those of the particles
     double membrane_radius;    ///< m; 0 without a membrane
     double membrane_stiffness; ///< N/m, of one spring
+    int listed[SCREE_MAX_MATERIALS]; ///< where each material stands in the list of the case
     int material_count; ///< in use; they are numbered from 0, and what no body is made of has no part in anything
     scree_pair_constants pairs[SCREE_MAX_MATERIALS][SCREE_MAX_MATERIALS]; ///< grain on grain
     scree_pair_constants walls[SCREE_MAX_MATERIALS];                      ///< grain on a plate of the same material
@@ -87,6 +88,9 @@ double scree_model_mean_mass(const scree_model *model);
 
 /// Strain rate that a stage imposes [1/s]; of a deform stage the largest component. NAN: it loads nothing.
 double scree_model_loading_rate(const scree_config_stage *stage);
+
+/// Number of the material of a listed body; -1: the case has none of that name.
+int scree_model_body_material(const scree_model *model, const scree_config_body *body);
 
 /// Solid fraction of a gas that `stage` prepares: what it says, 30 % of discs or 15 % of spheres where that is auto.
 double scree_model_gas_fraction(const scree_model *model, const scree_config_stage *stage);

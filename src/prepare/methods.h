@@ -12,6 +12,7 @@ extern const scree_preparation scree_prepare_cubic;
 extern const scree_preparation scree_prepare_gas;
 extern const scree_preparation scree_prepare_growth;
 extern const scree_preparation scree_prepare_pair;
+extern const scree_preparation scree_prepare_bodies;
 
 /// Input error at a key of `stage`, with its place in the list of stages when it is one of the model's.
 scree_status scree_prepare_error(scree_error *error, const scree_model *model, const scree_config_stage *stage,

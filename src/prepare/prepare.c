@@ -29,6 +29,8 @@ const scree_preparation *scree_preparation_get(scree_prepare_method method)
         return &scree_prepare_growth;
     case SCREE_PREPARE_PAIR:
         return &scree_prepare_pair;
+    case SCREE_PREPARE_BODIES:
+        return &scree_prepare_bodies;
     }
     return NULL;
 }
@@ -60,10 +62,11 @@ void scree_draw_radii(const scree_model *model, double *radius, size_t count)
     }
 }
 
-static void fill_rows(const scree_model *model, const scree_packing *packing, scree_state *state)
+static void fill_rows(const scree_model *model, const scree_config_stage *stage, const scree_preparation *method,
+                      const scree_packing *packing, scree_state *state)
 {
-    const int material = SCREE_PARTICLE_MATERIAL;
     for (size_t i = 0; i < state->count; i++) {
+        int material = method->material_of ? method->material_of(model, stage, i) : SCREE_PARTICLE_MATERIAL;
         double radius = packing->radius[i];
         state->row[i] = (scree_row){
             .x = packing->place[0][i],
@@ -122,7 +125,7 @@ scree_status scree_prepare(const scree_model *model, const scree_config_stage *s
         status = method->place(model, stage, &packing, error);
     }
     if (!status) {
-        fill_rows(model, &packing, state);
+        fill_rows(model, stage, method, &packing, state);
         stand_walls(&packing.box, !round, state);
         state->tick = model->step;
         state->step_size = state->kick_size = (double)model->largest_step * model->step;

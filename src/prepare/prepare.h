@@ -29,6 +29,8 @@ typedef struct scree_preparation {
     /// box. A method may draw other radii from the same distribution. Errors: does not fit, memory.
     scree_status (*place)(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
                           scree_error *error);
+    /// Index of the material of body `index`. NULL: that of the particles.
+    int (*material_of)(const scree_model *model, const scree_config_stage *stage, size_t index);
     /// Velocities at the start, when the rows are filled. NULL: at rest.
     void (*set_moving)(const scree_model *model, const scree_config_stage *stage, scree_state *state);
 } scree_preparation;

@@ -67,7 +67,7 @@ scree_quasistatic scree_quasistatic_expect(const scree_model *model, int64_t ind
     double fraction = scree_expected_solid_fraction(model), height = scree_expected_height(model, fraction);
     double weight = scree_model_gravity(model) * model->density[material] * fraction * height;
     q.value[SCREE_QUASISTATIC_INERTIAL] = inertial_number(model, q.rate, q.pressure);
-    q.value[SCREE_QUASISTATIC_MODULUS] = model->config->materials[material].young_modulus / q.pressure;
+    q.value[SCREE_QUASISTATIC_MODULUS] = model->config->materials[model->listed[material]].young_modulus / q.pressure;
     q.value[SCREE_QUASISTATIC_WEIGHT] = weight / q.pressure;
     q.value[SCREE_QUASISTATIC_SOUND] = q.rate * scree_expected_wave_time(model, q.pressure);
     return q;

@@ -1,4 +1,5 @@
-/// Stage `collide`: the two bodies of prepare method `pair` meet and part; nothing else acts on them.
+/// Stage `collide`: two bodies, prepared as a `pair` or as `bodies`, meet and part; nothing else acts on them. Speeds
+/// are those along the line through their centres.
 ///
 /// Stop rule, at a sample: the force between them has fallen to zero again; or `duration` has passed. P fig. 2.1: the
 /// restitution is the relative speed after over that before, the relaxation time lasts from the first touch (the gap
@@ -6,22 +7,66 @@
 /// the approach and twice the relaxation time of the closed form; with hertz_mindlin ten times that of an elastic
 /// impact.
 ///
-/// state.stage.reference: [0] relative speed at the begin, [1] time of the first touch, [2] last time with a force,
-/// both from the begin of the stage (0: none yet), [3] duration.
+/// state.stage.reference: [0] speed of approach at the first touch, [1] time of the first touch, [2] last time with a
+/// force, both from the begin of the stage (0: none yet), [3] duration.
 #include "run/stage_collide.h"
 
+#include "base/vectors.h"
 #include "theory/restitution.h"
 
 #include <math.h>
 
 enum { SPEED, TOUCH, LAST_FORCE, DURATION };
 
-/// Speed at which the bodies approach (negative when they part), and the gap between them.
-static double approach(const scree_state *state, double *gap)
+/// From the first centre to the second, and the velocity of the first relative to the second.
+static void relative_motion(const scree_state *state, double way[3], double velocity[3])
 {
-    const scree_row *first = &state->row[state->row_of_id[0]], *second = &state->row[state->row_of_id[1]];
-    *gap = second->x - first->x - first->radius - second->radius;
-    return first->vx - second->vx;
+    scree_vector place[2], moving[2], spin;
+    for (int k = 0; k < 2; k++) {
+        scree_body_place(state, state->row_of_id[k], place[k]);
+        scree_body_motion(state, state->row_of_id[k], moving[k], spin);
+    }
+    for (int c = 0; c < 3; c++) way[c] = place[1][c] - place[0][c];
+    for (int c = 0; c < 3; c++) velocity[c] = moving[0][c] - moving[1][c];
+}
+
+/// Speed at which the bodies approach along the line through their centres, negative when they part.
+static double approach(const scree_state *state)
+{
+    double way[3], velocity[3];
+    relative_motion(state, way, velocity);
+    return scree_dot(velocity, way) / scree_length(way);
+}
+
+/// Speed of approach at the first touch, and the time until then: nothing acts before.
+static scree_status foresee_touch(const scree_state *state, double *speed, double *time, scree_error *error)
+{
+    double way[3], velocity[3], aside = 0;
+    double one = state->row[state->row_of_id[0]].radius, other = state->row[state->row_of_id[1]].radius;
+    relative_motion(state, way, velocity);
+    double fast = scree_length(velocity), reach = one + other;
+    for (int c = 0; c < 3; c++) velocity[c] /= fast;
+    double along = scree_dot(way, velocity);
+    for (int c = 0; c < 3; c++) {
+        double part = way[c] - along * velocity[c];
+        aside += part * part;
+    }
+    if (!(along > 0)) return scree_error_set(error, SCREE_ERROR_INPUT, "the two particles do not approach each other");
+    if (!(aside < reach * reach))
+        return scree_error_set(error, SCREE_ERROR_INPUT,
+                               "the two particles pass each other: their centres keep %.4g m apart, and their radii "
+                               "add up to %.4g m",
+                               sqrt(aside), reach);
+    double depth = sqrt(reach * reach - aside);
+    *time = (along - one - other + (reach - depth)) / fast;
+    *speed = fast * (depth / reach);
+    return SCREE_OK;
+}
+
+static bool is_pushed(const scree_state *state)
+{
+    const scree_sum_row *sum = &state->sum[state->row_of_id[0]];
+    return sum->fx != 0 || sum->fy != 0 || (state->dimension == 3 && sum->fz != 0);
 }
 
 /// The impact as theory has it. hertz_mindlin: elastic, with the restitution of its own closed form.
@@ -30,7 +75,7 @@ static scree_status theory_of(const scree_simulation *s, double speed, scree_imp
     const scree_state *state = &s->state;
     const scree_row *first = &state->row[state->row_of_id[0]], *second = &state->row[state->row_of_id[1]];
     int material = scree_body_material(state, state->row_of_id[0]);
-    const scree_pair_constants *pair = &s->model.pairs[material][material];
+    const scree_pair_constants *pair = &s->model.pairs[material][scree_body_material(state, state->row_of_id[1])];
     double mass = first->mass * second->mass / (first->mass + second->mass);
     double stiffness = pair->normal_stiffness * sqrt(first->radius * second->radius / (first->radius + second->radius));
     bool history = s->model.law == SCREE_LAW_HERTZ_MINDLIN;
@@ -42,12 +87,12 @@ static scree_status theory_of(const scree_simulation *s, double speed, scree_imp
 
 static scree_status begin(scree_simulation *s, scree_error *error)
 {
-    double *reference = s->state.stage.reference, gap;
+    double *reference = s->state.stage.reference;
     scree_impact impact;
-    reference[SPEED] = approach(&s->state, &gap);
-    reference[TOUCH] = gap / reference[SPEED];
     reference[LAST_FORCE] = 0;
-    scree_status status = theory_of(s, reference[SPEED], &impact, error);
+    scree_status status = foresee_touch(&s->state, &reference[SPEED], &reference[TOUCH], error);
+    if (!status) status = theory_of(s, reference[SPEED], &impact, error);
+    if (status) return status;
     double after = (s->model.law == SCREE_LAW_HERTZ_MINDLIN ? 10 : 2) * impact.duration;
     double given = scree_stage_config(s)->duration;
     reference[DURATION] = isnan(given) ? reference[TOUCH] + after : given;
@@ -66,18 +111,18 @@ static void plan(scree_simulation *s)
 static void control(scree_simulation *s)
 {
     const scree_state *state = &s->state;
-    if (state->sum[state->row_of_id[0]].fx != 0) s->state.stage.reference[LAST_FORCE] = scree_stage_elapsed(s);
+    if (is_pushed(state)) s->state.stage.reference[LAST_FORCE] = scree_stage_elapsed(s);
 }
 
 static bool has_parted(const scree_state *state)
 {
-    return state->stage.reference[LAST_FORCE] > 0 && state->sum[state->row_of_id[0]].fx == 0;
+    return state->stage.reference[LAST_FORCE] > 0 && !is_pushed(state);
 }
 
 static scree_status finished(scree_simulation *s, bool *done, scree_error *error)
 {
     (void)error;
-    double gap, speed = approach(&s->state, &gap);
+    double speed = approach(&s->state);
     bool parted = has_parted(&s->state);
     *done = parted || s->state.step - s->state.stage.first_step >= s->plan.expected;
     (void)snprintf(s->reason, sizeof s->reason, parted ? "parted at %.6g of the speed" : "still together (%.6g)",
@@ -97,11 +142,11 @@ scree_status scree_collide_results(const scree_simulation *s, scree_summary *sum
     if (s->state.stage.index < config->stage_count || !has_parted(&s->state) ||
         config->stages[config->stage_count - 1].kind != SCREE_STAGE_COLLIDE)
         return SCREE_OK;
-    double gap, half = 0.5 * (double)s->model.largest_step * s->state.tick;
+    double half = 0.5 * (double)s->model.largest_step * s->state.tick;
     scree_impact impact;
     scree_status status = theory_of(s, reference[SPEED], &impact, error);
     if (status) return status;
-    scree_summary_set_number(summary, "restitution", -approach(&s->state, &gap) / reference[SPEED]);
+    scree_summary_set_number(summary, "restitution", -approach(&s->state) / reference[SPEED]);
     scree_summary_set_number(summary, "restitution_theory", impact.restitution);
     scree_summary_set_number(summary, "relaxation_time", reference[LAST_FORCE] + half - reference[TOUCH]);
     if (s->model.law != SCREE_LAW_HERTZ_MINDLIN)

@@ -44,15 +44,20 @@ static void check_default(const scree_key *key)
 static void check_when(const scree_section *section, const scree_key *key)
 {
     scree_node root = {.kind = SCREE_NODE_MAPPING};
-    scree_usage usage = scree_key_usage(&root, section, NULL, key);
-    assert_non_null(usage.chooser);
-    char *values = strdup(strchr(key->when, '=') + 1), *rest = values;
-    for (char *value; (value = strtok_r(rest, "|", &rest));) {
-        bool choice = usage.chooser->choices && scree_choice_find(usage.chooser->choices, value);
-        bool standard = usage.chooser->standard && strcmp(usage.chooser->standard, value) == 0;
-        if (!choice && !standard) fail_msg("%s: only with '%s'", key->name, key->when);
+    for (const char *when = key->when; when; when = scree_next_condition(when)) {
+        char *condition = strndup(when, strcspn(when, "&"));
+        scree_key one = *key;
+        one.when = condition;
+        scree_usage usage = scree_key_usage(&root, section, NULL, &one);
+        assert_non_null(usage.chooser);
+        char *rest = strchr(condition, '=') + 1;
+        for (char *value; (value = strtok_r(rest, "|", &rest));) {
+            bool choice = usage.chooser->choices && scree_choice_find(usage.chooser->choices, value);
+            bool standard = usage.chooser->standard && strcmp(usage.chooser->standard, value) == 0;
+            if (!choice && !standard) fail_msg("%s: only with '%s'", key->name, key->when);
+        }
+        free(condition);
     }
-    free(values);
 }
 
 static void check_key(const scree_section *section, const scree_key *key)
@@ -184,6 +189,20 @@ static void check_round_trip(const char *text, const char *const *overrides, siz
     scree_case_free(second);
 }
 
+/// A list within an element of a list.
+static const char case_with_bodies[] =
+    "dimension: 3\n"
+    "materials: [{name: quartz, young_modulus: 30 MPa, density: 2650 kg/m3, friction: 0.45}]\n"
+    "particles: {shape: sphere, material: quartz, count: 3, distribution: equal, radius: 1 mm}\n"
+    "stages:\n"
+    "  - stage: prepare\n"
+    "    method: bodies\n"
+    "    bodies:\n"
+    "      - {position: [1 mm, 2 mm, 3 mm], velocity: [4 m/s, 5 m/s, 6 m/s], spin: [7 rad/s, 8 rad/s, 9 rad/s]}\n"
+    "      - {position: [5 mm, 5 mm, 5 mm]}\n"
+    "      - {position: [5 mm, 8 mm, 0.3 cm], radius: 1 mm, material: quartz}\n"
+    "  - {stage: relax, duration: 1 s, boundary: plates}\n";
+
 static void written_cases_read_back_the_same(void **state)
 {
     (void)state;
@@ -216,6 +235,8 @@ static void written_cases_read_back_the_same(void **state)
         check_round_trip(scree_template_text(scree_template_name(i)), NULL, 0);
     for (size_t i = 0; i < sizeof singles / sizeof *singles; i++) check_round_trip(text, singles + i, 1);
     check_round_trip(text, together, sizeof together / sizeof *together);
+    check_round_trip(case_with_bodies, NULL, 0);
+    check_round_trip(case_with_bodies, &(const char *){"stages.0.bodies.1.velocity=[1e-3 m/s, 0, 2 mm/s]"}, 1);
 }
 
 static void units_are_kept_in_written_cases(void **state)

@@ -1,0 +1,208 @@
+/// Rules of the bodies that a prepare stage lists: as many as the case says, of its dimension, materials and sizes,
+/// inside of their box, and not deeper in each other than the guard allows.
+#include "case/case.h"
+#include "case/check.h"
+
+#include "base/vectors.h"
+
+#include <math.h>
+#include <string.h>
+
+/// The list under judgement.
+typedef struct listed {
+    scree_reader *reader;
+    const scree_config *config;
+    const scree_config_stage *stage;
+    const scree_node *nodes; ///< the list in the tree
+} listed;
+
+/// What is said of a body, and how far it reaches.
+typedef struct shown {
+    const scree_config_body *body;
+    const scree_node *node;
+    double radius; ///< m; NAN: missing or wrong, and noted
+    bool placed;   ///< its position is known
+} shown;
+
+/// The radius is not given, or as auto.
+static bool has_common_radius(const scree_node *body)
+{
+    const scree_node *radius = scree_node_find(body, "radius");
+    return !radius || (radius->text && strcmp(radius->text, "auto") == 0);
+}
+
+static shown show(const listed *l, int64_t index)
+{
+    const scree_config_body *body = &l->stage->bodies[index];
+    const scree_node *node = scree_node_at(l->nodes, (size_t)index);
+    bool common = has_common_radius(node) && l->config->particles.distribution == SCREE_SIZE_EQUAL;
+    double radius = common ? scree_config_body_radius(l->config, body) : body->radius;
+    return (shown){body, node, radius, scree_node_find(node, "position") != NULL};
+}
+
+/// Notes a problem at a key of body `index`, or at the body when it does not give that key.
+static void refuse(const listed *l, int64_t index, const char *key, const char *accepted, const char *message)
+{
+    const scree_node *body = scree_node_at(l->nodes, (size_t)index), *node = scree_node_find(body, key);
+    char path[SCREE_PATH_BYTES];
+    (void)snprintf(path, sizeof path, "stages.0.bodies.%lld.%s", (long long)index, key);
+    scree_problem_add(l->reader, node ? node->place : body->place, path, node ? node->text : NULL, accepted, "%s",
+                      message);
+}
+
+/// As many components as space has dimensions; a spin in two dimensions is about z. Zeros may be left out of a motion.
+static void check_components(const listed *l, int64_t index, const shown *s)
+{
+    static const char *const keys[] = {"position", "velocity", "spin"};
+    const double *const values[] = {s->body->position, s->body->velocity, s->body->spin};
+    const bool solid = l->config->dimension == 3;
+    for (int k = 0; k < 3; k++) {
+        const scree_node *node = scree_node_find(s->node, keys[k]);
+        if (!node || node->kind != SCREE_NODE_LIST) continue; // left out, or wrong and noted
+        const bool flat_spin = k == 2 && !solid, rests = k > 0 && scree_length(values[k]) == 0;
+        const size_t wanted = solid || k == 2 ? 3 : 2;
+        const char *accepted = flat_spin ? "[0, 0, about z]" : solid ? "[x, y, z]" : "[x, y]";
+        char message[160];
+        (void)snprintf(message, sizeof message, "%zu components are given; in %s dimensions a %s has %zu", node->count,
+                       solid ? "three" : "two", keys[k], wanted);
+        if (node->count != wanted && !rests)
+            refuse(l, index, keys[k], accepted, message);
+        else if (flat_spin && (values[k][0] != 0 || values[k][1] != 0))
+            refuse(l, index, keys[k], accepted, "in two dimensions a body turns about z only");
+    }
+}
+
+static void check_material(const listed *l, int64_t index, const char *name)
+{
+    enum { MOST_MATERIALS = 16 };
+    const char *names[MOST_MATERIALS];
+    char accepted[256] = "", message[200];
+    size_t count = 0, length = 0;
+    for (int64_t k = 0; k < l->config->material_count && k < MOST_MATERIALS; k++) {
+        const char *one = l->config->materials[k].name;
+        if (!one || !name || strcmp(one, name) == 0) return; // wrong and noted, or found
+        if (length < sizeof accepted)
+            length += (size_t)snprintf(accepted + length, sizeof accepted - length, "%s%s", k > 0 ? ", " : "", one);
+        names[count++] = one;
+    }
+    const char *nearest = scree_nearest(name, names, count);
+    (void)snprintf(message, sizeof message, "there is no material '%s'%s%s%s", scree_show(name).text,
+                   nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
+    refuse(l, index, "material", accepted, message);
+}
+
+static void check_radius(const listed *l, int64_t index, const shown *s)
+{
+    const scree_config_particles *particles = &l->config->particles;
+    const bool equal = particles->distribution == SCREE_SIZE_EQUAL;
+    char message[200];
+    if (has_common_radius(s->node) && !equal)
+        refuse(l, index, "radius", "a length",
+               "the particles of this case have no radius in common: give one, or particles.distribution: equal");
+    if (!(s->radius < particles->radius_min || s->radius > particles->radius_max)) return;
+    (void)snprintf(message, sizeof message,
+                   equal ? "%.6g m is not the radius of the particles, %.6g m: set particles.distribution to uniform, "
+                           "and radius_min and radius_max around all radii"
+                         : "%.6g m is not between particles.radius_min, %.6g m, and radius_max, %.6g m",
+                   s->radius, particles->radius_min, particles->radius_max);
+    refuse(l, index, "radius", NULL, message);
+}
+
+/// Whether the first stage of motion has plates, or a cell, where the box is.
+static bool has_box(const scree_config *config)
+{
+    if (config->stage_count < 2) return true;
+    scree_boundary_kind kind = scree_config_boundary_of(config, 1);
+    return kind != SCREE_BOUNDARY_WALLS && kind != SCREE_BOUNDARY_NONE;
+}
+
+/// No deeper in a wall of the box than the guard allows; in a periodic cell the centre lies within it.
+static void check_inside(const listed *l, int64_t index, const shown *s)
+{
+    const bool solid = l->config->dimension == 3;
+    const double side[3] = {l->stage->width, solid ? l->stage->depth : l->stage->height, l->stage->height};
+    static const char *const names[2][3] = {{"width", "height", ""}, {"width", "depth", "height"}};
+    for (int c = 0; c < l->config->dimension && s->placed && has_box(l->config); c++) {
+        bool periodic = l->config->boundary.periodic >> c & 1;
+        double reach = periodic ? 0 : s->radius * (1 - l->config->guard.overlap), at = s->body->position[c];
+        char message[200];
+        if (at < reach)
+            (void)snprintf(message, sizeof message,
+                           "outside of the box: %c is %.6g m, the radius %.6g m, and the box begins at 0", "xyz"[c], at,
+                           s -> radius);
+        else if (at > side[c] - reach)
+            (void)snprintf(message, sizeof message,
+                           "outside of the box: %c is %.6g m, the radius %.6g m, and the %s of the box %.6g m",
+                           "xyz"[c], at, s -> radius, names[solid][c], side[c]);
+        else
+            continue;
+        refuse(l, index, "position", NULL, message);
+        return;
+    }
+}
+
+/// Distance of two centres; along periodic directions of known sides that of the nearest ghosts.
+static double distance_of(const listed *l, const shown *one, const shown *other)
+{
+    const double side[3] = {l->stage->width, l->config->dimension == 3 ? l->stage->depth : l->stage->height,
+                            l->stage->height};
+    double way[3] = {0};
+    for (int c = 0; c < l->config->dimension; c++) {
+        way[c] = one->body->position[c] - other->body->position[c];
+        bool folds = l->config->boundary.periodic >> c & 1 && side[c] > 0;
+        if (folds) way[c] -= side[c] * rint(way[c] / side[c]);
+    }
+    return scree_length(way);
+}
+
+/// Notes the first body before this one that it overlaps by more than the guard allows.
+static void check_overlap(const listed *l, int64_t index, const shown *s)
+{
+    for (int64_t k = 0; k < index && s->placed; k++) {
+        shown other = show(l, k);
+        double overlap = s->radius + other.radius - distance_of(l, s, &other);
+        double most = l->config->guard.overlap * fmin(s->radius, other.radius);
+        if (!other.placed || !(overlap > most)) continue;
+        char message[200];
+        (void)snprintf(message, sizeof message,
+                       "bodies %lld and %lld overlap by %.6g m; guard.overlap allows %.6g m: move them apart",
+                       (long long)k, (long long)index, overlap, most);
+        refuse(l, index, "position", NULL, message);
+        return;
+    }
+}
+
+static void check_count(const listed *l)
+{
+    const scree_node *node = scree_node_find(scree_node_find(l->reader->root, "particles"), "count");
+    if (!node || l->config->particles.count == l->stage->body_count) return;
+    char accepted[32];
+    (void)snprintf(accepted, sizeof accepted, "%lld", (long long)l->stage->body_count);
+    scree_problem_add(l->reader, node->place, "particles.count", node->text, accepted, "stages.0 lists %s bodies",
+                      accepted);
+}
+
+void scree_rules_check_bodies(scree_reader *reader, const scree_config *config)
+{
+    if (config->stage_count == 0 || config->stages[0].kind != SCREE_STAGE_PREPARE) return;
+    const scree_config_stage *stage = &config->stages[0];
+    if (stage->method != SCREE_PREPARE_BODIES || stage->body_count == 0) return;
+    const scree_node *node = scree_node_at(scree_node_find(reader->root, "stages"), 0);
+    const scree_node *outline = scree_node_find(node, "outline");
+    listed l = {reader, config, stage, scree_node_find(node, "bodies")};
+    if (outline && stage->outline != SCREE_SAMPLE_BOX) {
+        scree_problem_add(reader, outline->place, "stages.0.outline", outline->text, "box",
+                          "bodies that are listed are not cut out of a larger packing");
+        return; // a round sample has no sides
+    }
+    check_count(&l);
+    for (int64_t i = 0; i < stage->body_count; i++) {
+        shown s = show(&l, i);
+        if (s.node->kind != SCREE_NODE_MAPPING) continue; // noted
+        check_components(&l, i, &s);
+        check_material(&l, i, s.body->material);
+        check_radius(&l, i, &s);
+        check_inside(&l, i, &s);
+        check_overlap(&l, i, &s);
+    }
+}
