@@ -103,10 +103,10 @@ static double largest_magnitude(const double *value, size_t count)
     return largest > 0 ? largest : 1;
 }
 
-static bool is_zero(const double *value, size_t count)
+static bool is_nothing(const double *value, size_t count)
 {
     for (size_t k = 0; k < count; k++)
-        if (value[k] != 0) return false;
+        if (value[k] != 0 && !isnan(value[k])) return false;
     return true;
 }
 
@@ -124,11 +124,13 @@ static scree_status draw_chart(const scree_plot_run *run, const struct chart_ent
     (void)gather(run, "axial_strain", 100, value);
     for (const curve *c = entry->curve; c->column; c++) {
         double *y = value + (count + 1) * run->row_count;
-        if (!gather(run, c->column, c->factor, y))
+        bool there = gather(run, c->column, c->factor, y);
+        // The first curve makes the chart; others may be missing in runs of earlier versions.
+        if (!there && c == entry->curve)
             return scree_error_set(error, SCREE_ERROR_INPUT, "%s has no column '%s'", SCREE_FILE_SERIES, c->column);
         // Of many curves those that are nothing throughout, such as the work of gravity where there is none, are left
         // out.
-        if (entry->curve[2].column && is_zero(y, run->row_count)) continue;
+        if (!there || (entry->curve[2].column && is_nothing(y, run->row_count))) continue;
         line[count++] = (scree_chart_line){
             .x = value, .y = y, .count = run->row_count, .label = c->label, .dashed = c->dashed, .colour = c->colour};
     }

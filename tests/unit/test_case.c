@@ -205,12 +205,12 @@ static void files_that_are_no_cases_are_refused(void **state)
     check_bytes("name: \xe2\x82", 8, SCREE_ERROR_INPUT, "this is not UTF-8");
 }
 
-static void unreadable_files_are_io_errors(void **state)
+static void missing_files_are_input_errors(void **state)
 {
     (void)state;
     scree_case *c;
     scree_problems *problems;
-    assert_int_equal(scree_case_read("/nonexistent/case.yaml", NULL, &c, &problems), SCREE_ERROR_IO);
+    assert_int_equal(scree_case_read("/nonexistent/case.yaml", NULL, &c, &problems), SCREE_ERROR_INPUT);
     assert_string_equal(scree_problems_get(problems, 0)->message,
                         "the case file cannot be read: No such file or directory");
     assert_string_equal(scree_problems_get(problems, 0)->file, "/nonexistent/case.yaml");
@@ -220,7 +220,7 @@ static void unreadable_files_are_io_errors(void **state)
     scree_problems_free(problems);
     assert_int_equal(scree_case_read("/dev/zero", NULL, &c, &problems), SCREE_ERROR_INPUT);
     scree_problems_free(problems);
-    assert_int_equal(scree_case_read("/nonexistent/case.yaml", NULL, &c, NULL), SCREE_ERROR_IO);
+    assert_int_equal(scree_case_read("/nonexistent/case.yaml", NULL, &c, NULL), SCREE_ERROR_INPUT);
 }
 
 #define SET(...) ((const char *const[]){__VA_ARGS__, NULL})
@@ -458,7 +458,7 @@ int main(void)
         cmocka_unit_test(values_mean_what_they_say),
         cmocka_unit_test(bad_files_are_explained),
         cmocka_unit_test(files_that_are_no_cases_are_refused),
-        cmocka_unit_test(unreadable_files_are_io_errors),
+        cmocka_unit_test(missing_files_are_input_errors),
         cmocka_unit_test(overrides_change_the_case),
         cmocka_unit_test(overrides_may_choose),
         cmocka_unit_test(wrong_overrides_are_explained),
