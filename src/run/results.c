@@ -12,7 +12,8 @@
 /// `corner_distortion`, `boundary_roughness` (files of these names in measure/); and what it
 /// cost. Over the whole run: largest residual of the energy balance over the energy at the begin and the work turned
 /// over by the end
-/// (`energy_residual`). Of each wall of the case `NAME_work`, `NAME_force`, `NAME_torque`.
+/// (`energy_residual`), and over the same energy what springs were given by the change of their stiffness
+/// (`stiffness_share`). Of each wall of the case `NAME_work`, `NAME_force`, `NAME_torque`.
 #include "run/results.h"
 
 #include "io/run_directory.h"
@@ -149,6 +150,18 @@ static void summarise_loading(const loading *l, scree_summary *summary)
     scree_summary_set_number(summary, "coordination_at_start", l->coordination[l->first]);
 }
 
+/// Energy at the begin and the work turned over by the end [J].
+static double energy_scale(const scree_state *state)
+{
+    return state->ledger.turnover + state->ledger.initial;
+}
+
+double scree_results_stiffness_share(const scree_state *state)
+{
+    double scale = energy_scale(state);
+    return scale > 0 ? state->ledger.stiffness / scale : 0;
+}
+
 static void summarise_series(const scree_series *series, double turnover, scree_summary *summary)
 {
     loading l;
@@ -263,7 +276,8 @@ scree_status scree_results_write(const scree_recorder *recorder, scree_simulatio
     if (!result) result = scree_summary_create(&summary, error);
     if (!result) {
         summarise_run(recorder, s, status, summary);
-        summarise_series(&series, s->state.ledger.turnover + s->state.ledger.initial, summary);
+        summarise_series(&series, energy_scale(&s->state), summary);
+        scree_summary_set_number(summary, "stiffness_share", scree_results_stiffness_share(&s->state));
         summarise_walls(s, summary);
         result = summarise_stage(s, summary, error);
     }

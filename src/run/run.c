@@ -66,6 +66,18 @@ static void save_after_failure(scree_recorder *recorder, scree_simulation *s, co
         scree_log_write(&recorder->log, SCREE_LOG_ERROR, "no checkpoint: %s", second.message);
 }
 
+/// Says when tangential springs were given more than the documented share.
+static void warn_of_springs(scree_recorder *recorder, const scree_simulation *s)
+{
+    double share = scree_results_stiffness_share(&s->state);
+    if (share <= SCREE_STIFFNESS_SHARE) return;
+    scree_log_write(&recorder->log, SCREE_LOG_WARNING,
+                    "%.2g %% of the energy turned over was given to tangential springs by the stiffening of their "
+                    "contacts, which nothing paid for (stiffness_share; more than %g %%): "
+                    "contact.tangential_history=rescaled keeps springs from that",
+                    100 * share, 100 * SCREE_STIFFNESS_SHARE);
+}
+
 static scree_status finish(scree_recorder *recorder, scree_simulation *s, scree_status status, scree_error *error)
 {
     scree_error second;
@@ -74,6 +86,7 @@ static scree_status finish(scree_recorder *recorder, scree_simulation *s, scree_
     scree_status written = scree_results_write(recorder, s, status, status ? &second : error);
     if (!written && !status) written = scree_run_file_finish(recorder->directory, error);
     if (!status) status = written;
+    if (!status) warn_of_springs(recorder, s);
     if (!status)
         scree_log_write(&recorder->log, SCREE_LOG_INFO, "done: %llu steps in %.1f s", (unsigned long long)s->state.step,
                         scree_clock() - recorder->started);
