@@ -48,8 +48,14 @@ typedef enum scree_law {
 
 typedef enum scree_friction_update { SCREE_FRICTION_EXPLICIT, SCREE_FRICTION_IMPLICIT } scree_friction_update;
 
+typedef enum scree_tangential_history {
+    SCREE_TANGENTIAL_DISPLACEMENT,
+    SCREE_TANGENTIAL_RESCALED
+} scree_tangential_history;
+
 typedef struct scree_config_contact {
     int law;                   ///< scree_law
+    int tangential_history;    ///< scree_tangential_history of hertz_mindlin
     double damping_time;       ///< s, T of hertz_brilliantov
     double friction_exponent;  ///< 1, c of hertz_brilliantov
     int friction_update;       ///< scree_friction_update of hertz_brilliantov
@@ -197,8 +203,8 @@ typedef enum scree_side { SCREE_SIDE_INSIDE, SCREE_SIDE_OUTSIDE } scree_side;
 typedef enum scree_ends { SCREE_ENDS_OPEN, SCREE_ENDS_CLOSED } scree_ends;
 
 typedef struct scree_config_wall {
-    int shape;  ///< scree_surface_shape
-    char *name; ///< unique among the walls
+    int shape;                       ///< scree_surface_shape
+    char *name;                      ///< unique among the walls
     double point[3], normal[3];      ///< m, 1: plane
     double lower[3], upper[3];       ///< m: box
     double start[3], end[3];         ///< m: axis of a cylinder or cone

@@ -47,6 +47,14 @@ static const scree_choice friction_updates[] = {
      "from the slip that the coming step will have, solved contact by contact; stable at the large step"},
     {0},
 };
+static const scree_choice tangential_histories[] = {
+    {"displacement", SCREE_TANGENTIAL_DISPLACEMENT,
+     "the tangential displacement stays as it is; cycles of indentation and slip may deliver energy"},
+    {"rescaled", SCREE_TANGENTIAL_RESCALED,
+     "the tangential force stays as it is while the contact stiffens, the displacement while it softens (Thornton et "
+     "al. 2013); no cycle delivers energy"},
+    {0},
+};
 static const scree_choice schemes[] = {
     {"position_verlet", SCREE_SCHEME_POSITION_VERLET, "leapfrog with velocities half a step behind"},
     {"velocity_verlet", SCREE_SCHEME_VELOCITY_VERLET, "velocities and positions at the same time"},
@@ -184,6 +192,8 @@ static const scree_key particles_keys[] = {
 typedef scree_config_contact contact;
 static const scree_key contact_keys[] = {
     CHOICE(contact, law, laws, .standard = "hertz_mindlin", .meaning = "Force law of a contact."),
+    CHOICE(contact, tangential_history, tangential_histories, .standard = "displacement", .when = "law=hertz_mindlin",
+           .meaning = "What a tangential spring keeps when its stiffness changes with the overlap."),
     NUMBER(contact, damping_time, "s", .standard = "2 ms", FROM("0 s"), TO("1000 s"), .when = "law=hertz_brilliantov",
            .meaning = "Time T of the viscous part T K d^0.5 d'."),
     NUMBER(contact, friction_exponent, "1", .standard = "50", FROM("1"), TO("1e6"), .when = "law=hertz_brilliantov",

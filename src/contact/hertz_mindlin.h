@@ -1,6 +1,6 @@
 /// Law hertz_mindlin: Hertz's normal force, Mindlin's tangential spring with history, Coulomb's cap, damping from the
-/// coefficient of restitution (Hertz 1882; Mindlin 1949; Tsuji, Tanaka and Ishida 1992; displacement history without
-/// rescaling), and resistance to rolling and twisting where materials have it (Luding 2008; Marshall 2009).
+/// coefficient of restitution (Hertz 1882; Mindlin 1949; Tsuji, Tanaka and Ishida 1992), and resistance to rolling and
+/// twisting where materials have it (Luding 2008; Marshall 2009).
 ///   a = sqrt(R_eff d)   k_n = normal_stiffness a   eta = damping sqrt(m_eff k_n)   f_n = max(k_n d + eta d', 0)
 ///   k_t = tangential_stiffness a
 ///   slip      stretch h [m], rate s, stiffness k_t, dashpot eta, cap mu f_n:                       force f_t
@@ -11,6 +11,12 @@
 /// (Marshall 2009, whose cap is 2/3 a mu f_n; here its own coefficient, as for rolling). The couples on the two bodies
 /// are opposite.
 ///
+/// When k_t changes with d, a spring keeps its displacement, or (`rescaled`; Thornton, Cummins and Cleary 2013, eq. 18)
+/// its force while k_t grows and its displacement while k_t falls, h <- h min(1, k_t(n-1) / k_t(n)). The first gives a
+/// spring that is stretched while k_t is small, and released while it is large, energy that nobody has spent: a closed
+/// cycle of indentation and slip may deliver work. With the second no change of k_t ever adds energy. Rolling springs
+/// have the same k_t; twisting ones, of k_t a^2 / 2, the cube of that factor.
+///
 /// LAMMPS' `pair granular hertz/material, tangential mindlin, damping tsuji` differs in sliding contacts: there the
 /// spring is set to mu f_n - eta s, which in a fast slide stretches it backwards and charges it with energy that no
 /// body has spent. It also leaves out that the spring turns with the pair about n.
@@ -19,14 +25,13 @@
 /// length (motion_carry_whole): what the rotation of n leaves out is of second order in the angle of one step, and only
 /// concerns the direction. Two bodies that turn at different rates about n take the spring along at the mean.
 ///
-/// History row in 2D: h [m], and at n - 1 for the ledger: spring force k_t h, normal damping force, dashpot's part of
-/// the tangential force [N]. In 3D: h and k_t(n - 1) [N/m]; scree_booking has the normal damping force and the
-/// dashpot's part. scree_rolling: 2D rolling stretch and its spring force, 3D rolling stretch and angle of twist;
-/// their dashpots booked beside.
+/// History row in 2D: h [m], k_t(n - 1) [N/m], and at n - 1 for the ledger: normal damping force, dashpot's part of the
+/// tangential force [N]. In 3D: h and k_t(n - 1); scree_booking has the normal damping force and the dashpot's part.
+/// scree_rolling: rolling stretch and, in 3D, angle of twist; their dashpots booked beside.
 ///
 /// Ledger: damping <f_n - k_n d> d' dt with the rate of the middle of the step (motion.h), the rest by slider.h.
 /// Cost: 3 roots, 3 divisions a contact in 2D; 3 and 2 in 3D, 5 and 4 in a group of lanes where one slides; rolling and
-/// twisting 3 and 4 more.
+/// twisting 3 and 4 more; rescaled one division more.
 #ifndef SCREE_CONTACT_HERTZ_MINDLIN_H
 #define SCREE_CONTACT_HERTZ_MINDLIN_H
 
@@ -39,22 +44,39 @@ SCREE_INLINE vector row_vector(const lanes value[3])
     return (vector){value[0], value[1], value[2]};
 }
 
-SCREE_INLINE slider_memory remembered_slip(int dimension, const motion *m, const law_memory *before)
+/// k_t at n - 1.
+SCREE_INLINE lanes stiffness_before(int dimension, const law_memory *before)
 {
-    if (dimension == 2)
-        return (slider_memory){{.x = before->value[0]}, {.x = before->value[1]}, {.x = before->value[3]}};
-    vector stretch = motion_carry_whole(3, m, row_vector(before->value));
-    return (slider_memory){stretch, vector_times(3, stretch, before->value[3]),
-                           motion_carry(3, m, row_vector(before->booked + 1))};
+    return before->value[dimension == 2 ? 1 : 3];
 }
 
-SCREE_INLINE slider_memory remembered_roll(int dimension, const motion *m, const law_memory *before)
+/// What a slider of stiffness k_t remembers, from the rows of its displacement and of its dashpot.
+SCREE_INLINE slider_memory remembered(int dimension, const motion *m, const law_memory *before,
+                                      const lanes displacement[3], const lanes dashpot[3])
 {
+    const lanes stiffness = stiffness_before(dimension, before);
     if (dimension == 2)
-        return (slider_memory){{.x = before->rolling[0]}, {.x = before->rolling[1]}, {.x = before->rolling_booked[0]}};
-    vector stretch = motion_carry_whole(3, m, row_vector(before->rolling));
-    return (slider_memory){stretch, vector_times(3, stretch, before->value[3]),
-                           motion_carry(3, m, row_vector(before->rolling_booked))};
+        return (slider_memory){{.x = displacement[0]}, {.x = displacement[0] * stiffness}, {.x = dashpot[0]}};
+    vector stretch = motion_carry_whole(3, m, row_vector(displacement));
+    return (slider_memory){stretch, vector_times(3, stretch, stiffness), motion_carry(3, m, row_vector(dashpot))};
+}
+
+/// min(1, k_t(n-1) / k_t): what stiffening springs keep of their displacement. 1 where nothing touches.
+SCREE_INLINE lanes kept_displacement(variant v, const law_memory *before, lanes tangential_stiffness)
+{
+    if (!v.rescaled) return lanes_all(1);
+    return lanes_at_most(lanes_all(1), stiffness_before(v.dimension, before) / tangential_stiffness);
+}
+
+/// slider_move, of a displacement of which `kept` is left where springs are rescaled.
+SCREE_INLINE slider advance_slider(variant v, int count, slider_memory *before, lanes kept, vector rate, double step,
+                                   lanes stiffness, lanes viscosity, lanes cap, lanes_bits touching)
+{
+    lanes lost = lanes_all(0);
+    if (v.rescaled) lost = slider_rescale(count, before, kept);
+    slider s = slider_move(count, before, rate, step, stiffness, viscosity, cap, touching);
+    if (v.rescaled) s.stiffness = s.stiffness - lost;
+    return s;
 }
 
 /// Adds a slider's energies to those of the contact.
@@ -67,30 +89,31 @@ SCREE_INLINE void book_slider(law_force *f, const slider *s)
 }
 
 /// Couple and energies of rolling and twisting resistance.
-SCREE_INLINE void resist_turning(int dimension, const law_constants *constants, const motion *m, double step,
+SCREE_INLINE void resist_turning(variant v, const law_constants *constants, const motion *m, double step,
                                  lanes tangential_stiffness, lanes eta, lanes normal, lanes_bits touching,
                                  const law_memory *before, law_memory *after, law_force *f)
 {
-    const int count = tangential_count(dimension);
-    slider_memory rolled = remembered_roll(dimension, m, before);
-    slider roll = slider_move(count, &rolled, m->roll, step, tangential_stiffness, eta,
-                              constants->rolling_friction * normal, touching);
+    const int dimension = v.dimension, count = tangential_count(dimension);
+    lanes kept = kept_displacement(v, before, tangential_stiffness);
+    slider_memory rolled = remembered(dimension, m, before, before->rolling, before->rolling_booked);
+    slider roll = advance_slider(v, count, &rolled, kept, m->roll, step, tangential_stiffness, eta,
+                                 constants->rolling_friction * normal, touching);
     f->couple = vector_times(count, moment_of(dimension, m->normal, roll.resistance), -m->reduced_radius);
     book_slider(f, &roll);
     if (dimension == 2) {
         after->rolling[0] = roll.now.stretch.x;
-        after->rolling[1] = roll.now.spring.x;
         after->rolling_booked[0] = roll.now.dashpot.x;
         return;
     }
     // a^2 / 2 at n - 1 from k_t = tangential_stiffness a.
     lanes radius = tangential_stiffness / constants->tangential_stiffness, half_square = 0.5 * (radius * radius);
     lanes radius_before = before->value[3] / constants->tangential_stiffness;
-    lanes stiffness_before = before->value[3] * (0.5 * (radius_before * radius_before));
+    lanes twisting_before = before->value[3] * (0.5 * (radius_before * radius_before));
     slider_memory twisted = {
-        {.x = before->rolling[3]}, {.x = stiffness_before * before->rolling[3]}, {.x = before->rolling_booked[3]}};
-    slider twist = slider_move(1, &twisted, (vector){.x = m->twist}, step, tangential_stiffness * half_square,
-                               eta * half_square, constants->twisting_friction * m->reduced_radius * normal, touching);
+        {.x = before->rolling[3]}, {.x = twisting_before * before->rolling[3]}, {.x = before->rolling_booked[3]}};
+    slider twist = advance_slider(v, 1, &twisted, kept * kept * kept, (vector){.x = m->twist}, step,
+                                  tangential_stiffness * half_square, eta * half_square,
+                                  constants->twisting_friction * m->reduced_radius * normal, touching);
     f->couple = vector_minus(3, f->couple, vector_times(3, m->normal, twist.resistance.x));
     book_slider(f, &twist);
     vector stretch = roll.now.stretch, dashpot = roll.now.dashpot;
@@ -112,12 +135,14 @@ SCREE_INLINE law_force hertz_mindlin(variant v, const law_constants *constants, 
     lanes normal = lanes_at_least(elastic + eta * m->approach, lanes_all(0));
     lanes damping = normal - elastic;
 
-    slider_memory slipped = remembered_slip(dimension, m, before);
-    slider slip = slider_move(count, &slipped, m->slip, settings->step, tangential_stiffness, eta,
-                              constants->friction * normal, touching);
+    slider_memory slipped =
+        remembered(dimension, m, before, before->value, dimension == 2 ? before->value + 3 : before->booked + 1);
+    lanes kept = kept_displacement(v, before, tangential_stiffness);
+    slider slip = advance_slider(v, count, &slipped, kept, m->slip, settings->step, tangential_stiffness, eta,
+                                 constants->friction * normal, touching);
     vector stretch = slip.now.stretch, dashpot = slip.now.dashpot;
     lanes damping_before = before->value[2];
-    *after = (law_memory){.value = {stretch.x, slip.now.spring.x, damping, dashpot.x}};
+    *after = (law_memory){.value = {stretch.x, tangential_stiffness, damping, dashpot.x}};
     if (dimension == 3) {
         damping_before = before->booked[0];
         *after = (law_memory){.value = {stretch.x, stretch.y, stretch.z, tangential_stiffness},
@@ -134,8 +159,7 @@ SCREE_INLINE law_force hertz_mindlin(variant v, const law_constants *constants, 
         .elastic_tangential = slip.elastic,
     };
     if (v.rolling)
-        resist_turning(dimension, constants, m, settings->step, tangential_stiffness, eta, normal, touching, before,
-                       after, &f);
+        resist_turning(v, constants, m, settings->step, tangential_stiffness, eta, normal, touching, before, after, &f);
     return f;
 }
 

@@ -13,7 +13,8 @@ typedef struct variant {
     scree_law law;
     bool many_materials;
     bool ledger;
-    bool rolling; ///< some pair of materials resists rolling or twisting
+    bool rolling;  ///< some pair of materials resists rolling or twisting
+    bool rescaled; ///< hertz_mindlin: springs that stiffen keep their force, not their displacement
 } variant;
 
 /// Constants of the pair of materials, one value a lane: model/model.h, scree_pair_constants.

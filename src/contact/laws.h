@@ -40,11 +40,13 @@ SCREE_INLINE void law_forget(variant v, law_memory *after)
 {
     if (v.ledger) return;
     const lanes none = lanes_all(0);
-    if (v.dimension == 2) after->value[1] = after->value[2] = none;
-    after->value[3] = none;
-    if (!v.rolling) return;
-    if (v.dimension == 2) after->rolling[1] = none;
-    for (int k = 0; k < 4; k++) after->rolling_booked[k] = none;
+    if (v.dimension == 2) {
+        if (!v.rescaled) after->value[1] = none;
+        after->value[2] = after->value[3] = none;
+    } else if (!v.rescaled) {
+        after->value[3] = none;
+    }
+    for (int k = 0; k < 4 && v.rolling; k++) after->rolling_booked[k] = none;
 }
 
 SCREE_INLINE law_force law_evaluate(variant v, const law_constants *constants, const law_settings *settings,

@@ -137,62 +137,48 @@ SCREE_INLINE void run(contact_job *given, variant v)
     totals_reduce(&t, &given->totals);
 }
 
-/// Calls `run` with constants: one copy of it for each variant of the dimension. Rolling resistance looks its materials
-/// up even if there is only one.
-SCREE_INLINE void run_variant(contact_job *job, const int dimension)
-{
-    const scree_law mindlin = SCREE_LAW_HERTZ_MINDLIN, brilliantov = SCREE_LAW_HERTZ_BRILLIANTOV;
-    const scree_law implicit = SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT;
-    const variant *v = &job->variant;
-    const int law = v->law == implicit ? 10 : v->law == mindlin ? 4 : 0;
-    const int choice = v->rolling ? 8 : law + 2 * v->many_materials;
-    switch (choice + v->ledger) {
-    case 0:
-        run(job, (variant){dimension, brilliantov, false, false, false});
-        break;
-    case 1:
-        run(job, (variant){dimension, brilliantov, false, true, false});
-        break;
-    case 2:
-        run(job, (variant){dimension, brilliantov, true, false, false});
-        break;
-    case 3:
-        run(job, (variant){dimension, brilliantov, true, true, false});
-        break;
-    case 4:
-        run(job, (variant){dimension, mindlin, false, false, false});
-        break;
-    case 5:
-        run(job, (variant){dimension, mindlin, false, true, false});
-        break;
-    case 6:
-        run(job, (variant){dimension, mindlin, true, false, false});
-        break;
-    case 7:
-        run(job, (variant){dimension, mindlin, true, true, false});
-        break;
-    case 8:
-        run(job, (variant){dimension, mindlin, true, false, true});
-        break;
-    case 9:
-        run(job, (variant){dimension, mindlin, true, true, true});
-        break;
-    case 10:
-        run(job, (variant){dimension, implicit, false, false, false});
-        break;
-    case 11:
-        run(job, (variant){dimension, implicit, false, true, false});
-        break;
-    case 12:
-        run(job, (variant){dimension, implicit, true, false, false});
-        break;
-    default:
-        run(job, (variant){dimension, implicit, true, true, false});
-        break;
-    }
-}
-
 #define PASTE(a, b)            a##b
 #define KERNEL_NAME(name, isa) PASTE(name, isa)
+
+/// `run` with a variant as a constant, as a function of its own: one that held them all would be too large for some
+/// of the compiler's optimisations.
+#define VARIANT(name, dimension, law, many_materials, rolling, rescaled)                                               \
+    static __attribute__((noinline)) void name(contact_job *job)                                                       \
+    {                                                                                                                  \
+        if (job->variant.ledger)                                                                                       \
+            run(job, (variant){dimension, law, many_materials, true, rolling, rescaled});                              \
+        else                                                                                                           \
+            run(job, (variant){dimension, law, many_materials, false, rolling, rescaled});                             \
+    }
+
+/// The kernel of a dimension. Rolling resistance, which only hertz_mindlin has, looks its materials up even if there is
+/// only one.
+#define PAIRS_KERNEL(name, dimension)                                                                                  \
+    VARIANT(name##_brilliantov, dimension, SCREE_LAW_HERTZ_BRILLIANTOV, false, false, false)                           \
+    VARIANT(name##_brilliantov_many, dimension, SCREE_LAW_HERTZ_BRILLIANTOV, true, false, false)                       \
+    VARIANT(name##_implicit, dimension, SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT, false, false, false)                     \
+    VARIANT(name##_implicit_many, dimension, SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT, true, false, false)                 \
+    VARIANT(name##_mindlin, dimension, SCREE_LAW_HERTZ_MINDLIN, false, false, false)                                   \
+    VARIANT(name##_mindlin_many, dimension, SCREE_LAW_HERTZ_MINDLIN, true, false, false)                               \
+    VARIANT(name##_mindlin_rolling, dimension, SCREE_LAW_HERTZ_MINDLIN, true, true, false)                             \
+    VARIANT(name##_rescaled, dimension, SCREE_LAW_HERTZ_MINDLIN, false, false, true)                                   \
+    VARIANT(name##_rescaled_many, dimension, SCREE_LAW_HERTZ_MINDLIN, true, false, true)                               \
+    VARIANT(name##_rescaled_rolling, dimension, SCREE_LAW_HERTZ_MINDLIN, true, true, true)                             \
+    void KERNEL_NAME(scree_##name##_pairs_v, SCREE_ISA)(contact_job * job)                                             \
+    {                                                                                                                  \
+        static contact_kernel *const kernel[][3] = {                                                                   \
+            {name##_brilliantov, name##_brilliantov_many, name##_brilliantov_many},                                    \
+            {name##_implicit, name##_implicit_many, name##_implicit_many},                                             \
+            {name##_mindlin, name##_mindlin_many, name##_mindlin_rolling},                                             \
+            {name##_rescaled, name##_rescaled_many, name##_rescaled_rolling},                                          \
+        };                                                                                                             \
+        kernel[kernel_row(&job->variant)][job->variant.rolling ? 2 : job->variant.many_materials](job);                \
+    }
+
+static inline int kernel_row(const variant *v)
+{
+    if (v->law == SCREE_LAW_HERTZ_MINDLIN) return v->rescaled ? 3 : 2;
+    return v->law == SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT ? 1 : 0;
+}
 
 #endif

@@ -100,10 +100,11 @@ void contact_walls(contact_job *job, const scree_wall *wall, const scree_wall_pa
 {
     const variant v = job->variant;
     if (v.dimension == 3 && v.law == SCREE_LAW_HERTZ_MINDLIN)
-        evaluate_walls(job, (variant){3, SCREE_LAW_HERTZ_MINDLIN, true, v.ledger, v.rolling}, wall, pairs, row_begin,
-                       row_end);
+        evaluate_walls(job, (variant){3, SCREE_LAW_HERTZ_MINDLIN, true, v.ledger, v.rolling, v.rescaled}, wall, pairs,
+                       row_begin, row_end);
     else if (v.dimension == 3)
-        evaluate_walls(job, (variant){3, v.law, true, v.ledger, false}, wall, pairs, row_begin, row_end);
+        evaluate_walls(job, (variant){3, v.law, true, v.ledger, false, false}, wall, pairs, row_begin, row_end);
     else
-        evaluate_walls(job, (variant){2, v.law, true, v.ledger, v.rolling}, wall, pairs, row_begin, row_end);
+        evaluate_walls(job, (variant){2, v.law, true, v.ledger, v.rolling, v.rescaled}, wall, pairs, row_begin,
+                       row_end);
 }

@@ -34,7 +34,11 @@ static void describe(const scree_model *model, int dimension, const scree_pair_c
                      const memory_rows *memory, scree_contact *contact)
 {
     motion_hold(m);
-    variant v = {.dimension = dimension, .law = model->law, .many_materials = true, .rolling = model->rolling};
+    variant v = {.dimension = dimension,
+                 .law = model->law,
+                 .many_materials = true,
+                 .rolling = model->rolling,
+                 .rescaled = model->rescaled};
     law_constants c = constants_get(constants);
     law_settings settings = law_settings_get(model, 0);
     law_memory before = memory_get(v, memory), after;

@@ -8,10 +8,11 @@
 /// Ledger of a step, with mean forces <f> = (f(n-1) + f(n))/2:
 ///   damping    <dashpot> . s dt
 ///   friction   <k h> . (s dt - (h(n) - h(n-1)))           exactly zero while the spring sticks
-///   stiffness  1/2 (k(n) - k(n-1)) h(n) . h(n-1)
-/// The work done on the spring, <k h> . s dt, minus the change of its energy 1/2 k h^2 is friction - stiffness,
-/// exactly. Where a contact has opened, forces and h at n are zero: the same lines book what the spring still held as
-/// friction.
+///   stiffness  1/2 (k(n) - k(n-1)) h(n) . h(n-1) - 1/2 k(n-1) h(n-1) . (h'(n-1) - h(n-1))
+/// where h(n-1) is what the law makes of the displacement h'(n-1) that the last step ended with, when the stiffness
+/// changes (slider_rescale); else they are equal. The work done on the spring, <k h> . s dt, minus the change of its
+/// energy 1/2 k h^2 is friction - stiffness, exactly. Where a contact has opened, forces and h at n are zero: the same
+/// lines book what the spring still held as friction.
 #ifndef SCREE_CONTACT_SLIDER_H
 #define SCREE_CONTACT_SLIDER_H
 
@@ -23,6 +24,15 @@ typedef struct slider_memory {
     vector spring;  ///< k h, for the ledger
     vector dashpot; ///< the dashpot's part of -f, for the ledger
 } slider_memory;
+
+/// Shortens the displacement by `factor`, without work. Twice the energy that goes, to be taken from `stiffness`.
+SCREE_INLINE lanes slider_rescale(int count, slider_memory *memory, lanes factor)
+{
+    vector left = vector_times(count, memory->stretch, factor);
+    lanes lost = vector_dot(count, memory->spring, vector_minus(count, memory->stretch, left));
+    memory->stretch = left;
+    return lost;
+}
 
 typedef struct slider {
     slider_memory now;                  ///< for the next step

@@ -250,9 +250,10 @@ void contact_surfaces(contact_job *job, const scree_state *state, const scree_wo
         place_of(v.dimension, &job->row[row], g.place);
         pass_memory(&g);
         if (v.dimension == 3 && v.law == SCREE_LAW_HERTZ_MINDLIN)
-            evaluate_group(job, (variant){3, SCREE_LAW_HERTZ_MINDLIN, true, v.ledger, v.rolling}, state, &g);
+            evaluate_group(job, (variant){3, SCREE_LAW_HERTZ_MINDLIN, true, v.ledger, v.rolling, v.rescaled}, state,
+                           &g);
         else
-            evaluate_group(job, (variant){v.dimension, v.law, true, v.ledger, v.rolling}, state, &g);
+            evaluate_group(job, (variant){v.dimension, v.law, true, v.ledger, v.rolling, v.rescaled}, state, &g);
     }
 }
 

@@ -40,6 +40,7 @@ const scree_result_name scree_result_names[] = {
     {"solid_fraction_at_start", "1", "solid fraction at the begin of the last stage"},
     // its last sample
     {"energy_residual", "1", "largest residual of the energy balance over the energy turned over"},
+    {"stiffness_share", "1", "energy put into tangential springs by the stiffening of contacts over all that there was"},
     {"coordination", "1", "coordination number at the end"},
     {"coordination_without_rattlers", "1", "the same without rattlers"},
     {"rattler_fraction", "1", "share of rattlers at the end"},

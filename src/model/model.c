@@ -421,6 +421,8 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
     *model = (scree_model){
         .dimension = (int)config->dimension,
         .law = resolve_law(&config->contact),
+        .rescaled = config->contact.law == SCREE_LAW_HERTZ_MINDLIN &&
+                    config->contact.tangential_history == SCREE_TANGENTIAL_RESCALED,
         .damping_time = config->contact.damping_time,
         .inverse_exponent = 1 / config->contact.friction_exponent,
         .scheme = (scree_scheme)config->integrator.scheme,

@@ -30,6 +30,7 @@ typedef struct scree_model {
     double thickness; ///< m, length of the discs; 1 in 3D
     scree_law law;
     bool rolling;              ///< some material resists rolling or twisting (hertz_mindlin)
+    bool rescaled;             ///< springs of hertz_mindlin that stiffen keep their force, not their displacement
     double damping_time;       ///< s, T of hertz_brilliantov
     double inverse_exponent;   ///< 1/c of hertz_brilliantov
     double reference_velocity; ///< m/s, v_R

@@ -12,6 +12,8 @@
 /// `corner_distortion`, `boundary_roughness` (files of these names in measure/); and what it
 /// cost. Over the whole run: largest residual of the energy balance over the scale of the guard (measure/energy.c) at
 /// the end (`energy_residual`). Of each wall of the case `NAME_work`, `NAME_force`, `NAME_torque`.
+/// What springs were given by the change of their stiffness, over the energy at the begin and the work turned over, is
+/// `stiffness_share`.
 #include "run/results.h"
 
 #include "io/run_directory.h"
@@ -165,6 +167,12 @@ static void summarise_loading(const loading *l, scree_summary *summary)
     scree_summary_set_number(summary, "coordination_at_start", l->coordination[l->first]);
 }
 
+double scree_results_stiffness_share(const scree_state *state)
+{
+    double scale = state->ledger.turnover + state->ledger.initial;
+    return scale > 0 ? state->ledger.stiffness / scale : 0;
+}
+
 /// Friction of the last confinement: its own, or that of the material; NAN without one, or with several materials.
 static double confine_friction(const scree_config *config)
 {
@@ -314,6 +322,7 @@ scree_status scree_results_collect(const scree_recorder *recorder, scree_simulat
         summarise_run(recorder, s, *summary);
         summarise_start(&series, s->model.config, *summary);
         summarise_series(&series, *summary);
+        scree_summary_set_number(*summary, "stiffness_share", scree_results_stiffness_share(&s->state));
         scree_quasistatic_results(&s->model, &series, *summary);
         summarise_walls(s, *summary);
         status = summarise_energy(&series, s, *summary, error);

@@ -5,6 +5,12 @@
 #include "io/summary.h"
 #include "run/recorder.h"
 
+/// Above this share the log warns.
+#define SCREE_STIFFNESS_SHARE 0.01
+
+/// What changes of stiffness have put into tangential springs, over the energy at the begin and the work turned over.
+double scree_results_stiffness_share(const scree_state *state);
+
 /// Computes the results from series.csv (so that a restarted run gives the same) and the final state, and writes the
 /// tables that come with them. *summary with scree_summary_destroy, also after a failure.
 scree_status scree_results_collect(const scree_recorder *recorder, scree_simulation *s, scree_summary **summary,

@@ -101,11 +101,24 @@ static scree_status draw_figures(scree_recorder *recorder, const scree_simulatio
     return SCREE_OK;
 }
 
+/// Says when tangential springs were given more than the documented share.
+static void warn_of_springs(scree_recorder *recorder, const scree_simulation *s)
+{
+    double share = scree_results_stiffness_share(&s->state);
+    if (share <= SCREE_STIFFNESS_SHARE) return;
+    scree_log_write(&recorder->log, SCREE_LOG_WARNING,
+                    "%.2g %% of the energy turned over was given to tangential springs by the stiffening of their "
+                    "contacts, which nothing paid for (stiffness_share; more than %g %%): "
+                    "contact.tangential_history=rescaled keeps springs from that",
+                    100 * share, 100 * SCREE_STIFFNESS_SHARE);
+}
+
 /// The end of a run that has reached it. `done` is the last thing that is written: what ends before is gone through
 /// again by a restart, without a step.
 static scree_status complete(scree_recorder *recorder, scree_simulation *s, scree_error *error)
 {
     scree_summary *summary;
+    warn_of_springs(recorder, s);
     scree_status status = scree_results_collect(recorder, s, &summary, error);
     if (!status) status = scree_results_write(recorder, summary, "finishing", error);
     if (!status) status = scree_run_file_finish(recorder->directory, error);

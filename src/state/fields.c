@@ -116,7 +116,7 @@ const scree_field scree_members[] = {
                    "damping force and dashpot x, y, z that the ledger needs again (hertz_mindlin in 3D)",
                    SCREE_ROWS_BOOKING),
     BESIDE_CONTACT("rolling", SCREE_FIELD_DOUBLE, rolling, scree_rolling, "1", value,
-                   "stretch of rolling and angle of twist: x, y, z [m] and [rad]; 2D: stretch [m] and spring force [N]",
+                   "stretch of rolling and angle of twist: x, y, z [m] and [rad]; 2D: stretch [m]",
                    SCREE_ROWS_ROLLING),
     BESIDE_CONTACT("rolling_booked", SCREE_FIELD_FLOAT, rolling, scree_rolling, "1", booked,
                    "dashpots of rolling [N] and twisting [N m] that the ledger needs again", SCREE_ROWS_ROLLING),

@@ -93,6 +93,16 @@ expect 0 'warning stage 2 \(compress\): inertial number' cat out/log.txt
 expect 0 '^state_checksum +[0-9a-f]{16}$' "$scree" get out
 same "$(wc -l <<<"$output")" "$(python3 -c 'import json; print(len(json.load(open("out/summary.json"))))' 2>/dev/null || grep -c '^  "' out/summary.json)"
 
+# --- springs that keep their displacement are given energy in a flow; the log says so, and the way out
+flow=(--quick --no-figures --threads 1 --set particles.count=60 --set stages.prepare.width=12mm
+    --set stages.prepare.depth=12mm --set stages.relax.duration=0.15s --set output.paraview=no)
+expect 0 'contact.tangential_history=rescaled' "$scree" run hopper -o kept "${flow[@]}" \
+    --set contact.tangential_history=displacement
+expect 0 'results in rescaled' "$scree" run hopper -o rescaled "${flow[@]}" --set contact.tangential_history=rescaled
+grep -q 'given to tangential springs' <<<"$output" && complain "rescaled springs are warned of: $output"
+awk -v kept="$("$scree" get kept stiffness_share)" -v less="$("$scree" get rescaled stiffness_share)" \
+    'BEGIN { exit !(kept > 0.01 && less < 0) }' || complain "stiffness_share of kept and rescaled springs"
+
 # --- plot
 expect 0 '\.svg$' "$scree" plot out
 while read -r path; do [ -s "$path" ] || complain "plot names $path, which is not there"; done <<<"$output"

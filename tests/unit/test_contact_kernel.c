@@ -36,11 +36,12 @@ static void run(fixture *f, int steps)
 }
 
 /// Runs the same assembly with the reference and with kernels of every instruction set of this machine.
-static void compare_with_reference(scree_law law, int materials, bool ledger)
+static void compare_with_reference(scree_law law, int materials, bool ledger, bool rescaled)
 {
     fixture reference, kernel;
     create(&reference, law, materials);
     reference.work.ledger = ledger;
+    reference.model.rescaled = rescaled;
     reference.work.reference_kernel = true;
     run(&reference, STEPS);
     assert_true(reference.state.largest_overlap > 0);
@@ -48,6 +49,7 @@ static void compare_with_reference(scree_law law, int materials, bool ledger)
     for (int isa = 2; isa <= scree_contact_instruction_set(0); isa++) {
         create(&kernel, law, materials);
         kernel.work.ledger = ledger;
+        kernel.model.rescaled = rescaled;
         kernel.work.instruction_set = isa;
         run(&kernel, STEPS);
         assert_same(&reference, &kernel);
@@ -65,7 +67,9 @@ static void kernels_give_the_bits_of_the_reference(void **unused)
     (void)unused;
     for (int law = SCREE_LAW_HERTZ_BRILLIANTOV; law <= SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT; law++)
         for (int materials = 1; materials <= 2; materials++)
-            for (int ledger = 0; ledger <= 1; ledger++) compare_with_reference((scree_law)law, materials, ledger);
+            for (int ledger = 0; ledger <= 1; ledger++)
+                compare_with_reference((scree_law)law, materials, ledger, false);
+    for (int ledger = 0; ledger <= 1; ledger++) compare_with_reference(SCREE_LAW_HERTZ_MINDLIN, 2, ledger, true);
 }
 
 static void threads_do_not_change_a_bit(void **unused)

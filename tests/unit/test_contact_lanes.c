@@ -94,8 +94,13 @@ static void eight_lanes_give_the_bits_of_one(void **unused)
         for (int law = SCREE_LAW_HERTZ_BRILLIANTOV; law <= SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT; law++)
             for (int materials = 1; materials <= 2; materials++)
                 for (int ledger = 0; ledger <= 1; ledger++)
-                    compare(&(variant){dimension, (scree_law)law, materials > 1, ledger, false});
-    for (int ledger = 0; ledger <= 1; ledger++) compare(&(variant){3, SCREE_LAW_HERTZ_MINDLIN, true, ledger, true});
+                    compare(&(variant){dimension, (scree_law)law, materials > 1, ledger, false, false});
+    for (int ledger = 0; ledger <= 1; ledger++) {
+        for (int rescaled = 0; rescaled <= 1; rescaled++)
+            compare(&(variant){3, SCREE_LAW_HERTZ_MINDLIN, true, ledger, true, rescaled});
+        for (int materials = 1; materials <= 2; materials++)
+            compare(&(variant){2, SCREE_LAW_HERTZ_MINDLIN, materials > 1, ledger, false, true});
+    }
 }
 
 int main(void)

@@ -27,11 +27,12 @@ static void create(fixture *f, scree_law law, int materials, bool rolling)
     fixture_find_walls(f);
 }
 
-static void compare_with_reference(scree_law law, int materials, bool ledger, bool rolling)
+static void compare_with_reference(scree_law law, int materials, bool ledger, bool rolling, bool rescaled)
 {
     fixture reference, kernel;
     create(&reference, law, materials, rolling);
     reference.work.ledger = ledger;
+    reference.model.rescaled = rescaled;
     reference.work.reference_kernel = true;
     sphere_run(&reference, STEPS);
     assert_true(reference.state.largest_overlap > 0);
@@ -39,6 +40,7 @@ static void compare_with_reference(scree_law law, int materials, bool ledger, bo
     for (int isa = 2; isa <= scree_contact_instruction_set(0); isa++) {
         create(&kernel, law, materials, rolling);
         kernel.work.ledger = ledger;
+        kernel.model.rescaled = rescaled;
         kernel.work.instruction_set = isa;
         sphere_run(&kernel, STEPS);
         assert_same(&reference, &kernel);
@@ -53,8 +55,12 @@ static void kernels_give_the_bits_of_the_reference(void **unused)
     for (int law = SCREE_LAW_HERTZ_BRILLIANTOV; law <= SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT; law++)
         for (int materials = 1; materials <= 2; materials++)
             for (int ledger = 0; ledger <= 1; ledger++)
-                compare_with_reference((scree_law)law, materials, ledger, false);
-    for (int ledger = 0; ledger <= 1; ledger++) compare_with_reference(SCREE_LAW_HERTZ_MINDLIN, 2, ledger, true);
+                compare_with_reference((scree_law)law, materials, ledger, false, false);
+    for (int ledger = 0; ledger <= 1; ledger++) {
+        compare_with_reference(SCREE_LAW_HERTZ_MINDLIN, 2, ledger, true, false);
+        compare_with_reference(SCREE_LAW_HERTZ_MINDLIN, 2, ledger, true, true);
+        compare_with_reference(SCREE_LAW_HERTZ_MINDLIN, 1, ledger, false, true);
+    }
 }
 
 static void threads_do_not_change_a_bit(void **unused)
