@@ -4,10 +4,11 @@
 /// its cells, grow by a mean diameter until they are as wide as the sample. Strain windows run from a snapshot to the
 /// first one of the same stage that is at least measure.band_window of axial strain later, and the next from there on:
 /// cells and positions are those of the first instant, displacements lead to the second. A restarted run gives the same
-/// files: everything is read from run.h5. summary.json tells of the last loading stage.
+/// files: everything is read from run.h5. summary.json tells of the loading stage (io/loading_stage.h).
 #include "run/cell_results.h"
 
 #include "io/cell_file.h"
+#include "io/loading_stage.h"
 #include "io/run_directory.h"
 #include "io/snapshot.h"
 #include "measure/localisation.h"
@@ -214,7 +215,8 @@ static void begin_window(walk *w, scree_cell_snapshot *snapshot)
 
 static scree_status follow(walk *w, scree_cell_snapshot *snapshot, scree_error *error)
 {
-    bool same = w->first.assembly.count == snapshot->assembly.count && strcmp(w->first.stage, snapshot->stage) == 0;
+    bool same = w->first.assembly.count == snapshot->assembly.count &&
+                !scree_snapshot_begins_stage(w->first.stage, snapshot->stage, snapshot->axial_strain);
     if (!same) scree_cell_averages_begin(&w->averages, w->config, w->series);
     w->dimension = snapshot->assembly.dimension;
     scree_status status = write_circles(w, snapshot, error);

@@ -1,21 +1,23 @@
 /// The named scalars of summary.json, computed from the whole series.
 ///
-/// Over the last loading stage: peak of the stress ratio, as a running mean over SMOOTHING of axial strain, and its
-/// strain; mean stress ratio over the last fifth of the strain; largest compaction and dilation relative to the begin
-/// of loading (dilation positive), and their strains; mean slip, and that of the begin, up to a strain of INITIAL
-/// without the sample at rest (`initial_slip_ratio`); disagreement of the axial stress of plates and contacts, of the
-/// means over the stage
+/// Over the loading stage (io/loading_stage.h), whatever comes after it: peak of the stress ratio and its strain; mean
+/// stress ratio over the last fifth of the strain; largest compaction and dilation relative to the begin of loading
+/// (dilation positive), and their strains; mean slip, and that of the begin, up to a strain of INITIAL without the
+/// sample at rest (`initial_slip_ratio`); disagreement of the axial stress of plates and contacts, of the means over
+/// the stage
 /// (`stress_disagreement`) and as the mean of the instantaneous differences, which holds the inertia of the waves
 /// (`stress_disagreement_instant`); `shear_strain_reached`, the engineering shear strain of the first and the last
 /// axis; with imposed rates, mean, least and largest ratio of actual and imposed rate (`rate_ratio_...`, of the
-/// intervals between two samples) from STARTED of the strain on. Over the loading, from the bodies:
-/// `corner_distortion`, `boundary_roughness` (files of these names in measure/); and what it
-/// cost. Over the whole run: largest residual of the energy balance over the scale of the guard (measure/energy.c) at
-/// the end (`energy_residual`). Of each wall of the case `NAME_work`, `NAME_force`, `NAME_torque`.
+/// intervals between two samples) from STARTED of the strain on. What it cost, and from the bodies `corner_distortion`
+/// and `boundary_roughness` (files of these names in measure/), as long as no other stage has begun; in a case that
+/// strains nothing the cost is that of the last stage. Over the whole run: largest residual of the energy balance over
+/// the scale of the guard (measure/energy.c) at the end (`energy_residual`). Of each wall of the case `NAME_work`,
+/// `NAME_force`, `NAME_torque`.
 /// What springs were given by the change of their stiffness, over the energy at the begin and the work turned over, is
 /// `stiffness_share`.
 #include "run/results.h"
 
+#include "io/loading_stage.h"
 #include "io/run_directory.h"
 #include "io/summary.h"
 #include "measure/measure.h"
@@ -29,20 +31,19 @@
 #include <math.h>
 #include <string.h>
 
-#define SMOOTHING 0.01
-#define STARTED   0.05
-#define INITIAL   0.01
+#define STARTED 0.05
+#define INITIAL 0.01
 
-/// The rows of the last loading stage.
+/// The rows of the loading stage.
 typedef struct loading {
     const double *time, *strain, *ratio, *volumetric, *plates, *contacts, *slip, *coordination, *rate, *shear;
     size_t first, last; ///< rows [first, last)
 } loading;
 
-/// The rows of the last stage; false when there are less than two.
-static bool find_rows(const scree_series *series, loading *l)
+/// False when there are less than two.
+static bool find_loading(const scree_series *series, loading *l)
 {
-    const double *stage = scree_series_get(series, "stage");
+    scree_loading_rows rows = scree_loading_rows_find(series);
     *l = (loading){.time = scree_series_get(series, "time"),
                    .strain = scree_series_get(series, "axial_strain"),
                    .ratio = scree_series_get(series, "stress_ratio"),
@@ -53,42 +54,23 @@ static bool find_rows(const scree_series *series, loading *l)
                    .coordination = scree_series_get(series, "coordination"),
                    .rate = scree_series_get(series, "rate_ratio"),
                    .shear = scree_series_get(series, "boundary_shear_strain"),
-                   .last = series->row_count};
-    for (l->first = l->last; l->first > 0 && stage[l->first - 1] == stage[l->last - 1]; l->first--) continue;
+                   .first = rows.first,
+                   .last = rows.last};
     return l->last - l->first > 1;
-}
-
-static bool find_loading(const scree_series *series, loading *l)
-{
-    return find_rows(series, l) && !isnan(l->strain[l->last - 1]);
-}
-
-/// Mean of the stress ratio over the rows whose strain lies within half of SMOOTHING of row k.
-static double smoothed_ratio(const loading *l, size_t k)
-{
-    double sum = l->ratio[k], count = 1, half = 0.5 * SMOOTHING;
-    for (size_t j = k; j > l->first && l->strain[k] - l->strain[j - 1] <= half; j--, count++) sum += l->ratio[j - 1];
-    for (size_t j = k + 1; j < l->last && l->strain[j] - l->strain[k] <= half; j++, count++) sum += l->ratio[j];
-    return sum / count;
 }
 
 static void summarise_peak(const loading *l, scree_summary *summary)
 {
-    double peak = -INFINITY, strain_at_peak = NAN, final_ratio = 0, end = l->strain[l->last - 1];
-    size_t final_count = 0;
+    double final_ratio = 0, final_count = 0, end = l->strain[l->last - 1];
+    scree_peak peak = scree_peak_find(l->ratio, l->strain, (scree_loading_rows){l->first, l->last});
     for (size_t k = l->first; k < l->last; k++) {
-        double ratio = smoothed_ratio(l, k);
-        if (ratio > peak) {
-            peak = ratio;
-            strain_at_peak = l->strain[k];
-        }
         if (l->strain[k] < 0.8 * end) continue;
         final_ratio += l->ratio[k];
         final_count++;
     }
-    scree_summary_set_number(summary, "peak_stress_ratio", peak);
-    scree_summary_set_number(summary, "strain_at_peak", strain_at_peak);
-    scree_summary_set_number(summary, "final_stress_ratio", final_ratio / (double)final_count);
+    scree_summary_set_number(summary, "peak_stress_ratio", peak.value);
+    scree_summary_set_number(summary, "strain_at_peak", peak.strain);
+    scree_summary_set_number(summary, "final_stress_ratio", final_ratio / final_count);
 }
 
 /// Ratio of actual and imposed rate once the rate is up; nothing without minimal conditions.
@@ -174,24 +156,27 @@ double scree_results_stiffness_share(const scree_state *state)
 }
 
 /// Friction of the last confinement: its own, or that of the material; NAN without one, or with several materials.
-static double confine_friction(const scree_config *config)
+static double confine_friction(const scree_model *model)
 {
+    const scree_config *config = model->config;
     for (int64_t k = config->stage_count - 1; k >= 0; k--) {
         if (config->stages[k].kind != SCREE_STAGE_CONFINE) continue;
-        bool own = !isnan(config->stages[k].friction);
-        return own ? config->stages[k].friction : config->material_count == 1 ? config->materials[0].friction : NAN;
+        if (!isnan(config->stages[k].friction)) return config->stages[k].friction;
+        return model->material_count == 1 ? model->pairs[0][0].friction : NAN;
     }
     return NAN;
 }
 
 /// What the last stage begins with: two runs of the same seed had the same sample if and only if it is the same to all
 /// digits. (The coordination may differ: the boundary of the last stage may have no plates.)
-static void summarise_start(const scree_series *series, const scree_config *config, scree_summary *summary)
+static void summarise_start(const scree_series *series, const scree_model *model, scree_summary *summary)
 {
-    loading l;
-    scree_summary_set_number(summary, "confine_friction", confine_friction(config));
-    if (!find_rows(series, &l)) return;
-    scree_summary_set_number(summary, "solid_fraction_at_start", scree_series_get(series, "solid_fraction")[l.first]);
+    const double *stage = scree_series_get(series, "stage");
+    size_t last = series->row_count, first = last;
+    scree_summary_set_number(summary, "confine_friction", confine_friction(model));
+    while (first > 0 && stage[first - 1] == stage[last - 1]) first--;
+    if (last - first < 2) return;
+    scree_summary_set_number(summary, "solid_fraction_at_start", scree_series_get(series, "solid_fraction")[first]);
 }
 
 /// The contacts of now: the last sample may be older than the end, or from before a restart.
@@ -269,7 +254,7 @@ static void summarise_walls(const scree_simulation *s, scree_summary *summary)
     }
 }
 
-/// What the last stage cost.
+/// What the present or last stage cost.
 static void summarise_cost(const scree_simulation *s, scree_summary *summary)
 {
     const scree_state *state = &s->state;
@@ -294,17 +279,28 @@ static scree_status summarise_shape(const scree_simulation *s, scree_summary *su
     return status;
 }
 
-/// The last stage, when it is one of loading.
+/// Number of the stage `wanted` or of the last one before it that strains the sample; without any that of the last one
+/// that takes samples evenly; -1: none.
+static int64_t loading_stage(const scree_simulation *s, int64_t wanted)
+{
+    const scree_config_stage *stage = s->model.config->stages;
+    bool periodic = scree_model_is_wholly_periodic(&s->model);
+    for (int64_t k = wanted; k >= 0; k--)
+        if (!isnan(scree_model_loading_rate(&stage[k]))) return k;
+    int64_t k = wanted;
+    while (k >= 0 && !scree_stage_get((scree_stage_kind)stage[k].kind, periodic)->loading) k--;
+    return k;
+}
+
+/// What is known of the loading stage until the next one begins.
 static scree_status summarise_stage(const scree_simulation *s, scree_summary *summary, scree_error *error)
 {
     const scree_config *config = s->model.config;
-    int64_t last = config->stage_count - 1;
-    const scree_stage *stage =
-        scree_stage_get((scree_stage_kind)config->stages[last].kind, scree_model_is_wholly_periodic(&s->model));
-    if (s->state.stage.index < last || s->state.count == 0 || !stage->loading) return SCREE_OK;
+    int64_t last = config->stage_count - 1, present = s->state.stage.index < last ? s->state.stage.index : last;
+    if (s->state.count == 0 || loading_stage(s, present) != present) return SCREE_OK;
     summarise_cost(s, summary);
-    bool plates = scree_boundary_has_plates(scree_boundary_get(scree_config_boundary_of(config, last)));
-    bool strained = !isnan(scree_model_loading_rate(&config->stages[last]));
+    bool plates = scree_boundary_has_plates(scree_boundary_get(scree_config_boundary_of(config, present)));
+    bool strained = !isnan(scree_model_loading_rate(&config->stages[present]));
     bool cornered = strained && !plates && !s->state.periodic.directions;
     return cornered ? summarise_shape(s, summary, error) : SCREE_OK;
 }
@@ -320,7 +316,7 @@ scree_status scree_results_collect(const scree_recorder *recorder, scree_simulat
     if (!status) status = scree_summary_create(summary, error);
     if (!status) {
         summarise_run(recorder, s, *summary);
-        summarise_start(&series, s->model.config, *summary);
+        summarise_start(&series, &s->model, *summary);
         summarise_series(&series, *summary);
         scree_summary_set_number(*summary, "stiffness_share", scree_results_stiffness_share(&s->state));
         scree_quasistatic_results(&s->model, &series, *summary);

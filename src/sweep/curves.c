@@ -2,8 +2,8 @@
 #include "sweep/results.h"
 
 #include "base/memory.h"
+#include "io/loading_stage.h"
 #include "io/run_directory.h"
-#include "io/series.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -35,8 +35,12 @@ static scree_status read_curve(const scree_sweep_results *results, size_t member
     } else {
         (void)snprintf(mean->unit_x, sizeof mean->unit_x, "%s", series.unit[x]);
         (void)snprintf(mean->unit_y, sizeof mean->unit_y, "%s", series.unit[y]);
-        status = scree_curve_from_series(series.value[x], series.value[y], scree_series_get(&series, "stage"),
-                                         series.row_count, curve, error);
+        // A curve over the strain is that of the loading stage.
+        scree_loading_rows rows = {0, series.row_count};
+        if (strcmp(mean->name_x, "axial_strain") == 0) rows = scree_loading_rows_find(&series);
+        const double *stage = scree_series_get(&series, "stage");
+        status = scree_curve_from_series(series.value[x] + rows.first, series.value[y] + rows.first,
+                                         stage ? stage + rows.first : NULL, rows.last - rows.first, curve, error);
     }
     scree_series_destroy(&series);
     return status;

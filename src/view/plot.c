@@ -36,66 +36,46 @@ void scree_plot_report(scree_plot_run *run, const char *name, scree_status statu
     run->error = *error;
 }
 
-/// The rows of the stage that the largest axial strain belongs to.
-static scree_status find_loading_rows(scree_plot_run *run, scree_error *error)
-{
-    const double *strain = scree_series_get(&run->series, "axial_strain");
-    const double *stage = scree_series_get(&run->series, "stage");
-    scree_status status = scree_allocate(&run->row, run->series.row_count, sizeof *run->row, error);
-    if (status || !strain || !stage) return status;
-    double largest = 0, loading = NAN;
-    for (size_t k = 0; k < run->series.row_count; k++) {
-        if (!(fabs(strain[k]) > largest)) continue;
-        largest = fabs(strain[k]);
-        loading = stage[k];
-    }
-    for (size_t k = 0; k < run->series.row_count; k++)
-        if (stage[k] == loading && isfinite(strain[k])) run->row[run->row_count++] = k;
-    return SCREE_OK;
-}
-
 static scree_status read_series(scree_plot_run *run, scree_error *error)
 {
     char path[PATH_MAX];
     scree_status status = scree_path_join(path, sizeof path, run->directory, SCREE_FILE_SERIES, error);
     if (!status) status = scree_series_read(&run->series, path, error);
-    if (!status) status = find_loading_rows(run, error);
+    if (status) return status;
+    scree_loading_rows rows = scree_loading_rows_find(&run->series);
+    run->first_row = rows.first;
+    run->row_count = rows.last - rows.first;
     return status;
 }
 
-typedef struct stage_name {
-    char text[sizeof((scree_snapshot *)0)->stage];
-} stage_name;
-
-/// Leaves only the strains of the stage that the largest one belongs to.
-static void keep_loading_stage(scree_plot_run *run, const stage_name *stage)
+/// Leaves only the strains of the loading stage, the last `count` of the snapshots up to `last`.
+static void keep_loading_stage(scree_plot_run *run, size_t last, size_t count)
 {
-    size_t loading = 0;
     for (size_t k = 0; k < run->snapshot_count; k++)
-        if (isfinite(run->strain[k]) && !(fabs(run->strain[k]) <= fabs(run->strain[loading]))) loading = k;
-    for (size_t k = 0; k < run->snapshot_count; k++)
-        if (strcmp(stage[k].text, stage[loading].text) != 0) run->strain[k] = NAN;
+        if (k > last || k + count <= last) run->strain[k] = NAN;
 }
 
 /// Only the strain of each snapshot is kept: a scene reads the snapshots that it needs again.
 static scree_status read_strains(scree_plot_run *run, scree_error *error)
 {
     scree_snapshot snapshot;
-    stage_name *stage = NULL;
-    size_t count = 0;
+    char stage[sizeof snapshot.stage] = "";
+    size_t count = 0, last = 0, of_stage = 0;
     scree_status status = scree_snapshot_count(run->directory, &count, error);
     if (!status) status = scree_allocate(&run->strain, count, sizeof *run->strain, error);
-    if (!status) status = scree_allocate(&stage, count, sizeof *stage, error);
     for (size_t k = 0; !status && k < count; k++) {
         status = scree_snapshot_read(run->directory, k, &snapshot, error);
         if (status) break;
-        memcpy(stage[k].text, snapshot.stage, sizeof snapshot.stage);
         run->strain[run->snapshot_count++] = snapshot.axial_strain;
         run->of_cell = snapshot.periodic.directions == (1u << snapshot.dimension) - 1;
+        if (isfinite(snapshot.axial_strain)) {
+            of_stage = scree_snapshot_begins_stage(stage, snapshot.stage, snapshot.axial_strain) ? 1 : of_stage + 1;
+            last = k;
+        }
+        memcpy(stage, snapshot.stage, sizeof stage);
         scree_snapshot_destroy(&snapshot);
     }
-    if (run->snapshot_count > 0) keep_loading_stage(run, stage);
-    scree_release(&stage);
+    keep_loading_stage(run, last, of_stage);
     return status;
 }
 
@@ -178,7 +158,6 @@ scree_status scree_plot_draw(const char *directory, void (*message)(void *user, 
         if (status && error) *error = run.error;
     }
     scree_series_destroy(&run.series);
-    scree_release(&run.row);
     scree_release(&run.strain);
     scree_release(&run.window);
     return status;

@@ -76,7 +76,7 @@ static const struct chart_entry {
 static bool gather(const scree_plot_run *run, const char *column, double factor, double *value)
 {
     const double *all = scree_series_get(&run->series, column);
-    for (size_t k = 0; all && k < run->row_count; k++) value[k] = factor * all[run->row[k]];
+    for (size_t k = 0; all && k < run->row_count; k++) value[k] = factor * all[run->first_row + k];
     return all != NULL;
 }
 

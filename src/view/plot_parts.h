@@ -3,7 +3,7 @@
 #define SCREE_VIEW_PLOT_PARTS_H
 
 #include "case/config.h"
-#include "io/series.h"
+#include "io/loading_stage.h"
 #include "io/snapshot.h"
 
 #include <limits.h>
@@ -14,11 +14,10 @@ typedef struct scree_plot_run {
     char figures[PATH_MAX]; ///< folder that the figures go to
     void (*message)(void *user, const char *line);
     void *user;
-    scree_series series; ///< no column when it could not be read
-    size_t *row;         ///< rows of the loading stage
-    size_t row_count;
-    double *strain; ///< axial strain of each snapshot, NAN outside loading
-    bool of_cell;   ///< the sample was loaded as a cell that is periodic in all directions
+    scree_series series;     ///< no column when it could not be read
+    size_t first_row, row_count; ///< rows of the loading stage
+    double *strain;          ///< axial strain of each snapshot of the loading stage, NAN of the others
+    bool of_cell;            ///< the sample was loaded as a cell that is periodic in all directions
     size_t snapshot_count;
     scree_config_window *window; ///< axial strains of the displacement fluctuations
     size_t window_count;

@@ -11,7 +11,6 @@
 #include <stdio.h>
 
 /// Axial strain, as in run/results.c.
-#define PEAK_WINDOW 0.01
 
 enum { WHEN_START, WHEN_PEAK, WHEN_WINDOW, WHEN_END }; // WHEN_WINDOW: in the middle of the first strain window
 enum { FIELD_NONE, FIELD_ROTATION, FIELD_SPIN, FIELD_SPIN_MAGNITUDE, FIELD_SPEED, FIELD_DISPLACEMENT };
@@ -89,17 +88,11 @@ static scree_status find_snapshot(const scree_plot_run *run, int when, size_t *w
     if (when != WHEN_PEAK) return SCREE_OK;
     const double *strain = scree_series_get(&run->series, "axial_strain");
     const double *ratio = scree_series_get(&run->series, "stress_ratio");
-    double highest = -INFINITY, sum = 0;
-    // Running mean over PEAK_WINDOW of strain: the plates' start and single samples make spikes.
-    for (size_t k = 0, from = 0, to = 0; strain && ratio && k < run->row_count; k++) {
-        double at = strain[run->row[k]];
-        for (; to < run->row_count && strain[run->row[to]] <= at + PEAK_WINDOW / 2; to++) sum += ratio[run->row[to]];
-        for (; strain[run->row[from]] < at - PEAK_WINDOW / 2; from++) sum -= ratio[run->row[from]];
-        if (!(sum / (double)(to - from) > highest)) continue;
-        highest = sum / (double)(to - from);
-        *which = nearest_snapshot(run, at);
-    }
-    if (isfinite(highest)) return SCREE_OK;
+    scree_peak peak = {NAN, NAN};
+    const scree_loading_rows rows = {run->first_row, run->first_row + run->row_count};
+    if (strain && ratio) peak = scree_peak_find(ratio, strain, rows);
+    *which = nearest_snapshot(run, peak.strain);
+    if (isfinite(peak.value)) return SCREE_OK;
     return scree_error_set(error, SCREE_ERROR_INPUT, "%s has no stress ratio to find the peak of", SCREE_FILE_SERIES);
 }
 
