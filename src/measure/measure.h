@@ -91,11 +91,12 @@ typedef struct scree_energy {
     double residual; ///< J, of the balance
     double relative; ///< |residual| / turnover of work
 } scree_energy;
-/// Energies at step n by the scheme's own discrete definition (kinetic = 1/2 m v(n-1/2).v(n+1/2)), and the residual.
-/// Books what a change of the step from `before` to `after` [s] does to the kinetic energy of the scheme; between two
+
+/// Adds to ledger.scheme what a change of the step from `before` to `after` [s] does to the kinetic energy of the scheme; between two
 /// steps.
 void scree_energy_change_step(const scree_model *model, scree_state *state, double before, double after);
 
+/// Energies at step n by the scheme's own discrete definition (kinetic = 1/2 m v(n-1/2).v(n+1/2)), and the residual.
 void scree_energy_measure(const scree_model *model, const scree_state *state, const scree_contact_table *table,
                           scree_energy *energy);
 

@@ -169,7 +169,7 @@ static void summarise_run(const scree_recorder *recorder, scree_simulation *s, s
 {
     const scree_config *config = s->model.config;
     char checksum[32];
-    (void)snprintf(checksum, sizeof checksum, "%016" PRIx64, scree_simulation_checksum(s));
+    (void)snprintf(checksum, sizeof checksum, "%016" PRIx64, scree_state_checksum(&s->model, &s->state));
     double steps = (double)(s->state.evaluations - recorder->first_evaluations);
     scree_summary_set_text(summary, "case", config->name);
     scree_summary_set_text(summary, "status",
@@ -260,6 +260,7 @@ scree_status scree_results_write(const scree_recorder *recorder, scree_simulatio
     scree_summary *summary = NULL;
     scree_status result = scree_path_join(path, sizeof path, recorder->directory, SCREE_FILE_SERIES, error);
     if (!result) result = scree_series_read(&series, path, error);
+    if (!result) result = scree_contacts_save(&s->state, &s->work, error); // for the checksum
     if (!result) result = scree_summary_create(&summary, error);
     if (!result) {
         summarise_run(recorder, s, status, summary);

@@ -15,7 +15,10 @@ static scree_status case_text(const scree_case *c, char **text, size_t *length, 
     FILE *memory = open_memstream(text, length);
     if (!memory) return scree_error_set_memory(error, 4096);
     scree_status status = scree_case_write(c, memory, error);
-    if (fclose(memory) != 0 && !status) status = scree_error_set_memory(error, 4096);
+    // Without memory for its buffer the stream closes well, and there is no text.
+    bool whole = ferror(memory) == 0;
+    whole = fclose(memory) == 0 && whole && *text;
+    if (!whole && !status) status = scree_error_set_memory(error, 4096);
     *checksum = UINT64_C(0xcbf29ce484222325);
     for (size_t k = 0; !status && k < *length; k++)
         *checksum = (*checksum ^ (unsigned char)(*text)[k]) * UINT64_C(0x100000001b3);
