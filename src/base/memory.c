@@ -3,6 +3,7 @@
 #include "base/memory.h"
 
 #include <stdatomic.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -23,10 +24,14 @@ void scree_allocation_statistics(size_t *current, size_t *peak)
     if (peak) *peak = atomic_load(&highest);
 }
 
+static bool next_call_fails(void)
+{
+    return atomic_fetch_add(&calls, 1) + 1 == atomic_load(&failing_call);
+}
+
 static void *allocate_bytes(size_t bytes)
 {
-    uint64_t call = atomic_fetch_add(&calls, 1) + 1;
-    if (call == atomic_load(&failing_call)) return NULL;
+    if (next_call_fails()) return NULL;
     size_t whole = (bytes + 2 * SCREE_ALIGNMENT - 1) / SCREE_ALIGNMENT * SCREE_ALIGNMENT;
     unsigned char *block = whole < bytes ? NULL : aligned_alloc(SCREE_ALIGNMENT, whole);
     if (!block) return NULL;
@@ -42,10 +47,18 @@ scree_status scree_allocate(void *pointer, size_t count, size_t size, scree_erro
 {
     void *block = NULL;
     size_t bytes;
-    if (__builtin_mul_overflow(count, size, &bytes)) return scree_error_set_memory(error, SIZE_MAX);
-    if (bytes > 0 && !(block = allocate_bytes(bytes))) return scree_error_set_memory(error, bytes);
+    bool fits = !__builtin_mul_overflow(count, size, &bytes);
+    if (fits && bytes > 0) block = allocate_bytes(bytes);
     memcpy(pointer, &block, sizeof block);
-    return SCREE_OK;
+    return fits && (block || bytes == 0) ? SCREE_OK : scree_error_set_memory(error, fits ? bytes : SIZE_MAX);
+}
+
+scree_status scree_memory_check(size_t bytes, scree_error *error)
+{
+    bool fails = next_call_fails();
+    void *block = fails ? NULL : malloc(bytes);
+    free(block);
+    return block ? SCREE_OK : scree_error_set_memory(error, bytes);
 }
 
 scree_status scree_reallocate(void *pointer, size_t old_count, size_t new_count, size_t size, scree_error *error)

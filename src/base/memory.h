@@ -8,7 +8,8 @@
 
 #define SCREE_ALIGNMENT 64
 
-/// Sets *pointer to `count * size` zeroed bytes, 64-byte aligned (NULL when the product is zero). Checks overflow.
+/// Sets *pointer to `count * size` zeroed bytes, 64-byte aligned (NULL when the product is zero, and on failure).
+/// Checks overflow.
 scree_status scree_allocate(void *pointer, size_t count, size_t size, scree_error *error) SCREE_MUST_USE;
 
 /// Grows *pointer (holding `old_count` elements) to `new_count`, keeping contents, zeroing the rest. On failure
@@ -18,6 +19,10 @@ scree_status scree_reallocate(void *pointer, size_t old_count, size_t new_count,
 
 /// Frees *pointer (from the two functions above) and sets it to NULL.
 void scree_release(void *pointer);
+
+/// Whether `bytes` could be allocated now; holds none. For what is done next by a library that cannot say that memory
+/// has run out. Errors: memory.
+scree_status scree_memory_check(size_t bytes, scree_error *error) SCREE_MUST_USE;
 
 /// Test hook: the n-th allocation from now fails (0: never). Returns the number of allocations made since the last
 /// call.

@@ -2,9 +2,12 @@
 /// offsets ("degC", "m @ 3"), logarithms and udunits' reciprocals ("s" for "1/s") are refused.
 #include "base/units.h"
 
+#include "base/memory.h"
+
 #include <udunits2.h>
 
 #include <ctype.h>
+#include <errno.h>
 #include <locale.h>
 #include <math.h>
 #include <pthread.h>
@@ -151,13 +154,19 @@ static double factor_between(const ut_unit *from, const ut_unit *to)
     return zero == 0 && isfinite(one) && one > 0 ? one : 0;
 }
 
-typedef enum lookup { FOUND, UNKNOWN_UNIT, OTHER_DIMENSION, NO_DATABASE } lookup;
+typedef enum lookup { FOUND, UNKNOWN_UNIT, OTHER_DIMENSION, NO_DATABASE, NO_MEMORY } lookup;
+
+/// What reading the database takes, and a lookup, with room to spare: udunits2 2.2.28 keeps 0.5 MB. Where memory runs
+/// out inside of it, it ends the program.
+enum { DATABASE_BYTES = 2 << 20, LOOKUP_BYTES = 1 << 16 };
 
 /// Factor from `text` to the SI `unit`; `noun` is set when the dimension is another one. The lock is held.
 static lookup find_factor(const char *text, const char *unit, double *factor, const char **noun)
 {
+    if (scree_memory_check(unit_system ? LOOKUP_BYTES : DATABASE_BYTES, NULL)) return NO_MEMORY;
+    errno = 0;
     if (!unit_system) unit_system = ut_read_xml(NULL);
-    if (!unit_system) return NO_DATABASE;
+    if (!unit_system) return errno == ENOMEM ? NO_MEMORY : NO_DATABASE;
     ut_unit *given = is_plausible(text) ? unit_of(text) : NULL;
     ut_unit *wanted = unit_of(unit);
     *factor = given && wanted ? factor_between(given, wanted) : 0;
@@ -170,7 +179,7 @@ static lookup find_factor(const char *text, const char *unit, double *factor, co
     }
     ut_free(given);
     ut_free(wanted);
-    return result;
+    return result != FOUND && errno == ENOMEM ? NO_MEMORY : result;
 }
 
 static lookup find_factor_alone(const char *text, const char *unit, double *factor, const char **noun)
@@ -191,6 +200,7 @@ static scree_status refuse_unit(const char *text, const char *unit_text, const c
                                 const char *noun, scree_error *error)
 {
     const char *quantity_noun = scree_units_quantity(unit), *example = scree_units_example(unit);
+    if (result == NO_MEMORY) return scree_error_set_memory(error, unit_system ? LOOKUP_BYTES : DATABASE_BYTES);
     if (result == NO_DATABASE)
         return scree_error_set(error, SCREE_ERROR_IO,
                                "the unit database of udunits2 cannot be read (Debian package libudunits2-data)");

@@ -35,17 +35,21 @@ static void reject_kind(const value *v, const scree_node *node)
                       empty ? "nothing" : kinds[node->kind], "is given", scree_key_noun(v->key));
 }
 
-static double limit_value(const scree_key *key, const scree_limit *limit)
+/// NAN where there is none, and where memory runs out.
+static double limit_value(const value *v, const scree_limit *limit)
 {
     double number;
-    if (!limit->text || scree_units_parse(limit->text, key->unit ? key->unit : "1", &number, NULL)) return NAN;
-    return number;
+    scree_error error;
+    if (!limit->text) return NAN;
+    if (!scree_units_parse(limit->text, v->key->unit ? v->key->unit : "1", &number, &error)) return number;
+    if (!v->reader->failure.status) v->reader->failure = error;
+    return NAN;
 }
 
 /// Notes a number outside the limits of its key.
 static bool is_within(const value *v, double number)
 {
-    double least = limit_value(v->key, &v->key->least), most = limit_value(v->key, &v->key->most);
+    double least = limit_value(v, &v->key->least), most = limit_value(v, &v->key->most);
     bool small = number < least || (v->key->least.open && number == least);
     bool large = number > most || (v->key->most.open && number == most);
     if (!small && !large) return true;
@@ -127,7 +131,7 @@ static char *text_of(const value *v)
     size_t length = strlen(text);
     char limits[200];
     scree_limits_text(v->key, limits, sizeof limits);
-    if ((double)length < limit_value(v->key, &v->key->least) || (double)length > limit_value(v->key, &v->key->most)) {
+    if ((double)length < limit_value(v, &v->key->least) || (double)length > limit_value(v, &v->key->most)) {
         scree_problem_add(v->reader, v->place, v->path, text, limits, "%zu characters are too %s", length,
                           length == 0 ? "few" : "many");
         return NULL;
@@ -245,7 +249,7 @@ static void store_node(const value *v, const scree_node *node, char *member)
     double count = (double)node->count;
     char limits[200];
     scree_limits_text(v->key, limits, sizeof limits);
-    if (count < limit_value(v->key, &v->key->least) || count > limit_value(v->key, &v->key->most))
+    if (count < limit_value(v, &v->key->least) || count > limit_value(v, &v->key->most))
         scree_problem_add(v->reader, v->place, v->path, NULL, limits, "%zu values are too %s", node->count,
                           node->count == 0 ? "few" : "many");
     for (const scree_node *each = node->first; each; each = each->next)

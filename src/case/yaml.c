@@ -4,6 +4,7 @@
 
 #include <libfyaml.h>
 
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -226,12 +227,18 @@ scree_node *scree_yaml_read(scree_reader *reader, const char *text, size_t lengt
     struct fy_parse_cfg settings = {.flags = FYPCF_QUIET | FYPCF_DEFAULT_VERSION_1_2 | FYPCF_JSON_NONE, .diag = diag};
     struct fy_parser *parser = diag ? fy_parser_create(&settings) : NULL;
     builder b = {.reader = reader, .base = place, .key_place = place};
+    errno = 0;
     bool going = parser && fy_parser_set_string(parser, text, length) == 0;
     if (!going) scree_reader_fail(reader, length);
     struct fy_event *event;
     while (going && (event = fy_parser_parse(parser))) {
         going = build(&b, event);
         fy_parser_event_free(parser, event);
+    }
+    // Where memory runs out libfyaml reports a syntax error, or the end of the file.
+    if (going && errno == ENOMEM) {
+        scree_reader_fail(reader, length);
+        going = false;
     }
     if (going && fy_parser_get_stream_error(parser)) {
         note_syntax_error(&b, diag, text, length);

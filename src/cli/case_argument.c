@@ -34,7 +34,9 @@ const char *scree_case_argument_builtin(const scree_command *command, const char
 
 static void print_problems(const scree_command *command, const char *name, const scree_problems *problems)
 {
+    static const scree_error memory = {.status = SCREE_ERROR_IO, .message = "out of memory"};
     size_t count = scree_problems_count(problems);
+    if (count == 0) (void)scree_terminal_error(command->verb->name, &memory); // not even for saying so
     for (size_t i = 0; i < count; i++) (void)scree_terminal_error(command->verb->name, scree_problems_get(problems, i));
     if (count > 1) fprintf(stderr, "%zu problems in %s\n", count, name);
 }

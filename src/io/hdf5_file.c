@@ -1,15 +1,17 @@
 /// HDF5 files: opening, arrays, attributes. See the header for the method.
 #include "io/hdf5_file.h"
 
+#include "base/memory.h"
 #include "io/run_directory.h"
 #include "io/seal.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-/// Growth of a file in memory.
-enum { MEMORY_STEP = 1 << 20 };
+/// Growth of a file in memory; what HDF5 1.10 takes for itself in a file, with room to spare (2 MB were seen).
+enum { MEMORY_STEP = 1 << 20, LIBRARY_BYTES = 4 << 20 };
 
 // ---- errors ------------------------------------------------------------------------------------------------------
 
@@ -26,7 +28,8 @@ void scree_hdf5_fail(scree_hdf5 *hdf5, const char *action, const char *name)
     char reason[256] = "";
     const char *quote = name ? "'" : "", *of = name ? " of " : "";
     (void)H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first, reason);
-    hdf5->damaged = true;
+    if (errno == ENOMEM) (void)snprintf(reason, sizeof reason, ": out of memory");
+    hdf5->damaged = errno != ENOMEM;
     hdf5->status = scree_error_set(hdf5->error, SCREE_ERROR_IO, "cannot %s %s%s%s%s'%s'%s", action, quote,
                                    name ? name : "", quote, of, hdf5->path, reason);
 }
@@ -55,6 +58,8 @@ static void begin(scree_hdf5 *hdf5, const char *path, scree_error *error)
     *hdf5 = (scree_hdf5){.file = H5I_INVALID_HID, .path = path, .error = error};
     (void)H5Eget_auto2(H5E_DEFAULT, &hdf5->printing, &hdf5->printing_data);
     (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    hdf5->status = scree_memory_check(LIBRARY_BYTES, error);
+    errno = 0;
 }
 
 /// No locks: a file on disk is never changed, only replaced, and locks fail on some network file systems.
@@ -72,6 +77,7 @@ static hid_t access_properties(bool in_memory)
 void scree_hdf5_create(scree_hdf5 *hdf5, const char *path, scree_error *error)
 {
     begin(hdf5, path, error);
+    if (hdf5->status) return;
     hid_t access = access_properties(true);
     if (access >= 0) hdf5->file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
     if (hdf5->file < 0) scree_hdf5_fail(hdf5, "prepare", NULL);
@@ -80,6 +86,7 @@ void scree_hdf5_create(scree_hdf5 *hdf5, const char *path, scree_error *error)
 
 static void open_existing(scree_hdf5 *hdf5, unsigned mode)
 {
+    if (hdf5->status) return;
     hid_t access = access_properties(false);
     if (access >= 0) hdf5->file = H5Fopen(hdf5->path, mode, access);
     if (hdf5->file < 0) scree_hdf5_fail(hdf5, "open", NULL);
@@ -95,6 +102,7 @@ void scree_hdf5_open(scree_hdf5 *hdf5, const char *path, scree_error *error)
 void scree_hdf5_open_sealed(scree_hdf5 *hdf5, const char *path, scree_error *error)
 {
     begin(hdf5, path, error);
+    if (hdf5->status) return;
     hdf5->status = scree_seal_check(path, error);
     hdf5->damaged = hdf5->status != SCREE_OK;
     if (!hdf5->status) open_existing(hdf5, H5F_ACC_RDONLY);
@@ -210,6 +218,9 @@ void scree_hdf5_write(scree_hdf5 *hdf5, const char *group, const scree_array *ar
     if (hdf5->status) return;
     char name[160];
     path_in_file(name, sizeof name, group, array->name);
+    // The file in memory grows by being copied.
+    hdf5->written += array->rows * (size_t)array->components * scree_field_size(array->type);
+    if ((hdf5->status = scree_memory_check(2 * hdf5->written + LIBRARY_BYTES, hdf5->error))) return;
     hsize_t dimensions[2];
     int rank = dimensions_of(array, dimensions);
     hid_t space = rank ? H5Screate_simple(rank, dimensions, NULL) : H5Screate(H5S_SCALAR);

@@ -15,6 +15,7 @@
 #include <hdf5.h>
 
 typedef struct scree_hdf5 {
+    size_t written;       ///< bytes of arrays
     hid_t file;           ///< negative: none
     const char *path;     ///< named in messages; caller-owned
     scree_status status;  ///< first failure

@@ -105,8 +105,8 @@ typedef struct scree_energy {
     double relative; ///< |residual| / scale
 } scree_energy;
 
-/// Books what a change of the step from `before` to `after` [s] does to the kinetic energy of the scheme; between two
-/// steps.
+/// Adds to ledger.scheme what a change of the step from `before` to `after` [s] does to the kinetic energy of the
+/// scheme; between two steps.
 void scree_energy_change_step(const scree_model *model, scree_state *state, double before, double after);
 
 /// Energies at step n by the scheme's own discrete definition (kinetic = 1/2 m v(n-1/2).v(n+1/2)), and the residual.

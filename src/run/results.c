@@ -213,7 +213,7 @@ static void summarise_run(const scree_recorder *recorder, scree_simulation *s, s
 {
     const scree_config *config = s->model.config;
     char checksum[32];
-    (void)snprintf(checksum, sizeof checksum, "%016" PRIx64, scree_simulation_checksum(s));
+    (void)snprintf(checksum, sizeof checksum, "%016" PRIx64, scree_state_checksum(&s->model, &s->state));
     double steps = (double)(s->state.evaluations - recorder->first_evaluations);
     scree_summary_set_text(summary, "case", config->name);
     scree_summary_set_text(summary, "status", ""); // its place; scree_results_write sets it
@@ -313,6 +313,7 @@ scree_status scree_results_collect(const scree_recorder *recorder, scree_simulat
     *summary = NULL;
     scree_status status = scree_path_join(path, sizeof path, recorder->directory, SCREE_FILE_SERIES, error);
     if (!status) status = scree_series_read(&series, path, error);
+    if (!status) status = scree_contacts_save(&s->state, &s->work, error); // for the checksum
     if (!status) status = scree_summary_create(summary, error);
     if (!status) {
         summarise_run(recorder, s, *summary);

@@ -87,7 +87,16 @@ static void memory_is_aligned_counted_and_can_fail(void **unused)
     assert_int_equal(scree_reallocate(&array, 200, 400, sizeof *array, &error), SCREE_ERROR_IO);
     assert_non_null(strstr(error.message, "3200 bytes"));
     assert_true(array[99] == 5);
+    // A pointer that held nothing yet can be released after a failure.
+    double *other = &array[7];
+    (void)scree_allocation_fail_after(1);
+    assert_int_equal(scree_allocate(&other, 1, sizeof *other, &error), SCREE_ERROR_IO);
+    assert_null(other);
+    (void)scree_allocation_fail_after(1);
+    assert_int_equal(scree_memory_check(1000, &error), SCREE_ERROR_IO);
+    assert_non_null(strstr(error.message, "1000 bytes"));
     (void)scree_allocation_fail_after(0);
+    assert_int_equal(scree_memory_check(1000, &error), SCREE_OK);
     assert_int_equal(scree_allocate(&(void *){NULL}, SIZE_MAX, 8, &error), SCREE_ERROR_IO);
     scree_release(&array);
     assert_null(array);

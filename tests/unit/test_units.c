@@ -1,4 +1,5 @@
 /// Values with units: conversion, dimensions, and what is refused.
+#include "base/memory.h"
 #include "base/units.h"
 
 #include <math.h>
@@ -151,9 +152,26 @@ static void threads_may_convert_at_once(void **state)
     for (int i = 0; i < 4; i++) assert_int_equal(failures[i], 0);
 }
 
+/// Before the database is read, and after.
+static void memory_that_runs_out_is_told(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        double value = 0;
+        scree_error error;
+        (void)scree_allocation_fail_after(1);
+        assert_int_equal(scree_units_parse("5 mm", "m", &value, &error), SCREE_ERROR_IO);
+        (void)scree_allocation_fail_after(0);
+        assert_non_null(strstr(error.message, "out of memory"));
+        assert_int_equal(scree_units_parse("5 mm", "m", &value, &error), SCREE_OK);
+        assert_true(value == 5e-3);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(memory_that_runs_out_is_told),
         cmocka_unit_test(values_are_exact),
         cmocka_unit_test(negative_zero_is_zero),
         cmocka_unit_test(wrong_values_are_refused),
