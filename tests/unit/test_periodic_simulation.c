@@ -112,16 +112,19 @@ static void stages_do_what_they_say(void **unused)
                                      "integrator.step=1e-5 s"};
     scree_case *c = case_read(case_text, overrides, 3);
     scree_simulation s;
-    double worst = 0, stress[9], held = 0, lateral = 0, rows = 0;
+    double worst = 0, stress[9], held = 0, lateral = 0, rows = 0, mean[2] = {0}, steps = 0;
     simulation_open(c, 1, &s);
     while (simulation_goes_on(&s)) {
         int64_t stage = s.state.stage.index;
+        bool sampled = s.sampled;
         simulation_step(&s);
         worst = simulation_residual(&s, worst);
-        if (stage == 1 && s.stage_ended) {
+        if (stage == 1) {
+            // The tolerance of the stop rule, of means since the last sample.
             scree_periodic_stress(&s.model, &s.state, stress);
-            // The tolerance of the stop rule.
-            for (int k = 0; k < 4; k += 3) assert_true(fabs(stress[4 * (k / 3)] / 1e5 + 1) < 0.002);
+            for (int k = 0; k < 2; k++) mean[k] = (sampled ? 0 : mean[k]) + stress[4 * k];
+            steps = (sampled ? 0 : steps) + 1;
+            for (int k = 0; k < 2 && s.stage_ended; k++) assert_true(fabs(mean[k] / steps / 1e5 + 1) < 0.002);
         }
         if (stage == 2 && s.stage_ended) assert_true(fabs(s.sample.value[SCREE_SAMPLE_AXIAL_STRAIN] - 0.01) < 1e-5);
         if (stage == 3 && s.sampled && s.sample.value[SCREE_SAMPLE_AXIAL_STRAIN] > 0.2) {
