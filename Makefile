@@ -3,7 +3,7 @@ BUILD ?= build
 JOBS  ?= $(shell nproc)
 PREFIX ?= /usr/local
 
-.PHONY: all packages demo test reproduce reproduce-full reference reference-check bench install clean help sanitize
+.PHONY: all packages demo test reproduce reproduce-full reference reference-check bench bench-estimates install clean help sanitize
 all: ## build/scree and libscree (static and shared)
 	@mkdir -p $(BUILD)
 	@cmake --preset release -B $(BUILD) >$(BUILD)/configure.log 2>&1 || \
@@ -39,6 +39,9 @@ reference-check: all ## the built-in cases in their quick forms against the stor
 bench: all ## particle-steps per second, memory, and peers where they are installed
 	@cmake --build $(BUILD) -j $(JOBS) --target benches
 	@bash bench/run.sh $(BUILD)
+
+bench-estimates: all ## what `scree check` promises against what runs take: minutes
+	@bash bench/check_estimates.sh $(BUILD)/scree
 
 sanitize: packages ## the tests under the address, undefined and thread sanitizers
 	@for p in asan tsan; do cmake --preset $$p >/dev/null && cmake --build --preset $$p -j $(JOBS) && ctest --preset $$p -j $(JOBS) || exit 1; done

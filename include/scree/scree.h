@@ -75,10 +75,15 @@ typedef struct scree_case_summary {
     double mean_radius, thickness; ///< m
     double reference_velocity;     ///< m/s
     double steps;                  ///< expected number of steps (force evaluations) of all stages
-    double seconds;                ///< expected wall time at `rate` particle-steps per second
-    double rate;   ///< particle-steps per second assumed (measured on this machine in a few milliseconds)
-    double memory; ///< bytes
+    double seconds;                ///< expected processor time on one thread: the sum of the next three
+    double stepping;               ///< s, of it steps and the preparation
+    double output;                 ///< s, samples, snapshots, ParaView files, gathering of run.h5, results
+    double figures;                ///< s
+    double rate;                   ///< particle-steps per second of the stepping, measured on this machine
+    double memory;                 ///< bytes, peak
 } scree_case_summary;
+/// Takes some tenths of a second: the case is set going for a moment. Times that cannot be found so are NAN. Errors:
+/// SCREE_ERROR_INPUT, memory.
 scree_status scree_case_summarise(const scree_case *c, scree_case_summary *summary, scree_error *error);
 
 /// Calls `visit` with a sentence for each stage that means to be quasistatic and will not be: what, its limit, and what

@@ -25,6 +25,26 @@ static void print_coefficient(const char *name, double value, const char *meanin
     if (!isnan(value)) print_line(name, text, meaning);
 }
 
+static void print_duration(const char *name, double seconds, const char *more)
+{
+    char text[TEXT];
+    scree_human_duration(text, sizeof text, seconds);
+    print_line(name, isnan(seconds) ? "not known" : text, more);
+}
+
+/// Of one thread, and what it goes to.
+static void print_time(const scree_case_summary *summary)
+{
+    char rate[TEXT], more[2 * TEXT];
+    scree_human_count(rate, sizeof rate, summary->rate);
+    (void)snprintf(more, sizeof more, "at %s particle-steps/s", rate);
+    print_duration("time needed", summary->seconds, "on one thread");
+    if (isnan(summary->seconds)) return;
+    print_duration("  stepping", summary->stepping, more);
+    print_duration("  output", summary->output, "samples, snapshots, results");
+    print_duration("  figures", summary->figures, "");
+}
+
 static void print_summary(const scree_case_summary *summary)
 {
     char text[TEXT], more[2 * TEXT], part[TEXT];
@@ -51,10 +71,7 @@ static void print_summary(const scree_case_summary *summary)
     }
     scree_human_count(text, sizeof text, summary->steps);
     print_line("steps", text, "");
-    scree_human_duration(text, sizeof text, summary->seconds);
-    scree_human_count(part, sizeof part, summary->rate);
-    (void)snprintf(more, sizeof more, "at %s particle-steps/s", part);
-    print_line("time needed", text, more);
+    print_time(summary);
     print_quantity("memory", summary->memory, "B");
 }
 

@@ -58,7 +58,7 @@ const scree_verb_option scree_common_options[] = {
     }
 #define OPTION_RETRY                                                                                                   \
     {                                                                                                                  \
-        .name = "retry", .meaning = "run failed members again"                                                          \
+        .name = "retry", .meaning = "run failed members again"                                                         \
     }
 #define OPTION_FORCE_MEMBERS                                                                                           \
     {                                                                                                                  \
@@ -103,7 +103,8 @@ const scree_verb scree_verbs[] = {
         .text =
             "Prints the resolved case, every default written out, and below it as comments: the numbers of particles "
             "and steps, the quasistatic and size coefficients phi and psi, the critical time step, and an estimate of "
-            "time and memory. The output is a case file again.\n\n"
+            "time (processor time of one thread: stepping, output, figures) and peak memory, for which the case is set "
+            "going for a moment. The output is a case file again.\n\n"
             "Everything that is wrong with a case is reported at once, as `file:line:column: key: what is wrong "
             "(accepted: what would be right)`.",
         .argument = {{"CASE", "a case file, or the name of a built-in case", SCREE_VALUE_CASE, false, false}},

@@ -30,8 +30,7 @@ static bool means_to_be_quasistatic(const scree_config_stage *stage)
            stage->kind == SCREE_STAGE_DEFORM || stage->kind == SCREE_STAGE_ROTATE;
 }
 
-/// The pressure that stage `index` holds, or the last one before it that held one.
-static double confining_pressure(const scree_config *config, int64_t index)
+double scree_confining_pressure(const scree_config *config, int64_t index)
 {
     for (; index >= 0; index--)
         if (scree_held_pressure(&config->stages[index]) > 0) return scree_held_pressure(&config->stages[index]);
@@ -44,8 +43,8 @@ double scree_expected_wave_time(const scree_model *model, double pressure)
     double height = scree_expected_height(model, fraction), count = (double)model->config->particles.count;
     double section = count * M_PI * radius * radius / (fraction * height);
     double width = model->dimension == 3 ? sqrt(4.0 / 3.0 * radius * section) : section;
-    double speed = scree_wave_speed(scree_confined_modulus(model, pressure),
-                                    model->density[SCREE_PARTICLE_MATERIAL], fraction);
+    double speed =
+        scree_wave_speed(scree_confined_modulus(model, pressure), model->density[SCREE_PARTICLE_MATERIAL], fraction);
     return fmax(height, width) / speed;
 }
 
@@ -59,8 +58,9 @@ static double inertial_number(const scree_model *model, double rate, double pres
 scree_quasistatic scree_quasistatic_expect(const scree_model *model, int64_t index)
 {
     const scree_config_stage *stage = &model->config->stages[index];
-    scree_quasistatic q = {
-        .stage = index, .rate = scree_model_loading_rate(stage), .pressure = confining_pressure(model->config, index)};
+    scree_quasistatic q = {.stage = index,
+                           .rate = scree_model_loading_rate(stage),
+                           .pressure = scree_confining_pressure(model->config, index)};
     for (int k = 0; k < SCREE_QUASISTATIC_COUNT; k++) q.value[k] = NAN;
     if (!means_to_be_quasistatic(stage) || isnan(q.pressure)) return q;
     int material = SCREE_PARTICLE_MATERIAL;
@@ -148,7 +148,7 @@ double scree_quasistatic_inertial_now(const scree_simulation *s, double mean_str
     double rate = scree_model_loading_rate(scree_stage_config(s)), loaded;
     if (isnan(rate)) return NAN;
     // fmin passes over a pressure that there is not.
-    double pressure = fmin(confining_pressure(s->model.config, s->state.stage.index), mean_stress);
+    double pressure = fmin(scree_confining_pressure(s->model.config, s->state.stage.index), mean_stress);
     return inertial_number(&s->model, rate * scree_loading_rise(s, &loaded), pressure);
 }
 

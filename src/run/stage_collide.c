@@ -85,6 +85,12 @@ static scree_status theory_of(const scree_simulation *s, double speed, scree_imp
     return status;
 }
 
+/// The automatic duration in those of the closed form.
+static double patience(const scree_model *model)
+{
+    return model->law == SCREE_LAW_HERTZ_MINDLIN ? 10 : 2;
+}
+
 static scree_status begin(scree_simulation *s, scree_error *error)
 {
     double *reference = s->state.stage.reference;
@@ -93,7 +99,7 @@ static scree_status begin(scree_simulation *s, scree_error *error)
     scree_status status = foresee_touch(&s->state, &reference[SPEED], &reference[TOUCH], error);
     if (!status) status = theory_of(s, reference[SPEED], &impact, error);
     if (status) return status;
-    double after = (s->model.law == SCREE_LAW_HERTZ_MINDLIN ? 10 : 2) * impact.duration;
+    double after = patience(&s->model) * impact.duration;
     double given = scree_stage_config(s)->duration;
     reference[DURATION] = isnan(given) ? reference[TOUCH] + after : given;
     return status;
@@ -152,6 +158,12 @@ scree_status scree_collide_results(const scree_simulation *s, scree_summary *sum
     if (s->model.law != SCREE_LAW_HERTZ_MINDLIN)
         scree_summary_set_number(summary, "relaxation_time_theory", impact.duration);
     return SCREE_OK;
+}
+
+double scree_collide_expected(const scree_simulation *s)
+{
+    const double *reference = s->state.stage.reference;
+    return reference[TOUCH] + (reference[DURATION] - reference[TOUCH]) / patience(&s->model);
 }
 
 const scree_stage scree_stage_collide = {

@@ -11,4 +11,7 @@
 scree_status scree_collide_results(const scree_simulation *s, scree_summary *summary,
                                    scree_error *error) SCREE_MUST_USE;
 
+/// Time [s] from the begin of the stage until the bodies of `s`, which is in it, are expected to part.
+double scree_collide_expected(const scree_simulation *s);
+
 #endif

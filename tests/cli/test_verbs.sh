@@ -62,6 +62,10 @@ expect 0 '^# psi' "$scree" check resolved.yaml
 same "$(grep -v '^#' <<<"$output")" "$(grep -v '^#' <<<"$resolved")" "a resolved case, resolved again"
 expect 0 'friction: 0?\.3\b' "$scree" check my.yaml --set materials.0.friction=0.3
 expect 0 '^# particles +600' "$scree" check my.yaml --quick
+expect 0 '^# time needed +[0-9].*, on one thread$' "$scree" check my.yaml --quick
+for part in stepping output figures; do expect 0 "^#   $part +[0-9]" "$scree" check my.yaml --quick; done
+expect 0 '^# memory +[0-9.]+ MB$' "$scree" check rotating-drum
+expect 0 '^#   figures +0 s$' "$scree" check periodic-shear --set output.figures=no
 expect 0 '^# inertial number +[0-9]' "$scree" check my.yaml --quick
 expect 0 '^# warning +stage 2 \(compress\): inertial number 0\.0[0-9]+, above 0\.001: .*a rate of 0\.01' "$scree" check my.yaml --set 'stages.compress.rate=0.5 1/s'
 

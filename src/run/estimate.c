@@ -1,0 +1,211 @@
+/// Steps, time and memory of a run before it runs.
+///
+/// Steps: loading and resting stages are planned by time (run/loading.c), an impact by theory; a confinement is known
+/// only by experience (table `confine_grains`). Time: steps at the probed speed
+/// (run/probe.c), which falls with the memory that a step goes through; new neighbour lists and boundaries; samples
+/// and cells at their probed times; what is written and drawn by the constants below. Memory: bytes a body, of what
+/// a run does, on top of the libraries.
+///
+/// The constants are of 22 November 2026, processor times of one thread of a loaded 2-core machine, resident sets by
+/// /usr/bin/time: 50,000 discs, 20,000 spheres and 100 discs, with and without each kind of output, and the built-in
+/// cases in their quick forms. bench/check_estimates.sh compares estimates with runs.
+///
+/// Limits: one thread; a stage that ends when the sample is at rest counts in full; times of files assume a local
+/// disk.
+#include "run/estimate.h"
+
+#include "model/critical_step.h"
+#include "run/quasistatic.h"
+
+#include <math.h>
+
+/// Duration of a confinement after its ramp, in times that a wave needs from grain to grain: it does not grow with the
+/// sample. Quick forms: biaxial 680 (2000 discs 630, 60 discs 930), biaxial-boundaries 770, biaxial-timescales 710,
+/// rotation-length 900, minimal-shear-circle 1090, minimal-size-effect 1700; periodic-shear 460; triaxial 1070.
+static const struct {
+    double mindlin, other, periodic, solid;
+} confine_grains = {.mindlin = 700, .other = 900, .periodic = 460, .solid = 1070};
+#define RAMP_WAVES 6.0        /* run/stage_confine.c, as is the next */
+enum { CONFINE_SAMPLES = 4 }; ///< a wave time
+#define RISE_WAVES 4.0        /* run/loading.c */
+#define RISE_SHARE 0.1
+
+/// Of two and three dimensions.
+typedef struct expense {
+    double file, body;      ///< s: a snapshot, each of its bodies
+    double cell_file, cell; ///< s: the same of its cells, without finding them
+    double paraview_file, paraview_body;
+    double step_bytes, cell_bytes, figure_bytes; ///< a body
+    double live_bytes;                           ///< a body, that a step goes through
+} expense;
+static const expense expenses[2] = {
+    {7e-3, 1e-6, 6e-3, 2e-6, 5e-3, 1.2e-6, 1100, 930, 6200, 319},
+    {7e-3, 2e-6, 6e-3, 8e-6, 5e-3, 6e-6, 1560, 3960, 4500, 488},
+};
+#define START          0.03  /* s: libraries, case, folder */
+#define ROW            2e-5  /* s: a row of series.csv */
+#define CHART          0.13  /* s: gnuplot */
+#define SCENE          0.12  /* s: a scene and its pixels */
+#define SCENE_BODY     2e-5  /* s: a body in a scene */
+#define END_OF_CELLS   2.0   /* snapshots' cells: their results at the end of a run */
+#define PROGRAM_BYTES  22e6  /* the libraries that a run needs */
+#define SNAPSHOT_BYTES 0.4e6 /* a snapshot while run.h5 is gathered */
+#define FIGURE_BYTES   8e6   /* of all figures, and of each scene */
+#define SCENE_BYTES    1e6
+/// Steps between two neighbour lists: quick forms 300 to 2900 under load, 75 to 160 falling and flowing.
+#define LIST_STEPS_LOADED  1000.0
+#define LIST_STEPS_FALLING 100.0
+/// A particle-step of a million discs costs 1.1 to 1.5 times one in cache (docs/performance.md), 256,000 spheres 1.4.
+#define CACHE_BYTES  2e6
+#define CACHE_FACTOR 0.08 /* for every e-fold of memory beyond */
+
+// ---- steps -------------------------------------------------------------------------------------------------------
+
+/// Force evaluations a tick while loading.
+static double evaluations_a_tick(const scree_model *model)
+{
+    return (double)(1 + model->small_steps) / (double)(model->large_multiple + model->small_steps);
+}
+
+static double wave_time(const scree_model *model, int64_t index)
+{
+    double pressure = scree_confining_pressure(model->config, index);
+    return pressure > 0 ? scree_expected_wave_time(model, pressure) : 0;
+}
+
+static double confine_time(const scree_model *model, const scree_config_stage *stage, double wave)
+{
+    double density = model->density[SCREE_PARTICLE_MATERIAL], modulus = scree_confined_modulus(model, stage->pressure);
+    double grain = 2 * model->mean_radius / scree_wave_speed(modulus, density, scree_expected_solid_fraction(model));
+    double grains = model->law == SCREE_LAW_HERTZ_MINDLIN ? confine_grains.mindlin : confine_grains.other;
+    if (model->dimension == 3) grains = confine_grains.solid;
+    if (scree_model_is_wholly_periodic(model)) grains = confine_grains.periodic;
+    return (isnan(stage->ramp_time) ? RAMP_WAVES * wave : stage->ramp_time) + grains * grain;
+}
+
+/// Time [s] of a stage that is planned; `wave` [s].
+static double planned_time(const scree_model *model, const scree_config_stage *stage, double wave, double collision)
+{
+    double rate = scree_model_loading_rate(stage);
+    switch ((scree_stage_kind)stage->kind) {
+    case SCREE_STAGE_PREPARE:
+        return 0;
+    case SCREE_STAGE_CONFINE:
+        return confine_time(model, stage, wave);
+    case SCREE_STAGE_ROTATE:
+        return stage->rest_time + (isnan(stage->ramp_time) ? RISE_WAVES * wave : stage->ramp_time) + stage->hold_time;
+    case SCREE_STAGE_COLLIDE:
+        return isnan(collision) ? stage->duration : collision;
+    case SCREE_STAGE_RELAX:
+        return stage->duration;
+    case SCREE_STAGE_COMPRESS:
+    case SCREE_STAGE_DEFORM:
+        break;
+    }
+    double time = stage->strain / rate;
+    // The smooth start costs half the rise time.
+    return time + 0.5 * (isnan(stage->rise_time) ? fmin(RISE_WAVES * wave, RISE_SHARE * time) : stage->rise_time);
+}
+
+static bool loads(const scree_config_stage *stage)
+{
+    return stage->kind == SCREE_STAGE_COMPRESS || stage->kind == SCREE_STAGE_DEFORM ||
+           stage->kind == SCREE_STAGE_ROTATE || stage->kind == SCREE_STAGE_RELAX;
+}
+
+scree_stage_cost scree_stage_expect(const scree_model *model, int64_t index, double collision)
+{
+    const scree_config_stage *stage = &model->config->stages[index];
+    double wave = wave_time(model, index), time = planned_time(model, stage, wave, collision);
+    double share = loads(stage) ? evaluations_a_tick(model) : 1 / (double)model->largest_step;
+    scree_stage_cost cost = {.steps = isnan(time) ? 0 : time / model->step * share, .snapshots = 1};
+    if (loads(stage)) cost.snapshots += 1 + (double)model->config->output.snapshots;
+    if (stage->kind == SCREE_STAGE_CONFINE)
+        cost.samples = wave > 0 ? CONFINE_SAMPLES * time / wave : 0;
+    else
+        cost.samples = fmin(cost.steps, (double)model->config->measure.samples);
+    return cost;
+}
+
+int64_t scree_longest_stage(const scree_model *model)
+{
+    int64_t longest = model->config->stage_count > 1 ? 1 : 0;
+    for (int64_t k = 2; k < model->config->stage_count; k++)
+        if (scree_stage_expect(model, k, NAN).steps > scree_stage_expect(model, longest, NAN).steps) longest = k;
+    return longest;
+}
+
+// ---- figures -----------------------------------------------------------------------------------------------------
+
+/// Scenes that are drawn (view/plot_scenes.c), and charts.
+static double scenes_of(const scree_config *config, double *charts)
+{
+    bool strained = false, cells = config->measure.cells && !config->boundary.periodic;
+    for (int64_t k = 0; k < config->stage_count; k++)
+        strained = strained || (loads(&config->stages[k]) && config->stages[k].kind != SCREE_STAGE_RELAX);
+    double windows = config->measure.window_count > 0 ? (double)config->measure.window_count : 2;
+    *charts = strained ? 10 : 0;
+    if (!config->output.figures) return *charts = 0;
+    return 5 + (cells ? 5 : 0) + (strained ? 1 + windows : 0) + (strained && cells ? 4 + windows : 0);
+}
+
+// ---- time --------------------------------------------------------------------------------------------------------
+
+/// How much more a particle-step costs with `count` bodies than in the probe.
+static double cache_factor(const scree_model *model, double count)
+{
+    double bytes = count * expenses[model->dimension == 3].live_bytes;
+    return 1 + CACHE_FACTOR * log(fmax(1, bytes / CACHE_BYTES));
+}
+
+/// s a step.
+static double step_time(const scree_model *model, const scree_probe *probe, double scale)
+{
+    double count = probe->count * scale, cache = cache_factor(model, count) / cache_factor(model, probe->count);
+    bool falls = model->config->wall_count > 0;
+    double list = probe->rebuild * scale / (falls ? LIST_STEPS_FALLING : LIST_STEPS_LOADED);
+    double every = (double)model->config->boundary.every * (double)model->largest_step * evaluations_a_tick(model);
+    return probe->step * scale * cache + list + probe->upkeep * scale / every;
+}
+
+/// s: a snapshot, ParaView's files and its share of the gathering included; `cells` out: the part that cells take.
+static double snapshot_time(const scree_model *model, const scree_probe *probe, double scale, double *cells)
+{
+    const scree_config *config = model->config;
+    const expense *e = &expenses[model->dimension == 3];
+    double count = probe->count * scale;
+    *cells = probe->cells > 0 ? probe->cells * scale + e->cell_file + e->cell * count : 0;
+    double paraview = config->output.paraview ? e->paraview_file + e->paraview_body * count : 0;
+    return e->file + e->body * count + *cells + paraview;
+}
+
+void scree_run_expect(const scree_model *model, const scree_probe *probe, scree_run_cost *cost)
+{
+    double count = (double)model->config->particles.count, scale = count / probe->count, cells, charts;
+    double snapshot = snapshot_time(model, probe, scale, &cells);
+    *cost = (scree_run_cost){.output = START + END_OF_CELLS * cells, .memory = scree_memory_expect(model)};
+    for (int64_t k = 0; k < model->config->stage_count; k++) {
+        scree_stage_cost stage = scree_stage_expect(model, k, probe->collision);
+        cost->steps += stage.steps;
+        cost->output += stage.samples * (probe->sample * scale + ROW) + stage.snapshots * snapshot;
+    }
+    cost->stepping = cost->steps * step_time(model, probe, scale) + probe->preparation * scale;
+    cost->rate = count / step_time(model, probe, scale);
+    double scenes = scenes_of(model->config, &charts);
+    cost->figures = charts * CHART + scenes * (SCENE + SCENE_BODY * count);
+}
+
+// ---- memory ------------------------------------------------------------------------------------------------------
+
+double scree_memory_expect(const scree_model *model)
+{
+    const scree_config *config = model->config;
+    const expense *e = &expenses[model->dimension == 3];
+    double charts, scenes = scenes_of(config, &charts), snapshots = 0;
+    // Cells are gone when figures are drawn.
+    double cells = config->measure.cells && !config->boundary.periodic ? e->cell_bytes : 0;
+    double body = e->step_bytes + fmax(cells, scenes > 0 ? e->figure_bytes : 0);
+    for (int64_t k = 0; k < config->stage_count; k++) snapshots += scree_stage_expect(model, k, NAN).snapshots;
+    double figures = scenes > 0 ? FIGURE_BYTES + SCENE_BYTES * scenes : 0;
+    return PROGRAM_BYTES + snapshots * SNAPSHOT_BYTES + figures + body * (double)config->particles.count;
+}

@@ -1,0 +1,251 @@
+/// Speed of a case before it runs, by a few hundred of its own steps.
+///
+/// The probe is the case with at most MOST_DISCS or MOST_SPHERES bodies, everything else as it is: law, rolling,
+/// boundary, cell. It has to stand as it will under load, since what touches is what costs:
+/// - a packing that is made by dropping or on a lattice touches already, and is pressed together by the overlap that
+///   the pressure will make;
+/// - a gas that will be confined stands as a dropped packing between walls, which are then taken away, or become the
+///   faces of the periodic cell: two bodies that touch opposite walls do not overlap across the face;
+/// - a gas that falls among walls of the case stands as a pile between plates: what curved walls cost more, a sample
+///   that falls and flows for a part of the time saves in contacts (runs take 1.1 and 0.8 of the estimate in the quick
+///   forms of rotating-drum and hopper).
+/// Times are processor times of this thread, the least of several blocks, so that other programs disturb little.
+///
+/// Limits: the cost of a body in a larger sample is scaled by run/estimate.c; a flow is seen at rest. Cost: some tenths
+/// of a second.
+#include "run/probe.h"
+
+#include "measure/cells.h"
+#include "run/quasistatic.h"
+#include "run/sample.h"
+#include "run/stage_collide.h"
+#include "run/step.h"
+#include "search/neighbours.h"
+#include "state/periodic.h"
+
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+enum {
+    MOST_DISCS = 1500,
+    MOST_SPHERES = 1000,
+    BLOCKS = 8,        ///< repeats, of which the fastest counts
+    REPEATS = 3,       ///< the same of what is not a step
+    BLOCK_WORK = 60000 ///< steps of a block times bodies
+};
+/// Of the critical step.
+#define STEP_FRACTION 0.2
+/// Overlap that the probe may reach, in radii: it is pressed at once.
+#define DEEP 0.9
+
+static double processor_time(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+// ---- the smaller case --------------------------------------------------------------------------------------------
+
+typedef struct probe_case {
+    scree_case c;
+    scree_simulation s;
+    bool dropped; ///< in the place of a gas
+    unsigned periodic;
+} probe_case;
+
+/// The box of the preparation shrinks with the number of bodies.
+static void shrink_box(scree_config *config, scree_config_stage *prepare, double count)
+{
+    double scale = pow(count / (double)config->particles.count, 1.0 / (double)config->dimension);
+    config->particles.count = (int64_t)count;
+    prepare->width *= scale;
+    prepare->depth *= scale;
+}
+
+/// Limits that belong to the true case do not stop the probe, and what is measured apart does not happen in its steps.
+static scree_status make_case(const scree_case *c, probe_case *probe, scree_error *error)
+{
+    *probe = (probe_case){.c = *c};
+    scree_config *config = &probe->c.config;
+    scree_status status = scree_allocate(&config->stages, (size_t)config->stage_count, sizeof *config->stages, error);
+    if (status) return status;
+    memcpy(config->stages, c->config.stages, (size_t)config->stage_count * sizeof *config->stages);
+    scree_config_stage *prepare = &config->stages[0];
+    probe->dropped = prepare->method == SCREE_PREPARE_GAS || prepare->method == SCREE_PREPARE_GROWTH;
+    double most = config->dimension == 3 ? MOST_SPHERES : MOST_DISCS;
+    if ((double)config->particles.count > most) shrink_box(config, prepare, most);
+    for (int64_t k = 0; k < config->stage_count; k++) {
+        if (!(config->stages[k].particle < (double)config->particles.count)) config->stages[k].particle = NAN;
+        if (config->wall_count > 0) config->stages[k].boundary = SCREE_BOUNDARY_PLATES;
+    }
+    config->wall_count = 0;
+    config->guard.overlap = fmax(config->guard.overlap, DEEP);
+    config->guard.energy_growth = INFINITY;
+    // The smaller case is stable at another step.
+    config->integrator.step = NAN;
+    config->integrator.step_fraction = STEP_FRACTION;
+    config->boundary.every = INT64_MAX / (INT64_C(1) << 32);
+    return SCREE_OK;
+}
+
+// ---- as it will stand --------------------------------------------------------------------------------------------
+
+static scree_status prepare(probe_case *probe, scree_error *error)
+{
+    scree_simulation *s = &probe->s;
+    scree_config *config = &probe->c.config;
+    scree_config_stage *stage = &config->stages[0];
+    probe->periodic = (unsigned)config->boundary.periodic;
+    scree_status status = scree_simulation_open(&probe->c, 1, s, error);
+    if (probe->dropped) {
+        stage->method = SCREE_PREPARE_DROP_AND_ROLL;
+        config->boundary.periodic = SCREE_PERIODIC_NONE;
+    }
+    if (!status) status = scree_simulation_step(s, error);
+    config->boundary.periodic = (int)probe->periodic;
+    return status;
+}
+
+/// The box of a packing that was dropped between walls becomes the cell.
+static void close_cell(const scree_model *model, unsigned periodic, scree_state *state)
+{
+    scree_vector low, high;
+    scree_periodic_box(state, low, high);
+    double side[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
+    scree_periodic_set(&state->periodic, periodic, side);
+    for (int w = 0; w < SCREE_WALL_COUNT; w++) {
+        int axis = w / 2 == 0 ? model->dimension - 1 : w / 2 - 1;
+        if (periodic >> axis & 1) state->wall[w].active = 0;
+    }
+}
+
+/// Everything comes closer by the overlap [mean diameters] of a contact under `pressure`.
+static void press(const scree_model *model, scree_state *state, double pressure)
+{
+    const int material = SCREE_PARTICLE_MATERIAL;
+    double diameter = 2 * model->mean_radius, width = model->dimension == 3 ? diameter : model->thickness;
+    double force = pressure * diameter * width, root = sqrt(0.5 * model->mean_radius);
+    double overlap = pow(force / (model->pairs[material][material].normal_stiffness * root), 2.0 / 3.0) / diameter;
+    double scale = 1 - fmin(overlap, 0.05);
+    for (size_t row = 0; row < state->count; row++) {
+        state->row[row].x *= scale;
+        state->row[row].y *= scale;
+        if (model->dimension == 3) state->row[row].z *= scale;
+        scree_body_place(state, row, state->reference[row]);
+    }
+    for (int w = 0; w < SCREE_WALL_COUNT; w++) state->wall[w].position *= scale;
+    for (int k = 0; k < 9; k++)
+        if (state->periodic.directions >> (k % 3) & 1) state->periodic.lattice[k] *= scale;
+    memcpy(state->periodic.reference, state->periodic.lattice, sizeof state->periodic.reference);
+}
+
+/// Bodies placed and pressed, in the stage that is to be measured.
+static scree_status stand(probe_case *probe, int64_t stage, scree_error *error)
+{
+    scree_simulation *s = &probe->s;
+    scree_status status = prepare(probe, error);
+    if (status) return status;
+    double pressure = scree_confining_pressure(&probe->c.config, stage);
+    if (probe->dropped && probe->periodic) close_cell(&s->model, probe->periodic, &s->state);
+    if (pressure > 0 && s->state.count > 2) press(&s->model, &s->state, pressure);
+    s->state.pressure = pressure > 0 ? pressure : 0;
+    s->state.stage.index = stage;
+    s->state.stage.counter = -1;
+    scree_neighbours_invalidate(&s->work);
+    return scree_stage_enter(s, false, error);
+}
+
+// ---- times -------------------------------------------------------------------------------------------------------
+
+typedef scree_status probe_task(probe_case *probe, scree_error *error);
+
+static scree_status renew_list(probe_case *probe, scree_error *error)
+{
+    scree_simulation *s = &probe->s;
+    scree_neighbours_invalidate(&s->work);
+    return scree_neighbours_refresh(&s->stage_model, &s->state, &s->work, error);
+}
+
+static scree_status renew_boundary(probe_case *probe, scree_error *error)
+{
+    scree_simulation *s = &probe->s;
+    int64_t *every = &probe->c.config.boundary.every, kept = *every;
+    *every = 0;
+    scree_status status = scree_boundary_prepare(s->boundary, &s->stage_model, &s->state, error);
+    *every = kept;
+    return status;
+}
+
+static scree_status take_sample(probe_case *probe, scree_error *error)
+{
+    return scree_sample_take(&probe->s, error);
+}
+
+static scree_status measure_cells(probe_case *probe, scree_error *error)
+{
+    scree_simulation *s = &probe->s;
+    scree_cells cells = {0};
+    scree_status status = scree_cells_measure(&s->stage_model, &s->state, &s->table, &cells, error);
+    scree_cells_destroy(&cells);
+    return status;
+}
+
+static scree_status time_task(probe_case *probe, probe_task *task, double *seconds, scree_error *error)
+{
+    scree_status status = SCREE_OK;
+    *seconds = INFINITY;
+    for (int k = 0; k < REPEATS && !status; k++) {
+        double begin = processor_time();
+        status = task(probe, error);
+        *seconds = fmin(*seconds, processor_time() - begin);
+    }
+    return status;
+}
+
+/// The least time [s] of a step in some blocks of them.
+static scree_status time_steps(scree_simulation *s, double *seconds, scree_error *error)
+{
+    int steps = 1 + BLOCK_WORK / (int)(s->state.count + 100);
+    scree_status status = SCREE_OK;
+    *seconds = INFINITY;
+    for (int block = 0; block < BLOCKS && !status; block++) {
+        double begin = processor_time();
+        for (int k = 0; k < steps && !status; k++) status = scree_step(s, error);
+        *seconds = fmin(*seconds, (processor_time() - begin) / steps);
+    }
+    return status;
+}
+
+static scree_status time_all(probe_case *small, scree_probe *probe, scree_error *error)
+{
+    scree_simulation *s = &small->s;
+    scree_status status = time_steps(s, &probe->step, error);
+    if (!status) status = time_task(small, renew_list, &probe->rebuild, error);
+    if (!status) status = time_task(small, renew_boundary, &probe->upkeep, error);
+    if (!status) status = time_task(small, take_sample, &probe->sample, error);
+    if (status || !small->c.config.measure.cells || s->state.periodic.directions) return status;
+    status = time_task(small, measure_cells, &probe->cells, error);
+    // A few bodies have no cells.
+    if (status) probe->cells = 0;
+    return status == SCREE_ERROR_GUARD ? SCREE_OK : status;
+}
+
+scree_status scree_probe_measure(const scree_case *c, int64_t stage, scree_probe *probe, scree_error *error)
+{
+    probe_case small;
+    *probe = (scree_probe){.collision = NAN};
+    scree_status status = make_case(c, &small, error);
+    if (status) return status;
+    double begin = processor_time();
+    status = stand(&small, stage, error);
+    probe->preparation = processor_time() - begin;
+    probe->count = (double)small.s.state.grains;
+    if (!status && small.c.config.stages[stage].kind == SCREE_STAGE_COLLIDE)
+        probe->collision = scree_collide_expected(&small.s);
+    if (!status) status = time_all(&small, probe, error);
+    scree_simulation_close(&small.s);
+    scree_release(&small.c.config.stages);
+    return status;
+}
