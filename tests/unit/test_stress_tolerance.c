@@ -42,10 +42,10 @@ static double confine(const char *text, const char *tolerance)
     double stress[9], off = 0;
     simulation_open(c, 1, &s);
     double sum[3] = {0}, steps = 0;
-    while (simulation_goes_on(&s)) {
+    while (!s.stage_ended || s.state.stage.index == 0) {
         bool sampled = s.sampled;
         simulation_step(&s);
-        if (s.state.count == 0) continue;
+        if (s.stage_ended && s.state.stage.index == 0) continue;
         scree_periodic_stress(&s.model, &s.state, stress);
         for (int k = 0; k < 3; k++) sum[k] = (sampled ? 0 : sum[k]) + stress[4 * k];
         steps = (sampled ? 0 : steps) + 1;
