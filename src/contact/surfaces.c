@@ -81,8 +81,10 @@ void contact_elements_mark(const scree_state *state, const scree_work *work, uin
 
 scree_pair_constants contact_surface_constants(const scree_model *model, const scree_surface *surface, int material)
 {
-    scree_pair_constants constants = model->walls[material];
-    if (!isnan(surface->config->friction) && !model->friction_of_stage) constants.friction = surface->config->friction;
+    const scree_config_wall *wall = surface->config;
+    scree_pair_constants constants =
+        wall->material ? model->surfaces[wall - model->config->walls][material] : model->walls[material];
+    if (!isnan(wall->friction) && !model->friction_of_stage) constants.friction = wall->friction;
     return constants;
 }
 

@@ -56,7 +56,7 @@ void contact_elements_touching(const scree_container *container, int dimension, 
 /// Sets touching[k] to 1 for each of work->element_pairs that touches, else to 0.
 void contact_elements_mark(const scree_state *state, const scree_work *work, uint8_t *touching);
 
-/// Constants of a body of `material` on a wall: those of its plates, with the wall's own friction.
+/// Constants of a body of `material` on a wall: those of its plates, or with the wall's own material and friction.
 scree_pair_constants contact_surface_constants(const scree_model *model, const scree_surface *surface, int material);
 
 /// Motion of a body against the element of a wall at `site`.

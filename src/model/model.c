@@ -3,8 +3,8 @@
 /// Contacts of two materials (Hertz 1882, Mindlin 1949; unlike bodies as in Johnson 1985, eqs. 4.3-4.6 and 7.40):
 ///     1/Ebar = (1 - nu1^2)/E1 + (1 - nu2^2)/E2,     normal stiffness      (4/3) Ebar
 ///     1/Gbar = (2 - nu1)/G1 + (2 - nu2)/G2,         tangential stiffness  8 Gbar,      G = E / (2 (1 + nu))
-/// The weaker rules where materials have no theory of the pair: the smaller friction (of any kind) and restitution.
-/// Everything here is O(materials^2 + stages).
+/// A rigid wall has no compliance. The weaker rules where materials have no theory of the pair: the smaller friction
+/// (of any kind) and restitution. Everything here is O(materials^2 + stages).
 #include "model/model.h"
 
 #include "model/critical_step.h"
@@ -32,12 +32,17 @@ static scree_status indexed_error(scree_error *error, const char *list, int64_t 
     return FIELD_ERROR(error, path, "%s", text);
 }
 
+/// Index of a material; -1: there is none of this name.
+static int find_material(const scree_config *config, const char *name)
+{
+    for (int i = 0; i < config->material_count; i++)
+        if (strcmp(config->materials[i].name, name) == 0) return i;
+    return -1;
+}
+
 int scree_model_particle_material(const scree_model *model)
 {
-    const scree_config *config = model->config;
-    for (int i = 0; i < model->material_count; i++)
-        if (strcmp(config->materials[i].name, config->particles.material) == 0) return i;
-    return -1;
+    return find_material(model->config, model->config->particles.material);
 }
 
 bool scree_model_is_wholly_periodic(const scree_model *model)
@@ -45,17 +50,24 @@ bool scree_model_is_wholly_periodic(const scree_model *model)
     return model->config->boundary.periodic == (1 << model->dimension) - 1;
 }
 
-static double shear_modulus(const scree_config_material *m)
+/// Over (4/3) and 8 the inverse of a body's share of the two stiffnesses; none of a rigid one (NULL).
+static double compliance_of(const scree_config_material *m)
 {
-    return m->young_modulus / (2 * (1 + m->poisson_ratio));
+    return m ? (1 - m->poisson_ratio * m->poisson_ratio) / m->young_modulus : 0;
 }
 
+static double shear_compliance_of(const scree_config_material *m)
+{
+    return m ? (2 - m->poisson_ratio) * 2 * (1 + m->poisson_ratio) / m->young_modulus : 0;
+}
+
+/// b is NULL for something rigid, which leaves the rest to a.
 static scree_pair_constants pair_constants(const scree_config_material *a, const scree_config_material *b,
                                            scree_law law)
 {
-    double compliance = (1 - a->poisson_ratio * a->poisson_ratio) / a->young_modulus +
-                        (1 - b->poisson_ratio * b->poisson_ratio) / b->young_modulus;
-    double shear_compliance = (2 - a->poisson_ratio) / shear_modulus(a) + (2 - b->poisson_ratio) / shear_modulus(b);
+    double compliance = compliance_of(a) + compliance_of(b);
+    double shear_compliance = shear_compliance_of(a) + shear_compliance_of(b);
+    if (!b) b = a;
     double restitution = fmin(a->restitution, b->restitution);
     return (scree_pair_constants){
         .normal_stiffness = 4.0 / 3.0 / compliance,
@@ -65,6 +77,37 @@ static scree_pair_constants pair_constants(const scree_config_material *a, const
         .rolling_friction = fmin(a->rolling_friction, b->rolling_friction),
         .twisting_friction = fmin(a->twisting_friction, b->twisting_friction),
     };
+}
+
+/// Material `grain` on a wall of `material` (NULL: like the grain); at LIST.INDEX.KEY the user said so.
+static scree_status wall_constants(const scree_model *model, int64_t grain, const char *material, const char *list,
+                                   int64_t index, const char *key, scree_pair_constants *constants, scree_error *error)
+{
+    const scree_config_material *body = &model->config->materials[grain], *wall = body;
+    bool rigid = material && strcmp(material, SCREE_RIGID) == 0;
+    int found = material && !rigid ? find_material(model->config, material) : (int)grain;
+    if (found < 0) return indexed_error(error, list, index, key, "there is no material of this name");
+    wall = rigid ? NULL : &model->config->materials[found];
+    *constants = pair_constants(body, wall, model->law);
+    if (!isnan(body->wall_friction)) constants->friction = body->wall_friction;
+    return SCREE_OK;
+}
+
+/// Grains of every material on plates and on the walls of the case that have a material of their own.
+static scree_status resolve_walls(scree_model *model, scree_error *error)
+{
+    const scree_config *config = model->config;
+    scree_status status = SCREE_OK;
+    for (int64_t i = 0; i < model->material_count && !status; i++) {
+        const scree_config_material *grain = &config->materials[i];
+        status =
+            wall_constants(model, i, grain->wall_material, "materials", i, "wall_material", &model->walls[i], error);
+        for (int64_t w = 0; w < config->wall_count && !status; w++)
+            if (config->walls[w].material)
+                status = wall_constants(model, i, config->walls[w].material, "walls", w, "material",
+                                        &model->surfaces[w][i], error);
+    }
+    return status;
 }
 
 static scree_status resolve_materials(scree_model *model, scree_error *error)
@@ -85,13 +128,11 @@ static scree_status resolve_materials(scree_model *model, scree_error *error)
                                  "give a value above 0, such as 0.05");
         for (int j = 0; j <= i; j++)
             model->pairs[i][j] = model->pairs[j][i] = pair_constants(material, &config->materials[j], model->law);
-        model->walls[i] = model->pairs[i][i];
-        if (!isnan(material->wall_friction)) model->walls[i].friction = material->wall_friction;
         model->density[i] = material->density;
         bool rolls = material->rolling_friction > 0 || material->twisting_friction > 0;
         model->rolling = model->rolling || (rolls && model->law == SCREE_LAW_HERTZ_MINDLIN);
     }
-    return SCREE_OK;
+    return resolve_walls(model, error);
 }
 
 static scree_status resolve_particles(scree_model *model, scree_error *error)
@@ -124,17 +165,21 @@ double scree_model_largest_radius(const scree_model *model)
     return fmax(model->radius_max, model->membrane_radius);
 }
 
+static void take_friction(scree_pair_constants *pair)
+{
+    pair->friction = pair->rolling_friction = pair->twisting_friction = 0;
+}
+
 /// Takes the friction of a membrane away.
 static void make_frictionless(scree_model *model)
 {
     if (!model->membrane) return;
     int m = model->membrane_material;
-    scree_pair_constants *own = &model->walls[m];
-    own->friction = own->rolling_friction = own->twisting_friction = 0;
+    take_friction(&model->walls[m]);
+    for (int w = 0; w < SCREE_SURFACES; w++) take_friction(&model->surfaces[w][m]);
     for (int i = 0; i < SCREE_MAX_MATERIALS; i++) {
-        own = &model->pairs[i][m];
-        own->friction = own->rolling_friction = own->twisting_friction = 0;
-        model->pairs[m][i] = *own;
+        take_friction(&model->pairs[i][m]);
+        model->pairs[m][i] = model->pairs[i][m];
     }
 }
 
@@ -176,6 +221,7 @@ static scree_status resolve_membrane(scree_model *model, scree_error *error)
     for (int i = 0; i < model->material_count; i++) model->pairs[m][i] = model->pairs[i][m] = model->pairs[grains][i];
     model->pairs[m][m] = model->pairs[grains][grains];
     model->walls[m] = model->walls[grains];
+    for (int w = 0; w < SCREE_SURFACES; w++) model->surfaces[w][m] = model->surfaces[w][grains];
     model->density[m] = model->density[grains];
     make_frictionless(model);
     double radius = config->boundary.membrane_radius;
@@ -400,6 +446,7 @@ scree_model scree_model_with_friction(const scree_model *model, double friction)
     copy.friction_of_stage = true;
     for (int i = 0; i < SCREE_MAX_MATERIALS; i++) {
         copy.walls[i].friction = friction;
+        for (int w = 0; w < SCREE_SURFACES; w++) copy.surfaces[w][i].friction = friction;
         for (int j = 0; j < SCREE_MAX_MATERIALS; j++) copy.pairs[i][j].friction = friction;
     }
     make_frictionless(&copy);
