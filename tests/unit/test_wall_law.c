@@ -262,9 +262,11 @@ static void speeds_are_bounded(void **unused)
         scree_error error;
         check(scree_container_triangles(w.f.work.container, wall->lower, wall->upper, &drawn, &error), &error);
         for (size_t k = 0; k < 3 * drawn.count; k++) {
-            scree_vector moved;
-            scree_surface_velocity(surface, &drawn.corner[k / 3][3 * (k % 3)], moved);
-            fastest = fmax(fastest, sqrt(scree_dot(moved, moved)));
+            double lever[3], moved[3];
+            scree_subtract(&drawn.corner[k / 3][3 * (k % 3)], surface->hub, lever);
+            scree_cross(wall->spin, lever, moved);
+            scree_along(wall->velocity, 1, moved, moved);
+            fastest = fmax(fastest, scree_length(moved));
         }
         assert_true(drawn.count > 0 && fastest > 0.1 && fastest <= bound && fastest * time <= way);
         // Spin times extent, where the motions add up.
@@ -374,6 +376,7 @@ static void rigid_motion_meets_no_resistance(void **unused)
             world_start(&w, dimension, SCREE_LAW_HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 1e-7);
             sphere_resist_turning(&w.f);
             w.f.state.surface_moving = 1;
+            w.f.state.step_size = 0; // finite steps: test_rigid_motion.c
             scree_cross(spin, place, velocity);
             // The contact point of a body at rest moves with the wall when its centre does, with the lever between.
             double lever[3] = {0, -0.995 * R, 0}, apart[3];
