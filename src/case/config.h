@@ -10,15 +10,19 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/// In the place of a material: a wall that does not deform.
+#define SCREE_RIGID "rigid"
+
 typedef struct scree_config_material {
     char *name;
-    double young_modulus;     ///< Pa
-    double poisson_ratio;     ///< 1
-    double density;           ///< kg/m3
-    double friction;          ///< 1, grain on grain
-    double wall_friction;     ///< 1, grain on plate; auto: friction
-    double restitution;       ///< 1, used by laws that damp by restitution
-    double rolling_friction;  ///< 1, hertz_mindlin: limit of the rolling resistance over the normal force
+    double young_modulus;    ///< Pa
+    double poisson_ratio;    ///< 1
+    double density;          ///< kg/m3
+    double friction;         ///< 1, grain on grain
+    double wall_friction;    ///< 1, grain on plate; auto: friction
+    char *wall_material;     ///< what plates and walls are made of for it: a name, or SCREE_RIGID; auto (NULL): like it
+    double restitution;      ///< 1, used by laws that damp by restitution
+    double rolling_friction; ///< 1, hertz_mindlin: limit of the rolling resistance over the normal force
     double twisting_friction; ///< 1, hertz_mindlin in 3D: limit of the twisting torque over R_eff times that force
 } scree_config_material;
 
@@ -217,6 +221,7 @@ typedef struct scree_config_wall {
     double scale;                    ///< mesh: m per unit of the file
     double at[3];                    ///< m, mesh: where the origin of the file lies
     double smooth;                   ///< rad, mesh: contacts whose normals differ by less are one
+    char *material;                  ///< name, or SCREE_RIGID; auto (NULL): wall_material of the grain's material
     double friction;                 ///< 1; auto: the material's friction on plates
     double velocity[3];              ///< m/s
     double spin[3];                  ///< rad/s

@@ -24,6 +24,27 @@ static const scree_node *element(const scree_reader *reader, const char *list, i
     return scree_node_at(scree_node_find(reader->root, list), (size_t)index);
 }
 
+/// A material that a wall is said to have under LIST.INDEX.KEY.
+static void check_wall_material(scree_reader *reader, const scree_config *config, const char *list, int64_t index,
+                                const char *key, const char *wanted)
+{
+    const char *names[MOST_MATERIALS + 1] = {SCREE_RIGID}, *text;
+    char path[SCREE_PATH_BYTES], accepted[256] = SCREE_RIGID;
+    size_t count = 1, length = strlen(accepted);
+    if (!wanted || strcmp(wanted, SCREE_RIGID) == 0) return;
+    for (int64_t i = 0; i < config->material_count; i++) {
+        names[count++] = config->materials[i].name;
+        if (strcmp(config->materials[i].name, wanted) == 0) return;
+        if (length < sizeof accepted)
+            length += (size_t)snprintf(accepted + length, sizeof accepted - length, ", %s", config->materials[i].name);
+    }
+    (void)snprintf(path, sizeof path, "%s.%lld.%s", list, (long long)index, key);
+    const char *nearest = scree_nearest(wanted, names, count);
+    scree_problem_add(reader, place_of(element(reader, list, index), key, &text), path, wanted, accepted,
+                      "there is no material '%s'%s%s%s", wanted, nearest ? "; did you mean '" : "",
+                      nearest ? nearest : "", nearest ? "'?" : "");
+}
+
 static void check_materials(scree_reader *reader, const scree_config *config)
 {
     const char *names[MOST_MATERIALS] = {0}, *text;
@@ -41,7 +62,15 @@ static void check_materials(scree_reader *reader, const scree_config *config)
         if (length < sizeof list)
             length += (size_t)snprintf(list + length, sizeof list - length, "%s%s", i > 0 ? ", " : "", name);
         names[count++] = name;
+        if (strcmp(name, SCREE_RIGID) != 0) continue;
+        (void)snprintf(path, sizeof path, "materials.%lld.name", (long long)i);
+        scree_problem_add(reader, place_of(element(reader, "materials", i), "name", &text), path, name, NULL,
+                          "no material can be called " SCREE_RIGID ": walls that do not deform are");
     }
+    for (int64_t i = 0; i < config->material_count; i++)
+        check_wall_material(reader, config, "materials", i, "wall_material", config->materials[i].wall_material);
+    for (int64_t i = 0; i < config->wall_count; i++)
+        check_wall_material(reader, config, "walls", i, "material", config->walls[i].material);
     const char *wanted = config->particles.material;
     if (!wanted || count == 0) return;
     for (size_t k = 0; k < count; k++)

@@ -159,6 +159,8 @@ static const scree_key material_keys[] = {
     NUMBER(material, friction, "1", FROM("0"), TO("10"), .meaning = "Coefficient of friction between particles."),
     NUMBER(material, wall_friction, "1", .standard = "auto", FROM("0"), TO("10"),
            .meaning = "Coefficient of friction on plates; auto: `friction`."),
+    KEY(material, wall_material, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),
+        .meaning = "What plates and walls that it touches are made of: a material, or `rigid`; auto: the same as it."),
     NUMBER(material, restitution, "1", .standard = "0.2", ABOVE("0"), TO("1"), .when = "contact.law=hertz_mindlin",
            .meaning = "Coefficient of restitution of a normal impact; sets the damping."),
     NUMBER(material, rolling_friction, "1", .standard = "0", FROM("0"), TO("10"), .when = "contact.law=hertz_mindlin",
@@ -426,6 +428,8 @@ static const scree_choice ends[] = {
         KEY(wall, name, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),                                       \
             .meaning = "Name in tables and for --set; auto: the shape, numbered from 1 if there are several.")
 #define WALL_TAIL                                                                                                      \
+    KEY(wall, material, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),                                       \
+        .meaning = "Name of its material, or `rigid`; auto: wall_material of the particles that touch it."),           \
     NUMBER(wall, friction, "1", .standard = "auto", FROM("0"), TO("10"),                                               \
            .meaning = "Friction of particles on it; auto: their material's wall_friction."),                           \
         KEY(wall, velocity, SCREE_KEY_VECTOR, .unit = "m/s", .standard = "[0, 0]", FROM("-1000 m/s"), TO("1000 m/s"),  \

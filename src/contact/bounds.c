@@ -12,7 +12,7 @@
 /// 2 mu_tw k_n / k_t or so (its cap over its stiffness), so it holds no more than twice that times mu_tw R_max f_n.
 /// Each bound is doubled, so round-off cannot matter.
 ///
-/// Cost: materials^2, a few powers.
+/// Cost: materials (materials + walls), a few powers.
 #include "contact/bounds.h"
 
 #include "base/fixed.h"
@@ -45,8 +45,10 @@ static extremes extremes_get(const scree_model *model)
         extend(&e, &model->walls[a]);
         for (int b = 0; b <= a; b++) extend(&e, &model->pairs[a][b]);
     }
-    for (int w = 0; model->config && w < model->config->wall_count; w++)
+    for (int w = 0; model->config && w < model->config->wall_count; w++) {
         e.friction = fmax(e.friction, model->config->walls[w].friction);
+        for (int a = 0; a < model->material_count; a++) extend(&e, &model->surfaces[w][a]);
+    }
     return e;
 }
 

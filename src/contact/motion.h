@@ -57,8 +57,8 @@ typedef struct motion {
     lanes arm_first, arm_second; ///< m
     lanes reduced_radius;        ///< m, R_eff
     lanes reduced_mass;          ///< kg, m_eff
-    vector tilted;               ///< rad, phi; zero against a wall
-    lanes half;                  ///< 1, half of L / L(n - 1), in space
+    vector tilted;               ///< rad, phi; zero against a plane
+    lanes half;                  ///< 1, half of L / L(n - 1), of pairs in space
     vector turned;               ///< rad, psi n, in space
     lanes turn;                  ///< rad, psi, in space
     vector foreseen_slip;        ///< m/s, slip after the coming kick if all forces stay as they are (motion_foresee)
@@ -119,15 +119,14 @@ SCREE_INLINE void motion_turn(motion *m, vector spins, vector relative, double s
     m->roll = turn_half(m, vector_times(3, vector_cross(relative, m->normal), m->reduced_radius));
 }
 
-/// Everything that depends on velocities; normal, indentation, arms and reduced radius are set.
-/// inverse_distance: 1 / L, zero for a wall. lever: a_first w_first + a_second w_second.
-SCREE_INLINE void motion_advance(int dimension, motion *m, vector velocity, vector lever, vector spin_first,
-                                 vector spin_second, lanes inverse_distance, double step)
+/// Everything that depends on velocities; normal, indentation, arms, reduced radius and `tilted` are set.
+/// along: P u. lever: a_first w_first + a_second w_second.
+SCREE_INLINE void motion_advance(int dimension, motion *m, vector velocity, vector along, vector lever,
+                                 vector spin_first, vector spin_second, double step)
 {
     const int count = tangential_count(dimension);
-    vector n = m->normal, along = vector_across(dimension, velocity, n);
+    vector n = m->normal;
     vector spins = vector_plus(count, spin_first, spin_second), relative = vector_minus(count, spin_first, spin_second);
-    m->tilted = vector_times(count, along, step * inverse_distance);
     vector half = vector_times(count, m->tilted, lanes_all(0.5));
     m->approach = vector_dot(count, along, half) - vector_dot(dimension, velocity, n);
 
@@ -137,7 +136,6 @@ SCREE_INLINE void motion_advance(int dimension, motion *m, vector velocity, vect
     m->slip = vector_minus(count, along, spin_across(dimension, lever, n));
     m->roll = vector_times(count, relative, m->reduced_radius);
     if (dimension == 2) return;
-    m->half = 0.5 - (0.5 * step) * (m->approach * inverse_distance);
     motion_turn(m, spins, relative, step);
     m->slip = turn_half(m, m->slip);
 }
@@ -189,8 +187,11 @@ SCREE_INLINE motion motion_of_pair(int dimension, const bodies *first, const bod
     m.arm_second = second->radius - half;
     vector lever = vector_plus(count, vector_times(count, first->spin, m.arm_first),
                                vector_times(count, second->spin, m.arm_second));
-    motion_advance(dimension, &m, vector_minus(dimension, first->velocity, second->velocity), lever, first->spin,
-                   second->spin, inverse_distance, step);
+    vector velocity = vector_minus(dimension, first->velocity, second->velocity);
+    vector along = vector_across(dimension, velocity, m.normal);
+    m.tilted = vector_times(count, along, step * inverse_distance);
+    motion_advance(dimension, &m, velocity, along, lever, first->spin, second->spin, step);
+    if (dimension == 3) m.half = 0.5 - (0.5 * step) * (m.approach * inverse_distance);
     return m;
 }
 

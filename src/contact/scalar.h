@@ -114,11 +114,13 @@ SCREE_INLINE motion motion_beside(const bodies *body, const double normal[3], do
     return m;
 }
 
-/// The rest of it: the wall moves with `velocity` at the contact and turns with `spin`.
-SCREE_INLINE void motion_past(int dimension, motion *m, const bodies *body, vector velocity, vector spin, double step)
+/// The rest of it: velocity and spin of the body are `velocity` and `spin` in the frame of the wall, whose normal turns
+/// there as m->tilted says.
+SCREE_INLINE void motion_past(int dimension, motion *m, vector velocity, vector spin, double step)
 {
-    vector lever = vector_times(tangential_count(dimension), body->spin, m->arm_first);
-    motion_advance(dimension, m, vector_minus(dimension, body->velocity, velocity), lever, body->spin, spin, 0, step);
+    vector along = vector_across(dimension, velocity, m->normal);
+    vector lever = vector_times(tangential_count(dimension), spin, m->arm_first);
+    motion_advance(dimension, m, velocity, along, lever, spin, vector_none(), step);
 }
 
 /// A plate moves with its normal and tangential velocity.
@@ -129,7 +131,7 @@ SCREE_INLINE motion motion_of_wall(int dimension, const bodies *body, const scre
     motion m = motion_beside(body, wall->normal, vector_dot(dimension, normal, body->place) - wall->position);
     vector moving = {wall->velocity * normal.x + slide[0], wall->velocity * normal.y + slide[1],
                      wall->velocity * normal.z + slide[2]};
-    motion_past(dimension, &m, body, moving, vector_none(), step);
+    motion_past(dimension, &m, vector_minus(dimension, body->velocity, moving), body->spin, step);
     return m;
 }
 

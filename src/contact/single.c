@@ -105,7 +105,8 @@ void contact_of_element(const scree_model *model, const scree_state *state, cons
     scree_site site;
     scree_element_site(work->container, element, (const double[3]){one.place.x, one.place.y, one.place.z}, &site);
     const scree_surface *surface = contact_surface_of(work->container, element);
-    motion m = motion_of_surface(dimension, &one, surface, &site, state->surface_moving != 0, state->step_size);
+    motion m = motion_of_surface(work->container, element, dimension, &one, &site, state->surface_moving != 0,
+                                 state->step_size);
     scree_pair_constants constants = contact_surface_constants(model, surface, (int)one.material);
     describe_wall(model, dimension, &constants, &one, &m, memory, contact);
 }

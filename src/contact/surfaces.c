@@ -2,6 +2,7 @@
 #include "contact/surfaces.h"
 
 #include "base/fixed.h"
+#include "base/vectors.h"
 #include "contact/advance.h"
 
 /// A memory passes between normals closer than this, where the wall has no larger angle `smooth`.
@@ -81,25 +82,67 @@ void contact_elements_mark(const scree_state *state, const scree_work *work, uin
 
 scree_pair_constants contact_surface_constants(const scree_model *model, const scree_surface *surface, int material)
 {
-    scree_pair_constants constants = model->walls[material];
-    if (!isnan(surface->config->friction) && !model->friction_of_stage) constants.friction = surface->config->friction;
+    const scree_config_wall *wall = surface->config;
+    scree_pair_constants constants =
+        wall->material ? model->surfaces[wall - model->config->walls][material] : model->walls[material];
+    if (!isnan(wall->friction) && !model->friction_of_stage) constants.friction = wall->friction;
     return constants;
 }
 
-motion motion_of_surface(int dimension, const bodies *body, const scree_surface *surface, const scree_site *site,
-                         bool moving, double step)
+/// Velocity and spin of a body in the frame of a wall that moves with v and turns with w: there it goes in a step from
+/// R(w dt) y(n-1) to y(n), y from the centre of the wall, and its spin w(n-1/2) has turned by w dt / 2 since then. Up
+/// to second order in dt, in the directions of n:
+///   (u - v - w x y) (1 + dt w x) + dt/2 w x (w x y),     (1 + dt/2 w x) spin - w
+static void see_from_wall(int dimension, const scree_surface *surface, const bodies *body, double step,
+                          vector *velocity, vector *spin)
 {
+    const double *v = surface->config->velocity, *w = surface->config->spin;
+    double turning[3], twice[3], change[3], y[3] = {body->place.x, body->place.y, body->place.z};
+    scree_subtract(y, surface->hub, y);
+    scree_cross(w, y, turning);
+    scree_cross(w, turning, twice);
+    const double u[3] = {body->velocity.x - v[0] - turning[0], body->velocity.y - v[1] - turning[1],
+                         body->velocity.z - v[2] - turning[2]};
+    scree_cross(w, u, change);
+    *velocity = (vector){u[0] + step * (change[0] + 0.5 * twice[0]), u[1] + step * (change[1] + 0.5 * twice[1]),
+                         u[2] + step * (change[2] + 0.5 * twice[2])};
+    *spin = (vector){.x = body->spin.x - w[2]};
+    if (dimension == 2) return;
+    const double own[3] = {body->spin.x, body->spin.y, body->spin.z}, half = 0.5 * step;
+    scree_cross(w, own, change);
+    *spin =
+        (vector){own[0] + half * change[0] - w[0], own[1] + half * change[1] - w[1], own[2] + half * change[2] - w[2]};
+}
+
+/// How the normal of an element turns in a step while a body goes by with `velocity`, both in the frame of the wall.
+/// Nothing where it jumps.
+static vector tilt_of(const scree_container *container, size_t element, int dimension, const bodies *body,
+                      const scree_site *site, vector velocity, double step)
+{
+    scree_site before;
+    const vector from = vector_minus(3, body->place, vector_times(3, velocity, step));
+    scree_element_site(container, element, (const double[3]){from.x, from.y, from.z}, &before);
+    const double *n = site->normal, *old = before.normal;
+    if (!(cosine(n, old) > cos(PASSING))) return vector_none();
+    const vector turned = {n[0] - old[0], n[1] - old[1], n[2] - old[2]};
+    return vector_across(dimension, turned, (vector){n[0], n[1], n[2]});
+}
+
+motion motion_of_surface(const scree_container *container, size_t element, int dimension, const bodies *body,
+                         const scree_site *site, bool moving, double step)
+{
+    const scree_surface *surface = contact_surface_of(container, element);
     motion m = motion_beside(body, site->normal, site->distance);
-    vector velocity = vector_none(), spin = vector_none();
-    if (moving) {
-        vector at = vector_minus(dimension, body->place, vector_times(dimension, m.normal, m.arm_first));
-        scree_vector moved;
-        scree_surface_velocity(surface, (const double[3]){at.x, at.y, dimension == 3 ? at.z : 0}, moved);
-        velocity = (vector){moved[0], moved[1], moved[2]};
-        const double *turning = surface->config->spin;
-        spin = dimension == 3 ? (vector){turning[0], turning[1], turning[2]} : (vector){.x = turning[2]};
+    vector velocity = body->velocity, spin = body->spin;
+    if (moving) see_from_wall(dimension, surface, body, step, &velocity, &spin);
+    if (!scree_surface_is_flat(surface)) m.tilted = tilt_of(container, element, dimension, body, site, velocity, step);
+    motion_past(dimension, &m, velocity, spin, step);
+    if (dimension == 3 && moving) {
+        // What the contact remembers turns with the wall, too.
+        const double *w = surface->config->spin;
+        m.turn += step * cosine(w, site->normal);
+        m.turned = vector_times(3, m.normal, m.turn);
     }
-    motion_past(dimension, &m, body, velocity, spin, step);
     return m;
 }
 
@@ -215,7 +258,8 @@ SCREE_INLINE void evaluate_group(contact_job *job, variant v, const scree_state 
         if (!touch) scree_element_site(g->container, g->pairs->wall[p], g->place, &left);
         const scree_site *site = touch ? &touch->site : &left;
         if (v.dimension == 3 && v.law == SCREE_LAW_HERTZ_MINDLIN) turn_stretches(site->normal, &rows);
-        motion m = motion_of_surface(v.dimension, &one, surface, site, state->surface_moving != 0, job->settings.step);
+        motion m = motion_of_surface(g->container, g->pairs->wall[p], v.dimension, &one, site,
+                                     state->surface_moving != 0, job->settings.step);
         if (law_foresees(v)) {
             foresight ahead = foresight_get(v.dimension, &job->foreseen[row]);
             motion_foresee(v.dimension, &m, &one, &ahead, NULL, NULL);

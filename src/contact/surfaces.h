@@ -2,7 +2,8 @@
 /// next as it moves on, forces on the walls.
 ///
 /// A wall is a body of infinite radius and mass that moves as its points do: R_eff = R, m_eff = m. Curvature of a
-/// cylinder, cone or edge does not enter the law.
+/// cylinder, cone or edge does not enter the law, only the turn of the normal as the body moves on. The motion is that
+/// in the frame of the wall, which stands still there while it turns.
 ///
 /// Which elements. Those of one wall that are local minima of the distance and closer than the radius, the closest
 /// first; one whose normal differs from that of a closer one by less than the angle `smooth` is the same contact seen
@@ -56,12 +57,12 @@ void contact_elements_touching(const scree_container *container, int dimension, 
 /// Sets touching[k] to 1 for each of work->element_pairs that touches, else to 0.
 void contact_elements_mark(const scree_state *state, const scree_work *work, uint8_t *touching);
 
-/// Constants of a body of `material` on a wall: those of its plates, with the wall's own friction.
+/// Constants of a body of `material` on a wall: those of its plates, or with the wall's own material and friction.
 scree_pair_constants contact_surface_constants(const scree_model *model, const scree_surface *surface, int material);
 
 /// Motion of a body against the element of a wall at `site`.
-motion motion_of_surface(int dimension, const bodies *body, const scree_surface *surface, const scree_site *site,
-                         bool moving, double step);
+motion motion_of_surface(const scree_container *container, size_t element, int dimension, const bodies *body,
+                         const scree_site *site, bool moving, double step);
 
 /// All contacts of bodies in rows [begin, end) with the walls of the case: memory, sums, totals.
 void contact_surfaces(contact_job *job, const scree_state *state, const scree_work *work, size_t begin, size_t end);

@@ -17,8 +17,9 @@
 /// M 2.16-2.19 has the second of 2D alone, without damping and tangential spring, with its user's alpha for the
 /// coordination. Nothing that occurs in a real packing is faster: no disc has more than six neighbours of its own size;
 /// larger neighbours are fewer and heavier (R^2) while their contacts are stiffer only by R_eff^(1/3), a plate's by
-/// 2^(1/3). On a drop-and-roll packing with all contacts equally stiff the true critical step is 1.3 to 2.2 times this
-/// one (tests/unit/test_model.c assembles both).
+/// 2^(1/3), a rigid one's, of twice the modulus, by 2: as much as a neighbour that moves the other way, since the plate
+/// does not move. On a drop-and-roll packing with all contacts equally stiff the true critical step is 1.3 to 2.2 times
+/// this one (tests/unit/test_model.c assembles both).
 ///
 /// Force. f_s = STRONG times the mean f0 = p 2<R> thickness, in space p (2<R>)^2. Forces of a static packing fall off
 /// exponentially above the mean; the strongest of 10^4 contacts carries about six times it, the contacts of one disc

@@ -3,8 +3,8 @@
 /// Contacts of two materials (Hertz 1882, Mindlin 1949; unlike bodies as in Johnson 1985, eqs. 4.3-4.6 and 7.40):
 ///     1/Ebar = (1 - nu1^2)/E1 + (1 - nu2^2)/E2,     normal stiffness      (4/3) Ebar
 ///     1/Gbar = (2 - nu1)/G1 + (2 - nu2)/G2,         tangential stiffness  8 Gbar,      G = E / (2 (1 + nu))
-/// The weaker rules where materials have no theory of the pair: the smaller friction (of any kind) and restitution.
-/// Everything here is O(materials^2 + stages).
+/// A rigid wall has no compliance. The weaker rules where materials have no theory of the pair: the smaller friction
+/// (of any kind) and restitution. Everything here is O(materials^2 + stages).
 #include "model/model.h"
 
 #include "model/critical_step.h"
@@ -45,17 +45,24 @@ bool scree_model_is_wholly_periodic(const scree_model *model)
     return model->config->boundary.periodic == (1 << model->dimension) - 1;
 }
 
-static double shear_modulus(const scree_config_material *m)
+/// Over (4/3) and 8 the inverse of a body's share of the two stiffnesses; none of a rigid one (NULL).
+static double compliance_of(const scree_config_material *m)
 {
-    return m->young_modulus / (2 * (1 + m->poisson_ratio));
+    return m ? (1 - m->poisson_ratio * m->poisson_ratio) / m->young_modulus : 0;
 }
 
+static double shear_compliance_of(const scree_config_material *m)
+{
+    return m ? (2 - m->poisson_ratio) * 2 * (1 + m->poisson_ratio) / m->young_modulus : 0;
+}
+
+/// b is NULL for something rigid, which leaves the rest to a.
 static scree_pair_constants pair_constants(const scree_config_material *a, const scree_config_material *b,
                                            scree_law law)
 {
-    double compliance = (1 - a->poisson_ratio * a->poisson_ratio) / a->young_modulus +
-                        (1 - b->poisson_ratio * b->poisson_ratio) / b->young_modulus;
-    double shear_compliance = (2 - a->poisson_ratio) / shear_modulus(a) + (2 - b->poisson_ratio) / shear_modulus(b);
+    double compliance = compliance_of(a) + compliance_of(b);
+    double shear_compliance = shear_compliance_of(a) + shear_compliance_of(b);
+    if (!b) b = a;
     double restitution = fmin(a->restitution, b->restitution);
     return (scree_pair_constants){
         .normal_stiffness = 4.0 / 3.0 / compliance,
@@ -116,6 +123,46 @@ static void number_materials(scree_model *model)
     }
 }
 
+/// Place of a material in the list of the case; -1: there is none of this name.
+static int find_material(const scree_config *config, const char *name)
+{
+    for (int i = 0; i < config->material_count; i++)
+        if (strcmp(config->materials[i].name, name) == 0) return i;
+    return -1;
+}
+
+/// Material `grain` of the list on a wall of `material` (NULL: like the grain); at LIST.INDEX.KEY the user said so.
+static scree_status wall_constants(const scree_model *model, int64_t grain, const char *material, const char *list,
+                                   int64_t index, const char *key, scree_pair_constants *constants, scree_error *error)
+{
+    const scree_config_material *body = &model->config->materials[grain], *wall = body;
+    bool rigid = material && strcmp(material, SCREE_RIGID) == 0;
+    int found = material && !rigid ? find_material(model->config, material) : (int)grain;
+    if (found < 0) return indexed_error(error, list, index, key, "there is no material of this name");
+    wall = rigid ? NULL : &model->config->materials[found];
+    *constants = pair_constants(body, wall, model->law);
+    if (!isnan(body->wall_friction)) constants->friction = body->wall_friction;
+    return SCREE_OK;
+}
+
+/// Grains of every material on plates and on the walls of the case that have a material of their own.
+static scree_status resolve_walls(scree_model *model, scree_error *error)
+{
+    const scree_config *config = model->config;
+    scree_status status = SCREE_OK;
+    for (int i = 0; i < model->material_count && !status; i++) {
+        const int64_t place = model->listed[i];
+        const scree_config_material *grain = &config->materials[place];
+        status = wall_constants(model, place, grain->wall_material, "materials", place, "wall_material",
+                                &model->walls[i], error);
+        for (int64_t w = 0; w < config->wall_count && !status; w++)
+            if (config->walls[w].material)
+                status = wall_constants(model, place, config->walls[w].material, "walls", w, "material",
+                                        &model->surfaces[w][i], error);
+    }
+    return status;
+}
+
 static scree_status resolve_materials(scree_model *model, scree_error *error)
 {
     const scree_config *config = model->config;
@@ -128,14 +175,12 @@ static scree_status resolve_materials(scree_model *model, scree_error *error)
         const scree_config_material *material = &listed[model->listed[i]];
         for (int j = 0; j <= i; j++)
             model->pairs[i][j] = model->pairs[j][i] = pair_constants(material, &listed[model->listed[j]], model->law);
-        model->walls[i] = model->pairs[i][i];
-        if (!isnan(material->wall_friction)) model->walls[i].friction = material->wall_friction;
         model->density[i] = material->density;
         bool rolls = material->rolling_friction > 0 || material->twisting_friction > 0;
         if (i < model->material_count && model->law == SCREE_LAW_HERTZ_MINDLIN)
             model->rolling = model->rolling || rolls;
     }
-    return SCREE_OK;
+    return resolve_walls(model, error);
 }
 
 static scree_status resolve_particles(scree_model *model, scree_error *error)
@@ -168,17 +213,21 @@ double scree_model_largest_radius(const scree_model *model)
     return fmax(model->radius_max, model->membrane_radius);
 }
 
+static void take_friction(scree_pair_constants *pair)
+{
+    pair->friction = pair->rolling_friction = pair->twisting_friction = 0;
+}
+
 /// Takes the friction of a membrane away.
 static void make_frictionless(scree_model *model)
 {
     if (!model->membrane) return;
     int m = model->membrane_material;
-    scree_pair_constants *own = &model->walls[m];
-    own->friction = own->rolling_friction = own->twisting_friction = 0;
+    take_friction(&model->walls[m]);
+    for (int w = 0; w < SCREE_SURFACES; w++) take_friction(&model->surfaces[w][m]);
     for (int i = 0; i < SCREE_MAX_MATERIALS; i++) {
-        own = &model->pairs[i][m];
-        own->friction = own->rolling_friction = own->twisting_friction = 0;
-        model->pairs[m][i] = *own;
+        take_friction(&model->pairs[i][m]);
+        model->pairs[m][i] = model->pairs[i][m];
     }
 }
 
@@ -220,6 +269,7 @@ static scree_status resolve_membrane(scree_model *model, scree_error *error)
     for (int i = 0; i < m; i++) model->pairs[m][i] = model->pairs[i][m] = model->pairs[grains][i];
     model->pairs[m][m] = model->pairs[grains][grains];
     model->walls[m] = model->walls[grains];
+    for (int w = 0; w < SCREE_SURFACES; w++) model->surfaces[w][m] = model->surfaces[w][grains];
     model->density[m] = model->density[grains];
     make_frictionless(model);
     double radius = config->boundary.membrane_radius;
@@ -450,6 +500,7 @@ scree_model scree_model_with_friction(const scree_model *model, double friction)
     copy.friction_of_stage = true;
     for (int i = 0; i < SCREE_MAX_MATERIALS; i++) {
         copy.walls[i].friction = friction;
+        for (int w = 0; w < SCREE_SURFACES; w++) copy.surfaces[w][i].friction = friction;
         for (int j = 0; j < SCREE_MAX_MATERIALS; j++) copy.pairs[i][j].friction = friction;
     }
     make_frictionless(&copy);

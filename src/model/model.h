@@ -13,7 +13,7 @@
 /// Number of the material that the particles are made of.
 enum { SCREE_PARTICLE_MATERIAL = 0 };
 
-/// Constants of a contact between two materials (or a grain and a plate). Symmetric in the two materials.
+/// Constants of a contact between two materials (or a grain and a wall). Symmetric in the two materials.
 /// Sources: Hertz 1882; Mindlin 1949; Brilliantov et al. 1996; Tsuji et al. 1992 for the damping coefficient.
 typedef struct scree_pair_constants {
     double normal_stiffness;     ///< Pa, (4/3) Ebar;  f_n = normal_stiffness sqrt(R_eff) d^1.5
@@ -51,7 +51,8 @@ typedef struct scree_model {
     int listed[SCREE_MAX_MATERIALS]; ///< where each material stands in the list of the case
     int material_count; ///< in use; they are numbered from 0, and what no body is made of has no part in anything
     scree_pair_constants pairs[SCREE_MAX_MATERIALS][SCREE_MAX_MATERIALS]; ///< grain on grain
-    scree_pair_constants walls[SCREE_MAX_MATERIALS];                      ///< grain on a plate of the same material
+    scree_pair_constants walls[SCREE_MAX_MATERIALS];                      ///< grain on a plate, or wall of the case
+    scree_pair_constants surfaces[SCREE_SURFACES][SCREE_MAX_MATERIALS]; ///< on walls of the case with a `material`
     bool friction_of_stage; ///< the stage's own friction holds for all contacts, the walls of the case included
     double density[SCREE_MAX_MATERIALS];
     const scree_config *config; ///< what the user said; outlives the model

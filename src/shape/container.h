@@ -74,14 +74,18 @@ static inline int scree_element_surface(const scree_container *container, size_t
     return k;
 }
 
+/// Whether the normal of every element is the same wherever a body touches it: planes, and boxes seen from inside.
+static inline bool scree_surface_is_flat(const scree_surface *surface)
+{
+    int shape = surface->config->shape;
+    return shape == SCREE_SHAPE_OF_PLANE || (shape == SCREE_SHAPE_OF_BOX && surface->config->side == SCREE_SIDE_INSIDE);
+}
+
 /// Where a sphere with its centre at `place` may touch an element, now.
 void scree_element_site(const scree_container *container, size_t element, const scree_vector place, scree_site *site);
 
 /// Whether a sphere of this radius reaches a site. NaN counts as touching, so that it is noticed.
 bool scree_site_touches(const scree_container *container, size_t element, const scree_site *site, double radius);
-
-/// Velocity of the point of wall `surface` that is at `point` now.
-void scree_surface_velocity(const scree_surface *surface, const scree_vector point, scree_vector velocity);
 
 /// Calls `found(context, element)` for the elements of all walls within `reach` of `place`, each once.
 scree_status scree_container_near(const scree_container *container, const scree_vector place, double reach,

@@ -50,14 +50,6 @@ double scree_container_speed(const scree_container *container)
     return largest;
 }
 
-void scree_surface_velocity(const scree_surface *surface, const scree_vector point, scree_vector velocity)
-{
-    double lever[3], turning[3];
-    scree_subtract(point, surface->hub, lever);
-    scree_cross(surface->config->spin, lever, turning);
-    scree_along(surface->config->velocity, 1, turning, velocity);
-}
-
 /// From where a body is to where it is in the frame of the wall at time zero.
 static void enter_frame(const scree_surface *surface, const double place[3], double inner[3])
 {

@@ -38,6 +38,40 @@ static void test_pair_constants(void **unused)
     assert_true(model.walls[0].normal_stiffness == model.pairs[0][0].normal_stiffness);
 }
 
+/// Plates and walls of another material, and rigid ones: the closed forms of the pair, and of the grain's compliance
+/// alone.
+static void test_walls_have_materials(void **unused)
+{
+    (void)unused;
+    biaxial_config c;
+    scree_model model;
+    scree_error error;
+    char rigid[] = "rigid", steel[] = "steel", unknown[] = "stel";
+    biaxial_config_set(&c, 983);
+    c.config.contact.law = SCREE_LAW_HERTZ_MINDLIN;
+    scree_config_wall walls[3] = {{.material = steel}, {.material = rigid}, {.material = NULL}};
+    c.config.walls = walls;
+    c.config.wall_count = 3;
+    c.config.materials[0].wall_material = rigid;
+    assert_int_equal(scree_model_build(&c.config, &model, &error), SCREE_OK);
+    const double shear = 30e9 / 2.6;
+    const scree_pair_constants *like = &model.pairs[0][0], *on_steel = &model.surfaces[0][0], *plate = &model.walls[0];
+    assert_close(plate->normal_stiffness, 2 * like->normal_stiffness);
+    assert_close(plate->tangential_stiffness, 8 * shear / 1.7);
+    assert_true(plate->damping == like->damping && plate->friction == 0.45);
+    assert_memory_equal(plate, &model.surfaces[1][0], sizeof *plate);
+    assert_true(on_steel->normal_stiffness == model.pairs[0][1].normal_stiffness && on_steel->friction == 0.3);
+    // What is said of the friction on plates holds on walls of any material.
+    c.config.materials[0].wall_friction = 0.2;
+    assert_int_equal(scree_model_build(&c.config, &model, &error), SCREE_OK);
+    assert_true(plate->friction == 0.2 && on_steel->friction == 0.2);
+    scree_model slippery = scree_model_with_friction(&model, 0.01);
+    assert_true(slippery.walls[0].friction == 0.01 && slippery.surfaces[0][0].friction == 0.01);
+    walls[0].material = unknown;
+    assert_int_equal(scree_model_build(&c.config, &model, &error), SCREE_ERROR_INPUT);
+    assert_string_equal(error.field, "walls.0.material");
+}
+
 static void test_resolved_defaults(void **unused)
 {
     (void)unused;
@@ -429,6 +463,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_membrane),
         cmocka_unit_test(test_pair_constants),
+        cmocka_unit_test(test_walls_have_materials),
         cmocka_unit_test(test_resolved_defaults),
         cmocka_unit_test(test_model_with_friction),
         cmocka_unit_test(test_errors_name_their_field),

@@ -262,9 +262,11 @@ static void speeds_are_bounded(void **unused)
         scree_error error;
         check(scree_container_triangles(w.f.work.container, wall->lower, wall->upper, &drawn, &error), &error);
         for (size_t k = 0; k < 3 * drawn.count; k++) {
-            scree_vector moved;
-            scree_surface_velocity(surface, &drawn.corner[k / 3][3 * (k % 3)], moved);
-            fastest = fmax(fastest, sqrt(scree_dot(moved, moved)));
+            double lever[3], moved[3];
+            scree_subtract(&drawn.corner[k / 3][3 * (k % 3)], surface->hub, lever);
+            scree_cross(wall->spin, lever, moved);
+            scree_along(wall->velocity, 1, moved, moved);
+            fastest = fmax(fastest, scree_length(moved));
         }
         assert_true(drawn.count > 0 && fastest > 0.1 && fastest <= bound && fastest * time <= way);
         // Spin times extent, where the motions add up.
@@ -300,6 +302,34 @@ static void clearance_is_negative_outside(void **unused)
 }
 
 /// A body more than its radius behind a wall with an inside has nothing to do with it; a plane has no other side.
+/// The indentation on a wall of its own material and on one without, at the same place; the table says the same.
+static void walls_have_their_own_material(void **unused)
+{
+    (void)unused;
+    static char name[] = "rigid";
+    for (int own = 0; own < 2; own++) {
+        world w = {0};
+        scree_config_wall *plane = world_wall(&w, SCREE_SHAPE_OF_PLANE);
+        plane->normal[1] = 1;
+        plane->material = own ? name : NULL;
+        world_start(&w, 2, SCREE_LAW_HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 1e-7);
+        w.f.model.surfaces[0][0] = w.f.model.walls[0];
+        w.f.model.surfaces[0][0].normal_stiffness *= 2;
+        const double place[3] = {0, R - 2e-6, 0}, still[3] = {0};
+        put(&w, place, still, still);
+        world_forces(&w);
+        const double k = w.f.model.walls[0].normal_stiffness * (own ? 2 : 1);
+        const double expected = k * sqrt(R) * pow(2e-6, 1.5);
+        scree_vector force, torque;
+        scree_body_force(&w.f.model, &w.f.state, 0, force, torque);
+        // Quanta are those of an indentation at the guard's limit, of a force 1000 times as large.
+        assert_near(force[1], expected, 1e-11 * expected);
+        scree_energy energy = world_energy(&w, NULL);
+        assert_near(energy.elastic_normal, 0.4 * expected * 2e-6, 1e-12 * expected * 2e-6);
+        world_close(&w);
+    }
+}
+
 static void walls_have_another_side(void **unused)
 {
     (void)unused;
@@ -346,6 +376,7 @@ static void rigid_motion_meets_no_resistance(void **unused)
             world_start(&w, dimension, SCREE_LAW_HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 1e-7);
             sphere_resist_turning(&w.f);
             w.f.state.surface_moving = 1;
+            w.f.state.step_size = 0; // finite steps: test_rigid_motion.c
             scree_cross(spin, place, velocity);
             // The contact point of a body at rest moves with the wall when its centre does, with the lever between.
             double lever[3] = {0, -0.995 * R, 0}, apart[3];
@@ -494,6 +525,7 @@ int main(void)
         cmocka_unit_test(speeds_are_bounded),
         cmocka_unit_test(clearance_is_negative_outside),
         cmocka_unit_test(walls_have_another_side),
+        cmocka_unit_test(walls_have_their_own_material),
         cmocka_unit_test(rigid_motion_meets_no_resistance),
         cmocka_unit_test(squares_touch_discs),
         cmocka_unit_test(discs_roll),
