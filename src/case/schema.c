@@ -2,23 +2,7 @@
 /// Ranges are wide: they keep out slips of the unit and numbers that would overflow, not unusual physics.
 #include "case/schema.h"
 
-#define COUNT(array) (sizeof(array) / sizeof *(array))
-#define FROM(limit)  .least = {limit, false}
-#define ABOVE(limit) .least = {limit, true}
-#define TO(limit)    .most = {limit, false}
-#define BELOW(limit) .most = {limit, true}
-
-/// A key called like the member that it fills.
-#define KEY(owner, member, kind, ...)                                                                                  \
-    {                                                                                                                  \
-        .name = #member, .type = kind, .offset = offsetof(owner, member), __VA_ARGS__                                  \
-    }
-#define NUMBER(owner, member, si, ...)   KEY(owner, member, SCREE_KEY_NUMBER, .unit = si, __VA_ARGS__)
-#define INTEGER(owner, member, ...)      KEY(owner, member, SCREE_KEY_INTEGER, __VA_ARGS__)
-#define CHOICE(owner, member, list, ...) KEY(owner, member, SCREE_KEY_CHOICE, .choices = list, __VA_ARGS__)
-#define FLAG(owner, member, ...)         KEY(owner, member, SCREE_KEY_FLAG, __VA_ARGS__)
-#define SECTION(member, table, ...)                                                                                    \
-    KEY(scree_config, member, SCREE_KEY_SECTION, .sections = table, .section_count = 1, __VA_ARGS__)
+#include "case/schema_keys.h"
 
 // ---- choices -----------------------------------------------------------------------------------------------------
 
@@ -236,8 +220,9 @@ static const scree_key boundary_keys[] = {
     NUMBER(boundary, gap_limit, "1", .standard = "0.5", FROM("0"), TO("100"),
            .meaning = "Boundary edges with a free gap above this many mean diameters are cut."),
     NUMBER(boundary, gap_hysteresis, "1", .standard = "0.2", FROM("0"), BELOW("1"),
-           .meaning = "An edge that is on the boundary stays until its gap is above the limit by this share; one that is "
-                      "not comes back when it is as much below. 0: the boundary has no memory."),
+           .meaning =
+               "An edge that is on the boundary stays until its gap is above the limit by this share; one that is "
+               "not comes back when it is as much below. 0: the boundary has no memory."),
     NUMBER(boundary, servo_gain, "1", .standard = "1", ABOVE("0"), TO("10"),
            .meaning = "Admittance of a plate under servo over that of the sample; 1 absorbs waves."),
     NUMBER(boundary, servo_velocity, "m/s", .standard = "auto", ABOVE("0 m/s"), TO("1000 m/s"),
@@ -398,90 +383,6 @@ static const scree_key relax_keys[] = {
     STAGE_FRICTION,
 };
 
-typedef scree_config_wall wall;
-static const scree_choice surface_shapes[] = {
-    {"plane", SCREE_SHAPE_OF_PLANE, "a half-space"},
-    {"box", SCREE_SHAPE_OF_BOX, "with sides along the axes"},
-    {"cylinder", SCREE_SHAPE_OF_CYLINDER, "round, with any axis (3D)"},
-    {"cone", SCREE_SHAPE_OF_CONE, "a truncated or a pointed cone (3D)"},
-    {"mesh", SCREE_SHAPE_OF_MESH, "triangles of an STL file, both sides of them (3D)"},
-    {0},
-};
-static const scree_choice sides[] = {
-    {"inside", SCREE_SIDE_INSIDE, "the particles are inside: a container"},
-    {"outside", SCREE_SIDE_OUTSIDE, "the particles are outside: a solid body, or a tube"},
-    {0},
-};
-static const scree_choice ends[] = {
-    {"open", SCREE_ENDS_OPEN, "particles can pass, and touch the rims"},
-    {"closed", SCREE_ENDS_CLOSED, "by planes"},
-    {0},
-};
-#define PLACE(owner, member, ...)                                                                                      \
-    KEY(owner, member, SCREE_KEY_VECTOR, .unit = "m", FROM("-1e6 m"), TO("1e6 m"), __VA_ARGS__)
-#define WALL_HEAD                                                                                                      \
-    {.name = "shape",                                                                                                  \
-     .type = SCREE_KEY_CHOICE,                                                                                         \
-     .choices = surface_shapes,                                                                                        \
-     .offset = offsetof(wall, shape),                                                                                  \
-     .meaning = "Shape of the wall."},                                                                                 \
-        KEY(wall, name, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),                                       \
-            .meaning = "Name in tables and for --set; auto: the shape, numbered from 1 if there are several.")
-#define WALL_TAIL                                                                                                      \
-    KEY(wall, material, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),                                       \
-        .meaning = "Name of its material, or `rigid`; auto: wall_material of the particles that touch it."),           \
-    NUMBER(wall, friction, "1", .standard = "auto", FROM("0"), TO("10"),                                               \
-           .meaning = "Friction of particles on it; auto: their material's wall_friction."),                           \
-        KEY(wall, velocity, SCREE_KEY_VECTOR, .unit = "m/s", .standard = "[0, 0]", FROM("-1000 m/s"), TO("1000 m/s"),  \
-            .meaning = "Constant velocity."),                                                                          \
-        KEY(wall, spin, SCREE_KEY_VECTOR, .unit = "rad/s", .standard = "[0, 0]", FROM("-1e6 rad/s"), TO("1e6 rad/s"),  \
-            .meaning = "Constant angular velocity; none for planes."),                                                 \
-        PLACE(wall, centre, .standard = "[0, 0]", .meaning = "Point that it turns about, at the begin.")
-#define WALL_SIDE CHOICE(wall, side, sides, .standard = "inside", .meaning = "Where the particles are.")
-#define WALL_AXIS                                                                                                      \
-    PLACE(wall, start, .meaning = "One end of the axis."), PLACE(wall, end, .meaning = "The other end of the axis.")
-#define WALL_ENDS CHOICE(wall, ends, ends, .standard = "closed", .meaning = "What is at both ends of the axis.")
-static const scree_key plane_keys[] = {
-    WALL_HEAD,
-    PLACE(wall, point, .meaning = "A point of the plane."),
-    KEY(wall, normal, SCREE_KEY_VECTOR, .unit = "1", FROM("-1e6"), TO("1e6"),
-        .meaning = "Normal, towards the particles; any length."),
-    WALL_TAIL,
-};
-static const scree_key box_keys[] = {
-    WALL_HEAD,
-    PLACE(wall, lower, .meaning = "Corner with the smallest coordinates."),
-    PLACE(wall, upper, .meaning = "Corner with the largest coordinates."),
-    WALL_SIDE,
-    WALL_TAIL,
-};
-static const scree_key cylinder_keys[] = {
-    WALL_HEAD, WALL_AXIS, NUMBER(wall, radius, "m", ABOVE("0 m"), TO("1e6 m"), .meaning = "Radius of the cylinder."),
-    WALL_SIDE, WALL_ENDS, WALL_TAIL,
-};
-static const scree_key cone_keys[] = {
-    WALL_HEAD,
-    WALL_AXIS,
-    NUMBER(wall, radius_start, "m", FROM("0 m"), TO("1e6 m"), .meaning = "Radius at `start`."),
-    NUMBER(wall, radius_end, "m", FROM("0 m"), TO("1e6 m"), .meaning = "Radius at `end`."),
-    WALL_SIDE,
-    WALL_ENDS,
-    WALL_TAIL,
-};
-static const scree_key mesh_keys[] = {
-    WALL_HEAD,
-    KEY(wall, file, SCREE_KEY_TEXT, FROM("1"), TO("4000"),
-        .meaning = "STL file, binary or ASCII, relative to the case file."),
-    KEY(wall, checksum, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),
-        .meaning = "Of the content of the file: another one is refused; auto: any."),
-    NUMBER(wall, scale, "m", .standard = "1 m", ABOVE("0 m"), TO("1e6 m"),
-           .meaning = "Length of one unit of the file, e.g. 1 mm."),
-    PLACE(wall, at, .standard = "[0, 0]", .meaning = "Where the origin of the file lies."),
-    NUMBER(wall, smooth, "rad", .standard = "15 degrees", FROM("0.1 degrees"), TO("60 degrees"),
-           .meaning = "Triangles that meet at less than this angle are one smooth surface."),
-    WALL_TAIL,
-};
-
 static const scree_key collide_keys[] = {
     STAGE_HEAD,
     NUMBER(stage, duration, "s", .standard = "auto", ABOVE("0 s"), TO("1e9 s"),
@@ -523,10 +424,6 @@ static const scree_key guard_keys[] = {
                "over, stored now. Energy that grows without end tends to 100 %."),
 };
 
-#define TABLE(title, text, keys)                                                                                       \
-    {                                                                                                                  \
-        title, text, keys, COUNT(keys)                                                                                 \
-    }
 static const scree_section material_table[] = {
     TABLE("materials", "What particles and plates are made of.", material_keys)};
 static const scree_section particles_table[] = {TABLE("particles", "Shape, number and sizes.", particles_keys)};
@@ -555,13 +452,6 @@ static const scree_section stage_tables[] = {
           relax_keys),
     TABLE("collide", "Two particles, prepared as a `pair` or as `bodies`, meet and part; nothing else acts on them.",
           collide_keys),
-};
-static const scree_section wall_tables[] = {
-    TABLE("plane", "A half-space; in 2D a half-plane.", plane_keys),
-    TABLE("box", "A box with sides along the axes; in 2D a rectangle.", box_keys),
-    TABLE("cylinder", "A cylinder with any axis.", cylinder_keys),
-    TABLE("cone", "A truncated or pointed cone with any axis.", cone_keys),
-    TABLE("mesh", "Triangles of an STL file; contacts on both sides.", mesh_keys),
 };
 static const scree_section measure_table[] = {TABLE("measure", "What is recorded.", measure_keys)};
 static const scree_section output_table[] = {TABLE("output", "What is written, and how often.", output_keys)};
@@ -597,9 +487,10 @@ static const scree_key root_keys[] = {
     SECTION(contact, contact_table, .meaning = "Force law."),
     SECTION(integrator, integrator_table, .meaning = "Integration in time."),
     SECTION(boundary, boundary_table, .meaning = "What holds the sample."),
-    KEY(scree_config, walls, SCREE_KEY_LIST, .standard = "[]", FROM("0"), TO("16"), .sections = wall_tables,
-        .section_count = COUNT(wall_tables), .count_offset = offsetof(scree_config, wall_count),
-        .element_size = sizeof(wall), .meaning = "Rigid walls beside the plates, fixed or moving; for `relax`."),
+    KEY(scree_config, walls, SCREE_KEY_LIST, .standard = "[]", FROM("0"), TO("16"), .sections = scree_wall_sections,
+        .section_count = SCREE_WALL_SECTIONS, .count_offset = offsetof(scree_config, wall_count),
+        .element_size = sizeof(scree_config_wall),
+        .meaning = "Rigid walls beside the plates, fixed or moving; for `relax`."),
     KEY(scree_config, stages, SCREE_KEY_LIST, FROM("1"), TO("100"), .sections = stage_tables,
         .section_count = COUNT(stage_tables), .count_offset = offsetof(scree_config, stage_count),
         .element_size = sizeof(stage), .meaning = "What happens, one stage after the other."),
