@@ -1,4 +1,5 @@
 /// The driver behind `scree run`: a case into a run directory, from the begin or from a checkpoint.
+#include "io/disk.h"
 #include "io/run_directory.h"
 #include "io/snapshot.h"
 #include "run/recorder.h"
@@ -18,7 +19,10 @@ static scree_status save_case(const char *directory, const scree_case *c, scree_
     if (status) return status;
     status = scree_case_write(c, file, error);
     scree_status finished = scree_replace_finish(path, file, !status, status ? NULL : error);
-    return status ? status : finished;
+    if (!status) status = finished;
+    // The name of the folder itself.
+    if (!status) status = scree_path_join(path, sizeof path, directory, "..", error);
+    return status ? status : scree_folder_sync(path, error);
 }
 
 /// Steps until the case ends, somebody asks to stop, or something fails.
@@ -55,13 +59,20 @@ static void save_after_failure(scree_recorder *recorder, scree_simulation *s, co
         scree_log_write(&recorder->log, SCREE_LOG_ERROR, "no snapshot of what the guard stopped: %s", second.message);
 }
 
+static void log_note(void *log, const char *line)
+{
+    scree_log_write(log, SCREE_LOG_WARNING, "%s", line);
+}
+
 static scree_status finish(scree_recorder *recorder, scree_simulation *s, scree_status status, scree_error *error)
 {
     scree_error second;
     if (status && status != SCREE_INTERRUPTED) save_after_failure(recorder, s, error);
     if (status == SCREE_ERROR_IO) return status;
     scree_status written = scree_results_write(recorder, s, status, status ? &second : error);
-    if (!written && !status) written = scree_run_file_finish(recorder->directory, error);
+    scree_notes notes = {0};
+    if (!written && !status) written = scree_run_file_finish(recorder->directory, &notes, error);
+    scree_notes_visit(&notes, log_note, &recorder->log);
     if (!status) status = written;
     if (!status)
         scree_log_write(&recorder->log, SCREE_LOG_INFO, "done: %llu steps in %.1f s", (unsigned long long)s->state.step,
@@ -94,9 +105,9 @@ static void log_meshes(const scree_recorder *recorder, const scree_container *co
 }
 
 /// Common part of a new and a restarted run: `s` is open and at the point where stepping begins. `restarted` is NULL
-/// for a new run, else a warning for the log, empty when there is none.
+/// for a new run, else what was found before it went on.
 static scree_status record(scree_simulation *s, const scree_run_options *options, const char *directory,
-                           uint64_t checksum, const char *restarted, scree_error *error)
+                           uint64_t checksum, const scree_notes *restarted, scree_error *error)
 {
     scree_recorder recorder;
     scree_status status = scree_recorder_open(&recorder, s, options, directory, restarted, error);
@@ -105,7 +116,7 @@ static scree_status record(scree_simulation *s, const scree_run_options *options
         scree_log_write(&recorder.log, SCREE_LOG_INFO, "%s; case %s, %d thread%s%s", scree_version(),
                         s->model.config->name, s->work.threads, s->work.threads == 1 ? "" : "s",
                         restarted ? ", restarted" : "");
-        if (restarted && restarted[0]) scree_log_write(&recorder.log, SCREE_LOG_WARNING, "%s", restarted);
+        if (restarted) scree_notes_visit(restarted, log_note, &recorder.log);
         scree_log_write(&recorder.log, SCREE_LOG_INFO, "step %.4g s (N_S %llu, critical %.4g s), phi %.4g, psi %.4g",
                         s->model.step, (unsigned long long)s->model.largest_step, s->model.critical_step, s->model.phi,
                         s->model.psi);
@@ -141,14 +152,14 @@ scree_status scree_restart(const char *directory, const scree_run_options *optio
     if (status) return status;
     status = scree_simulation_open(c, options->threads, &s, error);
     if (!status) status = scree_case_checksum(c, &checksum, error);
-    // A message without a failure tells that an older checkpoint had to serve.
-    scree_error note = {0};
-    if (!status && (status = scree_restart_read(&s, directory, checksum, &note))) *error = note;
+    scree_notes notes = {0};
+    scree_restart_point point;
+    if (!status) status = scree_restart_read(&s, directory, options->from, checksum, &point, &notes, error);
     // Samples, checkpoints and the checksum may read the contacts before the first step.
     if (!status && s.state.count > 0) status = scree_neighbours_refresh(&s.model, &s.state, &s.work, error);
     if (!status && s.state.stage.counter >= 0) status = scree_stage_enter(&s, true, error);
-    if (!status) status = scree_snapshots_truncate(directory, s.state.stage.snapshots, error);
-    if (!status) status = record(&s, options, directory, checksum, note.message, error);
+    if (!status) status = scree_restart_rewind(&s, directory, checksum, &point, &notes, error);
+    if (!status) status = record(&s, options, directory, checksum, &notes, error);
     scree_simulation_close(&s);
     scree_case_free(c);
     return status;
