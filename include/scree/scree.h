@@ -116,6 +116,7 @@ typedef struct scree_run_options {
     int threads;              ///< at most; 0: one for every 4000 bodies, at most all cores. Fewer work while other
                               ///< programs hold the cores and fewer are faster
     bool force;               ///< write into a directory that holds another run (replaces it)
+    const char *from;         ///< scree_restart: number of the snapshot to go on from, or "latest"; NULL: a checkpoint
     bool figures;             ///< draw figures at the end
     const volatile int *stop; ///< becomes non-zero (signal number) to ask for a checkpoint and an orderly end
     void (*progress)(void *user, const scree_progress *progress); ///< about twice a second; may be NULL
@@ -127,7 +128,8 @@ typedef struct scree_run_options {
 /// Runs a case into a new run directory. Errors: SCREE_ERROR_INPUT (directory in use), _GUARD, _IO, SCREE_INTERRUPTED.
 scree_status scree_run(const scree_case *c, const scree_run_options *options, scree_error *error);
 
-/// Continues the run in `directory` from its newest checkpoint, bit for bit. Errors: as scree_run; SCREE_ERROR_INPUT
+/// Continues the run in `directory` from its newest checkpoint, or from a snapshot, bit for bit. What came after it is
+/// dropped; what is damaged and not needed is set aside, with a line in log.txt. Errors: as scree_run; SCREE_ERROR_INPUT
 /// while another process writes there.
 scree_status scree_restart(const char *directory, const scree_run_options *options, scree_error *error);
 

@@ -19,6 +19,8 @@ static scree_status check_combination(const scree_command *command, scree_error 
     if (restart && command->argument_count > 0)
         return scree_command_refuse(error, "--restart", "", "continues the run of a folder and takes no case: '%s'",
                                     command->argument[0]);
+    if (!restart && scree_command_has(command, "from"))
+        return scree_command_refuse(error, "--from", "", "goes with --restart DIR only");
     for (size_t i = 0; restart && i < sizeof changes / sizeof changes[0]; i++)
         if (scree_command_has(command, changes[i]))
             return scree_command_refuse(error, "--restart", "", "continues a run as it was: --%s does not go with it",
@@ -52,6 +54,7 @@ scree_status scree_verb_run(const scree_command *command)
     if (status) return scree_terminal_error("run", &error);
     options.threads = (int)threads;
     const char *restart = scree_command_value(command, "restart"), *output = scree_command_value(command, "output");
+    options.from = scree_command_value(command, "from");
     options.output = restart ? restart : output ? output : "out";
     scree_case *c = NULL;
     if (!restart) status = scree_case_argument_read(command, command->argument[0], &c);

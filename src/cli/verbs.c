@@ -151,6 +151,10 @@ const scree_verb scree_verbs[] = {
                     .value = "DIR",
                     .meaning = "continue the run in DIR from its newest checkpoint",
                     .kind = SCREE_VALUE_FOLDER},
+                   {.name = "from",
+                    .value = "SNAPSHOT",
+                    .meaning = "with --restart: continue from this snapshot, a number or `latest`, and drop what came "
+                               "after it"},
                    OPTION_QUIET},
         .example = {{"scree run biaxial --quick -o out", "a built-in case in a minute"},
                     {"scree run my.yaml -o out --set stages.compress.rate=1e-2 --threads 2", "one value changed"},

@@ -1,14 +1,83 @@
 /// Checkpoints: whole states (state_file.h) as parts of run.h5, the newest two of them.
 ///
 /// The seal of the file (seal.h) tells whether it is whole; when it is not, or what it holds cannot be used, the older
-/// of the two is read.
+/// of the two is read, or else a snapshot, which holds a state, too.
+#include "io/disk.h"
 #include "io/run_file.h"
 #include "io/snapshot.h"
 #include "io/state_file.h"
 
 #include <inttypes.h>
 #include <limits.h>
+#include <stdlib.h>
 #include <unistd.h>
+
+// ---- where a run can go on from ----------------------------------------------------------------------------------
+
+void scree_restart_points_destroy(scree_restart_points *points)
+{
+    scree_release(&points->point);
+    points->count = 0;
+}
+
+static scree_status add_points(scree_restart_points *points, const scree_part_list *list, bool snapshot, bool part,
+                               scree_error *error)
+{
+    size_t count = points->count + list->count;
+    scree_status status = scree_reallocate(&points->point, points->count, count + 1, sizeof *points->point, error);
+    for (size_t k = 0; k < list->count && !status; k++)
+        points->point[points->count++] = (scree_restart_point){snapshot, list->index[k], part};
+    return status;
+}
+
+/// Checkpoints before snapshots, higher numbers first, parts before what run.h5 holds itself.
+static int compare_points(const void *a, const void *b)
+{
+    const scree_restart_point *p = a, *q = b;
+    if (p->snapshot != q->snapshot) return p->snapshot ? 1 : -1;
+    if (p->index != q->index) return p->index < q->index ? 1 : -1;
+    return (int)q->part - (int)p->part;
+}
+
+/// Those that a finished run.h5 holds itself; a file that cannot be opened has none.
+static scree_status list_groups(const char *path, scree_restart_points *points, scree_error *error)
+{
+    scree_hdf5 run;
+    bool sound;
+    if (access(path, F_OK) != 0) return SCREE_OK;
+    scree_run_file_open(&run, path, &sound, &points->run);
+    for (scree_part_kind kind = 0; kind < SCREE_PART_KINDS && !run.status; kind++) {
+        scree_part_list groups;
+        if (scree_run_file_list(&run, kind, true, &groups)) break;
+        run.status = add_points(points, &groups, kind == SCREE_PART_SNAPSHOT, false, run.error);
+        scree_part_list_destroy(&groups);
+    }
+    bool damaged = run.damaged;
+    scree_status status = scree_hdf5_close(&run);
+    if (!status) points->run = (scree_error){0};
+    if (!status || damaged) return SCREE_OK;
+    if (error) *error = points->run;
+    return status;
+}
+
+scree_status scree_restart_points_list(const char *directory, scree_restart_points *points, scree_error *error)
+{
+    char path[PATH_MAX];
+    *points = (scree_restart_points){0};
+    scree_status status = scree_run_file_path(directory, path, sizeof path, error);
+    for (scree_part_kind kind = 0; kind < SCREE_PART_KINDS && !status; kind++) {
+        scree_part_list parts;
+        if ((status = scree_parts_list(directory, kind, &parts, error))) break;
+        status = add_points(points, &parts, kind == SCREE_PART_SNAPSHOT, true, error);
+        scree_part_list_destroy(&parts);
+    }
+    if (!status) status = list_groups(path, points, error);
+    if (status)
+        scree_restart_points_destroy(points);
+    else if (points->count > 0)
+        qsort(points->point, points->count, sizeof *points->point, compare_points);
+    return status;
+}
 
 // ---- writing -----------------------------------------------------------------------------------------------------
 
@@ -17,7 +86,7 @@ static scree_status write_part(const char *path, const char *group, const scree_
 {
     scree_hdf5 part;
     scree_hdf5_create(&part, path, error);
-    scree_state_write(&part, group, state, case_checksum);
+    scree_state_write(&part, group, NULL, state, case_checksum);
     return scree_hdf5_save(&part);
 }
 
@@ -25,61 +94,48 @@ static scree_status write_part(const char *path, const char *group, const scree_
 static scree_status remove_old(const char *directory, const scree_part_list *parts, scree_error *error)
 {
     for (size_t k = 0; k + SCREE_CHECKPOINTS_KEPT < parts->count; k++) {
-        char path[PATH_MAX];
-        scree_status status =
-            scree_part_path(directory, SCREE_PART_CHECKPOINT, parts->index[k], path, sizeof path, error);
+        scree_status status = scree_part_remove(directory, SCREE_PART_CHECKPOINT, parts->index[k], error);
         if (status) return status;
-        if (unlink(path) != 0) return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot remove '%s'", path);
     }
     return SCREE_OK;
 }
 
-/// Checkpoints in parts/ and, where a finished run.h5 holds some itself, in there.
-typedef struct found {
-    scree_part_list parts, groups;
-} found;
-
-static void found_destroy(found *all)
+/// The number that follows those of all checkpoints there are.
+static scree_status next_index(const char *directory, int64_t *index, scree_error *error)
 {
-    scree_part_list_destroy(&all->parts);
-    scree_part_list_destroy(&all->groups);
-}
-
-static scree_status find_all(const char *directory, found *all, scree_error *error)
-{
-    *all = (found){0};
-    char path[PATH_MAX];
-    scree_status status = scree_run_file_path(directory, path, sizeof path, error);
-    if (!status) status = scree_parts_list(directory, SCREE_PART_CHECKPOINT, &all->parts, error);
-    if (!status && access(path, F_OK) == 0) {
-        scree_hdf5 run;
-        scree_hdf5_open_sealed(&run, path, error);
-        (void)scree_run_file_list(&run, SCREE_PART_CHECKPOINT, true, &all->groups);
-        status = scree_hdf5_close(&run);
-    }
-    if (status) found_destroy(all);
+    scree_restart_points points;
+    *index = 0;
+    scree_status status = scree_restart_points_list(directory, &points, error);
+    for (size_t k = 0; k < points.count; k++)
+        if (!points.point[k].snapshot && points.point[k].index >= *index) *index = points.point[k].index + 1;
+    scree_restart_points_destroy(&points);
     return status;
 }
 
-static int64_t newest(const scree_part_list *list)
+/// Everything that a checkpoint counts on is on the disk before it has a name, and its name before older ones lose
+/// theirs.
+static scree_status write_durably(const char *directory, const char *path, const char *group, const scree_state *state,
+                                  uint64_t case_checksum, scree_error *error)
 {
-    return list->count > 0 ? list->index[list->count - 1] : -1;
+    const scree_kept all = SCREE_KEEP_ALL;
+    scree_status status = scree_parts_sync(directory, error);
+    if (!status) status = write_part(path, group, state, case_checksum, error);
+    if (!status) status = scree_parts_sync(directory, error);
+    if (!status) status = scree_run_file_renew(directory, NULL, &all, NULL, error);
+    return status ? status : scree_folder_sync(directory, error);
 }
 
 scree_status scree_checkpoint_write(const char *directory, const scree_state *state, uint64_t case_checksum,
                                     scree_error *error)
 {
-    found all;
     char path[PATH_MAX], group[64];
-    scree_status status = find_all(directory, &all, error);
+    int64_t index;
+    scree_status status = next_index(directory, &index, error);
     if (status) return status;
-    int64_t part = newest(&all.parts), own = newest(&all.groups), index = (part > own ? part : own) + 1;
-    found_destroy(&all);
     scree_part_group(SCREE_PART_CHECKPOINT, index, group, sizeof group);
     status = scree_parts_folder_make(directory, error);
     if (!status) status = scree_part_path(directory, SCREE_PART_CHECKPOINT, index, path, sizeof path, error);
-    if (!status) status = write_part(path, group, state, case_checksum, error);
-    if (!status) status = scree_run_file_renew(directory, NULL, INT64_MAX, error);
+    if (!status) status = write_durably(directory, path, group, state, case_checksum, error);
     scree_part_list parts = {0};
     if (!status) status = scree_parts_list(directory, SCREE_PART_CHECKPOINT, &parts, error);
     if (!status) status = remove_old(directory, &parts, error);
@@ -89,69 +145,112 @@ scree_status scree_checkpoint_write(const char *directory, const scree_state *st
 
 // ---- reading -----------------------------------------------------------------------------------------------------
 
-/// Reads one checkpoint. *damaged: the file is at fault, another one may be whole.
-static scree_status read_one(const char *path, const char *group, const scree_checkpoint_wanted *wanted,
-                             scree_state *state, bool *damaged, scree_error *error)
+static void read_state(scree_hdf5 *file, const scree_restart_point *point, const scree_restart_wanted *wanted,
+                       scree_state *state)
 {
+    char group[64], inner[80];
+    scree_part_group(point->snapshot ? SCREE_PART_SNAPSHOT : SCREE_PART_CHECKPOINT, point->index, group, sizeof group);
+    if (!point->snapshot) {
+        scree_state_read(file, group, NULL, wanted->dimension, wanted->case_checksum, state);
+        return;
+    }
+    scree_snapshot_state_group(point->index, inner, sizeof inner);
+    if (!file->status &&
+        (H5Lexists(file->file, group, H5P_DEFAULT) <= 0 || H5Lexists(file->file, inner, H5P_DEFAULT) <= 0))
+        scree_hdf5_refuse(file, "snapshot %" PRId64 " has no state to go on from", point->index);
+    scree_state_read(file, inner, group, wanted->dimension, wanted->case_checksum, state);
+}
+
+scree_status scree_restart_point_read(const char *directory, const scree_restart_point *point,
+                                      const scree_restart_wanted *wanted, scree_state *state, bool *another,
+                                      scree_error *error)
+{
+    char path[PATH_MAX];
     scree_hdf5 file;
     scree_error reason;
-    scree_hdf5_open_sealed(&file, path, error);
-    scree_state_read(&file, group, wanted->dimension, wanted->case_checksum, state);
+    bool sound;
+    scree_part_kind kind = point->snapshot ? SCREE_PART_SNAPSHOT : SCREE_PART_CHECKPOINT;
+    *another = false;
+    *state = (scree_state){.dimension = wanted->dimension};
+    scree_status status = point->part ? scree_part_path(directory, kind, point->index, path, sizeof path, error)
+                                      : scree_run_file_path(directory, path, sizeof path, error);
+    if (status) return status;
+    if (point->part)
+        scree_hdf5_open_sealed(&file, path, error);
+    else
+        scree_run_file_open(&file, path, &sound, error);
+    read_state(&file, point, wanted, state);
     if (!file.status && wanted->usable && wanted->usable(wanted->context, state, &reason))
         scree_hdf5_refuse(&file, "%s", reason.message);
-    *damaged = file.damaged;
-    scree_status status = scree_hdf5_close(&file);
+    *another = file.damaged;
+    status = scree_hdf5_close(&file);
     if (status) scree_state_destroy(state);
     state->dimension = wanted->dimension;
     return status;
 }
 
-/// Takes the newest checkpoint out of the lists; false when there is none left.
-static bool take_newest(found *all, const char *directory, char path[PATH_MAX], int64_t *index, scree_status *status,
-                        scree_error *error)
+static const char *name_of(const scree_restart_point *point)
 {
-    if (all->parts.count + all->groups.count == 0) return false;
-    bool part = newest(&all->parts) >= newest(&all->groups);
-    scree_part_list *list = part ? &all->parts : &all->groups;
-    *index = list->index[--list->count];
-    *status = part ? scree_part_path(directory, SCREE_PART_CHECKPOINT, *index, path, PATH_MAX, error)
-                   : scree_run_file_path(directory, path, PATH_MAX, error);
-    return !*status;
+    return point->snapshot ? "snapshot" : "checkpoint";
+}
+
+static bool is_wanted(const scree_restart_point *point, int64_t snapshot)
+{
+    if (snapshot == SCREE_RESTART_NEWEST) return true;
+    return point->snapshot && (snapshot == SCREE_RESTART_LATEST_SNAPSHOT || point->index == snapshot);
+}
+
+/// Why there is nothing to go on from. `first`: what was wrong with the first point, if there was one.
+static scree_status refuse(const char *directory, const scree_restart_wanted *wanted, const scree_restart_points *all,
+                           const scree_error *first, scree_error *error)
+{
+    char number[32] = "";
+    bool any = wanted->snapshot == SCREE_RESTART_NEWEST;
+    if (wanted->snapshot >= 0) (void)snprintf(number, sizeof number, " %" PRId64, wanted->snapshot);
+    const char *kind = any ? "checkpoint" : "snapshot";
+    if (first->status)
+        return scree_error_set(error, SCREE_ERROR_IO, "no %s%s in '%s' can be used: %s", kind, number, directory,
+                               first->message);
+    const char *reason = all->run.status ? ": " : "";
+    return scree_error_set(error, all->run.status ? SCREE_ERROR_IO : SCREE_ERROR_INPUT, "there is no %s%s in '%s'%s%s",
+                           kind, number, directory, reason, all->run.message);
+}
+
+scree_status scree_restart_find(const char *directory, const scree_restart_wanted *wanted, scree_restart_point *used,
+                                scree_state *state, scree_error *error)
+{
+    scree_restart_points all;
+    scree_error reason = {0}, first = {0};
+    *state = (scree_state){.dimension = wanted->dimension};
+    scree_status status = scree_restart_points_list(directory, &all, error);
+    if (status) return status;
+    bool found = false, another = true;
+    for (size_t k = 0; k < all.count && !found && another; k++) {
+        if (!is_wanted(&all.point[k], wanted->snapshot)) continue;
+        *used = all.point[k];
+        status = scree_restart_point_read(directory, used, wanted, state, &another, &reason);
+        found = status == SCREE_OK;
+        // Snapshots are only looked at for want of a checkpoint: that one has no state says nothing new.
+        if (!found && another && !first.status && (!used->snapshot || wanted->snapshot != SCREE_RESTART_NEWEST))
+            first = reason;
+    }
+    if (found && first.status)
+        (void)scree_error_set(error, SCREE_OK, "%s %" PRId64 " is used: %s", name_of(used), used->index, first.message);
+    else if (found && error)
+        *error = (scree_error){0};
+    else if (!found && another)
+        status = refuse(directory, wanted, &all, &first, error);
+    else if (error)
+        *error = reason;
+    scree_restart_points_destroy(&all);
+    return status;
 }
 
 scree_status scree_checkpoint_read(const char *directory, int dimension, scree_state *state, uint64_t case_checksum,
                                    scree_error *error)
 {
-    return scree_checkpoint_find(
-        directory, &(scree_checkpoint_wanted){.dimension = dimension, .case_checksum = case_checksum}, state, error);
-}
-
-scree_status scree_checkpoint_find(const char *directory, const scree_checkpoint_wanted *wanted, scree_state *state,
-                                   scree_error *error)
-{
-    found all;
-    char path[PATH_MAX], group[64];
-    int64_t index = -1;
-    scree_error reason = {0}, first = {0};
-    bool damaged = true;
-    *state = (scree_state){.dimension = wanted->dimension};
-    scree_status status = find_all(directory, &all, error);
-    if (status) return status;
-    if (all.parts.count + all.groups.count == 0) {
-        found_destroy(&all);
-        return scree_error_set(error, SCREE_ERROR_INPUT, "there is no checkpoint in '%s'", directory);
-    }
-    while (damaged && take_newest(&all, directory, path, &index, &status, &reason)) {
-        scree_part_group(SCREE_PART_CHECKPOINT, index, group, sizeof group);
-        status = read_one(path, group, wanted, state, &damaged, &reason);
-        if (damaged && !first.status) first = reason;
-    }
-    found_destroy(&all);
-    if (!status && first.status)
-        (void)scree_error_set(error, SCREE_OK, "checkpoint %" PRId64 " is used: %s", index, first.message);
-    else if (status && damaged)
-        (void)scree_error_set(error, SCREE_ERROR_IO, "no checkpoint in '%s' can be used: %s", directory, first.message);
-    else if (error)
-        *error = reason;
-    return status;
+    scree_restart_point used;
+    const scree_restart_wanted wanted = {
+        .dimension = dimension, .case_checksum = case_checksum, .snapshot = SCREE_RESTART_NEWEST};
+    return scree_restart_find(directory, &wanted, &used, state, error);
 }

@@ -8,10 +8,17 @@
 #include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-/// Growth of a file in memory; what HDF5 1.10 takes for itself in a file, with room to spare (2 MB were seen).
-enum { MEMORY_STEP = 1 << 20, LIBRARY_BYTES = 4 << 20 };
+/// Growth of a file in memory.
+enum { MEMORY_STEP = 1 << 20 };
+/// Bytes: datasets up to here lie in their object header (which holds 64 KiB); larger ones in one chunk, which needs no
+/// index, up to that size.
+enum { COMPACT_SIZE = 8192, CHUNK_SIZE = 1 << 30 };
+enum { MOST_COMPACT = 65535 };
+/// What HDF5 1.10 takes for itself in a file, with room to spare (2 MB were seen).
+enum { LIBRARY_BYTES = 4 << 20 };
 
 // ---- errors ------------------------------------------------------------------------------------------------------
 
@@ -56,38 +63,99 @@ void scree_hdf5_refuse(scree_hdf5 *hdf5, const char *format, ...)
 static void begin(scree_hdf5 *hdf5, const char *path, scree_error *error)
 {
     *hdf5 = (scree_hdf5){.file = H5I_INVALID_HID, .path = path, .error = error};
+    // Every file is closed here; at exit HDF5 (1.10) would complain of what it lost in damaged ones itself.
+    (void)H5dont_atexit();
     (void)H5Eget_auto2(H5E_DEFAULT, &hdf5->printing, &hdf5->printing_data);
     (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     hdf5->status = scree_memory_check(LIBRARY_BYTES, error);
     errno = 0;
 }
 
-/// No locks: a file on disk is never changed, only replaced, and locks fail on some network file systems.
-static hid_t access_properties(bool in_memory)
+// The memory of a file that is built there. HDF5 marks a file as open in its head and takes the mark away when it
+// closes it, so the bytes that leave are those that it hands back then. (The copy that H5Fget_file_image makes has a
+// wrong checksum in HDF5 1.10.8.)
+
+static void *image_make(size_t size, H5FD_file_image_op_t why, void *hdf5)
+{
+    (void)why, (void)hdf5;
+    return malloc(size);
+}
+
+static void *image_copy(void *to, const void *from, size_t size, H5FD_file_image_op_t why, void *hdf5)
+{
+    (void)why, (void)hdf5;
+    return memcpy(to, from, size);
+}
+
+static void *image_grow(void *image, size_t size, H5FD_file_image_op_t why, void *hdf5)
+{
+    (void)why, (void)hdf5;
+    return realloc(image, size);
+}
+
+static herr_t image_end(void *image, H5FD_file_image_op_t why, void *hdf5)
+{
+    scree_hdf5 *file = hdf5;
+    if (why == H5FD_FILE_IMAGE_OP_FILE_CLOSE && file->keep)
+        file->image = image;
+    else
+        free(image);
+    return 0;
+}
+
+static void *same(void *hdf5)
+{
+    return hdf5;
+}
+
+static herr_t nothing(void *hdf5)
+{
+    (void)hdf5;
+    return 0;
+}
+
+static bool in_memory(hid_t access, scree_hdf5 *hdf5)
+{
+    H5FD_file_image_callbacks_t calls = {image_make, image_copy, image_grow, image_end, same, nothing, hdf5};
+    return H5Pset_fapl_core(access, MEMORY_STEP, false) >= 0 && H5Pset_file_image_callbacks(access, &calls) >= 0;
+}
+
+/// No locks: a file on disk is never changed, only replaced, and locks fail on some network file systems. `memory`: the
+/// file that is built there, else NULL.
+static hid_t access_properties(scree_hdf5 *memory)
 {
     hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-    bool good = access >= 0 && H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST) >= 0 &&
+    bool good = access >= 0 && H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_LATEST) >= 0 &&
                 H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0 && H5Pset_file_locking(access, false, true) >= 0 &&
-                (!in_memory || H5Pset_fapl_core(access, MEMORY_STEP, false) >= 0);
+                (!memory || in_memory(access, memory));
     if (good) return access;
     if (access >= 0) H5Pclose(access);
     return H5I_INVALID_HID;
+}
+
+/// Links and attributes lie in the header of their group or file, which has a checksum, however many there are: HDF5
+/// (1.10) crashes on damage in the heaps that it would put many of them into.
+static bool set_compact(hid_t made)
+{
+    return H5Pset_link_phase_change(made, MOST_COMPACT, MOST_COMPACT) >= 0 &&
+           H5Pset_attr_phase_change(made, MOST_COMPACT, MOST_COMPACT) >= 0;
 }
 
 void scree_hdf5_create(scree_hdf5 *hdf5, const char *path, scree_error *error)
 {
     begin(hdf5, path, error);
     if (hdf5->status) return;
-    hid_t access = access_properties(true);
-    if (access >= 0) hdf5->file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
+    hid_t access = access_properties(hdf5), made = H5Pcreate(H5P_FILE_CREATE);
+    if (access >= 0 && made >= 0 && set_compact(made)) hdf5->file = H5Fcreate(path, H5F_ACC_TRUNC, made, access);
     if (hdf5->file < 0) scree_hdf5_fail(hdf5, "prepare", NULL);
+    if (made >= 0) H5Pclose(made);
     if (access >= 0) H5Pclose(access);
 }
 
 static void open_existing(scree_hdf5 *hdf5, unsigned mode)
 {
     if (hdf5->status) return;
-    hid_t access = access_properties(false);
+    hid_t access = access_properties(NULL);
     if (access >= 0) hdf5->file = H5Fopen(hdf5->path, mode, access);
     if (hdf5->file < 0) scree_hdf5_fail(hdf5, "open", NULL);
     if (access >= 0) H5Pclose(access);
@@ -123,34 +191,33 @@ scree_status scree_hdf5_close(scree_hdf5 *hdf5)
     return hdf5->status;
 }
 
-/// The bytes of a file in memory, as they would lie on disk; they belong to the core driver, which holds more of them
-/// than the file needs. (H5Fget_file_image gives the size; the copy that it makes has a wrong checksum in HDF5 1.10.8.)
-static void find_image(scree_hdf5 *hdf5, const void **image, size_t *size)
+/// Closes a file in memory and keeps its bytes in hdf5->image; the core driver holds more of them than the file needs.
+static size_t take_image(scree_hdf5 *hdf5)
 {
-    void **handle = NULL;
-    ssize_t length = 0;
-    if (H5Fflush(hdf5->file, H5F_SCOPE_GLOBAL) < 0 || (length = H5Fget_file_image(hdf5->file, NULL, 0)) < 0 ||
-        H5Fget_vfd_handle(hdf5->file, H5P_DEFAULT, (void **)&handle) < 0)
+    ssize_t size = 0;
+    if (H5Fflush(hdf5->file, H5F_SCOPE_GLOBAL) < 0 || (size = H5Fget_file_image(hdf5->file, NULL, 0)) < 0)
         scree_hdf5_fail(hdf5, "prepare", NULL);
-    *size = (size_t)length;
-    *image = handle ? *handle : NULL;
+    hdf5->keep = hdf5->status == SCREE_OK;
+    if (H5Fclose(hdf5->file) < 0 || (hdf5->keep && !hdf5->image)) scree_hdf5_fail(hdf5, "close", NULL);
+    hdf5->file = H5I_INVALID_HID;
+    return size < 0 ? 0 : (size_t)size;
 }
 
 scree_status scree_hdf5_save(scree_hdf5 *hdf5)
 {
-    const void *image = NULL;
-    size_t size = 0;
     FILE *file;
-    if (!hdf5->status) find_image(hdf5, &image, &size);
+    size_t size = hdf5->status ? 0 : take_image(hdf5);
     if (!hdf5->status) hdf5->status = scree_replace_begin(hdf5->path, &file, hdf5->error);
     if (!hdf5->status) {
         unsigned char seal[SCREE_SEAL_SIZE];
-        scree_seal_make(image, size, seal);
-        bool whole = fwrite(image, 1, size, file) == size && fwrite(seal, 1, sizeof seal, file) == sizeof seal;
+        scree_seal_make(hdf5->image, size, seal);
+        bool whole = fwrite(hdf5->image, 1, size, file) == size && fwrite(seal, 1, sizeof seal, file) == sizeof seal;
         if (!whole) hdf5->status = scree_error_set_errno(hdf5->error, SCREE_ERROR_IO, "cannot write '%s'", hdf5->path);
         scree_status finished = scree_replace_finish(hdf5->path, file, whole, whole ? hdf5->error : NULL);
         if (whole) hdf5->status = finished;
     }
+    free(hdf5->image);
+    hdf5->image = NULL;
     return scree_hdf5_close(hdf5);
 }
 
@@ -191,26 +258,49 @@ static void path_in_file(char *path, size_t size, const char *group, const char 
     (void)snprintf(path, size, "%s/%s", group ? group : "", name);
 }
 
-/// Creation properties of links that make the groups above them.
-static hid_t making_groups(void)
+static void make_group(scree_hdf5 *hdf5, const char *name)
 {
-    hid_t links = H5Pcreate(H5P_LINK_CREATE);
-    if (links >= 0 && H5Pset_create_intermediate_group(links, 1) >= 0) return links;
-    if (links >= 0) H5Pclose(links);
-    return H5I_INVALID_HID;
+    hid_t made = H5Pcreate(H5P_GROUP_CREATE), group = H5I_INVALID_HID;
+    if (made >= 0 && set_compact(made)) group = H5Gcreate2(hdf5->file, name, H5P_DEFAULT, made, H5P_DEFAULT);
+    if (group < 0) scree_hdf5_fail(hdf5, "make group", name);
+    if (group >= 0) H5Gclose(group);
+    if (made >= 0) H5Pclose(made);
+}
+
+/// Makes the groups above the object `name` that are not there.
+static void make_groups_above(scree_hdf5 *hdf5, const char *name)
+{
+    char above[160];
+    for (const char *end = strchr(name + 1, '/'); end && !hdf5->status; end = strchr(end + 1, '/')) {
+        (void)snprintf(above, sizeof above, "%.*s", (int)(end - name), name);
+        if (H5Lexists(hdf5->file, above, H5P_DEFAULT) <= 0) make_group(hdf5, above);
+    }
 }
 
 void scree_hdf5_group(scree_hdf5 *hdf5, const char *name)
 {
     if (hdf5->status) return;
-    hid_t links = making_groups(), group = H5I_INVALID_HID;
-    if (H5Lexists(hdf5->file, name, H5P_DEFAULT) <= 0 && links >= 0)
-        group = H5Gcreate2(hdf5->file, name, links, H5P_DEFAULT, H5P_DEFAULT);
-    else
-        group = H5Gopen2(hdf5->file, name, H5P_DEFAULT);
-    if (group < 0) scree_hdf5_fail(hdf5, "make group", name);
-    if (group >= 0) H5Gclose(group);
-    if (links >= 0) H5Pclose(links);
+    make_groups_above(hdf5, name);
+    if (!hdf5->status && H5Lexists(hdf5->file, name, H5P_DEFAULT) <= 0) make_group(hdf5, name);
+}
+
+/// Creation properties of a dataset, so that its values have a checksum: small ones lie in the object header, which has
+/// one, others in a chunk with Fletcher's. Negative on failure.
+static hid_t with_checksum(const scree_array *array, int rank, const hsize_t dimensions[2])
+{
+    size_t row = (size_t)array->components * scree_field_size(array->type), size = array->rows * row;
+    hid_t made = H5Pcreate(H5P_DATASET_CREATE);
+    bool good = made >= 0;
+    if (good && size <= COMPACT_SIZE) {
+        good = H5Pset_layout(made, H5D_COMPACT) >= 0;
+    } else if (good) {
+        size_t chunks = (size + CHUNK_SIZE - 1) / CHUNK_SIZE;
+        const hsize_t chunk[2] = {(array->rows + chunks - 1) / chunks, rank > 1 ? dimensions[1] : 1};
+        good = H5Pset_chunk(made, rank, chunk) >= 0 && H5Pset_fletcher32(made) >= 0;
+    }
+    if (good) return made;
+    if (made >= 0) H5Pclose(made);
+    return H5I_INVALID_HID;
 }
 
 void scree_hdf5_write(scree_hdf5 *hdf5, const char *group, const scree_array *array)
@@ -224,12 +314,14 @@ void scree_hdf5_write(scree_hdf5 *hdf5, const char *group, const scree_array *ar
     hsize_t dimensions[2];
     int rank = dimensions_of(array, dimensions);
     hid_t space = rank ? H5Screate_simple(rank, dimensions, NULL) : H5Screate(H5S_SCALAR);
-    hid_t links = making_groups(), dataset = H5I_INVALID_HID, type = memory_type(array->type);
-    if (space >= 0 && links >= 0) dataset = H5Dcreate2(hdf5->file, name, type, space, links, H5P_DEFAULT, H5P_DEFAULT);
+    hid_t dataset = H5I_INVALID_HID, type = memory_type(array->type), layout = with_checksum(array, rank, dimensions);
+    make_groups_above(hdf5, name);
+    if (space >= 0 && layout >= 0)
+        dataset = H5Dcreate2(hdf5->file, name, type, space, H5P_DEFAULT, layout, H5P_DEFAULT);
     if (dataset < 0 || (array->rows > 0 && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, array->data) < 0))
         scree_hdf5_fail(hdf5, "write", name);
     if (dataset >= 0) H5Dclose(dataset);
-    if (links >= 0) H5Pclose(links);
+    if (layout >= 0) H5Pclose(layout);
     if (space >= 0) H5Sclose(space);
     scree_hdf5_set_text(hdf5, name, "unit", array->unit);
     scree_hdf5_set_text(hdf5, name, "description", array->meaning);

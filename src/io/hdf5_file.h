@@ -3,7 +3,8 @@
 ///
 /// Files are built in memory (HDF5's core driver) and leave as one block through scree_replace_begin/finish: no HDF5
 /// call ever writes to a full disk, which the library (1.10) answers with a crash in H5Ocopy or at exit. The newer file
-/// format (1.8) is used because all of its metadata carry checksums, so damage is found before it is believed. HDF5
+/// format (1.10) is used because all of its metadata carry checksums, and values do so too (hdf5_file.c), so damage is
+/// found before it is believed. HDF5
 /// prints nothing: its own messages become part of the scree_error. Every handle below a file closes with it. Nothing
 /// is compressed: shuffle and deflate save 13 % on such data at 37 MB/s (docs/output.md). Memory: twice the file while
 /// it is saved. Limits: one file must fit into memory; not for several threads at once.
@@ -15,12 +16,14 @@
 #include <hdf5.h>
 
 typedef struct scree_hdf5 {
-    size_t written;       ///< bytes of arrays
-    hid_t file;           ///< negative: none
-    const char *path;     ///< named in messages; caller-owned
-    scree_status status;  ///< first failure
-    bool damaged;         ///< the failure lies in the file, not in memory or in the caller
-    scree_error *error;   ///< may be NULL
+    size_t written;      ///< bytes of arrays
+    hid_t file;          ///< negative: none
+    const char *path;    ///< named in messages; caller-owned
+    scree_status status; ///< first failure
+    bool damaged;        ///< the failure lies in the file, not in memory or in the caller
+    scree_error *error;  ///< may be NULL
+    bool keep;           ///< a file in memory leaves its bytes in `image` when it closes
+    void *image;
     H5E_auto2_t printing; ///< what HDF5 did with its messages before
     void *printing_data;
 } scree_hdf5;
@@ -48,6 +51,10 @@ __attribute__((format(printf, 2, 3))) void scree_hdf5_refuse(scree_hdf5 *hdf5, c
 
 /// Group `name` with all groups above it; nothing happens when it is there.
 void scree_hdf5_group(scree_hdf5 *hdf5, const char *name);
+
+/// Reads everything below `group` to find damage: every dataset and attribute has a checksum of its own or lies in
+/// metadata that have. Errors: SCREE_ERROR_IO with the object; memory.
+scree_status scree_hdf5_verify(scree_hdf5 *hdf5, const char *group, scree_error *error) SCREE_MUST_USE;
 
 /// Dataset `group`/`array->name` (group "" or NULL: in the root) with attributes `unit` and `description`.
 void scree_hdf5_write(scree_hdf5 *hdf5, const char *group, const scree_array *array);

@@ -1,6 +1,7 @@
 /// run.h5: links to the parts while a run lasts, one self-contained file afterwards, and the way back for a restart.
 #include "io/run_file.h"
 
+#include "io/disk.h"
 #include "io/run_directory.h"
 #include "io/seal.h"
 #include "io/snapshot.h"
@@ -154,8 +155,7 @@ scree_status scree_run_file_list(scree_hdf5 *run, scree_part_kind kind, bool own
 
 // ---- links -------------------------------------------------------------------------------------------------------
 
-/// A run.h5 in memory with its attributes and empty groups.
-static void create_skeleton(scree_hdf5 *run, const char *path, const char *case_name, scree_error *error)
+void scree_run_file_create(scree_hdf5 *run, const char *path, const char *case_name, scree_error *error)
 {
     scree_hdf5_create(run, path, error);
     scree_hdf5_set_text(run, "/", "program", "Scree " SCREE_VERSION);
@@ -164,15 +164,24 @@ static void create_skeleton(scree_hdf5 *run, const char *path, const char *case_
     for (scree_part_kind kind = 0; kind < SCREE_PART_KINDS; kind++) scree_hdf5_group(run, part_names[kind].group);
 }
 
-/// Name of the case in an existing run.h5; empty when there is none.
-static scree_status read_case_name(const char *path, char *name, size_t size, scree_error *error)
+void scree_run_file_open(scree_hdf5 *run, const char *path, bool *sound, scree_error *error)
 {
-    name[0] = 0;
-    if (access(path, F_OK) != 0) return SCREE_OK;
+    scree_hdf5_open_sealed(run, path, error);
+    *sound = run->status == SCREE_OK;
+    if (*sound || !run->damaged) return;
+    (void)scree_hdf5_close(run);
+    scree_hdf5_open(run, path, error);
+}
+
+void scree_run_file_case_name(const char *path, char *name, size_t size)
+{
     scree_hdf5 run;
-    scree_hdf5_open_sealed(&run, path, error);
+    bool sound;
+    name[0] = 0;
+    if (access(path, F_OK) != 0) return;
+    scree_run_file_open(&run, path, &sound, NULL);
     scree_hdf5_get_text(&run, "/", "case", name, size);
-    return scree_hdf5_close(&run);
+    (void)scree_hdf5_close(&run);
 }
 
 /// Copies group `index` of the open run.h5 into a part of its own.
@@ -190,36 +199,95 @@ static void split_group(scree_hdf5 *run, const char *directory, scree_part_kind 
     run->status = scree_hdf5_save(&part);
 }
 
-/// Puts what run.h5 holds itself back into parts, except parts that are there and snapshots from `limit` on.
-static scree_status split(const char *directory, const char *path, int64_t limit, scree_error *error)
+static bool is_kept(const scree_kept *kept, scree_part_kind kind, int64_t index)
 {
-    if (access(path, F_OK) != 0) return SCREE_OK;
-    scree_hdf5 run;
-    scree_hdf5_open_sealed(&run, path, error);
-    for (scree_part_kind kind = 0; kind < SCREE_PART_KINDS && !run.status; kind++) {
+    if (kind == SCREE_PART_SNAPSHOT) return index < kept->snapshots;
+    return index >= kept->first_checkpoint && index <= kept->last_checkpoint;
+}
+
+/// A run.h5 that is being taken apart.
+typedef struct splitting {
+    scree_hdf5 *run;
+    const char *directory;
+    const scree_kept *kept;
+    scree_notes *notes;
+    bool sound;           ///< its seal is whole
+    size_t written, lost; ///< groups put into parts, and left out
+} splitting;
+
+/// Puts one group into a part, when it is whole.
+static void split_one(splitting *split, scree_part_kind kind, int64_t index)
+{
+    scree_hdf5 *run = split->run;
+    char group[64];
+    scree_error reason = {0};
+    scree_part_group(kind, index, group, sizeof group);
+    if (!split->sound && scree_hdf5_verify(run, group, &reason)) {
+        scree_notes_add(split->notes, "%s %" PRId64 " is damaged and left out: %s", part_names[kind].file, index,
+                        reason.message);
+        split->lost++;
+        return;
+    }
+    split_group(run, split->directory, kind, index);
+    split->written++;
+}
+
+/// Puts what an open run.h5 holds itself back into parts, but those that are there or not kept.
+static void split_all(splitting *split)
+{
+    scree_hdf5 *run = split->run;
+    for (scree_part_kind kind = 0; kind < SCREE_PART_KINDS && !run->status; kind++) {
         scree_part_list groups, parts;
-        if (scree_run_file_list(&run, kind, true, &groups)) break;
-        run.status = scree_parts_list(directory, kind, &parts, error);
-        for (size_t k = 0; k < groups.count && !run.status; k++) {
+        if (scree_run_file_list(run, kind, true, &groups)) break;
+        run->status = scree_parts_list(split->directory, kind, &parts, run->error);
+        for (size_t k = 0; k < groups.count && !run->status; k++) {
             int64_t index = groups.index[k];
-            bool dropped = kind == SCREE_PART_SNAPSHOT && index >= limit;
-            if (!dropped && !part_list_has(&parts, index)) split_group(&run, directory, kind, index);
+            if (is_kept(split->kept, kind, index) && !part_list_has(&parts, index)) split_one(split, kind, index);
         }
         scree_part_list_destroy(&groups);
         scree_part_list_destroy(&parts);
     }
-    return scree_hdf5_close(&run);
 }
 
-static void link_parts(scree_hdf5 *run, const char *directory, scree_part_kind kind, int64_t limit)
+/// What run.h5 holds itself is put into parts, which are on the disk before run.h5 is replaced. A damaged file that
+/// something is lost with is kept under another name.
+static scree_status split_file(const char *directory, const char *path, const scree_kept *kept, scree_notes *notes,
+                               scree_error *error)
+{
+    if (access(path, F_OK) != 0) return SCREE_OK;
+    scree_hdf5 run;
+    scree_error reason = {0};
+    char aside[PATH_MAX];
+    splitting split = {.run = &run, .directory = directory, .kept = kept, .notes = notes};
+    scree_run_file_open(&run, path, &split.sound, &reason);
+    split_all(&split);
+    bool unreadable = run.damaged;
+    scree_status status = scree_hdf5_close(&run);
+    if (status && !unreadable) {
+        if (error) *error = reason;
+        return status;
+    }
+    if (unreadable || split.lost > 0) {
+        scree_notes_add(notes, "'%s' is damaged%s%s; it is written anew", path, unreadable ? ": " : "",
+                        unreadable ? reason.message : "");
+        int length = snprintf(aside, sizeof aside, "%s.damaged", path);
+        // A second name: run.h5 itself stays until it is replaced.
+        if (length > 0 && (size_t)length < sizeof aside && unlink(aside) + link(path, aside) < -1)
+            scree_notes_add(notes, "it cannot be kept as '%s'", aside);
+    } else if (!split.sound)
+        scree_notes_add(notes, "'%s' is damaged, but nothing in it is lost; it is written anew", path);
+    return split.written > 0 ? scree_parts_sync(directory, error) : SCREE_OK;
+}
+
+static void link_parts(scree_hdf5 *run, const char *directory, scree_part_kind kind, const scree_kept *kept)
 {
     scree_part_list parts;
     if (run->status || (run->status = scree_parts_list(directory, kind, &parts, run->error))) return;
-    size_t first = 0;
-    if (kind == SCREE_PART_CHECKPOINT && parts.count > SCREE_CHECKPOINTS_KEPT)
-        first = parts.count - SCREE_CHECKPOINTS_KEPT;
-    for (size_t k = first; k < parts.count && !run->status; k++) {
-        if (kind == SCREE_PART_SNAPSHOT && parts.index[k] >= limit) break;
+    size_t first = 0, count = 0;
+    for (size_t k = 0; k < parts.count; k++)
+        if (is_kept(kept, kind, parts.index[k])) parts.index[count++] = parts.index[k];
+    if (kind == SCREE_PART_CHECKPOINT && count > SCREE_CHECKPOINTS_KEPT) first = count - SCREE_CHECKPOINTS_KEPT;
+    for (size_t k = first; k < count && !run->status; k++) {
         char file[64], group[64];
         part_file(kind, parts.index[k], file, sizeof file);
         scree_part_group(kind, parts.index[k], group, sizeof group);
@@ -238,35 +306,99 @@ scree_status scree_parts_folder_make(const char *directory, scree_error *error)
     return status;
 }
 
-scree_status scree_run_file_renew(const char *directory, const char *case_name, int64_t snapshot_limit,
-                                  scree_error *error)
+scree_status scree_parts_sync(const char *directory, scree_error *error)
+{
+    char path[PATH_MAX];
+    scree_status status = scree_path_join(path, sizeof path, directory, SCREE_FOLDER_PARTS, error);
+    if (status || access(path, F_OK) != 0) return status;
+    return scree_folder_sync(path, error);
+}
+
+scree_status scree_run_file_renew(const char *directory, const char *case_name, const scree_kept *kept,
+                                  scree_notes *notes, scree_error *error)
 {
     char path[PATH_MAX], name[256];
     scree_status status = scree_run_file_path(directory, path, sizeof path, error);
     if (!status) status = scree_parts_folder_make(directory, error);
-    if (!status) status = split(directory, path, snapshot_limit, error);
-    if (!status && !case_name) status = read_case_name(path, name, sizeof name, error);
+    if (!status && !case_name) scree_run_file_case_name(path, name, sizeof name);
+    if (!status) status = split_file(directory, path, kept, notes, error);
     if (status) return status;
     scree_hdf5 run;
-    create_skeleton(&run, path, case_name ? case_name : name, error);
-    for (scree_part_kind kind = 0; kind < SCREE_PART_KINDS; kind++) link_parts(&run, directory, kind, snapshot_limit);
+    scree_run_file_create(&run, path, case_name ? case_name : name, error);
+    for (scree_part_kind kind = 0; kind < SCREE_PART_KINDS; kind++) link_parts(&run, directory, kind, kept);
     return scree_hdf5_save(&run);
+}
+
+// ---- before a run goes on ----------------------------------------------------------------------------------------
+
+scree_status scree_part_set_aside(const char *directory, scree_part_kind kind, int64_t index, const char *reason,
+                                  scree_notes *notes, scree_error *error)
+{
+    char path[PATH_MAX], aside[PATH_MAX + 16];
+    scree_status status = scree_part_path(directory, kind, index, path, sizeof path, error);
+    if (status) return status;
+    (void)snprintf(aside, sizeof aside, "%s.damaged", path);
+    if (rename(path, aside) != 0) return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot rename '%s'", path);
+    scree_notes_add(notes, "%s %" PRId64 " is damaged and left out (kept as '%s'): %s", part_names[kind].file, index,
+                    aside, reason);
+    return SCREE_OK;
+}
+
+scree_status scree_part_remove(const char *directory, scree_part_kind kind, int64_t index, scree_error *error)
+{
+    char path[PATH_MAX];
+    scree_status status = scree_part_path(directory, kind, index, path, sizeof path, error);
+    if (!status && unlink(path) != 0) status = scree_error_set_errno(error, SCREE_ERROR_IO, "cannot remove '%s'", path);
+    return status;
+}
+
+/// Does `action` to every part.
+static scree_status for_each_part(const char *directory, const scree_kept *kept, scree_notes *notes,
+                                  scree_status (*action)(const char *directory, scree_part_kind kind, int64_t index,
+                                                         const scree_kept *kept, scree_notes *notes,
+                                                         scree_error *error),
+                                  scree_error *error)
+{
+    scree_status status = SCREE_OK;
+    for (scree_part_kind kind = 0; kind < SCREE_PART_KINDS && !status; kind++) {
+        scree_part_list parts;
+        if ((status = scree_parts_list(directory, kind, &parts, error))) return status;
+        for (size_t k = 0; k < parts.count && !status; k++)
+            status = action(directory, kind, parts.index[k], kept, notes, error);
+        scree_part_list_destroy(&parts);
+    }
+    return status;
+}
+
+static scree_status set_aside_damaged(const char *directory, scree_part_kind kind, int64_t index,
+                                      const scree_kept *kept, scree_notes *notes, scree_error *error)
+{
+    char path[PATH_MAX];
+    scree_error reason;
+    scree_status status = scree_part_path(directory, kind, index, path, sizeof path, error);
+    if (status || !is_kept(kept, kind, index) || !scree_seal_check(path, &reason)) return status;
+    return scree_part_set_aside(directory, kind, index, reason.message, notes, error);
+}
+
+static scree_status remove_not_kept(const char *directory, scree_part_kind kind, int64_t index, const scree_kept *kept,
+                                    scree_notes *notes, scree_error *error)
+{
+    (void)notes;
+    return is_kept(kept, kind, index) ? SCREE_OK : scree_part_remove(directory, kind, index, error);
+}
+
+scree_status scree_run_file_rewind(const char *directory, const char *case_name, const scree_kept *kept,
+                                   scree_notes *notes, scree_error *error)
+{
+    scree_status status = for_each_part(directory, kept, notes, set_aside_damaged, error);
+    if (!status) status = scree_run_file_renew(directory, case_name, kept, notes, error);
+    return status ? status : for_each_part(directory, kept, notes, remove_not_kept, error);
 }
 
 scree_status scree_snapshots_truncate(const char *directory, int64_t from_index, scree_error *error)
 {
-    scree_part_list parts = {0};
-    scree_status status = scree_run_file_renew(directory, NULL, from_index, error);
-    if (!status) status = scree_parts_list(directory, SCREE_PART_SNAPSHOT, &parts, error);
-    for (size_t k = 0; k < parts.count && !status; k++) {
-        if (parts.index[k] < from_index) continue;
-        char path[PATH_MAX];
-        status = scree_part_path(directory, SCREE_PART_SNAPSHOT, parts.index[k], path, sizeof path, error);
-        if (!status && unlink(path) != 0)
-            status = scree_error_set_errno(error, SCREE_ERROR_IO, "cannot remove '%s'", path);
-    }
-    scree_part_list_destroy(&parts);
-    return status;
+    const scree_kept kept = {.snapshots = from_index, .last_checkpoint = INT64_MAX};
+    return scree_run_file_rewind(directory, NULL, &kept, NULL, error);
 }
 
 // ---- the end of a run --------------------------------------------------------------------------------------------
@@ -331,7 +463,7 @@ static scree_status gather(const char *directory, const char *temporary, const c
 {
     off_t bytes;
     scree_hdf5 run;
-    create_skeleton(&run, temporary, case_name, error);
+    scree_run_file_create(&run, temporary, case_name, error);
     scree_status status = scree_hdf5_save(&run);
     if (!status) status = room_for(directory, lists, &bytes, error);
     if (!status) status = reserve(temporary, bytes, error);
@@ -382,7 +514,7 @@ static scree_status gather_all(const char *directory, const char *path, scree_er
     char temporary[PATH_MAX], case_name[256];
     scree_part_list lists[SCREE_PART_KINDS] = {{0}, {0}};
     scree_status status = scree_path_join(temporary, sizeof temporary, directory, SCREE_FILE_RUN_WHOLE, error);
-    if (!status) status = read_case_name(path, case_name, sizeof case_name, error);
+    scree_run_file_case_name(path, case_name, sizeof case_name);
     for (scree_part_kind kind = 0; kind < SCREE_PART_KINDS && !status; kind++)
         status = scree_parts_list(directory, kind, &lists[kind], error);
     if (!status) {
@@ -394,14 +526,17 @@ static scree_status gather_all(const char *directory, const char *path, scree_er
     return status;
 }
 
-scree_status scree_run_file_finish(const char *directory, scree_error *error)
+scree_status scree_run_file_finish(const char *directory, scree_notes *notes, scree_error *error)
 {
     char path[PATH_MAX];
     bool finished = false;
+    const scree_kept all = SCREE_KEEP_ALL;
     scree_status status = scree_run_file_path(directory, path, sizeof path, error);
     if (!status) status = is_finished(directory, path, &finished, error);
     // A finish that was killed left groups in run.h5 whose parts may be gone: renewing the links brings them back.
-    if (!status && !finished) status = scree_run_file_renew(directory, NULL, INT64_MAX, error);
+    if (!status && !finished) status = scree_run_file_rewind(directory, NULL, &all, notes, error);
     if (!status && !finished) status = gather_all(directory, path, error);
+    // The parts go when the new name is on the disk.
+    if (!status && !finished) status = scree_folder_sync(directory, error);
     return status ? status : remove_parts(directory, error);
 }

@@ -139,6 +139,33 @@ scree_status scree_series_append(scree_series_writer *writer, const double *valu
     return status;
 }
 
+static size_t count_character(const char *text, const char *end, char wanted)
+{
+    size_t count = 0;
+    while (text < end) count += *text++ == wanted;
+    return count;
+}
+
+scree_status scree_series_sync(scree_series_writer *writer, scree_error *error)
+{
+    if (!writer->file || fsync(fileno(writer->file)) == 0) return SCREE_OK;
+    return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot write the time series");
+}
+
+scree_status scree_series_holds(const char *path, int64_t rows, scree_error *error)
+{
+    char *text;
+    size_t length;
+    scree_status status = read_text(path, &text, &length, error);
+    if (status) return status;
+    // A power cut may leave zeros where a row was: the text ends there.
+    int64_t found = (int64_t)count_character(text, text + strlen(text), '\n') - 1;
+    scree_release(&text);
+    if (found >= rows) return SCREE_OK;
+    return scree_error_set(error, SCREE_ERROR_IO, "'%s' holds %lld rows, the checkpoint was taken after %lld", path,
+                           (long long)(found < 0 ? 0 : found), (long long)rows);
+}
+
 scree_status scree_series_close(scree_series_writer *writer, scree_error *error)
 {
     if (!writer->file) return SCREE_OK;
@@ -149,13 +176,6 @@ scree_status scree_series_close(scree_series_writer *writer, scree_error *error)
     if (synced == 0 && closed == 0) return SCREE_OK;
     if (synced != 0) errno = number;
     return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot write the time series");
-}
-
-static size_t count_character(const char *text, const char *end, char wanted)
-{
-    size_t count = 0;
-    while (text < end) count += *text++ == wanted;
-    return count;
 }
 
 static scree_status copy_text(char **out, const char *text, size_t length, scree_error *error)

@@ -23,6 +23,10 @@ scree_status scree_series_open(scree_series_writer *writer, const char *path, co
                                size_t count, int64_t append_rows, scree_error *error) SCREE_MUST_USE;
 /// One row, flushed as one write. NAN is written as `nan`.
 scree_status scree_series_append(scree_series_writer *writer, const double *values, scree_error *error) SCREE_MUST_USE;
+/// Flushes all rows to the disk.
+scree_status scree_series_sync(scree_series_writer *writer, scree_error *error) SCREE_MUST_USE;
+/// Whether the file holds at least `rows` whole rows behind its header. Errors: SCREE_ERROR_IO with both numbers.
+scree_status scree_series_holds(const char *path, int64_t rows, scree_error *error) SCREE_MUST_USE;
 scree_status scree_series_close(scree_series_writer *writer, scree_error *error) SCREE_MUST_USE;
 
 /// A series read back, column by column. A torn last line is ignored.

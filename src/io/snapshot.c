@@ -6,6 +6,7 @@
 #include "boundary/sheet.h"
 #include "io/cell_file.h"
 #include "io/run_file.h"
+#include "io/state_file.h"
 
 #include <limits.h>
 #include <stdio.h>
@@ -93,10 +94,17 @@ static void write_sheet(scree_hdf5 *part, const char *group, const scree_state *
     scree_array_destroy(&array);
 }
 
+void scree_snapshot_state_group(int64_t index, char *name, size_t size)
+{
+    char group[64];
+    scree_part_group(SCREE_PART_SNAPSHOT, index, group, sizeof group);
+    (void)snprintf(name, size, "%s/state", group);
+}
+
 scree_status scree_snapshot_write(const char *directory, const scree_model *model, const scree_state *state,
                                   const scree_contact_table *table, const scree_snapshot_info *info, scree_error *error)
 {
-    char path[PATH_MAX], group[64];
+    char path[PATH_MAX], group[64], folder[80];
     scree_status status = scree_part_path(directory, SCREE_PART_SNAPSHOT, info->index, path, sizeof path, error);
     if (!status) status = scree_parts_folder_make(directory, error);
     if (status) return status;
@@ -119,9 +127,14 @@ scree_status scree_snapshot_write(const char *directory, const scree_model *mode
     write_wall_triangles(&part, group, info->walls);
     write_sheet(&part, group, state);
     if (info->cells) scree_cells_write(&part, group, info->cells);
+    if (info->restartable) {
+        scree_snapshot_state_group(info->index, folder, sizeof folder);
+        scree_state_write(&part, folder, group, state, info->case_checksum);
+    }
     status = scree_hdf5_save(&part);
+    const scree_kept all = SCREE_KEEP_ALL;
     const char *case_name = model->config && model->config->name ? model->config->name : "";
-    return status ? status : scree_run_file_renew(directory, case_name, INT64_MAX, error);
+    return status ? status : scree_run_file_renew(directory, case_name, &all, NULL, error);
 }
 
 // ---- reading -----------------------------------------------------------------------------------------------------

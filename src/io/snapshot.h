@@ -7,11 +7,13 @@
 ///       contacts/ first, second (ids), normal, point, branch, normal_force, tangential_force, ...
 ///       boundary/ id (the loop), loaded, ...; walls/ position, normal, force, ...; cells/ (cell_file.h)
 ///       case_walls/ force, torque, work; triangle (n x 9) and wall, where there are some (attribute wall_triangles)
+///       state/ what else of scree_state there is, bit for bit, to go on from the snapshot
 ///   /checkpoints/000003/          everything in scree_state, bit for bit; attribute case_checksum
 /// Every dataset has the attributes `unit` and `description`; docs/output.md lists all of them.
 #ifndef SCREE_IO_SNAPSHOT_H
 #define SCREE_IO_SNAPSHOT_H
 
+#include "base/notes.h"
 #include "contact/contact.h"
 #include "integrate/integrate.h"
 #include "measure/cells.h"
@@ -24,7 +26,12 @@ typedef struct scree_snapshot_info {
     const char *stage;
     const scree_cells *cells;          ///< with all their fields; NULL: not written
     const scree_wall_triangles *walls; ///< of the case; NULL: none
+    bool restartable;                  ///< with the whole state, which must have its contacts saved
+    uint64_t case_checksum;            ///< what the state belongs to
 } scree_snapshot_info;
+
+/// "/snapshots/000012/state": what a snapshot has of the state besides its own fields.
+void scree_snapshot_state_group(int64_t index, char *name, size_t size);
 
 /// Writes parts/snapshot-INDEX.h5 and renews run.h5's links.
 scree_status scree_snapshot_write(const char *directory, const scree_model *model, const scree_state *state,
@@ -34,34 +41,60 @@ scree_status scree_snapshot_write(const char *directory, const scree_model *mode
 /// Writes a checkpoint (contacts must have been saved into the state); keeps the newest two.
 scree_status scree_checkpoint_write(const char *directory, const scree_state *state, uint64_t case_checksum,
                                     scree_error *error) SCREE_MUST_USE;
-/// Reads the newest checkpoint of a state of this dimension that is whole into *state, which must own nothing and stays
-/// empty on failure; rows are in the order in which they were written, derived arrays but row_of_id are zero. When the
-/// newest is damaged and an older one is used, the status is SCREE_OK and error->message says so; else the message is
-/// empty. Errors: SCREE_ERROR_INPUT: none there, of another case (checksum), of another version of the state (field
-/// tables); SCREE_ERROR_IO: none is whole, memory.
+/// Reads the newest checkpoint of a state of this dimension that is whole, or without one the newest snapshot, into
+/// *state, which must own nothing and stays empty on failure; rows are in the order in which they were written, derived
+/// arrays but row_of_id are zero. When the newest is damaged and an older one is used, the status is SCREE_OK and
+/// error->message says so; else the message is empty. Errors: SCREE_ERROR_INPUT: none there, of another case
+/// (checksum), of another version of the state (field tables); SCREE_ERROR_IO: none is whole, memory.
 scree_status scree_checkpoint_read(const char *directory, int dimension, scree_state *state, uint64_t case_checksum,
                                    scree_error *error) SCREE_MUST_USE;
 
-/// What a checkpoint must be. `usable` (may be NULL) looks at a state that was read and fills the error when it cannot
-/// be used; the next older one is tried then, as if it were damaged.
-typedef struct scree_checkpoint_wanted {
+/// Where a run can go on from: a checkpoint, or a snapshot with its state. In parts/, or in run.h5 itself.
+typedef struct scree_restart_point {
+    bool snapshot;
+    int64_t index;
+    bool part;
+} scree_restart_point;
+typedef struct scree_restart_points {
+    scree_restart_point *point; ///< checkpoints, the newest first, then snapshots, the newest first
+    size_t count;
+    scree_error run; ///< why run.h5 could not be looked into; status SCREE_OK: it could
+} scree_restart_points;
+/// Lists them without reading them. Errors: memory, unreadable folder.
+scree_status scree_restart_points_list(const char *directory, scree_restart_points *points,
+                                       scree_error *error) SCREE_MUST_USE;
+void scree_restart_points_destroy(scree_restart_points *points);
+
+/// What is wanted of a state. `usable` (may be NULL) looks at one that was read, and fills the error when it cannot be
+/// used; the next is tried then, as if it were damaged.
+typedef struct scree_restart_wanted {
     int dimension;
     uint64_t case_checksum;
+    int64_t snapshot; ///< its number, or one of the two below
     scree_status (*usable)(void *context, const scree_state *state, scree_error *error);
     void *context;
-} scree_checkpoint_wanted;
+} scree_restart_wanted;
+enum { SCREE_RESTART_NEWEST = -1, SCREE_RESTART_LATEST_SNAPSHOT = -2 };
 
-/// scree_checkpoint_read with these.
-scree_status scree_checkpoint_find(const char *directory, const scree_checkpoint_wanted *wanted, scree_state *state,
-                                   scree_error *error) SCREE_MUST_USE;
+/// Reads the state of one point into *state, which must own nothing and stays empty on failure. *another: the point is
+/// at fault, another one may serve. Errors: as scree_checkpoint_read.
+scree_status scree_restart_point_read(const char *directory, const scree_restart_point *point,
+                                      const scree_restart_wanted *wanted, scree_state *state, bool *another,
+                                      scree_error *error) SCREE_MUST_USE;
+
+/// Reads the first point that can be used; *used says which. Without a failure error->message says when it is not the
+/// first one, and why.
+scree_status scree_restart_find(const char *directory, const scree_restart_wanted *wanted, scree_restart_point *used,
+                                scree_state *state, scree_error *error) SCREE_MUST_USE;
 
 /// Drops the snapshots with numbers from `from_index` on: a run that continues from an older step writes them anew. A
 /// finished run.h5 is taken apart into parts again. Call before the first snapshot after a restart.
 scree_status scree_snapshots_truncate(const char *directory, int64_t from_index, scree_error *error) SCREE_MUST_USE;
 
-/// The end of a run: everything into one self-contained run.h5, parts removed. Killed at any moment, or out of disk
-/// space, it leaves what was there before. Calling it again is harmless.
-scree_status scree_run_file_finish(const char *directory, scree_error *error) SCREE_MUST_USE;
+/// The end of a run: everything into one self-contained run.h5, parts removed. What is damaged is left out, with a note
+/// (`notes` may be NULL). Killed at any moment, or out of disk space, it leaves what was there before. Calling it again
+/// is harmless.
+scree_status scree_run_file_finish(const char *directory, scree_notes *notes, scree_error *error) SCREE_MUST_USE;
 
 /// A snapshot read back for figures. Arrays of `count` bodies in id order, contacts of `contact_count`.
 typedef struct scree_snapshot {

@@ -42,7 +42,8 @@ static uint64_t layout_checksum(int dimension)
 
 // ---- writing -----------------------------------------------------------------------------------------------------
 
-void scree_state_write(scree_hdf5 *part, const char *group, const scree_state *state, uint64_t case_checksum)
+void scree_state_write(scree_hdf5 *part, const char *group, const char *shared, const scree_state *state,
+                       uint64_t case_checksum)
 {
     scree_hdf5_group(part, group);
     scree_hdf5_set_text(part, group, "program", "Scree " SCREE_VERSION);
@@ -53,9 +54,9 @@ void scree_state_write(scree_hdf5 *part, const char *group, const scree_state *s
     scree_hdf5_set_number(part, group, "stage_processor_time", state->spent.processor);
     for (size_t k = 0; k < stored_count() && !part->status; k++) {
         const scree_field *field = stored_field(state->dimension, k);
-        if (!field) continue;
+        if (!field || (shared && field->snapshot)) continue;
         scree_array array;
-        part->status = scree_array_from_field(state, field, false, &array, part->error);
+        part->status = scree_array_from_field(state, field, shared != NULL, &array, part->error);
         scree_hdf5_write(part, group, &array);
         scree_array_destroy(&array);
     }
@@ -179,7 +180,8 @@ static void find_rows(scree_hdf5 *file, scree_state *state)
                               state->count - 1);
 }
 
-void scree_state_read(scree_hdf5 *file, const char *group, int dimension, uint64_t case_checksum, scree_state *state)
+void scree_state_read(scree_hdf5 *file, const char *group, const char *shared, int dimension, uint64_t case_checksum,
+                      scree_state *state)
 {
     *state = (scree_state){.dimension = dimension};
     check_origin(file, group, dimension, case_checksum);
@@ -189,7 +191,7 @@ void scree_state_read(scree_hdf5 *file, const char *group, int dimension, uint64
     scree_hdf5_get_number(file, group, "stage_processor_time", &spent.processor);
     for (size_t k = 0; k < stored_count() && !file->status; k++) {
         const scree_field *field = stored_field(dimension, k);
-        if (field) read_field(file, group, field, state);
+        if (field) read_field(file, shared && field->snapshot ? shared : group, field, state);
     }
     find_rows(file, state);
     state->spent = spent;

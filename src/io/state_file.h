@@ -4,13 +4,17 @@
 
 #include "io/hdf5_file.h"
 
-/// Writes everything that is needed to continue into `group` of an open part. Contacts must have been saved.
-void scree_state_write(scree_hdf5 *part, const char *group, const scree_state *state, uint64_t case_checksum);
+/// Writes everything that is needed to continue into `group` of an open part. Contacts must have been saved. `shared`
+/// NULL: bodies in the order of their rows. Else the group of a snapshot, which has its fields already: those are left
+/// out, and the bodies are in the order of their ids as they are there.
+void scree_state_write(scree_hdf5 *part, const char *group, const char *shared, const scree_state *state,
+                       uint64_t case_checksum);
 
 /// Reads it back into *state, which must own nothing and stays empty on failure. Rows are in the order in which they
 /// were written; derived arrays but row_of_id are zero. Errors, in file->status: SCREE_ERROR_INPUT for another case or
 /// another version of the state; SCREE_ERROR_IO (file->damaged) for ids that are no permutation, lengths that do not
 /// agree. Values are not looked at: state/check.h.
-void scree_state_read(scree_hdf5 *file, const char *group, int dimension, uint64_t case_checksum, scree_state *state);
+void scree_state_read(scree_hdf5 *file, const char *group, const char *shared, int dimension, uint64_t case_checksum,
+                      scree_state *state);
 
 #endif

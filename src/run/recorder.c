@@ -2,6 +2,7 @@
 /// and snapshots there are and a restart cuts what came later.
 #include "run/recorder.h"
 
+#include "io/disk.h"
 #include "io/paraview.h"
 #include "io/run_directory.h"
 #include "io/snapshot.h"
@@ -50,6 +51,8 @@ scree_status scree_recorder_open(scree_recorder *recorder, const scree_simulatio
     status = scree_series_open(&recorder->series, path, scree_sample_columns, SCREE_SAMPLE_COUNT,
                                restart ? s->state.stage.samples : -1, error);
     if (!status) status = scree_wall_series_open(&recorder->walls, s, directory, restart, error);
+    // Names of files that checkpoints count on.
+    if (!status) status = scree_folder_sync(directory, error);
     recorder->clocked[1] = read_clock(CLOCK_PROCESS_CPUTIME_ID);
     recorder->started = recorder->clocked[0] = recorder->last_checkpoint = recorder->last_progress = scree_clock();
     recorder->last_threads = -INFINITY;
@@ -83,6 +86,9 @@ scree_status scree_recorder_checkpoint(scree_recorder *recorder, scree_simulatio
 {
     scree_recorder_clock(recorder, s);
     scree_status status = scree_contacts_save(&s->state, &s->work, error);
+    // A checkpoint counts rows, so they are on the disk before it is.
+    if (!status) status = scree_series_sync(&recorder->series, error);
+    if (!status) status = scree_series_sync(&recorder->walls, error);
     if (!status) status = scree_checkpoint_write(recorder->directory, &s->state, recorder->case_checksum, error);
     recorder->last_checkpoint = scree_clock();
     recorder->checkpoint_evaluations = s->state.evaluations;
@@ -123,7 +129,9 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
     scree_snapshot_info info = {.index = s->state.stage.snapshots,
                                 .time = scree_state_time(&s->state),
                                 .axial_strain = scree_loading_strain(s),
-                                .stage = s->stage->name};
+                                .stage = s->stage->name,
+                                .restartable = sound,
+                                .case_checksum = recorder->case_checksum};
     const scree_model *model = &s->stage_model;
     scree_cells cells = {0};
     scree_wall_triangles walls = {0};
@@ -135,10 +143,13 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
         if (!status) info.cells = &cells;
         if (status == SCREE_ERROR_GUARD) status = SCREE_OK;
     }
+    // What goes on from a snapshot has written it.
+    scree_recorder_clock(recorder, s);
+    s->state.stage.snapshots++;
+    if (!status && sound) status = scree_contacts_save(&s->state, &s->work, error);
     if (!status) status = scree_snapshot_write(recorder->directory, model, &s->state, &s->table, &info, error);
     if (!status && s->model.config->output.paraview)
         status = scree_paraview_write(recorder->directory, model, &s->state, &s->table, &info, error);
-    if (!status) s->state.stage.snapshots++;
     scree_cells_destroy(&cells);
     scree_wall_triangles_destroy(&walls);
     return status;

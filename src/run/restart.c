@@ -2,8 +2,14 @@
 #include "run/restart.h"
 
 #include "io/run_directory.h"
-#include "io/snapshot.h"
+#include "io/run_file.h"
+#include "io/series.h"
 #include "state/check.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
 
 scree_status scree_restart_case(const char *directory, scree_case **c, scree_error *error)
 {
@@ -35,14 +41,81 @@ scree_status scree_restart_check(const scree_simulation *s, const scree_state *s
     return status ? status : check_stage(s, state, error);
 }
 
+typedef struct wanted_run {
+    const scree_simulation *s;
+    const char *directory;
+} wanted_run;
+
+/// Values, and the rows that it counts on.
 static scree_status usable(void *context, const scree_state *state, scree_error *error)
 {
-    return scree_restart_check(context, state, error);
+    const wanted_run *run = context;
+    const char *const series[] = {SCREE_FILE_SERIES, SCREE_FILE_WALLS};
+    int count = run->s->model.config->wall_count > 0 ? 2 : 1;
+    scree_status status = scree_restart_check(run->s, state, error);
+    for (int k = 0; k < count && !status; k++) {
+        char path[4096];
+        status = scree_path_join(path, sizeof path, run->directory, series[k], error);
+        if (!status) status = scree_series_holds(path, state->stage.samples, error);
+    }
+    return status;
 }
 
-scree_status scree_restart_read(scree_simulation *s, const char *directory, uint64_t checksum, scree_error *error)
+static scree_status parse_from(const char *from, int64_t *snapshot, scree_error *error)
 {
-    const scree_checkpoint_wanted wanted = {
-        .dimension = s->model.dimension, .case_checksum = checksum, .usable = usable, .context = s};
-    return scree_checkpoint_find(directory, &wanted, &s->state, error);
+    *snapshot = SCREE_RESTART_NEWEST;
+    if (!from) return SCREE_OK;
+    *snapshot = SCREE_RESTART_LATEST_SNAPSHOT;
+    if (strcmp(from, "latest") == 0) return SCREE_OK;
+    char *end;
+    errno = 0;
+    *snapshot = strtoll(from, &end, 10);
+    if (end != from && *end == 0 && errno == 0 && *snapshot >= 0) return SCREE_OK;
+    return scree_error_set(error, SCREE_ERROR_INPUT,
+                           "--from '%s' is no snapshot: give its number, or latest (`scree check DIR` lists them)",
+                           from);
+}
+
+scree_status scree_restart_read(scree_simulation *s, const char *directory, const char *from, uint64_t checksum,
+                                scree_restart_point *used, scree_notes *notes, scree_error *error)
+{
+    wanted_run run = {s, directory};
+    scree_restart_wanted wanted = {
+        .dimension = s->model.dimension, .case_checksum = checksum, .usable = usable, .context = &run};
+    scree_status status = parse_from(from, &wanted.snapshot, error);
+    if (status) return status;
+    scree_error note = {0};
+    status = scree_restart_find(directory, &wanted, used, &s->state, &note);
+    if (status && error) *error = note;
+    if (!status && note.message[0]) scree_notes_add(notes, "%s", note.message);
+    if (!status && used->snapshot)
+        scree_notes_add(notes,
+                        "the run goes on from snapshot %" PRId64 ", step %" PRIu64 "; what came after it is dropped",
+                        used->index, s->state.step);
+    return status;
+}
+
+/// Number of the newest checkpoint in parts/.
+static scree_status newest_checkpoint(const char *directory, int64_t *index, scree_error *error)
+{
+    scree_part_list parts;
+    scree_status status = scree_parts_list(directory, SCREE_PART_CHECKPOINT, &parts, error);
+    *index = !status && parts.count > 0 ? parts.index[parts.count - 1] : 0;
+    scree_part_list_destroy(&parts);
+    return status;
+}
+
+scree_status scree_restart_rewind(scree_simulation *s, const char *directory, uint64_t checksum,
+                                  const scree_restart_point *used, scree_notes *notes, scree_error *error)
+{
+    scree_kept kept = {.snapshots = s->state.stage.snapshots, .last_checkpoint = used->index};
+    scree_status status = SCREE_OK;
+    if (used->snapshot) {
+        // From now on a restart without --from begins here, too; checkpoints of what is dropped go.
+        status = scree_contacts_save(&s->state, &s->work, error);
+        if (!status) status = scree_checkpoint_write(directory, &s->state, checksum, error);
+        if (!status) status = newest_checkpoint(directory, &kept.first_checkpoint, error);
+        kept.last_checkpoint = kept.first_checkpoint;
+    }
+    return status ? status : scree_run_file_rewind(directory, s->model.config->name, &kept, notes, error);
 }

@@ -1,5 +1,6 @@
 /// The driver behind `scree run`: a case into a run directory, from the begin or from a checkpoint.
 #include "case/case.h"
+#include "io/disk.h"
 #include "io/run_directory.h"
 #include "io/snapshot.h"
 #include "run/recorder.h"
@@ -20,7 +21,10 @@ static scree_status save_case(const char *directory, const scree_case *c, scree_
     if (status) return status;
     status = scree_case_write(c, file, error);
     scree_status finished = scree_replace_finish(path, file, !status, status ? NULL : error);
-    return status ? status : finished;
+    if (!status) status = finished;
+    // The name of the folder itself.
+    if (!status) status = scree_path_join(path, sizeof path, directory, "..", error);
+    return status ? status : scree_folder_sync(path, error);
 }
 
 /// Steps until the case ends, somebody asks to stop, or something fails.
@@ -56,6 +60,11 @@ static void save_after_failure(scree_recorder *recorder, scree_simulation *s, co
     if (error->status != SCREE_ERROR_GUARD || s->state.count == 0 || !s->stage) return;
     if (scree_recorder_last_look(recorder, s, &second))
         scree_log_write(&recorder->log, SCREE_LOG_ERROR, "no snapshot of what the guard stopped: %s", second.message);
+}
+
+static void log_note(void *log, const char *line)
+{
+    scree_log_write(log, SCREE_LOG_WARNING, "%s", line);
 }
 
 /// A line in log.txt alone: what ends the run comes back as its error, and is printed as that.
@@ -118,10 +127,12 @@ static void warn_of_springs(scree_recorder *recorder, const scree_simulation *s)
 static scree_status complete(scree_recorder *recorder, scree_simulation *s, scree_error *error)
 {
     scree_summary *summary;
+    scree_notes notes = {0};
     warn_of_springs(recorder, s);
     scree_status status = scree_results_collect(recorder, s, &summary, error);
     if (!status) status = scree_results_write(recorder, summary, "finishing", error);
-    if (!status) status = scree_run_file_finish(recorder->directory, error);
+    if (!status) status = scree_run_file_finish(recorder->directory, &notes, error);
+    scree_notes_visit(&notes, log_note, &recorder->log);
     if (!status) status = draw_figures(recorder, s, error);
     if (!status) status = scree_results_write(recorder, summary, "done", error);
     scree_summary_destroy(summary);
@@ -148,9 +159,9 @@ static void log_meshes(const scree_recorder *recorder, const scree_container *co
 }
 
 /// Common part of a new and a restarted run: `s` is open and at the point where stepping begins, the folder is locked.
-/// `note` is a warning for the log, empty when there is none.
+/// notes: what was found before, for the log.
 static scree_status record(scree_simulation *s, const scree_run_options *options, const scree_folder_lock *lock,
-                           uint64_t checksum, bool restarted, const char *note, scree_error *error)
+                           uint64_t checksum, bool restarted, const scree_notes *notes, scree_error *error)
 {
     scree_recorder recorder;
     scree_status status = scree_recorder_open(&recorder, s, options, options->output, restarted, error);
@@ -159,7 +170,7 @@ static scree_status record(scree_simulation *s, const scree_run_options *options
         scree_log_write(&recorder.log, SCREE_LOG_INFO, "%s; case %s, %d thread%s%s", scree_version(),
                         s->model.config->name, s->work.threads, s->work.threads == 1 ? "" : "s",
                         restarted ? ", restarted" : "");
-        if (note[0]) scree_log_write(&recorder.log, SCREE_LOG_WARNING, "%s", note);
+        scree_notes_visit(notes, log_note, &recorder.log);
         if (lock->unsupported)
             scree_log_write(&recorder.log, SCREE_LOG_WARNING,
                             "this file system has no locks: see to it that nothing else writes into the folder");
@@ -184,13 +195,15 @@ scree_status scree_run(const scree_case *c, const scree_run_options *options, sc
     scree_simulation s;
     scree_folder_lock lock = {0};
     scree_error note = {0};
+    scree_notes notes = {0};
     // Everything that can be wrong with the case is found before anything is written.
     scree_status status = scree_simulation_open(c, options->threads, &s, error);
     if (!status) status = scree_case_checksum(c, &checksum, error);
     if (!status) status = scree_run_directory_lock(options->output, &lock, error);
     if (!status && (status = scree_run_directory_create(options->output, options->force, &note))) *error = note;
     if (!status) status = save_case(options->output, c, error);
-    if (!status) status = record(&s, options, &lock, checksum, false, note.message, error);
+    if (note.message[0]) scree_notes_add(&notes, "%s", note.message);
+    if (!status) status = record(&s, options, &lock, checksum, false, &notes, error);
     scree_folder_lock_release(&lock);
     scree_simulation_close(&s);
     return status;
@@ -206,14 +219,14 @@ static scree_status restart(const char *directory, const scree_run_options *opti
     if (status) return status;
     status = scree_simulation_open(c, options->threads, &s, error);
     if (!status) status = scree_case_checksum(c, &checksum, error);
-    // A message without a failure tells that an older checkpoint had to serve.
-    scree_error note = {0};
-    if (!status && (status = scree_restart_read(&s, directory, checksum, &note))) *error = note;
+    scree_notes notes = {0};
+    scree_restart_point point;
+    if (!status) status = scree_restart_read(&s, directory, options->from, checksum, &point, &notes, error);
     // Samples, checkpoints and the checksum may read the contacts before the first step.
     if (!status && s.state.count > 0) status = scree_neighbours_refresh(&s.model, &s.state, &s.work, error);
     if (!status && s.state.stage.counter >= 0) status = scree_stage_enter(&s, true, error);
-    if (!status) status = scree_snapshots_truncate(directory, s.state.stage.snapshots, error);
-    if (!status) status = record(&s, options, lock, checksum, true, note.message, error);
+    if (!status) status = scree_restart_rewind(&s, directory, checksum, &point, &notes, error);
+    if (!status) status = record(&s, options, lock, checksum, true, &notes, error);
     scree_simulation_close(&s);
     scree_case_free(c);
     return status;

@@ -34,10 +34,13 @@ typedef struct range {
 } range;
 
 #define ANY_NUMBER (-DBL_MAX)
+#define SUM        0x1p62 /* sums of a step stay below (base/fixed.h), with room for the next one */
 static const range ranges[] = {
     {"radius", 0, .most_is = LARGEST_RADIUS, .open = true},
     {"mass", 0, .most = DBL_MAX, .open = true},
     {"material", 0, .most_is = LAST_MATERIAL},
+    {"force_sum", -SUM, .most = SUM},
+    {"torque_sum", -SUM, .most = SUM},
     {"coordination", 0, .most_is = MANY},
     {"contacts/first", 0, .most_is = LAST_BODY},
     {"boundary/id", 0, .most_is = LAST_BODY},

@@ -35,7 +35,7 @@ int main(int count, char **arguments)
     (void)mkdir(arguments[1], 0777);
     scree_status status = write_one(arguments[1], 0, &error);
     if (!status) status = write_one(arguments[1], 1, &error);
-    if (!status && count > 2) status = scree_run_file_finish(arguments[1], &error);
+    if (!status && count > 2) status = scree_run_file_finish(arguments[1], NULL, &error);
     if (status) fprintf(stderr, "%s\n", error.message);
     return (int)status;
 }

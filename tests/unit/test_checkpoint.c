@@ -234,7 +234,7 @@ static void a_finished_run_keeps_its_checkpoints(void **unused)
 {
     (void)unused;
     for (uint64_t seed = 1; seed <= 3; seed++) write_checkpoint(seed);
-    assert_int_equal(scree_run_file_finish(scratch, NULL), SCREE_OK);
+    assert_int_equal(scree_run_file_finish(scratch, NULL, NULL), SCREE_OK);
     char path[256];
     checkpoint_path(2, path, sizeof path);
     assert_int_equal(file_size(path), -1);

@@ -5,50 +5,19 @@
 #include "io/run_file.h"
 #include "io/seal.h"
 #include "io_scratch.h"
+#include "restart_cases.h"
 #include "run/restart.h"
 #include "state/check.h"
 #include "state/fields.h"
 
-#define COMMON(dimension, shape, count)                                                                                \
-    "scree: 1\n"                                                                                                       \
-    "name: small\n"                                                                                                    \
-    "dimension: " dimension "\n"                                                                                       \
-    "seed: 3\n"                                                                                                        \
-    "gravity: [0, 0, 0]\n"                                                                                             \
-    "materials:\n"                                                                                                     \
-    "  - {name: quartz, young_modulus: 30 GPa, density: 2.675e8 kg/m3, friction: 0.45, restitution: 0.2}\n"            \
-    "particles: {material: quartz, shape: " shape ", count: " count ", radius_min: 0.6 mm, radius_max: 0.9 mm}\n"      \
-    "contact: {law: hertz_mindlin, reference_velocity: 1e-4 m/s}\n"                                                    \
-    "integrator: {scheme: velocity_verlet, step: 2e-5 s}\n"                                                            \
-    "measure: {samples: 20, cells: no}\n"                                                                              \
-    "output: {snapshots: 0, paraview: no, figures: no}\n"
-#define CONFINED                                                                                                       \
-    "boundary: {every: 100}\n"                                                                                         \
-    "stages:\n"                                                                                                        \
-    "  - {stage: prepare, aspect_ratio: 1.5}\n"                                                                        \
-    "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 0.9, ramp_time: 1 ms}\n"
-
-/// Samples whose states have all that a state can have, between them.
-static const char *const cases[] = {
-    COMMON("2", "disc", "30") CONFINED
-    "  - {stage: deform, strain: 0.3 %, boundary: minimal, strain_rate: {xy: 3e-2 1/s, yy: 0}}\n",
-    COMMON("3", "sphere", "30") CONFINED
-    "  - {stage: deform, strain: 0.3 %, boundary: minimal, strain_rate: {xz: 3e-2 1/s, zz: 0}}\n",
-    COMMON("2", "disc", "30") CONFINED "  - {stage: compress, strain: 0.5 %, rate: 0.2 1/s, boundary: membrane}\n",
-    COMMON("2", "disc", "30") "boundary: {periodic: xy}\n"
-                              "stages:\n"
-                              "  - {stage: prepare, method: gas, solid_fraction: 45 %, velocity: 20 mm/s}\n"
-                              "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 0.9, ramp_time: 1 ms}\n"
-                              "  - {stage: deform, strain: 70 %, velocity_gradient: {xy: 0.8 1/s, yx: 0}}\n",
-};
-enum { CASES = sizeof cases / sizeof *cases, STEPS = 150, SEQUEL = 8 };
+enum { STEPS = 150, SEQUEL = 8 };
 
 /// A checkpoint of case k in the scratch folder, STEPS steps into its last stage.
 static scree_case *write_one(int k, uint64_t *checksum)
 {
     scree_error error;
     scree_simulation s;
-    scree_case *c = case_read(cases[k], NULL, 0);
+    scree_case *c = case_read(restart_cases[k], NULL, 0);
     check(scree_case_checksum(c, checksum, &error), &error);
     simulation_open(c, 1, &s);
     while (simulation_last_steps(&s) < STEPS) simulation_step(&s);
@@ -56,6 +25,19 @@ static scree_case *write_one(int k, uint64_t *checksum)
     check(scree_checkpoint_write(scratch, &s.state, *checksum, &error), &error);
     scree_simulation_close(&s);
     return c;
+}
+
+/// The run of the state has written nothing else: a series with more rows than it knows of.
+static scree_status restart_read(scree_simulation *s, uint64_t checksum, scree_error *error)
+{
+    scree_restart_point used;
+    char path[96];
+    (void)snprintf(path, sizeof path, "%s/series.csv", scratch);
+    FILE *series = fopen(path, "w");
+    assert_non_null(series);
+    for (int k = 0; k < 1000; k++) assert_true(fputs("row\n", series) >= 0);
+    assert_int_equal(fclose(series), 0);
+    return scree_restart_read(s, scratch, NULL, checksum, &used, NULL, error);
 }
 
 /// Goes on from the state of `s`, whose values were accepted; any guard may stop it.
@@ -97,7 +79,7 @@ static bool try_one(const scree_case *c, uint64_t checksum, const scree_field *f
     scree_error error;
     scree_simulation s;
     simulation_open(c, 1, &s);
-    check(scree_restart_read(&s, scratch, checksum, &error), &error);
+    check(restart_read(&s, checksum, &error), &error);
     spoil(&s.state, field, row, component, which);
     bool permuted = strcmp(field->name, "id") == 0; // looked at when it is read
     bool accepted = !permuted && scree_restart_check(&s, &s.state, &error) == SCREE_OK;
@@ -111,14 +93,14 @@ static bool try_one(const scree_case *c, uint64_t checksum, const scree_field *f
 static void no_value_does_harm(void **unused)
 {
     (void)unused;
-    for (int k = 0; k < CASES; k++) {
+    for (int k = 0; k < RESTART_CASES; k++) {
         uint64_t checksum;
         int tried = 0, passed = 0;
         scree_error error;
         scree_simulation s;
         scree_case *c = write_one(k, &checksum);
         simulation_open(c, 1, &s);
-        check(scree_restart_read(&s, scratch, checksum, &error), &error);
+        check(restart_read(&s, checksum, &error), &error);
         for (size_t f = 0; f < scree_field_count + scree_member_count; f++) {
             const scree_field *field = f < scree_field_count ? &scree_fields[f] : &scree_members[f - scree_field_count];
             if (field->role != SCREE_FIELD_STATE || !scree_field_exists(field, s.state.dimension)) continue;
@@ -201,7 +183,7 @@ static void a_forged_file_is_refused(void **unused)
         scree_error error = {0};
         scree_simulation s;
         simulation_open(c, 1, &s);
-        assert_int_equal(scree_restart_read(&s, scratch, checksum, &error), SCREE_ERROR_IO);
+        assert_int_equal(restart_read(&s, checksum, &error), SCREE_ERROR_IO);
         if (!strstr(error.message, forged[k].words) || !strstr(error.message, "checkpoint-000000.h5"))
             fail_msg("%s: '%s' does not hold '%s'", forged[k].dataset, error.message, forged[k].words);
         scree_simulation_close(&s);

