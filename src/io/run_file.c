@@ -173,15 +173,18 @@ void scree_run_file_open(scree_hdf5 *run, const char *path, bool *sound, scree_e
     scree_hdf5_open(run, path, error);
 }
 
-void scree_run_file_case_name(const char *path, char *name, size_t size)
+scree_status scree_run_file_case_name(const char *path, char *name, size_t size, scree_error *error)
 {
     scree_hdf5 run;
+    scree_error reason;
     bool sound;
     name[0] = 0;
-    if (access(path, F_OK) != 0) return;
-    scree_run_file_open(&run, path, &sound, NULL);
+    if (access(path, F_OK) != 0) return SCREE_OK;
+    scree_run_file_open(&run, path, &sound, &reason);
     scree_hdf5_get_text(&run, "/", "case", name, size);
-    (void)scree_hdf5_close(&run);
+    if (!scree_hdf5_close(&run) || run.damaged) return SCREE_OK;
+    if (error) *error = reason;
+    return reason.status;
 }
 
 /// Copies group `index` of the open run.h5 into a part of its own.
@@ -320,7 +323,7 @@ scree_status scree_run_file_renew(const char *directory, const char *case_name, 
     char path[PATH_MAX], name[256];
     scree_status status = scree_run_file_path(directory, path, sizeof path, error);
     if (!status) status = scree_parts_folder_make(directory, error);
-    if (!status && !case_name) scree_run_file_case_name(path, name, sizeof name);
+    if (!status && !case_name) status = scree_run_file_case_name(path, name, sizeof name, error);
     if (!status) status = split_file(directory, path, kept, notes, error);
     if (status) return status;
     scree_hdf5 run;
@@ -514,7 +517,7 @@ static scree_status gather_all(const char *directory, const char *path, scree_er
     char temporary[PATH_MAX], case_name[256];
     scree_part_list lists[SCREE_PART_KINDS] = {{0}, {0}};
     scree_status status = scree_path_join(temporary, sizeof temporary, directory, SCREE_FILE_RUN_WHOLE, error);
-    scree_run_file_case_name(path, case_name, sizeof case_name);
+    if (!status) status = scree_run_file_case_name(path, case_name, sizeof case_name, error);
     for (scree_part_kind kind = 0; kind < SCREE_PART_KINDS && !status; kind++)
         status = scree_parts_list(directory, kind, &lists[kind], error);
     if (!status) {

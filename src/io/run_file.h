@@ -71,8 +71,8 @@ scree_status scree_part_remove(const char *directory, scree_part_kind kind, int6
 /// Flushes the names in DIRECTORY/parts, where there is one. Errors: SCREE_ERROR_IO.
 scree_status scree_parts_sync(const char *directory, scree_error *error) SCREE_MUST_USE;
 
-/// Name of the case in run.h5; empty where it cannot be read.
-void scree_run_file_case_name(const char *path, char *name, size_t size);
+/// Name of the case in run.h5; empty where there is none, or where it is damaged. Errors: memory.
+scree_status scree_run_file_case_name(const char *path, char *name, size_t size, scree_error *error) SCREE_MUST_USE;
 /// A run.h5 in memory with its attributes and empty groups.
 void scree_run_file_create(scree_hdf5 *run, const char *path, const char *case_name, scree_error *error);
 

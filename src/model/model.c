@@ -150,7 +150,7 @@ static scree_status resolve_walls(scree_model *model, scree_error *error)
 {
     const scree_config *config = model->config;
     scree_status status = SCREE_OK;
-    for (int i = 0; i < model->material_count && !status; i++) {
+    for (int i = 0; i < model->config->material_count && !status; i++) {
         const int64_t place = model->listed[i];
         const scree_config_material *grain = &config->materials[place];
         status = wall_constants(model, place, grain->wall_material, "materials", place, "wall_material",

@@ -95,7 +95,7 @@ printf '../victim/x\n%s/victim/x\nnotes/x.csv\nfigures/../../victim/x\n' "$PWD" 
 expect 0 '' "$scree" run restitution -o out --force -q --no-figures
 same "$(cat victim/x out/notes/x.csv out/outside | sort -u)" mine
 # Without a list (an older version): what has a fixed name, and a word about the rest.
-expect 0 '' "$scree" run biaxial -o old -q "${tiny[@]}"
+expect 0 '^warning: stage 2' "$scree" run biaxial -o old -q "${tiny[@]}"
 rm -f old/files.txt
 echo mine >old/figures/mine.png
 figures=$(ls old/figures | wc -l)

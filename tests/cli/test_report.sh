@@ -82,5 +82,5 @@ wrong 's/case: mine/case: mien/' "4:11: case: there is no sweep or case 'mien'; 
 wrong 's/value: mine.r, criterion: within/value: mine\/III.r, criterion: within/' "10:[0-9]+: ours: there is no point 'III'"
 wrong 's/reason: because/unit: m/' "11:[0-9]+: more: 'form' needs a 'reason'"
 cmp -s page.md before.md || complain "a wrong table changed the page"
-expect 4 'nothing.yaml' "$scree" report runs -s nothing.yaml
+expect 2 'nothing.yaml' "$scree" report runs -s nothing.yaml
 finish ""
