@@ -171,10 +171,29 @@ static void a_cycle_costs_or_delivers(void **unused)
                     }
 }
 
+/// What rescaling costs where the overlap swings at a constant displacement: (k_min / k_max) a swing.
+static void rescaled_springs_relax_in_swings(void **unused)
+{
+    (void)unused;
+    for (int rescaled = 0; rescaled < 2; rescaled++) {
+        const setting s = {2, false, rescaled != 0, SLIP};
+        course c = {.s = s, .d = SHALLOW};
+        create(&c.f, &s);
+        for (int n = 0; n < PHASE; n++) go(&c, 0, 1e-3);
+        const double *h = c.f.work.pairs.history[0].value, before = h[0];
+        for (int n = 0; n < 4 * PHASE; n++) go(&c, (n / PHASE % 2 ? -1 : 1) * (DEEP - SHALLOW) / PHASE / STEP, 0);
+        const double ratio = sqrt(SHALLOW / DEEP), expected = before * (rescaled ? ratio * ratio : 1);
+        // Overlaps are differences of lengths 1000 times as large.
+        assert_true(fabs(h[0] - expected) < 1e-9 * before);
+        fixture_destroy(&c.f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_cycle_costs_or_delivers),
+        cmocka_unit_test(rescaled_springs_relax_in_swings),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
