@@ -117,6 +117,9 @@ static scree_status record(scree_simulation *s, const scree_run_options *options
                         s->model.config->name, s->work.threads, s->work.threads == 1 ? "" : "s",
                         restarted ? ", restarted" : "");
         if (restarted) scree_notes_visit(restarted, log_note, &recorder.log);
+        if (restarted)
+            scree_log_write(&recorder.log, SCREE_LOG_INFO, "goes on from step %llu, time %.6g s",
+                            (unsigned long long)s->state.step, scree_state_time(&s->state));
         scree_log_write(&recorder.log, SCREE_LOG_INFO, "step %.4g s (N_S %llu, critical %.4g s), phi %.4g, psi %.4g",
                         s->model.step, (unsigned long long)s->model.largest_step, s->model.critical_step, s->model.phi,
                         s->model.psi);
