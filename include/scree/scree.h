@@ -133,6 +133,22 @@ scree_status scree_run(const scree_case *c, const scree_run_options *options, sc
 /// while another process writes there.
 scree_status scree_restart(const char *directory, const scree_run_options *options, scree_error *error);
 
+/// One thing in the folder of a run (`scree check DIR`).
+typedef struct scree_folder_item {
+    const char *name;  ///< "series.csv", "checkpoint 5", "snapshot 12"
+    const char *state; ///< "whole", "damaged", or "left over": something that nothing needs
+    const char *text;  ///< what it holds, or what is wrong with it
+    bool restart;      ///< the run can go on from it
+    bool snapshot;     ///< it is one, and `index` is its number
+    int64_t index;
+} scree_folder_item;
+
+/// Looks at everything in the folder of a run and tells `visit` of it, without changing anything. Errors:
+/// SCREE_ERROR_INPUT when it is none of a run, SCREE_ERROR_IO when something is damaged (the message says how much) or
+/// cannot be read; memory.
+scree_status scree_folder_check(const char *directory, void (*visit)(void *user, const scree_folder_item *item),
+                                void *user, scree_error *error);
+
 /// A simulation in memory, without files (tests, bindings). Stages are run one after the other by `advance`.
 typedef struct scree_simulation scree_simulation;
 scree_status scree_simulation_create(const scree_case *c, int threads, scree_simulation **out, scree_error *error);

@@ -37,6 +37,13 @@ static inline int64_t scree_fixed_from(double value, double inverse)
     return (int64_t)(bits - (uint64_t)SCREE_FIXED_MAGIC_BITS);
 }
 
+/// Whole quanta of one of several terms of a boundary's force. Beyond 2^58, where only a body can be that has been
+/// hurled away, they are cut, so that sums stay inside of the integers until a guard stops the run.
+static inline int64_t scree_fixed_round(double quanta)
+{
+    return llrint(fmin(fmax(quanta, -0x1p58), 0x1p58));
+}
+
 static inline double scree_fixed_to(int64_t sum, double quantum)
 {
     return (double)sum * quantum;

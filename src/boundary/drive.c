@@ -9,6 +9,7 @@
 /// a term. Places are relative to a node, so the terms stay small. Cost: O(facets).
 #include "boundary/drive.h"
 
+#include "base/fixed.h"
 #include "measure/facets.h"
 
 #include <math.h>
@@ -102,8 +103,8 @@ double scree_drive_take_ratio(scree_state *state)
 static void round_force(const double stress[9], const scree_vector vector, double scale, int64_t quanta[3])
 {
     for (int i = 0; i < 3; i++)
-        quanta[i] =
-            llrint(scale * (stress[3 * i] * vector[0] + stress[3 * i + 1] * vector[1] + stress[3 * i + 2] * vector[2]));
+        quanta[i] = scree_fixed_round(
+            scale * (stress[3 * i] * vector[0] + stress[3 * i + 1] * vector[1] + stress[3 * i + 2] * vector[2]));
 }
 
 /// Adds the term of the end or edge of a facet that goes from corner a to b.

@@ -12,6 +12,8 @@
 /// the integral over the sides alone. Hence the forces are -p dV / dx of the bodies, those along the axis of the rims
 /// excepted, which the plates prescribe. Cost: O(bodies).
 #include "boundary/membrane.h"
+
+#include "base/fixed.h"
 #include "boundary/pressed_facet.h"
 #include "boundary/sheet.h"
 
@@ -49,7 +51,7 @@ static void press_side(scree_state *state, size_t first, size_t last, double sca
     for (size_t j = 0; j <= last - first + 2; j++) {
         int64_t now[2];
         side_point(state, first, last, j, place);
-        for (int i = 0; i < 2; i++) now[i] = llrint((place[i] - origin[i]) * scale);
+        for (int i = 0; i < 2; i++) now[i] = scree_fixed_round((place[i] - origin[i]) * scale);
         force[0] = -(now[1] - before[1]);
         force[1] = now[0] - before[0];
         memcpy(before, now, sizeof before);

@@ -1,14 +1,14 @@
 /// Integers of the pressure on triangles and walls: see pressed_facet.h.
 #include "boundary/pressed_facet.h"
 
-#include <math.h>
+#include "base/fixed.h"
 
 /// E(a, b).
 static void edge_quanta(double scale, const scree_vector a, const scree_vector b, int64_t quanta[3])
 {
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3, j = (k + 2) % 3;
-        quanta[k] = llrint(scale * (a[i] * b[j] - a[j] * b[i]));
+        quanta[k] = scree_fixed_round(scale * (a[i] * b[j] - a[j] * b[i]));
     }
 }
 
@@ -29,9 +29,9 @@ void scree_wall_press(double scale, double plate, const scree_vector a, const sc
     at_a[2] = at_b[2] = 0;
     for (int k = 0; k < 2; k++) {
         int across = 1 - k, sign = k == 0 ? 1 : -1;
-        int64_t u_a = llrint(3 * scale * (a[2] - 2 * plate) * a[across]);
-        int64_t u_b = llrint(3 * scale * (b[2] - 2 * plate) * b[across]);
-        share = -sign * llrint(scale * height * (a[across] - b[across]));
+        int64_t u_a = scree_fixed_round(3 * scale * (a[2] - 2 * plate) * a[across]);
+        int64_t u_b = scree_fixed_round(3 * scale * (b[2] - 2 * plate) * b[across]);
+        share = -sign * scree_fixed_round(scale * height * (a[across] - b[across]));
         rest = -(3 * edge[k] + sign * (u_a - u_b)) - share;
         at_a[k] = a_first ? share : rest;
         at_b[k] = a_first ? rest : share;

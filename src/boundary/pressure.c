@@ -17,6 +17,7 @@
 /// (search/outer_loop.c).
 #include "boundary/pressure.h"
 
+#include "base/fixed.h"
 #include "boundary/corners.h"
 #include "boundary/facing.h"
 #include "boundary/hull.h"
@@ -137,8 +138,8 @@ static void press_segment(void *user, const scree_outline_segment *segment)
     if (segment->kind == SCREE_OUTLINE_BARE) return;
     int64_t half[2];
     for (int i = 0; i < 2; i++)
-        half[i] = llrint((segment->to[i] - forces->origin[i]) * forces->scale) -
-                  llrint((segment->from[i] - forces->origin[i]) * forces->scale);
+        half[i] = scree_fixed_round((segment->to[i] - forces->origin[i]) * forces->scale) -
+                  scree_fixed_round((segment->from[i] - forces->origin[i]) * forces->scale);
     add_force(forces, segment->first, -half[1], half[0]);
     add_force(forces, segment->second, -half[1], half[0]);
 }

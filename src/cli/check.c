@@ -1,8 +1,11 @@
-/// scree check CASE: the resolved case, and what it amounts to as comments below it.
+/// scree check CASE: the resolved case, and what it amounts to as comments below it. scree check DIR: what is whole in
+/// the folder of a run, and from where it can go on.
 #include "cli/case_argument.h"
 #include "cli/terminal.h"
 
 #include <math.h>
+#include <string.h>
+#include <sys/stat.h>
 
 enum { TEXT = 64 };
 
@@ -81,8 +84,55 @@ static void print_warning(void *user, const char *line)
     print_line("warning", line, "");
 }
 
+/// What can be gone on from, for the last lines of a folder's report.
+typedef struct folder_report {
+    char checkpoint[TEXT], snapshots[8 * TEXT];
+    size_t more; ///< snapshots that found no room
+} folder_report;
+
+static void print_item(void *user, const scree_folder_item *item)
+{
+    folder_report *report = user;
+    printf("%-22s %-10s %s\n", item->name, item->state, item->text);
+    if (!item->restart) return;
+    // The newest checkpoint comes last.
+    if (!item->snapshot) {
+        (void)snprintf(report->checkpoint, sizeof report->checkpoint, "%s", item->name);
+        return;
+    }
+    size_t length = strlen(report->snapshots), room = sizeof report->snapshots - length;
+    if (room < 24)
+        report->more++;
+    else
+        (void)snprintf(report->snapshots + length, room, " %lld", (long long)item->index);
+}
+
+/// A folder with a case in it, which every run writes first.
+static bool is_run(const char *folder)
+{
+    char path[4096];
+    struct stat information;
+    int length = snprintf(path, sizeof path, "%s/case.yaml", folder);
+    return length > 0 && (size_t)length < sizeof path && stat(path, &information) == 0;
+}
+
+static scree_status check_folder(const char *folder)
+{
+    scree_error error = {0};
+    folder_report report = {0};
+    scree_status status = scree_folder_check(folder, print_item, &report, &error);
+    if (report.checkpoint[0]) printf("\n%s: scree run --restart %s\n", report.checkpoint, folder);
+    if (report.snapshots[0]) {
+        printf("%ssnapshots%s", report.checkpoint[0] ? "" : "\n", report.snapshots);
+        if (report.more > 0) printf(" and %zu more", report.more);
+        printf(": scree run --restart %s --from NUMBER\n", folder);
+    }
+    return status ? scree_terminal_error("check", &error) : SCREE_OK;
+}
+
 scree_status scree_verb_check(const scree_command *command)
 {
+    if (is_run(command->argument[0])) return check_folder(command->argument[0]);
     scree_case *c;
     scree_status status = scree_case_argument_read(command, command->argument[0], &c);
     if (status) return status;

@@ -99,18 +99,23 @@ const scree_verb scree_verbs[] = {
     },
     {
         .name = "check",
-        .meaning = "check a case, and say what it amounts to",
+        .meaning = "check a case, or the folder of a run",
         .text =
             "Prints the resolved case, every default written out, and below it as comments: the numbers of particles "
             "and steps, the quasistatic and size coefficients phi and psi, the critical time step, and an estimate of "
             "time (processor time of one thread: stepping, output, figures) and peak memory, for which the case is set "
             "going for a moment. The output is a case file again.\n\n"
             "Everything that is wrong with a case is reported at once, as `file:line:column: key: what is wrong "
-            "(accepted: what would be right)`.",
-        .argument = {{"CASE", "a case file, or the name of a built-in case", SCREE_VALUE_CASE, false, false}},
+            "(accepted: what would be right)`.\n\n"
+            "Given the folder of a run, says of each file in it, and of each checkpoint and snapshot, whether it is "
+            "whole, and from which the run can go on (`scree run --restart`). Nothing is changed. The exit status is 4 "
+            "when something is damaged.",
+        .argument = {{"CASE", "a case file, the name of a built-in case, or the folder of a run", SCREE_VALUE_CASE,
+                      false, false}},
         .option = {OPTION_SET, OPTION_QUICK},
         .example = {{"scree check my.yaml", "before a long run"},
-                    {"scree check biaxial --set stages.compress.rate=1e-3", "how much slower, and how quasistatic"}},
+                    {"scree check biaxial --set stages.compress.rate=1e-3", "how much slower, and how quasistatic"},
+                    {"scree check out", "what is whole in a folder, and from where it can go on"}},
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO},
         .function = scree_verb_check,
     },

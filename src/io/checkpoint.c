@@ -4,6 +4,7 @@
 /// of the two is read, or else a snapshot, which holds a state, too.
 #include "io/disk.h"
 #include "io/run_file.h"
+#include "io/seal.h"
 #include "io/snapshot.h"
 #include "io/state_file.h"
 
@@ -187,6 +188,22 @@ scree_status scree_restart_point_read(const char *directory, const scree_restart
     if (status) scree_state_destroy(state);
     state->dimension = wanted->dimension;
     return status;
+}
+
+scree_status scree_restart_point_check(const char *directory, const scree_restart_point *point, scree_error *error)
+{
+    char path[PATH_MAX], group[64];
+    scree_part_kind kind = point->snapshot ? SCREE_PART_SNAPSHOT : SCREE_PART_CHECKPOINT;
+    scree_status status = point->part ? scree_part_path(directory, kind, point->index, path, sizeof path, error)
+                                      : scree_run_file_path(directory, path, sizeof path, error);
+    if (status) return status;
+    if (point->part) return scree_seal_check(path, error);
+    scree_hdf5 run;
+    bool sound;
+    scree_part_group(kind, point->index, group, sizeof group);
+    scree_run_file_open(&run, path, &sound, error);
+    if (!run.status && !sound) run.status = scree_hdf5_verify(&run, group, error);
+    return scree_hdf5_close(&run);
 }
 
 static const char *name_of(const scree_restart_point *point)

@@ -82,6 +82,11 @@ scree_status scree_restart_point_read(const char *directory, const scree_restart
                                       const scree_restart_wanted *wanted, scree_state *state, bool *another,
                                       scree_error *error) SCREE_MUST_USE;
 
+/// Whether what a point lies in is whole: the seal of a part, or of run.h5, or the checksums of its group in there.
+/// Errors: SCREE_ERROR_IO with the reason; memory.
+scree_status scree_restart_point_check(const char *directory, const scree_restart_point *point,
+                                       scree_error *error) SCREE_MUST_USE;
+
 /// Reads the first point that can be used; *used says which. Without a failure error->message says when it is not the
 /// first one, and why.
 scree_status scree_restart_find(const char *directory, const scree_restart_wanted *wanted, scree_restart_point *used,

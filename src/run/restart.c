@@ -61,6 +61,16 @@ static scree_status usable(void *context, const scree_state *state, scree_error 
     return status;
 }
 
+scree_status scree_restart_try(scree_simulation *s, const char *directory, uint64_t checksum,
+                               const scree_restart_point *point, scree_error *error)
+{
+    bool another;
+    wanted_run run = {s, directory};
+    const scree_restart_wanted wanted = {
+        .dimension = s->model.dimension, .case_checksum = checksum, .usable = usable, .context = &run};
+    return scree_restart_point_read(directory, point, &wanted, &s->state, &another, error);
+}
+
 static scree_status parse_from(const char *from, int64_t *snapshot, scree_error *error)
 {
     *snapshot = SCREE_RESTART_NEWEST;
@@ -88,7 +98,7 @@ scree_status scree_restart_read(scree_simulation *s, const char *directory, cons
     status = scree_restart_find(directory, &wanted, used, &s->state, &note);
     if (status && error) *error = note;
     if (!status && note.message[0]) scree_notes_add(notes, "%s", note.message);
-    if (!status && used->snapshot)
+    if (!status && used->snapshot && !from)
         scree_notes_add(notes,
                         "the run goes on from snapshot %" PRId64 ", step %" PRIu64 "; what came after it is dropped",
                         used->index, s->state.step);

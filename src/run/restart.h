@@ -12,6 +12,10 @@ scree_status scree_restart_case(const char *directory, scree_case **c, scree_err
 scree_status scree_restart_check(const scree_simulation *s, const scree_state *state,
                                  scree_error *error) SCREE_MUST_USE;
 
+/// The same for one point, with the rows that it counts on. The state stays in `s`.
+scree_status scree_restart_try(scree_simulation *s, const char *directory, uint64_t checksum,
+                               const scree_restart_point *point, scree_error *error) SCREE_MUST_USE;
+
 /// Reads what the run goes on from into the state of `s`, which is open and has none: whole, with values that a run of
 /// this case can have, and with its rows in series.csv and walls.csv. `from` NULL: the newest checkpoint, else an older
 /// one, else a snapshot, with a note when it is not the first; else the number of a snapshot, or "latest". *used says

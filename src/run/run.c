@@ -174,6 +174,9 @@ static scree_status record(scree_simulation *s, const scree_run_options *options
         if (lock->unsupported)
             scree_log_write(&recorder.log, SCREE_LOG_WARNING,
                             "this file system has no locks: see to it that nothing else writes into the folder");
+        if (restarted)
+            scree_log_write(&recorder.log, SCREE_LOG_INFO, "goes on from step %llu, time %.6g s",
+                            (unsigned long long)s->state.step, scree_state_time(&s->state));
         scree_log_write(&recorder.log, SCREE_LOG_INFO, "step %.4g s (N_S %llu, critical %.4g s), phi %.4g, psi %.4g",
                         s->model.step, (unsigned long long)s->model.largest_step, s->model.critical_step, s->model.phi,
                         s->model.psi);

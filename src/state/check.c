@@ -4,6 +4,7 @@
 
 #include "base/matrix.h"
 #include "state/fields.h"
+#include "state/periodic.h"
 
 #include <float.h>
 #include <stdio.h>
@@ -17,6 +18,7 @@ typedef enum limit {
     LAST_NODE, ///< of the hull
     BODIES,
     LARGEST_RADIUS,
+    FARTHEST, ///< far beyond any sample, on both sides of zero
     STEP,
     EVALUATIONS,
     MEMBRANE,
@@ -34,8 +36,11 @@ typedef struct range {
 } range;
 
 #define ANY_NUMBER (-DBL_MAX)
+#define FAR        1e9    /* largest radii */
 #define SUM        0x1p62 /* sums of a step stay below (base/fixed.h), with room for the next one */
 static const range ranges[] = {
+    {"position", .most_is = FARTHEST},
+    {"reference", .most_is = FARTHEST},
     {"radius", 0, .most_is = LARGEST_RADIUS, .open = true},
     {"mass", 0, .most = DBL_MAX, .open = true},
     {"material", 0, .most_is = LAST_MATERIAL},
@@ -45,6 +50,9 @@ static const range ranges[] = {
     {"contacts/first", 0, .most_is = LAST_BODY},
     {"boundary/id", 0, .most_is = LAST_BODY},
     {"boundary/loaded", 0, .most = 1},
+    {"boundary/x", .most_is = FARTHEST},
+    {"boundary/y", .most_is = FARTHEST},
+    {"hull/place", .most_is = FARTHEST},
     {"hull/id", 0, .most_is = LAST_BODY},
     {"hull/triangle", 0, .most_is = LAST_NODE},
     {"hull/loaded", 0, .most = SCREE_HULL_ON_WALL + SCREE_WALL_COUNT - 1},
@@ -57,6 +65,7 @@ static const range ranges[] = {
     {"scalars/membrane_radius", 0, .most = DBL_MAX},
     {"scalars/membrane_ramp_time", 0, .most = DBL_MAX},
     {"scalars/membrane_share", 0, .most = 1},
+    {"walls/position", .most_is = FARTHEST},
     {"walls/normal", -1, .most = 1},
     {"walls/active", 0, .most = 1},
     {"walls/material", 0, .most_is = LAST_MATERIAL},
@@ -109,6 +118,8 @@ static double most_of(const range *r, const scree_state *state, const scree_mode
         return (double)state->count;
     case LARGEST_RADIUS:
         return scree_model_largest_radius(model) * (1 + 1e-9); // round-off of a packing that has grown
+    case FARTHEST:
+        return FAR * scree_model_largest_radius(model);
     case STEP:
         return (double)state->step;
     case EVALUATIONS:
@@ -192,7 +203,8 @@ static bool is_inside(const range *r, double most, double value)
     if (!r) return isfinite(value);
     if (isnan(value)) return r->undefined;
     if (r->most_is == LAST_MATERIAL && value != floor(value)) return false;
-    return value <= most && (r->open ? value > r->least : value >= r->least);
+    double least = r->most_is == FARTHEST ? -most : r->least;
+    return value <= most && (r->open ? value > least : value >= least);
 }
 
 static void describe(const range *r, double most, char *text, size_t size)
@@ -201,6 +213,8 @@ static void describe(const range *r, double most, char *text, size_t size)
         (void)snprintf(text, size, "a finite number");
     else if (most == DBL_MAX)
         (void)snprintf(text, size, "finite, %s %.9g", r->open ? "more than" : "at least", r->least);
+    else if (r->most_is == FARTHEST)
+        (void)snprintf(text, size, "at least %.9g, at most %.9g", -most, most);
     else
         (void)snprintf(text, size, "%s%s %.9g, at most %.9g", r->most_is == LAST_MATERIAL ? "a whole number, " : "",
                        r->open ? "more than" : "at least", r->least, most);
@@ -292,6 +306,28 @@ static scree_status check_boundary(const scree_state *state, const scree_model *
     return SCREE_OK;
 }
 
+/// The lattice encloses a volume, and the bodies are in it or a little outside: less than a cell.
+static scree_status check_cell(const scree_state *state, scree_error *error)
+{
+    double inverse[9], fraction[3];
+    if (!state->periodic.directions) return SCREE_OK;
+    if (!(scree_matrix_determinant(state->periodic.lattice) > 0))
+        return scree_error_set(error, SCREE_ERROR_IO, "dataset 'periodic/lattice': its vectors enclose no volume");
+    scree_matrix_invert(state->periodic.lattice, inverse);
+    for (size_t row = 0; row < state->count; row++) {
+        scree_vector place;
+        scree_body_place(state, row, place);
+        scree_matrix_apply(inverse, place, fraction);
+        for (int k = 0; k < state->dimension; k++)
+            if (scree_periodic_repeats(&state->periodic, k) && !(fraction[k] > -1 && fraction[k] < 2))
+                return scree_error_set(error, SCREE_ERROR_IO,
+                                       "dataset 'position', body %u: %.9g of the periodic cell along lattice vector %d "
+                                       "(accepted: more than -1, less than 2)",
+                                       state->id[row], fraction[k], k + 1);
+    }
+    return SCREE_OK;
+}
+
 /// What belongs to the case as a whole.
 static scree_status check_frame(const scree_state *state, const scree_model *model, scree_error *error)
 {
@@ -308,9 +344,7 @@ static scree_status check_frame(const scree_state *state, const scree_model *mod
             return scree_error_set(error, SCREE_ERROR_IO, "dataset 'walls/normal', wall %d: length %.9g (accepted: 1)",
                                    w, sqrt(length));
     }
-    if (state->periodic.directions && !(scree_matrix_determinant(state->periodic.lattice) > 0))
-        return scree_error_set(error, SCREE_ERROR_IO, "dataset 'periodic/lattice': its vectors enclose no volume");
-    return SCREE_OK;
+    return check_cell(state, error);
 }
 
 scree_status scree_state_check(const scree_state *state, const scree_model *model, scree_error *error)

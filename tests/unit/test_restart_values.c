@@ -154,7 +154,7 @@ static void a_forged_file_is_refused(void **unused)
         {"mass", true, 0, ": 0 (accepted: finite, more than 0)"},
         {"material", true, 1, ": 1 (accepted: a whole number, at least 0, at most 0)"},
         {"material", true, 0.5, ": 0.5 (accepted"},
-        {"position", true, (double)NAN, ": nan (accepted: a finite number)"},
+        {"position", true, (double)NAN, ": nan (accepted: at least -"},
         {"id", false, 30, "dataset 'id', row 0: 30 (accepted: each of 0 to 29 once)"},
         {"id", false, -1, "each of 0 to 29 once"},
         {"contacts/first", false, 4e6, "dataset 'contacts/first', contact 0: 4000000"},
