@@ -2,6 +2,7 @@
 #include "io/run_file.h"
 
 #include "io/disk.h"
+#include "io/manifest.h"
 #include "io/run_directory.h"
 #include "io/seal.h"
 #include "io/snapshot.h"
@@ -102,6 +103,9 @@ static int64_t number_of_part(const char *name, const char *prefix)
     long long value = strtoll(name + length + 1, &end, 10);
     return end != name + length + 1 && strcmp(end, ".h5") == 0 ? value : -1;
 }
+
+/// What stands behind the name of a file that a restart has set aside.
+#define ASIDE ".damaged"
 
 /// A part, or what a replacement left beside it.
 static bool is_part(const char *name, const char *prefix)
@@ -273,9 +277,11 @@ static scree_status split_file(const char *directory, const char *path, const sc
     if (unreadable || split.lost > 0) {
         scree_notes_add(notes, "'%s' is damaged%s%s; it is written anew", path, unreadable ? ": " : "",
                         unreadable ? reason.message : "");
-        int length = snprintf(aside, sizeof aside, "%s.damaged", path);
+        int length = snprintf(aside, sizeof aside, "%s" ASIDE, path);
         // A second name: run.h5 itself stays until it is replaced.
-        if (length > 0 && (size_t)length < sizeof aside && unlink(aside) + link(path, aside) < -1)
+        bool fits = length > 0 && (size_t)length < sizeof aside;
+        if (fits) (void)unlink(aside);
+        if (!fits || scree_manifest_add(path, &(const char *){ASIDE}, 1, &reason) || link(path, aside) != 0)
             scree_notes_add(notes, "it cannot be kept as '%s'", aside);
     } else if (!split.sound)
         scree_notes_add(notes, "'%s' is damaged, but nothing in it is lost; it is written anew", path);
@@ -340,7 +346,7 @@ scree_status scree_part_set_aside(const char *directory, scree_part_kind kind, i
     char path[PATH_MAX], aside[PATH_MAX + 16];
     scree_status status = scree_part_path(directory, kind, index, path, sizeof path, error);
     if (status) return status;
-    (void)snprintf(aside, sizeof aside, "%s.damaged", path);
+    (void)snprintf(aside, sizeof aside, "%s" ASIDE, path);
     if (rename(path, aside) != 0) return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot rename '%s'", path);
     scree_notes_add(notes, "%s %" PRId64 " is damaged and left out (kept as '%s'): %s", part_names[kind].file, index,
                     aside, reason);
