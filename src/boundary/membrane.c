@@ -119,7 +119,7 @@ static void add_springs(const scree_model *model, scree_state *state)
             if (!find_spring(model, state, k, s, &found) || !(found.force > 0)) continue;
             int64_t pull[3], back[3];
             for (int i = 0; i < 3; i++) {
-                pull[i] = llrint(found.force / state->force_quantum * found.direction[i]);
+                pull[i] = scree_fixed_round(found.force / state->force_quantum * found.direction[i]);
                 back[i] = -pull[i];
             }
             add_force(state, k, pull);
@@ -147,7 +147,7 @@ static void hold_ends(const scree_model *model, scree_state *state, double kick)
         double change = -axial_velocity_error(state, k, &state->wall[plate]);
         double force = state->row[row].mass * (change / kick - model->gravity[axis]);
         int64_t others = axis == 2 ? state->sum[row].fz : state->sum[row].fy, holding[3] = {0};
-        holding[axis] = llrint(force / state->force_quantum) - others;
+        holding[axis] = llrint(fmin(fmax(force / state->force_quantum, -0x1p62), 0x1p62)) - others;
         add_force(state, k, holding);
     }
 }
