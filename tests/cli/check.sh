@@ -47,6 +47,15 @@ timed() {
     [ "$taken" -gt "$slowest" ] && slowest=$taken
 }
 
+# wait_for PATTERN FILE: until a line of the file matches, at most a minute.
+wait_for() {
+    for ((i = 0; i < 1200; i++)); do
+        grep -qs "$1" "$2" && return
+        sleep 0.05
+    done
+    complain "nothing like '$1' in $2"
+}
+
 finish() {
     echo "$(basename "$0"): $checks checks, $failures failures${1:+; $1}"
     exit $((failures > 0))

@@ -8,14 +8,6 @@ tiny=(--quick --threads 1 --set particles.count=40 --set 'stages.compress.strain
     --set 'stages.confine.friction=0.4' --set 'integrator.step=4e-5 s' --set 'measure.windows=[]' --set output.snapshots=1)
 long=("${tiny[@]}" --set 'stages.compress.strain=4 %' --set 'stages.compress.rate=1e-2 1/s' --no-figures)
 
-# wait_for PATTERN FILE: until a line of the file matches, at most a minute.
-wait_for() {
-    for ((i = 0; i < 1200; i++)); do
-        grep -qs "$1" "$2" && return
-        sleep 0.05
-    done
-    complain "nothing like '$1' in $2"
-}
 # begin FOLDER [COMMAND...]: a long run in the background that has a checkpoint, under COMMAND; sets $pid.
 begin() {
     local folder=$1

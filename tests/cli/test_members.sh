@@ -14,13 +14,6 @@ measures: [peak_stress_ratio]
 END
 first=members/000-seed=1
 second=members/001-seed=2
-wait_for() {
-    for ((i = 0; i < 1200; i++)); do
-        grep -qs "$1" "$2" && return
-        sleep 0.05
-    done
-    complain "nothing like '$1' in $2"
-}
 restarts() { grep -c restarted "$1/$first/log.txt"; }
 
 expect 0 '' "$scree" sweep tiny.yaml -o whole -q --jobs 2

@@ -132,13 +132,6 @@ expect 3 'has failed' "$scree" sweep failing.yaml -o f --member 0
 # --- a member that is killed fails by itself; an interrupt stops all with checkpoints, and the same call goes on
 long=(--set 'stages.compress.strain=4 %' --set 'stages.compress.rate=1e-2 1/s' --no-figures)
 expect 0 '' "$scree" sweep tiny.yaml -o whole -q "${long[@]}"
-wait_for() {
-    for ((i = 0; i < 1200; i++)); do
-        grep -qs "$1" "$2" && return
-        sleep 0.05
-    done
-    complain "nothing like '$1' in $2"
-}
 # Ctrl-C goes to all processes of the terminal's group, here that of a session of its own.
 setsid "$scree" sweep tiny.yaml -o cut --jobs 2 "${long[@]}" 2>cut.txt &
 pid=$!

@@ -115,15 +115,6 @@ while read -r path; do [ -s "$path" ] || complain "plot names $path, which is no
 long=("${small[@]}" --threads 1 --set 'stages.compress.strain=2 %')
 "$scree" run biaxial -o whole -q "${long[@]}" || complain "the uninterrupted run"
 
-# wait_for PATTERN FILE: until a line of the file matches, at most a minute.
-wait_for() {
-    for ((i = 0; i < 1200; i++)); do
-        grep -qs "$1" "$2" && return
-        sleep 0.05
-    done
-    complain "nothing like '$1' in $2"
-}
-
 # stop_and_continue SIGNAL STATUS PATTERN FILE: sends the signal when the pattern shows in the file.
 stop_and_continue() {
     local pid status
