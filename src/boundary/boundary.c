@@ -1,7 +1,9 @@
 /// Table of boundaries, and what all of them share: walls that come and go, the pressure.
 #include "boundary/boundary.h"
+#include "state/plates.h"
 
 #include "boundary/pressure.h"
+#include "measure/imposed_gradient.h"
 
 #include <math.h>
 
@@ -26,8 +28,7 @@ const scree_boundary *scree_boundary_get(scree_boundary_kind kind)
         [SCREE_BOUNDARY_PLATES] = &scree_boundary_plates,     [SCREE_BOUNDARY_MEMBRANE] = &scree_boundary_membrane,
         [SCREE_BOUNDARY_MINIMAL] = &scree_boundary_minimal,   [SCREE_BOUNDARY_AFFINE] = &scree_boundary_affine,
         [SCREE_BOUNDARY_PERIODIC] = &scree_boundary_periodic, [SCREE_BOUNDARY_CHANNEL] = &scree_boundary_channel,
-        [SCREE_BOUNDARY_WALLS] = &scree_boundary_walls,
-        [SCREE_BOUNDARY_NONE] = &scree_boundary_none,
+        [SCREE_BOUNDARY_WALLS] = &scree_boundary_walls,       [SCREE_BOUNDARY_NONE] = &scree_boundary_none,
     };
     return table[kind];
 }
@@ -53,7 +54,7 @@ static bool change_walls(scree_state *state, uint32_t walls, const scree_contact
 {
     bool changed = false;
     for (int w = 0; w < 2 * state->dimension; w++) {
-        scree_wall *wall = &state->wall[w];
+        scree_wall *wall = &scree_plates(state)[w];
         bool stands = walls >> w & 1;
         if (stands == (wall->active != 0)) continue;
         if (!stands) state->ledger.plates -= held_by_wall(table, w);
@@ -70,6 +71,7 @@ scree_status scree_boundary_begin(const scree_boundary *boundary, const scree_mo
 {
     size_t count = state->count;
     *changed = change_walls(state, boundary->walls, table);
+    scree_imposed(state)->count = 0; // what another boundary imposed is over
     scree_status status = SCREE_OK;
     if (*changed && !boundary->open) status = scree_boundary_mark_loaded(model, state, error);
     if (!status && boundary->begin) status = boundary->begin(model, state, error);

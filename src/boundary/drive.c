@@ -8,16 +8,18 @@
 /// the integers telescope and the forces of a closed surface add up to zero to the last bit. Rounding is half a quantum
 /// a term. Places are relative to a node, so the terms stay small. Cost: O(facets).
 #include "boundary/drive.h"
+#include "measure/imposed_gradient.h"
 
 #include "base/fixed.h"
 #include "measure/facets.h"
+#include "state/fields.h"
 
 #include <math.h>
 #include <string.h>
 
 scree_status scree_drive_begin(const scree_model *model, scree_state *state, scree_error *error)
 {
-    scree_drive *drive = &state->drive;
+    scree_imposed_gradient *drive = scree_imposed(state);
     (void)model, (void)error;
     drive->count = 0;
     drive->achieved = drive->wanted = 0;
@@ -29,14 +31,11 @@ scree_status scree_drive_begin(const scree_model *model, scree_state *state, scr
 scree_status scree_drive_refresh(const scree_model *model, scree_state *state, scree_error *error)
 {
     (void)model;
-    scree_drive *drive = &state->drive;
+    scree_imposed_gradient *drive = scree_imposed(state);
     size_t count = scree_boundary_count(state);
-    if (count > drive->capacity) {
-        size_t capacity = count + count / 2 + 16;
-        scree_status status = scree_reallocate(&drive->force, drive->count, capacity, sizeof *drive->force, error);
-        if (status) return status;
-        drive->capacity = capacity;
-    }
+    scree_status status =
+        scree_group_reserve(state, &scree_module_imposed_gradient, &scree_imposed_nodes, count, error);
+    if (status) return status;
     drive->count = count;
     return SCREE_OK;
 }
@@ -47,16 +46,17 @@ void scree_drive_add(scree_state *state, size_t node, const int64_t quanta[3])
     sum->fx += quanta[0];
     sum->fy += quanta[1];
     if (state->dimension == 3) sum->fz += quanta[2];
-    for (int i = 0; i < state->dimension; i++) state->drive.force[node][i] += (double)quanta[i] * state->force_quantum;
+    for (int i = 0; i < state->dimension; i++)
+        scree_imposed(state)->force[node][i] += (double)quanta[i] * state->force_quantum;
 }
 
 void scree_drive_work(scree_state *state)
 {
     double work = 0;
     scree_vector velocity, spin;
-    for (size_t k = 0; k < state->drive.count; k++) {
+    for (size_t k = 0; k < scree_imposed(state)->count; k++) {
         scree_body_motion(state, scree_boundary_row(state, k), velocity, spin);
-        for (int i = 0; i < 3; i++) work += 0.5 * state->step_size * state->drive.force[k][i] * velocity[i];
+        for (int i = 0; i < 3; i++) work += 0.5 * state->step_size * scree_imposed(state)->force[k][i] * velocity[i];
     }
     state->ledger.boundary += work;
     state->ledger.turnover += fabs(work);
@@ -81,7 +81,7 @@ static int mirror(int c)
 
 void scree_drive_record(scree_state *state, const double rate[9])
 {
-    scree_drive *drive = &state->drive;
+    scree_imposed_gradient *drive = scree_imposed(state);
     memcpy(drive->rate, rate, sizeof drive->rate);
     for (int c = 0; c < 9; c++) {
         if (drive->prescribed[c] == SCREE_FREE) continue;
@@ -93,7 +93,7 @@ void scree_drive_record(scree_state *state, const double rate[9])
 
 double scree_drive_take_ratio(scree_state *state)
 {
-    scree_drive *drive = &state->drive;
+    scree_imposed_gradient *drive = scree_imposed(state);
     double ratio = drive->wanted > 0 ? drive->achieved / drive->wanted : NAN;
     drive->achieved = drive->wanted = 0;
     return ratio;

@@ -5,7 +5,8 @@
 ///     T(n+1) - T(n) = sum 1/2 (F(n) + F(n+1)) . v(n+1/2) dt,
 /// the trapezoidal work of the forces over the very displacement x(n+1) - x(n) = v(n+1/2) dt. The ledger books every
 /// force by the same rule, so the residual
-///     (kinetic + elastic - initial) - (plates + pressure + boundary + periodic + gravity) + damping + friction - stiffness
+///     (kinetic + elastic - initial) - (plates + pressure + boundary + periodic + gravity) + damping + friction -
+///     stiffness
 ///     - scheme
 /// holds no error of the integrator, only that of the trapezoidal rule along the elastic force laws: third order in the
 /// step. Work done on the bodies is positive, dissipation is positive; `stiffness` is what the change of the tangential
@@ -23,6 +24,7 @@
 ///     two bodies that should just touch    to              (2/5) K sqrt(R) d^(5/2), which may be felt after they part,
 ///     the sum of N terms m g . x           to              N / 2 units in the last place of the sum of |m g . x|.
 /// The sums of kinetic and elastic energy have errors of the same kind, but against themselves, which are in the scale.
+#include "integrate/forced_spin.h"
 #include "measure/measure.h"
 
 #include "integrate/integrate.h"
@@ -41,7 +43,7 @@ static void add_kinetic(const scree_model *model, const scree_state *state, size
     scree_body_force(model, state, index, force, torque);
     for (int k = 0; k < 3; k++) {
         energy->kinetic += 0.5 * mass * velocity[k] * (velocity[k] + dt * force[k] / mass);
-        if (!state->forced.active || state->forced.id != state->id[index])
+        if (!scree_forced(state)->active || scree_forced(state)->id != state->id[index])
             energy->kinetic_rotation += 0.5 * inertia * spin[k] * (spin[k] + dt * torque[k] / inertia);
     }
 }

@@ -1,19 +1,20 @@
 /// Facets of the boundary: see facets.h. Cost: O(length of the loop), O(triangles of the hull).
 #include "measure/facets.h"
+#include "measure/delaunay_boundary.h"
 
 size_t scree_boundary_count(const scree_state *state)
 {
-    return state->dimension == 3 ? state->hull.node_count : state->loop.count;
+    return state->dimension == 3 ? scree_hull_of(state)->node_count : scree_loop_of(state)->count;
 }
 
 size_t scree_boundary_row(const scree_state *state, size_t node)
 {
-    return state->row_of_id[state->dimension == 3 ? state->hull.id[node] : state->loop.id[node]];
+    return state->row_of_id[state->dimension == 3 ? scree_hull_of(state)->id[node] : scree_loop_of(state)->id[node]];
 }
 
 size_t scree_facet_count(const scree_state *state)
 {
-    return state->dimension == 3 ? state->hull.triangle_count : state->loop.count;
+    return state->dimension == 3 ? scree_hull_of(state)->triangle_count : scree_loop_of(state)->count;
 }
 
 scree_facet scree_facet_get(const scree_state *state, size_t index)
@@ -22,8 +23,8 @@ scree_facet scree_facet_get(const scree_state *state, size_t index)
     scree_vector origin;
     scree_body_place(state, scree_boundary_row(state, 0), origin);
     for (int c = 0; c < facet.corners; c++) {
-        size_t next = index + (size_t)c < state->loop.count ? index + (size_t)c : 0;
-        facet.node[c] = state->dimension == 3 ? state->hull.triangle[index][c] : next;
+        size_t next = index + (size_t)c < scree_loop_of(state)->count ? index + (size_t)c : 0;
+        facet.node[c] = state->dimension == 3 ? scree_hull_of(state)->triangle[index][c] : next;
         scree_body_place(state, scree_boundary_row(state, facet.node[c]), facet.place[c]);
         for (int i = 0; i < 3; i++) facet.place[c][i] -= origin[i];
     }
