@@ -16,7 +16,6 @@
 /// histories are. Memory: 40 bytes a pair for the list (56 in 3D), during a rebuild 40 (56) a contact for
 /// state->contact and about 150 a disc, 250 a sphere, for cells and buffers, which only small samples keep.
 #include "search/neighbours.h"
-#include "boundary/membrane.h"
 #include "state/case_walls.h"
 #include "state/periodic.h"
 #include "state/plates.h"

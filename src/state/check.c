@@ -1,9 +1,6 @@
 /// Ranges of the fields. A field without a row in the table below must be finite; integers of such fields may be any.
 /// Cost: one pass over the state, some milliseconds for 10^5 bodies.
 #include "state/check.h"
-#include "boundary/membrane.h"
-#include "measure/delaunay_boundary.h"
-#include "measure/imposed_gradient.h"
 #include "state/plates.h"
 
 #include "base/matrix.h"

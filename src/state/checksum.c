@@ -1,7 +1,6 @@
 /// The state checksum, by the definition in docs/architecture.md ("The state checksum"): a change here is a change
 /// there, and of every number under tests/reference/. Every value goes in by itself as one 64-bit word, none as the
 /// bytes of a struct, so that structs may change.
-#include "measure/delaunay_boundary.h"
 #include "state/case_walls.h"
 #include "state/periodic.h"
 #include "state/plates.h"
