@@ -54,7 +54,7 @@ static void move_bodies(scree_state *state, const scree_vector centre, double ki
     }
 }
 
-static void forces(const scree_model *model, scree_state *state, scree_work *work)
+static void add_forces(const scree_model *model, scree_state *state, scree_work *work)
 {
     scree_imposed_gradient *drive = scree_imposed(state);
     if (drive->count == 0) return;
@@ -69,9 +69,9 @@ static void forces(const scree_model *model, scree_state *state, scree_work *wor
     scree_drive_work(state);
 }
 
-static double bound(const scree_model *model, const scree_state *state)
+static double bound(const scree_context *c)
 {
-    (void)model;
+    const scree_state *state = c->state;
     scree_vector centre, wanted, velocity, spin;
     double largest = 0;
     find_centre(state, centre);
@@ -85,10 +85,19 @@ static double bound(const scree_model *model, const scree_state *state)
     return largest;
 }
 
+static scree_status load(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    add_forces(c->model, c->state, c->work);
+    return SCREE_OK;
+}
+
+static const scree_pass passes[] = {
+    {SCREE_PHASE_FOLLOW, scree_imposed_work}, {SCREE_PHASE_SEARCH, scree_imposed_refresh}, {SCREE_PHASE_LOADS, load}};
+
 const scree_boundary scree_boundary_affine = {.name = "affine",
                                               .walls = 0,
                                               .begin = scree_drive_begin,
-                                              .refresh = scree_drive_refresh,
-                                              .bound = bound,
-                                              .forces = forces,
-                                              .work = scree_drive_work};
+                                              .passes = passes,
+                                              .pass_count = sizeof passes / sizeof *passes,
+                                              .bound = bound};

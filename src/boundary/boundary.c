@@ -1,4 +1,4 @@
-/// Table of boundaries, and what all of them share: walls that come and go, the pressure.
+/// Table of boundaries, and what all of them share: walls that come and go.
 #include "boundary/boundary.h"
 #include "state/plates.h"
 
@@ -77,30 +77,4 @@ scree_status scree_boundary_begin(const scree_boundary *boundary, const scree_mo
     if (!status && boundary->begin) status = boundary->begin(model, state, error);
     *changed = *changed || state->count != count;
     return status;
-}
-
-void scree_boundary_finish_work(const scree_boundary *boundary, scree_state *state)
-{
-    scree_pressure_work(state);
-    if (boundary->work) boundary->work(state);
-}
-
-scree_status scree_boundary_prepare(const scree_boundary *boundary, const scree_model *model, scree_state *state,
-                                    scree_error *error)
-{
-    scree_status status = boundary->open ? SCREE_OK : scree_boundary_refresh(model, state, error);
-    return status || !boundary->refresh ? status : boundary->refresh(model, state, error);
-}
-
-double scree_boundary_bound(const scree_boundary *boundary, const scree_model *model, const scree_state *state)
-{
-    double pressure = scree_pressure_bound(model, state);
-    return boundary->bound ? fmax(pressure, boundary->bound(model, state)) : pressure;
-}
-
-void scree_boundary_forces(const scree_boundary *boundary, const scree_model *model, scree_state *state,
-                           scree_work *work)
-{
-    scree_pressure_forces(model, state);
-    if (boundary->forces) boundary->forces(model, state, work);
 }

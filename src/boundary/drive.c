@@ -137,3 +137,15 @@ void scree_drive_apply_stress(const scree_model *model, scree_state *state, cons
         for (int c = 0; c < facet.corners; c++) scree_drive_add(state, facet.node[c], share);
     }
 }
+
+scree_status scree_imposed_refresh(const scree_context *context, scree_error *error)
+{
+    return scree_drive_refresh(context->model, context->state, error);
+}
+
+scree_status scree_imposed_work(const scree_context *context, scree_error *error)
+{
+    (void)error;
+    scree_drive_work(context->state);
+    return SCREE_OK;
+}

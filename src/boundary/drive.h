@@ -12,6 +12,10 @@ scree_status scree_drive_begin(const scree_model *model, scree_state *state, scr
 /// Room for one force a node of the present boundary. Errors: memory.
 scree_status scree_drive_refresh(const scree_model *model, scree_state *state, scree_error *error) SCREE_MUST_USE;
 
+/// The same, and scree_drive_work, as passes.
+scree_status scree_imposed_refresh(const scree_context *context, scree_error *error) SCREE_MUST_USE;
+scree_status scree_imposed_work(const scree_context *context, scree_error *error) SCREE_MUST_USE;
+
 /// Adds a force in quanta to the sum of a node and keeps it in drive.force.
 void scree_drive_add(scree_state *state, size_t node, const int64_t quanta[3]);
 

@@ -31,6 +31,7 @@
 #include "boundary/boundary.h"
 #include "boundary/plates.h"
 #include "boundary/sheet.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -41,14 +42,16 @@ static scree_status begin(const scree_model *model, scree_state *state, scree_er
 {
     if (scree_membrane_of(state)->count > 0) return SCREE_OK;
     // Without a pressure there is nothing to hand over.
-    double wave = state->pressure > 0 ? scree_sample_wave_time(model, state, state->pressure) : 0;
+    double wave = scree_pressure_now(state) > 0 ? scree_sample_wave_time(model, state, scree_pressure_now(state)) : 0;
     scree_membrane_of(state)->ramp_time = RAMP_WAVES * wave;
     scree_delaunay_boundary_of(state)->taken_over = wave > 0 ? 0 : 1;
     return scree_membrane_place(model, state, error);
 }
 
-static scree_status refresh(const scree_model *model, scree_state *state, scree_error *error)
+static scree_status refresh(const scree_context *c, scree_error *error)
 {
+    const scree_model *model = c->model;
+    scree_state *state = c->state;
     scree_membrane *membrane = scree_membrane_of(state);
     double *share = &scree_delaunay_boundary_of(state)->taken_over;
     if (*share < 1) *share = fmin(1, *share + state->step_size / membrane->ramp_time);
@@ -177,12 +180,12 @@ static void book_half_work(scree_state *state)
     state->ledger.turnover += fabs(pressure) + fabs(springs);
 }
 
-static void forces(const scree_model *model, scree_state *state, scree_work *work)
+static void add_forces(const scree_model *model, scree_state *state, scree_work *work)
 {
     scree_membrane *membrane = scree_membrane_of(state);
     memset(membrane->press, 0, membrane->count * sizeof *membrane->press);
     memset(membrane->force, 0, membrane->count * sizeof *membrane->force);
-    scree_membrane_press(model, state, state->pressure - scree_direct_pressure(state));
+    scree_membrane_press(model, state, scree_pressure_now(state) - scree_direct_pressure(state));
     add_springs(model, state);
     hold_ends(model, state, work->next_kick);
     book_half_work(state);
@@ -208,8 +211,10 @@ static double loaded_area(const scree_model *model, const scree_state *state, do
     return fmax(2 * length * length, square / 256);
 }
 
-static double bound(const scree_model *model, const scree_state *state)
+static double bound(const scree_context *c)
 {
+    const scree_model *model = c->model;
+    const scree_state *state = c->state;
     double force = 0, length = 0, holding = 0;
     bool solid = state->dimension == 3;
     spring found;
@@ -225,14 +230,31 @@ static double bound(const scree_model *model, const scree_state *state)
         double change = fabs(axial_velocity_error(state, k, wall)) + fabs(wall->velocity);
         holding = fmax(holding, state->row[scree_membrane_row(state, k)].mass * change / state->step_size);
     }
-    double pressure = state->pressure * loaded_area(model, state, length + 2 * scree_membrane_of(state)->radius);
+    double pressure =
+        scree_pressure_now(state) * loaded_area(model, state, length + 2 * scree_membrane_of(state)->radius);
     return fmax(holding, (solid ? 6 : 2) * force + pressure);
 }
+
+static scree_status follow(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    book_half_work(c->state);
+    return SCREE_OK;
+}
+
+static scree_status load(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    add_forces(c->model, c->state, c->work);
+    return SCREE_OK;
+}
+
+static const scree_pass passes[] = {
+    {SCREE_PHASE_FOLLOW, follow}, {SCREE_PHASE_SEARCH, refresh}, {SCREE_PHASE_LOADS, load}};
 
 const scree_boundary scree_boundary_membrane = {.name = "membrane",
                                                 .walls = 1U << SCREE_WALL_BOTTOM | 1U << SCREE_WALL_TOP,
                                                 .begin = begin,
-                                                .refresh = refresh,
-                                                .bound = bound,
-                                                .forces = forces,
-                                                .work = book_half_work};
+                                                .passes = passes,
+                                                .pass_count = sizeof passes / sizeof *passes,
+                                                .bound = bound};

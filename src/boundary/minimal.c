@@ -30,6 +30,7 @@
 #include "boundary/boundary.h"
 #include "boundary/drive.h"
 #include "measure/facets.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -140,7 +141,7 @@ static bool stress_fits(const scree_model *model, const scree_state *state, cons
     return 2 * largest * scale * reach < ldexp(state->force_quantum, 60);
 }
 
-static void forces(const scree_model *model, scree_state *state, scree_work *work)
+static void add_forces(const scree_model *model, scree_state *state, scree_work *work)
 {
     scree_imposed_gradient *drive = scree_imposed(state);
     if (drive->count == 0) return;
@@ -161,15 +162,17 @@ static void forces(const scree_model *model, scree_state *state, scree_work *wor
     scree_drive_work(state);
 }
 
-static double bound(const scree_model *model, const scree_state *state)
+static double bound(const scree_context *c)
 {
-    double stress = state->pressure, largest = 0;
+    const scree_model *model = c->model;
+    const scree_state *state = c->state;
+    double stress = scree_pressure_now(state), largest = 0;
     for (int i = 0; i < 9; i++) stress = fmax(stress, fabs(scree_imposed(state)->stress[i]));
     for (size_t f = 0; f < scree_facet_count(state); f++) {
         scree_facet facet = scree_facet_get(state, f);
-        for (int c = 1; c < facet.corners; c++) {
+        for (int k = 1; k < facet.corners; k++) {
             scree_vector edge;
-            for (int i = 0; i < 3; i++) edge[i] = facet.place[c][i] - facet.place[0][i];
+            for (int i = 0; i < 3; i++) edge[i] = facet.place[k][i] - facet.place[0][i];
             largest = fmax(largest, scree_length(edge));
         }
     }
@@ -184,10 +187,19 @@ double scree_minimal_viscosity(double pressure, const double target[9])
     return pressure > 0 && rate > 0 ? pressure / (RELATIVE_ERROR * rate) : INFINITY;
 }
 
+static scree_status load(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    add_forces(c->model, c->state, c->work);
+    return SCREE_OK;
+}
+
+static const scree_pass passes[] = {
+    {SCREE_PHASE_FOLLOW, scree_imposed_work}, {SCREE_PHASE_SEARCH, scree_imposed_refresh}, {SCREE_PHASE_LOADS, load}};
+
 const scree_boundary scree_boundary_minimal = {.name = "minimal",
                                                .walls = 0,
                                                .begin = scree_drive_begin,
-                                               .refresh = scree_drive_refresh,
-                                               .bound = bound,
-                                               .forces = forces,
-                                               .work = scree_drive_work};
+                                               .passes = passes,
+                                               .pass_count = sizeof passes / sizeof *passes,
+                                               .bound = bound};

@@ -21,13 +21,6 @@
 
 #include <math.h>
 
-void scree_plates_move(scree_state *state)
-{
-    for (int w = 0; w < SCREE_WALL_COUNT; w++)
-        if (scree_plates(state)[w].active)
-            scree_plates(state)[w].position += scree_plates(state)[w].velocity * state->step_size;
-}
-
 /// Distance between a pair of opposite walls.
 static double distance(const scree_state *state, int one, int other)
 {

@@ -28,6 +28,7 @@
 #include "measure/outline.h"
 #include "search/delaunay.h"
 #include "state/fields.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -181,8 +182,45 @@ double scree_pressure_bound(const scree_model *model, const scree_state *state)
 {
     double longest = 0;
     if (state->dimension == 3) return scree_hull_pressure_bound(model, state);
-    if (!(state->pressure > 0)) return 0;
+    if (!(scree_pressure_now(state) > 0)) return 0;
     scree_outline_walk(state, longest_segment, &longest);
     // At most two segments meet in a body.
-    return 2 * state->pressure * model->thickness * sqrt(longest);
+    return 2 * scree_pressure_now(state) * model->thickness * sqrt(longest);
 }
+
+static scree_status follow(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    scree_pressure_work(c->state);
+    return SCREE_OK;
+}
+
+static scree_status load(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    scree_pressure_forces(c->model, c->state);
+    return SCREE_OK;
+}
+
+static double bound(const scree_context *c)
+{
+    return scree_pressure_bound(c->model, c->state);
+}
+
+static const scree_field fields[] = {
+    SCREE_FIELD_ONE(pressure, scree_pressure, now, "scalars/pressure", SCREE_FIELD_DOUBLE, 1, "Pa",
+                    "confining pressure applied now"),
+};
+
+static const scree_pass passes[] = {{SCREE_PHASE_FOLLOW, follow}, {SCREE_PHASE_LOADS, load}};
+
+const scree_module scree_module_pressure = {
+    .name = "pressure",
+    .meaning = "the confining pressure, on the Delaunay boundary where nothing else carries it",
+    .state_size = sizeof(scree_pressure),
+    .fields = fields,
+    .field_count = 1,
+    .passes = passes,
+    .pass_count = sizeof passes / sizeof *passes,
+    .bound = bound,
+};

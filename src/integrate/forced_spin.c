@@ -84,10 +84,27 @@ static const scree_field fields[] = {
     ONE(torque, SCREE_FIELD_DOUBLE, 3, "N m", "torque of its contacts on it"),
 };
 
+static bool in_use(const scree_context *c)
+{
+    return scree_forced(c->state)->active != 0;
+}
+
+static scree_status settle(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    scree_forced_spin_settle(c->state);
+    return SCREE_OK;
+}
+
+static const scree_pass passes[] = {{SCREE_PHASE_LOADS, settle}};
+
 const scree_module scree_module_forced_spin = {
     .name = "forced_spin",
     .meaning = "a body whose spin is prescribed",
     .state_size = sizeof(own),
     .fields = fields,
     .field_count = sizeof fields / sizeof *fields,
+    .passes = passes,
+    .pass_count = 1,
+    .in_use = in_use,
 };

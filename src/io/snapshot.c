@@ -10,6 +10,7 @@
 #include "io/state_file.h"
 #include "state/periodic.h"
 #include "state/plates.h"
+#include "state/pressure.h"
 
 #include <limits.h>
 #include <stdio.h>
@@ -123,7 +124,7 @@ scree_status scree_snapshot_write(const char *directory, const scree_model *mode
     scree_hdf5_set_text(&part, group, "stage", info->stage);
     scree_hdf5_set_number(&part, group, "axial_strain", info->axial_strain);
     scree_hdf5_set_integer(&part, group, "grains", state->grains);
-    scree_hdf5_set_number(&part, group, "pressure", state->pressure);
+    scree_hdf5_set_number(&part, group, "pressure", scree_pressure_now(state));
     scree_hdf5_set_text(&part, group, "attribute_units",
                         "step 1, dimension 1, grains 1, time s, axial_strain 1, pressure Pa, wall_triangles 1");
     write_bodies(&part, group, model, state);

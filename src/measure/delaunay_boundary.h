@@ -3,6 +3,7 @@
 #ifndef SCREE_MEASURE_DELAUNAY_BOUNDARY_H
 #define SCREE_MEASURE_DELAUNAY_BOUNDARY_H
 
+#include "state/pressure.h"
 #include "state/state.h"
 
 /// Closed loop of bodies on the outer Delaunay boundary, counter-clockwise, by id; empty when there is none.
@@ -76,7 +77,7 @@ static inline scree_strain *scree_strain_of(const scree_state *state)
 static inline double scree_direct_pressure(const scree_state *state)
 {
     double share = scree_delaunay_boundary_of(state)->taken_over;
-    return state->pressure * (1 - share * share * (3 - 2 * share));
+    return scree_pressure_now(state) * (1 - share * share * (3 - 2 * share));
 }
 
 #endif

@@ -27,6 +27,7 @@
 #include "measure/hull.h"
 #include "measure/outline.h"
 #include "state/periodic.h"
+#include "state/pressure.h"
 
 #include <math.h>
 
@@ -164,7 +165,7 @@ void scree_stress_from_plates(const scree_model *model, const scree_state *state
         scree_periodic_stress(model, state, stress);
         return;
     }
-    pressure_sum pressure = sum_pressure(model, state, state->pressure);
+    pressure_sum pressure = sum_pressure(model, state, scree_pressure_now(state));
     const scree_wall *wall = scree_plates(state);
     for (int w = 0; w < SCREE_WALL_COUNT; w++)
         if (wall[w].active) add_wall(&wall[w], pressure.centre, pressure.sum);
@@ -174,7 +175,8 @@ void scree_stress_from_plates(const scree_model *model, const scree_state *state
 
     // What cannot be known from the resultants of the walls: see measure.h.
     int dimension = state->dimension, active = 0;
-    bool pressed = state->pressure > 0 && (scree_loop_of(state)->count > 0 || scree_hull_of(state)->node_count > 0),
+    bool pressed =
+             scree_pressure_now(state) > 0 && (scree_loop_of(state)->count > 0 || scree_hull_of(state)->node_count > 0),
          plates[3];
     for (int k = 0; k < dimension; k++) active += plates[k] = has_plates(state, k);
     double known[9];

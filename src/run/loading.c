@@ -6,6 +6,7 @@
 #include "measure/measure.h"
 #include "run/simulation.h"
 #include "state/plates.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -35,9 +36,9 @@ void scree_loading_begin(scree_simulation *s)
     scree_state *state = &s->state;
     double *reference = state->stage.reference;
     reference[SCREE_LOADING_HEIGHT] = present_height(state);
-    reference[SCREE_LOADING_WAVE] = scree_sample_wave_time(&s->model, state, state->pressure);
+    reference[SCREE_LOADING_WAVE] = scree_sample_wave_time(&s->model, state, scree_pressure_now(state));
     scree_strain_measure(state, &reference[SCREE_LOADING_STRAIN]);
-    scree_servo sides = scree_servo_for(&s->model, state, SCREE_WALL_LEFT, state->pressure);
+    scree_servo sides = scree_servo_for(&s->model, state, SCREE_WALL_LEFT, scree_pressure_now(state));
     reference[SCREE_LOADING_SIDES] = sides.impedance;
     reference[SCREE_LOADING_SIDES + 1] = sides.mass;
     for (size_t row = 0; row < state->count; row++) scree_body_place(state, row, state->reference[row]);

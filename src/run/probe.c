@@ -23,6 +23,7 @@
 #include "run/step.h"
 #include "search/neighbours.h"
 #include "state/periodic.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -151,7 +152,7 @@ static scree_status stand(probe_case *probe, int64_t stage, scree_error *error)
     double pressure = scree_confining_pressure(&probe->c.config, stage);
     if (probe->dropped && probe->periodic) close_cell(&s->model, probe->periodic, &s->state);
     if (pressure > 0 && s->state.count > 2) press(&s->model, &s->state, pressure);
-    s->state.pressure = pressure > 0 ? pressure : 0;
+    scree_pressure_set(&s->state, pressure > 0 ? pressure : 0);
     s->state.stage.index = stage;
     s->state.stage.counter = -1;
     scree_neighbours_invalidate(&s->work);
@@ -174,7 +175,7 @@ static scree_status renew_boundary(probe_case *probe, scree_error *error)
     scree_simulation *s = &probe->s;
     int64_t *every = &probe->c.config.boundary.every, kept = *every;
     *every = 0;
-    scree_status status = scree_boundary_prepare(s->boundary, &s->stage_model, &s->state, error);
+    scree_status status = scree_step_phase(s, SCREE_PHASE_SEARCH, error);
     *every = kept;
     return status;
 }

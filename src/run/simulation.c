@@ -107,6 +107,7 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
         if (status) return status;
     }
     if (s->stage->plan) s->stage->plan(s);
+    scree_step_compile(s);
     return SCREE_OK;
 }
 

@@ -9,6 +9,7 @@
 #include "measure/imposed_gradient.h"
 #include "run/simulation.h"
 #include "state/plates.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -22,7 +23,7 @@ static void prescribe(scree_simulation *s)
     memset(drive->target, 0, sizeof drive->target);
     memset(drive->prescribed, 0, sizeof drive->prescribed);
     drive->prescribed[axial] = SCREE_FULL;
-    drive->viscosity = isnan(penalty) ? scree_minimal_viscosity(s->state.pressure, full) : penalty;
+    drive->viscosity = isnan(penalty) ? scree_minimal_viscosity(scree_pressure_now(&s->state), full) : penalty;
 }
 
 static scree_status begin(scree_simulation *s, scree_error *error)
@@ -50,7 +51,7 @@ static void control(scree_simulation *s)
     }
     double velocity = 0.5 * rate * state->stage.reference[SCREE_LOADING_HEIGHT];
     scree_plates(state)[SCREE_WALL_BOTTOM].velocity = scree_plates(state)[SCREE_WALL_TOP].velocity = velocity;
-    scree_servo_sides(s, state->pressure);
+    scree_servo_sides(s, scree_pressure_now(state));
 }
 
 static scree_status finished(scree_simulation *s, bool *done, scree_error *error)

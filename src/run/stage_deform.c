@@ -8,6 +8,7 @@
 #include "measure/imposed_gradient.h"
 #include "measure/measure.h"
 #include "run/simulation.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -33,7 +34,7 @@ static scree_status begin(scree_simulation *s, scree_error *error)
     scree_loading_begin(s);
     memset(drive->target, 0, sizeof drive->target);
     (void)find_target(scree_stage_config(s), target, drive->prescribed);
-    drive->viscosity = isnan(penalty) ? scree_minimal_viscosity(s->state.pressure, target) : penalty;
+    drive->viscosity = isnan(penalty) ? scree_minimal_viscosity(scree_pressure_now(&s->state), target) : penalty;
     return SCREE_OK;
 }
 

@@ -17,6 +17,7 @@
 #include "run/sample.h"
 #include "run/simulation.h"
 #include "state/periodic.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -84,7 +85,7 @@ static void remember_stresses(scree_simulation *s)
 static scree_status begin_confine(scree_simulation *s, scree_error *error)
 {
     (void)error;
-    s->state.stage.reference[0] = s->state.pressure;
+    s->state.stage.reference[0] = scree_pressure_now(&s->state);
     measure_sample(s, scree_stage_config(s)->pressure);
     forget_stresses(s);
     return SCREE_OK;
@@ -106,8 +107,8 @@ static void control_confine(scree_simulation *s)
 {
     double from = s->state.stage.reference[0], to = scree_stage_config(s)->pressure;
     double done = s->plan.ramp_time > 0 ? scree_stage_elapsed(s) / s->plan.ramp_time : 1;
-    s->state.pressure = from + (to - from) * scree_smooth_ramp(done);
-    for (int k = 0; k < s->state.dimension; k++) hold_pressure(&s->plan.periodic, k, s->state.pressure);
+    scree_pressure_set(&s->state, from + (to - from) * scree_smooth_ramp(done));
+    for (int k = 0; k < s->state.dimension; k++) hold_pressure(&s->plan.periodic, k, scree_pressure_now(&s->state));
     scree_periodic_control(&s->stage_model, &s->state, &s->plan.periodic, 1);
     remember_stresses(s);
 }
@@ -176,7 +177,7 @@ static double loading_fraction(const scree_simulation *s)
 static scree_status begin_compress(scree_simulation *s, scree_error *error)
 {
     (void)error;
-    measure_sample(s, s->state.pressure);
+    measure_sample(s, scree_pressure_now(&s->state));
     s->state.stage.reference[0] = scree_sample_height(s);
     set_reference(&s->state);
     return SCREE_OK;
@@ -185,7 +186,7 @@ static scree_status begin_compress(scree_simulation *s, scree_error *error)
 static void plan_compress(scree_simulation *s)
 {
     plan_loading(s, scree_stage_config(s)->rate);
-    for (int k = 0; k + 1 < s->state.dimension; k++) hold_pressure(&s->plan.periodic, k, s->state.pressure);
+    for (int k = 0; k + 1 < s->state.dimension; k++) hold_pressure(&s->plan.periodic, k, scree_pressure_now(&s->state));
 }
 
 static void control_compress(scree_simulation *s)
@@ -225,7 +226,7 @@ static scree_status begin_deform(scree_simulation *s, scree_error *error)
     (void)error;
     const scree_config_stage *stage = scree_stage_config(s);
     double held = scree_held_pressure(stage);
-    measure_sample(s, held > 0 ? held : s->state.pressure);
+    measure_sample(s, held > 0 ? held : scree_pressure_now(&s->state));
     set_reference(&s->state);
     return SCREE_OK;
 }

@@ -13,6 +13,7 @@
 #include "measure/measure.h"
 #include "measure/rotation.h"
 #include "run/simulation.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -92,7 +93,7 @@ static void hold_rotation(scree_simulation *s)
         drive->prescribed[c] = c / 3 != c % 3 && c / 3 < dimension && c % 3 < dimension ? SCREE_FULL : SCREE_FREE;
     // The scale of the rates that are to be held back: those of the particle.
     rate[1] = scree_stage_config(s)->spin;
-    drive->viscosity = isnan(penalty) ? scree_minimal_viscosity(s->state.pressure, rate) : penalty;
+    drive->viscosity = isnan(penalty) ? scree_minimal_viscosity(scree_pressure_now(&s->state), rate) : penalty;
 }
 
 /// Ticks from the begin of the stage to the ends of rest, ramp and hold.

@@ -183,7 +183,7 @@ static void pairs_share(void *argument, int index, int count)
     task->failed[index] =
         task->find(&task->search->grid, state, begin, end, chunk, NULL) ||
         scree_elements_search(task->work->container, state, begin, end, task->work->skin, &chunk->element, NULL);
-    if (scree_membrane_of(state)->count == 0) return;
+    if (state->grains == state->count) return;
     drop_membrane_pairs(state, &chunk->touching);
     drop_membrane_pairs(state, &chunk->near);
 }

@@ -1,7 +1,8 @@
-/// What is stored of the walls of a case.
+/// The walls of a case as a module: what is stored of them, and their time.
 #include "state/case_walls.h"
 
 #include "base/checksum.h"
+#include "state/work.h"
 
 #include <float.h>
 
@@ -39,6 +40,16 @@ static uint64_t checksum(const scree_model *model, const scree_state *state, uin
     return c;
 }
 
+static scree_status follow(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    scree_case_wall_set *walls = scree_case_walls(c->state);
+    if (walls->moving) walls->ticks += c->work->ticks;
+    return SCREE_OK;
+}
+
+static const scree_pass passes[] = {{SCREE_PHASE_FOLLOW, follow}};
+
 const scree_module scree_module_case_walls = {
     .name = "case_walls",
     .meaning = "the walls of the case: how far they have moved, and what the bodies do to them",
@@ -46,4 +57,6 @@ const scree_module scree_module_case_walls = {
     .fields = fields,
     .field_count = sizeof fields / sizeof *fields,
     .checksum = checksum,
+    .passes = passes,
+    .pass_count = 1,
 };

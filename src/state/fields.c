@@ -109,7 +109,6 @@ static const scree_field fields[] = {
         SCREE_RANGE(0, DBL_MAX)),
     ONE("scalars/largest_speed", SCREE_FIELD_DOUBLE, 1, "m/s", largest_speed,
         "bound of the surface speed of all bodies", SCREE_RANGE(0, DBL_MAX)),
-    ONE("scalars/pressure", SCREE_FIELD_DOUBLE, 1, "Pa", pressure, "confining pressure applied now"),
     ONE("ledger/damping", SCREE_FIELD_DOUBLE, 1, "J", ledger.damping, "energy dissipated by contact damping"),
     ONE("ledger/friction", SCREE_FIELD_DOUBLE, 1, "J", ledger.friction, "energy dissipated by sliding"),
     ONE("ledger/stiffness", SCREE_FIELD_DOUBLE, 1, "J", ledger.stiffness,

@@ -1,4 +1,4 @@
-/// What is stored of the plates.
+/// The plates as a module: what is stored of them, and how they move.
 #include "state/plates.h"
 
 #include "base/checksum.h"
@@ -49,6 +49,23 @@ static uint64_t checksum(const scree_model *model, const scree_state *state, uin
     return c;
 }
 
+void scree_plates_move(scree_state *state)
+{
+    for (int w = 0; w < SCREE_WALL_COUNT; w++) {
+        scree_wall *wall = &scree_plates(state)[w];
+        if (wall->active) wall->position += wall->velocity * state->step_size;
+    }
+}
+
+static scree_status follow(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    scree_plates_move(c->state);
+    return SCREE_OK;
+}
+
+static const scree_pass passes[] = {{SCREE_PHASE_FOLLOW, follow}};
+
 const scree_module scree_module_plates = {
     .name = "plates",
     .meaning = "rigid planes around the sample, which stand or move along their normals",
@@ -57,4 +74,6 @@ const scree_module scree_module_plates = {
     .field_count = sizeof fields / sizeof *fields,
     .check = check,
     .checksum = checksum,
+    .passes = passes,
+    .pass_count = 1,
 };

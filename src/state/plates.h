@@ -38,4 +38,7 @@ static inline scree_wall *scree_plates(const scree_state *state)
     return ((scree_plate_set *)state->own[SCREE_SLOT_plates])->wall;
 }
 
+/// Moves every active wall by velocity * dt.
+void scree_plates_move(scree_state *state);
+
 #endif

@@ -173,7 +173,6 @@ struct scree_state {
     scree_rolling *rolling; ///< beside `contact` with rolling resistance; else NULL
     size_t contact_count, contact_capacity;
     void *own[SCREE_MODULE_COUNT]; ///< the struct of each module that has one (module/module.h), by slot
-    double pressure;               ///< Pa, confining pressure applied now
     scree_ledger ledger;
     scree_stage_state stage;
     scree_time_spent spent;

@@ -12,6 +12,7 @@
 #include "boundary/pressure.h"
 #include "measure/delaunay_boundary.h"
 #include "measure/measure.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -60,7 +61,7 @@ static inline void bench_begin(bench *b, int dimension, size_t count, double ste
     b->model.walls[1] = b->model.pairs[1][1];
     assert_int_equal(scree_state_create(&b->state, dimension, count, NULL), SCREE_OK);
     scree_state *state = &b->state;
-    state->pressure = PRESSURE;
+    scree_pressure_set(state, PRESSURE);
     state->force_quantum = QUANTUM;
     state->tick = state->step_size = state->kick_size = b->work.next_kick = step;
     const int axis[SCREE_WALL_COUNT] = {dimension - 1, dimension - 1, 0, 0, 1, 1};

@@ -7,6 +7,7 @@
 #include "measure/delaunay_boundary.h"
 #include "state/fields.h"
 #include "state/plates.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -43,7 +44,7 @@ static inline scree_status sample_state(scree_state *state, size_t count, uint64
     state->step_size = 1e-6;
     state->force_quantum = ldexp(1, -30);
     state->torque_quantum = ldexp(1, -40);
-    state->pressure = 1e5;
+    scree_pressure_set(state, 1e5);
     const double normals[][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
     const double positions[] = {-1e-3, -17e-3, -1e-3, -17e-3};
     for (int w = 0; w <= SCREE_WALL_RIGHT; w++)

@@ -8,6 +8,7 @@
 #include "integrate/integrate.h"
 #include "measure/hull.h"
 #include "measure/polyhedron.h"
+#include "state/pressure.h"
 #include "state_bits.h"
 
 #include <stdlib.h>
@@ -210,7 +211,7 @@ static void work_is_the_kinetic_energy(void **user)
         scree_energy_measure(&b.model, state, &empty, &energy);
         state->ledger.initial = energy.kinetic + energy.kinetic_rotation;
         for (int step = 0; step < 60; step++) {
-            state->pressure = PRESSURE * (1 + 0.01 * step);
+            scree_pressure_set(state, PRESSURE * (1 + 0.01 * step));
             integrator->first(&b.model, state, &work);
             scree_pressure_work(state);
             state->step++;

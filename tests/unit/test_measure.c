@@ -7,6 +7,7 @@
 #include "boundary/pressure.h"
 #include "integrate/integrate.h"
 #include "measure/measure.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -137,7 +138,7 @@ static void pressed_column(bench *b, double column_force)
     for (size_t i = 0; i < 12; i++) place(b, i, 2.0 * (double)(i % 3), 1 + 2.0 * (double)(i / 3));
     put_wall(b, SCREE_WALL_BOTTOM, 0);
     put_wall(b, SCREE_WALL_TOP, -8);
-    b->state.pressure = PRESSURE;
+    scree_pressure_set(&b->state, PRESSURE);
     double row_force = PRESSURE * 2 * RADIUS * THICKNESS; // a row takes the pressure on its own height
     for (uint32_t row = 0; row < 4; row++)
         for (uint32_t column = 0; column < 3; column++) {
@@ -183,7 +184,7 @@ static void stress_without_pressure_is_not_a_number_where_nothing_acts(void **us
     bench b;
     pressed_column(&b, 0.7);
     double plates[9];
-    b.state.pressure = 0;
+    scree_pressure_set(&b.state, 0);
     scree_stress_from_plates(&b.model, &b.state, plates);
     assert_true(isnan(plates[0]));
     assert_true(near(plates[4], -3 * 0.7 / (4 * RADIUS * THICKNESS), 1e-13, PRESSURE));
@@ -198,7 +199,7 @@ static void stress_of_a_free_triangle(void **user)
     bench_create(&b, 3);
     const double corner[3][2] = {{3, 4}, {5.1, 4.2}, {3.9, 5.9}};
     for (size_t i = 0; i < 3; i++) place(&b, i, corner[i][0], corner[i][1]);
-    b.state.pressure = PRESSURE;
+    scree_pressure_set(&b.state, PRESSURE);
     assert_int_equal(scree_boundary_refresh(&b.model, &b.state, NULL), SCREE_OK);
     scree_pressure_forces(&b.model, &b.state);
     // Disc 0: bars to 1 and 2 balance the pressure force; disc 1 gives the third bar (2 equations, 2 unknowns each).
@@ -247,7 +248,7 @@ static void stress_differs_by_the_residual(void **user)
               1.2 + 2.0 * (double)(i / 5) + 0.4 * uniform(2 * i + 1));
     put_wall(&b, SCREE_WALL_BOTTOM, 0.2);
     put_wall(&b, SCREE_WALL_TOP, -16.5);
-    b.state.pressure = PRESSURE;
+    scree_pressure_set(&b.state, PRESSURE);
     assert_int_equal(scree_boundary_refresh(&b.model, &b.state, NULL), SCREE_OK);
     scree_pressure_forces(&b.model, &b.state);
     for (uint32_t i = 0; i < 35; i++) touch(&b, i, i + 5, uniform(100 + i), uniform(200 + i) - 0.5);
@@ -412,7 +413,7 @@ static void coordination_and_rattlers(void **user)
     scree_loop_of(&b.state)->id = id;
     scree_loop_of(&b.state)->loaded = loaded;
     scree_loop_of(&b.state)->count = 3;
-    b.state.pressure = PRESSURE;
+    scree_pressure_set(&b.state, PRESSURE);
     assert_int_equal(scree_coordination_measure(&b.model, &b.state, &b.table, &c, NULL), SCREE_OK);
     assert_true(near(c.rattler_fraction, 1.0 / 8, 1e-15, 1));
     for (uint64_t n = 1; n <= 3; n++) {

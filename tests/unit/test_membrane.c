@@ -6,6 +6,7 @@
 #include "measure/delaunay_boundary.h"
 #include "measure/outline.h"
 #include "search/neighbours.h"
+#include "state/pressure.h"
 #include "state_bits.h"
 
 #define STEP 1e-5
@@ -96,7 +97,7 @@ static void the_chain_stores_what_it_takes(void **unused)
     bench_create(&b);
     scree_state *state = &b.state;
     const scree_boundary *membrane = scree_boundary_get(SCREE_BOUNDARY_MEMBRANE);
-    state->pressure = 0;
+    scree_pressure_set(state, 0);
     for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
         member(&b, k)->x += 2e-4 * uniform(1000 + k);
         member(&b, k)->vx = 0.02 * uniform(2000 + k);

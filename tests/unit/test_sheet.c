@@ -7,6 +7,7 @@
 #include "boundary/sheet.h"
 #include "measure/hull.h"
 #include "search/neighbours.h"
+#include "state/pressure.h"
 #include "state_bits.h"
 
 #include <stdlib.h>
@@ -301,7 +302,7 @@ static void hoop_tension_carries_the_pressure(void **unused)
     bench b;
     tube_create(&b, AROUND, RINGS, 2 * SHEET);
     scree_state *state = &b.state;
-    state->pressure = -1e4; // from inside: the springs only pull
+    scree_pressure_set(state, -1e4); // from inside: the springs only pull
     state->step_size = b.work.next_kick = 1e-3;
     membrane_forces(&b);
     for (int step = 0; step < 4000; step++) tube_step(&b, 0.97);
@@ -338,7 +339,7 @@ static void springs_store_what_they_take(void **unused)
     bench b;
     tube_create(&b, 10, 6, 2 * SHEET);
     scree_state *state = &b.state;
-    state->pressure = 0;
+    scree_pressure_set(state, 0);
     for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
         scree_row *m = member(&b, k);
         m->x += 0.2 * SHEET * (uniform(3 * k) - 0.5);

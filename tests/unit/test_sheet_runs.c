@@ -6,6 +6,7 @@
 #include "io_scratch.h"
 #include "measure/delaunay_boundary.h"
 #include "run/step.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -197,7 +198,7 @@ static void a_sample_is_held_by_its_membrane(void **unused)
         samples++;
     }
     check(scree_contact_table_build(&s.model, &s.state, &s.work, &s.table, &error), &error);
-    double stress[9], inertia[9], rubbing[9], pressure = s.state.pressure;
+    double stress[9], inertia[9], rubbing[9], pressure = scree_pressure_now(&s.state);
     stress_with_membrane(&s, stress, inertia, rubbing);
     double sides = -0.5 * (stress[0] + stress[4]), moving = 0.5 * (inertia[0] + inertia[4]);
     double shear = 0.5 * (rubbing[0] + rubbing[4]);

@@ -3,6 +3,7 @@
 
 #include "base/random.h"
 #include "io_scratch.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -59,7 +60,7 @@ static uint64_t run_some(const scree_case *c, int threads, uint64_t discard)
         simulation_lose_work(&s, threads);
         discard = 0;
     }
-    assert_true(s.work.rebuilds > 0 && s.state.pressure > 0);
+    assert_true(s.work.rebuilds > 0 && scree_pressure_now(&s.state) > 0);
     return simulation_close(&s);
 }
 

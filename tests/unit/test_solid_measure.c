@@ -7,6 +7,7 @@
 #include "boundary/pressure.h"
 #include "measure/hull.h"
 #include "measure/measure.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -42,7 +43,7 @@ static bench *bench_create(void)
     b->model.pairs[0][0].friction = 0.45;
     b->table.contact = b->contact;
     assert_int_equal(scree_state_create(&b->state, 3, 225, NULL), SCREE_OK);
-    b->state.pressure = PRESSURE;
+    scree_pressure_set(&b->state, PRESSURE);
     b->state.force_quantum = 0x1p-50;
     for (size_t i = 0; i < 225; i++) {
         scree_row *row = &b->state.row[i];

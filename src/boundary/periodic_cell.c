@@ -1,4 +1,6 @@
-/// What is stored of the periodic cell.
+/// The periodic cell as a module: what is stored of it, and when it moves.
+#include "boundary/periodic.h"
+
 #include "base/checksum.h"
 #include "base/matrix.h"
 #include "state/periodic.h"
@@ -57,6 +59,25 @@ static uint64_t checksum(const scree_model *model, const scree_state *state, uin
     return scree_checksum_numbers(c, cell->strain, 9);
 }
 
+static bool in_use(const scree_context *c)
+{
+    return scree_cell(c->state)->directions != 0;
+}
+
+static scree_status move(const scree_context *c, scree_error *error)
+{
+    return scree_periodic_move(c->model, c->state, c->work, error);
+}
+
+static scree_status settle(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    scree_periodic_settle(c->state, c->work);
+    return SCREE_OK;
+}
+
+static const scree_pass passes[] = {{SCREE_PHASE_FOLLOW, move}, {SCREE_PHASE_BODIES, settle}};
+
 const scree_module scree_module_periodic_cell = {
     .name = "periodic_cell",
     .meaning = "the lattice in which the sample repeats itself",
@@ -65,4 +86,7 @@ const scree_module scree_module_periodic_cell = {
     .field_count = sizeof fields / sizeof *fields,
     .check = check,
     .checksum = checksum,
+    .passes = passes,
+    .pass_count = sizeof passes / sizeof *passes,
+    .in_use = in_use,
 };

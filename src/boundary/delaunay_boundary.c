@@ -1,6 +1,8 @@
-/// What is stored of the Delaunay boundary of the sample.
+/// The Delaunay boundary of the sample as a module: what is stored of it, and when it is found anew.
 #include "measure/delaunay_boundary.h"
 
+#include "boundary/boundary.h"
+#include "boundary/pressure.h"
 #include "base/checksum.h"
 #include "state/plates.h"
 
@@ -79,6 +81,13 @@ static uint64_t checksum(const scree_model *model, const scree_state *state, uin
     return scree_checksum_numbers(c, scree_strain_of(state)->gradient, 9);
 }
 
+static scree_status refresh(const scree_context *c, scree_error *error)
+{
+    return c->boundary->open ? SCREE_OK : scree_boundary_refresh(c->model, c->state, error);
+}
+
+static const scree_pass passes[] = {{SCREE_PHASE_SEARCH, refresh}};
+
 const scree_module scree_module_delaunay_boundary = {
     .name = "delaunay_boundary",
     .meaning = "the outermost bodies of the sample, found on its Delaunay triangulation, and its strain",
@@ -87,4 +96,6 @@ const scree_module scree_module_delaunay_boundary = {
     .field_count = sizeof fields / sizeof *fields,
     .check = check,
     .checksum = checksum,
+    .passes = passes,
+    .pass_count = 1,
 };
