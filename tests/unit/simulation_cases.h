@@ -29,6 +29,15 @@
 /// Combinations of law, scheme and update of friction.
 #define BRILLIANTOV "contact.law=hertz_brilliantov"
 enum { COMBINATIONS = 7, OVERRIDES = 4 };
+enum {
+    MINDLIN_FIRST = 0,
+    MINDLIN_LAST = 1,
+    EXPLICIT_FIRST = 2,
+    EXPLICIT_LAST = 3,
+    IMPLICIT_FIRST = 4,
+    IMPLICIT_LAST = 5,
+    TIMESCALES = 6,
+};
 static const char *const combinations[COMBINATIONS][OVERRIDES] = {
     {"contact.law=hertz_mindlin", "integrator.scheme=velocity_verlet", "stages.confine.friction=0.1", "dimension=2"},
     {"contact.law=hertz_mindlin", "integrator.scheme=position_verlet", "stages.confine.friction=0.1", "dimension=2"},
