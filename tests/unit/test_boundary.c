@@ -1,4 +1,5 @@
 /// Boundaries as forces on facets, in 2D and 3D: area vectors, uniform stress, minimal conditions, affine motion.
+#include "boundary_passes.h"
 #include "measure/delaunay_boundary.h"
 #include "measure/imposed_gradient.h"
 #include "state/plates.h"
@@ -217,8 +218,8 @@ static void minimal_conditions_meet_their_rates(void **unused)
         scree_imposed(state)->viscosity = INFINITY;
         // Other forces, which the solution has to foresee.
         for (size_t r = 0; r < state->count; r++) state->sum[r].fx = (int64_t)(1e15 * uniform(500 + r));
-        assert_int_equal(minimal->refresh(&b.model, state, NULL), SCREE_OK);
-        minimal->forces(&b.model, state, &b.work);
+        assert_int_equal(boundary_pass(minimal, SCREE_PHASE_SEARCH, &b.model, state, &b.work, NULL), SCREE_OK);
+        boundary_load(minimal, &b.model, state, &b.work);
         kick(state);
         double rate[9];
         measure_rate(&b, rate);
@@ -245,13 +246,13 @@ static void a_multiplier_out_of_range_stops_the_run(void **unused)
         // A rate whose force is some 1e25 times the largest of the integers, or one that is not a number.
         scree_imposed(state)->target[4] = k % 2 ? NAN : 1e40;
         scree_imposed(state)->viscosity = INFINITY;
-        assert_int_equal(minimal->refresh(&b.model, state, NULL), SCREE_OK);
-        minimal->forces(&b.model, state, &b.work);
+        assert_int_equal(boundary_pass(minimal, SCREE_PHASE_SEARCH, &b.model, state, &b.work, NULL), SCREE_OK);
+        boundary_load(minimal, &b.model, state, &b.work);
         assert_int_equal(b.work.flags, SCREE_FLAG_FORCE_RANGE);
         for (size_t r = 0; r < state->count; r++) assert_true(state->sum[r].fx == 0 && state->sum[r].fy == 0);
         scree_imposed(state)->target[4] = 1;
         b.work.flags = 0;
-        minimal->forces(&b.model, state, &b.work);
+        boundary_load(minimal, &b.model, state, &b.work);
         assert_int_equal(b.work.flags, 0);
         scree_state_destroy(state);
     }
@@ -270,8 +271,8 @@ static void a_strain_rate_has_no_moment(void **unused)
         if (k == 1) scree_imposed(state)->prescribed[1] = scree_imposed(state)->prescribed[3] = SCREE_FULL;
         scree_imposed(state)->target[1] = 0.5;
         scree_imposed(state)->viscosity = 1e6;
-        assert_int_equal(minimal->refresh(&b.model, state, NULL), SCREE_OK);
-        minimal->forces(&b.model, state, &b.work);
+        assert_int_equal(boundary_pass(minimal, SCREE_PHASE_SEARCH, &b.model, state, &b.work, NULL), SCREE_OK);
+        boundary_load(minimal, &b.model, state, &b.work);
         double moment = 0, scale = 0;
         for (size_t r = 0; r < state->count; r++) {
             double x = state->row[r].x, y = state->row[r].y;
@@ -300,10 +301,10 @@ static void penalty_is_stable_and_booked(void **unused)
         double before = INFINITY, begin = kinetic(state), rate[9];
         for (int step = 0; step < 50; step++) {
             memset(state->sum, 0, state->count * sizeof *state->sum);
-            assert_int_equal(minimal->refresh(&b.model, state, NULL), SCREE_OK);
-            minimal->forces(&b.model, state, &b.work);
+            assert_int_equal(boundary_pass(minimal, SCREE_PHASE_SEARCH, &b.model, state, &b.work, NULL), SCREE_OK);
+            boundary_load(minimal, &b.model, state, &b.work);
             kick(state);
-            minimal->work(state);
+            boundary_follow(minimal, &b.model, state);
             measure_rate(&b, rate);
             double error = fabs(rate[axial] + 0.5);
             assert_true(error <= before || error < 1e-11);
@@ -332,13 +333,13 @@ static void affine_bodies_move_with_the_gradient(void **unused)
         for (int i = 0; i < 9; i++)
             if (i / 3 < dimension && i % 3 < dimension) scree_imposed(state)->target[i] = target[i];
         for (size_t r = 0; r < state->count; r++) state->sum[r].fy = (int64_t)(1e15 * uniform(500 + r));
-        assert_int_equal(affine->refresh(&b.model, state, NULL), SCREE_OK);
-        double begin = kinetic(state), bound = affine->bound(&b.model, state);
+        assert_int_equal(boundary_pass(affine, SCREE_PHASE_SEARCH, &b.model, state, &b.work, NULL), SCREE_OK);
+        double begin = kinetic(state), bound = affine->bound(&(scree_context){.model = &b.model, .state = state});
         int64_t others[SIDES + RINGS * RING];
         for (size_t r = 0; r < state->count; r++) others[r] = state->sum[r].fy;
-        affine->forces(&b.model, state, &b.work);
+        boundary_load(affine, &b.model, state, &b.work);
         kick(state);
-        affine->work(state);
+        boundary_follow(affine, &b.model, state);
         double rate[9], outer = 0;
         measure_rate(&b, rate);
         for (int i = 0; i < 9; i++) assert_true(fabs(rate[i] - scree_imposed(state)->target[i]) < 1e-11);

@@ -12,7 +12,7 @@
 /// components is the uniform traction, so these two are equal. For the comparison no grain turns: an image on a single
 /// contact could roll about it, and satisfy a mean for nothing. The energy is that of the contacts of the sample,
 /// linearised as model/critical_step.h says. Two runs that compare boundaries on different cuts of a packing
-/// (test_boundary_runs.c) order them only within the scatter of cuts.
+/// (test_boundary_order.c) order them only within the scatter of cuts.
 ///
 /// What ties it to the code. The same small strains as a deform stage of the periodic cell must give the stress that
 /// the periodic conditions give: image shifts, velocity jumps, virial and servo all enter.

@@ -151,7 +151,8 @@ static void a_damaged_part_costs_itself(void **unused)
         const scree_restart_point kept = {.snapshot = true, .index = 2, .part = !finish};
         assert_true(reads_as(&kept, 2, true));
         assert_int_equal(unlink(aside), 0);
-        assert_int_equal(scree_snapshots_truncate(scratch, 0, NULL), SCREE_OK);
+        const scree_kept checkpoints = {.last_checkpoint = INT64_MAX};
+        assert_int_equal(scree_run_file_rewind(scratch, NULL, &checkpoints, NULL, NULL), SCREE_OK);
     }
 }
 

@@ -6,26 +6,10 @@
 
 #include "io/series.h"
 #include "io_scratch.h"
+#include "simulation_cases.h"
 
-static const char case_text[] =
-    "scree: 1\n"
-    "name: small\n"
-    "dimension: 2\n"
-    "seed: 1\n"
-    "materials:\n"
-    "  - {name: quartz, young_modulus: 30 GPa, poisson_ratio: 0.3, density: 2.675e8 kg/m3,\n"
-    "     friction: 0.45, restitution: 0.2}\n"
-    "particles: {shape: disc, material: quartz, count: 40, distribution: uniform,\n"
-    "            radius_min: 0.9 mm, radius_max: 1 mm}\n"
-    "contact: {law: hertz_mindlin}\n"
-    "integrator: {scheme: velocity_verlet, step: 2e-5 s}\n"
-    "boundary: {lateral: pressure, every: 100}\n"
-    "stages:\n"
-    "  - {stage: prepare, method: drop_and_roll, aspect_ratio: 1.5}\n"
-    "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 0.2}\n"
-    "  - {stage: compress, strain: 0.2 %, rate: 5e-2 1/s}\n"
-    "measure: {samples: 20, cells: no}\n"
-    "output: {snapshots: 2, paraview: no, figures: no, checkpoint_steps: 1500}\n";
+static const char case_text[] = SIMULATION_CASE("count: 40, radius_min: 0.9 mm, radius_max: 1 mm", "0.2", "0.2 %",
+                                                ", cells: no", ", checkpoint_steps: 1500");
 
 static const scree_run_options plain = {.output = "run", .threads = 1, .force = true};
 

@@ -139,7 +139,7 @@ static void stages_do_what_they_say(void **unused)
                   lateral / rows);
     // Means of some 16 samples of rapid shear of 70 discs: they scatter by a fifth.
     assert_true(fabs(held / rows / 1e5 - 1) < 0.4 && fabs(lateral / rows / 8e4 - 1) < 0.4);
-    // Trapezoids along Hertz springs (test_simulation.c), here with free flights and impacts.
+    // Trapezoids along Hertz springs (test_simulation_balance.c), here with free flights and impacts.
     assert_true(worst < 1e-4);
     assert_true(fabs(s.state.ledger.periodic) > 0);
     scree_simulation_close(&s);

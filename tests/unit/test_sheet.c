@@ -290,7 +290,7 @@ static void tube_step(bench *b, double keep)
         m->y += state->step_size * m->vy;
         m->z += state->step_size * m->vz;
     }
-    scree_boundary_get(SCREE_BOUNDARY_MEMBRANE)->work(state);
+    boundary_follow(scree_boundary_get(SCREE_BOUNDARY_MEMBRANE), &b->model, state);
     membrane_forces(b);
 }
 
@@ -527,10 +527,10 @@ static void failures_are_told(void **unused)
     b.model.radius_min = 0.1 * SHEET;
     scree_hull_of(state)->updated = state->step;
     const scree_boundary *membrane = scree_boundary_get(SCREE_BOUNDARY_MEMBRANE);
-    assert_int_equal(membrane->refresh(&b.model, state, &error), SCREE_ERROR_GUARD);
+    assert_int_equal(boundary_pass(membrane, SCREE_PHASE_SEARCH, &b.model, state, &b.work, &error), SCREE_ERROR_GUARD);
     assert_non_null(strstr(error.message, "slip through"));
     scree_hull_of(state)->updated = state->step + 1; // not looked at between two updates
-    assert_int_equal(membrane->refresh(&b.model, state, &error), SCREE_OK);
+    assert_int_equal(boundary_pass(membrane, SCREE_PHASE_SEARCH, &b.model, state, &b.work, &error), SCREE_OK);
     scree_state_destroy(state);
     plates_create(&b, 1, 0.02);
     b.state.row[0] = (scree_row){.z = 0.01, .radius = 1e-3, .mass = 1};

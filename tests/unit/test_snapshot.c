@@ -89,6 +89,13 @@ static void run_path(char *path, size_t size)
     assert_int_equal(scree_run_file_path(scratch, path, size, NULL), 0);
 }
 
+/// What a run that goes on does first: keeps the first `count` snapshots, and every checkpoint.
+static scree_status try_rewind(int64_t count, scree_error *error)
+{
+    const scree_kept kept = {.snapshots = count, .last_checkpoint = INT64_MAX};
+    return scree_run_file_rewind(scratch, NULL, &kept, NULL, error);
+}
+
 static void finish(void)
 {
     scree_error error;
@@ -248,14 +255,14 @@ static void a_restart_drops_later_snapshots(void **unused)
     for (int ended = 0; ended < 2; ended++) {
         for (int64_t k = 0; k < 5; k++) write_snapshot(k, (uint64_t)k);
         if (ended) finish();
-        assert_int_equal(scree_snapshots_truncate(scratch, 3, NULL), SCREE_OK);
+        assert_int_equal(try_rewind(3, NULL), SCREE_OK);
         assert_int_equal(count_snapshots(), 3);
         write_snapshot(3, 9);
         assert_int_equal(count_snapshots(), 4);
         for (size_t k = 0; k < 3; k++) assert_snapshot(k, (int64_t)k, k);
         assert_snapshot(3, 3, 9);
     }
-    assert_int_equal(scree_snapshots_truncate(scratch, 0, NULL), SCREE_OK);
+    assert_int_equal(try_rewind(0, NULL), SCREE_OK);
     assert_int_equal(count_snapshots(), 0);
 }
 
@@ -306,7 +313,7 @@ static _Noreturn void write_for_ever(void)
     scree_error error;
     bool good = sample_state(&state, BODIES, 1, NULL) == SCREE_OK;
     for (int64_t k = 0; good; k = (k + 1) % 7) {
-        if (k == 0) good = scree_snapshots_truncate(scratch, 2, &error) == SCREE_OK;
+        if (k == 0) good = try_rewind(2, &error) == SCREE_OK;
         good = good && try_write(2 + k, (uint64_t)k, &error) == SCREE_OK;
         good = good && scree_checkpoint_write(scratch, &state, 1, &error) == SCREE_OK;
         if (k % 3 == 2) good = good && scree_run_file_finish(scratch, NULL, &error) == SCREE_OK;
@@ -383,9 +390,9 @@ static scree_status write_first(scree_error *error)
 {
     return try_write(0, 1, error);
 }
-static scree_status truncate_all(scree_error *error)
+static scree_status rewind_two(scree_error *error)
 {
-    return scree_snapshots_truncate(scratch, 2, error);
+    return try_rewind(2, error);
 }
 static scree_status finish_all(scree_error *error)
 {
@@ -396,7 +403,7 @@ static scree_status finish_all(scree_error *error)
 static void failed_allocations(void **unused)
 {
     (void)unused;
-    scree_status (*const actions[])(scree_error *) = {write_first, read_first, finish_all, truncate_all};
+    scree_status (*const actions[])(scree_error *) = {write_first, read_first, finish_all, rewind_two};
     for (size_t a = 0; a < sizeof actions / sizeof *actions; a++) {
         uint64_t n = 1;
         for (bool reached = true; reached; n++) {
