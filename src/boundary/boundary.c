@@ -1,6 +1,7 @@
 /// Table of boundaries, and what all of them share: walls that come and go, the pressure.
 #include "boundary/boundary.h"
 
+#include "base/integer_sum.h"
 #include "boundary/pressure.h"
 
 #include <math.h>
@@ -26,8 +27,7 @@ const scree_boundary *scree_boundary_get(scree_boundary_kind kind)
         [SCREE_BOUNDARY_PLATES] = &scree_boundary_plates,     [SCREE_BOUNDARY_MEMBRANE] = &scree_boundary_membrane,
         [SCREE_BOUNDARY_MINIMAL] = &scree_boundary_minimal,   [SCREE_BOUNDARY_AFFINE] = &scree_boundary_affine,
         [SCREE_BOUNDARY_PERIODIC] = &scree_boundary_periodic, [SCREE_BOUNDARY_CHANNEL] = &scree_boundary_channel,
-        [SCREE_BOUNDARY_WALLS] = &scree_boundary_walls,
-        [SCREE_BOUNDARY_NONE] = &scree_boundary_none,
+        [SCREE_BOUNDARY_WALLS] = &scree_boundary_walls,       [SCREE_BOUNDARY_NONE] = &scree_boundary_none,
     };
     return table[kind];
 }
@@ -39,13 +39,14 @@ bool scree_boundary_has_plates(const scree_boundary *boundary)
 
 static double held_by_wall(const scree_contact_table *table, int wall)
 {
-    double energy = 0;
-    for (size_t c = 0; c < table->count; c++) {
-        const scree_contact *contact = &table->contact[c];
-        if (contact->wall && (int)contact->second == wall)
-            energy += contact->elastic_normal + contact->elastic_tangential;
-    }
-    return energy;
+    scree_integer_sum energy = {0};
+    while (scree_integer_sum_next(&energy, 1))
+        for (size_t c = 0; c < table->count; c++) {
+            const scree_contact *contact = &table->contact[c];
+            if (contact->wall && (int)contact->second == wall)
+                scree_integer_sum_add(&energy, contact->elastic_normal + contact->elastic_tangential);
+        }
+    return scree_integer_sum_total(&energy);
 }
 
 /// Makes the walls stand that `walls` says. True when any of them changed.

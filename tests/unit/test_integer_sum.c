@@ -1,12 +1,22 @@
-/// Sums in integers: free of the order of their terms and of how they are cut into parts, as exact as they say, and never
-/// wrong in silence.
+/// Sums in integers: free of the order of their terms and of how they are cut into parts, as exact as they say, and
+/// never wrong in silence. Then everything that steers a run: the same bits for any order of rows, contacts and facets.
 #include "testing.h"
 
 #include "base/integer_sum.h"
 #include "base/random.h"
+#include "boundary/boundary.h"
+#include "boundary/drive.h"
+#include "boundary/hull.h"
+#include "boundary/periodic.h"
+#include "boundary/plates.h"
+#include "measure/facets.h"
+#include "measure/hull.h"
+#include "measure/outline.h"
+#include "measure/rotation.h"
+#include "restart_cases.h"
+#include "run_fixture.h"
 
 #include <float.h>
-#include <math.h>
 
 enum { TERMS = 1000 };
 
@@ -118,6 +128,142 @@ static void no_term_overflows_in_silence(void **unused)
     assert_true(isnan(scree_integer_sum_total(&sum)));
 }
 
+// ---- what steers a run -------------------------------------------------------------------------------------------
+
+enum { MOST = 256 };
+typedef struct numbers {
+    double value[MOST];
+    size_t count;
+} numbers;
+
+static void keep(numbers *n, const double *value, size_t count)
+{
+    for (size_t k = 0; k < count; k++) {
+        assert_true(n->count < MOST);
+        // One pattern of bits for every NaN.
+        n->value[n->count++] = isnan(value[k]) ? -12345 : value[k];
+    }
+}
+
+static void keep_boundary(numbers *n, const scree_model *model, scree_state *state)
+{
+    scree_vector area[512];
+    double rate[10];
+    size_t count = scree_boundary_count(state);
+    assert_true(count <= 512);
+    if (count == 0) return;
+    scree_boundary_areas(model, state, area);
+    rate[9] = scree_drive_measure(state, area, rate);
+    keep(n, rate, 10);
+    for (size_t k = 0; k < count; k += 1 + count / 8) keep(n, area[k], 3);
+    double others[] = {scree_sample_volume(model, state), scree_enclosed_logarithm(state),
+                       scree_plate_area(model, state, SCREE_WALL_TOP),
+                       state->dimension == 3 ? scree_hull_power(state) : 0};
+    keep(n, others, sizeof others / sizeof *others);
+}
+
+static void keep_servos(numbers *n, const scree_model *model, const scree_state *state)
+{
+    if (state->periodic.directions) {
+        scree_periodic_drive drive = {0};
+        scree_periodic_drive_fit(model, state, 1e5, &drive);
+        keep(n, (double[]){drive.inertia, drive.damping, scree_periodic_wave_time(model, state, 1e5)}, 3);
+        return;
+    }
+    for (int w = 0; w < 2 * state->dimension; w++) {
+        scree_servo servo = scree_servo_for(model, state, w, 1e5);
+        keep(n, (double[]){servo.impedance, servo.mass}, 2);
+    }
+    keep(n, (double[]){scree_sample_wave_time(model, state, 1e5)}, 1);
+}
+
+/// All that ends stages, moves plates and cells, imposes rates, stops runs, or is added to the ledger.
+static void measure_all(const scree_simulation *s, const scree_state *from, const scree_contact_table *table,
+                        numbers *n)
+{
+    const scree_model *model = &s->stage_model;
+    scree_state state = *from;
+    scree_energy energy;
+    double gradient[9], solid;
+    *n = (numbers){.count = 0};
+    scree_energy_measure(model, &state, table, &energy);
+    keep(n, (const double *)&energy, sizeof energy / sizeof(double));
+    keep(n,
+         (double[]){scree_unbalanced_ratio(model, &state, table), scree_mean_unbalanced_ratio(model, &state, table),
+                    scree_rotation_mean_amount(&state, state.row_of_id[3])},
+         3);
+    state.ledger = (scree_ledger){0};
+    scree_energy_change_step(model, &state, 1e-5, 2e-5);
+    scree_boundary_finish_work(s->boundary, &state);
+    keep(n, (const double *)&state.ledger, sizeof state.ledger / sizeof(double));
+    scree_strain_measure(&state, gradient);
+    keep(n, gradient, 9);
+    assert_int_equal(scree_solid_fraction(&state, &solid, NULL), SCREE_OK);
+    keep(n, &solid, 1);
+    keep_servos(n, model, &state);
+    keep_boundary(n, model, &state);
+}
+
+/// Rows in another order, contacts and triangles of the hull from the last to the first.
+static void shuffle(scree_state *state, scree_contact_table *table)
+{
+    uint32_t order[256], old_id[256];
+    size_t count = state->count, step = 1;
+    assert_true(count <= 256);
+    // A step that has no common factor with the number of rows.
+    while (count % step == 0 || step == 1) step = step == 1 ? 7 : step == 7 ? 11 : 13;
+    for (uint32_t k = 0; k < count; k++) {
+        order[k] = (uint32_t)((3 + step * k) % count);
+        old_id[k] = state->id[k];
+    }
+    assert_int_equal(scree_state_permute(state, order, NULL), SCREE_OK);
+    for (size_t c = 0; c < table->count; c++) {
+        table->contact[c].first = state->row_of_id[old_id[table->contact[c].first]];
+        if (!table->contact[c].wall) table->contact[c].second = state->row_of_id[old_id[table->contact[c].second]];
+    }
+    for (size_t c = 0; 2 * c + 1 < table->count; c++) {
+        scree_contact held = table->contact[c];
+        table->contact[c] = table->contact[table->count - 1 - c];
+        table->contact[table->count - 1 - c] = held;
+    }
+    scree_hull *hull = &state->hull;
+    for (size_t t = 0; 2 * t + 1 < hull->triangle_count; t++) {
+        size_t other = hull->triangle_count - 1 - t;
+        uint32_t held[3];
+        uint8_t load = hull->loaded[t];
+        memcpy(held, hull->triangle[t], sizeof held);
+        memcpy(hull->triangle[t], hull->triangle[other], sizeof held);
+        memcpy(hull->triangle[other], held, sizeof held);
+        hull->loaded[t] = hull->loaded[other];
+        hull->loaded[other] = load;
+    }
+}
+
+static void nothing_that_steers_depends_on_order(void **unused)
+{
+    (void)unused;
+    static const uint64_t steps[] = {40, 40, 40, 300};
+    for (int k = 0; k < RESTART_CASES; k++) {
+        scree_case *c = case_read(restart_cases[k], NULL, 0);
+        scree_simulation s;
+        scree_error error;
+        simulation_open(c, 1, &s);
+        simulation_load(&s);
+        for (uint64_t step = 0; step < steps[k]; step++) simulation_step(&s);
+        check(scree_contact_table_build(&s.stage_model, &s.state, &s.work, &s.table, &error), &error);
+        numbers before, after;
+        measure_all(&s, &s.state, &s.table, &before);
+        shuffle(&s.state, &s.table);
+        measure_all(&s, &s.state, &s.table, &after);
+        assert_int_equal(before.count, after.count);
+        for (size_t i = 0; i < before.count; i++)
+            if (before.value[i] != after.value[i])
+                fail_msg("case %d, number %zu: %.17g became %.17g", k, i, before.value[i], after.value[i]);
+        scree_simulation_close(&s);
+        scree_case_free(c);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -125,6 +271,7 @@ int main(void)
         cmocka_unit_test(cancelling_terms_leave_the_rest),
         cmocka_unit_test(few_terms_are_exact),
         cmocka_unit_test(no_term_overflows_in_silence),
+        cmocka_unit_test(nothing_that_steers_depends_on_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
