@@ -10,6 +10,7 @@
 #include "boundary/boundary.h"
 #include "boundary/drive.h"
 #include "measure/facets.h"
+#include "measure/imposed_gradient.h"
 
 #include <math.h>
 #include <string.h>
@@ -34,13 +35,13 @@ static void wanted_velocity(const scree_state *state, size_t row, const scree_ve
     scree_body_place(state, row, place);
     for (int i = 0; i < 3; i++) {
         velocity[i] = 0;
-        for (int j = 0; j < 3; j++) velocity[i] += state->drive.target[3 * i + j] * (place[j] - centre[j]);
+        for (int j = 0; j < 3; j++) velocity[i] += scree_imposed(state)->target[3 * i + j] * (place[j] - centre[j]);
     }
 }
 
 static void move_bodies(scree_state *state, const scree_vector centre, double kick)
 {
-    for (size_t k = 0; k < state->drive.count; k++) {
+    for (size_t k = 0; k < scree_imposed(state)->count; k++) {
         size_t row = scree_boundary_row(state, k);
         const scree_sum_row *sum = &state->sum[row];
         const int64_t others[3] = {sum->fx, sum->fy, state->dimension == 3 ? sum->fz : 0};
@@ -58,7 +59,7 @@ static void move_bodies(scree_state *state, const scree_vector centre, double ki
 
 static void forces(const scree_model *model, scree_state *state, scree_work *work)
 {
-    scree_drive *drive = &state->drive;
+    scree_imposed_gradient *drive = scree_imposed(state);
     if (drive->count == 0) return;
     double rate[9];
     scree_vector centre;

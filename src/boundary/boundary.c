@@ -1,8 +1,10 @@
 /// Table of boundaries, and what all of them share: walls that come and go, the pressure.
 #include "boundary/boundary.h"
+#include "state/plates.h"
 
 #include "base/integer_sum.h"
 #include "boundary/pressure.h"
+#include "measure/imposed_gradient.h"
 
 #include <math.h>
 
@@ -54,7 +56,7 @@ static bool change_walls(scree_state *state, uint32_t walls, const scree_contact
 {
     bool changed = false;
     for (int w = 0; w < 2 * state->dimension; w++) {
-        scree_wall *wall = &state->wall[w];
+        scree_wall *wall = &scree_plates(state)[w];
         bool stands = walls >> w & 1;
         if (stands == (wall->active != 0)) continue;
         if (!stands) state->ledger.plates -= held_by_wall(table, w);
@@ -71,6 +73,7 @@ scree_status scree_boundary_begin(const scree_boundary *boundary, const scree_mo
 {
     size_t count = state->count;
     *changed = change_walls(state, boundary->walls, table);
+    scree_imposed(state)->count = 0; // what another boundary imposed is over
     scree_status status = SCREE_OK;
     if (*changed && !boundary->open) status = scree_boundary_mark_loaded(model, state, error);
     if (!status && boundary->begin) status = boundary->begin(model, state, error);

@@ -10,17 +10,19 @@
 ///
 /// Rates, volume and work steer the run or stay in its state: sums in integers, whose nodes may come in any order.
 #include "boundary/drive.h"
+#include "measure/imposed_gradient.h"
 
 #include "base/fixed.h"
 #include "base/integer_sum.h"
 #include "measure/facets.h"
+#include "state/fields.h"
 
 #include <math.h>
 #include <string.h>
 
 scree_status scree_drive_begin(const scree_model *model, scree_state *state, scree_error *error)
 {
-    scree_drive *drive = &state->drive;
+    scree_imposed_gradient *drive = scree_imposed(state);
     (void)model, (void)error;
     drive->count = 0;
     drive->achieved = drive->wanted = 0;
@@ -32,14 +34,11 @@ scree_status scree_drive_begin(const scree_model *model, scree_state *state, scr
 scree_status scree_drive_refresh(const scree_model *model, scree_state *state, scree_error *error)
 {
     (void)model;
-    scree_drive *drive = &state->drive;
+    scree_imposed_gradient *drive = scree_imposed(state);
     size_t count = scree_boundary_count(state);
-    if (count > drive->capacity) {
-        size_t capacity = count + count / 2 + 16;
-        scree_status status = scree_reallocate(&drive->force, drive->count, capacity, sizeof *drive->force, error);
-        if (status) return status;
-        drive->capacity = capacity;
-    }
+    scree_status status =
+        scree_group_reserve(state, &scree_module_imposed_gradient, &scree_imposed_nodes, count, error);
+    if (status) return status;
     drive->count = count;
     return SCREE_OK;
 }
@@ -50,7 +49,8 @@ void scree_drive_add(scree_state *state, size_t node, const int64_t quanta[3])
     sum->fx += quanta[0];
     sum->fy += quanta[1];
     if (state->dimension == 3) sum->fz += quanta[2];
-    for (int i = 0; i < state->dimension; i++) state->drive.force[node][i] += (double)quanta[i] * state->force_quantum;
+    for (int i = 0; i < state->dimension; i++)
+        scree_imposed(state)->force[node][i] += (double)quanta[i] * state->force_quantum;
 }
 
 void scree_drive_work(scree_state *state)
@@ -58,9 +58,9 @@ void scree_drive_work(scree_state *state)
     scree_integer_sum power = {0};
     scree_vector velocity, spin;
     while (scree_integer_sum_next(&power, 1))
-        for (size_t k = 0; k < state->drive.count; k++) {
+        for (size_t k = 0; k < scree_imposed(state)->count; k++) {
             scree_body_motion(state, scree_boundary_row(state, k), velocity, spin);
-            scree_integer_sum_add(&power, scree_dot(state->drive.force[k], velocity));
+            scree_integer_sum_add(&power, scree_dot(scree_imposed(state)->force[k], velocity));
         }
     double work = 0.5 * state->step_size * scree_integer_sum_total(&power);
     state->ledger.boundary += work;
@@ -97,7 +97,7 @@ static int mirror(int c)
 
 void scree_drive_record(scree_state *state, const double rate[9])
 {
-    scree_drive *drive = &state->drive;
+    scree_imposed_gradient *drive = scree_imposed(state);
     memcpy(drive->rate, rate, sizeof drive->rate);
     for (int c = 0; c < 9; c++) {
         if (drive->prescribed[c] == SCREE_FREE) continue;
@@ -109,7 +109,7 @@ void scree_drive_record(scree_state *state, const double rate[9])
 
 double scree_drive_take_ratio(scree_state *state)
 {
-    scree_drive *drive = &state->drive;
+    scree_imposed_gradient *drive = scree_imposed(state);
     double ratio = drive->wanted > 0 ? drive->achieved / drive->wanted : NAN;
     drive->achieved = drive->wanted = 0;
     return ratio;

@@ -1,7 +1,9 @@
-/// What boundaries share that impose a motion through forces on the bodies of the Delaunay boundary (state.drive).
+/// What boundaries share that impose a motion through forces on the bodies of the Delaunay boundary
+/// (*scree_imposed(&state)).
 #ifndef SCREE_BOUNDARY_DRIVE_H
 #define SCREE_BOUNDARY_DRIVE_H
 
+#include "measure/imposed_gradient.h"
 #include "state/work.h"
 
 /// Forgets the forces and rates of an earlier stage; target, prescribed components and viscosity stay.

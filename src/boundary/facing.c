@@ -9,8 +9,10 @@
 /// the pressure, and so does the gap between its rim and the plate (measure/hull.h). With an active side plate nothing
 /// is loaded: the sides are not free. Cost: O(triangles).
 #include "boundary/facing.h"
+#include "state/plates.h"
 
 #include "base/integer_sum.h"
+#include "measure/delaunay_boundary.h"
 #include "measure/hull.h"
 
 #include <math.h>
@@ -38,8 +40,8 @@ static double gap_to(const scree_state *state, const scree_wall *wall, uint32_t 
 /// Marks the nodes that face a wall.
 static void find_facing(const scree_model *model, const marking *m, int index)
 {
-    const scree_wall *wall = &m->state->wall[index];
-    const scree_wall *opposite = &m->state->wall[SCREE_WALL_BOTTOM + SCREE_WALL_TOP - index];
+    const scree_wall *wall = &scree_plates(m->state)[index];
+    const scree_wall *opposite = &scree_plates(m->state)[SCREE_WALL_BOTTOM + SCREE_WALL_TOP - index];
     double nearest = INFINITY;
     for (int pass = 0; pass < 2; pass++)
         for (size_t k = 0; k < m->hull->node_count; k++) {
@@ -73,7 +75,7 @@ static void mark_facing(const marking *m)
         if (face == 0 || m->faces[node[1]] != face || m->faces[node[2]] != face) continue;
         scree_vector area;
         area_vector(m, t, area);
-        if (-m->state->wall[face - 1].normal[2] * area[2] > FACING_COSINE * scree_length(area))
+        if (-scree_plates(m->state)[face - 1].normal[2] * area[2] > FACING_COSINE * scree_length(area))
             m->hull->loaded[t] = (uint8_t)(SCREE_HULL_ON_WALL + face - 1);
     }
 }
@@ -148,7 +150,7 @@ scree_status scree_hull_mark_loaded(const scree_model *model, const scree_state 
 {
     bool free_sides = true;
     if (hull->triangle_count == 0) return SCREE_OK;
-    for (int w = SCREE_WALL_LEFT; w < SCREE_WALL_COUNT; w++) free_sides = free_sides && !state->wall[w].active;
+    for (int w = SCREE_WALL_LEFT; w < SCREE_WALL_COUNT; w++) free_sides = free_sides && !scree_plates(state)[w].active;
     memset(hull->loaded, free_sides ? SCREE_HULL_LOADED : SCREE_HULL_BARE, hull->triangle_count);
     if (!free_sides) return SCREE_OK;
     marking m = {.state = state, .hull = hull};
@@ -158,7 +160,7 @@ scree_status scree_hull_mark_loaded(const scree_model *model, const scree_state 
     if (!status) status = scree_hull_neighbours(hull, m.neighbour, error);
     if (!status) {
         for (int w = SCREE_WALL_BOTTOM; w <= SCREE_WALL_TOP; w++)
-            if (state->wall[w].active) find_facing(model, &m, w);
+            if (scree_plates(state)[w].active) find_facing(model, &m, w);
         mark_facing(&m);
         settle_parts(&m);
     }

@@ -24,6 +24,7 @@
 /// that applies none of it and raises SCREE_FLAG_FORCE_RANGE, which stops the run.
 /// Cost: O(boundary) a step.
 #include "boundary/minimal.h"
+#include "measure/imposed_gradient.h"
 
 #include "base/fixed.h"
 #include "base/integer_sum.h"
@@ -42,7 +43,7 @@ typedef struct conditions {
     int count;
 } conditions;
 
-static conditions conditions_get(const scree_drive *drive)
+static conditions conditions_get(const scree_imposed_gradient *drive)
 {
     conditions all = {0};
     for (int c = 0; c < 9; c++) {
@@ -84,7 +85,7 @@ static void predict(const scree_state *state, scree_vector *area, double volume,
 {
     scree_integer_sum sum[18] = {0}, *change = sum, *products = sum + 9;
     while (scree_integer_sum_next(sum, 18))
-        for (size_t k = 0; k < state->drive.count; k++) add_node(state, k, area[k], change, products);
+        for (size_t k = 0; k < scree_imposed(state)->count; k++) add_node(state, k, area[k], change, products);
     for (int c = 0; c < 9; c++) {
         int upper = c / 3 <= c % 3 ? c : 3 * (c % 3) + c / 3;
         rate[c] = now[c] + kick * scree_integer_sum_total(&change[c]) / volume;
@@ -111,8 +112,8 @@ static void solve(double matrix[9][9], double *right, int count)
 }
 
 /// The stress Lambda of this step.
-static void find_stress(const scree_drive *drive, const double rate[9], const double mobility[9], double step,
-                        double stress[9])
+static void find_stress(const scree_imposed_gradient *drive, const double rate[9], const double mobility[9],
+                        double step, double stress[9])
 {
     conditions all = conditions_get(drive);
     double matrix[9][9], lambda[9];
@@ -140,7 +141,7 @@ static bool stress_fits(const scree_model *model, const scree_state *state, cons
     scree_vector origin, place;
     for (int i = 0; i < 9; i++) largest += fabs(stress[i]);
     scree_body_place(state, scree_boundary_row(state, 0), origin);
-    for (size_t k = 1; k < state->drive.count; k++) {
+    for (size_t k = 1; k < scree_imposed(state)->count; k++) {
         scree_body_place(state, scree_boundary_row(state, k), place);
         for (int i = 0; i < state->dimension; i++) reach = fmax(reach, fabs(place[i] - origin[i]));
     }
@@ -150,7 +151,7 @@ static bool stress_fits(const scree_model *model, const scree_state *state, cons
 
 static void forces(const scree_model *model, scree_state *state, scree_work *work)
 {
-    scree_drive *drive = &state->drive;
+    scree_imposed_gradient *drive = scree_imposed(state);
     if (drive->count == 0) return;
     double actual[9], predicted[9], mobility[9];
     // The array of the forces holds the area vectors until they are known.
@@ -172,7 +173,7 @@ static void forces(const scree_model *model, scree_state *state, scree_work *wor
 static double bound(const scree_model *model, const scree_state *state)
 {
     double stress = state->pressure, largest = 0;
-    for (int i = 0; i < 9; i++) stress = fmax(stress, fabs(state->drive.stress[i]));
+    for (int i = 0; i < 9; i++) stress = fmax(stress, fabs(scree_imposed(state)->stress[i]));
     for (size_t f = 0; f < scree_facet_count(state); f++) {
         scree_facet facet = scree_facet_get(state, f);
         for (int c = 1; c < facet.corners; c++) {

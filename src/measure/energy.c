@@ -27,6 +27,7 @@
 ///     two bodies that should just touch    to              (2/5) K sqrt(R) d^(5/2), which may be felt after they part,
 ///     the sum of N terms m g . x           to              N / 2 units in the last place of the sum of |m g . x|.
 /// The sums of kinetic and elastic energy have errors of the same kind, but against themselves, which are in the scale.
+#include "integrate/forced_spin.h"
 #include "measure/measure.h"
 
 #include "base/integer_sum.h"
@@ -68,7 +69,7 @@ static void add_kinetic(const scree_model *model, const scree_state *state, size
         rotation += 0.5 * inertia * spin[k] * (spin[k] + dt * torque[k] / inertia);
     }
     scree_integer_sum_add(&sum[KINETIC], kinetic);
-    if (!state->forced.active || state->forced.id != state->id[index])
+    if (!scree_forced(state)->active || scree_forced(state)->id != state->id[index])
         scree_integer_sum_add(&sum[KINETIC_ROTATION], rotation);
 }
 

@@ -5,18 +5,19 @@
 /// as integers, which its area holds until they are all there, in quanta so small that a node could have all triangles:
 /// 62 bits less those of their number are left for a share.
 #include "measure/facets.h"
+#include "measure/delaunay_boundary.h"
 
 #include <math.h>
 #include <string.h>
 
 size_t scree_boundary_count(const scree_state *state)
 {
-    return state->dimension == 3 ? state->hull.node_count : state->loop.count;
+    return state->dimension == 3 ? scree_hull_of(state)->node_count : scree_loop_of(state)->count;
 }
 
 size_t scree_facet_count(const scree_state *state)
 {
-    return state->dimension == 3 ? state->hull.triangle_count : state->loop.count;
+    return state->dimension == 3 ? scree_hull_of(state)->triangle_count : scree_loop_of(state)->count;
 }
 
 scree_facet scree_facet_get(const scree_state *state, size_t index)
@@ -25,8 +26,8 @@ scree_facet scree_facet_get(const scree_state *state, size_t index)
     scree_vector origin;
     scree_body_place(state, scree_boundary_row(state, 0), origin);
     for (int c = 0; c < facet.corners; c++) {
-        size_t next = index + (size_t)c < state->loop.count ? index + (size_t)c : 0;
-        facet.node[c] = state->dimension == 3 ? state->hull.triangle[index][c] : next;
+        size_t next = index + (size_t)c < scree_loop_of(state)->count ? index + (size_t)c : 0;
+        facet.node[c] = state->dimension == 3 ? scree_hull_of(state)->triangle[index][c] : next;
         scree_body_place(state, scree_boundary_row(state, facet.node[c]), facet.place[c]);
         for (int i = 0; i < 3; i++) facet.place[c][i] -= origin[i];
     }
@@ -116,7 +117,7 @@ static void areas_3d(const scree_state *state, scree_vector *area)
 
 static void areas_2d(const scree_model *model, const scree_state *state, scree_vector *area)
 {
-    const size_t count = state->loop.count;
+    const size_t count = scree_loop_of(state)->count;
     const double half = 0.5 * model->thickness;
     scree_vector before, here, behind;
     if (count == 0) return;

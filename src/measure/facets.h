@@ -8,6 +8,7 @@
 #ifndef SCREE_MEASURE_FACETS_H
 #define SCREE_MEASURE_FACETS_H
 
+#include "measure/delaunay_boundary.h"
 #include "search/peel_rule.h"
 #include "state/state.h"
 
@@ -15,7 +16,7 @@
 size_t scree_boundary_count(const scree_state *state);
 static inline size_t scree_boundary_row(const scree_state *state, size_t node)
 {
-    return state->row_of_id[state->dimension == 3 ? state->hull.id[node] : state->loop.id[node]];
+    return state->row_of_id[state->dimension == 3 ? scree_hull_of(state)->id[node] : scree_loop_of(state)->id[node]];
 }
 
 /// One facet: its nodes, in 2D counter-clockwise with the sample on the left, in 3D counter-clockwise from outside.

@@ -2,6 +2,8 @@
 /// Areas and lengths are sums in integers.
 /// Which plate a run of unloaded edges faces: the active one of bottom and top to which its two end discs are nearer.
 #include "measure/outline.h"
+#include "measure/delaunay_boundary.h"
+#include "state/plates.h"
 
 #include "base/integer_sum.h"
 
@@ -19,7 +21,7 @@ static int facing_plate(const scree_state *state, const double a[2], const doubl
     int nearest = -1;
     double least = INFINITY;
     for (int w = SCREE_WALL_BOTTOM; w <= SCREE_WALL_TOP; w++) {
-        const scree_wall *wall = &state->wall[w];
+        const scree_wall *wall = &scree_plates(state)[w];
         double distance = distance_to(wall, a) + distance_to(wall, b);
         if (!wall->active || !(distance < least)) continue;
         nearest = w;
@@ -47,7 +49,7 @@ static void emit(scree_outline_visitor *visit, void *user, scree_outline_kind ki
 
 void scree_outline_visit_run(const scree_state *state, scree_outline_visitor *visit, void *user, size_t k)
 {
-    const scree_loop *loop = &state->loop;
+    const scree_loop *loop = scree_loop_of(state);
     size_t end = k;
     while (!loop->loaded[end]) end = scree_loop_next(loop, end);
     double a[2], b[2], foot_a[2], foot_b[2];
@@ -58,8 +60,8 @@ void scree_outline_visit_run(const scree_state *state, scree_outline_visitor *vi
         emit(visit, user, SCREE_OUTLINE_BARE, wall, a, b, k, end);
         return;
     }
-    foot_on(&state->wall[wall], a, foot_a);
-    foot_on(&state->wall[wall], b, foot_b);
+    foot_on(&scree_plates(state)[wall], a, foot_a);
+    foot_on(&scree_plates(state)[wall], b, foot_b);
     emit(visit, user, SCREE_OUTLINE_END, wall, a, foot_a, k, k);
     emit(visit, user, SCREE_OUTLINE_BARE, wall, foot_a, foot_b, k, end);
     emit(visit, user, SCREE_OUTLINE_END, wall, foot_b, b, end, end);

@@ -43,7 +43,7 @@ void scree_loop_gradient(const double *x, const double *y, const double *ux, con
 /// Increment of the loop since its update, 2 x 2.
 static void loop_increment(const scree_state *state, double increment[4])
 {
-    const scree_loop *loop = &state->loop;
+    const scree_loop *loop = scree_loop_of(state);
     scree_polygon_sum sum = {0};
     double first[2] = {0}, position[2], a[2] = {0}, ua[2] = {0};
     if (loop->count > 0) scree_loop_position(state, 0, first);
@@ -67,7 +67,7 @@ static void loop_increment(const scree_state *state, double increment[4])
 /// and so are displacements: a common part of them adds up to nothing.
 static void hull_increment(const scree_state *state, double increment[9])
 {
-    const scree_hull *hull = &state->hull;
+    const scree_hull *hull = scree_hull_of(state);
     scree_polyhedron_sum sum = {0};
     scree_vector first = {0};
     if (hull->node_count > 0) scree_hull_position(state, 0, first);
@@ -95,14 +95,14 @@ double scree_strain_close(scree_state *state)
 {
     double closed[9];
     scree_strain_measure(state, closed);
-    memcpy(state->strain.gradient, closed, sizeof closed);
+    memcpy(scree_strain_of(state)->gradient, closed, sizeof closed);
     return enclosed(state);
 }
 
 void scree_strain_redetected(scree_state *state, double before)
 {
     double after = enclosed(state);
-    if (before > 0 && after > 0) state->strain.redetected += log(after / before);
+    if (before > 0 && after > 0) scree_strain_of(state)->redetected += log(after / before);
 }
 
 double scree_enclosed_logarithm(const scree_state *state)
@@ -114,10 +114,10 @@ double scree_enclosed_logarithm(const scree_state *state)
 void scree_strain_measure(const scree_state *state, double gradient[9])
 {
     if (scree_periodic_is_whole(state)) {
-        memcpy(gradient, state->periodic.strain, sizeof state->periodic.strain);
+        memcpy(gradient, scree_cell(state)->strain, sizeof scree_cell(state)->strain);
         return;
     }
-    for (int i = 0; i < 9; i++) gradient[i] = state->strain.gradient[i];
+    for (int i = 0; i < 9; i++) gradient[i] = scree_strain_of(state)->gradient[i];
     if (state->dimension == 3) {
         double increment[9];
         hull_increment(state, increment);

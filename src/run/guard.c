@@ -1,5 +1,6 @@
 /// Guards and their messages: which body, why, and what to try.
 #include "run/guard.h"
+#include "state/plates.h"
 
 #include <math.h>
 
@@ -57,7 +58,7 @@ scree_status scree_guard_step(const scree_simulation *s, scree_error *error)
 static scree_status stop_escaped(const scree_simulation *s, scree_error *error)
 {
     const scree_state *state = &s->state;
-    const scree_wall *bottom = &state->wall[SCREE_WALL_BOTTOM], *top = &state->wall[SCREE_WALL_TOP];
+    const scree_wall *bottom = &scree_plates(state)[SCREE_WALL_BOTTOM], *top = &scree_plates(state)[SCREE_WALL_TOP];
     for (size_t id = 0; id < state->count; id++) {
         scree_vector place;
         scree_body_place(state, state->row_of_id[id], place);

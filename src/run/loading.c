@@ -5,6 +5,7 @@
 #include "boundary/minimal.h"
 #include "measure/measure.h"
 #include "run/simulation.h"
+#include "state/plates.h"
 
 #include <math.h>
 #include <string.h>
@@ -16,7 +17,7 @@
 /// Distance between the plates; without them the extent of the bodies along the axis.
 static double present_height(const scree_state *state)
 {
-    const scree_wall *bottom = &state->wall[SCREE_WALL_BOTTOM], *top = &state->wall[SCREE_WALL_TOP];
+    const scree_wall *bottom = &scree_plates(state)[SCREE_WALL_BOTTOM], *top = &scree_plates(state)[SCREE_WALL_TOP];
     if (bottom->active && top->active) return -(bottom->position + top->position);
     double low = INFINITY, high = -INFINITY;
     scree_vector place;

@@ -6,7 +6,9 @@
 /// Stop rule: the axial strain (engineering; from the plates or the Delaunay boundary) has reached `strain`. reference:
 /// run/stage.h, SCREE_LOADING_...
 #include "boundary/minimal.h"
+#include "measure/imposed_gradient.h"
 #include "run/simulation.h"
+#include "state/plates.h"
 
 #include <math.h>
 #include <string.h>
@@ -14,7 +16,7 @@
 /// Minimal conditions on the axial component alone.
 static void prescribe(scree_simulation *s)
 {
-    scree_drive *drive = &s->state.drive;
+    scree_imposed_gradient *drive = scree_imposed(&s->state);
     int axial = s->state.dimension == 3 ? 8 : 4;
     double full[9] = {[0] = scree_stage_config(s)->rate}, penalty = s->model.config->boundary.penalty;
     memset(drive->target, 0, sizeof drive->target);
@@ -43,11 +45,11 @@ static void control(scree_simulation *s)
     scree_state *state = &s->state;
     double loaded, rate = stage->rate * scree_loading_rise(s, &loaded);
     if (!scree_boundary_has_plates(s->boundary)) {
-        state->drive.target[state->dimension == 3 ? 8 : 4] = -rate / (1 - stage->rate * loaded);
+        scree_imposed(state)->target[state->dimension == 3 ? 8 : 4] = -rate / (1 - stage->rate * loaded);
         return;
     }
     double velocity = 0.5 * rate * state->stage.reference[SCREE_LOADING_HEIGHT];
-    state->wall[SCREE_WALL_BOTTOM].velocity = state->wall[SCREE_WALL_TOP].velocity = velocity;
+    scree_plates(state)[SCREE_WALL_BOTTOM].velocity = scree_plates(state)[SCREE_WALL_TOP].velocity = velocity;
     scree_servo_sides(s, state->pressure);
 }
 

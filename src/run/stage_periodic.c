@@ -38,14 +38,14 @@ static void measure_sample(scree_simulation *s, double pressure)
     reference[INERTIA] = drive.inertia;
     reference[DAMPING] = drive.damping;
     reference[LIMIT] = drive.limit;
-    memcpy(&reference[STRAIN], s->state.periodic.strain, sizeof s->state.periodic.strain);
+    memcpy(&reference[STRAIN], scree_cell(&s->state)->strain, sizeof scree_cell(&s->state)->strain);
 }
 
 /// Displacements and rotations count from here.
 static void set_reference(scree_state *state)
 {
     for (size_t row = 0; row < state->count; row++) scree_body_place(state, row, state->reference[row]);
-    memcpy(state->periodic.reference, state->periodic.lattice, sizeof state->periodic.reference);
+    memcpy(scree_cell(state)->reference, scree_cell(state)->lattice, sizeof scree_cell(state)->reference);
     if (state->angle) memset(state->angle, 0, state->count * sizeof *state->angle);
 }
 
@@ -161,7 +161,7 @@ static double rise_now(const scree_simulation *s)
 static scree_status loading_finished(scree_simulation *s, bool *done, scree_error *error)
 {
     (void)error;
-    double strain = scree_loading_strain(s), gradient = scree_matrix_norm(s->state.periodic.gradient);
+    double strain = scree_loading_strain(s), gradient = scree_matrix_norm(scree_cell(&s->state)->gradient);
     // The last sample lies on the planned last step.
     *done = strain >= scree_stage_config(s)->strain - SCREE_LOADING_SHORT * gradient * s->state.tick;
     (void)snprintf(s->reason, sizeof s->reason, "strain %.4g reached", strain);
@@ -248,7 +248,7 @@ static double deform_strain(const scree_simulation *s)
 {
     double rate[9];
     int leader = find_rates(scree_stage_config(s), rate);
-    return fabs(s->state.periodic.strain[leader] - s->state.stage.reference[STRAIN + leader]);
+    return fabs(scree_cell(&s->state)->strain[leader] - s->state.stage.reference[STRAIN + leader]);
 }
 
 const scree_stage scree_stage_deform_periodic = {.name = "deform",

@@ -9,8 +9,9 @@
 /// state.stage.reference: run/stage.h, SCREE_LOADING_... and SCREE_ROTATE_...
 #include "base/fixed.h"
 #include "base/integer_sum.h"
-#include "boundary/forced_spin.h"
 #include "boundary/minimal.h"
+#include "integrate/forced_spin.h"
+#include "measure/imposed_gradient.h"
 #include "measure/measure.h"
 #include "measure/rotation.h"
 #include "run/simulation.h"
@@ -104,7 +105,7 @@ static scree_status choose(scree_simulation *s, uint32_t *id, scree_error *error
 /// The boundary as a whole keeps its shape of angles and does not turn.
 static void hold_rotation(scree_simulation *s)
 {
-    scree_drive *drive = &s->state.drive;
+    scree_imposed_gradient *drive = scree_imposed(&s->state);
     int dimension = s->state.dimension;
     double penalty = s->model.config->boundary.penalty, rate[9] = {0};
     memset(drive->target, 0, sizeof drive->target);
@@ -155,7 +156,7 @@ static void plan(scree_simulation *s)
 /// What the particles that bear load turn by at rest, over the prescribed spin.
 static double background(const scree_simulation *s, uint64_t ticks)
 {
-    double mean = scree_rotation_mean_amount(&s->state, s->state.row_of_id[s->state.forced.id]);
+    double mean = scree_rotation_mean_amount(&s->state, s->state.row_of_id[scree_forced(&s->state)->id]);
     double time = s->state.dimension == 2 ? (double)ticks * s->state.tick : 1;
     return mean / (time * scree_stage_config(s)->spin);
 }

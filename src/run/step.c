@@ -1,10 +1,11 @@
 /// The step. Between two steps the state holds x(n), the scheme's velocity and the force sums at n; a restart begins
 /// here.
 #include "run/step.h"
+#include "state/case_walls.h"
 
 #include "boundary/periodic.h"
-#include "boundary/forced_spin.h"
 #include "boundary/plates.h"
+#include "integrate/forced_spin.h"
 #include "measure/measure.h"
 #include "run/guard.h"
 #include "search/neighbours.h"
@@ -36,7 +37,7 @@ scree_status scree_step(scree_simulation *s, scree_error *error)
     scree_boundary_finish_work(s->boundary, state);
     if ((status = scree_periodic_move(model, state, work, error))) return status;
     state->step += ticks;
-    if (state->surface_moving) state->surface_ticks += ticks;
+    if (scree_case_walls(state)->moving) scree_case_walls(state)->ticks += ticks;
     state->evaluations++;
 
     // Forces at n + 1: contacts of bodies and plates, then the pressure and what else the boundary applies.

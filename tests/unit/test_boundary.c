@@ -1,4 +1,7 @@
 /// Boundaries as forces on facets, in 2D and 3D: area vectors, uniform stress, minimal conditions, affine motion.
+#include "measure/delaunay_boundary.h"
+#include "measure/imposed_gradient.h"
+#include "state/plates.h"
 #include "testing.h"
 
 #include "base/fixed.h"
@@ -33,7 +36,7 @@ static double uniform(uint64_t counter)
 
 static void make_loop(scree_state *state)
 {
-    scree_loop *loop = &state->loop;
+    scree_loop *loop = scree_loop_of(state);
     assert_int_equal(scree_allocate(&loop->id, SIDES, sizeof *loop->id, NULL), SCREE_OK);
     assert_int_equal(scree_allocate(&loop->loaded, SIDES, 1, NULL), SCREE_OK);
     double **arrays[] = {&loop->x, &loop->y, &loop->fx, &loop->fy};
@@ -51,7 +54,7 @@ static void make_loop(scree_state *state)
 /// A lumpy ball: rings of nodes, two poles.
 static void make_hull(scree_state *state)
 {
-    scree_hull *hull = &state->hull;
+    scree_hull *hull = scree_hull_of(state);
     size_t nodes = RINGS * RING + 2, triangles = 2 * RINGS * RING;
     assert_int_equal(scree_allocate(&hull->id, nodes, sizeof *hull->id, NULL), SCREE_OK);
     assert_int_equal(scree_allocate(&hull->place, nodes, sizeof *hull->place, NULL), SCREE_OK);
@@ -211,9 +214,9 @@ static void minimal_conditions_meet_their_rates(void **unused)
         bench b;
         bench_create(&b, 2 + k / 4);
         scree_state *state = &b.state;
-        for (int i = 0; i < 9; i++) state->drive.prescribed[i] = prescribed[k % 4][i];
-        memcpy(state->drive.target, target, sizeof target);
-        state->drive.viscosity = INFINITY;
+        for (int i = 0; i < 9; i++) scree_imposed(state)->prescribed[i] = prescribed[k % 4][i];
+        memcpy(scree_imposed(state)->target, target, sizeof target);
+        scree_imposed(state)->viscosity = INFINITY;
         // Other forces, which the solution has to foresee.
         for (size_t r = 0; r < state->count; r++) state->sum[r].fx = (int64_t)(1e15 * uniform(500 + r));
         assert_int_equal(minimal->refresh(&b.model, state, NULL), SCREE_OK);
@@ -240,15 +243,15 @@ static void a_multiplier_out_of_range_stops_the_run(void **unused)
         bench b;
         bench_create(&b, 2 + k / 2);
         scree_state *state = &b.state;
-        state->drive.prescribed[4] = SCREE_FULL;
+        scree_imposed(state)->prescribed[4] = SCREE_FULL;
         // A rate whose force is some 1e25 times the largest of the integers, or one that is not a number.
-        state->drive.target[4] = k % 2 ? NAN : 1e40;
-        state->drive.viscosity = INFINITY;
+        scree_imposed(state)->target[4] = k % 2 ? NAN : 1e40;
+        scree_imposed(state)->viscosity = INFINITY;
         assert_int_equal(minimal->refresh(&b.model, state, NULL), SCREE_OK);
         minimal->forces(&b.model, state, &b.work);
         assert_int_equal(b.work.flags, SCREE_FLAG_FORCE_RANGE);
         for (size_t r = 0; r < state->count; r++) assert_true(state->sum[r].fx == 0 && state->sum[r].fy == 0);
-        state->drive.target[4] = 1;
+        scree_imposed(state)->target[4] = 1;
         b.work.flags = 0;
         minimal->forces(&b.model, state, &b.work);
         assert_int_equal(b.work.flags, 0);
@@ -265,10 +268,10 @@ static void a_strain_rate_has_no_moment(void **unused)
         bench b;
         bench_create(&b, 2);
         scree_state *state = &b.state;
-        state->drive.prescribed[1] = SCREE_SYMMETRIC;
-        if (k == 1) state->drive.prescribed[1] = state->drive.prescribed[3] = SCREE_FULL;
-        state->drive.target[1] = 0.5;
-        state->drive.viscosity = 1e6;
+        scree_imposed(state)->prescribed[1] = SCREE_SYMMETRIC;
+        if (k == 1) scree_imposed(state)->prescribed[1] = scree_imposed(state)->prescribed[3] = SCREE_FULL;
+        scree_imposed(state)->target[1] = 0.5;
+        scree_imposed(state)->viscosity = 1e6;
         assert_int_equal(minimal->refresh(&b.model, state, NULL), SCREE_OK);
         minimal->forces(&b.model, state, &b.work);
         double moment = 0, scale = 0;
@@ -293,9 +296,9 @@ static void penalty_is_stable_and_booked(void **unused)
         bench_create(&b, 2 + k / 6);
         scree_state *state = &b.state;
         int axial = state->dimension == 3 ? 8 : 4;
-        state->drive.prescribed[axial] = SCREE_FULL;
-        state->drive.target[axial] = -0.5;
-        state->drive.viscosity = pow(10, 3 * (k % 6));
+        scree_imposed(state)->prescribed[axial] = SCREE_FULL;
+        scree_imposed(state)->target[axial] = -0.5;
+        scree_imposed(state)->viscosity = pow(10, 3 * (k % 6));
         double before = INFINITY, begin = kinetic(state), rate[9];
         for (int step = 0; step < 50; step++) {
             memset(state->sum, 0, state->count * sizeof *state->sum);
@@ -329,7 +332,7 @@ static void affine_bodies_move_with_the_gradient(void **unused)
         bench_create(&b, dimension);
         scree_state *state = &b.state;
         for (int i = 0; i < 9; i++)
-            if (i / 3 < dimension && i % 3 < dimension) state->drive.target[i] = target[i];
+            if (i / 3 < dimension && i % 3 < dimension) scree_imposed(state)->target[i] = target[i];
         for (size_t r = 0; r < state->count; r++) state->sum[r].fy = (int64_t)(1e15 * uniform(500 + r));
         assert_int_equal(affine->refresh(&b.model, state, NULL), SCREE_OK);
         double begin = kinetic(state), bound = affine->bound(&b.model, state);
@@ -340,13 +343,13 @@ static void affine_bodies_move_with_the_gradient(void **unused)
         affine->work(state);
         double rate[9], outer = 0;
         measure_rate(&b, rate);
-        for (int i = 0; i < 9; i++) assert_true(fabs(rate[i] - state->drive.target[i]) < 1e-11);
-        for (size_t k = 0; k < state->drive.count; k++) {
+        for (int i = 0; i < 9; i++) assert_true(fabs(rate[i] - scree_imposed(state)->target[i]) < 1e-11);
+        for (size_t k = 0; k < scree_imposed(state)->count; k++) {
             size_t r = scree_boundary_row(state, k);
             double mean = state->row[r].vy - 0.5 * STEP * (double)state->sum[r].fy * QUANTUM / state->row[r].mass;
             outer += STEP * (double)others[r] * QUANTUM * mean;
             // Apart from the others, which it balances, no force is above the bound.
-            double own = state->drive.force[k][1] + (double)others[r] * QUANTUM;
+            double own = scree_imposed(state)->force[k][1] + (double)others[r] * QUANTUM;
             assert_true(fabs(own) <= bound * (1 + 1e-12));
         }
         // The work of the boundary and of the other forces is the change of the kinetic energy.
@@ -364,8 +367,8 @@ static void walls_come_and_go(void **unused)
     bench_create(&b, 2);
     scree_state *state = &b.state;
     bool changed;
-    for (int w = 0; w < 4; w++) state->wall[w].active = 1;
-    state->wall[SCREE_WALL_TOP].velocity = 3;
+    for (int w = 0; w < 4; w++) scree_plates(state)[w].active = 1;
+    scree_plates(state)[SCREE_WALL_TOP].velocity = 3;
     scree_contact contact[3] = {{.wall = true, .second = SCREE_WALL_TOP, .elastic_normal = 2, .elastic_tangential = 1},
                                 {.wall = true, .second = SCREE_WALL_LEFT, .elastic_normal = 8},
                                 {.wall = false, .second = SCREE_WALL_TOP, .elastic_normal = 64}};
@@ -373,12 +376,12 @@ static void walls_come_and_go(void **unused)
     const scree_boundary *pressure = scree_boundary_get(SCREE_BOUNDARY_PRESSURE);
     assert_int_equal(scree_boundary_begin(pressure, &b.model, state, &table, &changed, NULL), SCREE_OK);
     assert_true(changed && state->ledger.plates == -8);
-    assert_true(state->wall[SCREE_WALL_TOP].active && !state->wall[SCREE_WALL_LEFT].active);
+    assert_true(scree_plates(state)[SCREE_WALL_TOP].active && !scree_plates(state)[SCREE_WALL_LEFT].active);
     assert_int_equal(scree_boundary_begin(pressure, &b.model, state, &table, &changed, NULL), SCREE_OK);
-    assert_true(!changed && state->ledger.plates == -8 && state->wall[SCREE_WALL_TOP].velocity == 3);
+    assert_true(!changed && state->ledger.plates == -8 && scree_plates(state)[SCREE_WALL_TOP].velocity == 3);
     const scree_boundary *minimal = scree_boundary_get(SCREE_BOUNDARY_MINIMAL);
     assert_int_equal(scree_boundary_begin(minimal, &b.model, state, &table, &changed, NULL), SCREE_OK);
-    assert_true(changed && state->ledger.plates == -11 && state->wall[SCREE_WALL_TOP].velocity == 0);
+    assert_true(changed && state->ledger.plates == -11 && scree_plates(state)[SCREE_WALL_TOP].velocity == 0);
     assert_true(scree_boundary_has_plates(pressure) && !scree_boundary_has_plates(minimal));
     scree_state_destroy(state);
 }

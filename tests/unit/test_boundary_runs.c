@@ -1,5 +1,7 @@
 /// The same confined sample under each boundary: bits for threads, lost work and restart; energy; rates; the order of
 /// stiffness.
+#include "boundary/membrane.h"
+#include "measure/imposed_gradient.h"
 #include "run_fixture.h"
 
 #include "base/random.h"
@@ -141,7 +143,8 @@ static void energy_balance_closes_and_rates_are_met(void **unused)
         // The default penalty lets the confining pressure answer an error of 1 %; the stress is a few times that.
         if (s.boundary == &scree_boundary_minimal) assert_true(least > 0.95 && most < 1.05);
         if (s.boundary == &scree_boundary_affine) assert_true(fabs(least - 1) < 1e-3 && fabs(most - 1) < 1e-3);
-        assert_true(s.boundary == &scree_boundary_membrane ? s.state.membrane.count > 0 : s.state.membrane.count == 0);
+        assert_true(s.boundary == &scree_boundary_membrane ? scree_membrane_of(&s.state)->count > 0
+                                                           : scree_membrane_of(&s.state)->count == 0);
         assert_true(s.state.ledger.boundary != 0);
         scree_simulation_close(&s);
         scree_case_free(c);
@@ -160,7 +163,7 @@ static void apply_traction(const scree_model *model, scree_state *state, scree_w
     double fraction = (double)(state->step - state->stage.first_step) / (double)raised_in;
     double stress[9];
     for (int i = 0; i < 9; i++) stress[i] = applied[i] * scree_smooth_ramp(fraction);
-    memset(state->drive.force, 0, state->drive.count * sizeof *state->drive.force);
+    memset(scree_imposed(state)->force, 0, scree_imposed(state)->count * sizeof *scree_imposed(state)->force);
     scree_drive_apply_stress(model, state, stress);
     scree_drive_work(state);
 }
@@ -200,7 +203,7 @@ static void load(const char *text, const char *const *overrides, size_t count, c
         stress[i] -= begin_stress[i];
     }
     // Keep what was applied, for a traction that repeats it.
-    if (s.boundary == &scree_boundary_minimal) memcpy(applied, s.state.drive.stress, sizeof applied);
+    if (s.boundary == &scree_boundary_minimal) memcpy(applied, scree_imposed(&s.state)->stress, sizeof applied);
     scree_simulation_close(&s);
     scree_case_free(c);
 }

@@ -4,9 +4,9 @@
 #include "base/notes.h"
 #include "io/run_file.h"
 #include "io/snapshot.h"
-#include "state_bits.h"
 #include "io_sample.h"
 #include "io_scratch.h"
+#include "state_bits.h"
 
 /// HDF5 (1.10) loses memory of its own when it reads damaged files. For the leak sanitizer, in this test alone.
 const char *__lsan_default_suppressions(void);

@@ -164,7 +164,7 @@ static void keep_boundary(numbers *n, const scree_model *model, scree_state *sta
 
 static void keep_servos(numbers *n, const scree_model *model, const scree_state *state)
 {
-    if (state->periodic.directions) {
+    if (scree_cell(state)->directions) {
         scree_periodic_drive drive = {0};
         scree_periodic_drive_fit(model, state, 1e5, &drive);
         keep(n, (double[]){drive.inertia, drive.damping, scree_periodic_wave_time(model, state, 1e5)}, 3);
@@ -226,7 +226,7 @@ static void shuffle(scree_state *state, scree_contact_table *table)
         table->contact[c] = table->contact[table->count - 1 - c];
         table->contact[table->count - 1 - c] = held;
     }
-    scree_hull *hull = &state->hull;
+    scree_hull *hull = scree_hull_of(state);
     for (size_t t = 0; 2 * t + 1 < hull->triangle_count; t++) {
         size_t other = hull->triangle_count - 1 - t;
         uint32_t held[3];
