@@ -6,6 +6,7 @@
 /// up to the rounding of a quantum. Bodies that come onto the boundary when it is found anew are caught in one step, so
 /// the conditions are meant for small strains. Cost: O(boundary) a step.
 #include "base/fixed.h"
+#include "base/integer_sum.h"
 #include "boundary/boundary.h"
 #include "boundary/drive.h"
 #include "measure/facets.h"
@@ -17,12 +18,14 @@
 static void find_centre(const scree_state *state, scree_vector centre)
 {
     size_t count = scree_boundary_count(state);
+    scree_integer_sum sum[3] = {0};
     scree_vector place;
-    memset(centre, 0, sizeof(scree_vector));
-    for (size_t k = 0; k < count; k++) {
-        scree_body_place(state, scree_boundary_row(state, k), place);
-        for (int i = 0; i < 3; i++) centre[i] += place[i] / (double)count;
-    }
+    while (scree_integer_sum_next(sum, 3))
+        for (size_t k = 0; k < count; k++) {
+            scree_body_place(state, scree_boundary_row(state, k), place);
+            for (int i = 0; i < 3; i++) scree_integer_sum_add(&sum[i], place[i]);
+        }
+    for (int i = 0; i < 3; i++) centre[i] = scree_integer_sum_total(&sum[i]) / (double)count;
 }
 
 /// Velocity that a body of the boundary shall have.
@@ -61,7 +64,7 @@ static void add_forces(const scree_model *model, scree_state *state, scree_work 
     double rate[9];
     scree_vector centre;
     scree_boundary_areas(model, state, drive->force);
-    scree_drive_measure(state, drive->force, scree_boundary_volume(model, state), rate);
+    (void)scree_drive_measure(state, drive->force, rate);
     scree_drive_record(state, rate);
     memset(drive->force, 0, drive->count * sizeof *drive->force);
     find_centre(state, centre);

@@ -2,6 +2,7 @@
 #include "boundary/boundary.h"
 #include "state/plates.h"
 
+#include "base/integer_sum.h"
 #include "boundary/pressure.h"
 #include "measure/imposed_gradient.h"
 
@@ -40,13 +41,14 @@ bool scree_boundary_has_plates(const scree_boundary *boundary)
 
 static double held_by_wall(const scree_contact_table *table, int wall)
 {
-    double energy = 0;
-    for (size_t c = 0; c < table->count; c++) {
-        const scree_contact *contact = &table->contact[c];
-        if (contact->wall && (int)contact->second == wall)
-            energy += contact->elastic_normal + contact->elastic_tangential;
-    }
-    return energy;
+    scree_integer_sum energy = {0};
+    while (scree_integer_sum_next(&energy, 1))
+        for (size_t c = 0; c < table->count; c++) {
+            const scree_contact *contact = &table->contact[c];
+            if (contact->wall && (int)contact->second == wall)
+                scree_integer_sum_add(&energy, contact->elastic_normal + contact->elastic_tangential);
+        }
+    return scree_integer_sum_total(&energy);
 }
 
 /// Makes the walls stand that `walls` says. True when any of them changed.

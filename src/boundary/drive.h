@@ -22,8 +22,9 @@ void scree_drive_add(scree_state *state, size_t node, const int64_t quanta[3]);
 /// Books 1/2 F . v dt of the kept forces, with the velocities that rows hold now.
 void scree_drive_work(scree_state *state);
 
-/// Velocity gradient of the boundary [1/s] with the velocities that rows hold now. area: a node.
-void scree_drive_measure(const scree_state *state, scree_vector *area, double volume, double rate[9]);
+/// Velocity gradient of the boundary [1/s] with the velocities that rows hold now. area: a node. Returns the volume
+/// inside [m3].
+double scree_drive_measure(const scree_state *state, scree_vector *area, double rate[9]);
 
 /// Books the rate of this step for the recorded ratio of actual and wanted rate.
 void scree_drive_record(scree_state *state, const double rate[9]);

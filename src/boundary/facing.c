@@ -11,6 +11,7 @@
 #include "boundary/facing.h"
 #include "state/plates.h"
 
+#include "base/integer_sum.h"
 #include "measure/delaunay_boundary.h"
 #include "measure/hull.h"
 
@@ -87,16 +88,26 @@ typedef struct part {
     unsigned walls;
 } part;
 
+/// Twice the area of the triangles queue[first .. last): which part is the largest depends on no order.
+static double area_of(const marking *m, size_t first, size_t last)
+{
+    scree_integer_sum sum = {0};
+    while (scree_integer_sum_next(&sum, 1))
+        for (size_t k = first; k < last; k++) {
+            scree_vector area;
+            area_vector(m, m->queue[k], area);
+            scree_integer_sum_add(&sum, scree_length(area));
+        }
+    return scree_integer_sum_total(&sum);
+}
+
 /// The part that holds the triangle `start`, queued behind those found before; its triangles become bare for the time.
 static part collect_part(const marking *m, uint32_t start, size_t first)
 {
     part p = {.first = first, .last = first + 1};
     m->queue[first] = start;
     m->hull->loaded[start] = SCREE_HULL_BARE;
-    for (size_t k = first; k < p.last; k++) {
-        scree_vector area;
-        area_vector(m, m->queue[k], area);
-        p.area += scree_length(area);
+    for (size_t k = first; k < p.last; k++)
         for (int c = 0; c < 3; c++) {
             uint32_t beside = m->neighbour[m->queue[k]][c];
             int wall = scree_hull_wall(m->hull, beside);
@@ -105,7 +116,7 @@ static part collect_part(const marking *m, uint32_t start, size_t first)
             m->hull->loaded[beside] = SCREE_HULL_BARE;
             m->queue[p.last++] = beside;
         }
-    }
+    p.area = area_of(m, p.first, p.last);
     return p;
 }
 

@@ -12,6 +12,7 @@
 #include "measure/delaunay_boundary.h"
 #include "state/plates.h"
 
+#include "base/integer_sum.h"
 #include "boundary/facing.h"
 #include "boundary/pressed_facet.h"
 #include "measure/facets.h"
@@ -185,11 +186,12 @@ double scree_hull_pressure_bound(const scree_model *model, const scree_state *st
 double scree_hull_power(const scree_state *state)
 {
     const scree_hull *hull = scree_hull_of(state);
-    double power = 0;
-    for (size_t k = 0; k < hull->node_count; k++) {
-        scree_vector velocity, spin;
-        scree_body_motion(state, state->row_of_id[hull->id[k]], velocity, spin);
-        for (int i = 0; i < 3; i++) power += hull->force[k][i] * velocity[i];
-    }
-    return power;
+    scree_integer_sum power = {0};
+    while (scree_integer_sum_next(&power, 1))
+        for (size_t k = 0; k < hull->node_count; k++) {
+            scree_vector velocity, spin;
+            scree_body_motion(state, state->row_of_id[hull->id[k]], velocity, spin);
+            scree_integer_sum_add(&power, scree_dot(hull->force[k], velocity));
+        }
+    return scree_integer_sum_total(&power);
 }

@@ -28,6 +28,7 @@
 #include "state/plates.h"
 
 #include "base/fixed.h"
+#include "base/integer_sum.h"
 #include "boundary/boundary.h"
 #include "boundary/plates.h"
 #include "boundary/sheet.h"
@@ -99,13 +100,14 @@ static int springs_of_body(const scree_state *state)
 
 double scree_membrane_energy(const scree_model *model, const scree_state *state)
 {
-    double energy = 0;
+    scree_integer_sum energy = {0};
     spring found;
-    for (size_t k = 0; k < scree_membrane_of(state)->count; k++)
-        for (int s = 0; s < springs_of_body(state); s++)
-            if (find_spring(model, state, k, s, &found) && found.force > 0)
-                energy += 0.5 * found.force * found.force / found.stiffness;
-    return energy;
+    while (scree_integer_sum_next(&energy, 1))
+        for (size_t k = 0; k < scree_membrane_of(state)->count; k++)
+            for (int s = 0; s < springs_of_body(state); s++)
+                if (find_spring(model, state, k, s, &found) && found.force > 0)
+                    scree_integer_sum_add(&energy, 0.5 * found.force * found.force / found.stiffness);
+    return scree_integer_sum_total(&energy);
 }
 
 static void add_force(scree_state *state, size_t k, const int64_t force[3])
@@ -160,15 +162,14 @@ static void hold_ends(const scree_model *model, scree_state *state, double kick)
 
 static double half_work(const scree_state *state, scree_vector *force)
 {
-    double work = 0;
+    scree_integer_sum power = {0};
     scree_vector velocity, spin;
-    for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
-        scree_body_motion(state, scree_membrane_row(state, k), velocity, spin);
-        double power = force[k][0] * velocity[0] + force[k][1] * velocity[1];
-        if (state->dimension == 3) power += force[k][2] * velocity[2];
-        work += 0.5 * state->step_size * power;
-    }
-    return work;
+    while (scree_integer_sum_next(&power, 1))
+        for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
+            scree_body_motion(state, scree_membrane_row(state, k), velocity, spin);
+            scree_integer_sum_add(&power, scree_dot(force[k], velocity));
+        }
+    return 0.5 * state->step_size * scree_integer_sum_total(&power);
 }
 
 static void book_half_work(scree_state *state)

@@ -27,6 +27,7 @@
 #include "measure/imposed_gradient.h"
 
 #include "base/fixed.h"
+#include "base/integer_sum.h"
 #include "boundary/boundary.h"
 #include "boundary/drive.h"
 #include "measure/facets.h"
@@ -62,26 +63,34 @@ static double double_product(const double a[9], const double b[9])
     return sum;
 }
 
-/// Velocity gradient that the next kick leads to without the penalty, and B / V.
-static void predict(const scree_state *state, scree_vector *area, double volume, double kick, double rate[9],
-                    double mobility[9])
+/// Adds what a node gives to V times the rate of change of the velocity gradient by all forces but the penalty, and to
+/// B, of which the upper half is enough.
+static void add_node(const scree_state *state, size_t node, const scree_vector area, scree_integer_sum change[9],
+                     scree_integer_sum mobility[9])
 {
-    memset(rate, 0, 9 * sizeof *rate);
-    memset(mobility, 0, 9 * sizeof *mobility);
-    for (size_t k = 0; k < scree_imposed(state)->count; k++) {
-        size_t row = scree_boundary_row(state, k);
-        const scree_sum_row *sum = &state->sum[row];
-        const int64_t force[3] = {sum->fx, sum->fy, state->dimension == 3 ? sum->fz : 0};
-        double inverse_mass = 1 / state->row[row].mass;
-        scree_vector velocity, spin;
-        scree_body_motion(state, row, velocity, spin);
-        for (int i = 0; i < 3; i++) {
-            double next = velocity[i] + kick * scree_fixed_to(force[i], state->force_quantum) * inverse_mass;
-            for (int j = 0; j < 3; j++) {
-                rate[3 * i + j] += next * area[k][j] / volume;
-                mobility[3 * i + j] += area[k][i] * area[k][j] * inverse_mass / volume;
-            }
-        }
+    size_t row = scree_boundary_row(state, node);
+    const scree_sum_row *sum = &state->sum[row];
+    const int64_t force[3] = {sum->fx, sum->fy, state->dimension == 3 ? sum->fz : 0};
+    double inverse_mass = 1 / state->row[row].mass;
+    for (int i = 0; i < state->dimension; i++) {
+        double acceleration = scree_fixed_to(force[i], state->force_quantum) * inverse_mass;
+        for (int j = 0; j < state->dimension; j++) scree_integer_sum_add(&change[3 * i + j], acceleration * area[j]);
+        for (int j = i; j < state->dimension; j++)
+            scree_integer_sum_add(&mobility[3 * i + j], area[i] * area[j] * inverse_mass);
+    }
+}
+
+/// Velocity gradient that the next kick leads to without the penalty, from that of now, and B / V.
+static void predict(const scree_state *state, scree_vector *area, double volume, double kick, const double now[9],
+                    double rate[9], double mobility[9])
+{
+    scree_integer_sum sum[18] = {0}, *change = sum, *products = sum + 9;
+    while (scree_integer_sum_next(sum, 18))
+        for (size_t k = 0; k < scree_imposed(state)->count; k++) add_node(state, k, area[k], change, products);
+    for (int c = 0; c < 9; c++) {
+        int upper = c / 3 <= c % 3 ? c : 3 * (c % 3) + c / 3;
+        rate[c] = now[c] + kick * scree_integer_sum_total(&change[c]) / volume;
+        mobility[c] = scree_integer_sum_total(&products[upper]) / volume;
     }
 }
 
@@ -145,12 +154,12 @@ static void add_forces(const scree_model *model, scree_state *state, scree_work 
 {
     scree_imposed_gradient *drive = scree_imposed(state);
     if (drive->count == 0) return;
-    double actual[9], predicted[9], mobility[9], volume = scree_boundary_volume(model, state);
+    double actual[9], predicted[9], mobility[9];
     // The array of the forces holds the area vectors until they are known.
     scree_boundary_areas(model, state, drive->force);
-    scree_drive_measure(state, drive->force, volume, actual);
+    double volume = scree_drive_measure(state, drive->force, actual);
     scree_drive_record(state, actual);
-    predict(state, drive->force, volume, work->next_kick, predicted, mobility);
+    predict(state, drive->force, volume, work->next_kick, actual, predicted, mobility);
     find_stress(drive, predicted, mobility, work->next_kick, drive->stress);
     memset(drive->force, 0, drive->count * sizeof *drive->force);
     if (!stress_fits(model, state, drive->stress)) {

@@ -46,6 +46,7 @@
 #include "boundary/periodic.h"
 
 #include "base/fixed.h"
+#include "base/integer_sum.h"
 #include "base/matrix.h"
 #include "base/wide_sum.h"
 #include "search/neighbours.h"
@@ -69,9 +70,10 @@ static bool deforms(const scree_periodic_cell *cell)
 
 static double density(const scree_model *model, const scree_state *state)
 {
-    double mass = 0;
-    for (size_t id = 0; id < state->count; id++) mass += state->row[state->row_of_id[id]].mass;
-    return mass / (scree_periodic_extent(state) * model->thickness);
+    scree_integer_sum mass = {0};
+    while (scree_integer_sum_next(&mass, 1))
+        for (size_t row = 0; row < state->count; row++) scree_integer_sum_add(&mass, state->row[row].mass);
+    return scree_integer_sum_total(&mass) / (scree_periodic_extent(state) * model->thickness);
 }
 
 /// Speed of longitudinal waves [m/s], see the head of plates.c.
@@ -356,19 +358,40 @@ static double farthest_outside(scree_state *state, scree_work *work, const doubl
     return largest;
 }
 
-/// Puts one body back by whole lattice vectors, with its reference position.
-static void put_back(const scree_model *model, scree_state *state, const double inverse[9], const double velocity[9],
-                     size_t row)
+/// Whole lattice vectors by which a body must be put back; false: by none.
+static bool find_shift(const scree_state *state, const double inverse[9], size_t row, scree_vector shift)
 {
-    scree_vector place, speed, f, shift = {0}, by, reference, faster;
+    scree_vector place, f;
     scree_body_place(state, row, place);
     scree_matrix_apply(inverse, place, f);
     bool moved = false;
-    for (int k = 0; k < state->dimension; k++) {
-        if (scree_periodic_repeats(scree_cell(state), k)) shift[k] = -floor(f[k]);
+    for (int k = 0; k < 3; k++) {
+        shift[k] = k < state->dimension && scree_periodic_repeats(scree_cell(state), k) ? -floor(f[k]) : 0;
         moved = moved || shift[k] != 0;
     }
-    if (!moved || !isfinite(f[0] + f[1] + f[2])) return;
+    return moved && isfinite(f[0] + f[1] + f[2]);
+}
+
+/// Energy of gravity that all bodies together change by when they are put back: no work.
+static double change_of_gravity(const scree_model *model, const scree_state *state, const double inverse[9])
+{
+    scree_integer_sum sum = {0};
+    while (scree_integer_sum_next(&sum, 1))
+        for (size_t row = 0; row < state->count; row++) {
+            scree_vector shift, by;
+            if (!find_shift(state, inverse, row, shift)) continue;
+            scree_matrix_apply(scree_cell(state)->lattice, shift, by);
+            scree_integer_sum_add(&sum, state->row[row].mass * scree_dot(model->gravity, by));
+        }
+    return scree_integer_sum_total(&sum);
+}
+
+/// Puts one body back by whole lattice vectors, with its reference position.
+static void put_back(scree_state *state, const double inverse[9], const double velocity[9], size_t row)
+{
+    scree_vector place, speed, shift, by, reference, faster;
+    if (!find_shift(state, inverse, row, shift)) return;
+    scree_body_place(state, row, place);
     velocity_of(state, row, speed);
     scree_matrix_apply(scree_cell(state)->lattice, shift, by);
     scree_matrix_apply(scree_cell(state)->reference, shift, reference);
@@ -377,14 +400,13 @@ static void put_back(const scree_model *model, scree_state *state, const double 
         place[k] += by[k];
         speed[k] += faster[k];
         state->reference[row][k] += reference[k];
-        state->ledger.gravity += state->row[row].mass * model->gravity[k] * by[k];
     }
     set_place(state, row, place);
     set_velocity(state, row, speed);
 }
 
 /// Looked at in every CHECKED-th step, since bodies go much less than a radius between; the number of force evaluations
-/// is part of the state. In the order of ids, so that the ledger does not depend on that of rows.
+/// is part of the state.
 static void put_all_back(const scree_model *model, scree_state *state, scree_work *work)
 {
     double inverse[9], velocity[9];
@@ -393,7 +415,8 @@ static void put_all_back(const scree_model *model, scree_state *state, scree_wor
     scree_matrix_invert(scree_cell(state)->lattice, inverse);
     if (!straightened && farthest_outside(state, work, inverse) <= 2 * model->mean_radius) return;
     scree_periodic_lattice_velocity(state, velocity);
-    for (size_t id = 0; id < state->count; id++) put_back(model, state, inverse, velocity, state->row_of_id[id]);
+    state->ledger.gravity += change_of_gravity(model, state, inverse);
+    for (size_t row = 0; row < state->count; row++) put_back(state, inverse, velocity, row);
     scree_neighbours_invalidate(work);
 }
 

@@ -14,6 +14,7 @@
 #include "measure/delaunay_boundary.h"
 #include "state/plates.h"
 
+#include "base/integer_sum.h"
 #include "measure/hull.h"
 #include "measure/measure.h"
 #include "measure/outline.h"
@@ -56,9 +57,11 @@ double scree_plate_stress(const scree_model *model, const scree_state *state, in
 
 static double sample_mass(const scree_state *state)
 {
-    double mass = 0;
-    for (size_t id = 0; id < state->grains; id++) mass += state->row[state->row_of_id[id]].mass;
-    return mass;
+    scree_integer_sum mass = {0};
+    while (scree_integer_sum_next(&mass, 1))
+        for (size_t row = 0; row < state->count; row++)
+            if (scree_body_is_grain(state, row)) scree_integer_sum_add(&mass, state->row[row].mass);
+    return scree_integer_sum_total(&mass);
 }
 
 double scree_confined_modulus(const scree_model *model, double pressure)

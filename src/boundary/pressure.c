@@ -20,6 +20,7 @@
 #include "state/periodic.h"
 
 #include "base/fixed.h"
+#include "base/integer_sum.h"
 #include "boundary/corners.h"
 #include "boundary/facing.h"
 #include "boundary/hull.h"
@@ -134,15 +135,23 @@ static void press_segment(void *user, const scree_outline_segment *segment)
     add_force(forces, segment->second, -half[1], half[0]);
 }
 
+static double loop_power(const scree_state *state)
+{
+    const scree_loop *loop = scree_loop_of(state);
+    scree_integer_sum power = {0};
+    while (scree_integer_sum_next(&power, 1))
+        for (size_t k = 0; k < loop->count; k++) {
+            const scree_row *row = &state->row[state->row_of_id[loop->id[k]]];
+            scree_integer_sum_add(&power, loop->fx[k] * row->vx + loop->fy[k] * row->vy);
+        }
+    return scree_integer_sum_total(&power);
+}
+
 /// 1/2 F . v dt with the velocities that the rows hold now.
 static void book_half_work(scree_state *state)
 {
-    const scree_loop *loop = scree_loop_of(state);
-    double work = state->dimension == 3 ? 0.5 * state->step_size * scree_hull_power(state) : 0;
-    for (size_t k = 0; k < loop->count; k++) {
-        const scree_row *row = &state->row[state->row_of_id[loop->id[k]]];
-        work += 0.5 * state->step_size * (loop->fx[k] * row->vx + loop->fy[k] * row->vy);
-    }
+    double power = state->dimension == 3 ? scree_hull_power(state) : loop_power(state);
+    double work = 0.5 * state->step_size * power;
     state->ledger.pressure += work;
     state->ledger.turnover += fabs(work);
 }

@@ -1,23 +1,26 @@
 /// Area and volume of the sample and of its Delaunay boundary (shoelace formula; hull.h). Cost: O(length of the loop),
-/// O(triangles of the hull).
-#include "measure/delaunay_boundary.h"
+/// O(triangles of the hull). Servos, stages and strains read them: sums in integers.
 #include "measure/measure.h"
 #include "state/plates.h"
 
+#include "base/integer_sum.h"
 #include "measure/hull.h"
 #include "measure/outline.h"
 #include "state/periodic.h"
 
 double scree_loop_area(const scree_state *state)
 {
-    double area = 0, origin[2] = {0}, a[2], b[2];
+    scree_integer_sum area = {0};
+    double origin[2] = {0}, a[2], b[2];
     if (scree_loop_of(state)->count > 0) scree_loop_position(state, 0, origin);
-    for (size_t k = 0; k < scree_loop_of(state)->count; k++) {
-        scree_loop_position(state, k, a);
-        scree_loop_position(state, k + 1 < scree_loop_of(state)->count ? k + 1 : 0, b);
-        area += ((a[0] - origin[0]) * (b[1] - origin[1]) - (a[1] - origin[1]) * (b[0] - origin[0])) / 2;
-    }
-    return area;
+    while (scree_integer_sum_next(&area, 1))
+        for (size_t k = 0; k < scree_loop_of(state)->count; k++) {
+            scree_loop_position(state, k, a);
+            scree_loop_position(state, scree_loop_next(scree_loop_of(state), k), b);
+            scree_integer_sum_add(
+                &area, ((a[0] - origin[0]) * (b[1] - origin[1]) - (a[1] - origin[1]) * (b[0] - origin[0])) / 2);
+        }
+    return scree_integer_sum_total(&area);
 }
 
 /// Distance of two opposite walls: their normals are opposite, so their positions add up to minus that.

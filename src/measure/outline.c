@@ -1,8 +1,11 @@
 /// The outline of a sample, segment by segment: see outline.h.
+/// Areas and lengths are sums in integers.
 /// Which plate a run of unloaded edges faces: the active one of bottom and top to which its two end discs are nearer.
 #include "measure/outline.h"
 #include "measure/delaunay_boundary.h"
 #include "state/plates.h"
+
+#include "base/integer_sum.h"
 
 #include <math.h>
 #include <string.h>
@@ -71,7 +74,8 @@ void scree_outline_visit(const scree_state *state, scree_outline_visitor *visit,
 
 typedef struct area_sum {
     bool begun;
-    double origin[2], area, moment[2];
+    double origin[2];
+    scree_integer_sum sum[3]; ///< area; moments
 } area_sum;
 
 /// Triangle of the segment and the first point (shoelace), with its centre of area.
@@ -86,33 +90,35 @@ static void add_area(void *user, const scree_outline_segment *segment)
     double a[2] = {segment->from[0] - sum->origin[0], segment->from[1] - sum->origin[1]};
     double b[2] = {segment->to[0] - sum->origin[0], segment->to[1] - sum->origin[1]};
     double area = (a[0] * b[1] - a[1] * b[0]) / 2;
-    sum->area += area;
-    for (int i = 0; i < 2; i++) sum->moment[i] += area * (a[i] + b[i]) / 3;
+    scree_integer_sum_add(&sum->sum[0], area);
+    for (int i = 0; i < 2; i++) scree_integer_sum_add(&sum->sum[1 + i], area * (a[i] + b[i]) / 3);
 }
 
 double scree_outline_area(const scree_state *state, double centre[2])
 {
     area_sum sum = {0};
-    scree_outline_visit(state, add_area, &sum);
-    for (int i = 0; i < 2; i++) centre[i] = sum.area > 0 ? sum.origin[i] + sum.moment[i] / sum.area : 0;
-    return sum.area;
+    while (scree_integer_sum_next(sum.sum, 3)) scree_outline_visit(state, add_area, &sum);
+    double area = scree_integer_sum_total(&sum.sum[0]);
+    for (int i = 0; i < 2; i++)
+        centre[i] = area > 0 ? sum.origin[i] + scree_integer_sum_total(&sum.sum[1 + i]) / area : 0;
+    return area;
 }
 
 typedef struct plate_length {
     int wall;
-    double length;
+    scree_integer_sum length;
 } plate_length;
 
 static void add_plate_length(void *user, const scree_outline_segment *segment)
 {
     plate_length *sum = user;
     if (segment->kind != SCREE_OUTLINE_BARE || segment->wall != sum->wall) return;
-    sum->length += hypot(segment->to[0] - segment->from[0], segment->to[1] - segment->from[1]);
+    scree_integer_sum_add(&sum->length, hypot(segment->to[0] - segment->from[0], segment->to[1] - segment->from[1]));
 }
 
 double scree_outline_plate_length(const scree_state *state, int wall)
 {
     plate_length sum = {.wall = wall};
-    scree_outline_visit(state, add_plate_length, &sum);
-    return sum.length;
+    while (scree_integer_sum_next(&sum.length, 1)) scree_outline_visit(state, add_plate_length, &sum);
+    return scree_integer_sum_total(&sum.length);
 }

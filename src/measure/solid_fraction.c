@@ -5,6 +5,7 @@
 #include "measure/delaunay_boundary.h"
 #include "measure/measure.h"
 
+#include "base/integer_sum.h"
 #include "measure/hull.h"
 #include "measure/outline.h"
 #include "state/periodic.h"
@@ -77,12 +78,15 @@ static void add_solid_angles(const scree_state *state, scree_vector *inward, dou
 /// Area (2D) or volume of all grains.
 static double solid_of_all(const scree_state *state)
 {
-    double solid = 0;
-    for (size_t id = 0; id < state->grains; id++) {
-        double radius = state->row[state->row_of_id[id]].radius;
-        solid += state->dimension == 2 ? M_PI * radius * radius : 4 * M_PI / 3 * radius * radius * radius;
-    }
-    return solid;
+    scree_integer_sum solid = {0};
+    while (scree_integer_sum_next(&solid, 1))
+        for (size_t row = 0; row < state->count; row++) {
+            if (!scree_body_is_grain(state, row)) continue;
+            double square = state->row[row].radius * state->row[row].radius;
+            scree_integer_sum_add(&solid,
+                                  M_PI * square * (state->dimension == 2 ? 1 : 4.0 / 3 * state->row[row].radius));
+        }
+    return scree_integer_sum_total(&solid);
 }
 
 /// Sphere volume inside the hull: whole ones less what the boundary cuts off.

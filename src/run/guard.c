@@ -7,16 +7,17 @@
 /// Lowest id whose row is not finite; count when there is none.
 static size_t first_not_finite(const scree_state *state)
 {
-    for (size_t id = 0; id < state->count; id++) {
+    size_t lowest = state->count;
+    for (size_t row = 0; row < state->count; row++) {
         scree_vector place, velocity, spin;
-        scree_body_place(state, state->row_of_id[id], place);
-        scree_body_motion(state, state->row_of_id[id], velocity, spin);
+        scree_body_place(state, row, place);
+        scree_body_motion(state, row, velocity, spin);
         // The sum of finite numbers of these sizes is finite, and of others it is not.
         double sum = 0;
         for (int k = 0; k < 3; k++) sum += place[k] + velocity[k] + spin[k];
-        if (!isfinite(sum)) return id;
+        if (!isfinite(sum) && state->id[row] < lowest) lowest = state->id[row];
     }
-    return state->count;
+    return lowest;
 }
 
 static scree_status stop_not_finite(const scree_simulation *s, scree_error *error)

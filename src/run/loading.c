@@ -22,8 +22,8 @@ static double present_height(const scree_state *state)
     if (bottom->active && top->active) return -(bottom->position + top->position);
     double low = INFINITY, high = -INFINITY;
     scree_vector place;
-    for (size_t id = 0; id < state->grains; id++) {
-        size_t row = state->row_of_id[id];
+    for (size_t row = 0; row < state->count; row++) {
+        if (!scree_body_is_grain(state, row)) continue;
         scree_body_place(state, row, place);
         low = fmin(low, place[state->dimension - 1] - state->row[row].radius);
         high = fmax(high, place[state->dimension - 1] + state->row[row].radius);

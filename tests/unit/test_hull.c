@@ -295,16 +295,17 @@ static void sum_polyhedron(const polyhedron *p, double *volume, double gradient[
 {
     const scree_hull *hull = scree_hull_of(&p->b.state);
     scree_polyhedron_sum sum = {0};
-    for (size_t t = 0; t < hull->triangle_count; t++) {
-        double x[3][3], u[3][3];
-        for (int c = 0; c < 3; c++)
-            for (int k = 0; k < 3; k++) {
-                x[c][k] = hull->place[hull->triangle[t][c]][k];
-                u[c][k] = p->u ? p->u[hull->triangle[t][c]][k] : 0;
-            }
-        scree_polyhedron_add(&sum, x, u);
-    }
-    *volume = sum.volume;
+    while (scree_polyhedron_next(&sum))
+        for (size_t t = 0; t < hull->triangle_count; t++) {
+            double x[3][3], u[3][3];
+            for (int c = 0; c < 3; c++)
+                for (int k = 0; k < 3; k++) {
+                    x[c][k] = hull->place[hull->triangle[t][c]][k];
+                    u[c][k] = p->u ? p->u[hull->triangle[t][c]][k] : 0;
+                }
+            scree_polyhedron_add(&sum, x, u);
+        }
+    *volume = scree_integer_sum_total(&sum.volume);
     scree_polyhedron_finish(&sum, gradient);
 }
 
