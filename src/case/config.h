@@ -4,7 +4,7 @@
 #ifndef SCREE_CASE_CONFIG_H
 #define SCREE_CASE_CONFIG_H
 
-#include "base/error.h"
+#include "module/module.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -66,19 +66,11 @@ typedef struct scree_config_contact {
     double reference_velocity; ///< m/s, v_R; auto: 2 * rate * mean radius of the first compress stage
 } scree_config_contact;
 
-typedef enum scree_scheme {
-    SCREE_SCHEME_POSITION_VERLET,
-    SCREE_SCHEME_VELOCITY_VERLET,
-    SCREE_SCHEME_TWO_TIMESCALES
-} scree_scheme;
-
 typedef struct scree_config_integrator {
-    int scheme;             ///< scree_scheme
-    double step;            ///< s, the small one of two_timescales; auto: step_fraction * critical step, over N_S
-    double step_fraction;   ///< 1, of the critical step, when step is auto
-    int64_t repeats;        ///< two_timescales: m of m(n+q) = N_S
-    int64_t large_multiple; ///< n
-    int64_t small_steps;    ///< q
+    int scheme;           ///< slot of a module with an integrator
+    double step;          ///< s, the small one of two_timescales; auto: step_fraction * critical step, over N_S
+    double step_fraction; ///< 1, of the critical step, when step is auto
+    void *own;            ///< structs of modules (scree_config_own)
 } scree_config_integrator;
 
 /// What holds the sample (boundary/boundary.h).
@@ -256,7 +248,7 @@ typedef struct scree_config_guard {
     double energy_growth; ///< 1, largest energy-ledger residual over all energy that there is and was
 } scree_config_guard;
 
-typedef struct scree_config {
+struct scree_config {
     int64_t language; ///< version of the case language
     char *name;
     char *title;
@@ -276,7 +268,11 @@ typedef struct scree_config {
     scree_config_measure measure;
     scree_config_output output;
     scree_config_guard guard;
-} scree_config;
+};
+
+/// The struct of `module` among those of modules that a section's `own` points to. section: its path ("integrator"), as
+/// the module's `keys` have it. NULL: there are none.
+const void *scree_config_own(const scree_module *module, const char *section, const void *own);
 
 /// Radius [m] of a listed body.
 static inline double scree_config_body_radius(const scree_config *config, const scree_config_body *body)

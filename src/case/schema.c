@@ -1,8 +1,10 @@
-/// The schema table of a case file. Add a key: a member in config.h, a line here; the rest follows.
+/// What the core declares of the schema of a case file. Add a key: a member in config.h, a line here; the rest follows.
+/// Keys of modules stand in their own files.
 /// Ranges are wide: they keep out slips of the unit and numbers that would overflow, not unusual physics.
 #include "case/schema.h"
 
-#include "case/schema_keys.h"
+#include "case/schema_walls.h"
+#include "module/key_rows.h"
 
 // ---- choices -----------------------------------------------------------------------------------------------------
 
@@ -37,13 +39,6 @@ static const scree_choice tangential_histories[] = {
     {"rescaled", SCREE_TANGENTIAL_RESCALED,
      "the tangential force stays as it is while the contact stiffens, the displacement while it softens (Thornton et "
      "al. 2013); no cycle delivers energy"},
-    {0},
-};
-static const scree_choice schemes[] = {
-    {"position_verlet", SCREE_SCHEME_POSITION_VERLET, "leapfrog with velocities half a step behind"},
-    {"velocity_verlet", SCREE_SCHEME_VELOCITY_VERLET, "velocities and positions at the same time"},
-    {"two_timescales", SCREE_SCHEME_TWO_TIMESCALES,
-     "position_verlet that repeats one large and several small steps while loading (Padbidri 2010, 2.4)"},
     {0},
 };
 static const scree_choice periodics[] = {
@@ -192,20 +187,13 @@ static const scree_key contact_keys[] = {
 
 typedef scree_config_integrator integrator;
 static const scree_key integrator_keys[] = {
-    CHOICE(integrator, scheme, schemes, .standard = "velocity_verlet", .meaning = "Integration scheme."),
+    CHOICE(integrator, scheme, NULL, .standard = "velocity_verlet", .meaning = "Integration scheme."),
     NUMBER(integrator, step, "s", .standard = "auto", ABOVE("0 s"), TO("10 s"),
            .meaning =
                "Time step, the small one of two_timescales; auto: the largest is `step_fraction` of the critical "
                "step."),
     NUMBER(integrator, step_fraction, "1", .standard = "0.1", ABOVE("0"), TO("1"), .when = "step=auto",
            .meaning = "Largest step over critical step."),
-    INTEGER(integrator, repeats, .standard = "5", FROM("1"), TO("1e6"), .when = "scheme=two_timescales",
-            .meaning = "m of m(n+q): sequences in N_S = m(n+q) small steps. N_S steps are the step before loading, and "
-                       "the unit of boundary.every."),
-    INTEGER(integrator, large_multiple, .standard = "5", FROM("1"), TO("1e6"), .when = "scheme=two_timescales",
-            .meaning = "n of m(n+q): the large step of a sequence, in small steps."),
-    INTEGER(integrator, small_steps, .standard = "5", FROM("0"), TO("1e6"), .when = "scheme=two_timescales",
-            .meaning = "q of m(n+q): small steps after each large one."),
 };
 
 typedef scree_config_boundary boundary;
@@ -253,9 +241,6 @@ typedef scree_config_stage stage;
            .meaning = "Friction in this stage, e.g. less while confining for a denser sample; auto: the material's.")
 #define STAGE_BOUNDARY                                                                                                 \
     CHOICE(stage, boundary, boundaries, .standard = "auto", .meaning = "What holds the sample in this stage.")
-#define TENSOR(owner, member, list, si, ...)                                                                           \
-    KEY(owner, member, SCREE_KEY_TENSOR, .choices = list, .unit = si, .standard = "{}", __VA_ARGS__)
-
 typedef scree_config_body body;
 static const scree_key body_keys[] = {
     KEY(body, position, SCREE_KEY_VECTOR, .unit = "m", FROM("-1e6 m"), TO("1e6 m"), .meaning = "Of its centre."),
@@ -268,7 +253,7 @@ static const scree_key body_keys[] = {
     KEY(body, material, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),
         .meaning = "Name of one of the materials; auto: particles.material."),
 };
-static const scree_section body_table[] = {{"bodies", "A particle at a given position.", body_keys, COUNT(body_keys)}};
+static const scree_section body_table[] = {TABLE("bodies", "A particle at a given position.", body_keys)};
 static const scree_key prepare_keys[] = {
     STAGE_HEAD,
     CHOICE(stage, method, methods, .standard = "drop_and_roll", .meaning = "How the particles are placed."),
@@ -428,7 +413,8 @@ static const scree_section material_table[] = {
     TABLE("materials", "What particles and plates are made of.", material_keys)};
 static const scree_section particles_table[] = {TABLE("particles", "Shape, number and sizes.", particles_keys)};
 static const scree_section contact_table[] = {TABLE("contact", "Forces between touching particles.", contact_keys)};
-static const scree_section integrator_table[] = {TABLE("integrator", "Motion in time.", integrator_keys)};
+static const scree_section integrator_table[] = {
+    OPEN_TABLE("integrator", "Motion in time.", integrator_keys, integrator)};
 static const scree_section boundary_table[] = {TABLE("boundary", "What surrounds the sample.", boundary_keys)};
 static const scree_section stage_tables[] = {
     TABLE("prepare", "Places the particles; the first stage of every case.", prepare_keys),
@@ -457,6 +443,8 @@ static const scree_section measure_table[] = {TABLE("measure", "What is recorded
 static const scree_section output_table[] = {TABLE("output", "What is written, and how often.", output_keys)};
 static const scree_section guard_table[] = {TABLE("guard", "Limits that stop a run that went wrong.", guard_keys)};
 
+#define SECTION(member, table, ...)                                                                                    \
+    KEY(scree_config, member, SCREE_KEY_SECTION, .sections = table, .section_count = 1, __VA_ARGS__)
 static const scree_key root_keys[] = {
     {.name = "scree",
      .type = SCREE_KEY_INTEGER,
@@ -503,4 +491,4 @@ static const scree_key root_keys[] = {
      .meaning = "Key path and value of everything that --quick changes."},
 };
 
-const scree_section scree_schema = TABLE("case", "A case file.", root_keys);
+const scree_section scree_schema_core = TABLE("case", "A case file.", root_keys);

@@ -29,12 +29,12 @@ typedef struct scree_model {
     int dimension;
     double thickness; ///< m, length of the discs; 1 in 3D
     scree_law law;
-    bool rolling;              ///< some material resists rolling or twisting (hertz_mindlin)
-    bool rescaled;             ///< springs of hertz_mindlin that stiffen keep their force, not their displacement
-    double damping_time;       ///< s, T of hertz_brilliantov
-    double inverse_exponent;   ///< 1/c of hertz_brilliantov
-    double reference_velocity; ///< m/s, v_R
-    scree_scheme scheme;
+    bool rolling;                  ///< some material resists rolling or twisting (hertz_mindlin)
+    bool rescaled;                 ///< springs of hertz_mindlin that stiffen keep their force, not their displacement
+    double damping_time;           ///< s, T of hertz_brilliantov
+    double inverse_exponent;       ///< 1/c of hertz_brilliantov
+    double reference_velocity;     ///< m/s, v_R
+    int scheme;                    ///< slot of the integrator's module
     double step;                   ///< s, the tick: the small step of two_timescales, the step of all other schemes
     uint64_t largest_step;         ///< ticks, N_S of two_timescales (the step before loading), else 1
     uint64_t large_multiple;       ///< ticks, n of two_timescales, else 1
@@ -52,7 +52,7 @@ typedef struct scree_model {
     int material_count; ///< in use; they are numbered from 0, and what no body is made of has no part in anything
     scree_pair_constants pairs[SCREE_MAX_MATERIALS][SCREE_MAX_MATERIALS]; ///< grain on grain
     scree_pair_constants walls[SCREE_MAX_MATERIALS];                      ///< grain on a plate, or wall of the case
-    scree_pair_constants surfaces[SCREE_SURFACES][SCREE_MAX_MATERIALS]; ///< on walls of the case with a `material`
+    scree_pair_constants surfaces[SCREE_SURFACES][SCREE_MAX_MATERIALS];   ///< on walls of the case with a `material`
     bool friction_of_stage; ///< the stage's own friction holds for all contacts, the walls of the case included
     double density[SCREE_MAX_MATERIALS];
     const scree_config *config; ///< what the user said; outlives the model

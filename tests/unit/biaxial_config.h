@@ -56,7 +56,7 @@ static inline void biaxial_config_set(biaxial_config *c, int64_t count)
                     .damping_time = 0.002,
                     .friction_exponent = 50,
                     .reference_velocity = NAN},
-        .integrator = {.scheme = SCREE_SCHEME_POSITION_VERLET, .step = NAN, .step_fraction = 0.5},
+        .integrator = {.scheme = SCREE_SLOT_position_verlet, .step = NAN, .step_fraction = 0.5},
         .stages = c->stage,
         .stage_count = 3,
         .guard = {.overlap = 0.1, .energy_growth = 1e-3},

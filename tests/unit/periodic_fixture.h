@@ -25,7 +25,8 @@ typedef struct periodic_sample {
 } periodic_sample;
 
 /// Grains of about 1 mm at the origin, at rest, in a cell of the given lattice (columns; unit vector: not periodic).
-static inline void periodic_create(periodic_sample *s, int dimension, size_t count, const double lattice[9], scree_law law)
+static inline void periodic_create(periodic_sample *s, int dimension, size_t count, const double lattice[9],
+                                   scree_law law)
 {
     scree_error error;
     memset(s, 0, sizeof *s);
@@ -35,7 +36,7 @@ static inline void periodic_create(periodic_sample *s, int dimension, size_t cou
                              .damping_time = 2e-6,
                              .inverse_exponent = 1.0 / 50,
                              .reference_velocity = 1e-2,
-                             .scheme = SCREE_SCHEME_VELOCITY_VERLET,
+                             .scheme = SCREE_SLOT_velocity_verlet,
                              .step = 2e-7,
                              .mean_radius = 1e-3,
                              .radius_min = 0.8e-3,
@@ -67,7 +68,7 @@ static inline void periodic_destroy(periodic_sample *s)
 }
 
 static inline void periodic_place(periodic_sample *s, size_t row, const double place[3], const double velocity[3],
-                              double radius)
+                                  double radius)
 {
     scree_row *body = &s->state.row[row];
     bool solid = s->state.dimension == 3;

@@ -1,6 +1,8 @@
 /// The model: constants against closed forms, resolved defaults, errors with their fields, and the critical step
 /// against the largest eigenvalue of assembled lattices and packings.
 #include "biaxial_config.h"
+#include "integrate/two_timescales.h"
+#include "own_config.h"
 #include "testing.h"
 
 #include "model/critical_step.h"
@@ -450,10 +452,11 @@ static void test_membrane(void **unused)
     assert_int_equal(scree_model_build(&c.config, &model, &error), SCREE_ERROR_INPUT);
     assert_string_equal(error.field, "boundary.membrane_stiffness");
     c.config.boundary.membrane_stiffness /= 1.02;
-    c.config.integrator.scheme = SCREE_SCHEME_TWO_TIMESCALES;
-    c.config.integrator.repeats = 1;
-    c.config.integrator.large_multiple = 2;
-    c.config.integrator.small_steps = 1;
+    c.config.integrator.scheme = SCREE_SLOT_two_timescales;
+    own_block block = {0};
+    c.config.integrator.own = &block;
+    *OWN(&block, scree_two_timescales_config, two_timescales, "integrator") =
+        (scree_two_timescales_config){.repeats = 1, .large_multiple = 2, .small_steps = 1};
     assert_int_equal(scree_model_build(&c.config, &model, &error), SCREE_ERROR_INPUT);
     assert_string_equal(error.field, "boundary.membrane_stiffness");
 }
