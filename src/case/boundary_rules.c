@@ -22,7 +22,7 @@ static bool is_periodic(scree_boundary_kind kind)
 /// What is wrong with the preparation of a periodic sample, and under which key; NULL: nothing.
 static const char *wrong_preparation(const scree_config_stage *stage, const char **key)
 {
-    if (stage->method == SCREE_PREPARE_DROP_AND_ROLL || stage->method == SCREE_PREPARE_GROWTH)
+    if (stage->method >= 0 && scree_modules[stage->method]->preparation->needs_walls)
         return "this method needs walls and cannot fill a periodic cell: prepare with gas or on a lattice, and confine";
     *key = "outline";
     return stage->outline != SCREE_SAMPLE_BOX ? "a round sample cannot repeat itself" : NULL;
@@ -83,7 +83,8 @@ static const char *wrong_boundary(const scree_config *config, int stage, scree_b
 {
     const double *gravity = config->gravity;
     if (stage != SCREE_STAGE_RELAX && config->wall_count > 0)
-        return "in a case with walls only relax can follow: the other stages need plates or a free surface of the sample";
+        return "in a case with walls only relax can follow: the other stages need plates or a free surface of the "
+               "sample";
     if (kind == SCREE_BOUNDARY_WALLS && config->wall_count == 0) return "this case has no walls";
     if (stage == SCREE_STAGE_RELAX && kind != SCREE_BOUNDARY_WALLS && kind != SCREE_BOUNDARY_PLATES)
         return "relax needs something that stands: give boundary: plates, or walls and boundary: walls";

@@ -4,7 +4,7 @@
 #ifndef SCREE_CASE_CONFIG_H
 #define SCREE_CASE_CONFIG_H
 
-#include "module/module.h"
+#include "module/preparation.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -113,27 +113,6 @@ typedef enum scree_stage_kind {
     SCREE_STAGE_RELAX
 } scree_stage_kind;
 typedef enum scree_axis { SCREE_AXIS_X, SCREE_AXIS_Y, SCREE_AXIS_Z } scree_axis;
-typedef enum scree_prepare_method {
-    SCREE_PREPARE_DROP_AND_ROLL,
-    SCREE_PREPARE_HEXAGONAL,
-    SCREE_PREPARE_SQUARE,
-    SCREE_PREPARE_FACE_CENTRED,
-    SCREE_PREPARE_CUBIC,
-    SCREE_PREPARE_GAS,
-    SCREE_PREPARE_GROWTH,
-    SCREE_PREPARE_PAIR,
-    SCREE_PREPARE_BODIES
-} scree_prepare_method;
-
-/// A body of prepare method bodies.
-typedef struct scree_config_body {
-    double position[3]; ///< m, of its centre
-    double velocity[3]; ///< m/s
-    double spin[3];     ///< rad/s
-    double radius;      ///< m; auto: that of all particles
-    char *material;     ///< name in `materials`; auto: that of the particles
-} scree_config_body;
-
 /// Whether the walls of the case move in a stage.
 typedef enum scree_wall_motion { SCREE_WALLS_MOVE, SCREE_WALLS_STAND } scree_wall_motion;
 
@@ -145,18 +124,11 @@ typedef struct scree_config_stage {
     int kind;   ///< scree_stage_kind
     char *name; ///< unique among the stages: the kind, numbered (compress_1, compress_2) if there are several
     // prepare
-    int method;            ///< scree_prepare_method
-    double aspect_ratio;   ///< 1, height over width of the box
-    int outline;           ///< scree_sample_outline
-    double width;          ///< m; auto: from count, sizes and aspect ratio
-    double depth;          ///< m, 3D only; auto: the width
-    double solid_fraction; ///< 1, gas and growth only; auto: see the schema
-    double velocity;       ///< m/s, gas only: root-mean-square velocity component
-    double gap;            ///< m, pair only: between the surfaces; auto: see prepare/pair.c
-    double speed;          ///< m/s, pair only: at which they approach; auto: v_R
-    double height;         ///< m, bodies only: of the box; auto: up to the highest of them
-    scree_config_body *bodies;
-    int64_t body_count;
+    int method;          ///< slot of a module with a preparation
+    double aspect_ratio; ///< 1, height over width of the box
+    int outline;         ///< scree_sample_outline
+    double width;        ///< m; auto: from count, sizes and aspect ratio
+    double depth;        ///< m, 3D only; auto: the width
     // confine
     double pressure;         ///< Pa, compression positive
     double ramp_time;        ///< s; auto
@@ -185,6 +157,7 @@ typedef struct scree_config_stage {
     // all but prepare and collide
     int boundary;    ///< scree_boundary_kind
     double friction; ///< 1, friction during this stage; auto: the material's
+    void *own;       ///< structs of modules (scree_config_own)
 } scree_config_stage;
 
 /// A wall beside the six plates (shape/container.h). Which members its keys fill depends on the shape.
@@ -274,10 +247,19 @@ struct scree_config {
 /// the module's `keys` have it. NULL: there are none.
 const void *scree_config_own(const scree_module *module, const char *section, const void *own);
 
-/// Radius [m] of a listed body.
-static inline double scree_config_body_radius(const scree_config *config, const scree_config_body *body)
+/// The stage that places the particles, with which a case begins; NULL: there is none, or its method is wrong.
+static inline const scree_config_stage *scree_config_prepare(const scree_config *config)
 {
-    return isnan(body->radius) ? config->particles.radius_min : body->radius;
+    const scree_config_stage *first = config->stages;
+    bool places = config->stage_count > 0 && first->kind == SCREE_STAGE_PREPARE && first->method >= 0;
+    return places ? first : NULL;
+}
+
+/// Its method; NULL: there is none.
+static inline const scree_preparation *scree_config_preparation(const scree_config *config)
+{
+    const scree_config_stage *stage = scree_config_prepare(config);
+    return stage ? scree_modules[stage->method]->preparation : NULL;
 }
 
 /// The boundary of stage `index`: periodic as the case says, else its own choice, or that of the last stage before it

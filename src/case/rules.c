@@ -135,6 +135,7 @@ static void name_stages(scree_reader *reader, scree_config *config)
 static void check_stage_order(scree_reader *reader, const scree_config *config)
 {
     bool confined = false;
+    const scree_preparation *method = scree_config_preparation(config);
     for (int64_t i = 0; i < config->stage_count; i++)
         if (config->stages[i].kind < 0) return; // wrong, and noted
     for (int64_t i = 0; i < config->stage_count; i++) {
@@ -150,10 +151,9 @@ static void check_stage_order(scree_reader *reader, const scree_config *config)
             wrong = "a confine stage must come before: deform keeps its pressure";
         else if (kind == SCREE_STAGE_ROTATE && !confined)
             wrong = "a confine stage must come before: rotate_particle keeps its pressure";
-        else if (i > 0 && kind == SCREE_STAGE_COLLIDE && config->stages[0].method != SCREE_PREPARE_PAIR &&
-                 config->stages[0].method != SCREE_PREPARE_BODIES)
+        else if (i > 0 && kind == SCREE_STAGE_COLLIDE && method && !method->approaching)
             wrong = "collide needs two particles that approach: prepare method pair or bodies";
-        else if (i > 0 && kind != SCREE_STAGE_COLLIDE && config->stages[0].method == SCREE_PREPARE_PAIR)
+        else if (i > 0 && kind != SCREE_STAGE_COLLIDE && method && method->binary)
             wrong = "two particles can only collide";
         confined = confined || kind == SCREE_STAGE_CONFINE;
         if (!wrong) continue;
@@ -164,24 +164,17 @@ static void check_stage_order(scree_reader *reader, const scree_config *config)
     }
 }
 
-/// Choices that exist in one dimension only, and what takes their place in the other.
-typedef struct twin {
-    int plane, solid; ///< values of the choice
-    const char *plane_name, *solid_name;
-} twin;
-
-static void check_twin(scree_reader *reader, const scree_config *config, int64_t stage, const char *key, int value,
-                       const twin *pair)
+/// Notes a choice that exists in the other dimension only; `other` takes its place in this one.
+static void refuse_dimension(scree_reader *reader, const scree_config *config, int64_t stage, const char *key,
+                             const char *other)
 {
     const bool solid = config->dimension == 3;
-    if (value != (solid ? pair->plane : pair->solid)) return;
     char path[SCREE_PATH_BYTES];
     const char *text;
     (void)snprintf(path, sizeof path, "stages.%lld.%s", (long long)stage, key);
     scree_place place = place_of(element(reader, "stages", stage), key, &text);
-    scree_problem_add(reader, place, path, text, solid ? pair->solid_name : pair->plane_name,
-                      "'%s' exists in %s dimensions only; in %s choose '%s'", text ? text : "", solid ? "two" : "three",
-                      solid ? "three" : "two", solid ? pair->solid_name : pair->plane_name);
+    scree_problem_add(reader, place, path, text, other, "'%s' exists in %s dimensions only; in %s choose '%s'",
+                      text ? text : "", solid ? "two" : "three", solid ? "three" : "two", other);
 }
 
 /// Discs in two dimensions, spheres in three; as many components of gravity.
@@ -205,15 +198,15 @@ static void check_dimension(scree_reader *reader, const scree_config *config)
 
 static void check_preparation(scree_reader *reader, const scree_config *config)
 {
-    static const twin lattices[] = {{SCREE_PREPARE_HEXAGONAL, SCREE_PREPARE_FACE_CENTRED, "hexagonal", "face_centred"},
-                                    {SCREE_PREPARE_SQUARE, SCREE_PREPARE_CUBIC, "square", "cubic"}};
-    static const twin outlines = {SCREE_SAMPLE_CIRCLE, SCREE_SAMPLE_BALL, "circle", "ball"};
+    const bool solid = config->dimension == 3;
     for (int64_t i = 0; i < config->stage_count; i++) {
         const scree_config_stage *stage = &config->stages[i];
         if (stage->kind != SCREE_STAGE_PREPARE) continue;
-        for (size_t k = 0; k < sizeof lattices / sizeof *lattices; k++)
-            check_twin(reader, config, i, "method", stage->method, &lattices[k]);
-        check_twin(reader, config, i, "outline", stage->outline, &outlines);
+        const scree_preparation *method = stage->method >= 0 ? scree_modules[stage->method]->preparation : NULL;
+        if (method && method->only_dimension && method->only_dimension != config->dimension)
+            refuse_dimension(reader, config, i, "method", method->elsewhere);
+        if (stage->outline == (solid ? SCREE_SAMPLE_CIRCLE : SCREE_SAMPLE_BALL))
+            refuse_dimension(reader, config, i, "outline", solid ? "ball" : "circle");
         char path[SCREE_PATH_BYTES];
         const char *text;
         (void)snprintf(path, sizeof path, "stages.%lld.depth", (long long)i);
@@ -227,7 +220,8 @@ static void check_preparation(scree_reader *reader, const scree_config *config)
 static void check_pair(scree_reader *reader, const scree_config *config)
 {
     const char *text;
-    bool pair = config->stage_count > 0 && config->stages[0].method == SCREE_PREPARE_PAIR;
+    const scree_preparation *method = scree_config_preparation(config);
+    bool pair = method && method->binary;
     for (int64_t i = 1; i < config->stage_count; i++) pair = pair || config->stages[i].kind == SCREE_STAGE_COLLIDE;
     if (!pair) return;
     scree_place place = place_of(scree_node_find(reader->root, "particles"), "count", &text);
@@ -282,7 +276,6 @@ void scree_rules_check(scree_reader *reader, scree_config *config)
     check_preparation(reader, config);
     check_pair(reader, config);
     check_windows(reader, config);
-    scree_rules_check_bodies(reader, config);
     scree_rules_check_boundaries(reader, config);
     scree_rules_check_walls(reader, config);
     scree_rules_check_modules(reader, config);

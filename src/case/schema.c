@@ -94,21 +94,6 @@ static const scree_choice symmetric_stresses[] = {
     {"yz", 5, "shear stress yz"},
     {0},
 };
-static const scree_choice methods[] = {
-    {"drop_and_roll", SCREE_PREPARE_DROP_AND_ROLL,
-     "each particle falls and rolls on those below until it is stable (Jodrey and Tory 1979)"},
-    {"hexagonal", SCREE_PREPARE_HEXAGONAL, "triangular lattice of equal discs that touch"},
-    {"square", SCREE_PREPARE_SQUARE, "square lattice of equal discs that touch"},
-    {"face_centred", SCREE_PREPARE_FACE_CENTRED,
-     "face-centred cubic lattice of equal spheres that touch, square layers horizontal"},
-    {"cubic", SCREE_PREPARE_CUBIC, "simple cubic lattice of equal spheres that touch"},
-    {"gas", SCREE_PREPARE_GAS, "loose random places without contacts"},
-    {"growth", SCREE_PREPARE_GROWTH,
-     "particles grow at random places and push each other away: dense and isotropic, without contacts"},
-    {"pair", SCREE_PREPARE_PAIR, "two particles on the x axis that approach each other, for the stage collide"},
-    {"bodies", SCREE_PREPARE_BODIES, "the particles that `bodies` lists, each where it says and as fast"},
-    {0},
-};
 static const scree_choice outlines[] = {
     {"box", SCREE_SAMPLE_BOX, "the packing fills its box"},
     {"circle", SCREE_SAMPLE_CIRCLE, "in two dimensions: the middle of a larger packing, without plates around it"},
@@ -241,25 +226,17 @@ typedef scree_config_stage stage;
            .meaning = "Friction in this stage, e.g. less while confining for a denser sample; auto: the material's.")
 #define STAGE_BOUNDARY                                                                                                 \
     CHOICE(stage, boundary, boundaries, .standard = "auto", .meaning = "What holds the sample in this stage.")
-typedef scree_config_body body;
-static const scree_key body_keys[] = {
-    KEY(body, position, SCREE_KEY_VECTOR, .unit = "m", FROM("-1e6 m"), TO("1e6 m"), .meaning = "Of its centre."),
-    KEY(body, velocity, SCREE_KEY_VECTOR, .unit = "m/s", .standard = "[0, 0]", FROM("-1e5 m/s"), TO("1e5 m/s"),
-        .meaning = "At the begin."),
-    KEY(body, spin, SCREE_KEY_VECTOR, .unit = "rad/s", .standard = "[0, 0]", FROM("-1e6 rad/s"), TO("1e6 rad/s"),
-        .meaning = "Angular velocity at the begin; in two dimensions [0, 0, about z]."),
-    NUMBER(body, radius, "m", .standard = "auto", FROM("1 nm"), TO("100 m"),
-           .meaning = "Radius, within the limits of `particles`; auto: the one that all particles have."),
-    KEY(body, material, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),
-        .meaning = "Name of one of the materials; auto: particles.material."),
-};
-static const scree_section body_table[] = {TABLE("bodies", "A particle at a given position.", body_keys)};
+/// Whether the box of the sample follows from number, sizes and solid fraction of the particles.
+static bool has_aspect_ratio(const scree_module *module)
+{
+    return module->preparation && !module->preparation->sizes_box;
+}
+
 static const scree_key prepare_keys[] = {
     STAGE_HEAD,
-    CHOICE(stage, method, methods, .standard = "drop_and_roll", .meaning = "How the particles are placed."),
-    NUMBER(stage, aspect_ratio, "1", .standard = "2", FROM("0.01"), TO("100"),
-           .when = "width=auto&method=drop_and_roll|hexagonal|square|face_centred|cubic|gas|growth|pair",
-           .meaning = "Height over width of the sample."),
+    CHOICE(stage, method, NULL, .standard = "drop_and_roll", .meaning = "How the particles are placed."),
+    NUMBER(stage, aspect_ratio, "1", .standard = "2", FROM("0.01"), TO("100"), .when = "width=auto",
+           .chooser = "method", .fits = has_aspect_ratio, .meaning = "Height over width of the sample."),
     CHOICE(stage, outline, outlines, .standard = "box", .meaning = "Outline of the sample."),
     NUMBER(stage, width, "m", .standard = "auto", FROM("1 nm"), TO("100 km"), .when = "outline=box",
            .meaning = "Width of the sample; auto: from `aspect_ratio`, and number and sizes of the particles; with "
@@ -267,20 +244,6 @@ static const scree_key prepare_keys[] = {
     NUMBER(stage, depth, "m", .standard = "auto", FROM("1 nm"), TO("100 km"), .when = "particles.shape=sphere",
            .meaning = "Depth of the sample, along y in three dimensions; auto: its width; with `bodies` as far as they "
                       "reach."),
-    NUMBER(stage, solid_fraction, "1", .standard = "auto", ABOVE("0"), TO("90 %"), .when = "method=gas|growth",
-           .meaning = "Area (volume) of the particles over that of the box; auto: 30 % of discs and 15 % of spheres in "
-                      "a gas; with growth 80 % and 60 %, less what the walls take."),
-    NUMBER(stage, velocity, "m/s", .standard = "0 m/s", FROM("0 m/s"), TO("1000 m/s"), .when = "method=gas",
-           .meaning = "Root-mean-square velocity component."),
-    NUMBER(stage, gap, "m", .standard = "auto", FROM("0 m"), TO("1 km"), .when = "method=pair",
-           .meaning = "Between the surfaces of the two; auto: about their indentation in the impact."),
-    NUMBER(stage, speed, "m/s", .standard = "auto", ABOVE("0 m/s"), TO("1e5 m/s"), .when = "method=pair",
-           .meaning = "Relative speed at which they approach; auto: contact.reference_velocity."),
-    NUMBER(stage, height, "m", .standard = "auto", FROM("1 nm"), TO("100 km"), .when = "method=bodies",
-           .meaning = "Height of the box, which begins at the origin; auto: as far as the bodies reach."),
-    KEY(stage, bodies, SCREE_KEY_LIST, FROM("1"), TO("1000"), .sections = body_table, .section_count = 1,
-        .count_offset = offsetof(stage, body_count), .element_size = sizeof(body), .when = "method=bodies",
-        .meaning = "The particles, numbered from 0; as many as particles.count says."),
 };
 static const scree_key confine_keys[] = {
     STAGE_HEAD,
@@ -417,7 +380,7 @@ static const scree_section integrator_table[] = {
     OPEN_TABLE("integrator", "Motion in time.", integrator_keys, integrator)};
 static const scree_section boundary_table[] = {TABLE("boundary", "What surrounds the sample.", boundary_keys)};
 static const scree_section stage_tables[] = {
-    TABLE("prepare", "Places the particles; the first stage of every case.", prepare_keys),
+    OPEN_TABLE("prepare", "Places the particles; the first stage of every case.", prepare_keys, stage),
     TABLE("confine", "Raises the pressure on all sides and waits for equilibrium.", confine_keys),
     TABLE(
         "compress",

@@ -30,7 +30,8 @@ struct scree_module {
     void (*rules)(scree_reader *reader, const scree_config *config);
 
     // ---- faces: what only modules of one kind have; at most one ----
-    const struct scree_integrator *integrator; ///< integrate/integrate.h
+    const struct scree_integrator *integrator;   ///< module/integrator.h
+    const struct scree_preparation *preparation; ///< module/preparation.h
 
     // ---- state: what it remembers ----
     size_t state_size;         ///< bytes of its struct in the store of the state, zero at first; 0: none

@@ -9,8 +9,10 @@
         row(forced_spin)
 
 /// Choices of the case, in the order in which the case reference lists them.
-#define SCREE_CASE_MODULES(row) row(position_verlet) row(velocity_verlet) row(two_timescales)
+#define SCREE_CASE_MODULES(row)                                                                                        \
+    row(position_verlet) row(velocity_verlet) row(two_timescales) row(drop_and_roll) row(hexagonal) row(square)        \
+        row(face_centred) row(cubic) row(gas) row(growth) row(pair) row(bodies)
 
-#define SCREE_MODULES(row)      SCREE_CASE_MODULES(row)
+#define SCREE_MODULES(row) SCREE_CASE_MODULES(row)
 
 #endif

@@ -10,31 +10,6 @@
 #include <math.h>
 #include <stdio.h>
 
-const scree_preparation *scree_preparation_get(scree_prepare_method method)
-{
-    switch (method) {
-    case SCREE_PREPARE_DROP_AND_ROLL:
-        return &scree_prepare_drop_and_roll;
-    case SCREE_PREPARE_HEXAGONAL:
-        return &scree_prepare_hexagonal;
-    case SCREE_PREPARE_SQUARE:
-        return &scree_prepare_square;
-    case SCREE_PREPARE_FACE_CENTRED:
-        return &scree_prepare_face_centred;
-    case SCREE_PREPARE_CUBIC:
-        return &scree_prepare_cubic;
-    case SCREE_PREPARE_GAS:
-        return &scree_prepare_gas;
-    case SCREE_PREPARE_GROWTH:
-        return &scree_prepare_growth;
-    case SCREE_PREPARE_PAIR:
-        return &scree_prepare_pair;
-    case SCREE_PREPARE_BODIES:
-        return &scree_prepare_bodies;
-    }
-    return NULL;
-}
-
 scree_status scree_prepare_error(scree_error *error, const scree_model *model, const scree_config_stage *stage,
                                  const char *key, const char *format, ...)
 {
@@ -103,7 +78,8 @@ static void stand_walls(const scree_box *box, bool active, scree_state *state)
 scree_status scree_prepare(const scree_model *model, const scree_config_stage *stage, scree_state *state,
                            scree_error *error)
 {
-    const scree_preparation *method = scree_preparation_get((scree_prepare_method)stage->method);
+    const scree_module *module = scree_modules[stage->method];
+    const scree_preparation *method = module->preparation;
     const bool round = stage->outline != SCREE_SAMPLE_BOX;
     size_t count = (size_t)model->config->particles.count;
     unsigned periodic = (unsigned)model->config->boundary.periodic;
@@ -111,7 +87,7 @@ scree_status scree_prepare(const scree_model *model, const scree_config_stage *s
         return scree_prepare_error(error, model, stage, "method",
                                    "%s needs walls and cannot fill a periodic cell: prepare with gas or on a lattice, "
                                    "and confine",
-                                   method->name);
+                                   module->name);
     scree_status status = scree_state_create(state, model->dimension, count, error);
     if (status) return status;
     scree_packing packing;

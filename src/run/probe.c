@@ -51,7 +51,7 @@ static double processor_time(void)
 typedef struct probe_case {
     scree_case c;
     scree_simulation s;
-    bool dropped; ///< in the place of a gas
+    bool dropped; ///< in the place of a method without contacts
     unsigned periodic;
 } probe_case;
 
@@ -73,7 +73,7 @@ static scree_status make_case(const scree_case *c, probe_case *probe, scree_erro
     if (status) return status;
     memcpy(config->stages, c->config.stages, (size_t)config->stage_count * sizeof *config->stages);
     scree_config_stage *prepare = &config->stages[0];
-    probe->dropped = prepare->method == SCREE_PREPARE_GAS || prepare->method == SCREE_PREPARE_GROWTH;
+    probe->dropped = scree_modules[prepare->method]->preparation->loose;
     double most = config->dimension == 3 ? MOST_SPHERES : MOST_DISCS;
     if ((double)config->particles.count > most) shrink_box(config, prepare, most);
     for (int64_t k = 0; k < config->stage_count; k++) {
@@ -92,6 +92,14 @@ static scree_status make_case(const scree_case *c, probe_case *probe, scree_erro
 
 // ---- as it will stand --------------------------------------------------------------------------------------------
 
+/// The method that packs particles between walls.
+static int dense_method(void)
+{
+    int m = 0;
+    while (!scree_modules[m]->preparation || !scree_modules[m]->preparation->dense) m++;
+    return m;
+}
+
 static scree_status prepare(probe_case *probe, scree_error *error)
 {
     scree_simulation *s = &probe->s;
@@ -100,7 +108,7 @@ static scree_status prepare(probe_case *probe, scree_error *error)
     probe->periodic = (unsigned)config->boundary.periodic;
     scree_status status = scree_simulation_open(&probe->c, 1, s, error);
     if (probe->dropped) {
-        stage->method = SCREE_PREPARE_DROP_AND_ROLL;
+        stage->method = dense_method();
         config->boundary.periodic = SCREE_PERIODIC_NONE;
     }
     if (!status) status = scree_simulation_step(s, error);

@@ -2,7 +2,9 @@
 #ifndef SCREE_TEST_BIAXIAL_CONFIG_H
 #define SCREE_TEST_BIAXIAL_CONFIG_H
 
-#include "case/config.h"
+#include "own_config.h"
+#include "prepare/gas.h"
+#include "prepare/growth.h"
 
 #include <math.h>
 
@@ -10,8 +12,19 @@ typedef struct biaxial_config {
     scree_config config;
     scree_config_material material[2];
     scree_config_stage stage[3];
+    own_block prepare;
     char quartz[8], steel[8];
 } biaxial_config;
+
+static inline scree_gas_config *biaxial_gas(biaxial_config *c)
+{
+    return OWN(&c->prepare, scree_gas_config, gas, "stages.prepare");
+}
+
+static inline scree_growth_config *biaxial_growth(biaxial_config *c)
+{
+    return OWN(&c->prepare, scree_growth_config, growth, "stages.prepare");
+}
 
 /// 30 GPa, 0.3, 2.675e8 kg/m3, friction 0.45; radii uniform in 0.5 to 1 mm; 100 kPa, 0.005 1/s; every `auto` left open.
 static inline void biaxial_config_set(biaxial_config *c, int64_t count)
@@ -32,12 +45,13 @@ static inline void biaxial_config_set(biaxial_config *c, int64_t count)
                                              .wall_friction = 0.1,
                                              .restitution = 0.6};
     c->stage[0] = (scree_config_stage){.kind = SCREE_STAGE_PREPARE,
-                                       .method = SCREE_PREPARE_DROP_AND_ROLL,
+                                       .method = SCREE_SLOT_drop_and_roll,
                                        .aspect_ratio = 2,
                                        .width = NAN,
                                        .depth = NAN,
-                                       .solid_fraction = 0.4,
-                                       .velocity = 0.1};
+                                       .own = &c->prepare};
+    *biaxial_gas(c) = (scree_gas_config){.solid_fraction = 0.4, .velocity = 0.1};
+    *biaxial_growth(c) = (scree_growth_config){.solid_fraction = 0.4};
     c->stage[1] = (scree_config_stage){.kind = SCREE_STAGE_CONFINE, .pressure = 100e3};
     c->stage[2] = (scree_config_stage){.kind = SCREE_STAGE_COMPRESS, .strain = 0.1, .rate = 5e-3};
     c->config = (scree_config){
