@@ -103,17 +103,18 @@ double scree_expected_height(const scree_model *model, double phi)
     const scree_preparation *method = scree_config_preparation(config);
     double radius = model->mean_radius;
     if (method && method->height) return method->height(model, stage);
-    bool box = stage && stage->outline == SCREE_SAMPLE_BOX;
-    double aspect = box ? stage->aspect_ratio : 1, count = (double)config->particles.count;
+    const scree_prepare_config *prepare = stage ? scree_config_prepared(stage) : NULL;
+    bool box = prepare && prepare->outline == SCREE_SAMPLE_BOX;
+    double aspect = box ? prepare->aspect_ratio : 1, count = (double)config->particles.count;
     if (model->dimension == 3) {
         double volume = count * 4.0 / 3.0 * M_PI * radius * radius * radius / phi;
-        double width = box ? stage->width : NAN, depth = box ? stage->depth : NAN;
+        double width = box ? prepare->width : NAN, depth = box ? prepare->depth : NAN;
         if (isnan(width) && !isnan(depth)) return sqrt(volume * aspect / depth);
         if (isnan(width)) return cbrt(volume * aspect * aspect);
         return volume / (width * (isnan(depth) ? width : depth));
     }
     double area = count * M_PI * radius * radius / phi;
-    if (box && !isnan(stage->width)) return area / stage->width;
+    if (box && !isnan(prepare->width)) return area / prepare->width;
     return sqrt(area * aspect);
 }
 

@@ -251,7 +251,7 @@ static scree_status resolve_membrane(scree_model *model, scree_error *error)
 {
     const scree_config *config = model->config;
     for (int64_t i = 0; i < config->stage_count; i++)
-        if (config->stages[i].kind != SCREE_STAGE_PREPARE)
+        if (!scree_modules[config->stages[i].kind]->numbers->places)
             model->membrane = model->membrane || scree_config_boundary_of(config, i) == SCREE_BOUNDARY_MEMBRANE;
     if (!model->membrane) return SCREE_OK;
     if (model->material_count == SCREE_MAX_MATERIALS)
@@ -283,16 +283,17 @@ static scree_status resolve_membrane(scree_model *model, scree_error *error)
 static scree_status check_prepare(const scree_model *model, int64_t index, scree_error *error)
 {
     const scree_config_stage *stage = &model->config->stages[index];
-    const scree_preparation *method = scree_modules[stage->method]->preparation;
+    const scree_prepare_config *prepare = scree_config_prepared(stage);
+    const scree_preparation *method = scree_modules[prepare->method]->preparation;
     bool solid = model->dimension == 3;
     scree_status status = method->check ? method->check(model, index, error) : SCREE_OK;
     // A round sample's sides are not the user's; and a method that makes its box has judged it.
-    if (status || stage->outline != SCREE_SAMPLE_BOX || method->sizes_box) return status;
-    bool shallow = solid && !isnan(stage->depth) && stage->depth < 2 * model->radius_max;
-    if (shallow || (!isnan(stage->width) && stage->width < 2 * model->radius_max)) {
+    if (status || prepare->outline != SCREE_SAMPLE_BOX || method->sizes_box) return status;
+    bool shallow = solid && !isnan(prepare->depth) && prepare->depth < 2 * model->radius_max;
+    if (shallow || (!isnan(prepare->width) && prepare->width < 2 * model->radius_max)) {
         char text[160];
         (void)snprintf(text, sizeof text, "a %s of radius %g m does not fit into a box %g m %s",
-                       solid ? "sphere" : "disc", model->radius_max, shallow ? stage->depth : stage->width,
+                       solid ? "sphere" : "disc", model->radius_max, shallow ? prepare->depth : prepare->width,
                        shallow ? "deep" : "wide");
         return indexed_error(error, "stages", index, shallow ? "depth" : "width", text);
     }
@@ -312,22 +313,14 @@ double scree_model_mean_mass(const scree_model *model)
 
 double scree_held_pressure(const scree_config_stage *stage)
 {
-    if (stage->kind == SCREE_STAGE_CONFINE) return stage->pressure;
-    double largest = NAN;
-    for (int k = 0; k < 9 && stage->kind == SCREE_STAGE_DEFORM; k += 4) largest = fmax(largest, stage->stress[k]);
-    return largest;
+    const scree_stage_numbers *numbers = scree_modules[stage->kind]->numbers;
+    return numbers->pressure ? numbers->pressure(stage->own) : NAN;
 }
 
 double scree_model_loading_rate(const scree_config_stage *stage)
 {
-    if (stage->kind == SCREE_STAGE_COMPRESS) return fabs(stage->rate);
-    if (stage->kind != SCREE_STAGE_DEFORM) return NAN;
-    double rate = 0;
-    for (int c = 0; c < 9; c++) {
-        if (!isnan(stage->velocity_gradient[c])) rate = fmax(rate, fabs(stage->velocity_gradient[c]));
-        if (!isnan(stage->strain_rate[c])) rate = fmax(rate, fabs(stage->strain_rate[c]));
-    }
-    return rate;
+    const scree_stage_numbers *numbers = scree_modules[stage->kind]->numbers;
+    return numbers->rate ? numbers->rate(stage->own) : NAN;
 }
 
 /// Reference velocity, phi and psi: those of the first loading stage under the pressure that it holds or that of the
@@ -338,7 +331,7 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
     double pressure = NAN, rate = NAN;
     for (int64_t i = 0; i < config->stage_count && isnan(rate); i++) {
         const scree_config_stage *stage = &config->stages[i];
-        if (stage->kind == SCREE_STAGE_PREPARE) {
+        if (scree_modules[stage->kind]->numbers->places) {
             scree_status status = check_prepare(model, i, error);
             if (status) return status;
         }

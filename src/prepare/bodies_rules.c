@@ -13,7 +13,7 @@
 typedef struct listed {
     scree_reader *reader;
     const scree_config *config;
-    const scree_config_stage *stage;
+    const scree_prepare_config *stage;
     const scree_bodies_config *own;
     const scree_node *nodes; ///< the list in the tree
 } listed;
@@ -187,11 +187,12 @@ static void check_count(const listed *l)
 void scree_bodies_rules(scree_reader *reader, const scree_config *config)
 {
     const scree_config_stage *stage = scree_config_prepare(config);
-    if (!stage || stage->method != SCREE_SLOT_bodies || scree_bodies_of(stage)->body_count == 0) return;
+    if (!stage || scree_config_prepared(stage)->method != SCREE_SLOT_bodies || scree_bodies_of(stage)->body_count == 0)
+        return;
     const scree_node *node = scree_node_at(scree_node_find(reader->root, "stages"), 0);
     const scree_node *outline = scree_node_find(node, "outline");
-    listed l = {reader, config, stage, scree_bodies_of(stage), scree_node_find(node, "bodies")};
-    if (outline && stage->outline != SCREE_SAMPLE_BOX) {
+    listed l = {reader, config, scree_config_prepared(stage), scree_bodies_of(stage), scree_node_find(node, "bodies")};
+    if (outline && scree_config_prepared(stage)->outline != SCREE_SAMPLE_BOX) {
         scree_problem_add(reader, outline->place, "stages.0.outline", outline->text, "box",
                           "bodies that are listed are not cut out of a larger packing");
         return; // a round sample has no sides

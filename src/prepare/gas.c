@@ -156,19 +156,20 @@ static double solid_fraction_of(const scree_model *model, const scree_config_sta
 /// Sides [m] of the box of a gas; in 2D the third is infinite.
 static void gas_sides(const scree_model *model, const scree_config_stage *stage, double side[3])
 {
+    const scree_prepare_config *prepare = scree_config_prepared(stage);
     const int material = SCREE_PARTICLE_MATERIAL;
     double depth = model->dimension == 3 ? 1 : model->thickness;
     double solid = (double)model->config->particles.count * scree_model_mean_mass(model) / model->density[material];
     double room = solid / depth / solid_fraction_of(model, stage);
-    side[0] = stage->width;
-    side[1] = stage->depth;
+    side[0] = prepare->width;
+    side[1] = prepare->depth;
     side[2] = INFINITY;
     if (model->dimension == 2) {
-        if (isnan(side[0])) side[0] = sqrt(room / stage->aspect_ratio);
+        if (isnan(side[0])) side[0] = sqrt(room / prepare->aspect_ratio);
         side[1] = room / side[0];
         return;
     }
-    double face = room / stage->aspect_ratio;
+    double face = room / prepare->aspect_ratio;
     if (isnan(side[0])) side[0] = isnan(side[1]) ? cbrt(face) : sqrt(face / side[1]);
     if (isnan(side[1])) side[1] = side[0];
     side[2] = room / (side[0] * side[1]);
@@ -181,7 +182,7 @@ static scree_status check(const scree_model *model, int64_t index, scree_error *
 {
     const scree_config_stage *stage = &model->config->stages[index];
     const scree_config *whole = model->config;
-    bool confined = index + 1 < whole->stage_count && whole->stages[index + 1].kind == SCREE_STAGE_CONFINE;
+    bool confined = index + 1 < whole->stage_count && scree_modules[whole->stages[index + 1].kind]->numbers->settles;
     const int periodic = model->config->boundary.periodic;
     if (!periodic) return SCREE_OK;
     double side[3], loosest = model->dimension == 3 ? 0.55 : 0.76, needed = 4 * model->radius_max;

@@ -78,9 +78,10 @@ static void stand_walls(const scree_box *box, bool active, scree_state *state)
 scree_status scree_prepare(const scree_model *model, const scree_config_stage *stage, scree_state *state,
                            scree_error *error)
 {
-    const scree_module *module = scree_modules[stage->method];
+    const scree_prepare_config *prepare = scree_config_prepared(stage);
+    const scree_module *module = scree_modules[prepare->method];
     const scree_preparation *method = module->preparation;
-    const bool round = stage->outline != SCREE_SAMPLE_BOX;
+    const bool round = prepare->outline != SCREE_SAMPLE_BOX;
     size_t count = (size_t)model->config->particles.count;
     unsigned periodic = (unsigned)model->config->boundary.periodic;
     if (periodic && !method->periodic)
@@ -95,8 +96,8 @@ scree_status scree_prepare(const scree_model *model, const scree_config_stage *s
     if (!status && round)
         status = scree_packing_cut_round(model, stage, method, &packing, error);
     else if (!status) {
-        packing.box = (scree_box){.width = stage->width, .depth = stage->depth, .periodic = periodic};
-        packing.aspect_ratio = stage->aspect_ratio;
+        packing.box = (scree_box){.width = prepare->width, .depth = prepare->depth, .periodic = periodic};
+        packing.aspect_ratio = prepare->aspect_ratio;
         scree_draw_radii(model, packing.radius, count);
         status = method->place(model, stage, &packing, error);
     }

@@ -154,10 +154,10 @@ static void test_errors_name_their_field(void **unused)
     c.config.stage_count = 2;
     expect_input_error(&c, "contact.reference_velocity", "loading stage");
     biaxial_config_set(&c, 983);
-    c.stage[0].method = SCREE_SLOT_hexagonal;
+    biaxial_prepare(&c)->method = SCREE_SLOT_hexagonal;
     expect_input_error(&c, "stages.0.method", "equal");
     biaxial_config_set(&c, 983);
-    c.stage[0].width = 1.9e-3;
+    biaxial_prepare(&c)->width = 1.9e-3;
     expect_input_error(&c, "stages.0.width", "does not fit");
 }
 
@@ -209,7 +209,7 @@ static void test_critical_step_of_other_loads(void **unused)
     assert_true(by_guard > 0 && by_guard < by_weight);
 
     c.config.gravity[1] = 0;
-    c.stage[0].method = SCREE_SLOT_gas;
+    biaxial_prepare(&c)->method = SCREE_SLOT_gas;
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
     double slow = model.critical_step;
     biaxial_gas(&c)->velocity *= 32;
@@ -345,8 +345,8 @@ static void prepare_assembly(int method, int64_t count, scree_state *state)
     biaxial_config c;
     scree_model model;
     biaxial_config_set(&c, count);
-    c.stage[0].method = method;
-    c.stage[0].aspect_ratio = 1;
+    biaxial_prepare(&c)->method = method;
+    biaxial_prepare(&c)->aspect_ratio = 1;
     if (method != SCREE_SLOT_drop_and_roll) c.config.particles.distribution = SCREE_SIZE_EQUAL;
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
     assert_int_equal(scree_prepare(&model, &c.stage[0], state, NULL), SCREE_OK);

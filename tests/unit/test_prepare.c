@@ -18,7 +18,7 @@ typedef struct sample {
 static void sample_set(sample *s, int method, int64_t count)
 {
     biaxial_config_set(&s->c, count);
-    s->c.stage[0].method = (int)method;
+    biaxial_prepare(&s->c)->method = (int)method;
     if (method == SCREE_SLOT_hexagonal || method == SCREE_SLOT_square)
         s->c.config.particles.distribution = SCREE_SIZE_EQUAL;
 }
@@ -140,7 +140,7 @@ static void test_drop_and_roll_in_awkward_boxes(void **unused)
     const double widths[] = {2.0e-3, 2.2e-3, 4.1e-3};
     for (int k = 0; k < 3; k++) {
         sample_set(&s, SCREE_SLOT_drop_and_roll, 150);
-        s.c.stage[0].width = widths[k];
+        biaxial_prepare(&s.c)->width = widths[k];
         sample_prepare(&s);
         size_t contacts;
         assert_true(s.width == widths[k]);
@@ -184,7 +184,7 @@ static void test_drop_and_roll_aspect_ratio(void **unused)
     for (int k = 0; k < 9; k++) {
         sample s;
         sample_set(&s, SCREE_SLOT_drop_and_roll, counts[k % 3]);
-        s.c.stage[0].aspect_ratio = ratios[k / 3];
+        biaxial_prepare(&s.c)->aspect_ratio = ratios[k / 3];
         sample_prepare(&s);
         double diameters_high = s.height / (2 * s.model.mean_radius);
         assert_true(fabs(s.height / s.width / ratios[k / 3] - 1) < 0.01 + 1.5 / diameters_high);
@@ -284,7 +284,7 @@ static void test_lattices(void **unused)
     sample s;
     size_t contacts;
     sample_set(&s, SCREE_SLOT_hexagonal, 33);
-    s.c.stage[0].width = 12.1 * 0.75e-3;
+    biaxial_prepare(&s.c)->width = 12.1 * 0.75e-3;
     sample_prepare(&s);
     assert_true(largest_overlap(&s, &contacts) < ROUND_OFF);
     assert_int_equal(contacts, 3 * 5 + 3 * 4 + 5 * 10);
@@ -293,7 +293,7 @@ static void test_lattices(void **unused)
     scree_state_destroy(&s.state);
 
     sample_set(&s, SCREE_SLOT_square, 40);
-    s.c.stage[0].aspect_ratio = 1.6;
+    biaxial_prepare(&s.c)->aspect_ratio = 1.6;
     sample_prepare(&s);
     assert_true(largest_overlap(&s, &contacts) < ROUND_OFF);
     assert_int_equal(contacts, 8 * 4 + 5 * 7);
@@ -311,7 +311,7 @@ static void test_lattices(void **unused)
             scree_state_destroy(&s.state);
         }
     sample_set(&s, SCREE_SLOT_hexagonal, 33);
-    s.c.stage[0].width = 2.1e-3;
+    biaxial_prepare(&s.c)->width = 2.1e-3;
     sample_expect_error(&s, "stages.0.width", "row");
 }
 
@@ -360,7 +360,7 @@ static void test_gas_that_does_not_fit(void **unused)
     sample_prepare(&s);
     scree_state_destroy(&s.state);
     sample_set(&s, SCREE_SLOT_gas, 2);
-    s.c.stage[0].width = 0.1;
+    biaxial_prepare(&s.c)->width = 0.1;
     sample_expect_error(&s, "stages.0.solid_fraction", "does not fit");
 }
 

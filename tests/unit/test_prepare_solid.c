@@ -20,9 +20,9 @@ static void sample_set(sample *s, int dimension, int method, int64_t count)
     biaxial_config_set(&s->c, count);
     s->c.config.dimension = dimension;
     if (dimension == 3) s->c.config.particles.shape = SCREE_SHAPE_SPHERE;
-    s->c.stage[0].method = (int)method;
+    biaxial_prepare(&s->c)->method = (int)method;
     biaxial_gas(&s->c)->solid_fraction = biaxial_growth(&s->c)->solid_fraction = NAN;
-    s->c.stage[0].aspect_ratio = 1;
+    biaxial_prepare(&s->c)->aspect_ratio = 1;
     if (method == SCREE_SLOT_face_centred || method == SCREE_SLOT_cubic)
         s->c.config.particles.distribution = SCREE_SIZE_EQUAL;
 }
@@ -224,8 +224,8 @@ static void spheres_fill_boxes_of_given_sides(void **unused)
     for (size_t k = 0; k < sizeof sides / sizeof *sides; k++) {
         sample s;
         sample_set(&s, 3, SCREE_SLOT_drop_and_roll, 300);
-        s.c.stage[0].width = sides[k][0];
-        s.c.stage[0].depth = sides[k][1];
+        biaxial_prepare(&s.c)->width = sides[k][0];
+        biaxial_prepare(&s.c)->depth = sides[k][1];
         sample_prepare(&s);
         contacts *each = calloc(s.state.count, sizeof *each);
         assert_non_null(each);
@@ -246,8 +246,8 @@ static void lattices_of_spheres(void **unused)
     for (int k = 0; k < 2; k++) {
         sample s;
         sample_set(&s, 3, methods[k], 1100);
-        s.c.stage[0].aspect_ratio = 1.5;
-        if (k == 1) s.c.stage[0].depth = 14.9e-3;
+        biaxial_prepare(&s.c)->aspect_ratio = 1.5;
+        if (k == 1) biaxial_prepare(&s.c)->depth = 14.9e-3;
         sample_prepare(&s);
         contacts *each = calloc(s.state.count, sizeof *each);
         assert_non_null(each);
@@ -271,7 +271,7 @@ static void gas_of_spheres(void **unused)
     sample s;
     sample_set(&s, 3, SCREE_SLOT_gas, 2000);
     biaxial_gas(&s.c)->solid_fraction = 0.25;
-    s.c.stage[0].aspect_ratio = 2;
+    biaxial_prepare(&s.c)->aspect_ratio = 2;
     sample_prepare(&s);
     assert_true(largest_overlap(&s, NULL) <= 0);
     // The box is made for the fraction; sums of 2000 terms.
@@ -351,7 +351,7 @@ static void growth_reaches_the_solid_fraction(void **unused)
             sample s;
             sample_set(&s, dimension, SCREE_SLOT_growth, 1000);
             double wanted = biaxial_growth(&s.c)->solid_fraction = fraction[dimension - 2][k];
-            s.c.stage[0].aspect_ratio = 1.2;
+            biaxial_prepare(&s.c)->aspect_ratio = 1.2;
             sample_prepare(&s);
             assert_true(largest_overlap(&s, NULL) <= 0);
             // The box is made for the fraction; sums of 1000 terms. Auto: 80 and 60 % less the share of the walls.
@@ -392,9 +392,9 @@ static void round_samples(void **unused)
         for (int k = 0; k < 3; k++) {
             sample s;
             sample_set(&s, dimension, methods[k], 400);
-            s.c.stage[0].outline = dimension == 3 ? SCREE_SAMPLE_BALL : SCREE_SAMPLE_CIRCLE;
+            biaxial_prepare(&s.c)->outline = dimension == 3 ? SCREE_SAMPLE_BALL : SCREE_SAMPLE_CIRCLE;
             // As the case language leaves keys that are not used.
-            s.c.stage[0].width = s.c.stage[0].aspect_ratio = 0;
+            biaxial_prepare(&s.c)->width = biaxial_prepare(&s.c)->aspect_ratio = 0;
             s.c.config.gravity[1] = -9.81;
             sample_prepare(&s);
             assert_int_equal(s.state.count, 400);
@@ -480,7 +480,7 @@ static void failed_allocations_are_errors(void **unused)
         sample s;
         scree_error error = {0};
         sample_set(&s, 3, methods[k % 3], 20);
-        if (k >= 3) s.c.stage[0].outline = SCREE_SAMPLE_BALL;
+        if (k >= 3) biaxial_prepare(&s.c)->outline = SCREE_SAMPLE_BALL;
         if (methods[k % 3] == SCREE_SLOT_growth) biaxial_growth(&s.c)->solid_fraction = 0.3;
         assert_int_equal(scree_model_build(&s.c.config, &s.model, &error), SCREE_OK);
         size_t before, after;
