@@ -1,5 +1,7 @@
 /// Sums in integers: free of the order of their terms and of how they are cut into parts, as exact as they say, and
 /// never wrong in silence. Then everything that steers a run: the same bits for any order of rows, contacts and facets.
+#include "boundary/pressure.h"
+#include "boundary_passes.h"
 #include "testing.h"
 
 #include "base/integer_sum.h"
@@ -9,7 +11,6 @@
 #include "boundary/hull.h"
 #include "boundary/periodic.h"
 #include "boundary/plates.h"
-#include "boundary/pressure.h"
 #include "measure/facets.h"
 #include "measure/hull.h"
 #include "measure/outline.h"
@@ -178,16 +179,6 @@ static void keep_servos(numbers *n, const scree_model *model, const scree_state 
     keep(n, (double[]){scree_sample_wave_time(model, state, 1e5)}, 1);
 }
 
-/// Half of the work of the pressure and of the boundary's own forces.
-static void book_work(const scree_simulation *s, scree_state *state)
-{
-    const scree_context context = {.model = &s->stage_model, .state = state, .boundary = s->boundary};
-    scree_pressure_work(state);
-    for (size_t k = 0; k < s->boundary->pass_count; k++)
-        if (s->boundary->passes[k].phase == SCREE_PHASE_FOLLOW)
-            assert_int_equal(s->boundary->passes[k].run(&context, NULL), SCREE_OK);
-}
-
 /// All that ends stages, moves plates and cells, imposes rates, stops runs, or is added to the ledger.
 static void measure_all(const scree_simulation *s, const scree_state *from, const scree_contact_table *table,
                         numbers *n)
@@ -205,7 +196,8 @@ static void measure_all(const scree_simulation *s, const scree_state *from, cons
          3);
     state.ledger = (scree_ledger){0};
     scree_energy_change_step(model, &state, 1e-5, 2e-5);
-    book_work(s, &state);
+    scree_pressure_work(&state);
+    boundary_follow(s->boundary, model, &state);
     keep(n, (const double *)&state.ledger, sizeof state.ledger / sizeof(double));
     scree_strain_measure(&state, gradient);
     keep(n, gradient, 9);
