@@ -66,7 +66,7 @@ static void open_model(sample *s)
         .material = name, .count = 1, .radius_min = 0.5e-3, .radius_max = 1e-3, .thickness = NAN};
     s->config.contact = (scree_config_contact){.law = SCREE_LAW_HERTZ_MINDLIN, .friction_exponent = 50};
     s->config.integrator =
-        (scree_config_integrator){.scheme = SCREE_SCHEME_VELOCITY_VERLET, .step = NAN, .step_fraction = 0.5};
+        (scree_config_integrator){.scheme = SCREE_SLOT_velocity_verlet, .step = NAN, .step_fraction = 0.5};
     s->config.guard = (scree_config_guard){.overlap = 0.5, .energy_growth = 0.05};
     require(scree_model_build(&s->config, &s->model, &error), &error);
     s->model.gravity[2] = -gravity;

@@ -30,12 +30,12 @@ struct scree_model {
     int dimension;
     double thickness; ///< m, length of the discs; 1 in 3D
     scree_law law;
-    bool rolling;              ///< some material resists rolling or twisting (hertz_mindlin)
-    bool rescaled;             ///< springs of hertz_mindlin that stiffen keep their force, not their displacement
-    double damping_time;       ///< s, T of hertz_brilliantov
-    double inverse_exponent;   ///< 1/c of hertz_brilliantov
-    double reference_velocity; ///< m/s, v_R
-    scree_scheme scheme;
+    bool rolling;                  ///< some material resists rolling or twisting (hertz_mindlin)
+    bool rescaled;                 ///< springs of hertz_mindlin that stiffen keep their force, not their displacement
+    double damping_time;           ///< s, T of hertz_brilliantov
+    double inverse_exponent;       ///< 1/c of hertz_brilliantov
+    double reference_velocity;     ///< m/s, v_R
+    int scheme;                    ///< slot of the integrator's module
     double step;                   ///< s, the tick: the small step of two_timescales, the step of all other schemes
     uint64_t largest_step;         ///< ticks, N_S of two_timescales (the step before loading), else 1
     uint64_t large_multiple;       ///< ticks, n of two_timescales, else 1
@@ -92,11 +92,8 @@ double scree_model_mean_mass(const scree_model *model);
 /// Strain rate that a stage imposes [1/s]; of a deform stage the largest component. NAN: it loads nothing.
 double scree_model_loading_rate(const scree_config_stage *stage);
 
-/// Number of the material of a listed body; -1: the case has none of that name.
-int scree_model_body_material(const scree_model *model, const scree_config_body *body);
-
-/// Solid fraction of a gas that `stage` prepares: what it says, 30 % of discs or 15 % of spheres where that is auto.
-double scree_model_gas_fraction(const scree_model *model, const scree_config_stage *stage);
+/// Number of the material of this name, NULL that of the particles; -1: the case has none of that name.
+int scree_model_material(const scree_model *model, const char *name);
 
 /// A copy with every friction coefficient replaced by `friction` (used while preparing dense samples), but a membrane's
 /// zero. NAN copies only.

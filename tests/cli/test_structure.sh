@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The structure that docs/architecture.md promises: a file includes only from its own layer or layers above it in the table;
-# the command line includes only the public headers; the library never exits, aborts or prints; files stay below 600 lines.
+# the command line includes only the public headers; the choices of a case that are modules are known by name in their own
+# files alone; the library never exits, aborts or prints; files stay below 600 lines.
 set -u
 source_dir=${SCREE_SOURCE_DIR:?}
 cd "$source_dir" || exit 1
@@ -23,6 +24,15 @@ for folder in src/*/; do
             complain "$file:$line: layer $layer includes from $other, which lies below it"
         fi
     done < <(grep -nHE '^#include "[a-z]+/' "$folder"*.[ch])
+done
+mapfile -t modules < <(sed -n '/define SCREE_CASE_MODULES/,/^$/p' src/module/table.h | grep -oE 'row\([a-z_]+\)' | sed -E 's/row\((.*)\)/\1/')
+[ ${#modules[@]} -ge 12 ] || complain "the rows of src/module/table.h were not found"
+for name in "${modules[@]}"; do
+    mapfile -t owner < <(grep -rlE "scree_module_$name = \{|[A-Z]+\($name, \"" src)
+    [ ${#owner[@]} -eq 1 ] || complain "module $name has ${#owner[@]} descriptors"
+    while IFS= read -r file; do
+        case $file in "${owner[0]%.c}"*) ;; *) complain "$file knows the module $name of ${owner[0]}" ;; esac
+    done < <(grep -rlE "(SCREE_SLOT_|scree_module_)$name\b" src)
 done
 while IFS= read -r hit; do complain "$hit: the library never exits, aborts or prints"; done \
     < <(grep -nHE '(^|[^a-z_>.])(exit|abort|printf|puts|perror)\(' $(find src -name '*.[ch]' ! -path 'src/cli/*') | grep -vE '///|// ')

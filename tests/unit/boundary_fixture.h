@@ -48,7 +48,7 @@ static inline void bench_begin(bench *b, int dimension, size_t count, double ste
     b->model = (scree_model){.dimension = dimension,
                              .thickness = dimension == 3 ? 1 : THICKNESS,
                              .law = SCREE_LAW_HERTZ_MINDLIN,
-                             .scheme = SCREE_SCHEME_POSITION_VERLET,
+                             .scheme = SCREE_SLOT_position_verlet,
                              .largest_step = 1,
                              .mean_radius = RADIUS,
                              .radius_min = 0.7 * RADIUS,

@@ -37,7 +37,7 @@ static inline scree_model fixture_model(scree_law law)
     model.damping_time = 2e-6;
     model.inverse_exponent = 1.0 / 50;
     model.reference_velocity = 1e-2;
-    model.scheme = SCREE_SCHEME_POSITION_VERLET;
+    model.scheme = SCREE_SLOT_position_verlet;
     model.mean_radius = 1e-3;
     model.radius_min = 0.5e-3;
     model.radius_max = 1.5e-3;

@@ -1,6 +1,8 @@
 /// The model: constants against closed forms, resolved defaults, errors with their fields, and the critical step
 /// against the largest eigenvalue of assembled lattices and packings.
 #include "biaxial_config.h"
+#include "integrate/two_timescales.h"
+#include "own_config.h"
 #include "testing.h"
 
 #include "model/critical_step.h"
@@ -152,10 +154,10 @@ static void test_errors_name_their_field(void **unused)
     c.config.stage_count = 2;
     expect_input_error(&c, "contact.reference_velocity", "loading stage");
     biaxial_config_set(&c, 983);
-    c.stage[0].method = SCREE_PREPARE_HEXAGONAL;
+    biaxial_prepare(&c)->method = SCREE_SLOT_hexagonal;
     expect_input_error(&c, "stages.0.method", "equal");
     biaxial_config_set(&c, 983);
-    c.stage[0].width = 1.9e-3;
+    biaxial_prepare(&c)->width = 1.9e-3;
     expect_input_error(&c, "stages.0.width", "does not fit");
 }
 
@@ -207,10 +209,10 @@ static void test_critical_step_of_other_loads(void **unused)
     assert_true(by_guard > 0 && by_guard < by_weight);
 
     c.config.gravity[1] = 0;
-    c.stage[0].method = SCREE_PREPARE_GAS;
+    biaxial_prepare(&c)->method = SCREE_SLOT_gas;
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
     double slow = model.critical_step;
-    c.stage[0].velocity *= 32;
+    biaxial_gas(&c)->velocity *= 32;
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
     // k ~ d^0.5 ~ v^0.4 and c ~ sqrt(k): the step goes as v^(-1/5), exactly.
     assert_close(slow / model.critical_step, 2);
@@ -343,9 +345,9 @@ static void prepare_assembly(int method, int64_t count, scree_state *state)
     biaxial_config c;
     scree_model model;
     biaxial_config_set(&c, count);
-    c.stage[0].method = method;
-    c.stage[0].aspect_ratio = 1;
-    if (method != SCREE_PREPARE_DROP_AND_ROLL) c.config.particles.distribution = SCREE_SIZE_EQUAL;
+    biaxial_prepare(&c)->method = method;
+    biaxial_prepare(&c)->aspect_ratio = 1;
+    if (method != SCREE_SLOT_drop_and_roll) c.config.particles.distribution = SCREE_SIZE_EQUAL;
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
     assert_int_equal(scree_prepare(&model, &c.stage[0], state, NULL), SCREE_OK);
 }
@@ -367,7 +369,7 @@ static void test_critical_step_of_the_lattice(void **unused)
 {
     (void)unused;
     scree_state state;
-    prepare_assembly(SCREE_PREPARE_HEXAGONAL, 200, &state);
+    prepare_assembly(SCREE_SLOT_hexagonal, 200, &state);
     for (size_t k = 0; k < sizeof TANGENTS / sizeof *TANGENTS; k++) {
         assembly a = assemble(&state, TANGENTS[k]);
         double ratio = true_critical_step(&a) / scree_critical_step_lattice(2, &TANGENTS[k], 1);
@@ -383,7 +385,7 @@ static void test_lattice_is_faster_than_a_random_packing(void **unused)
 {
     (void)unused;
     scree_state state;
-    prepare_assembly(SCREE_PREPARE_DROP_AND_ROLL, 300, &state);
+    prepare_assembly(SCREE_SLOT_drop_and_roll, 300, &state);
     for (size_t k = 0; k < sizeof TANGENTS / sizeof *TANGENTS; k++) {
         assembly a = assemble(&state, TANGENTS[k]);
         double ratio = true_critical_step(&a) / scree_critical_step_lattice(2, &TANGENTS[k], 1);
@@ -399,7 +401,7 @@ static void test_stability_limit_of_the_scheme(void **unused)
 {
     (void)unused;
     scree_state state;
-    prepare_assembly(SCREE_PREPARE_HEXAGONAL, 60, &state);
+    prepare_assembly(SCREE_SLOT_hexagonal, 60, &state);
     for (size_t k = 2; k < 5; k++) {
         assembly a = assemble(&state, TANGENTS[k]);
         double exact = true_critical_step(&a);
@@ -450,10 +452,11 @@ static void test_membrane(void **unused)
     assert_int_equal(scree_model_build(&c.config, &model, &error), SCREE_ERROR_INPUT);
     assert_string_equal(error.field, "boundary.membrane_stiffness");
     c.config.boundary.membrane_stiffness /= 1.02;
-    c.config.integrator.scheme = SCREE_SCHEME_TWO_TIMESCALES;
-    c.config.integrator.repeats = 1;
-    c.config.integrator.large_multiple = 2;
-    c.config.integrator.small_steps = 1;
+    c.config.integrator.scheme = SCREE_SLOT_two_timescales;
+    own_block block = {0};
+    c.config.integrator.own = &block;
+    *OWN(&block, scree_two_timescales_config, two_timescales, "integrator") =
+        (scree_two_timescales_config){.repeats = 1, .large_multiple = 2, .small_steps = 1};
     assert_int_equal(scree_model_build(&c.config, &model, &error), SCREE_ERROR_INPUT);
     assert_string_equal(error.field, "boundary.membrane_stiffness");
 }
