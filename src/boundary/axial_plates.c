@@ -1,11 +1,12 @@
-/// Boundaries with a bottom and a top plate: under pressure the bottom plate stands, the top plate and the sides are under
-/// servo (with two plates under servo the sample would drift: the pressure on sloping sides has a vertical resultant that
-/// only a standing plate can bear); in compression the two approach each other.
+/// Boundaries with a bottom and a top plate: under pressure the bottom plate stands, the top plate and the sides are
+/// under servo (with two plates under servo the sample would drift: the pressure on sloping sides has a vertical
+/// resultant that only a standing plate can bear); in compression the two approach each other.
 ///
 /// A sample whose friction depends on velocity creeps on, and its plate with it: so the tolerance of 5 % of the stress.
 #include "boundary/axial_plates.h"
 
 #include "boundary/plates.h"
+#include "state/pressure.h"
 
 #include <math.h>
 

@@ -4,6 +4,7 @@
 #include "boundary/drive.h"
 #include "boundary/minimal.h"
 #include "boundary/plates.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>

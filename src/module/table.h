@@ -6,7 +6,7 @@
 
 #define SCREE_STATE_MODULES(row)                                                                                       \
     row(plates) row(case_walls) row(periodic_cell) row(delaunay_boundary) row(pressure) row(imposed_gradient)          \
-        row(membrane) row(forced_spin)
+        row(membrane) row(forced_spin) row(loading)
 
 /// Choices of the case, in the order in which the case reference lists them.
 #define SCREE_CASE_MODULES(row)                                                                                        \

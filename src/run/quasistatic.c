@@ -13,6 +13,7 @@
 #include "run/quasistatic.h"
 
 #include "model/critical_step.h"
+#include "run/loading.h"
 #include "run/sample.h"
 
 #include <math.h>

@@ -286,11 +286,10 @@ static scree_status summarise_shape(const scree_simulation *s, scree_summary *su
 static int64_t loading_stage(const scree_simulation *s, int64_t wanted)
 {
     const scree_config_stage *stage = s->model.config->stages;
-    bool periodic = scree_model_is_wholly_periodic(&s->model);
     for (int64_t k = wanted; k >= 0; k--)
         if (!isnan(scree_model_loading_rate(&stage[k]))) return k;
     int64_t k = wanted;
-    while (k >= 0 && !scree_stage_get(stage[k].kind, periodic)->loading) k--;
+    while (k >= 0 && !scree_modules[stage[k].kind]->stage->loading) k--;
     return k;
 }
 

@@ -6,9 +6,6 @@
 /// over the speed: before it nothing acts) until the force is gone, which is found to half a step. Automatic duration:
 /// the approach and twice the relaxation time of the closed form; with hertz_mindlin ten times that of an elastic
 /// impact.
-///
-/// state.stage.reference: [0] speed of approach at the first touch, [1] time of the first touch, [2] last time with a
-/// force, both from the begin of the stage (0: none yet), [3] duration.
 #include "run/stage_collide.h"
 
 #include "module/key_rows.h"
@@ -26,7 +23,18 @@ static const scree_key keys[] = {
            .meaning = "The stage ends when the two have parted, or after this; auto: twice as long as it should take."),
 };
 
-enum { SPEED, TOUCH, LAST_FORCE, DURATION };
+/// State of the module; times are those since the begin of the stage.
+typedef struct collision {
+    double speed;      ///< m/s, of approach at the first touch
+    double touch;      ///< s, of the first touch
+    double last_force; ///< s, last time with a force; 0: none yet
+    double duration;   ///< s, of the stage
+} collision;
+
+static collision *own_state(const scree_simulation *s)
+{
+    return s->state.own[SCREE_SLOT_collide];
+}
 
 /// From the first centre to the second, and the velocity of the first relative to the second.
 static void relative_motion(const scree_state *state, double way[3], double velocity[3])
@@ -103,22 +111,22 @@ static double patience(const scree_model *model)
 
 static scree_status begin(scree_simulation *s, scree_error *error)
 {
-    double *reference = s->state.stage.reference;
+    collision *own = own_state(s);
     scree_impact impact;
-    reference[LAST_FORCE] = 0;
-    scree_status status = foresee_touch(&s->state, &reference[SPEED], &reference[TOUCH], error);
-    if (!status) status = theory_of(s, reference[SPEED], &impact, error);
+    own->last_force = 0;
+    scree_status status = foresee_touch(&s->state, &own->speed, &own->touch, error);
+    if (!status) status = theory_of(s, own->speed, &impact, error);
     if (status) return status;
     double after = patience(&s->model) * impact.duration;
     double given = ((const config *)scree_stage_config(s)->own)->duration;
-    reference[DURATION] = isnan(given) ? reference[TOUCH] + after : given;
+    own->duration = isnan(given) ? own->touch + after : given;
     return status;
 }
 
 static void plan(scree_simulation *s)
 {
     uint64_t largest = s->model.largest_step;
-    uint64_t expected = scree_stage_ticks(s, s->state.stage.reference[DURATION]);
+    uint64_t expected = scree_stage_ticks(s, own_state(s)->duration);
     uint64_t interval = expected / largest / (uint64_t)s->model.config->measure.samples * largest;
     s->plan = (scree_stage_plan){.interval = interval > 0 ? interval : largest, .expected = expected};
 }
@@ -127,12 +135,12 @@ static void plan(scree_simulation *s)
 static void control(scree_simulation *s)
 {
     const scree_state *state = &s->state;
-    if (is_pushed(state)) s->state.stage.reference[LAST_FORCE] = scree_stage_elapsed(s);
+    if (is_pushed(state)) own_state(s)->last_force = scree_stage_elapsed(s);
 }
 
 static bool has_parted(const scree_state *state)
 {
-    return state->stage.reference[LAST_FORCE] > 0 && !is_pushed(state);
+    return ((const collision *)state->own[SCREE_SLOT_collide])->last_force > 0 && !is_pushed(state);
 }
 
 static scree_status finished(scree_simulation *s, bool *done, scree_error *error)
@@ -142,7 +150,7 @@ static scree_status finished(scree_simulation *s, bool *done, scree_error *error
     bool parted = has_parted(&s->state);
     *done = parted || s->state.step - s->state.stage.first_step >= s->plan.expected;
     (void)snprintf(s->reason, sizeof s->reason, parted ? "parted at %.6g of the speed" : "still together (%.6g)",
-                   -speed / s->state.stage.reference[SPEED]);
+                   -speed / own_state(s)->speed);
     return SCREE_OK;
 }
 
@@ -154,17 +162,17 @@ static double fraction(const scree_simulation *s)
 scree_status scree_collide_results(const scree_simulation *s, scree_summary *summary, scree_error *error)
 {
     const scree_config *whole = s->model.config;
-    const double *reference = s->state.stage.reference;
+    const collision *own = own_state(s);
     if (s->state.stage.index < whole->stage_count || !has_parted(&s->state) ||
         whole->stages[whole->stage_count - 1].kind != SCREE_SLOT_collide)
         return SCREE_OK;
     double half = 0.5 * (double)s->model.largest_step * s->state.tick;
     scree_impact impact;
-    scree_status status = theory_of(s, reference[SPEED], &impact, error);
+    scree_status status = theory_of(s, own->speed, &impact, error);
     if (status) return status;
-    scree_summary_set_number(summary, "restitution", -approach(&s->state) / reference[SPEED]);
+    scree_summary_set_number(summary, "restitution", -approach(&s->state) / own->speed);
     scree_summary_set_number(summary, "restitution_theory", impact.restitution);
-    scree_summary_set_number(summary, "relaxation_time", reference[LAST_FORCE] + half - reference[TOUCH]);
+    scree_summary_set_number(summary, "relaxation_time", own->last_force + half - own->touch);
     if (s->model.law != SCREE_LAW_HERTZ_MINDLIN)
         scree_summary_set_number(summary, "relaxation_time_theory", impact.duration);
     return SCREE_OK;
@@ -172,8 +180,8 @@ scree_status scree_collide_results(const scree_simulation *s, scree_summary *sum
 
 double scree_collide_expected(const scree_simulation *s)
 {
-    const double *reference = s->state.stage.reference;
-    return reference[TOUCH] + (reference[DURATION] - reference[TOUCH]) / patience(&s->model);
+    const collision *own = own_state(s);
+    return own->touch + (own->duration - own->touch) / patience(&s->model);
 }
 
 static double planned(const scree_model *model, const void *own, double wave)
@@ -183,17 +191,26 @@ static double planned(const scree_model *model, const void *own, double wave)
     return ((const config *)own)->duration;
 }
 
-const scree_stage scree_stage_collide = {.name = "collide",
-                                         .begin = begin,
-                                         .plan = plan,
-                                         .control = control,
-                                         .finished = finished,
-                                         .fraction = fraction,
-                                         .planned = planned,
-                                         .expected = scree_collide_expected};
+static const scree_stage stage_face = {.name = "collide",
+                                       .begin = begin,
+                                       .plan = plan,
+                                       .control = control,
+                                       .finished = finished,
+                                       .fraction = fraction,
+                                       .planned = planned,
+                                       .expected = scree_collide_expected};
 
 static const scree_stage_numbers numbers = {
     .collides = true, .needs_approach = "collide needs two particles that approach: prepare method pair or bodies"};
+
+#define ONE(member, unit, meaning)                                                                                     \
+    SCREE_FIELD_ONE(collide, collision, member, "collide/" #member, SCREE_FIELD_DOUBLE, 1, unit, meaning)
+static const scree_field fields[] = {
+    ONE(speed, "m/s", "speed of approach at the first touch"),
+    ONE(touch, "s", "time from the begin of the stage to the first touch"),
+    ONE(last_force, "s", "last time with a force; 0: none yet"),
+    ONE(duration, "s", "after which the stage ends in any case"),
+};
 
 const scree_module scree_module_collide = {
     .name = "collide",
@@ -202,5 +219,8 @@ const scree_module scree_module_collide = {
     .keys = (const scree_keys[]){KEYS_OF(NULL, keys, config)},
     .keys_count = 1,
     .numbers = &numbers,
-    .stage = &scree_stage_collide,
+    .stage = &stage_face,
+    .state_size = sizeof(collision),
+    .fields = fields,
+    .field_count = sizeof fields / sizeof *fields,
 };

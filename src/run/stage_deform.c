@@ -1,15 +1,16 @@
-/// Stage `deform`: imposes any components of the mean velocity gradient of the boundary, reached smoothly within
-/// `rise_time`, under the pressure of the stage before; the others are free (boundary minimal; affine takes all).
-/// Components of `velocity_gradient` are prescribed themselves, those of `strain_rate` for the mean of xy and yx.
+/// Stage `deform`: imposes any components of the velocity gradient of the sample, reached smoothly within `rise_time`,
+/// under the pressure of the stage before; the others are free, in a periodic cell zero or left to a stress (boundary
+/// minimal; affine takes all). Components of `velocity_gradient` are prescribed themselves, those of `strain_rate` for
+/// the mean of xy and yx.
 ///
-/// Stop rule: the largest prescribed component, as the Delaunay boundary has been strained since the begin
-/// (logarithmic, sum of increments), has reached `strain`. reference: run/stage.h, SCREE_LOADING_...
+/// Stop rule: the largest prescribed component, as the boundary or the cell has been strained since the begin
+/// (logarithmic, sum of increments; of a shear the engineering one), has reached `strain`.
 #include "run/stage_deform.h"
-#include "boundary/minimal.h"
 #include "measure/imposed_gradient.h"
 #include "measure/measure.h"
 #include "module/key_rows.h"
-#include "run/simulation.h"
+#include "run/loading.h"
+#include "run/step.h"
 #include "state/pressure.h"
 
 #include <math.h>
@@ -64,84 +65,19 @@ static const config *own_config(const scree_simulation *s)
     return scree_stage_config(s)->own;
 }
 
-/// Target at full rate [1/s]. Returns the largest component.
-static int find_target(const config *stage, double target[9], int64_t prescribed[9])
+/// What is demanded at full rate. Returns the largest component.
+static int find_demand(const config *stage, scree_demand *demand)
 {
     int largest = 0;
+    *demand = (scree_demand){.scale = 0};
     for (int c = 0; c < 9; c++) {
         bool full = !isnan(stage->velocity_gradient[c]), symmetric = !isnan(stage->strain_rate[c]);
-        prescribed[c] = full ? SCREE_FULL : symmetric ? SCREE_SYMMETRIC : SCREE_FREE;
-        target[c] = full ? stage->velocity_gradient[c] : symmetric ? stage->strain_rate[c] : 0;
-        if (fabs(target[c]) > fabs(target[largest])) largest = c;
+        demand->how[c] = full ? SCREE_FULL : symmetric ? SCREE_SYMMETRIC : SCREE_FREE;
+        demand->rate[c] = full ? stage->velocity_gradient[c] : symmetric ? stage->strain_rate[c] : 0;
+        demand->stress[c] = c % 4 == 0 ? -stage->stress[c] : stage->stress[c];
+        if (fabs(demand->rate[c]) > fabs(demand->rate[largest])) largest = c;
     }
     return largest;
-}
-
-static scree_status begin(scree_simulation *s, scree_error *error)
-{
-    (void)error;
-    scree_imposed_gradient *drive = scree_imposed(&s->state);
-    double target[9], penalty = s->model.config->boundary.penalty;
-    scree_loading_begin(s);
-    memset(drive->target, 0, sizeof drive->target);
-    (void)find_target(own_config(s), target, drive->prescribed);
-    drive->viscosity = isnan(penalty) ? scree_minimal_viscosity(scree_pressure_now(&s->state), target) : penalty;
-    return SCREE_OK;
-}
-
-static void plan(scree_simulation *s)
-{
-    const config *stage = own_config(s);
-    double target[9];
-    int64_t prescribed[9];
-    int largest = find_target(stage, target, prescribed);
-    s->plan = scree_loading_plan(s, stage->strain / fabs(target[largest]), stage->rise_time);
-}
-
-static void control(scree_simulation *s)
-{
-    scree_imposed_gradient *drive = scree_imposed(&s->state);
-    double loaded, rise = scree_loading_rise(s, &loaded);
-    int64_t prescribed[9];
-    (void)find_target(own_config(s), drive->target, prescribed);
-    for (int c = 0; c < 9; c++) drive->target[c] *= rise;
-}
-
-/// The component of the stop rule as measured, in the sense of its target.
-static double strain(const scree_simulation *s)
-{
-    double target[9], gradient[9];
-    int64_t prescribed[9];
-    int c = find_target(own_config(s), target, prescribed), mirror = 3 * (c % 3) + c / 3;
-    scree_strain_measure(&s->state, gradient);
-    for (int i = 0; i < 9; i++) gradient[i] -= s->state.stage.reference[SCREE_LOADING_STRAIN + i];
-    double reached = prescribed[c] == SCREE_FULL ? gradient[c] : 0.5 * (gradient[c] + gradient[mirror]);
-    return copysign(1, target[c]) * reached;
-}
-
-static scree_status finished(scree_simulation *s, bool *done, scree_error *error)
-{
-    double reached = strain(s);
-    *done = reached >= own_config(s)->strain;
-    (void)snprintf(s->reason, sizeof s->reason, "strain %.4g reached", reached);
-    return *done ? SCREE_OK : scree_loading_check(s, error);
-}
-
-static double fraction(const scree_simulation *s)
-{
-    return strain(s) / own_config(s)->strain;
-}
-
-/// The largest prescribed component.
-static double rate_of(const void *own)
-{
-    const config *stage = own;
-    double rate = 0;
-    for (int c = 0; c < 9; c++) {
-        if (!isnan(stage->velocity_gradient[c])) rate = fmax(rate, fabs(stage->velocity_gradient[c]));
-        if (!isnan(stage->strain_rate[c])) rate = fmax(rate, fabs(stage->strain_rate[c]));
-    }
-    return rate;
 }
 
 static double pressure_of(const void *own)
@@ -151,6 +87,59 @@ static double pressure_of(const void *own)
     return largest;
 }
 
+static double rate_of(const void *own)
+{
+    scree_demand demand;
+    return fabs(demand.rate[find_demand(own, &demand)]);
+}
+
+static scree_status begin(scree_simulation *s, scree_error *error)
+{
+    (void)error;
+    double held = pressure_of(own_config(s));
+    scree_loading_begin(s, held > 0 ? held : scree_pressure_now(&s->state));
+    return SCREE_OK;
+}
+
+static void plan(scree_simulation *s)
+{
+    const config *stage = own_config(s);
+    s->plan = scree_loading_plan(s, stage->strain / rate_of(stage), stage->rise_time);
+}
+
+static void control(scree_simulation *s)
+{
+    const scree_context context = scree_step_context(s);
+    scree_demand demand;
+    double loaded, rise = scree_loading_rise(s, &loaded);
+    (void)find_demand(own_config(s), &demand);
+    s->boundary->deform(&context, &demand, rise);
+}
+
+/// The component of the stop rule as measured, in the sense of its rate.
+static double strain(const scree_simulation *s)
+{
+    double gradient[9];
+    scree_demand demand;
+    int c = find_demand(own_config(s), &demand), mirror = 3 * (c % 3) + c / 3;
+    scree_strain_measure(&s->state, gradient);
+    for (int i = 0; i < 9; i++) gradient[i] -= scree_loading_of(&s->state)->strain[i];
+    double reached = demand.how[c] == SCREE_FULL ? gradient[c] : 0.5 * (gradient[c] + gradient[mirror]);
+    return copysign(1, demand.rate[c]) * reached;
+}
+
+static scree_status finished(scree_simulation *s, bool *done, scree_error *error)
+{
+    const config *stage = own_config(s);
+    return scree_loading_finished(s, "strain", strain(s), stage->strain, rate_of(stage), done, error);
+}
+
+static double fraction(const scree_simulation *s)
+{
+    return strain(s) / own_config(s)->strain;
+}
+
+/// The largest prescribed component.
 static double strain_of(const void *own)
 {
     return ((const config *)own)->strain;
@@ -210,18 +199,17 @@ static const char *wrong(const scree_config *whole, int64_t index, const char **
     return largest > 0 ? NULL : "no component of velocity_gradient or strain_rate moves, so it is never reached";
 }
 
-const scree_stage scree_stage_deform = {.name = "deform",
-                                        .loading = true,
-                                        .strain = strain,
-                                        .begin = begin,
-                                        .plan = plan,
-                                        .control = control,
-                                        .finished = finished,
-                                        .fraction = fraction,
-                                        .quasistatic = true,
-                                        .cell = &scree_stage_deform_periodic,
-                                        .duration = duration,
-                                        .planned = planned};
+static const scree_stage stage_face = {.name = "deform",
+                                       .loading = true,
+                                       .strain = strain,
+                                       .begin = begin,
+                                       .plan = plan,
+                                       .control = control,
+                                       .finished = finished,
+                                       .fraction = fraction,
+                                       .quasistatic = true,
+                                       .duration = duration,
+                                       .planned = planned};
 
 static const scree_stage_numbers numbers = {
     .held = true,
@@ -241,5 +229,5 @@ const scree_module scree_module_deform = {
     .keys = (const scree_keys[]){KEYS_OF(NULL, keys, config)},
     .keys_count = 1,
     .numbers = &numbers,
-    .stage = &scree_stage_deform,
+    .stage = &stage_face,
 };

@@ -45,7 +45,7 @@ static scree_status begin(scree_simulation *s, scree_error *error)
     return SCREE_OK;
 }
 
-const scree_stage scree_stage_prepare = {.name = "prepare", .instant = true, .begin = begin};
+static const scree_stage stage_face = {.name = "prepare", .instant = true, .begin = begin};
 
 static const scree_stage_numbers numbers = {.places = true};
 
@@ -56,5 +56,5 @@ const scree_module scree_module_prepare = {
     .keys = (const scree_keys[]){KEYS_OF(NULL, keys, config)},
     .keys_count = 1,
     .numbers = &numbers,
-    .stage = &scree_stage_prepare,
+    .stage = &stage_face,
 };

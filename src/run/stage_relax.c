@@ -5,6 +5,7 @@
 /// wall than its radius less the overlap that the guard allows.
 #include "measure/imposed_gradient.h"
 #include "module/key_rows.h"
+#include "run/loading.h"
 #include "run/sample.h"
 #include "run/simulation.h"
 #include "shape/container.h"
@@ -66,7 +67,7 @@ static scree_status check_room(const scree_simulation *s, scree_error *error)
 static scree_status begin(scree_simulation *s, scree_error *error)
 {
     scree_state *state = &s->state;
-    memset(state->stage.reference, 0, sizeof state->stage.reference);
+    *scree_loading_of(state) = (scree_loading){.height = 0};
     memset(scree_imposed(state)->prescribed, 0, sizeof scree_imposed(state)->prescribed);
     for (int w = 0; w < SCREE_WALL_COUNT; w++) {
         scree_plates(state)[w].velocity = 0;
@@ -119,7 +120,7 @@ static double planned(const scree_model *model, const void *own, double wave)
     return duration(own);
 }
 
-const scree_stage scree_stage_relax = {.name = "relax",
+static const scree_stage stage_face = {.name = "relax",
                                        .loading = true,
                                        .begin = begin,
                                        .plan = plan,
@@ -141,5 +142,5 @@ const scree_module scree_module_relax = {
     .keys = (const scree_keys[]){KEYS_OF(NULL, keys, config)},
     .keys_count = 1,
     .numbers = &numbers,
-    .stage = &scree_stage_relax,
+    .stage = &stage_face,
 };

@@ -6,19 +6,18 @@
 /// pressure creeps) is the background. Ramp: w(n+1/2) = spin (t(n+1/2) - rest) / ramp. Hold: w = spin. Angles are set
 /// back to zero at the begin of each but the ramp after no rest, so that at the end they are the rotations of the hold:
 /// over its time the mean spins, from which the waves of single instants have gone.
-/// state.stage.reference: run/stage.h, SCREE_LOADING_... and SCREE_ROTATE_...
 #include "run/stage_rotate.h"
 #include "base/fixed.h"
 #include "base/integer_sum.h"
-#include "boundary/minimal.h"
 #include "integrate/forced_spin.h"
-#include "measure/imposed_gradient.h"
 #include "measure/measure.h"
 #include "measure/rotation.h"
 #include "module/key_rows.h"
-#include "run/simulation.h"
+#include "run/loading.h"
+#include "run/step.h"
 #include "state/pressure.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -133,18 +132,18 @@ static scree_status choose(scree_simulation *s, uint32_t *id, scree_error *error
     return SCREE_OK;
 }
 
-/// The boundary as a whole keeps its shape of angles and does not turn.
+/// The boundary as a whole keeps its shape of angles and does not turn, where it can be told to.
 static void hold_rotation(scree_simulation *s)
 {
-    scree_imposed_gradient *drive = scree_imposed(&s->state);
-    int dimension = s->state.dimension;
-    double penalty = s->model.config->boundary.penalty, rate[9] = {0};
-    memset(drive->target, 0, sizeof drive->target);
-    for (int c = 0; c < 9; c++)
-        drive->prescribed[c] = c / 3 != c % 3 && c / 3 < dimension && c % 3 < dimension ? SCREE_FULL : SCREE_FREE;
+    const scree_context context = scree_step_context(s);
+    const int dimension = s->state.dimension;
     // The scale of the rates that are to be held back: those of the particle.
-    rate[1] = own_config(s)->spin;
-    drive->viscosity = isnan(penalty) ? scree_minimal_viscosity(scree_pressure_now(&s->state), rate) : penalty;
+    scree_demand demand = {.scale = own_config(s)->spin};
+    for (int c = 0; c < 9; c++) {
+        demand.how[c] = c / 3 != c % 3 && c / 3 < dimension && c % 3 < dimension ? SCREE_FULL : SCREE_FREE;
+        demand.stress[c] = NAN;
+    }
+    if (s->boundary->deform) s->boundary->deform(&context, &demand, 1);
 }
 
 /// Ticks from the begin of the stage to the ends of rest, ramp and hold.
@@ -155,7 +154,7 @@ typedef struct course {
 static course course_of(const scree_simulation *s)
 {
     const config *stage = own_config(s);
-    double wave = s->state.stage.reference[SCREE_LOADING_WAVE];
+    double wave = scree_loading_of(&s->state)->wave_time;
     course c = {.rest = stage->rest_time > 0 ? scree_stage_ticks(s, stage->rest_time) : 0};
     c.ramp = c.rest + scree_stage_ticks(s, isnan(stage->ramp_time) ? RAMP_WAVES * wave : stage->ramp_time);
     c.hold = c.ramp + scree_stage_ticks(s, stage->hold_time);
@@ -165,14 +164,14 @@ static course course_of(const scree_simulation *s)
 static scree_status begin(scree_simulation *s, scree_error *error)
 {
     uint32_t id = 0;
-    scree_loading_begin(s);
+    scree_loading_begin(s, scree_pressure_now(&s->state));
     hold_rotation(s);
     scree_status status = choose(s, &id, error);
     if (status) return status;
     course c = course_of(s);
     double ramp = (double)(c.ramp - c.rest) * s->state.tick, hold = (double)(c.hold - c.ramp) * s->state.tick;
-    s->state.stage.reference[SCREE_ROTATE_BACKGROUND] = NAN;
-    s->state.stage.reference[SCREE_ROTATE_TURN] = own_config(s)->spin * (0.5 * ramp + hold);
+    *scree_rotation_of(&s->state) =
+        (scree_rotation){.background = NAN, .turn = own_config(s)->spin * (0.5 * ramp + hold)};
     scree_forced_spin_begin(&s->state, id);
     return SCREE_OK;
 }
@@ -204,7 +203,7 @@ static void control(scree_simulation *s)
     const course c = course_of(s);
     uint64_t done = state->step - state->stage.first_step;
     if (done == c.rest && c.rest > 0) {
-        state->stage.reference[SCREE_ROTATE_BACKGROUND] = background(s, c.rest);
+        scree_rotation_of(state)->background = background(s, c.rest);
         forget_angles(state);
     }
     if (done == c.ramp) forget_angles(state);
@@ -260,21 +259,30 @@ static const char *wrong(const scree_config *whole, int64_t index, const char **
                : "there is no such particle: numbers begin at 0 and end below particles.count";
 }
 
-const scree_stage scree_stage_rotate = {.name = "rotate_particle",
-                                        .loading = true,
-                                        .begin = begin,
-                                        .plan = plan,
-                                        .control = control,
-                                        .finished = finished,
-                                        .fraction = fraction,
-                                        .quasistatic = true,
-                                        .planned = planned,
-                                        .shrink = shrink};
+static const scree_stage stage_face = {.name = "rotate_particle",
+                                       .loading = true,
+                                       .begin = begin,
+                                       .plan = plan,
+                                       .control = control,
+                                       .finished = finished,
+                                       .fraction = fraction,
+                                       .quasistatic = true,
+                                       .planned = planned,
+                                       .shrink = shrink};
 
 static const scree_stage_numbers numbers = {.held = true,
                                             .needs_pressure =
                                                 "a confine stage must come before: rotate_particle keeps its pressure",
                                             .wrong = wrong};
+
+#define ONE(member, unit, meaning)                                                                                     \
+    SCREE_FIELD_ONE(rotate_particle, scree_rotation, member, "rotate_particle/" #member, SCREE_FIELD_DOUBLE, 1, unit,  \
+                    meaning,                                                                                           \
+                    .range = {.least = -DBL_MAX, .limit = SCREE_LIMIT_NUMBER, .most = DBL_MAX, .undefined = true})
+static const scree_field fields[] = {
+    ONE(background, "1", "spins at rest over the prescribed one; not a number: no rest"),
+    ONE(turn, "rad", "angle that the particle turns by in the whole stage"),
+};
 
 const scree_module scree_module_rotate_particle = {
     .name = "rotate_particle",
@@ -286,5 +294,8 @@ const scree_module scree_module_rotate_particle = {
     .keys = (const scree_keys[]){KEYS_OF(NULL, keys, config)},
     .keys_count = 1,
     .numbers = &numbers,
-    .stage = &scree_stage_rotate,
+    .stage = &stage_face,
+    .state_size = sizeof(scree_rotation),
+    .fields = fields,
+    .field_count = sizeof fields / sizeof *fields,
 };

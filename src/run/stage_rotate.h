@@ -2,6 +2,8 @@
 #ifndef SCREE_RUN_STAGE_ROTATE_H
 #define SCREE_RUN_STAGE_ROTATE_H
 
+#include "state/state.h"
+
 typedef enum scree_axis { SCREE_AXIS_X, SCREE_AXIS_Y, SCREE_AXIS_Z } scree_axis;
 
 typedef struct scree_rotate_config {
@@ -13,5 +15,16 @@ typedef struct scree_rotate_config {
     double hold_time; ///< s, at that spin, in which the others are measured
     double cutoff;    ///< mean diameters, of the force network around it
 } scree_rotate_config;
+
+/// State of the module `rotate_particle`.
+typedef struct scree_rotation {
+    double background; ///< 1, spins at rest over the prescribed one; NAN: no rest
+    double turn;       ///< rad, that the particle turns by in the whole stage
+} scree_rotation;
+
+static inline scree_rotation *scree_rotation_of(const scree_state *state)
+{
+    return state->own[SCREE_SLOT_rotate_particle];
+}
 
 #endif

@@ -8,6 +8,7 @@
 #include "testing.h"
 
 #include "base/checksum.h"
+#include "run/loading.h"
 #include "state/state.h"
 
 #include <string.h>
@@ -120,7 +121,8 @@ static void bookkeeping_does_not_show(void **unused)
         create(&s, dimension);
         uint64_t before = checksum_of(&s);
         scree_state *state = &s.state;
-        state->stage = (scree_stage_state){.index = 3, .samples = 4, .snapshots = 5, .counter = 6, .reference = {7}};
+        state->stage = (scree_stage_state){.index = 3, .samples = 4, .snapshots = 5, .counter = 6};
+        scree_loading_of(state)->height = 7;
         state->sampled_step = state->evaluations = 77;
         state->sampled_velocity[1][0] = state->reference[2][1] = 3;
         scree_loop_of(state)->updated = scree_hull_of(state)->updated = 9;

@@ -310,13 +310,13 @@ static void stresses_are_held(void **unused)
     (void)unused;
     for (int dimension = 2; dimension <= 3; dimension++) {
         periodic_sample s;
-        scree_periodic_drive drive = {.inertia = 0};
+        scree_periodic_drive drive = {.rate = {0}};
         periodic_fill(&s, dimension, 5, SCREE_LAW_HERTZ_MINDLIN, 0);
         double stress[9], wanted[9] = {-1e6, 5e4, 0, 0, -1.3e6, 0, 0, 0, -1.1e6};
         for (int k = 0; k < 9; k++) drive.stress[k] = NAN;
         for (int i = 0; i < dimension; i++) drive.stress[4 * i] = wanted[4 * i];
         drive.stress[1] = wanted[1];
-        scree_periodic_drive_fit(&s.model, &s.state, 1e6, &drive);
+        scree_periodic_fit(&s.model, &s.state, 1e6);
         for (int step = 0; step < 30000; step++) {
             scree_periodic_control(&s.model, &s.state, &drive, 1);
             periodic_step(&s);
@@ -336,21 +336,21 @@ static void lasting_rates_are_not_resisted(void **unused)
     (void)unused;
     for (int lasting = 0; lasting < 2; lasting++) {
         periodic_sample s;
-        scree_periodic_drive drive = {.inertia = 0};
+        scree_periodic_drive drive = {.rate = {0}};
         periodic_fill(&s, 3, 5, SCREE_LAW_HERTZ_MINDLIN, 0);
         scree_periodic_cell *cell = scree_cell(&s.state);
         for (int k = 0; k < 9; k++) drive.stress[k] = k % 4 == 0 ? -1e6 : NAN;
-        scree_periodic_drive_fit(&s.model, &s.state, 1e6, &drive);
+        scree_periodic_fit(&s.model, &s.state, 1e6);
         for (int k = 0; k < 9; k += 4) {
             cell->virial[k] = 1e6 * scree_periodic_extent(&s.state);
-            cell->gradient[k] = 0.5 * drive.limit;
+            cell->gradient[k] = 0.5 * cell->limit;
             cell->drift[k] = lasting ? cell->gradient[k] : 0;
         }
         scree_periodic_control(&s.model, &s.state, &drive, 1);
         for (int k = 0; k < 9; k += 4) {
-            double kept = cell->gradient[k] / (0.5 * drive.limit);
+            double kept = cell->gradient[k] / (0.5 * cell->limit);
             // A dashpot of Z / I, implicitly; round-off of the stress over the inertia.
-            double expected = lasting ? 1 : 1 / (1 + s.state.step_size * drive.damping);
+            double expected = lasting ? 1 : 1 / (1 + s.state.step_size * cell->damping);
             assert_true(fabs(kept - expected) < 1e-9 && (lasting || expected < 0.99));
         }
         periodic_destroy(&s);
@@ -366,11 +366,11 @@ static void rates_and_stresses_are_mixed(void **unused)
         const bool solid = dimension == 3;
         const int axial = 4 * (dimension - 1), confining = 8000, loading = 12000;
         periodic_sample s;
-        scree_periodic_drive drive = {.inertia = 0};
+        scree_periodic_drive drive = {.rate = {0}};
         double stress[9], begin[9], mean[9] = {0}, wanted[9] = {-1e6, 0, 0, 0, -1.2e6, 5e4, 0, 0, -1e6};
         periodic_fill(&s, dimension, 5, SCREE_LAW_HERTZ_MINDLIN, 0);
         for (int k = 0; k < 9; k++) drive.stress[k] = k % 4 == 0 && k / 4 < dimension ? wanted[k] : NAN;
-        scree_periodic_drive_fit(&s.model, &s.state, 1e6, &drive);
+        scree_periodic_fit(&s.model, &s.state, 1e6);
         for (int step = 0; step < confining; step++) {
             scree_periodic_control(&s.model, &s.state, &drive, 1);
             periodic_step(&s);
