@@ -18,6 +18,8 @@
 #include "integrate/integrate.h"
 #include "measure/cells.h"
 #include "shape/container.h"
+#include "state/periodic.h"
+#include "state/plates.h"
 
 typedef struct scree_snapshot_info {
     int64_t index;       ///< running number, names the group

@@ -5,6 +5,7 @@
 #define SCREE_MODEL_MODEL_H
 
 #include "case/config.h"
+#include "module/module.h"
 
 #include <math.h>
 
@@ -25,7 +26,7 @@ typedef struct scree_pair_constants {
     double unused[2];         ///< zero; keeps the row at 64 bytes, which kernels load in halves
 } scree_pair_constants;
 
-typedef struct scree_model {
+struct scree_model {
     int dimension;
     double thickness; ///< m, length of the discs; 1 in 3D
     scree_law law;
@@ -52,11 +53,11 @@ typedef struct scree_model {
     int material_count; ///< in use; they are numbered from 0, and what no body is made of has no part in anything
     scree_pair_constants pairs[SCREE_MAX_MATERIALS][SCREE_MAX_MATERIALS]; ///< grain on grain
     scree_pair_constants walls[SCREE_MAX_MATERIALS];                      ///< grain on a plate, or wall of the case
-    scree_pair_constants surfaces[SCREE_SURFACES][SCREE_MAX_MATERIALS]; ///< on walls of the case with a `material`
+    scree_pair_constants surfaces[SCREE_SURFACES][SCREE_MAX_MATERIALS];   ///< on walls of the case with a `material`
     bool friction_of_stage; ///< the stage's own friction holds for all contacts, the walls of the case included
     double density[SCREE_MAX_MATERIALS];
     const scree_config *config; ///< what the user said; outlives the model
-} scree_model;
+};
 
 /// Resolves `config` into `model`. Errors: SCREE_ERROR_INPUT with the field for anything that only shows when values
 /// meet: a step above the critical one (names it and offers it), a packing that cannot fit, a material that does not

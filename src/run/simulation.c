@@ -2,7 +2,7 @@
 #include "run/simulation.h"
 
 #include "base/processor.h"
-#include "boundary/forced_spin.h"
+#include "integrate/forced_spin.h"
 #include "measure/measure.h"
 #include "run/sample.h"
 #include "run/step.h"
@@ -22,12 +22,13 @@ scree_status scree_simulation_open(const scree_case *c, int threads, scree_simul
 {
     memset(s, 0, sizeof *s);
     s->c = c;
-    s->state.stage.counter = NOT_BEGUN;
     scree_status status = scree_model_build(&c->config, &s->model, error);
     if (status) {
         scree_case_locate(c, error);
         return status;
     }
+    if ((status = scree_state_open(&s->state, s->model.dimension, error))) return status;
+    s->state.stage.counter = NOT_BEGUN;
     s->stage_model = s->model;
     s->integrator = scree_integrator_get(s->model.scheme);
     // A thread pays from a few thousand bodies on; below, its barriers cost more than it does (docs/performance.md).
@@ -58,7 +59,8 @@ static scree_status open_ledger(scree_simulation *s, scree_error *error)
     if (!status) status = scree_contact_table_build(&s->stage_model, state, &s->work, &s->table, error);
     if (status) return status;
     scree_energy_measure(&s->stage_model, state, &s->table, &energy);
-    state->ledger.initial = energy.kinetic + energy.kinetic_rotation + energy.elastic_normal + energy.elastic_tangential;
+    state->ledger.initial =
+        energy.kinetic + energy.kinetic_rotation + energy.elastic_normal + energy.elastic_tangential;
     state->ledger.gravity = energy.gravity;
     return SCREE_OK;
 }
@@ -105,6 +107,7 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
         if (status) return status;
     }
     if (s->stage->plan) s->stage->plan(s);
+    scree_step_compile(s);
     return SCREE_OK;
 }
 

@@ -4,6 +4,7 @@
 
 #include "boundary/periodic.h"
 #include "boundary/plates.h"
+#include "measure/delaunay_boundary.h"
 #include "state/work.h"
 
 typedef struct scree_simulation scree_simulation;
@@ -56,8 +57,8 @@ double scree_stage_elapsed(const scree_simulation *s);
 /// Ticks of `time` [s], rounded up to whole largest steps, where every sequence of steps ends; at least one of them.
 uint64_t scree_stage_ticks(const scree_simulation *s, double time);
 
-/// Stop rule of the confine stages (stage_confine.c): the stress called `what` is off the pressure by `off` of it. NULL:
-/// none is asked for.
+/// Stop rule of the confine stages (stage_confine.c): the stress called `what` is off the pressure by `off` of it.
+/// NULL: none is asked for.
 scree_status scree_confine_finished(scree_simulation *s, const char *what, double off, double tolerance, bool *done,
                                     scree_error *error) SCREE_MUST_USE;
 
@@ -81,7 +82,7 @@ enum {
     SCREE_LOADING_OTHERS = 13, ///< free for the stage
     // all loading stages, periodic ones too; set by the first sample (run/sample.c)
     SCREE_LOADING_ENCLOSED = 20, ///< 1, scree_enclosed_logarithm
-    SCREE_LOADING_REDETECTED,    ///< 1, state.strain.redetected
+    SCREE_LOADING_REDETECTED,    ///< 1, scree_strain_of(&state)->redetected
     SCREE_LOADING_SOLID,         ///< 1, solid fraction
 };
 
@@ -92,8 +93,8 @@ enum {
 };
 
 /// A stage has reached its strain when so many ticks of it are left at its last step: the sum of rates over the rise,
-/// taken from the left, is half a tick short of its integral; the rest is for round-off. Less would end it a whole sample
-/// later, at a time that depends on the number of samples.
+/// taken from the left, is half a tick short of its integral; the rest is for round-off. Less would end it a whole
+/// sample later, at a time that depends on the number of samples.
 #define SCREE_LOADING_SHORT 0.51
 
 /// Plan of a loading stage that lasts `time` [s] at its full rate: samples, rise of the rate, steps.

@@ -1,4 +1,5 @@
 /// Under each boundary the balance of energy closes and the rates are those that were asked for.
+#include "boundary/membrane.h"
 #include "run_fixture.h"
 
 #include "boundary_cases.h"
@@ -34,7 +35,8 @@ static void energy_balance_closes_and_rates_are_met(void **unused)
         // The default penalty lets the confining pressure answer an error of 1 %; the stress is a few times that.
         if (s.boundary == &scree_boundary_minimal) assert_true(least > 0.95 && most < 1.05);
         if (s.boundary == &scree_boundary_affine) assert_true(fabs(least - 1) < 1e-3 && fabs(most - 1) < 1e-3);
-        assert_true(s.boundary == &scree_boundary_membrane ? s.state.membrane.count > 0 : s.state.membrane.count == 0);
+        assert_true(s.boundary == &scree_boundary_membrane ? scree_membrane_of(&s.state)->count > 0
+                                                           : scree_membrane_of(&s.state)->count == 0);
         assert_true(s.state.ledger.boundary != 0);
         scree_simulation_close(&s);
         scree_case_free(c);

@@ -1,4 +1,5 @@
 /// The order of stiffness of one sample under different boundaries.
+#include "measure/imposed_gradient.h"
 #include "run_fixture.h"
 
 #include "boundary/drive.h"
@@ -12,15 +13,17 @@
 static double applied[9];
 static uint64_t raised_in;
 
-static void apply_traction(const scree_model *model, scree_state *state, scree_work *work)
+static scree_status apply_traction(const scree_context *c, scree_error *error)
 {
-    (void)work;
+    scree_state *state = c->state;
+    (void)error;
     double fraction = (double)(state->step - state->stage.first_step) / (double)raised_in;
     double stress[9];
     for (int i = 0; i < 9; i++) stress[i] = applied[i] * scree_smooth_ramp(fraction);
-    memset(state->drive.force, 0, state->drive.count * sizeof *state->drive.force);
-    scree_drive_apply_stress(model, state, stress);
+    memset(scree_imposed(state)->force, 0, scree_imposed(state)->count * sizeof *scree_imposed(state)->force);
+    scree_drive_apply_stress(c->model, state, stress);
     scree_drive_work(state);
+    return SCREE_OK;
 }
 
 /// Strain and increments of stress of the last stage of a case; with `traction` its boundary is replaced by a uniform
@@ -45,7 +48,10 @@ static void load(const char *text, const char *const *overrides, size_t count, c
         }
         if (begun || s.state.stage.index < 3 || s.state.stage.counter < 0) continue;
         begun = true;
-        if (traction) s.boundary = traction;
+        if (traction) {
+            s.boundary = traction;
+            scree_step_compile(&s);
+        }
         scree_strain_measure(&s.state, begin_strain);
         double volume = scree_sample_area(&s.state) * s.model.thickness;
         scree_stress_from_contacts(&s.table, volume, begin_stress);
@@ -58,7 +64,7 @@ static void load(const char *text, const char *const *overrides, size_t count, c
         stress[i] -= begin_stress[i];
     }
     // Keep what was applied, for a traction that repeats it.
-    if (s.boundary == &scree_boundary_minimal) memcpy(applied, s.state.drive.stress, sizeof applied);
+    if (s.boundary == &scree_boundary_minimal) memcpy(applied, scree_imposed(&s.state)->stress, sizeof applied);
     scree_simulation_close(&s);
     scree_case_free(c);
 }
@@ -73,8 +79,10 @@ static void boundaries_are_ordered_by_stiffness(void **unused)
                                      "boundary.penalty=1e12 Pa s", "stages.3.boundary=affine",
                                      "stages.3.strain=0.01 %"};
     const char *const minimal[] = {overrides[0], overrides[1], overrides[2], "stages.3.boundary=minimal", overrides[4]};
-    static const scree_boundary traction = {
-        .name = "traction", .refresh = scree_drive_refresh, .forces = apply_traction, .work = scree_drive_work};
+    static const scree_pass passes[] = {{SCREE_PHASE_FOLLOW, scree_imposed_work},
+                                        {SCREE_PHASE_SEARCH, scree_imposed_refresh},
+                                        {SCREE_PHASE_LOADS, apply_traction}};
+    static const scree_boundary traction = {.name = "traction", .passes = passes, .pass_count = 3};
     double strain[3][9], stress[3][9];
     load(BOUNDARY_COMMON BOUNDARY_SETTLE BOUNDARY_AFFINE, overrides, 5, NULL, strain[0], stress[0]);
     load(BOUNDARY_COMMON BOUNDARY_SETTLE BOUNDARY_AFFINE, minimal, 5, NULL, strain[1], stress[1]);

@@ -423,11 +423,11 @@ static void compare_with_stage(scree_simulation *s, double expected)
 {
     double before[9], after[9];
     const int axial = 4 * (s->state.dimension - 1);
-    double strained = s->state.periodic.strain[axial];
+    double strained = scree_cell(&s->state)->strain[axial];
     scree_periodic_stress(&s->stage_model, &s->state, before);
     while (simulation_goes_on(s)) simulation_step(s);
     scree_periodic_stress(&s->stage_model, &s->state, after);
-    double found = (after[axial] - before[axial]) / (s->state.periodic.strain[axial] - strained);
+    double found = (after[axial] - before[axial]) / (scree_cell(&s->state)->strain[axial] - strained);
     print_message("%dD: as a stage %.5g, as a network %.5g Pa\n", s->state.dimension, found, expected);
     // The network leaves out that contacts turn the forces that they have: f / (k R) = 5 % at indentations of 8 % of R.
     assert_true(fabs(found / expected - 1) < 0.06);

@@ -1,6 +1,8 @@
 /// A run that a guard has stopped: going on from its folder stops at the same place with the same rows, until the limit
 /// has been changed.
+#include "measure/delaunay_boundary.h"
 #include "run_fixture.h"
+#include "state/plates.h"
 
 #include "io/series.h"
 #include "io_scratch.h"
@@ -156,8 +158,8 @@ static void lift_plate(scree_state *state)
         state->row[row].x += 1;
         state->reference[row][0] += 1;
     }
-    for (size_t k = 0; k < state->loop.count; k++) state->loop.x[k] += 1;
-    scree_wall *bottom = &state->wall[SCREE_WALL_BOTTOM];
+    for (size_t k = 0; k < scree_loop_of(state)->count; k++) scree_loop_of(state)->x[k] += 1;
+    scree_wall *bottom = &scree_plates(state)[SCREE_WALL_BOTTOM];
     bottom->position = 0.5;
     bottom->normal[0] = 1;
     bottom->normal[1] = 0;

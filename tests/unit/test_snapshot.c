@@ -1,5 +1,6 @@
 /// Snapshots and run.h5: what is written comes back, from a run that goes on and from one that has ended; kills, full
 /// disks, damage and restarts lose nothing.
+#include "state/plates.h"
 #include "testing.h"
 
 #include "io/run_file.h"
@@ -78,7 +79,7 @@ static void assert_snapshot(size_t which, int64_t index, uint64_t seed)
     }
     assert_int_equal(snapshot.loop_count, LOOP);
     for (uint32_t k = 0; k < LOOP; k++) assert_int_equal(snapshot.loop[k], k);
-    assert_memory_equal(snapshot.wall, state.wall, sizeof state.wall);
+    assert_memory_equal(snapshot.wall, scree_plates(&state), sizeof scree_plates(&state));
     scree_snapshot_destroy(&snapshot);
     scree_state_destroy(&state);
 }
@@ -155,9 +156,7 @@ static void every_dataset_tells_its_unit_and_meaning(void **unused)
     assert_non_null(strstr(text, "tension positive"));
     assert_int_equal(scree_hdf5_close(&run), SCREE_OK);
     int stored = 0;
-    for (size_t k = 0; k < scree_field_count; k++)
-        stored += scree_fields[k].role == SCREE_FIELD_STATE && scree_field_exists(&scree_fields[k], 2);
-    for (size_t k = 0; k < scree_member_count; k++) stored += scree_field_exists(&scree_members[k], 2);
+    for (size_t k = 0; k < scree_field_total(); k++) stored += scree_field_is_stored(scree_field_at(k), 2);
     // 7 fields and 5 results of bodies, 13 of contacts, 6 of the loop, 8 of plates, 3 of walls, 8 of the cell; the
     // tables without derived fields.
     assert_int_equal(all.datasets, 7 + 5 + 13 + 6 + 8 + 3 + 8 + stored);

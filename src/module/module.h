@@ -1,0 +1,43 @@
+/// What varies is a module: one file (or folder) with one descriptor, and one row in one table (module/table.h). The
+/// core knows none by name; it loops over the table. Descriptors are plain structs with arrays and functions; a member
+/// that a module does not need is zero. Nothing registers itself.
+#ifndef SCREE_MODULE_MODULE_H
+#define SCREE_MODULE_MODULE_H
+
+#include "base/error.h"
+#include "module/field.h"
+#include "module/pass.h"
+#include "module/table.h"
+
+struct scree_module {
+    const char *name;
+    const char *meaning; ///< one line
+
+    // ---- state: what it remembers ----
+    size_t state_size;         ///< bytes of its struct in the store of the state, zero at first; 0: none
+    const scree_field *fields; ///< of this struct and the arrays that it points to
+    size_t field_count;
+    /// What a stored state must fulfil besides the ranges of the fields. `error` names the dataset. NULL: nothing.
+    scree_status (*check)(const scree_state *state, const scree_model *model, scree_error *error);
+    /// Continues the state checksum with what physics depends on (docs/architecture.md). NULL: nothing.
+    uint64_t (*checksum)(const scree_model *model, const scree_state *state, uint64_t checksum);
+
+    // ---- passes: what it does in a step ----
+    const scree_pass *passes;
+    size_t pass_count;
+    /// Whether it has something to do in the stage that begins. NULL: always.
+    bool (*in_use)(const scree_context *context);
+    /// Largest force that its loads may put on one body in this step [N], for the quanta; up to 2^10 times more is
+    /// safe. NULL: none.
+    double (*bound)(const scree_context *context);
+};
+
+#define SCREE_MODULE_DECLARE(name) extern const scree_module scree_module_##name;
+#define SCREE_MODULE_SLOT(name)    SCREE_SLOT_##name,
+SCREE_MODULES(SCREE_MODULE_DECLARE)
+enum { SCREE_MODULES(SCREE_MODULE_SLOT) SCREE_MODULE_COUNT };
+
+/// All modules, by slot.
+extern const scree_module *const scree_modules[SCREE_MODULE_COUNT];
+
+#endif
