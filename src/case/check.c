@@ -100,7 +100,10 @@ static void refuse_missing(const scope *s, const scree_key *key, const char *pat
 
 static void read_element(const scope *s, const scree_key *list, scree_node *element, const char *path, void *base)
 {
+    const scree_key *kind = &list->sections[0].keys[0];
+    const int unknown = SCREE_CHOICE_WRONG;
     scope inner = {s->reader, scree_element_section(list, element), NULL, element, element->place, path, base};
+    if (list->section_count > 1 && !inner.section) memcpy(scree_key_member(kind, base), &unknown, sizeof unknown);
     if (element->kind != SCREE_NODE_MAPPING) {
         scree_problem_add(s->reader, element->place, path, element->text, NULL,
                           "expected keys with values, e.g. '- %s: ...'", list->sections[0].keys[0].name);
@@ -112,7 +115,6 @@ static void read_element(const scope *s, const scree_key *list, scree_node *elem
         return;
     }
     // Without its kind nothing else of the element can be judged.
-    const scree_key *kind = &list->sections[0].keys[0];
     const scree_node *given = scree_node_find(element, kind->name);
     char kind_path[SCREE_PATH_BYTES];
     scree_key_join(kind_path, path, kind->name);
@@ -120,7 +122,6 @@ static void read_element(const scope *s, const scree_key *list, scree_node *elem
         scree_value_store(s->reader, kind, given, kind_path, base);
     else
         refuse_missing(&inner, kind, kind_path);
-    int unknown = -1;
     memcpy(scree_key_member(kind, base), &unknown, sizeof unknown);
 }
 
@@ -215,7 +216,11 @@ static void read_section(const scope *s)
     for (size_t i = 0; i < s->section->count; i++) {
         const scree_key *key = &s->section->keys[i];
         bool misspelt = meant >> i & 1 && !scree_node_find(s->mapping, key->name);
-        if (!misspelt) read_key(s, key);
+        const int unknown = SCREE_CHOICE_WRONG;
+        if (!misspelt)
+            read_key(s, key);
+        else if (key->type == SCREE_KEY_CHOICE)
+            memcpy(scree_key_member(key, s->base), &unknown, sizeof unknown);
     }
 }
 

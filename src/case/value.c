@@ -120,7 +120,7 @@ static int choice_of(const value *v)
     scree_problem_add(v->reader, v->place, v->path, v->text, accepted, "there is no %s '%s'%s%s%s", v->key->name,
                       scree_show(v->text).text, nearest ? "; did you mean '" : "", nearest ? nearest : "",
                       nearest ? "'?" : "");
-    return -1;
+    return SCREE_CHOICE_WRONG;
 }
 
 static char *text_of(const value *v)
@@ -279,6 +279,8 @@ static void store_member(scree_reader *reader, const scree_key *key, const scree
     } else if (key->type == SCREE_KEY_PAIRS) {
         store_pairs(&v, node, member, (int64_t *)(void *)(scree_key_block(key, base) + key->count_offset));
     } else if (node && (node->kind != SCREE_NODE_SCALAR || (!node->text[0] && key->type != SCREE_KEY_TEXT))) {
+        const int wrong = SCREE_CHOICE_WRONG;
+        if (key->type == SCREE_KEY_CHOICE) memcpy(member, &wrong, sizeof wrong);
         reject_kind(&v, node);
     } else {
         store_scalar(&v, member);

@@ -36,7 +36,11 @@ static void bench_create(bench *b, size_t count)
 {
     memset(b, 0, sizeof *b);
     b->config.boundary = (scree_config_boundary){.every = 250, .gap_limit = 0.5};
-    b->model = (scree_model){.config = &b->config, .thickness = THICKNESS, .mean_radius = RADIUS, .material_count = 1};
+    b->model = (scree_model){.config = &b->config,
+                             .thickness = THICKNESS,
+                             .mean_radius = RADIUS,
+                             .material_count = 1,
+                             .scheme = SCREE_SLOT_position_verlet};
     b->model.pairs[0][0].friction = 0.5;
     assert_int_equal(scree_state_create(&b->state, 2, count, NULL), SCREE_OK);
     b->state.force_quantum = b->state.torque_quantum = 0x1p-50;
