@@ -1,12 +1,19 @@
 /// The one table of modules: each row is the name of a module, whose descriptor `scree_module_NAME` stands in its own
 /// file. Its place in the table is its slot (SCREE_SLOT_NAME), by which its state is found; the checksum of the state
-/// takes what modules declare in the order of the rows, so new ones come behind (docs/architecture.md).
+/// takes what modules declare in the order of the rows, so new ones with a state come behind (docs/architecture.md).
 #ifndef SCREE_MODULE_TABLE_H
 #define SCREE_MODULE_TABLE_H
 
 #define SCREE_STATE_MODULES(row)                                                                                       \
-    row(plates) row(case_walls) row(periodic_cell) row(delaunay_boundary) row(pressure) row(imposed_gradient)          \
-        row(membrane) row(forced_spin) row(loading)
+    row(plates) row(case_walls) row(periodic_cell) row(delaunay_boundary) row(pressure) row(imposed_gradient)
+
+/// Boundaries, in the order in which the case reference lists them; then those that no key chooses.
+#define SCREE_BOUNDARY_MODULES(row)                                                                                    \
+    row(pressure_boundary) row(plates_boundary) row(membrane) row(minimal) row(affine) row(walls) row(none)            \
+        row(periodic) row(channel)
+
+/// What stages remember.
+#define SCREE_STAGE_STATE_MODULES(row) row(forced_spin) row(loading)
 
 /// Choices of the case, in the order in which the case reference lists them.
 #define SCREE_CASE_MODULES(row)                                                                                        \
@@ -14,6 +21,7 @@
         row(face_centred) row(cubic) row(gas) row(growth) row(pair) row(bodies) row(prepare) row(confine)              \
             row(compress) row(deform) row(rotate_particle) row(relax) row(collide)
 
-#define SCREE_MODULES(row) SCREE_STATE_MODULES(row) SCREE_CASE_MODULES(row)
+#define SCREE_MODULES(row)                                                                                             \
+    SCREE_STATE_MODULES(row) SCREE_BOUNDARY_MODULES(row) SCREE_STAGE_STATE_MODULES(row) SCREE_CASE_MODULES(row)
 
 #endif

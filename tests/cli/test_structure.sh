@@ -25,8 +25,8 @@ for folder in src/*/; do
         fi
     done < <(grep -nHE '^#include "[a-z]+/' "$folder"*.[ch])
 done
-mapfile -t modules < <(sed -n '/define SCREE_CASE_MODULES/,/^$/p' src/module/table.h | grep -oE 'row\([a-z_]+\)' | sed -E 's/row\((.*)\)/\1/')
-[ ${#modules[@]} -ge 12 ] || complain "the rows of src/module/table.h were not found"
+mapfile -t modules < <(sed -nE '/define SCREE_(BOUNDARY|CASE)_MODULES/,/^$/p' src/module/table.h | grep -oE 'row\([a-z_]+\)' | sed -E 's/row\((.*)\)/\1/')
+[ ${#modules[@]} -ge 28 ] || complain "the rows of src/module/table.h were not found"
 for name in "${modules[@]}"; do
     mapfile -t owner < <(grep -rlE "scree_module_$name = \{|[A-Z]+\($name, \"" src)
     [ ${#owner[@]} -eq 1 ] || complain "module $name has ${#owner[@]} descriptors"
