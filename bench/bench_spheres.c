@@ -12,6 +12,7 @@
 #include "base/processor.h"
 #include "boundary/periodic.h"
 #include "contact/contact.h"
+#include "contact/laws.h"
 #include "integrate/integrate.h"
 #include "measure/measure.h"
 #include "search/neighbours.h"
@@ -63,13 +64,14 @@ static void open_model(sample *s)
     s->config = (scree_config){.dimension = 3, .materials = &s->material, .material_count = 1};
     s->config.particles = (scree_config_particles){
         .material = name, .count = 1, .radius_min = 0.5e-3, .radius_max = 1e-3, .thickness = NAN};
-    s->config.contact = (scree_config_contact){.law = SCREE_LAW_HERTZ_MINDLIN, .friction_exponent = 50};
+    s->config.contact = (scree_config_contact){.law = LAW_hertz_mindlin, .friction_exponent = 50};
     s->config.integrator =
         (scree_config_integrator){.scheme = SCREE_SCHEME_VELOCITY_VERLET, .step = NAN, .step_fraction = 0.5};
     s->config.guard = (scree_config_guard){.overlap = 0.5, .energy_growth = 0.05};
     require(scree_model_build(&s->config, &s->model, &error), &error);
     s->model.gravity[2] = -gravity;
-    s->model.pairs[0][0].damping = s->model.walls[0].damping = peer_damping(s->material.restitution);
+    s->model.pairs[0][0].value[HERTZ_DAMPING] = s->model.walls[0].value[HERTZ_DAMPING] =
+        peer_damping(s->material.restitution);
     s->model.step = step_size; // the model, which knows no load, is more careful
     s->integrator = scree_integrator_get(s->model.scheme);
 }
@@ -258,7 +260,8 @@ static void write_command(const sample *s, const options *o, char *command, size
         "-var young %.17g -var poisson %.17g -var restitution %.17g -var friction %.17g -var gravity %.17g "
         "-var step %.17g -var skin %.17g -var steps %d -var wall_normal %.17g -var wall_tangential %.17g",
         o->folder, o->peer, SCREE_SOURCE_DIR, m->young_modulus, m->poisson_ratio, m->restitution, m->friction, gravity,
-        step_size, s->work.skin, STEPS, s->model.walls[0].normal_stiffness, s->model.walls[0].tangential_stiffness);
+        step_size, s->work.skin, STEPS, s->model.walls[0].value[HERTZ_NORMAL],
+        s->model.walls[0].value[HERTZ_TANGENTIAL]);
 }
 
 /// Energies in a line of the peer's table.

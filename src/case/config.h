@@ -43,13 +43,6 @@ typedef struct scree_config_particles {
     double thickness;  ///< m, length of a disc (a cylinder), not used by spheres; auto: twice the mean radius
 } scree_config_particles;
 
-/// The third is hertz_brilliantov with friction_update implicit: model_build resolves the two keys into one law.
-typedef enum scree_law {
-    SCREE_LAW_HERTZ_BRILLIANTOV,
-    SCREE_LAW_HERTZ_MINDLIN,
-    SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT
-} scree_law;
-
 typedef enum scree_friction_update { SCREE_FRICTION_EXPLICIT, SCREE_FRICTION_IMPLICIT } scree_friction_update;
 
 typedef enum scree_tangential_history {
@@ -58,7 +51,7 @@ typedef enum scree_tangential_history {
 } scree_tangential_history;
 
 typedef struct scree_config_contact {
-    int law;                   ///< scree_law
+    int law;                   ///< in the order of the table of laws (contact/laws.h)
     int tangential_history;    ///< scree_tangential_history of hertz_mindlin
     double damping_time;       ///< s, T of hertz_brilliantov
     double friction_exponent;  ///< 1, c of hertz_brilliantov

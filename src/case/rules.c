@@ -277,8 +277,7 @@ static void check_timescales(scree_reader *reader, const scree_config *config)
     if (config->integrator.scheme != SCREE_SCHEME_TWO_TIMESCALES) return;
     const char *text;
     scree_place place = place_of(scree_node_find(reader->root, "integrator"), "scheme", &text);
-    if (config->contact.law == SCREE_LAW_HERTZ_BRILLIANTOV &&
-        config->contact.friction_update == SCREE_FRICTION_IMPLICIT && config->integrator.small_steps > 0)
+    if (config->contact.friction_update == SCREE_FRICTION_IMPLICIT && config->integrator.small_steps > 0)
         scree_problem_add(reader, place, "integrator.scheme", text, "position_verlet, velocity_verlet",
                           "an implicit contact.friction_update needs equal steps, and makes small ones needless: "
                           "choose another scheme, or small_steps: 0");

@@ -18,10 +18,10 @@ static const scree_choice distributions[] = {
     {0},
 };
 static const scree_choice laws[] = {
-    {"hertz_brilliantov", SCREE_LAW_HERTZ_BRILLIANTOV,
+    {"hertz_brilliantov", 0,
      "Hertz with the viscous damping of Brilliantov et al. (1996) and friction regularised by the slip speed; no "
      "history"},
-    {"hertz_mindlin", SCREE_LAW_HERTZ_MINDLIN,
+    {"hertz_mindlin", 1,
      "Hertz with the tangential spring of Mindlin (with history), Coulomb limit, damping from the restitution"},
     {0},
 };

@@ -2,6 +2,7 @@
 #ifndef SCREE_TEST_BIAXIAL_CONFIG_H
 #define SCREE_TEST_BIAXIAL_CONFIG_H
 
+#include "law_choice.h"
 #include "case/config.h"
 
 #include <math.h>
@@ -52,7 +53,7 @@ static inline void biaxial_config_set(biaxial_config *c, int64_t count)
                       .radius_min = 0.5e-3,
                       .radius_max = 1e-3,
                       .thickness = NAN},
-        .contact = {.law = SCREE_LAW_HERTZ_BRILLIANTOV,
+        .contact = {.law = LAW_hertz_brilliantov,
                     .damping_time = 0.002,
                     .friction_exponent = 50,
                     .reference_velocity = NAN},

@@ -1,4 +1,5 @@
 /// Reading cases: what is accepted, every kind of mistake with its message and place, --set, quick, lost memory.
+#include "law_choice.h"
 #include "base/memory.h"
 #include "case/case.h"
 #include "good_case.h"
@@ -68,7 +69,7 @@ static void defaults_are_filled_in(void **state)
     assert_true(config->materials[0].poisson_ratio == 0.3);
     assert_true(isnan(config->materials[0].wall_friction));
     assert_true(config->particles.radius_min == 1e-3);
-    assert_int_equal(config->contact.law, SCREE_LAW_HERTZ_MINDLIN);
+    assert_int_equal(config->contact.law, LAW_hertz_mindlin);
     assert_true(isnan(config->integrator.step));
     assert_int_equal(config->stage_count, 1);
     assert_string_equal(config->stages[0].name, "prepare");
@@ -270,7 +271,7 @@ static void overrides_may_choose(void **state)
     (void)state;
     const char *text = good_case();
     scree_case *c = right(text, SET("contact.law=hertz_brilliantov"), false);
-    assert_int_equal(c->config.contact.law, SCREE_LAW_HERTZ_BRILLIANTOV);
+    assert_int_equal(c->config.contact.law, LAW_hertz_brilliantov);
     assert_true(c->config.contact.damping_time == 2e-3);
     assert_true(c->config.materials[0].restitution == 0);
     scree_case_free(c);
