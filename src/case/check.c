@@ -121,7 +121,7 @@ static void read_element(const scope *s, const scree_key *list, scree_node *elem
     else
         refuse_missing(&inner, kind, kind_path);
     int unknown = -1;
-    memcpy((char *)base + kind->offset, &unknown, sizeof unknown);
+    memcpy(scree_key_member(kind, base), &unknown, sizeof unknown);
 }
 
 static void read_list(const scope *s, const scree_key *key, scree_node *node, const char *path)
@@ -148,10 +148,12 @@ static void read_list(const scope *s, const scree_key *key, scree_node *node, co
         char number[24], inner[SCREE_PATH_BYTES];
         (void)snprintf(number, sizeof number, "%lld", (long long)index);
         scree_key_join(inner, path, number);
-        read_element(s, key, element, inner, elements + (size_t)index * key->element_size);
+        char *base = elements + (size_t)index * key->element_size;
+        if (key->initial) memcpy(base, key->initial, key->element_size);
+        read_element(s, key, element, inner, base);
     }
-    memcpy((char *)s->base + key->offset, &elements, sizeof elements);
-    memcpy((char *)s->base + key->count_offset, &index, sizeof index);
+    memcpy(scree_key_member(key, s->base), &elements, sizeof elements);
+    memcpy(scree_key_block(key, s->base) + key->count_offset, &index, sizeof index);
 }
 
 /// A section, whether the case has it or not: its defaults count either way.
@@ -168,7 +170,7 @@ static void read_inner_section(const scope *s, const scree_key *key, scree_node 
                    empty ? NULL : node,
                    node ? node->key_place : s->place,
                    path,
-                   (char *)s->base + key->offset};
+                   scree_key_member(key, s->base)};
     read_section(&inner);
 }
 
@@ -192,8 +194,21 @@ static void read_key(const scope *s, const scree_key *key)
         scree_value_store(s->reader, key, child, path, s->base);
 }
 
+/// Gives a section the block in which the structs of modules lie.
+static bool make_room(const scope *s)
+{
+    if (s->section->own_size == 0) return true;
+    void *own = scree_arena_take(s->reader->arena, s->section->own_size);
+    if (own)
+        memcpy((char *)s->base + s->section->own_offset, &own, sizeof own);
+    else
+        scree_reader_fail(s->reader, s->section->own_size);
+    return own != NULL;
+}
+
 static void read_section(const scope *s)
 {
+    if (!make_room(s)) return;
     uint64_t meant = 0;
     for (scree_node *child = s->mapping ? s->mapping->first : NULL; child; child = child->next)
         if (!scree_section_find(s->section, child->key, strlen(child->key))) meant |= refuse_unknown(s, child);
@@ -219,5 +234,6 @@ bool scree_root_read(scree_reader *reader, const scree_section *section, void *b
 
 void scree_config_read(scree_reader *reader, scree_config *config)
 {
-    if (scree_root_read(reader, &scree_schema, config)) scree_rules_check(reader, config);
+    // Where memory ran out, what is tied together need not be there.
+    if (scree_root_read(reader, scree_schema(), config) && !reader->failure.status) scree_rules_check(reader, config);
 }

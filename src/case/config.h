@@ -4,7 +4,7 @@
 #ifndef SCREE_CASE_CONFIG_H
 #define SCREE_CASE_CONFIG_H
 
-#include "base/error.h"
+#include "module/module.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -15,15 +15,13 @@
 
 typedef struct scree_config_material {
     char *name;
-    double young_modulus;    ///< Pa
-    double poisson_ratio;    ///< 1
-    double density;          ///< kg/m3
-    double friction;         ///< 1, grain on grain
-    double wall_friction;    ///< 1, grain on plate; auto: friction
-    char *wall_material;     ///< what plates and walls are made of for it: a name, or SCREE_RIGID; auto (NULL): like it
-    double restitution;      ///< 1, used by laws that damp by restitution
-    double rolling_friction; ///< 1, hertz_mindlin: limit of the rolling resistance over the normal force
-    double twisting_friction; ///< 1, hertz_mindlin in 3D: limit of the twisting torque over R_eff times that force
+    double young_modulus; ///< Pa
+    double poisson_ratio; ///< 1
+    double density;       ///< kg/m3
+    double friction;      ///< 1, grain on grain
+    double wall_friction; ///< 1, grain on plate; auto: friction
+    char *wall_material;  ///< what plates and walls are made of for it: a name, or SCREE_RIGID; auto (NULL): like it
+    void *own;            ///< structs of modules (scree_config_own)
 } scree_config_material;
 
 typedef enum scree_shape_kind { SCREE_SHAPE_DISC, SCREE_SHAPE_SPHERE } scree_shape_kind;
@@ -43,35 +41,17 @@ typedef struct scree_config_particles {
     double thickness;  ///< m, length of a disc (a cylinder), not used by spheres; auto: twice the mean radius
 } scree_config_particles;
 
-typedef enum scree_friction_update { SCREE_FRICTION_EXPLICIT, SCREE_FRICTION_IMPLICIT } scree_friction_update;
-
-typedef enum scree_tangential_history {
-    SCREE_TANGENTIAL_DISPLACEMENT,
-    SCREE_TANGENTIAL_RESCALED
-} scree_tangential_history;
-
 typedef struct scree_config_contact {
-    int law;                   ///< in the order of the table of laws (contact/laws.h)
-    int tangential_history;    ///< scree_tangential_history of hertz_mindlin
-    double damping_time;       ///< s, T of hertz_brilliantov
-    double friction_exponent;  ///< 1, c of hertz_brilliantov
-    int friction_update;       ///< scree_friction_update of hertz_brilliantov
+    int law;                   ///< slot of a module with a law
     double reference_velocity; ///< m/s, v_R; auto: 2 * rate * mean radius of the first compress stage
+    void *own;                 ///< structs of modules
 } scree_config_contact;
 
-typedef enum scree_scheme {
-    SCREE_SCHEME_POSITION_VERLET,
-    SCREE_SCHEME_VELOCITY_VERLET,
-    SCREE_SCHEME_TWO_TIMESCALES
-} scree_scheme;
-
 typedef struct scree_config_integrator {
-    int scheme;             ///< scree_scheme
-    double step;            ///< s, the small one of two_timescales; auto: step_fraction * critical step, over N_S
-    double step_fraction;   ///< 1, of the critical step, when step is auto
-    int64_t repeats;        ///< two_timescales: m of m(n+q) = N_S
-    int64_t large_multiple; ///< n
-    int64_t small_steps;    ///< q
+    int scheme;           ///< slot of a module with an integrator
+    double step;          ///< s, the small one of two_timescales; auto: step_fraction * critical step, over N_S
+    double step_fraction; ///< 1, of the critical step, when step is auto
+    void *own;            ///< structs of modules (scree_config_own)
 } scree_config_integrator;
 
 /// What holds the sample (boundary/boundary.h).
@@ -249,7 +229,7 @@ typedef struct scree_config_guard {
     double energy_growth; ///< 1, largest energy-ledger residual over all energy that there is and was
 } scree_config_guard;
 
-typedef struct scree_config {
+struct scree_config {
     int64_t language; ///< version of the case language
     char *name;
     char *title;
@@ -269,7 +249,11 @@ typedef struct scree_config {
     scree_config_measure measure;
     scree_config_output output;
     scree_config_guard guard;
-} scree_config;
+};
+
+/// The struct of `module` among those of modules that a section's `own` points to. section: its path ("integrator"), as
+/// the module's `keys` have it. NULL: there are none.
+const void *scree_config_own(const scree_module *module, const char *section, const void *own);
 
 /// Radius [m] of a listed body.
 static inline double scree_config_body_radius(const scree_config *config, const scree_config_body *body)

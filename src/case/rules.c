@@ -81,19 +81,6 @@ static void check_materials(scree_reader *reader, const scree_config *config)
                       nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
 }
 
-/// Discs turn about one axis, which no contact twists.
-static void check_twisting(scree_reader *reader, const scree_config *config)
-{
-    for (int64_t i = 0; i < config->material_count && config->dimension == 2; i++) {
-        if (!(config->materials[i].twisting_friction > 0)) continue;
-        const char *text;
-        char path[SCREE_PATH_BYTES];
-        (void)snprintf(path, sizeof path, "materials.%lld.twisting_friction", (long long)i);
-        scree_place place = place_of(element(reader, "materials", i), "twisting_friction", &text);
-        scree_problem_add(reader, place, path, text, "0", "discs do not twist: twisting_friction is for spheres");
-    }
-}
-
 static void check_radii(scree_reader *reader, scree_config *config)
 {
     scree_config_particles *particles = &config->particles;
@@ -112,7 +99,7 @@ static void check_radii(scree_reader *reader, scree_config *config)
 static void name_stages(scree_reader *reader, scree_config *config)
 {
     const scree_node *list = scree_node_find(reader->root, "stages");
-    const scree_key *key = scree_section_find(&scree_schema, "stages", strlen("stages"));
+    const scree_key *key = scree_section_find(scree_schema(), "stages", strlen("stages"));
     for (int64_t i = 0; i < config->stage_count; i++) {
         const scree_node *stage = element(reader, "stages", i);
         char name[80], path[SCREE_PATH_BYTES];
@@ -271,32 +258,9 @@ static void check_windows(scree_reader *reader, const scree_config *config)
     }
 }
 
-/// What reckons with a kick of the size of the last step cannot stand steps of two sizes.
-static void check_timescales(scree_reader *reader, const scree_config *config)
-{
-    if (config->integrator.scheme != SCREE_SCHEME_TWO_TIMESCALES) return;
-    const char *text;
-    scree_place place = place_of(scree_node_find(reader->root, "integrator"), "scheme", &text);
-    if (config->contact.friction_update == SCREE_FRICTION_IMPLICIT && config->integrator.small_steps > 0)
-        scree_problem_add(reader, place, "integrator.scheme", text, "position_verlet, velocity_verlet",
-                          "an implicit contact.friction_update needs equal steps, and makes small ones needless: "
-                          "choose another scheme, or small_steps: 0");
-    for (int64_t i = 0; i < config->stage_count; i++) {
-        scree_boundary_kind kind = scree_config_boundary_of(config, i);
-        // A periodic cell moves bodies by its gradient in every step, whatever its size.
-        if (config->boundary.periodic > 0 || kind == SCREE_BOUNDARY_PRESSURE || kind == SCREE_BOUNDARY_PLATES ||
-            kind == SCREE_BOUNDARY_WALLS || kind == SCREE_BOUNDARY_NONE)
-            continue;
-        scree_problem_add(reader, place, "integrator.scheme", text, "position_verlet, velocity_verlet",
-                          "the boundary of stages.%lld imposes velocities and needs equal steps", (long long)i);
-        return;
-    }
-}
-
 void scree_rules_check(scree_reader *reader, scree_config *config)
 {
     check_materials(reader, config);
-    check_twisting(reader, config);
     check_radii(reader, config);
     name_stages(reader, config);
     check_stage_order(reader, config);
@@ -304,8 +268,8 @@ void scree_rules_check(scree_reader *reader, scree_config *config)
     check_preparation(reader, config);
     check_pair(reader, config);
     check_windows(reader, config);
-    check_timescales(reader, config);
     scree_rules_check_bodies(reader, config);
     scree_rules_check_boundaries(reader, config);
     scree_rules_check_walls(reader, config);
+    scree_rules_check_modules(reader, config);
 }

@@ -1,8 +1,10 @@
-/// The schema table of a case file. Add a key: a member in config.h, a line here; the rest follows.
+/// What the core declares of the schema of a case file. Add a key: a member in config.h, a line here; the rest follows.
+/// Keys of modules stand in their own files.
 /// Ranges are wide: they keep out slips of the unit and numbers that would overflow, not unusual physics.
 #include "case/schema.h"
 
-#include "case/schema_keys.h"
+#include "case/schema_walls.h"
+#include "module/key_rows.h"
 
 // ---- choices -----------------------------------------------------------------------------------------------------
 
@@ -15,35 +17,6 @@ static const scree_choice distributions[] = {
     {"uniform", SCREE_SIZE_UNIFORM, "every radius between the smallest and the largest is equally likely"},
     {"two_sizes", SCREE_SIZE_TWO_SIZES, "the smallest and the largest radius, in equal numbers"},
     {"equal", SCREE_SIZE_EQUAL, "one radius for all"},
-    {0},
-};
-static const scree_choice laws[] = {
-    {"hertz_brilliantov", 0,
-     "Hertz with the viscous damping of Brilliantov et al. (1996) and friction regularised by the slip speed; no "
-     "history"},
-    {"hertz_mindlin", 1,
-     "Hertz with the tangential spring of Mindlin (with history), Coulomb limit, damping from the restitution"},
-    {0},
-};
-static const scree_choice friction_updates[] = {
-    {"explicit", SCREE_FRICTION_EXPLICIT, "from the slip of the step before; needs small steps"},
-    {"implicit", SCREE_FRICTION_IMPLICIT,
-     "from the slip that the coming step will have, solved contact by contact; stable at the large step"},
-    {0},
-};
-static const scree_choice tangential_histories[] = {
-    {"displacement", SCREE_TANGENTIAL_DISPLACEMENT,
-     "the tangential displacement stays as it is; cycles of indentation and slip may deliver energy"},
-    {"rescaled", SCREE_TANGENTIAL_RESCALED,
-     "the tangential force stays as it is while the contact stiffens, the displacement while it softens (Thornton et "
-     "al. 2013); no cycle delivers energy"},
-    {0},
-};
-static const scree_choice schemes[] = {
-    {"position_verlet", SCREE_SCHEME_POSITION_VERLET, "leapfrog with velocities half a step behind"},
-    {"velocity_verlet", SCREE_SCHEME_VELOCITY_VERLET, "velocities and positions at the same time"},
-    {"two_timescales", SCREE_SCHEME_TWO_TIMESCALES,
-     "position_verlet that repeats one large and several small steps while loading (Padbidri 2010, 2.4)"},
     {0},
 };
 static const scree_choice periodics[] = {
@@ -145,12 +118,6 @@ static const scree_key material_keys[] = {
            .meaning = "Coefficient of friction on plates; auto: `friction`."),
     KEY(material, wall_material, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),
         .meaning = "What plates and walls that it touches are made of: a material, or `rigid`; auto: the same as it."),
-    NUMBER(material, restitution, "1", .standard = "0.2", ABOVE("0"), TO("1"), .when = "contact.law=hertz_mindlin",
-           .meaning = "Coefficient of restitution of a normal impact; sets the damping."),
-    NUMBER(material, rolling_friction, "1", .standard = "0", FROM("0"), TO("10"), .when = "contact.law=hertz_mindlin",
-           .meaning = "Limit of the rolling resistance over the normal force; its torque is that times R_eff."),
-    NUMBER(material, twisting_friction, "1", .standard = "0", FROM("0"), TO("10"), .when = "contact.law=hertz_mindlin",
-           .meaning = "Limit of the torque about the normal over R_eff times the normal force; spheres only."),
 };
 
 typedef scree_config_particles particles;
@@ -177,35 +144,21 @@ static const scree_key particles_keys[] = {
 
 typedef scree_config_contact contact;
 static const scree_key contact_keys[] = {
-    CHOICE(contact, law, laws, .standard = "hertz_mindlin", .meaning = "Force law of a contact."),
-    CHOICE(contact, tangential_history, tangential_histories, .standard = "displacement", .when = "law=hertz_mindlin",
-           .meaning = "What a tangential spring keeps when its stiffness changes with the overlap."),
-    NUMBER(contact, damping_time, "s", .standard = "2 ms", FROM("0 s"), TO("1000 s"), .when = "law=hertz_brilliantov",
-           .meaning = "Time T of the viscous part T K d^0.5 d'."),
-    NUMBER(contact, friction_exponent, "1", .standard = "50", FROM("1"), TO("1e6"), .when = "law=hertz_brilliantov",
-           .meaning = "Exponent c of the regularised friction mu f_n (s/v_R)^(1/c)."),
-    CHOICE(contact, friction_update, friction_updates, .standard = "explicit", .when = "law=hertz_brilliantov",
-           .meaning = "How the stiff friction law is integrated."),
+    CHOICE(contact, law, NULL, .standard = "hertz_mindlin", .meaning = "Force law of a contact."),
+    MODULE_KEYS,
     NUMBER(contact, reference_velocity, "m/s", .standard = "auto", ABOVE("0 m/s"), TO("1000 m/s"),
            .meaning = "v_R, to which slip speeds are referred; auto: 2 x strain rate x mean radius."),
 };
 
 typedef scree_config_integrator integrator;
 static const scree_key integrator_keys[] = {
-    CHOICE(integrator, scheme, schemes, .standard = "velocity_verlet", .meaning = "Integration scheme."),
+    CHOICE(integrator, scheme, NULL, .standard = "velocity_verlet", .meaning = "Integration scheme."),
     NUMBER(integrator, step, "s", .standard = "auto", ABOVE("0 s"), TO("10 s"),
            .meaning =
                "Time step, the small one of two_timescales; auto: the largest is `step_fraction` of the critical "
                "step."),
     NUMBER(integrator, step_fraction, "1", .standard = "0.1", ABOVE("0"), TO("1"), .when = "step=auto",
            .meaning = "Largest step over critical step."),
-    INTEGER(integrator, repeats, .standard = "5", FROM("1"), TO("1e6"), .when = "scheme=two_timescales",
-            .meaning = "m of m(n+q): sequences in N_S = m(n+q) small steps. N_S steps are the step before loading, and "
-                       "the unit of boundary.every."),
-    INTEGER(integrator, large_multiple, .standard = "5", FROM("1"), TO("1e6"), .when = "scheme=two_timescales",
-            .meaning = "n of m(n+q): the large step of a sequence, in small steps."),
-    INTEGER(integrator, small_steps, .standard = "5", FROM("0"), TO("1e6"), .when = "scheme=two_timescales",
-            .meaning = "q of m(n+q): small steps after each large one."),
 };
 
 typedef scree_config_boundary boundary;
@@ -253,9 +206,6 @@ typedef scree_config_stage stage;
            .meaning = "Friction in this stage, e.g. less while confining for a denser sample; auto: the material's.")
 #define STAGE_BOUNDARY                                                                                                 \
     CHOICE(stage, boundary, boundaries, .standard = "auto", .meaning = "What holds the sample in this stage.")
-#define TENSOR(owner, member, list, si, ...)                                                                           \
-    KEY(owner, member, SCREE_KEY_TENSOR, .choices = list, .unit = si, .standard = "{}", __VA_ARGS__)
-
 typedef scree_config_body body;
 static const scree_key body_keys[] = {
     KEY(body, position, SCREE_KEY_VECTOR, .unit = "m", FROM("-1e6 m"), TO("1e6 m"), .meaning = "Of its centre."),
@@ -268,7 +218,7 @@ static const scree_key body_keys[] = {
     KEY(body, material, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),
         .meaning = "Name of one of the materials; auto: particles.material."),
 };
-static const scree_section body_table[] = {{"bodies", "A particle at a given position.", body_keys, COUNT(body_keys)}};
+static const scree_section body_table[] = {TABLE("bodies", "A particle at a given position.", body_keys)};
 static const scree_key prepare_keys[] = {
     STAGE_HEAD,
     CHOICE(stage, method, methods, .standard = "drop_and_roll", .meaning = "How the particles are placed."),
@@ -425,10 +375,12 @@ static const scree_key guard_keys[] = {
 };
 
 static const scree_section material_table[] = {
-    TABLE("materials", "What particles and plates are made of.", material_keys)};
+    OPEN_TABLE("materials", "What particles and plates are made of.", material_keys, scree_config_material)};
 static const scree_section particles_table[] = {TABLE("particles", "Shape, number and sizes.", particles_keys)};
-static const scree_section contact_table[] = {TABLE("contact", "Forces between touching particles.", contact_keys)};
-static const scree_section integrator_table[] = {TABLE("integrator", "Motion in time.", integrator_keys)};
+static const scree_section contact_table[] = {
+    OPEN_TABLE("contact", "Forces between touching particles.", contact_keys, contact)};
+static const scree_section integrator_table[] = {
+    OPEN_TABLE("integrator", "Motion in time.", integrator_keys, integrator)};
 static const scree_section boundary_table[] = {TABLE("boundary", "What surrounds the sample.", boundary_keys)};
 static const scree_section stage_tables[] = {
     TABLE("prepare", "Places the particles; the first stage of every case.", prepare_keys),
@@ -457,6 +409,8 @@ static const scree_section measure_table[] = {TABLE("measure", "What is recorded
 static const scree_section output_table[] = {TABLE("output", "What is written, and how often.", output_keys)};
 static const scree_section guard_table[] = {TABLE("guard", "Limits that stop a run that went wrong.", guard_keys)};
 
+#define SECTION(member, table, ...)                                                                                    \
+    KEY(scree_config, member, SCREE_KEY_SECTION, .sections = table, .section_count = 1, __VA_ARGS__)
 static const scree_key root_keys[] = {
     {.name = "scree",
      .type = SCREE_KEY_INTEGER,
@@ -503,4 +457,4 @@ static const scree_key root_keys[] = {
      .meaning = "Key path and value of everything that --quick changes."},
 };
 
-const scree_section scree_schema = TABLE("case", "A case file.", root_keys);
+const scree_section scree_schema_core = TABLE("case", "A case file.", root_keys);

@@ -42,6 +42,27 @@ enum {
     BRILLIANTOV_INVERSE_VELOCITY, ///< s/m
 };
 
+typedef enum scree_friction_update { SCREE_FRICTION_EXPLICIT, SCREE_FRICTION_IMPLICIT } scree_friction_update;
+
+/// What a case says of it under `contact`.
+typedef struct scree_brilliantov_config {
+    double damping_time;      ///< s, T
+    double friction_exponent; ///< 1, c
+    int friction_update;      ///< scree_friction_update
+} scree_brilliantov_config;
+
+/// Numbers of the run from T [s], c and v_R [m/s].
+static inline void brilliantov_numbers(double time, double exponent, double velocity, double number[SCREE_LAW_NUMBERS])
+{
+    double inverse_exponent = 1 / exponent;
+    number[BRILLIANTOV_TIME] = time;
+    number[BRILLIANTOV_INVERSE_EXPONENT] = inverse_exponent;
+    number[BRILLIANTOV_BINARY_EXPONENT] = inverse_exponent * M_LOG2E;
+    number[BRILLIANTOV_EXPONENT] = 1.0 / inverse_exponent;
+    number[BRILLIANTOV_VELOCITY] = velocity;
+    number[BRILLIANTOV_INVERSE_VELOCITY] = 1.0 / velocity;
+}
+
 #define hertz_brilliantov_KERNELS(row)                                                                                 \
     row(hertz_brilliantov, 0, one) row(hertz_brilliantov, 0, many) row(hertz_brilliantov, 1, one)                      \
         row(hertz_brilliantov, 1, many)

@@ -1,4 +1,4 @@
-/// Descriptor of law hertz_mindlin (hertz_mindlin.h).
+/// Module of law hertz_mindlin (hertz_mindlin.h).
 ///
 /// Damping is that of the smaller restitution of two materials (Tsuji et al. 1992; theory/restitution.h); caps of
 /// rolling and twisting are the smaller ones, as of friction.
@@ -13,32 +13,72 @@
 /// that times mu_tw R_max f_n.
 #include "contact/hertz_mindlin.h"
 
-static const char *material_problem(const scree_config_material *material, const char **key)
+#include "case/check.h"
+#include "module/key_rows.h"
+
+static const scree_choice tangential_histories[] = {
+    {"displacement", SCREE_TANGENTIAL_DISPLACEMENT,
+     "the tangential displacement stays as it is; cycles of indentation and slip may deliver energy"},
+    {"rescaled", SCREE_TANGENTIAL_RESCALED,
+     "the tangential force stays as it is while the contact stiffens, the displacement while it softens (Thornton et "
+     "al. 2013); no cycle delivers energy"},
+    {0},
+};
+
+typedef scree_mindlin_config contact;
+static const scree_key contact_keys[] = {
+    CHOICE(contact, tangential_history, tangential_histories, .standard = "displacement", .when = "law=hertz_mindlin",
+           .meaning = "What a tangential spring keeps when its stiffness changes with the overlap."),
+};
+
+typedef scree_mindlin_material material;
+static const scree_key material_keys[] = {
+    NUMBER(material, restitution, "1", .standard = "0.2", ABOVE("0"), TO("1"), .when = "contact.law=hertz_mindlin",
+           .meaning = "Coefficient of restitution of a normal impact; sets the damping."),
+    NUMBER(material, rolling_friction, "1", .standard = "0", FROM("0"), TO("10"), .when = "contact.law=hertz_mindlin",
+           .meaning = "Limit of the rolling resistance over the normal force; its torque is that times R_eff."),
+    NUMBER(material, twisting_friction, "1", .standard = "0", FROM("0"), TO("10"), .when = "contact.law=hertz_mindlin",
+           .meaning = "Limit of the torque about the normal over R_eff times the normal force; spheres only."),
+};
+
+static const material *own_material(const scree_config_material *section)
+{
+    return scree_config_own(&scree_module_hertz_mindlin, "materials", section->own);
+}
+
+/// Discs turn about one axis, which no contact twists.
+static void rules(scree_reader *reader, const scree_config *config)
+{
+    for (int64_t i = 0; i < config->material_count && config->dimension == 2; i++) {
+        if (!(own_material(&config->materials[i])->twisting_friction > 0)) continue;
+        char path[SCREE_PATH_BYTES];
+        (void)snprintf(path, sizeof path, "materials.%lld.twisting_friction", (long long)i);
+        scree_rule_refuse(reader, path, "0", "discs do not twist: twisting_friction is for spheres");
+    }
+}
+
+static const char *material_problem(const scree_config_material *section, const char **key)
 {
     *key = "restitution";
-    if (material->restitution > 0) return NULL;
+    if (own_material(section)->restitution > 0) return NULL;
     return "hertz_mindlin reaches a restitution of zero only with infinite damping; give a value above 0, such as 0.05";
 }
 
-static unsigned options(const scree_config_contact *contact, const scree_config_material *material)
+static unsigned options(const scree_config_contact *section, const scree_config_material *of)
 {
-    unsigned rescaled = contact->tangential_history == SCREE_TANGENTIAL_RESCALED ? MINDLIN_RESCALED : 0;
-    bool rolls = material->rolling_friction > 0 || material->twisting_friction > 0;
-    return rolls ? rescaled | MINDLIN_ROLLING : rescaled;
-}
-
-static void resolve(const scree_config_contact *contact, double reference_velocity, scree_law_use *use)
-{
-    (void)contact, (void)reference_velocity, (void)use; // the constants of the pairs say all
+    const contact *c = scree_config_own(&scree_module_hertz_mindlin, "contact", section->own);
+    const material *m = own_material(of);
+    bool rolls = m->rolling_friction > 0 || m->twisting_friction > 0;
+    return (c->tangential_history == SCREE_TANGENTIAL_RESCALED ? MINDLIN_RESCALED : 0) | (rolls ? MINDLIN_ROLLING : 0);
 }
 
 static scree_pair_constants constants(const scree_config_material *a, const scree_config_material *b)
 {
     scree_pair_constants pair = scree_hertz_constants(a, b);
-    if (!b) b = a;
-    pair.value[HERTZ_DAMPING] = scree_damping_from_restitution(fmin(a->restitution, b->restitution));
-    pair.value[HERTZ_ROLLING] = fmin(a->rolling_friction, b->rolling_friction);
-    pair.value[HERTZ_TWISTING] = fmin(a->twisting_friction, b->twisting_friction);
+    const material *one = own_material(a), *other = own_material(b ? b : a);
+    pair.value[HERTZ_DAMPING] = scree_damping_from_restitution(fmin(one->restitution, other->restitution));
+    pair.value[HERTZ_ROLLING] = fmin(one->rolling_friction, other->rolling_friction);
+    pair.value[HERTZ_TWISTING] = fmin(one->twisting_friction, other->twisting_friction);
     return pair;
 }
 
@@ -83,19 +123,29 @@ static scree_status impact(const scree_law_use *use, const scree_pair_constants 
     return status;
 }
 
-const scree_law scree_law_hertz_mindlin = {
-    .name = "hertz_mindlin",
+static const scree_law law = {
     .traits = hertz_mindlin_traits,
     .elastic = &scree_elastic_hertz,
     .constant_count = HERTZ_TWISTING + 1,
     .resistances = 1U << SCREE_FRICTION | 1U << HERTZ_ROLLING | 1U << HERTZ_TWISTING,
     .material_problem = material_problem,
     .options = options,
-    .resolve = resolve,
     .constants = constants,
     .bound = bound,
     .tangent = tangent,
     .impact = impact,
     .confine_grains = 700,
     .against_stiffening = "contact.tangential_history=rescaled",
+};
+
+const scree_module scree_module_hertz_mindlin = {
+    .name = "hertz_mindlin",
+    .meaning =
+        "Hertz with the tangential spring of Mindlin (with history), Coulomb limit, damping from the restitution",
+    .choice_of = CHOICE_OF(IS("contact.law")),
+    .keys = (const scree_keys[]){KEYS_OF("contact", contact_keys, contact, .after = "law"),
+                                 KEYS_OF("materials", material_keys, material)},
+    .keys_count = 2,
+    .rules = rules,
+    .law = &law,
 };

@@ -45,6 +45,22 @@ enum {
     MINDLIN_ROLLING = 2,  ///< some pair of materials resists rolling or twisting
 };
 
+typedef enum scree_tangential_history {
+    SCREE_TANGENTIAL_DISPLACEMENT,
+    SCREE_TANGENTIAL_RESCALED
+} scree_tangential_history;
+
+/// What a case says of it, under `contact` and of a material.
+typedef struct scree_mindlin_config {
+    int tangential_history; ///< scree_tangential_history
+} scree_mindlin_config;
+
+typedef struct scree_mindlin_material {
+    double restitution;       ///< 1
+    double rolling_friction;  ///< 1, limit of the rolling resistance over the normal force
+    double twisting_friction; ///< 1, in 3D: limit of the twisting torque over R_eff times that force
+} scree_mindlin_material;
+
 /// Resistance to turning looks materials up even if there is only one.
 #define hertz_mindlin_KERNELS(row)                                                                                     \
     row(hertz_mindlin, 0, one) row(hertz_mindlin, 0, many) row(hertz_mindlin, 1, one) row(hertz_mindlin, 1, many)      \

@@ -1,8 +1,9 @@
 /// What a force law is given and what it gives back, in lanes. A law is one always-inline function
 ///   law_force NAME(variant, constants, settings, motion, touching, before, after)
 /// in a header of its own, NAME.h, with its traits (NAME_traits, one for each value of the option) and its kernels
-/// (NAME_KERNELS, row(NAME, option, one or many materials)); its descriptor is scree_law_NAME in NAME.c. contact/laws.h
-/// lists them. Values of lanes that do not touch must come out zero.
+/// (NAME_KERNELS, row(NAME, option, one or many materials)); its module, with its descriptor (model/law.h), is
+/// scree_module_NAME in NAME.c. module/table.h lists the laws, contact/laws.h includes them. Values of lanes that do
+/// not touch must come out zero.
 #ifndef SCREE_CONTACT_LAW_H
 #define SCREE_CONTACT_LAW_H
 
@@ -12,7 +13,7 @@
 /// What evaluations are specialised by: constants in the kernels, runtime values in the scalar reference.
 typedef struct variant {
     int dimension;
-    int law;         ///< index in scree_laws
+    int law;         ///< slot of its module
     unsigned option; ///< bits whose meaning the law declares
     bool many_materials;
     bool ledger;

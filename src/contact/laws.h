@@ -1,19 +1,13 @@
-/// The table of laws: one row a law, here and nowhere else. With a constant `law` the compiler keeps one branch, and
-/// traits are constants.
+/// The code of the laws of the table (module/table.h). With a constant `law` the compiler keeps one branch, and traits
+/// are constants.
 #ifndef SCREE_CONTACT_LAWS_H
 #define SCREE_CONTACT_LAWS_H
 
 #include "contact/hertz_brilliantov.h"
 #include "contact/hertz_mindlin.h"
 
-/// Their order is that of the choices of contact.law.
-#define SCREE_LAWS(row) row(hertz_brilliantov) row(hertz_mindlin)
-
-#define LAW_INDEX(law)  LAW_##law,
-enum { SCREE_LAWS(LAW_INDEX) LAW_COUNT };
-
-#define LAW_TRAITS(law) law##_traits,
-static const scree_law_traits *const all_law_traits[] = {SCREE_LAWS(LAW_TRAITS)};
+#define LAW_TRAITS(law) [SCREE_SLOT_##law] = law##_traits,
+static const scree_law_traits *const all_law_traits[SCREE_MODULE_COUNT] = {SCREE_LAWS(LAW_TRAITS)};
 
 SCREE_INLINE const scree_law_traits *law_traits(variant v)
 {
@@ -63,7 +57,7 @@ SCREE_INLINE void law_forget(variant v, law_memory *after)
 }
 
 #define LAW_EVALUATE(law_)                                                                                             \
-    if (v.law == LAW_##law_) return law_(v, constants, settings, m, touching, before, after);
+    if (v.law == SCREE_SLOT_##law_) return law_(v, constants, settings, m, touching, before, after);
 
 SCREE_INLINE law_force law_evaluate(variant v, const law_constants *constants, const law_settings *settings,
                                     const motion *m, lanes_bits touching, const law_memory *before, law_memory *after)

@@ -146,9 +146,9 @@ SCREE_INLINE void run(contact_job *given, variant v)
     static __attribute__((noinline)) void name(contact_job *job)                                                       \
     {                                                                                                                  \
         if (job->variant.ledger)                                                                                       \
-            run(job, (variant){dimension, LAW_##law, option, many_materials, true});                                   \
+            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, true});                            \
         else                                                                                                           \
-            run(job, (variant){dimension, LAW_##law, option, many_materials, false});                                  \
+            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, false});                           \
     }
 
 /// How many materials a kernel is for, as the rows of laws say it.
@@ -159,19 +159,21 @@ enum { MOST_OPTIONS = 4 };
     VARIANT(plane_##law##_##option##_##materials, 2, law, option, OF_##materials)
 #define SOLID_KERNEL(law, option, materials)                                                                           \
     VARIANT(solid_##law##_##option##_##materials, 3, law, option, OF_##materials)
-#define PLANE_ENTRY(law, option, materials) [LAW_##law][option][OF_##materials] = plane_##law##_##option##_##materials,
-#define SOLID_ENTRY(law, option, materials) [LAW_##law][option][OF_##materials] = solid_##law##_##option##_##materials,
-#define PLANE_KERNELS(law)                  law##_KERNELS(PLANE_KERNEL)
-#define SOLID_KERNELS(law)                  law##_KERNELS(SOLID_KERNEL)
-#define PLANE_ENTRIES(law)                  law##_KERNELS(PLANE_ENTRY)
-#define SOLID_ENTRIES(law)                  law##_KERNELS(SOLID_ENTRY)
+#define PLANE_ENTRY(law, option, materials)                                                                            \
+    [SCREE_SLOT_##law][option][OF_##materials] = plane_##law##_##option##_##materials,
+#define SOLID_ENTRY(law, option, materials)                                                                            \
+    [SCREE_SLOT_##law][option][OF_##materials] = solid_##law##_##option##_##materials,
+#define PLANE_KERNELS(law) law##_KERNELS(PLANE_KERNEL)
+#define SOLID_KERNELS(law) law##_KERNELS(SOLID_KERNEL)
+#define PLANE_ENTRIES(law) law##_KERNELS(PLANE_ENTRY)
+#define SOLID_ENTRIES(law) law##_KERNELS(SOLID_ENTRY)
 
 /// The kernel of a dimension. One for many materials serves a single one, too.
 #define PAIRS_KERNEL(name, NAME)                                                                                       \
     SCREE_LAWS(NAME##_KERNELS)                                                                                         \
     void KERNEL_NAME(scree_##name##_pairs_v, SCREE_ISA)(contact_job * job)                                             \
     {                                                                                                                  \
-        static contact_kernel *const kernels[LAW_COUNT][MOST_OPTIONS][2] = {SCREE_LAWS(NAME##_ENTRIES)};               \
+        static contact_kernel *const kernels[SCREE_MODULE_COUNT][MOST_OPTIONS][2] = {SCREE_LAWS(NAME##_ENTRIES)};      \
         const variant *v = &job->variant;                                                                              \
         contact_kernel *const *kernel = kernels[v->law][v->option];                                                    \
         (v->many_materials || !kernel[OF_one] ? kernel[OF_many] : kernel[OF_one])(job);                                \

@@ -283,8 +283,8 @@ static bool holds_memory(const group *g)
 
 /// In space, where it pays, the law is known.
 #define GROUP_OF_LAW(law_)                                                                                             \
-    if (v.dimension == 3 && v.law == LAW_##law_)                                                                       \
-        evaluate_group(job, (variant){3, LAW_##law_, v.option, true, v.ledger}, state, &g);
+    if (v.dimension == 3 && v.law == SCREE_SLOT_##law_)                                                                \
+        evaluate_group(job, (variant){3, SCREE_SLOT_##law_, v.option, true, v.ledger}, state, &g);
 
 void contact_surfaces(contact_job *job, const scree_state *state, const scree_work *work, size_t begin, size_t end)
 {

@@ -1,7 +1,7 @@
-/// What a contact law is. A law is a header with its always-inline function (contact/law.h), a file with its
-/// descriptor, and a row in contact/laws.h; nothing else knows its name. The model asks it for the constants of two
-/// materials and for closed forms, the kernels are specialised by its traits as constants, and the search keeps the
-/// rows that it remembers.
+/// The face of a contact law. A law is a header with its always-inline function (contact/law.h), a file with its module
+/// and this descriptor, and a row in module/table.h (its header is included by contact/laws.h); nothing else knows its
+/// name. The model asks it for the constants of two materials and for closed forms, the kernels are specialised by its
+/// traits as constants, and the search keeps the rows that it remembers.
 #ifndef SCREE_MODEL_LAW_H
 #define SCREE_MODEL_LAW_H
 
@@ -23,7 +23,7 @@ typedef struct scree_pair_constants {
 
 /// A law as a case uses it.
 typedef struct scree_law_use {
-    int law;                          ///< index in scree_laws
+    int law;                          ///< slot of its module
     unsigned option;                  ///< bits whose meaning the law declares; kernels are specialised by them
     double number[SCREE_LAW_NUMBERS]; ///< of the whole run; their meaning is the law's affair, too
 } scree_law_use;
@@ -76,7 +76,6 @@ typedef struct scree_law_bounds {
 } scree_law_bounds;
 
 typedef struct scree_law {
-    const char *name;
     const scree_law_traits *traits; ///< one for each value of `option`
     const scree_elastic *elastic;
     int constant_count;    ///< constants of a pair that enter the state checksum
@@ -86,7 +85,7 @@ typedef struct scree_law {
     const char *(*material_problem)(const scree_config_material *material, const char **key);
     /// Options that the case, or one of the materials in use, asks for.
     unsigned (*options)(const scree_config_contact *contact, const scree_config_material *material);
-    /// Numbers of the whole run. reference_velocity [m/s]: v_R.
+    /// Numbers of the whole run. reference_velocity [m/s]: v_R. NULL: none.
     void (*resolve)(const scree_config_contact *contact, double reference_velocity, scree_law_use *use);
     /// Constants of two materials; b is NULL for something rigid.
     scree_pair_constants (*constants)(const scree_config_material *a, const scree_config_material *b);
@@ -104,8 +103,10 @@ typedef struct scree_law {
     const char *against_stiffening; ///< key=value that keeps springs from energy that nobody spent; NULL: none does
 } scree_law;
 
-/// All laws, in the order of the table (contact/laws.h).
-extern const scree_law *const scree_laws[];
-extern const int scree_law_count;
+/// That of a module's slot.
+static inline const scree_law *scree_law_get(int slot)
+{
+    return scree_modules[slot]->law;
+}
 
 #endif

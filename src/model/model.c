@@ -5,6 +5,7 @@
 #include "model/model.h"
 
 #include "model/critical_step.h"
+#include "module/integrator.h"
 #include "theory/quasistatic.h"
 
 #include <math.h>
@@ -386,8 +387,8 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
         return FIELD_ERROR(error, "contact.reference_velocity",
                            "%s needs a reference slip velocity: without a loading stage (2 rate <R>) "
                            "give contact.reference_velocity",
-                           law->name);
-    law->resolve(&config->contact, model->reference_velocity, &model->law);
+                           scree_modules[model->law.law]->name);
+    if (law->resolve) law->resolve(&config->contact, model->reference_velocity, &model->law);
     model->phi = model->psi = NAN;
     if (isnan(rate) || isnan(pressure)) return SCREE_OK;
     double mass = scree_model_mean_mass(model);
@@ -407,13 +408,11 @@ static scree_status resolve_step(scree_model *model, scree_error *error)
 {
     const scree_config_integrator *integrator = &model->config->integrator;
     model->critical_step = scree_critical_step_estimate(model);
-    model->largest_step = model->large_multiple = 1;
-    model->small_steps = 0;
-    if (model->scheme == SCREE_SCHEME_TWO_TIMESCALES) {
-        model->large_multiple = (uint64_t)integrator->large_multiple;
-        model->small_steps = (uint64_t)integrator->small_steps;
-        model->largest_step = (uint64_t)integrator->repeats * (model->large_multiple + model->small_steps);
-    }
+    scree_steps (*lengths)(const void *own) = scree_integrator_get(model->scheme)->steps;
+    scree_steps steps = lengths ? lengths(integrator->own) : (scree_steps){1, 1, 0};
+    model->largest_step = steps.largest;
+    model->large_multiple = steps.multiple;
+    model->small_steps = steps.small;
     double ticks = (double)model->largest_step;
     model->step = isnan(integrator->step) ? integrator->step_fraction * model->critical_step / ticks : integrator->step;
     if (ticks * model->step <= model->critical_step) return SCREE_OK;
@@ -440,7 +439,7 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
     *model = (scree_model){
         .dimension = (int)config->dimension,
         .law = {.law = config->contact.law},
-        .scheme = (scree_scheme)config->integrator.scheme,
+        .scheme = config->integrator.scheme,
         .gravity = {config->gravity[0], config->gravity[1], config->gravity[2]},
         .config = config,
     };

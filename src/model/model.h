@@ -15,10 +15,10 @@ enum { SCREE_PARTICLE_MATERIAL = 0 };
 
 typedef struct scree_model {
     int dimension;
-    double thickness;          ///< m, length of the discs; 1 in 3D
-    scree_law_use law;         ///< how contacts resist
-    double reference_velocity; ///< m/s, v_R
-    scree_scheme scheme;
+    double thickness;              ///< m, length of the discs; 1 in 3D
+    scree_law_use law;             ///< how contacts resist
+    double reference_velocity;     ///< m/s, v_R
+    int scheme;                    ///< slot of the integrator's module
     double step;                   ///< s, the tick: the small step of two_timescales, the step of all other schemes
     uint64_t largest_step;         ///< ticks, N_S of two_timescales (the step before loading), else 1
     uint64_t large_multiple;       ///< ticks, n of two_timescales, else 1
@@ -55,7 +55,7 @@ double scree_held_pressure(const scree_config_stage *stage);
 
 static inline const scree_law *scree_model_law(const scree_model *model)
 {
-    return scree_laws[model->law.law];
+    return scree_law_get(model->law.law);
 }
 
 static inline const scree_law_traits *scree_model_traits(const scree_model *model)

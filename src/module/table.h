@@ -4,8 +4,16 @@
 #ifndef SCREE_MODULE_TABLE_H
 #define SCREE_MODULE_TABLE_H
 
-#define SCREE_MODULES(row)                                                                                             \
+#define SCREE_STATE_MODULES(row)                                                                                       \
     row(plates) row(case_walls) row(periodic_cell) row(delaunay_boundary) row(imposed_gradient) row(membrane)          \
         row(forced_spin)
+
+/// Contact laws, each with its header in contact/laws.h.
+#define SCREE_LAWS(row) row(hertz_brilliantov) row(hertz_mindlin)
+
+/// Choices of the case, in the order in which the case reference lists them.
+#define SCREE_CASE_MODULES(row) SCREE_LAWS(row) row(position_verlet) row(velocity_verlet) row(two_timescales)
+
+#define SCREE_MODULES(row)      SCREE_CASE_MODULES(row)
 
 #endif

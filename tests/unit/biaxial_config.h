@@ -3,7 +3,7 @@
 #define SCREE_TEST_BIAXIAL_CONFIG_H
 
 #include "law_choice.h"
-#include "case/config.h"
+#include "own_config.h"
 
 #include <math.h>
 
@@ -12,7 +12,14 @@ typedef struct biaxial_config {
     scree_config_material material[2];
     scree_config_stage stage[3];
     char quartz[8], steel[8];
+    own_block contact, of_material[2];
 } biaxial_config;
+
+/// What law hertz_mindlin reads of a material.
+static inline scree_mindlin_material *biaxial_material(biaxial_config *c, int material)
+{
+    return OWN(c->of_material[material].bytes, scree_mindlin_material, hertz_mindlin, "materials");
+}
 
 /// 30 GPa, 0.3, 2.675e8 kg/m3, friction 0.45; radii uniform in 0.5 to 1 mm; 100 kPa, 0.005 1/s; every `auto` left open.
 static inline void biaxial_config_set(biaxial_config *c, int64_t count)
@@ -24,14 +31,18 @@ static inline void biaxial_config_set(biaxial_config *c, int64_t count)
                                              .density = 2.675e8,
                                              .friction = 0.45,
                                              .wall_friction = NAN,
-                                             .restitution = 0.2};
+                                             .own = c->of_material[0].bytes};
     c->material[1] = (scree_config_material){.name = c->steel,
                                              .young_modulus = 200e9,
                                              .poisson_ratio = 0.25,
                                              .density = 8e3,
                                              .friction = 0.3,
                                              .wall_friction = 0.1,
-                                             .restitution = 0.6};
+                                             .own = c->of_material[1].bytes};
+    biaxial_material(c, 0)->restitution = 0.2;
+    biaxial_material(c, 1)->restitution = 0.6;
+    *OWN(c->contact.bytes, scree_brilliantov_config, hertz_brilliantov, "contact") =
+        (scree_brilliantov_config){.damping_time = 0.002, .friction_exponent = 50};
     c->stage[0] = (scree_config_stage){.kind = SCREE_STAGE_PREPARE,
                                        .method = SCREE_PREPARE_DROP_AND_ROLL,
                                        .aspect_ratio = 2,
@@ -53,11 +64,8 @@ static inline void biaxial_config_set(biaxial_config *c, int64_t count)
                       .radius_min = 0.5e-3,
                       .radius_max = 1e-3,
                       .thickness = NAN},
-        .contact = {.law = LAW_hertz_brilliantov,
-                    .damping_time = 0.002,
-                    .friction_exponent = 50,
-                    .reference_velocity = NAN},
-        .integrator = {.scheme = SCREE_SCHEME_POSITION_VERLET, .step = NAN, .step_fraction = 0.5},
+        .contact = {.law = SCREE_SLOT_hertz_brilliantov, .reference_velocity = NAN, .own = c->contact.bytes},
+        .integrator = {.scheme = SCREE_SLOT_position_verlet, .step = NAN, .step_fraction = 0.5},
         .stages = c->stage,
         .stage_count = 3,
         .guard = {.overlap = 0.1, .energy_growth = 1e-3},

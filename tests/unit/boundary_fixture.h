@@ -43,8 +43,8 @@ static inline void bench_begin(bench *b, int dimension, size_t count, double ste
     b->config.guard.overlap = 0.2;
     b->model = (scree_model){.dimension = dimension,
                              .thickness = dimension == 3 ? 1 : THICKNESS,
-                             .law = {.law = LAW_hertz_mindlin},
-                             .scheme = SCREE_SCHEME_POSITION_VERLET,
+                             .law = {.law = SCREE_SLOT_hertz_mindlin},
+                             .scheme = SCREE_SLOT_position_verlet,
                              .largest_step = 1,
                              .mean_radius = RADIUS,
                              .radius_min = 0.7 * RADIUS,

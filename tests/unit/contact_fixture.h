@@ -28,7 +28,7 @@ static inline scree_model fixture_model(law_choice law)
     model.thickness = 2e-3;
     model.reference_velocity = 1e-2;
     law_choose(&model, law);
-    model.scheme = SCREE_SCHEME_POSITION_VERLET;
+    model.scheme = SCREE_SLOT_position_verlet;
     model.mean_radius = 1e-3;
     model.radius_min = 0.5e-3;
     model.radius_max = 1.5e-3;

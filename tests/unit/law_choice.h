@@ -6,23 +6,22 @@
 
 typedef enum law_choice { HERTZ_BRILLIANTOV, HERTZ_MINDLIN, HERTZ_BRILLIANTOV_IMPLICIT } law_choice;
 
-/// Index in scree_laws.
-static inline int law_index(law_choice law)
+/// Slot of its module.
+static inline int law_slot(law_choice law)
 {
-    return law == HERTZ_MINDLIN ? LAW_hertz_mindlin : LAW_hertz_brilliantov;
+    return law == HERTZ_MINDLIN ? SCREE_SLOT_hertz_mindlin : SCREE_SLOT_hertz_brilliantov;
 }
 
 /// Numbers of hertz_brilliantov: T [s], c, and v_R of the model; options stay.
 static inline void law_numbers(scree_model *model, double damping_time, double friction_exponent)
 {
-    const scree_config_contact contact = {.damping_time = damping_time, .friction_exponent = friction_exponent};
-    scree_model_law(model)->resolve(&contact, model->reference_velocity, &model->law);
+    brilliantov_numbers(damping_time, friction_exponent, model->reference_velocity, model->law.number);
 }
 
 /// For a model that was not built from a case; its v_R is set.
 static inline void law_choose(scree_model *model, law_choice law)
 {
-    model->law = (scree_law_use){.law = law_index(law)};
+    model->law = (scree_law_use){.law = law_slot(law)};
     if (law == HERTZ_BRILLIANTOV_IMPLICIT) model->law.option = BRILLIANTOV_IMPLICIT;
     law_numbers(model, 2e-6, 50);
 }

@@ -34,7 +34,7 @@ static inline void periodic_create(periodic_sample *s, int dimension, size_t cou
     s->model = (scree_model){.dimension = dimension,
                              .thickness = dimension == 2 ? 2e-3 : 1,
                              .reference_velocity = 1e-2,
-                             .scheme = SCREE_SCHEME_VELOCITY_VERLET,
+                             .scheme = SCREE_SLOT_velocity_verlet,
                              .step = 2e-7,
                              .mean_radius = 1e-3,
                              .radius_min = 0.8e-3,

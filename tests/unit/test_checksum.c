@@ -22,6 +22,7 @@ static void create(sample *s, int dimension)
     s->config.walls = &s->wall;
     s->model.config = &s->config;
     s->model.dimension = dimension;
+    s->model.law.law = SCREE_SLOT_hertz_mindlin;
     s->model.material_count = 2;
     for (int m = 0; m < 2; m++) {
         s->model.density[m] = 2000 + 500 * m;

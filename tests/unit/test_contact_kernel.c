@@ -241,7 +241,7 @@ static void table_finds_the_forces_of_the_last_evaluation(void **unused)
         row->vy += half * force[1] / row->mass;
         row->spin += half * force[2] / (0.5 * row->mass * row->radius * row->radius);
     }
-    f.model.scheme = SCREE_SCHEME_VELOCITY_VERLET;
+    f.model.scheme = SCREE_SLOT_velocity_verlet;
     assert_int_equal(scree_contact_table_build(&f.model, &f.state, &f.work, &verlet, &error), SCREE_OK);
     assert_int_equal(verlet.count, leapfrog.count);
     for (size_t k = 0; k < verlet.count; k++) {

@@ -44,7 +44,7 @@ static contact_totals evaluate(fixture *f, const variant *v, contact_kernel *ker
 
 static void create(fixture *f, const variant *v)
 {
-    const law_choice law = v->law == LAW_hertz_mindlin ? HERTZ_MINDLIN
+    const law_choice law = v->law == SCREE_SLOT_hertz_mindlin ? HERTZ_MINDLIN
                            : v->option == 0            ? HERTZ_BRILLIANTOV
                                                        : HERTZ_BRILLIANTOV_IMPLICIT;
     if (v->dimension == 3)
@@ -93,9 +93,9 @@ static void compare(const variant *v)
 static void eight_lanes_give_the_bits_of_one(void **unused)
 {
     (void)unused;
-    static const variant variants[] = {{.law = LAW_hertz_brilliantov},
-                                       {.law = LAW_hertz_brilliantov, .option = BRILLIANTOV_IMPLICIT},
-                                       {.law = LAW_hertz_mindlin}};
+    static const variant variants[] = {{.law = SCREE_SLOT_hertz_brilliantov},
+                                       {.law = SCREE_SLOT_hertz_brilliantov, .option = BRILLIANTOV_IMPLICIT},
+                                       {.law = SCREE_SLOT_hertz_mindlin}};
     for (int dimension = 2; dimension <= 3; dimension++)
         for (size_t k = 0; k < sizeof variants / sizeof *variants; k++)
             for (int materials = 1; materials <= 2; materials++)
@@ -103,9 +103,9 @@ static void eight_lanes_give_the_bits_of_one(void **unused)
                     compare(&(variant){dimension, variants[k].law, variants[k].option, materials > 1, ledger});
     for (int ledger = 0; ledger <= 1; ledger++) {
         for (unsigned option = MINDLIN_ROLLING; option <= (MINDLIN_ROLLING | MINDLIN_RESCALED); option++)
-            compare(&(variant){3, LAW_hertz_mindlin, option, true, ledger});
+            compare(&(variant){3, SCREE_SLOT_hertz_mindlin, option, true, ledger});
         for (int materials = 1; materials <= 2; materials++)
-            compare(&(variant){2, LAW_hertz_mindlin, MINDLIN_RESCALED, materials > 1, ledger});
+            compare(&(variant){2, SCREE_SLOT_hertz_mindlin, MINDLIN_RESCALED, materials > 1, ledger});
     }
 }
 

@@ -1,7 +1,9 @@
 /// The model: constants against closed forms, resolved defaults, errors with their fields, and the critical step
 /// against the largest eigenvalue of assembled lattices and packings.
 #include "biaxial_config.h"
+#include "integrate/two_timescales.h"
 #include "law_choice.h"
+#include "own_config.h"
 #include "testing.h"
 
 #include "model/critical_step.h"
@@ -20,7 +22,7 @@ static void test_pair_constants(void **unused)
     biaxial_config c;
     scree_model model;
     biaxial_config_set(&c, 983);
-    c.config.contact.law = LAW_hertz_mindlin;
+    c.config.contact.law = SCREE_SLOT_hertz_mindlin;
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
     // Like bodies: P's plane strain modulus E / (2 (1 - nu^2)) is 16.4835 GPa; 8 Gbar = 4 G / (2 - nu).
     double shear = 30e9 / 2.6;
@@ -49,7 +51,7 @@ static void test_walls_have_materials(void **unused)
     scree_error error;
     char rigid[] = "rigid", steel[] = "steel", unknown[] = "stel";
     biaxial_config_set(&c, 983);
-    c.config.contact.law = LAW_hertz_mindlin;
+    c.config.contact.law = SCREE_SLOT_hertz_mindlin;
     scree_config_wall walls[3] = {{.material = steel}, {.material = rigid}, {.material = NULL}};
     c.config.walls = walls;
     c.config.wall_count = 3;
@@ -145,8 +147,8 @@ static void test_errors_name_their_field(void **unused)
     c.config.material_count = 17;
     expect_input_error(&c, "materials", "17");
     biaxial_config_set(&c, 983);
-    c.config.contact.law = LAW_hertz_mindlin;
-    c.material[1].restitution = 0;
+    c.config.contact.law = SCREE_SLOT_hertz_mindlin;
+    biaxial_material(&c, 1)->restitution = 0;
     expect_input_error(&c, "materials.1.restitution", "above 0");
     biaxial_config_set(&c, 983);
     c.config.particles.radius_min = 2e-3;
@@ -171,7 +173,7 @@ static void test_step_against_the_critical_one(void **unused)
     scree_error error;
     for (int law = HERTZ_BRILLIANTOV; law <= HERTZ_MINDLIN; law++) {
         biaxial_config_set(&c, 983);
-        c.config.contact.law = law_index((law_choice)law);
+        c.config.contact.law = law_slot((law_choice)law);
         c.config.integrator.step = 1e-5;
         c.config.integrator.step_fraction = NAN; // as the case language leaves it when a step is given
         assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
@@ -195,7 +197,7 @@ static void test_critical_step_of_other_loads(void **unused)
     biaxial_config c;
     scree_model model;
     biaxial_config_set(&c, 983);
-    c.config.contact.law = LAW_hertz_mindlin;
+    c.config.contact.law = SCREE_SLOT_hertz_mindlin;
     c.config.stage_count = 1;
     c.material[0].density = 2675;
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
@@ -453,10 +455,11 @@ static void test_membrane(void **unused)
     assert_int_equal(scree_model_build(&c.config, &model, &error), SCREE_ERROR_INPUT);
     assert_string_equal(error.field, "boundary.membrane_stiffness");
     c.config.boundary.membrane_stiffness /= 1.02;
-    c.config.integrator.scheme = SCREE_SCHEME_TWO_TIMESCALES;
-    c.config.integrator.repeats = 1;
-    c.config.integrator.large_multiple = 2;
-    c.config.integrator.small_steps = 1;
+    c.config.integrator.scheme = SCREE_SLOT_two_timescales;
+    own_block block = {0};
+    c.config.integrator.own = &block;
+    *OWN(&block, scree_two_timescales_config, two_timescales, "integrator") =
+        (scree_two_timescales_config){.repeats = 1, .large_multiple = 2, .small_steps = 1};
     assert_int_equal(scree_model_build(&c.config, &model, &error), SCREE_ERROR_INPUT);
     assert_string_equal(error.field, "boundary.membrane_stiffness");
 }

@@ -187,7 +187,7 @@ static void lattices_are_reduced(void **unused)
 }
 
 /// Residual of the ledger over the work, after the same time in steps of `step`.
-static double residual(int dimension, const double gradient[9], scree_scheme scheme, double step)
+static double residual(int dimension, const double gradient[9], int scheme, double step)
 {
     periodic_sample s;
     scree_error error;
@@ -219,12 +219,12 @@ static void energy_balance_closes(void **unused)
     const double flows[3][9] = {{0, 300, 0}, {-100, 0, 0, 0, 60}, {20, 150, 0, -90, -50, 40, 30, 0, 10}};
     for (int dimension = 2; dimension <= 3; dimension++)
         for (int flow = 0; flow < 3; flow++)
-            for (int scheme = 0; scheme < 2; scheme++) {
+            for (int scheme = SCREE_SLOT_position_verlet; scheme <= SCREE_SLOT_velocity_verlet; scheme++) {
                 double gradient[9];
                 for (int k = 0; k < 9; k++)
                     gradient[k] = dimension == 2 && (k / 3 == 2 || k % 3 == 2) ? 0 : flows[flow][k];
-                double coarse = residual(dimension, gradient, (scree_scheme)scheme, 4e-7);
-                double fine = residual(dimension, gradient, (scree_scheme)scheme, 1e-7);
+                double coarse = residual(dimension, gradient, scheme, 4e-7);
+                double fine = residual(dimension, gradient, scheme, 1e-7);
                 // Trapezoids along Hertz springs: a hundred steps a collision leave some 1e-5 of the work.
                 if (!(fine < 2e-5 && fine < 0.5 * coarse + 1e-9))
                     fail_msg("dimension %d flow %d scheme %d: %g, %g", dimension, flow, scheme, coarse, fine);
@@ -241,7 +241,7 @@ static void power_is_volume_times_stress_times_rate(void **unused)
         scree_contact_table table = {0};
         const double flows[2][9] = {{-40, 200, 0, 30, 20}, {-40, 200, -70, 30, 20, 60, -50, 90, 10}};
         const double *gradient = flows[dimension - 2];
-        double before[9], motion[9], now[9], work = 0, size = 0;
+        double before[9], moved[9], now[9], work = 0, size = 0;
         periodic_fill(&s, dimension, 5, HERTZ_MINDLIN, 0.2);
         periodic_run(&s, gradient, 50);
         memcpy(before, s.state.periodic.virial, sizeof before);
@@ -250,7 +250,7 @@ static void power_is_volume_times_stress_times_rate(void **unused)
             periodic_run(&s, gradient, 1);
             check(scree_contact_table_build(&s.model, &s.state, &s.work, &table, &error), &error);
             scree_stress_from_contacts(&table, -1, now);
-            memset(motion, 0, sizeof motion);
+            memset(moved, 0, sizeof moved);
             for (size_t k = 0; k < s.state.count; k++) {
                 scree_vector velocity, spin, middle;
                 double back[9], matrix[9];
@@ -258,12 +258,12 @@ static void power_is_volume_times_stress_times_rate(void **unused)
                 scree_matrix_unit_plus(-0.5 * s.state.step_size, gradient, matrix);
                 scree_matrix_invert(matrix, back);
                 scree_matrix_apply(back, velocity, middle);
-                for (int i = 0; i < 9; i++) motion[i] += s.state.row[k].mass * middle[i / 3] * middle[i % 3];
+                for (int i = 0; i < 9; i++) moved[i] += s.state.row[k].mass * middle[i / 3] * middle[i % 3];
             }
             double dt = s.state.step_size,
                    contacts = 0.5 * (scree_matrix_contract(before, gradient) + scree_matrix_contract(now, gradient));
-            work -= dt * (contacts + scree_matrix_contract(motion, gradient));
-            size += dt * (fabs(contacts) + fabs(scree_matrix_contract(motion, gradient)));
+            work -= dt * (contacts + scree_matrix_contract(moved, gradient));
+            size += dt * (fabs(contacts) + fabs(scree_matrix_contract(moved, gradient)));
             memcpy(before, now, sizeof before);
         }
         // Round-off of some 1e-13 a term; the table computes forces again, as above.

@@ -303,7 +303,7 @@ static double carry(const carried *c, int steps)
     const double duration = 0.05, dt = duration / steps;
     world w = {0};
     scree_config_wall *wall = make_wall(&w, c);
-    world_start(&w, c->dimension, HERTZ_MINDLIN, SCREE_SCHEME_POSITION_VERLET, 1, dt);
+    world_start(&w, c->dimension, HERTZ_MINDLIN, SCREE_SLOT_position_verlet, 1, dt);
     w.f.state.surface_moving = 1;
     w.f.model.walls[0].value[SCREE_FRICTION] = 1e6; // no cap
     double largest = 0;

@@ -48,7 +48,7 @@ static void throw(int dimension, law_choice law, bool built_in, double seen[STEP
             plane->velocity[k] = towards * n[k] + drag[k];
         }
     }
-    world_start(&w, dimension, law, SCREE_SCHEME_VELOCITY_VERLET, 1, dt);
+    world_start(&w, dimension, law, SCREE_SLOT_velocity_verlet, 1, dt);
     w.f.state.surface_moving = !built_in;
     scree_wall *wall = &w.f.state.wall[SCREE_WALL_BOTTOM];
     *wall = (scree_wall){.position = 0.013, .velocity = towards, .active = built_in};
@@ -179,7 +179,7 @@ static void make_cone(world *w, double radius_start, double radius_end, scree_si
         wall->end[k] = START[k] + LENGTH * AXIS[k];
         wall->spin[k] = 7 * AXIS[k];
     }
-    world_start(w, 3, HERTZ_BRILLIANTOV, SCREE_SCHEME_VELOCITY_VERLET, 1, 1e-7);
+    world_start(w, 3, HERTZ_BRILLIANTOV, SCREE_SLOT_velocity_verlet, 1, 1e-7);
     w->f.state.surface_moving = 1;
 }
 
@@ -255,7 +255,7 @@ static void speeds_are_bounded(void **unused)
         }
         memcpy(wall->spin, spin, sizeof spin);
         memcpy(wall->velocity, velocity, sizeof velocity);
-        world_start(&w, 3, HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 1e-6);
+        world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-6);
         const scree_surface *surface = &w.f.work.container->surface[0];
         double bound = scree_container_speed(w.f.work.container), fastest = 0;
         double time = 1e-4, way = scree_container_way(w.f.work.container, time, 0);
@@ -313,7 +313,7 @@ static void walls_have_their_own_material(void **unused)
         scree_config_wall *plane = world_wall(&w, SCREE_SHAPE_OF_PLANE);
         plane->normal[1] = 1;
         plane->material = own ? name : NULL;
-        world_start(&w, 2, HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 1e-7);
+        world_start(&w, 2, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-7);
         w.f.model.surfaces[0][0] = w.f.model.walls[0];
         w.f.model.surfaces[0][0].value[HERTZ_NORMAL] *= 2;
         const double place[3] = {0, R - 2e-6, 0}, still[3] = {0};
@@ -344,7 +344,7 @@ static void walls_have_another_side(void **unused)
             for (int i = 0; i < 3; i++) wall->lower[i] = -0.02;
             for (int i = 0; i < 3; i++) wall->upper[i] = 0.02;
             wall->point[2] = wall->end[2] = wall->radius = 0.02;
-            world_start(&w, 3, HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 1e-6);
+            world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-6);
             const scree_container *container = w.f.work.container;
             int touching = 0;
             for (size_t e = 0; e < container->elements; e++) {
@@ -374,7 +374,7 @@ static void rigid_motion_meets_no_resistance(void **unused)
             for (int k = 0; k < 3; k++) wall->lower[k] = -0.01;
             for (int k = 0; k < 3; k++) wall->upper[k] = 0.01;
             memcpy(wall->spin, spin, sizeof spin);
-            world_start(&w, dimension, HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 1e-7);
+            world_start(&w, dimension, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-7);
             sphere_resist_turning(&w.f);
             w.f.state.surface_moving = 1;
             w.f.state.step_size = 0; // finite steps: test_rigid_motion.c
@@ -409,7 +409,7 @@ static void make_square(world *w, scree_side side)
     wall->centre[0] = 0.002;
     wall->spin[2] = 11;
     wall->velocity[1] = 0.07;
-    world_start(w, 2, HERTZ_BRILLIANTOV, SCREE_SCHEME_VELOCITY_VERLET, 1, 1e-3);
+    world_start(w, 2, HERTZ_BRILLIANTOV, SCREE_SLOT_velocity_verlet, 1, 1e-3);
     w->f.state.surface_moving = 1;
 }
 
@@ -464,7 +464,7 @@ static void discs_roll(void **unused)
         const int steps = 20000;
         world w = {0};
         world_wall(&w, SCREE_SHAPE_OF_PLANE)->normal[1] = 1;
-        world_start(&w, 2, (law_choice)law, SCREE_SCHEME_VELOCITY_VERLET, 1, 2e-6);
+        world_start(&w, 2, (law_choice)law, SCREE_SLOT_velocity_verlet, 1, 2e-6);
         w.f.model.gravity[0] = gravity * sin(angle);
         w.f.model.gravity[1] = -gravity * cos(angle);
         const double place[3] = {0, R - world_rest(&w, R, gravity * cos(angle)), 0};

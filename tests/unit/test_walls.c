@@ -57,7 +57,7 @@ static size_t make_box(triangle_corners *triangle, const double low[3], const do
 /// A sphere settles on `wall` from the given place; the wall then bears its weight, and nothing else.
 static void check_rest(world *w, double x, double y, double z, double above)
 {
-    world_start(w, 3, HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 2e-6);
+    world_start(w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 2e-6);
     double weight = fixture_mass(&w->f.model, 0, R) * G, d = world_rest(w, R, G);
     set_gravity(w, 0, 0, -G);
     put(w, x, y, z + above - 0.5 * d);
@@ -137,7 +137,7 @@ static void check_direction(world *w, const double place[3], const double from[3
 /// On a face, an edge and a vertex of a cube: one contact each, with the force from the closest point.
 static void check_cube(world *w)
 {
-    world_start(w, 3, HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 1e-6);
+    world_start(w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-6);
     const double h = 0.01, d = 0.99 * R;
     const double on_face[3] = {0.003, 0.001, h + d}, face[3] = {0.003, 0.001, h};
     check_direction(w, on_face, face);
@@ -184,7 +184,7 @@ static void test_deep_contact(void **state)
     scree_config_wall *wall =
         world_mesh(&w, (const triangle_corners *)triangle, make_floor(triangle, 4, 1.2e-3, 0.0078125));
     char *file = wall->file;
-    world_start(&w, 3, HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 1e-6);
+    world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-6);
     for (uint64_t k = 0; k < 500; k++) {
         double x = 2e-3 * (fixture_random(2 * k) - 0.5), y = 2e-3 * (fixture_random(2 * k + 1) - 0.5), depth = 0.15 * R;
         double force[3], torque[3], expected = w.f.model.walls[0].value[HERTZ_NORMAL] * sqrt(R) * pow(depth, 1.5);
@@ -209,7 +209,7 @@ static void test_concave_corner(void **state)
     static triangle_corners triangle[12];
     const double low[3] = {0, 0, 0}, high[3] = {0.0625, 0.0625, 0.0625};
     (void)world_mesh(&w, (const triangle_corners *)triangle, make_box(triangle, low, high));
-    world_start(&w, 3, HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 1e-7);
+    world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-7);
     double d = 0.99 * R, force[3], torque[3];
     put(&w, d, 0.03, d);
     w.f.state.row[0].vy = 1e-3; // along both faces
@@ -235,7 +235,7 @@ static void test_concave_corner(void **state)
 /// slides.
 static void roll(world *w, law_choice law, double friction, int steps, double end[8])
 {
-    world_start(w, 3, law, SCREE_SCHEME_VELOCITY_VERLET, 1, 2e-6);
+    world_start(w, 3, law, SCREE_SLOT_velocity_verlet, 1, 2e-6);
     w->f.model.walls[0].value[SCREE_FRICTION] = friction;
     set_gravity(w, G * sin(0.3) * cos(0.5), G * sin(0.3) * sin(0.5), -G * cos(0.3));
     put(w, -0.0031, -0.0017, R - world_rest(w, R, G * cos(0.3)));
@@ -305,7 +305,7 @@ static void test_oscillation(void **state)
         scree_config_wall *wall = world_wall(&w, SCREE_SHAPE_OF_CYLINDER);
         wall->start[1] = -0.02, wall->end[1] = 0.02, wall->radius = 0.01;
         wall->friction = rolls ? 1 : 0;
-        world_start(&w, 3, HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 2e-6);
+        world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 2e-6);
         set_gravity(&w, 0, 0, -G);
         double length = 0.01 - R + world_rest(&w, R, G), angle = 0.05;
         put(&w, length * sin(angle), 0, -length * cos(angle));
@@ -343,7 +343,7 @@ static void test_moving_wall(void **state)
         wall->velocity[2] = 0.05;
         wall->velocity[0] = 0.02; // drags, too
         char *file = wall->file;
-        world_start(&w, 3, HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 2e-7);
+        world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 2e-7);
         w.f.state.surface_moving = 1;
         put(&w, 0.001, 0.002, R + 1e-6);
         world_begin(&w);
@@ -372,7 +372,7 @@ static void test_spinning_drum(void **state)
     scree_config_wall *wall = world_wall(&w, SCREE_SHAPE_OF_CYLINDER);
     wall->start[1] = -0.02, wall->end[1] = 0.02, wall->radius = 0.01;
     wall->spin[1] = 3;
-    world_start(&w, 3, HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 2e-7);
+    world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 2e-7);
     w.f.state.surface_moving = 1;
     put(&w, 0, 0, -0.01 + R - 1e-6);
     world_begin(&w);
@@ -416,7 +416,7 @@ static void test_faceted_drum(void **state)
     scree_config_wall *wall = world_mesh(&w, (const triangle_corners *)triangle, 2 * PIECES);
     char *file = wall->file;
     wall->spin[1] = -5;
-    world_start(&w, 3, HERTZ_MINDLIN, SCREE_SCHEME_VELOCITY_VERLET, 1, 2e-6);
+    world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 2e-6);
     set_gravity(&w, 0, 0, -G);
     w.f.state.surface_moving = 1;
     put(&w, 0, 0.001, -0.01 * cos(M_PI / PIECES) + R - world_rest(&w, R, G));

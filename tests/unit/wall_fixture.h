@@ -39,7 +39,7 @@ static inline scree_config_wall *world_wall(world *w, scree_surface_shape shape)
     return wall;
 }
 
-static inline void world_start(world *w, int dimension, law_choice law, scree_scheme scheme, size_t count, double step)
+static inline void world_start(world *w, int dimension, law_choice law, int scheme, size_t count, double step)
 {
     scree_error error = {0};
     w->config.walls = w->wall;
