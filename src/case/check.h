@@ -71,9 +71,6 @@ void scree_rule_refuse(scree_reader *reader, const char *path, const char *accep
 /// Those of the boundaries of stages, and of the velocity gradients that they impose (boundary_rules.c).
 void scree_rules_check_boundaries(scree_reader *reader, const scree_config *config);
 
-/// Those of the bodies that a prepare stage lists (body_rules.c).
-void scree_rules_check_bodies(scree_reader *reader, const scree_config *config);
-
 /// Those of the walls of the case, and of the stages that they can be used in (wall_rules.c). Finds the files of
 /// meshes: their paths become absolute, and the case holds the checksum of their content.
 void scree_rules_check_walls(scree_reader *reader, scree_config *config);

@@ -4,7 +4,8 @@
 #ifndef SCREE_CASE_CONFIG_H
 #define SCREE_CASE_CONFIG_H
 
-#include "module/module.h"
+#include "module/preparation.h"
+#include "module/stage.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -84,88 +85,25 @@ typedef struct scree_config_boundary {
     double membrane_radius;    ///< m, of its bodies; auto: 1.25 mean radii of the grains, 3D: 0.75
 } scree_config_boundary;
 
-typedef enum scree_stage_kind {
-    SCREE_STAGE_PREPARE,
-    SCREE_STAGE_CONFINE,
-    SCREE_STAGE_COMPRESS,
-    SCREE_STAGE_DEFORM,
-    SCREE_STAGE_ROTATE,
-    SCREE_STAGE_COLLIDE,
-    SCREE_STAGE_RELAX
-} scree_stage_kind;
-typedef enum scree_axis { SCREE_AXIS_X, SCREE_AXIS_Y, SCREE_AXIS_Z } scree_axis;
-typedef enum scree_prepare_method {
-    SCREE_PREPARE_DROP_AND_ROLL,
-    SCREE_PREPARE_HEXAGONAL,
-    SCREE_PREPARE_SQUARE,
-    SCREE_PREPARE_FACE_CENTRED,
-    SCREE_PREPARE_CUBIC,
-    SCREE_PREPARE_GAS,
-    SCREE_PREPARE_GROWTH,
-    SCREE_PREPARE_PAIR,
-    SCREE_PREPARE_BODIES
-} scree_prepare_method;
-
-/// A body of prepare method bodies.
-typedef struct scree_config_body {
-    double position[3]; ///< m, of its centre
-    double velocity[3]; ///< m/s
-    double spin[3];     ///< rad/s
-    double radius;      ///< m; auto: that of all particles
-    char *material;     ///< name in `materials`; auto: that of the particles
-} scree_config_body;
-
-/// Whether the walls of the case move in a stage.
-typedef enum scree_wall_motion { SCREE_WALLS_MOVE, SCREE_WALLS_STAND } scree_wall_motion;
-
 /// What the sample looks like: it fills its box, or has been cut out of a larger packing.
 typedef enum scree_sample_outline { SCREE_SAMPLE_BOX, SCREE_SAMPLE_CIRCLE, SCREE_SAMPLE_BALL } scree_sample_outline;
 
-/// One stage; the schema lists for each kind which members its keys fill. All stages keep `name` and `kind`.
+/// What the stage says that places the particles. Behind it lie the structs of methods.
+typedef struct scree_prepare_config {
+    int method;          ///< slot of a module with a preparation
+    double aspect_ratio; ///< 1, height over width of the box
+    int outline;         ///< scree_sample_outline
+    double width;        ///< m; auto: from count, sizes and aspect ratio
+    double depth;        ///< m, 3D only; auto: the width
+} scree_prepare_config;
+
+/// One stage. What stands in `own` is said by the module of its kind.
 typedef struct scree_config_stage {
-    int kind;   ///< scree_stage_kind
-    char *name; ///< unique among the stages: the kind, numbered (compress_1, compress_2) if there are several
-    // prepare
-    int method;            ///< scree_prepare_method
-    double aspect_ratio;   ///< 1, height over width of the box
-    int outline;           ///< scree_sample_outline
-    double width;          ///< m; auto: from count, sizes and aspect ratio
-    double depth;          ///< m, 3D only; auto: the width
-    double solid_fraction; ///< 1, gas and growth only; auto: see the schema
-    double velocity;       ///< m/s, gas only: root-mean-square velocity component
-    double gap;            ///< m, pair only: between the surfaces; auto: see prepare/pair.c
-    double speed;          ///< m/s, pair only: at which they approach; auto: v_R
-    double height;         ///< m, bodies only: of the box; auto: up to the highest of them
-    scree_config_body *bodies;
-    int64_t body_count;
-    // confine
-    double pressure;         ///< Pa, compression positive
-    double ramp_time;        ///< s; auto
-    double unbalanced_limit; ///< 1, stop when the unbalanced force ratio stays below it
-    double stress_tolerance; ///< 1, of the pressure: stop when the stress is within it; auto: see the stages' files
-    double time_limit;       ///< s; auto; reaching it is an error of the case, not a silent stop
-    // compress
-    double strain;    ///< 1, axial strain (engineering) at which to stop, compression positive
-    double rate;      ///< 1/s, axial strain rate referred to the height at the start of the stage
-    double rise_time; ///< s, in which the plates reach their velocity; auto: four wave times of the sample
-    // deform; extension positive, row the direction of the velocity, NAN where free
-    double velocity_gradient[9]; ///< 1/s
-    double strain_rate[9];       ///< 1/s, symmetric: only components on and above the diagonal are given
-    double stress[9];            ///< Pa, held by a periodic cell, given like strain_rate; compression positive, shear
-                                 ///< stress in the sense of the shear rate
-    // rotate_particle
-    double spin;      ///< rad/s, that the particle is brought to
-    int axis;         ///< scree_axis, about which it turns
-    double particle;  ///< id of the particle; auto: of those near the centre the one that bears most
-    double rest_time; ///< s, before, in which it is held still and the spins that there are anyway are measured
-    double hold_time; ///< s, at that spin, in which the others are measured
-    double cutoff;    ///< mean diameters, of the force network around it
-    // collide and relax
-    double duration; ///< s, after which it ends in any case; of collide auto
-    int walls;       ///< relax: scree_wall_motion
-    // all but prepare and collide
+    int kind;        ///< slot of a module with a stage
+    char *name;      ///< unique among the stages: the kind, numbered (compress_1, compress_2) if there are several
     int boundary;    ///< scree_boundary_kind
     double friction; ///< 1, friction during this stage; auto: the material's
+    void *own;       ///< struct of its kind, and of what else adds keys to it (scree_config_own)
 } scree_config_stage;
 
 /// A wall beside the six plates (shape/container.h). Which members its keys fill depends on the shape.
@@ -251,21 +189,41 @@ struct scree_config {
     scree_config_guard guard;
 };
 
+/// A copy of the stages whose own structs may be changed, as one piece of memory. Errors: memory.
+scree_status scree_config_copy_stages(const scree_config *config, scree_config_stage **stages,
+                                      scree_error *error) SCREE_MUST_USE;
+
 /// The struct of `module` among those of modules that a section's `own` points to. section: its path ("integrator"), as
 /// the module's `keys` have it. NULL: there are none.
 const void *scree_config_own(const scree_module *module, const char *section, const void *own);
 
-/// Radius [m] of a listed body.
-static inline double scree_config_body_radius(const scree_config *config, const scree_config_body *body)
+/// What a stage says that places the particles.
+static inline const scree_prepare_config *scree_config_prepared(const scree_config_stage *stage)
 {
-    return isnan(body->radius) ? config->particles.radius_min : body->radius;
+    return stage->own;
+}
+
+/// The stage that places the particles, with which a case begins; NULL: there is none, or its method is wrong.
+static inline const scree_config_stage *scree_config_prepare(const scree_config *config)
+{
+    const scree_config_stage *first = config->stages;
+    bool places = config->stage_count > 0 && first->kind >= 0 && scree_modules[first->kind]->numbers->places;
+    return places && scree_config_prepared(first)->method >= 0 ? first : NULL;
+}
+
+/// Its method; NULL: there is none.
+static inline const scree_preparation *scree_config_preparation(const scree_config *config)
+{
+    const scree_config_stage *stage = scree_config_prepare(config);
+    return stage ? scree_modules[scree_config_prepared(stage)->method]->preparation : NULL;
 }
 
 /// The boundary of stage `index`: periodic as the case says, else its own choice, or that of the last stage before it
 /// that made one, or the walls of the case, or `lateral`.
 static inline scree_boundary_kind scree_config_boundary_of(const scree_config *config, int64_t index)
 {
-    if (config->stages[index].kind == SCREE_STAGE_COLLIDE) return SCREE_BOUNDARY_NONE;
+    const int stage = config->stages[index].kind;
+    if (stage >= 0 && scree_modules[stage]->numbers->collides) return SCREE_BOUNDARY_NONE;
     if (config->boundary.periodic > 0) {
         bool whole = config->boundary.periodic == (1 << config->dimension) - 1;
         return whole ? SCREE_BOUNDARY_PERIODIC : SCREE_BOUNDARY_CHANNEL;

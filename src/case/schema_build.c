@@ -181,7 +181,11 @@ static void build_inner(scree_key *key, const char *path)
     size_t count = kinds > 0 ? kinds : key->section_count;
     scree_section *built = &all_sections[take(&section_count, count, ALL_SECTIONS)];
     if (kinds == 0) {
-        for (size_t i = 0; i < count; i++) build_section(&built[i], &plan[i], NULL, NULL, path);
+        for (size_t i = 0; i < count; i++) {
+            char inner[SCREE_PATH_BYTES];
+            scree_key_join(inner, path, plan[i].name);
+            build_section(&built[i], &plan[i], NULL, NULL, count > 1 ? inner : path);
+        }
     } else {
         const scree_choice *names = build_choices(NULL, path);
         count = 0;

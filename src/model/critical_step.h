@@ -23,4 +23,8 @@ double scree_expected_solid_fraction(const scree_model *model);
 double scree_expected_height(const scree_model *model, double phi);
 double scree_model_gravity(const scree_model *model);
 
+/// Speed [m/s] of fast bodies, of those whose velocity components are `velocity` [m/s], root-mean-square, or that the
+/// fastest loading drives past each other.
+double scree_expected_fast_speed(const scree_model *model, double velocity);
+
 #endif

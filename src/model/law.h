@@ -99,7 +99,7 @@ typedef struct scree_law {
     scree_status (*impact)(const scree_law_use *use, const scree_pair_constants *pair, double effective_radius,
                            double effective_mass, double speed, scree_impact *impact, scree_error *error);
     bool impact_duration;           ///< its duration is this law's; else that of the same impact without damping
-    double confine_grains;          ///< duration of a confinement, see run/estimate.c
+    double confine_grains;          ///< duration of a confinement, see run/stage_confine.c
     const char *against_stiffening; ///< key=value that keeps springs from energy that nobody spent; NULL: none does
 } scree_law;
 

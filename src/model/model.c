@@ -29,11 +29,11 @@ static scree_status indexed_error(scree_error *error, const char *list, int64_t 
     return FIELD_ERROR(error, path, "%s", text);
 }
 
-int scree_model_body_material(const scree_model *model, const scree_config_body *body)
+int scree_model_material(const scree_model *model, const char *name)
 {
-    if (!body->material) return SCREE_PARTICLE_MATERIAL;
+    if (!name) return SCREE_PARTICLE_MATERIAL;
     for (int i = 0; i < model->material_count; i++)
-        if (strcmp(model->config->materials[model->listed[i]].name, body->material) == 0) return i;
+        if (strcmp(model->config->materials[model->listed[i]].name, name) == 0) return i;
     return -1;
 }
 
@@ -59,22 +59,13 @@ static scree_status check_materials(const scree_model *model, scree_error *error
     return SCREE_OK;
 }
 
-/// Some listed body is made of it.
-static bool is_of_bodies(const scree_config *config, const char *name)
-{
-    for (int64_t k = 0; k < config->stage_count; k++)
-        for (int64_t i = 0; i < config->stages[k].body_count; i++)
-            if (config->stages[k].bodies[i].material && strcmp(config->stages[k].bodies[i].material, name) == 0)
-                return true;
-    return false;
-}
-
 /// Materials in the order of their use: that of the particles, others that something is made of, and the rest, which
 /// has constants but counts in nothing.
 static int rank_of(const scree_config *config, const scree_config_material *material)
 {
     if (strcmp(material->name, config->particles.material) == 0) return 0;
-    return is_of_bodies(config, material->name) ? 1 : 2;
+    const scree_preparation *method = scree_config_preparation(config);
+    return method && method->uses && method->uses(scree_config_prepare(config), material->name) ? 1 : 2;
 }
 
 /// Numbers the materials; none is in use when there is none of the particles.
@@ -232,7 +223,7 @@ static scree_status resolve_membrane(scree_model *model, scree_error *error)
 {
     const scree_config *config = model->config;
     for (int64_t i = 0; i < config->stage_count; i++)
-        if (config->stages[i].kind != SCREE_STAGE_PREPARE)
+        if (!scree_modules[config->stages[i].kind]->numbers->places)
             model->membrane = model->membrane || scree_config_boundary_of(config, i) == SCREE_BOUNDARY_MEMBRANE;
     if (!model->membrane) return SCREE_OK;
     if (model->material_count == SCREE_MAX_MATERIALS)
@@ -264,23 +255,17 @@ static scree_status resolve_membrane(scree_model *model, scree_error *error)
 static scree_status check_prepare(const scree_model *model, int64_t index, scree_error *error)
 {
     const scree_config_stage *stage = &model->config->stages[index];
-    bool lattice = stage->method == SCREE_PREPARE_HEXAGONAL || stage->method == SCREE_PREPARE_SQUARE ||
-                   stage->method == SCREE_PREPARE_FACE_CENTRED || stage->method == SCREE_PREPARE_CUBIC;
+    const scree_prepare_config *prepare = scree_config_prepared(stage);
+    const scree_preparation *method = scree_modules[prepare->method]->preparation;
     bool solid = model->dimension == 3;
-    if (lattice && model->radius_min < model->radius_max)
-        return indexed_error(error, "stages", index, "method",
-                             "a lattice needs particles of one radius: set particles.distribution to equal");
-    for (int64_t i = 0; stage->method == SCREE_PREPARE_BODIES && i < stage->body_count; i++)
-        if (scree_model_body_material(model, &stage->bodies[i]) < 0)
-            return indexed_error(error, "stages", index, "bodies",
-                                 "a body is of a material that this case does not have");
-    // A round sample's sides are not the user's; and what bodies are listed has been judged (case/body_rules.c).
-    if (stage->outline != SCREE_SAMPLE_BOX || stage->method == SCREE_PREPARE_BODIES) return SCREE_OK;
-    bool shallow = solid && !isnan(stage->depth) && stage->depth < 2 * model->radius_max;
-    if (shallow || (!isnan(stage->width) && stage->width < 2 * model->radius_max)) {
+    scree_status status = method->check ? method->check(model, index, error) : SCREE_OK;
+    // A round sample's sides are not the user's; and a method that makes its box has judged it.
+    if (status || prepare->outline != SCREE_SAMPLE_BOX || method->sizes_box) return status;
+    bool shallow = solid && !isnan(prepare->depth) && prepare->depth < 2 * model->radius_max;
+    if (shallow || (!isnan(prepare->width) && prepare->width < 2 * model->radius_max)) {
         char text[160];
         (void)snprintf(text, sizeof text, "a %s of radius %g m does not fit into a box %g m %s",
-                       solid ? "sphere" : "disc", model->radius_max, shallow ? stage->depth : stage->width,
+                       solid ? "sphere" : "disc", model->radius_max, shallow ? prepare->depth : prepare->width,
                        shallow ? "deep" : "wide");
         return indexed_error(error, "stages", index, shallow ? "depth" : "width", text);
     }
@@ -300,67 +285,14 @@ double scree_model_mean_mass(const scree_model *model)
 
 double scree_held_pressure(const scree_config_stage *stage)
 {
-    if (stage->kind == SCREE_STAGE_CONFINE) return stage->pressure;
-    double largest = NAN;
-    for (int k = 0; k < 9 && stage->kind == SCREE_STAGE_DEFORM; k += 4) largest = fmax(largest, stage->stress[k]);
-    return largest;
+    const scree_stage_numbers *numbers = scree_modules[stage->kind]->numbers;
+    return numbers->pressure ? numbers->pressure(stage->own) : NAN;
 }
 
 double scree_model_loading_rate(const scree_config_stage *stage)
 {
-    if (stage->kind == SCREE_STAGE_COMPRESS) return fabs(stage->rate);
-    if (stage->kind != SCREE_STAGE_DEFORM) return NAN;
-    double rate = 0;
-    for (int c = 0; c < 9; c++) {
-        if (!isnan(stage->velocity_gradient[c])) rate = fmax(rate, fabs(stage->velocity_gradient[c]));
-        if (!isnan(stage->strain_rate[c])) rate = fmax(rate, fabs(stage->strain_rate[c]));
-    }
-    return rate;
-}
-
-/// Sides [m] of the box of a gas; in 2D the third is infinite.
-static void gas_sides(const scree_model *model, const scree_config_stage *stage, double side[3])
-{
-    const int material = SCREE_PARTICLE_MATERIAL;
-    double depth = model->dimension == 3 ? 1 : model->thickness;
-    double solid = (double)model->config->particles.count * scree_model_mean_mass(model) / model->density[material];
-    double room = solid / depth / scree_model_gas_fraction(model, stage);
-    side[0] = stage->width;
-    side[1] = stage->depth;
-    side[2] = INFINITY;
-    if (model->dimension == 2) {
-        if (isnan(side[0])) side[0] = sqrt(room / stage->aspect_ratio);
-        side[1] = room / side[0];
-        return;
-    }
-    double face = room / stage->aspect_ratio;
-    if (isnan(side[0])) side[0] = isnan(side[1]) ? cbrt(face) : sqrt(face / side[1]);
-    if (isnan(side[1])) side[1] = side[0];
-    side[2] = room / (side[0] * side[1]);
-}
-
-/// A periodic gas must be wide enough when it is prepared, and when its cell has shrunk to the loosest packing that
-/// bears a pressure (solid fraction about 0.76 of discs, 0.55 of spheres). What happens later is not known here: the
-/// search for images says it then.
-static scree_status check_periods(const scree_model *model, int64_t index, bool confined, scree_error *error)
-{
-    const scree_config_stage *stage = &model->config->stages[index];
-    const int periodic = model->config->boundary.periodic;
-    if (!periodic || stage->method != SCREE_PREPARE_GAS) return SCREE_OK;
-    double side[3], loosest = model->dimension == 3 ? 0.55 : 0.76, needed = 4 * model->radius_max;
-    double shrunk = fmin(1, pow(scree_model_gas_fraction(model, stage) / loosest, 1.0 / model->dimension));
-    if (!confined || !scree_model_is_wholly_periodic(model)) shrunk = 1;
-    gas_sides(model, stage, side);
-    for (int k = 0; k < model->dimension; k++) {
-        if (!(periodic >> k & 1) || shrunk * side[k] > needed) continue;
-        char text[240];
-        (void)snprintf(text, sizeof text,
-                       "the periodic cell %s only %.3g m wide along %c, and must be wider than two of the largest "
-                       "particles side by side (%.3g m): take more particles or another aspect_ratio",
-                       shrunk < 1 ? "will be" : "is", shrunk * side[k], "xyz"[k], needed);
-        return indexed_error(error, "stages", index, "aspect_ratio", text);
-    }
-    return SCREE_OK;
+    const scree_stage_numbers *numbers = scree_modules[stage->kind]->numbers;
+    return numbers->rate ? numbers->rate(stage->own) : NAN;
 }
 
 /// Reference velocity, phi and psi: those of the first loading stage under the pressure that it holds or that of the
@@ -371,10 +303,8 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
     double pressure = NAN, rate = NAN;
     for (int64_t i = 0; i < config->stage_count && isnan(rate); i++) {
         const scree_config_stage *stage = &config->stages[i];
-        if (stage->kind == SCREE_STAGE_PREPARE) {
-            bool confined = i + 1 < config->stage_count && config->stages[i + 1].kind == SCREE_STAGE_CONFINE;
+        if (scree_modules[stage->kind]->numbers->places) {
             scree_status status = check_prepare(model, i, error);
-            if (!status) status = check_periods(model, i, confined, error);
             if (status) return status;
         }
         if (scree_held_pressure(stage) > 0) pressure = scree_held_pressure(stage);
@@ -449,12 +379,6 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
     if (!status) status = resolve_step(model, error);
     if (!status) status = resolve_membrane(model, error);
     return status;
-}
-
-double scree_model_gas_fraction(const scree_model *model, const scree_config_stage *stage)
-{
-    if (!isnan(stage->solid_fraction)) return stage->solid_fraction;
-    return model->dimension == 3 ? 0.15 : 0.3;
 }
 
 scree_model scree_model_with_friction(const scree_model *model, double friction)

@@ -88,11 +88,8 @@ double scree_model_mean_mass(const scree_model *model);
 /// Strain rate that a stage imposes [1/s]; of a deform stage the largest component. NAN: it loads nothing.
 double scree_model_loading_rate(const scree_config_stage *stage);
 
-/// Number of the material of a listed body; -1: the case has none of that name.
-int scree_model_body_material(const scree_model *model, const scree_config_body *body);
-
-/// Solid fraction of a gas that `stage` prepares: what it says, 30 % of discs or 15 % of spheres where that is auto.
-double scree_model_gas_fraction(const scree_model *model, const scree_config_stage *stage);
+/// Number of the material of this name, NULL that of the particles; -1: the case has none of that name.
+int scree_model_material(const scree_model *model, const char *name);
 
 /// A copy with every friction coefficient replaced by `friction` (used while preparing dense samples), but a membrane's
 /// zero. NAN copies only.

@@ -29,9 +29,12 @@ struct scree_module {
     /// been noted: of such nothing is said. NULL: nothing.
     void (*rules)(scree_reader *reader, const scree_config *config);
 
-    // ---- faces: what only modules of one kind have; at most one ----
-    const struct scree_integrator *integrator; ///< integrate/integrate.h
-    const struct scree_law *law;               ///< model/law.h
+    // ---- faces: what only modules of one kind have ----
+    const struct scree_law *law;                 ///< model/law.h
+    const struct scree_integrator *integrator;   ///< module/integrator.h
+    const struct scree_preparation *preparation; ///< module/preparation.h
+    const struct scree_stage_numbers *numbers;   ///< module/stage.h
+    const struct scree_stage *stage;             ///< run/stage.h
 
     // ---- state: what it remembers ----
     size_t state_size;         ///< bytes of its struct in the store of the state, zero at first; 0: none

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #define RISE_WAVES 4.0
+#define RISE_SHARE 0.1
 /// A stage that takes this many times as long as planned does not follow its rate.
 #define LATE 2.0
 
@@ -43,13 +44,18 @@ void scree_loading_begin(scree_simulation *s)
     if (state->angle) memset(state->angle, 0, state->count * sizeof *state->angle);
 }
 
-scree_stage_plan scree_loading_plan(const scree_simulation *s, double time)
+double scree_loading_planned(double time, double rise_time, double wave)
 {
-    const scree_config_stage *stage = scree_stage_config(s);
+    // The smooth start costs half the rise time.
+    return time + 0.5 * (isnan(rise_time) ? fmin(RISE_WAVES * wave, RISE_SHARE * time) : rise_time);
+}
+
+scree_stage_plan scree_loading_plan(const scree_simulation *s, double time, double rise_time)
+{
     const double *reference = s->state.stage.reference;
     // Without a confining pressure there is no wave time; a tenth of the loading is slow enough for anything.
-    double rise = fmin(RISE_WAVES * reference[SCREE_LOADING_WAVE], 0.1 * time);
-    if (!isnan(stage->rise_time)) rise = stage->rise_time;
+    double rise = fmin(RISE_WAVES * reference[SCREE_LOADING_WAVE], RISE_SHARE * time);
+    if (!isnan(rise_time)) rise = rise_time;
     uint64_t expected = scree_stage_ticks(s, time + 0.5 * rise), largest = s->model.largest_step;
     uint64_t interval = expected / largest / (uint64_t)s->model.config->measure.samples * largest;
     return (scree_stage_plan){

@@ -1,6 +1,7 @@
 /// Tables and scalars of the transmission of rotations (measure/rotation.h). Lengths in mean diameters; angles in
 /// degrees.
 #include "run/rotation_results.h"
+#include "run/stage_rotate.h"
 
 #include "io/run_directory.h"
 #include "measure/measure.h"
@@ -100,11 +101,16 @@ static void set_interval(scree_summary *summary, const char *name, double value,
     scree_summary_set_number(summary, text, high);
 }
 
+static const scree_rotate_config *last_stage(const scree_simulation *s)
+{
+    return s->model.config->stages[s->model.config->stage_count - 1].own;
+}
+
 /// Rotation of the boundary about the axis of the forced particle in the whole stage, over that of the particle.
 static double rigid_rotation(const scree_simulation *s)
 {
     const double *reference = s->state.stage.reference;
-    int axis = s->model.config->stages[s->model.config->stage_count - 1].axis, i = (axis + 1) % 3, j = (axis + 2) % 3;
+    int axis = last_stage(s)->axis, i = (axis + 1) % 3, j = (axis + 2) % 3;
     double gradient[9];
     scree_strain_measure(&s->state, gradient);
     for (int c = 0; c < 9; c++) gradient[c] -= reference[SCREE_LOADING_STRAIN + c];
@@ -150,7 +156,7 @@ scree_status scree_rotation_results(const char *directory, scree_simulation *s, 
     // Before the end of the stage the angles are not those of the hold.
     if (!state->forced.active || state->stage.index < s->model.config->stage_count) return SCREE_OK;
     findings f = {.forced = state->row_of_id[state->forced.id]};
-    double cutoff = s->model.config->stages[s->model.config->stage_count - 1].cutoff;
+    double cutoff = last_stage(s)->cutoff;
     scree_status status = scree_contact_table_build(&s->stage_model, state, &s->work, &s->table, error);
     if (status) return status;
     scree_rotation_decay_measure(&s->model, state, f.forced, state->stage.reference[SCREE_ROTATE_BACKGROUND], &f.decay);

@@ -58,7 +58,8 @@ static scree_status open_ledger(scree_simulation *s, scree_error *error)
     if (!status) status = scree_contact_table_build(&s->stage_model, state, &s->work, &s->table, error);
     if (status) return status;
     scree_energy_measure(&s->stage_model, state, &s->table, &energy);
-    state->ledger.initial = energy.kinetic + energy.kinetic_rotation + energy.elastic_normal + energy.elastic_tangential;
+    state->ledger.initial =
+        energy.kinetic + energy.kinetic_rotation + energy.elastic_normal + energy.elastic_tangential;
     state->ledger.gravity = energy.gravity;
     return SCREE_OK;
 }
@@ -89,7 +90,7 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
         return SCREE_OK;
     }
     const scree_config_stage *config = scree_stage_config(s);
-    s->stage = scree_stage_get((scree_stage_kind)config->kind, scree_model_is_wholly_periodic(&s->model));
+    s->stage = scree_stage_get(config->kind, scree_model_is_wholly_periodic(&s->model));
     s->boundary = scree_boundary_get(scree_config_boundary_of(s->model.config, stage->index));
     s->stage_model = scree_model_with_friction(&s->model, config->friction);
     if (!restart || stage->counter == NOT_BEGUN) {

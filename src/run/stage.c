@@ -1,4 +1,4 @@
-/// Table of stages and what several of them share.
+/// What several stages share.
 #include "run/stage.h"
 
 #include "base/matrix.h"
@@ -10,18 +10,10 @@
 
 #define MOST_STEPS 1e15
 
-const scree_stage *scree_stage_get(scree_stage_kind kind, bool wholly_periodic)
+const scree_stage *scree_stage_get(int kind, bool wholly_periodic)
 {
-    static const scree_stage *const table[][2] = {
-        [SCREE_STAGE_PREPARE] = {&scree_stage_prepare, &scree_stage_prepare},
-        [SCREE_STAGE_CONFINE] = {&scree_stage_confine, &scree_stage_confine_periodic},
-        [SCREE_STAGE_COMPRESS] = {&scree_stage_compress, &scree_stage_compress_periodic},
-        [SCREE_STAGE_DEFORM] = {&scree_stage_deform, &scree_stage_deform_periodic},
-        [SCREE_STAGE_ROTATE] = {&scree_stage_rotate, &scree_stage_rotate},
-        [SCREE_STAGE_COLLIDE] = {&scree_stage_collide, &scree_stage_collide},
-        [SCREE_STAGE_RELAX] = {&scree_stage_relax, &scree_stage_relax},
-    };
-    return table[kind][wholly_periodic];
+    const scree_stage *stage = scree_modules[kind]->stage;
+    return wholly_periodic && stage->cell ? stage->cell : stage;
 }
 
 const scree_config_stage *scree_stage_config(const scree_simulation *s)

@@ -1,4 +1,4 @@
-/// Stages: one file a kind (stage_*.c), one descriptor each, listed in stage.c.
+/// Stages: one file a kind (stage_*.c), whose module has this face.
 #ifndef SCREE_RUN_STAGE_H
 #define SCREE_RUN_STAGE_H
 
@@ -21,8 +21,24 @@ typedef struct scree_stage_plan {
 
 typedef struct scree_stage {
     const char *name;
-    bool instant; ///< ends as soon as it has begun (no steps)
-    bool loading; ///< samples of this stage have a strain, and snapshots are evenly spaced in it
+    bool instant;       ///< ends as soon as it has begun (no steps)
+    bool loading;       ///< samples of this stage have a strain, and snapshots are evenly spaced in it
+    bool quasistatic;   ///< means to be
+    int samples_a_wave; ///< samples in a wave time of the sample; 0: evenly over the stage
+    /// The same stage in a cell that is periodic in all directions; NULL: it is the same.
+    const struct scree_stage *cell;
+
+    // ---- asked before the stage begins; `config` is its own struct. Each may be NULL ----
+    /// Time [s] at its full rate. NULL: not known.
+    double (*duration)(const void *config);
+    /// Time [s] that it is planned to last, where a wave goes through the sample in `wave` [s]. NULL: none.
+    double (*planned)(const scree_model *model, const void *config, double wave);
+    /// Makes it fit a case of `count` particles only.
+    void (*shrink)(void *config, int64_t count);
+    /// Time [s] that it takes, which is known when it has begun. NULL: as planned.
+    double (*expected)(const scree_simulation *s);
+
+    // ---- while a simulation is in it ----
     /// Strain that the stage imposes, as far as it has come. NULL: none.
     double (*strain)(const scree_simulation *s);
     /// Once, when the stage begins: walls, pressure, reference numbers in state.stage.reference.
@@ -37,8 +53,9 @@ typedef struct scree_stage {
     double (*fraction)(const scree_simulation *s);
 } scree_stage;
 
-/// wholly_periodic: the sample is periodic in all directions (stage_periodic.c).
-const scree_stage *scree_stage_get(scree_stage_kind kind, bool wholly_periodic);
+/// That of a kind, the slot of its module. wholly_periodic: the sample is periodic in all directions
+/// (stage_periodic.c).
+const scree_stage *scree_stage_get(int kind, bool wholly_periodic);
 extern const scree_stage scree_stage_prepare;
 extern const scree_stage scree_stage_confine;
 extern const scree_stage scree_stage_compress;
@@ -56,12 +73,12 @@ double scree_stage_elapsed(const scree_simulation *s);
 /// Ticks of `time` [s], rounded up to whole largest steps, where every sequence of steps ends; at least one of them.
 uint64_t scree_stage_ticks(const scree_simulation *s, double time);
 
-/// Stop rule of the confine stages (stage_confine.c): the stress called `what` is off the pressure by `off` of it. NULL:
-/// none is asked for.
+/// Stop rule of the confine stages (stage_confine.c): the stress called `what` is off the pressure by `off` of it.
+/// NULL: none is asked for.
 scree_status scree_confine_finished(scree_simulation *s, const char *what, double off, double tolerance, bool *done,
                                     scree_error *error) SCREE_MUST_USE;
 
-/// The config of the stage that runs now.
+/// The config of the stage that runs now; what its kind says is in `own`.
 const scree_config_stage *scree_stage_config(const scree_simulation *s);
 
 /// Strain that the loading stage imposes, as far as it has come: NAN in other stages.
@@ -92,12 +109,16 @@ enum {
 };
 
 /// A stage has reached its strain when so many ticks of it are left at its last step: the sum of rates over the rise,
-/// taken from the left, is half a tick short of its integral; the rest is for round-off. Less would end it a whole sample
-/// later, at a time that depends on the number of samples.
+/// taken from the left, is half a tick short of its integral; the rest is for round-off. Less would end it a whole
+/// sample later, at a time that depends on the number of samples.
 #define SCREE_LOADING_SHORT 0.51
 
 /// Plan of a loading stage that lasts `time` [s] at its full rate: samples, rise of the rate, steps.
-scree_stage_plan scree_loading_plan(const scree_simulation *s, double time);
+/// rise_time [s]: until its full rate; NAN: some wave times.
+scree_stage_plan scree_loading_plan(const scree_simulation *s, double time, double rise_time);
+
+/// Time [s] that such a stage takes, where a wave goes through the sample in `wave` [s].
+double scree_loading_planned(double time, double rise_time, double wave);
 
 /// Fraction of the full rate that is reached now; *loaded [s]: time at the full rate that would have led as far.
 double scree_loading_rise(const scree_simulation *s, double *loaded);

@@ -11,9 +11,19 @@
 /// force, both from the begin of the stage (0: none yet), [3] duration.
 #include "run/stage_collide.h"
 
+#include "module/key_rows.h"
+
 #include "base/vectors.h"
 
 #include <math.h>
+
+typedef struct config {
+    double duration; ///< s, after which it ends in any case; auto
+} config;
+static const scree_key keys[] = {
+    NUMBER(config, duration, "s", .standard = "auto", ABOVE("0 s"), TO("1e9 s"),
+           .meaning = "The stage ends when the two have parted, or after this; auto: twice as long as it should take."),
+};
 
 enum { SPEED, TOUCH, LAST_FORCE, DURATION };
 
@@ -95,7 +105,7 @@ static scree_status begin(scree_simulation *s, scree_error *error)
     if (!status) status = theory_of(s, reference[SPEED], &impact, error);
     if (status) return status;
     double after = patience(&s->model) * impact.duration;
-    double given = scree_stage_config(s)->duration;
+    double given = ((const config *)scree_stage_config(s)->own)->duration;
     reference[DURATION] = isnan(given) ? reference[TOUCH] + after : given;
     return status;
 }
@@ -138,10 +148,10 @@ static double fraction(const scree_simulation *s)
 
 scree_status scree_collide_results(const scree_simulation *s, scree_summary *summary, scree_error *error)
 {
-    const scree_config *config = s->model.config;
+    const scree_config *whole = s->model.config;
     const double *reference = s->state.stage.reference;
-    if (s->state.stage.index < config->stage_count || !has_parted(&s->state) ||
-        config->stages[config->stage_count - 1].kind != SCREE_STAGE_COLLIDE)
+    if (s->state.stage.index < whole->stage_count || !has_parted(&s->state) ||
+        whole->stages[whole->stage_count - 1].kind != SCREE_SLOT_collide)
         return SCREE_OK;
     double half = 0.5 * (double)s->model.largest_step * s->state.tick;
     scree_impact impact;
@@ -161,5 +171,31 @@ double scree_collide_expected(const scree_simulation *s)
     return reference[TOUCH] + (reference[DURATION] - reference[TOUCH]) / patience(&s->model);
 }
 
-const scree_stage scree_stage_collide = {
-    .name = "collide", .begin = begin, .plan = plan, .control = control, .finished = finished, .fraction = fraction};
+static double planned(const scree_model *model, const void *own, double wave)
+{
+    (void)model;
+    (void)wave;
+    return ((const config *)own)->duration;
+}
+
+const scree_stage scree_stage_collide = {.name = "collide",
+                                         .begin = begin,
+                                         .plan = plan,
+                                         .control = control,
+                                         .finished = finished,
+                                         .fraction = fraction,
+                                         .planned = planned,
+                                         .expected = scree_collide_expected};
+
+static const scree_stage_numbers numbers = {
+    .collides = true, .needs_approach = "collide needs two particles that approach: prepare method pair or bodies"};
+
+const scree_module scree_module_collide = {
+    .name = "collide",
+    .meaning = "Two particles, prepared as a `pair` or as `bodies`, meet and part; nothing else acts on them.",
+    .choice_of = CHOICE_OF(IS("stages", .meaning = "lets two particles meet and part")),
+    .keys = (const scree_keys[]){KEYS_OF(NULL, keys, config)},
+    .keys_count = 1,
+    .numbers = &numbers,
+    .stage = &scree_stage_collide,
+};

@@ -16,6 +16,9 @@
 #include "base/matrix.h"
 #include "run/sample.h"
 #include "run/simulation.h"
+#include "run/stage_compress.h"
+#include "run/stage_confine.h"
+#include "run/stage_deform.h"
 #include "state/periodic.h"
 
 #include <math.h>
@@ -81,18 +84,33 @@ static void remember_stresses(scree_simulation *s)
     reference[TIME] += step;
 }
 
+static const scree_confine_config *confine_config(const scree_simulation *s)
+{
+    return scree_stage_config(s)->own;
+}
+
+static const scree_compress_config *compress_config(const scree_simulation *s)
+{
+    return scree_stage_config(s)->own;
+}
+
+static const scree_deform_config *deform_config(const scree_simulation *s)
+{
+    return scree_stage_config(s)->own;
+}
+
 static scree_status begin_confine(scree_simulation *s, scree_error *error)
 {
     (void)error;
     s->state.stage.reference[0] = s->state.pressure;
-    measure_sample(s, scree_stage_config(s)->pressure);
+    measure_sample(s, confine_config(s)->pressure);
     forget_stresses(s);
     return SCREE_OK;
 }
 
 static void plan_confine(scree_simulation *s)
 {
-    const scree_config_stage *stage = scree_stage_config(s);
+    const scree_confine_config *stage = confine_config(s);
     double wave = s->state.stage.reference[WAVE_TIME];
     s->plan = (scree_stage_plan){
         .interval = scree_stage_ticks(s, wave / SAMPLES_A_WAVE),
@@ -104,7 +122,7 @@ static void plan_confine(scree_simulation *s)
 
 static void control_confine(scree_simulation *s)
 {
-    double from = s->state.stage.reference[0], to = scree_stage_config(s)->pressure;
+    double from = s->state.stage.reference[0], to = confine_config(s)->pressure;
     double done = s->plan.ramp_time > 0 ? scree_stage_elapsed(s) / s->plan.ramp_time : 1;
     s->state.pressure = from + (to - from) * scree_smooth_ramp(done);
     for (int k = 0; k < s->state.dimension; k++) hold_pressure(&s->plan.periodic, k, s->state.pressure);
@@ -114,7 +132,7 @@ static void control_confine(scree_simulation *s)
 
 static scree_status confine_finished(scree_simulation *s, bool *done, scree_error *error)
 {
-    const scree_config_stage *stage = scree_stage_config(s);
+    const scree_confine_config *stage = confine_config(s);
     const double *reference = s->state.stage.reference;
     double tolerance = isnan(stage->stress_tolerance) ? STRESS_TOLERANCE : stage->stress_tolerance, off = 0;
     for (int k = 0; k < s->state.dimension; k++)
@@ -138,14 +156,20 @@ const scree_stage scree_stage_confine_periodic = {.name = "confine",
 
 // ---- loading -----------------------------------------------------------------------------------------------------
 
-/// Steps, samples and rise time of a loading to `strain` at `rate`.
-static void plan_loading(scree_simulation *s, double rate)
+/// Strain at which the stage ends.
+static double end_of(const scree_simulation *s)
 {
     const scree_config_stage *stage = scree_stage_config(s);
-    double rise = fmin(RISE_WAVES * s->state.stage.reference[WAVE_TIME], 0.1 * stage->strain / rate);
-    if (!isnan(stage->rise_time)) rise = stage->rise_time;
+    return scree_modules[stage->kind]->numbers->strain(stage->own);
+}
+
+/// Steps, samples and rise time of a loading to `strain` at `rate`.
+static void plan_loading(scree_simulation *s, double strain, double rate, double rise_time)
+{
+    double rise = fmin(RISE_WAVES * s->state.stage.reference[WAVE_TIME], 0.1 * strain / rate);
+    if (!isnan(rise_time)) rise = rise_time;
     // The smooth start costs half the rise time.
-    uint64_t expected = scree_stage_ticks(s, stage->strain / rate + 0.5 * rise), largest = s->model.largest_step;
+    uint64_t expected = scree_stage_ticks(s, strain / rate + 0.5 * rise), largest = s->model.largest_step;
     uint64_t interval = expected / largest / (uint64_t)s->model.config->measure.samples * largest;
     s->plan = (scree_stage_plan){.interval = interval > 0 ? interval : largest,
                                  .expected = expected,
@@ -163,14 +187,14 @@ static scree_status loading_finished(scree_simulation *s, bool *done, scree_erro
     (void)error;
     double strain = scree_loading_strain(s), gradient = scree_matrix_norm(s->state.periodic.gradient);
     // The last sample lies on the planned last step.
-    *done = strain >= scree_stage_config(s)->strain - SCREE_LOADING_SHORT * gradient * s->state.tick;
+    *done = strain >= end_of(s) - SCREE_LOADING_SHORT * gradient * s->state.tick;
     (void)snprintf(s->reason, sizeof s->reason, "strain %.4g reached", strain);
     return SCREE_OK;
 }
 
 static double loading_fraction(const scree_simulation *s)
 {
-    return scree_loading_strain(s) / scree_stage_config(s)->strain;
+    return scree_loading_strain(s) / end_of(s);
 }
 
 static scree_status begin_compress(scree_simulation *s, scree_error *error)
@@ -184,7 +208,8 @@ static scree_status begin_compress(scree_simulation *s, scree_error *error)
 
 static void plan_compress(scree_simulation *s)
 {
-    plan_loading(s, scree_stage_config(s)->rate);
+    const scree_compress_config *stage = compress_config(s);
+    plan_loading(s, stage->strain, stage->rate, stage->rise_time);
     for (int k = 0; k + 1 < s->state.dimension; k++) hold_pressure(&s->plan.periodic, k, s->state.pressure);
 }
 
@@ -192,7 +217,7 @@ static void control_compress(scree_simulation *s)
 {
     int axial = 4 * (s->state.dimension - 1);
     double begin = s->state.stage.reference[0];
-    s->plan.periodic.rate[axial] = -scree_stage_config(s)->rate * begin / scree_sample_height(s);
+    s->plan.periodic.rate[axial] = -compress_config(s)->rate * begin / scree_sample_height(s);
     scree_periodic_control(&s->stage_model, &s->state, &s->plan.periodic, rise_now(s));
 }
 
@@ -206,7 +231,7 @@ const scree_stage scree_stage_compress_periodic = {.name = "compress",
                                                    .fraction = loading_fraction};
 
 /// Rates of a deform stage [1/s], zero where nothing is said, and the number of the fastest component.
-static int find_rates(const scree_config_stage *stage, double rate[9])
+static int find_rates(const scree_deform_config *stage, double rate[9])
 {
     int leader = 0;
     for (int k = 0; k < 9; k++) {
@@ -223,8 +248,7 @@ static int find_rates(const scree_config_stage *stage, double rate[9])
 static scree_status begin_deform(scree_simulation *s, scree_error *error)
 {
     (void)error;
-    const scree_config_stage *stage = scree_stage_config(s);
-    double held = scree_held_pressure(stage);
+    double held = scree_held_pressure(scree_stage_config(s));
     measure_sample(s, held > 0 ? held : s->state.pressure);
     set_reference(&s->state);
     return SCREE_OK;
@@ -232,9 +256,10 @@ static scree_status begin_deform(scree_simulation *s, scree_error *error)
 
 static void plan_deform(scree_simulation *s)
 {
-    const scree_config_stage *stage = scree_stage_config(s);
+    const scree_deform_config *stage = deform_config(s);
     double rate[9];
-    plan_loading(s, fabs(rate[find_rates(stage, rate)]));
+    int leader = find_rates(stage, rate);
+    plan_loading(s, stage->strain, fabs(rate[leader]), stage->rise_time);
     memcpy(s->plan.periodic.rate, rate, sizeof rate);
     for (int k = 0; k < 9; k++) s->plan.periodic.stress[k] = k % 4 == 0 ? -stage->stress[k] : stage->stress[k];
 }
@@ -247,7 +272,7 @@ static void control_deform(scree_simulation *s)
 static double deform_strain(const scree_simulation *s)
 {
     double rate[9];
-    int leader = find_rates(scree_stage_config(s), rate);
+    int leader = find_rates(deform_config(s), rate);
     return fabs(s->state.periodic.strain[leader] - s->state.stage.reference[STRAIN + leader]);
 }
 

@@ -4,6 +4,10 @@
 
 #include "law_choice.h"
 #include "own_config.h"
+#include "prepare/gas.h"
+#include "prepare/growth.h"
+#include "run/stage_compress.h"
+#include "run/stage_confine.h"
 
 #include <math.h>
 
@@ -11,6 +15,7 @@ typedef struct biaxial_config {
     scree_config config;
     scree_config_material material[2];
     scree_config_stage stage[3];
+    own_block own[3]; ///< of the stages
     char quartz[8], steel[8];
     own_block contact, of_material[2];
 } biaxial_config;
@@ -19,6 +24,31 @@ typedef struct biaxial_config {
 static inline scree_mindlin_material *biaxial_material(biaxial_config *c, int material)
 {
     return OWN(c->of_material[material].bytes, scree_mindlin_material, hertz_mindlin, "materials");
+}
+
+static inline scree_prepare_config *biaxial_prepare(biaxial_config *c)
+{
+    return c->stage[0].own;
+}
+
+static inline scree_confine_config *biaxial_confine(biaxial_config *c)
+{
+    return c->stage[1].own;
+}
+
+static inline scree_compress_config *biaxial_compress(biaxial_config *c)
+{
+    return c->stage[2].own;
+}
+
+static inline scree_gas_config *biaxial_gas(biaxial_config *c)
+{
+    return OWN(&c->own[0], scree_gas_config, gas, "stages.prepare");
+}
+
+static inline scree_growth_config *biaxial_growth(biaxial_config *c)
+{
+    return OWN(&c->own[0], scree_growth_config, growth, "stages.prepare");
 }
 
 /// 30 GPa, 0.3, 2.675e8 kg/m3, friction 0.45; radii uniform in 0.5 to 1 mm; 100 kPa, 0.005 1/s; every `auto` left open.
@@ -43,15 +73,15 @@ static inline void biaxial_config_set(biaxial_config *c, int64_t count)
     biaxial_material(c, 1)->restitution = 0.6;
     *OWN(c->contact.bytes, scree_brilliantov_config, hertz_brilliantov, "contact") =
         (scree_brilliantov_config){.damping_time = 0.002, .friction_exponent = 50};
-    c->stage[0] = (scree_config_stage){.kind = SCREE_STAGE_PREPARE,
-                                       .method = SCREE_PREPARE_DROP_AND_ROLL,
-                                       .aspect_ratio = 2,
-                                       .width = NAN,
-                                       .depth = NAN,
-                                       .solid_fraction = 0.4,
-                                       .velocity = 0.1};
-    c->stage[1] = (scree_config_stage){.kind = SCREE_STAGE_CONFINE, .pressure = 100e3};
-    c->stage[2] = (scree_config_stage){.kind = SCREE_STAGE_COMPRESS, .strain = 0.1, .rate = 5e-3};
+    c->stage[0] = (scree_config_stage){.kind = SCREE_SLOT_prepare, .own = &c->own[0]};
+    *biaxial_prepare(c) =
+        (scree_prepare_config){.method = SCREE_SLOT_drop_and_roll, .aspect_ratio = 2, .width = NAN, .depth = NAN};
+    *biaxial_gas(c) = (scree_gas_config){.solid_fraction = 0.4, .velocity = 0.1};
+    *biaxial_growth(c) = (scree_growth_config){.solid_fraction = 0.4};
+    c->stage[1] = (scree_config_stage){.kind = SCREE_SLOT_confine, .own = &c->own[1]};
+    *biaxial_confine(c) = (scree_confine_config){.pressure = 100e3};
+    c->stage[2] = (scree_config_stage){.kind = SCREE_SLOT_compress, .own = &c->own[2]};
+    *biaxial_compress(c) = (scree_compress_config){.strain = 0.1, .rate = 5e-3};
     c->config = (scree_config){
         .dimension = 2,
         .seed = 1,

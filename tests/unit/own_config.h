@@ -12,4 +12,7 @@ typedef struct own_block {
 /// The struct `type` of a module in a block that a section points to: OWN(own, scree_x_config, x, "section").
 #define OWN(block, type, module, section) ((type *)(uintptr_t)scree_config_own(&scree_module_##module, section, block))
 
+/// What the stage `index` of a config says, which is of this kind: STAGE(config, 2, compress)->rate.
+#define STAGE(config, index, kind) ((scree_##kind##_config *)(config)->stages[index].own)
+
 #endif

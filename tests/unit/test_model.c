@@ -157,10 +157,10 @@ static void test_errors_name_their_field(void **unused)
     c.config.stage_count = 2;
     expect_input_error(&c, "contact.reference_velocity", "loading stage");
     biaxial_config_set(&c, 983);
-    c.stage[0].method = SCREE_PREPARE_HEXAGONAL;
+    biaxial_prepare(&c)->method = SCREE_SLOT_hexagonal;
     expect_input_error(&c, "stages.0.method", "equal");
     biaxial_config_set(&c, 983);
-    c.stage[0].width = 1.9e-3;
+    biaxial_prepare(&c)->width = 1.9e-3;
     expect_input_error(&c, "stages.0.width", "does not fit");
 }
 
@@ -212,10 +212,10 @@ static void test_critical_step_of_other_loads(void **unused)
     assert_true(by_guard > 0 && by_guard < by_weight);
 
     c.config.gravity[1] = 0;
-    c.stage[0].method = SCREE_PREPARE_GAS;
+    biaxial_prepare(&c)->method = SCREE_SLOT_gas;
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
     double slow = model.critical_step;
-    c.stage[0].velocity *= 32;
+    biaxial_gas(&c)->velocity *= 32;
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
     // k ~ d^0.5 ~ v^0.4 and c ~ sqrt(k): the step goes as v^(-1/5), exactly.
     assert_close(slow / model.critical_step, 2);
@@ -348,9 +348,9 @@ static void prepare_assembly(int method, int64_t count, scree_state *state)
     biaxial_config c;
     scree_model model;
     biaxial_config_set(&c, count);
-    c.stage[0].method = method;
-    c.stage[0].aspect_ratio = 1;
-    if (method != SCREE_PREPARE_DROP_AND_ROLL) c.config.particles.distribution = SCREE_SIZE_EQUAL;
+    biaxial_prepare(&c)->method = method;
+    biaxial_prepare(&c)->aspect_ratio = 1;
+    if (method != SCREE_SLOT_drop_and_roll) c.config.particles.distribution = SCREE_SIZE_EQUAL;
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
     assert_int_equal(scree_prepare(&model, &c.stage[0], state, NULL), SCREE_OK);
 }
@@ -372,7 +372,7 @@ static void test_critical_step_of_the_lattice(void **unused)
 {
     (void)unused;
     scree_state state;
-    prepare_assembly(SCREE_PREPARE_HEXAGONAL, 200, &state);
+    prepare_assembly(SCREE_SLOT_hexagonal, 200, &state);
     for (size_t k = 0; k < sizeof TANGENTS / sizeof *TANGENTS; k++) {
         assembly a = assemble(&state, TANGENTS[k]);
         double ratio = true_critical_step(&a) / scree_critical_step_lattice(2, &TANGENTS[k], 1);
@@ -388,7 +388,7 @@ static void test_lattice_is_faster_than_a_random_packing(void **unused)
 {
     (void)unused;
     scree_state state;
-    prepare_assembly(SCREE_PREPARE_DROP_AND_ROLL, 300, &state);
+    prepare_assembly(SCREE_SLOT_drop_and_roll, 300, &state);
     for (size_t k = 0; k < sizeof TANGENTS / sizeof *TANGENTS; k++) {
         assembly a = assemble(&state, TANGENTS[k]);
         double ratio = true_critical_step(&a) / scree_critical_step_lattice(2, &TANGENTS[k], 1);
@@ -404,7 +404,7 @@ static void test_stability_limit_of_the_scheme(void **unused)
 {
     (void)unused;
     scree_state state;
-    prepare_assembly(SCREE_PREPARE_HEXAGONAL, 60, &state);
+    prepare_assembly(SCREE_SLOT_hexagonal, 60, &state);
     for (size_t k = 2; k < 5; k++) {
         assembly a = assemble(&state, TANGENTS[k]);
         double exact = true_critical_step(&a);

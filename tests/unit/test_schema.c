@@ -114,6 +114,20 @@ static void every_key_is_documented_and_its_default_valid(void **state)
 /// Same bits of every member that the schema knows.
 static void compare_section(const scree_section *section, const char *a, const char *b);
 
+/// The section of an element that has been read.
+static const scree_section *section_of(const scree_key *list, const char *element)
+{
+    const scree_key *kind = &list->sections[0].keys[0];
+    int value;
+    if (list->section_count == 1) return list->sections;
+    memcpy(&value, scree_key_member(kind, element), sizeof value);
+    for (const scree_choice *choice = kind->choices; choice->name; choice++)
+        for (size_t i = 0; choice->value == value && i < list->section_count; i++)
+            if (strcmp(list->sections[i].name, choice->name) == 0) return &list->sections[i];
+    fail_msg("%s: %d is no kind of element", list->name, value);
+    return NULL;
+}
+
 static void compare_list(const scree_key *key, const char *a, const char *b)
 {
     int64_t count_a, count_b;
@@ -126,7 +140,9 @@ static void compare_list(const scree_key *key, const char *a, const char *b)
     for (size_t i = 0; i < (size_t)count_a; i++) {
         const char *x = list_a + i * key->element_size, *y = list_b + i * key->element_size;
         if (key->type == SCREE_KEY_PAIRS) assert_memory_equal(x, y, key->element_size);
-        for (size_t k = 0; k < key->section_count; k++) compare_section(&key->sections[k], x, y);
+        const scree_section *section = key->section_count > 0 ? section_of(key, x) : NULL;
+        if (section) assert_ptr_equal(section, section_of(key, y));
+        if (section) compare_section(section, x, y);
     }
 }
 
