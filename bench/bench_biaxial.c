@@ -9,6 +9,7 @@
 /// its processor time. Only ratios measured in turn mean anything. Arguments: --peer COMMAND (such as "lmp"), --folder
 /// FOLDER for its files, --cell and --large choose one setting, --count N the size of the cell.
 #include "bench.h"
+#include "state/plates.h"
 
 #include "base/processor.h"
 #include "boundary/plates.h"
@@ -99,15 +100,16 @@ static void settle(sample *s)
     scree_model model = s->model;
     double top = 0;
     for (size_t k = 0; k < state->count; k++) top = fmax(top, state->row[k].y + state->row[k].radius);
-    state->wall[SCREE_WALL_TOP] = (scree_wall){.position = -top, .normal = {0, -1}};
+    scree_plates(state)[SCREE_WALL_TOP] = (scree_wall){.position = -top, .normal = {0, -1}};
     for (int w = 0; w <= SCREE_WALL_RIGHT; w++) {
-        state->wall[w].active = 1;
-        state->wall[w].velocity = closing * scree_plate_area(&model, state, w) / model.thickness / state->step_size;
+        scree_plates(state)[w].active = 1;
+        scree_plates(state)[w].velocity =
+            closing * scree_plate_area(&model, state, w) / model.thickness / state->step_size;
     }
     s->model = scree_model_with_friction(&model, 0);
     for (int k = 0; k < CLOSING_STEPS && contacts_a_body(s) < dense; k++) step(s);
     s->model = model;
-    for (int w = 0; w < SCREE_WALL_COUNT; w++) state->wall[w].velocity = 0;
+    for (int w = 0; w < SCREE_WALL_COUNT; w++) scree_plates(state)[w].velocity = 0;
     for (int k = 0; k < RESTING_STEPS; k++) step(s);
 }
 
@@ -142,7 +144,8 @@ static void make_lattice(sample *s, const char *law, long count)
     const double normal[][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
     const double position[] = {0, -height, 0, -width};
     for (int w = 0; w <= SCREE_WALL_RIGHT; w++)
-        s->state.wall[w] = (scree_wall){.position = position[w], .normal = {normal[w][0], normal[w][1]}, .active = 1};
+        scree_plates(&s->state)[w] =
+            (scree_wall){.position = position[w], .normal = {normal[w][0], normal[w][1]}, .active = 1};
     for (int k = 0; k < LATTICE_STEPS; k++) step(s);
 }
 
@@ -188,7 +191,7 @@ static void export_data(const sample *s, const char *path)
 {
     FILE *file = fopen(path, "w");
     if (!file) require(SCREE_ERROR_IO, &(scree_error){.message = "cannot write the peer's data file"});
-    const scree_wall *w = s->state.wall;
+    const scree_wall *w = scree_plates(&s->state);
     double margin = s->model.mean_radius;
     (void)fprintf(file, "a settled biaxial cell\n\n%zu atoms\n1 atom types\n", s->state.count);
     (void)fprintf(file, "%.17g %.17g xlo xhi\n", w[SCREE_WALL_LEFT].position - margin,
@@ -215,7 +218,7 @@ static void write_command(const sample *s, const options *o, long steps, char *c
 {
     const scree_config_material *m = &s->model.config->materials[0];
     const scree_mindlin_material *own = scree_config_own(&scree_module_hertz_mindlin, "materials", m->own);
-    const scree_wall *w = s->state.wall;
+    const scree_wall *w = scree_plates(&s->state);
     (void)snprintf(
         command, size,
         "cd '%s' && OMP_NUM_THREADS=1 %s -in '%s/bench/peers/lammps_biaxial.in' -log none -var data cell.data "

@@ -6,6 +6,7 @@
 /// packing at rest, and bytes a body of state, list and search. Arguments: threads (default 1), dimension (default 2),
 /// numbers of bodies (default 32768 1000000).
 #include "bench.h"
+#include "state/plates.h"
 
 #include "base/random.h"
 #include "search/neighbours.h"
@@ -47,8 +48,8 @@ static void fill_box(scree_state *state)
     }
     const int axis[SCREE_WALL_COUNT] = {dimension - 1, dimension - 1, 0, 0, 1, 1};
     for (int w = 0; w < 2 * dimension; w++) {
-        state->wall[w] = (scree_wall){.position = w % 2 ? -side : 0, .active = 1};
-        state->wall[w].normal[axis[w]] = w % 2 ? -1 : 1;
+        scree_plates(state)[w] = (scree_wall){.position = w % 2 ? -side : 0, .active = 1};
+        scree_plates(state)[w].normal[axis[w]] = w % 2 ? -1 : 1;
     }
 }
 
@@ -72,7 +73,7 @@ static double push_apart(scree_state *state, const scree_work *work, scree_vecto
     }
     for (size_t k = 0; k < work->wall_pairs.count; k++) {
         uint32_t body = work->wall_pairs.body[k];
-        const scree_wall *wall = &state->wall[work->wall_pairs.wall[k]];
+        const scree_wall *wall = &scree_plates(state)[work->wall_pairs.wall[k]];
         scree_vector a;
         scree_body_place(state, body, a);
         double along = wall->normal[0] * a[0] + wall->normal[1] * a[1] + wall->normal[2] * a[2];

@@ -8,6 +8,7 @@
 /// ratios measured in turn mean anything. Arguments: --peer COMMAND (such as "lmp"), --folder FOLDER for its files,
 /// --bed and --large choose one setting, --skin LENGTH the skin of both codes [m].
 #include "bench.h"
+#include "state/plates.h"
 
 #include "base/processor.h"
 #include "boundary/periodic.h"
@@ -115,8 +116,8 @@ static void read_bed(sample *s, size_t copies)
 static void put_box(scree_state *state, size_t copies)
 {
     const double sides[3] = {side * (double)copies, side, 1};
-    scree_periodic_set(&state->periodic, SCREE_PERIODIC_XY, sides);
-    state->wall[SCREE_WALL_BOTTOM] = (scree_wall){.normal = {0, 0, 1}, .active = 1};
+    scree_periodic_set(scree_cell(state), SCREE_PERIODIC_XY, sides);
+    scree_plates(state)[SCREE_WALL_BOTTOM] = (scree_wall){.normal = {0, 0, 1}, .active = 1};
 }
 
 static void forces(sample *s)
@@ -171,8 +172,8 @@ static void open_copy(sample *s, const options *o, const sample *from)
     require(scree_state_create(&s->state, 3, from->state.count, &error), &error);
     memcpy(s->state.row, from->state.row, s->state.count * sizeof *s->state.row);
     memcpy(s->state.turn, from->state.turn, s->state.count * sizeof *s->state.turn);
-    memcpy(s->state.wall, from->state.wall, sizeof s->state.wall);
-    s->state.periodic = from->state.periodic;
+    memcpy(scree_plates(&s->state), scree_plates(&from->state), SCREE_WALL_COUNT * sizeof(scree_wall));
+    *scree_cell(&s->state) = *scree_cell(&from->state);
     start(s, o);
 }
 

@@ -6,9 +6,11 @@
 /// up to the rounding of a quantum. Bodies that come onto the boundary when it is found anew are caught in one step, so
 /// the conditions are meant for small strains. Cost: O(boundary) a step.
 #include "base/fixed.h"
+#include "base/integer_sum.h"
 #include "boundary/boundary.h"
 #include "boundary/drive.h"
 #include "measure/facets.h"
+#include "measure/imposed_gradient.h"
 
 #include <math.h>
 #include <string.h>
@@ -16,12 +18,14 @@
 static void find_centre(const scree_state *state, scree_vector centre)
 {
     size_t count = scree_boundary_count(state);
+    scree_integer_sum sum[3] = {0};
     scree_vector place;
-    memset(centre, 0, sizeof(scree_vector));
-    for (size_t k = 0; k < count; k++) {
-        scree_body_place(state, scree_boundary_row(state, k), place);
-        for (int i = 0; i < 3; i++) centre[i] += place[i] / (double)count;
-    }
+    while (scree_integer_sum_next(sum, 3))
+        for (size_t k = 0; k < count; k++) {
+            scree_body_place(state, scree_boundary_row(state, k), place);
+            for (int i = 0; i < 3; i++) scree_integer_sum_add(&sum[i], place[i]);
+        }
+    for (int i = 0; i < 3; i++) centre[i] = scree_integer_sum_total(&sum[i]) / (double)count;
 }
 
 /// Velocity that a body of the boundary shall have.
@@ -31,13 +35,13 @@ static void wanted_velocity(const scree_state *state, size_t row, const scree_ve
     scree_body_place(state, row, place);
     for (int i = 0; i < 3; i++) {
         velocity[i] = 0;
-        for (int j = 0; j < 3; j++) velocity[i] += state->drive.target[3 * i + j] * (place[j] - centre[j]);
+        for (int j = 0; j < 3; j++) velocity[i] += scree_imposed(state)->target[3 * i + j] * (place[j] - centre[j]);
     }
 }
 
 static void move_bodies(scree_state *state, const scree_vector centre, double kick)
 {
-    for (size_t k = 0; k < state->drive.count; k++) {
+    for (size_t k = 0; k < scree_imposed(state)->count; k++) {
         size_t row = scree_boundary_row(state, k);
         const scree_sum_row *sum = &state->sum[row];
         const int64_t others[3] = {sum->fx, sum->fy, state->dimension == 3 ? sum->fz : 0};
@@ -53,14 +57,14 @@ static void move_bodies(scree_state *state, const scree_vector centre, double ki
     }
 }
 
-static void forces(const scree_model *model, scree_state *state, scree_work *work)
+static void add_forces(const scree_model *model, scree_state *state, scree_work *work)
 {
-    scree_drive *drive = &state->drive;
+    scree_imposed_gradient *drive = scree_imposed(state);
     if (drive->count == 0) return;
     double rate[9];
     scree_vector centre;
     scree_boundary_areas(model, state, drive->force);
-    scree_drive_measure(state, drive->force, scree_boundary_volume(model, state), rate);
+    (void)scree_drive_measure(state, drive->force, rate);
     scree_drive_record(state, rate);
     memset(drive->force, 0, drive->count * sizeof *drive->force);
     find_centre(state, centre);
@@ -68,9 +72,9 @@ static void forces(const scree_model *model, scree_state *state, scree_work *wor
     scree_drive_work(state);
 }
 
-static double bound(const scree_model *model, const scree_state *state)
+static double bound(const scree_context *c)
 {
-    (void)model;
+    const scree_state *state = c->state;
     scree_vector centre, wanted, velocity, spin;
     double largest = 0;
     find_centre(state, centre);
@@ -84,10 +88,19 @@ static double bound(const scree_model *model, const scree_state *state)
     return largest;
 }
 
+static scree_status load(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    add_forces(c->model, c->state, c->work);
+    return SCREE_OK;
+}
+
+static const scree_pass passes[] = {
+    {SCREE_PHASE_FOLLOW, scree_imposed_work}, {SCREE_PHASE_SEARCH, scree_imposed_refresh}, {SCREE_PHASE_LOADS, load}};
+
 const scree_boundary scree_boundary_affine = {.name = "affine",
                                               .walls = 0,
                                               .begin = scree_drive_begin,
-                                              .refresh = scree_drive_refresh,
-                                              .bound = bound,
-                                              .forces = forces,
-                                              .work = scree_drive_work};
+                                              .passes = passes,
+                                              .pass_count = sizeof passes / sizeof *passes,
+                                              .bound = bound};

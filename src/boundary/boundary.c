@@ -1,7 +1,10 @@
-/// Table of boundaries, and what all of them share: walls that come and go, the pressure.
+/// Table of boundaries, and what all of them share: walls that come and go.
 #include "boundary/boundary.h"
+#include "state/plates.h"
 
+#include "base/integer_sum.h"
 #include "boundary/pressure.h"
+#include "measure/imposed_gradient.h"
 
 #include <math.h>
 
@@ -26,8 +29,7 @@ const scree_boundary *scree_boundary_get(scree_boundary_kind kind)
         [SCREE_BOUNDARY_PLATES] = &scree_boundary_plates,     [SCREE_BOUNDARY_MEMBRANE] = &scree_boundary_membrane,
         [SCREE_BOUNDARY_MINIMAL] = &scree_boundary_minimal,   [SCREE_BOUNDARY_AFFINE] = &scree_boundary_affine,
         [SCREE_BOUNDARY_PERIODIC] = &scree_boundary_periodic, [SCREE_BOUNDARY_CHANNEL] = &scree_boundary_channel,
-        [SCREE_BOUNDARY_WALLS] = &scree_boundary_walls,
-        [SCREE_BOUNDARY_NONE] = &scree_boundary_none,
+        [SCREE_BOUNDARY_WALLS] = &scree_boundary_walls,       [SCREE_BOUNDARY_NONE] = &scree_boundary_none,
     };
     return table[kind];
 }
@@ -39,13 +41,14 @@ bool scree_boundary_has_plates(const scree_boundary *boundary)
 
 static double held_by_wall(const scree_contact_table *table, int wall)
 {
-    double energy = 0;
-    for (size_t c = 0; c < table->count; c++) {
-        const scree_contact *contact = &table->contact[c];
-        if (contact->wall && (int)contact->second == wall)
-            energy += contact->elastic_normal + contact->elastic_tangential;
-    }
-    return energy;
+    scree_integer_sum energy = {0};
+    while (scree_integer_sum_next(&energy, 1))
+        for (size_t c = 0; c < table->count; c++) {
+            const scree_contact *contact = &table->contact[c];
+            if (contact->wall && (int)contact->second == wall)
+                scree_integer_sum_add(&energy, contact->elastic_normal + contact->elastic_tangential);
+        }
+    return scree_integer_sum_total(&energy);
 }
 
 /// Makes the walls stand that `walls` says. True when any of them changed.
@@ -53,7 +56,7 @@ static bool change_walls(scree_state *state, uint32_t walls, const scree_contact
 {
     bool changed = false;
     for (int w = 0; w < 2 * state->dimension; w++) {
-        scree_wall *wall = &state->wall[w];
+        scree_wall *wall = &scree_plates(state)[w];
         bool stands = walls >> w & 1;
         if (stands == (wall->active != 0)) continue;
         if (!stands) state->ledger.plates -= held_by_wall(table, w);
@@ -70,35 +73,10 @@ scree_status scree_boundary_begin(const scree_boundary *boundary, const scree_mo
 {
     size_t count = state->count;
     *changed = change_walls(state, boundary->walls, table);
+    scree_imposed(state)->count = 0; // what another boundary imposed is over
     scree_status status = SCREE_OK;
     if (*changed && !boundary->open) status = scree_boundary_mark_loaded(model, state, error);
     if (!status && boundary->begin) status = boundary->begin(model, state, error);
     *changed = *changed || state->count != count;
     return status;
-}
-
-void scree_boundary_finish_work(const scree_boundary *boundary, scree_state *state)
-{
-    scree_pressure_work(state);
-    if (boundary->work) boundary->work(state);
-}
-
-scree_status scree_boundary_prepare(const scree_boundary *boundary, const scree_model *model, scree_state *state,
-                                    scree_error *error)
-{
-    scree_status status = boundary->open ? SCREE_OK : scree_boundary_refresh(model, state, error);
-    return status || !boundary->refresh ? status : boundary->refresh(model, state, error);
-}
-
-double scree_boundary_bound(const scree_boundary *boundary, const scree_model *model, const scree_state *state)
-{
-    double pressure = scree_pressure_bound(model, state);
-    return boundary->bound ? fmax(pressure, boundary->bound(model, state)) : pressure;
-}
-
-void scree_boundary_forces(const scree_boundary *boundary, const scree_model *model, scree_state *state,
-                           scree_work *work)
-{
-    scree_pressure_forces(model, state);
-    if (boundary->forces) boundary->forces(model, state, work);
 }

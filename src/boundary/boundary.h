@@ -15,16 +15,13 @@ typedef struct scree_boundary {
     bool open;      ///< the bodies need not hang together: no Delaunay boundary or hull is kept, and no pressure
     /// When a stage begins with it: bodies of its own, resets. NULL: nothing to do.
     scree_status (*begin)(const scree_model *model, scree_state *state, scree_error *error);
-    /// In every step, after the Delaunay boundary: memory for what it keeps a body. NULL: nothing to do.
-    scree_status (*refresh)(const scree_model *model, scree_state *state, scree_error *error);
-    /// Largest force that it may put on one body in this step [N], for the quanta; up to 2^10 times more is safe. NULL:
-    /// no forces besides the pressure.
-    double (*bound)(const scree_model *model, const scree_state *state);
-    /// Adds its forces at the present positions to the sums, which hold all others; rows hold v(n - 1/2). Books half
-    /// their work.
-    void (*forces)(const scree_model *model, scree_state *state, scree_work *work);
-    /// The other half, when rows hold v(n + 1/2).
-    void (*work)(scree_state *state);
+    /// What it does in a step, besides the modules: forces at the present positions are added to the sums, which hold
+    /// all others, in phase loads, when rows hold v(n - 1/2), with half their work; the other half in phase follow,
+    /// when rows hold v(n + 1/2).
+    const scree_pass *passes;
+    size_t pass_count;
+    /// As that of a module.
+    double (*bound)(const scree_context *context);
 } scree_boundary;
 
 const scree_boundary *scree_boundary_get(scree_boundary_kind kind);
@@ -46,13 +43,5 @@ bool scree_boundary_has_plates(const scree_boundary *boundary);
 /// lists have to be made anew. Errors: the boundary's own, memory.
 scree_status scree_boundary_begin(const scree_boundary *boundary, const scree_model *model, scree_state *state,
                                   const scree_contact_table *table, bool *changed, scree_error *error) SCREE_MUST_USE;
-
-/// The four calls of a step, in their order, for the pressure and for what `boundary` does besides.
-void scree_boundary_finish_work(const scree_boundary *boundary, scree_state *state);
-scree_status scree_boundary_prepare(const scree_boundary *boundary, const scree_model *model, scree_state *state,
-                                    scree_error *error) SCREE_MUST_USE;
-double scree_boundary_bound(const scree_boundary *boundary, const scree_model *model, const scree_state *state);
-void scree_boundary_forces(const scree_boundary *boundary, const scree_model *model, scree_state *state,
-                           scree_work *work);
 
 #endif

@@ -9,6 +9,8 @@
 /// not free. The gap between a corner and its plate belongs to the lateral arc (measure/outline.h). Of equal candidates
 /// the one that comes first in the loop counts. Cost: O(length of the loop).
 #include "boundary/corners.h"
+#include "measure/delaunay_boundary.h"
+#include "state/plates.h"
 
 #include "measure/outline.h"
 
@@ -17,23 +19,23 @@
 
 static double gap_to(const scree_state *state, const scree_wall *wall, size_t k)
 {
-    const scree_row *row = &state->row[state->row_of_id[state->loop.id[k]]];
+    const scree_row *row = &state->row[state->row_of_id[scree_loop_of(state)->id[k]]];
     return wall->normal[0] * row->x + wall->normal[1] * row->y - wall->position - row->radius;
 }
 
 /// The body at place k is at least as near to this wall as to the opposite one.
 static bool belongs_to(const scree_state *state, int wall, size_t k)
 {
-    const scree_wall *opposite = &state->wall[SCREE_WALL_BOTTOM + SCREE_WALL_TOP - wall];
-    return !opposite->active || gap_to(state, &state->wall[wall], k) <= gap_to(state, opposite, k);
+    const scree_wall *opposite = &scree_plates(state)[SCREE_WALL_BOTTOM + SCREE_WALL_TOP - wall];
+    return !opposite->active || gap_to(state, &scree_plates(state)[wall], k) <= gap_to(state, opposite, k);
 }
 
 /// Gap up to which bodies face the wall: the mean radius, or the smallest gap when that is larger.
 static double facing_limit(const scree_model *model, const scree_state *state, int wall)
 {
     double nearest = INFINITY;
-    for (size_t k = 0; k < state->loop.count; k++) {
-        double gap = gap_to(state, &state->wall[wall], k);
+    for (size_t k = 0; k < scree_loop_of(state)->count; k++) {
+        double gap = gap_to(state, &scree_plates(state)[wall], k);
         if (gap < nearest && belongs_to(state, wall, k)) nearest = gap;
     }
     return fmax(nearest, model->mean_radius);
@@ -41,11 +43,11 @@ static double facing_limit(const scree_model *model, const scree_state *state, i
 
 static void clear_along(const scree_model *model, scree_state *state, int wall)
 {
-    const double *normal = state->wall[wall].normal;
+    const double *normal = scree_plates(state)[wall].normal;
     double limit = facing_limit(model, state, wall), low = INFINITY, high = -INFINITY;
-    size_t count = state->loop.count, first = count, last = count;
+    size_t count = scree_loop_of(state)->count, first = count, last = count;
     for (size_t k = 0; k < count; k++) {
-        if (!belongs_to(state, wall, k) || gap_to(state, &state->wall[wall], k) > limit) continue;
+        if (!belongs_to(state, wall, k) || gap_to(state, &scree_plates(state)[wall], k) > limit) continue;
         double x[2];
         scree_loop_position(state, k, x);
         // Along the wall in the sense in which the loop passes it.
@@ -60,14 +62,14 @@ static void clear_along(const scree_model *model, scree_state *state, int wall)
         }
     }
     if (first == count) return;
-    for (size_t k = first; k != last; k = k + 1 < count ? k + 1 : 0) state->loop.loaded[k] = 0;
+    for (size_t k = first; k != last; k = k + 1 < count ? k + 1 : 0) scree_loop_of(state)->loaded[k] = 0;
 }
 
 void scree_loop_mark_loaded(const scree_model *model, scree_state *state)
 {
-    bool free_sides = !state->wall[SCREE_WALL_LEFT].active && !state->wall[SCREE_WALL_RIGHT].active;
-    memset(state->loop.loaded, free_sides ? 1 : 0, state->loop.count);
+    bool free_sides = !scree_plates(state)[SCREE_WALL_LEFT].active && !scree_plates(state)[SCREE_WALL_RIGHT].active;
+    memset(scree_loop_of(state)->loaded, free_sides ? 1 : 0, scree_loop_of(state)->count);
     if (!free_sides) return;
     for (int wall = SCREE_WALL_BOTTOM; wall <= SCREE_WALL_TOP; wall++)
-        if (state->wall[wall].active) clear_along(model, state, wall);
+        if (scree_plates(state)[wall].active) clear_along(model, state, wall);
 }

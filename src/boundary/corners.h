@@ -2,9 +2,10 @@
 #ifndef SCREE_BOUNDARY_CORNERS_H
 #define SCREE_BOUNDARY_CORNERS_H
 
+#include "measure/delaunay_boundary.h"
 #include "state/state.h"
 
-/// Fills state->loop.loaded from the present positions. The rule is in corners.c.
+/// Fills scree_loop_of(state)->loaded from the present positions. The rule is in corners.c.
 void scree_loop_mark_loaded(const scree_model *model, scree_state *state);
 
 #endif

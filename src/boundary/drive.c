@@ -7,17 +7,22 @@
 /// Each term is rounded to an integer once for both facets (in 3D from the node with the lower number to the other), so
 /// the integers telescope and the forces of a closed surface add up to zero to the last bit. Rounding is half a quantum
 /// a term. Places are relative to a node, so the terms stay small. Cost: O(facets).
+///
+/// Rates, volume and work steer the run or stay in its state: sums in integers, whose nodes may come in any order.
 #include "boundary/drive.h"
+#include "measure/imposed_gradient.h"
 
 #include "base/fixed.h"
+#include "base/integer_sum.h"
 #include "measure/facets.h"
+#include "state/fields.h"
 
 #include <math.h>
 #include <string.h>
 
 scree_status scree_drive_begin(const scree_model *model, scree_state *state, scree_error *error)
 {
-    scree_drive *drive = &state->drive;
+    scree_imposed_gradient *drive = scree_imposed(state);
     (void)model, (void)error;
     drive->count = 0;
     drive->achieved = drive->wanted = 0;
@@ -29,14 +34,11 @@ scree_status scree_drive_begin(const scree_model *model, scree_state *state, scr
 scree_status scree_drive_refresh(const scree_model *model, scree_state *state, scree_error *error)
 {
     (void)model;
-    scree_drive *drive = &state->drive;
+    scree_imposed_gradient *drive = scree_imposed(state);
     size_t count = scree_boundary_count(state);
-    if (count > drive->capacity) {
-        size_t capacity = count + count / 2 + 16;
-        scree_status status = scree_reallocate(&drive->force, drive->count, capacity, sizeof *drive->force, error);
-        if (status) return status;
-        drive->capacity = capacity;
-    }
+    scree_status status =
+        scree_group_reserve(state, &scree_module_imposed_gradient, &scree_imposed_nodes, count, error);
+    if (status) return status;
     drive->count = count;
     return SCREE_OK;
 }
@@ -47,30 +49,44 @@ void scree_drive_add(scree_state *state, size_t node, const int64_t quanta[3])
     sum->fx += quanta[0];
     sum->fy += quanta[1];
     if (state->dimension == 3) sum->fz += quanta[2];
-    for (int i = 0; i < state->dimension; i++) state->drive.force[node][i] += (double)quanta[i] * state->force_quantum;
+    for (int i = 0; i < state->dimension; i++)
+        scree_imposed(state)->force[node][i] += (double)quanta[i] * state->force_quantum;
 }
 
 void scree_drive_work(scree_state *state)
 {
-    double work = 0;
+    scree_integer_sum power = {0};
     scree_vector velocity, spin;
-    for (size_t k = 0; k < state->drive.count; k++) {
-        scree_body_motion(state, scree_boundary_row(state, k), velocity, spin);
-        for (int i = 0; i < 3; i++) work += 0.5 * state->step_size * state->drive.force[k][i] * velocity[i];
-    }
+    while (scree_integer_sum_next(&power, 1))
+        for (size_t k = 0; k < scree_imposed(state)->count; k++) {
+            scree_body_motion(state, scree_boundary_row(state, k), velocity, spin);
+            scree_integer_sum_add(&power, scree_dot(scree_imposed(state)->force[k], velocity));
+        }
+    double work = 0.5 * state->step_size * scree_integer_sum_total(&power);
     state->ledger.boundary += work;
     state->ledger.turnover += fabs(work);
 }
 
-void scree_drive_measure(const scree_state *state, scree_vector *area, double volume, double rate[9])
+double scree_drive_measure(const scree_state *state, scree_vector *area, double rate[9])
 {
-    scree_vector velocity, spin;
-    memset(rate, 0, 9 * sizeof *rate);
-    for (size_t k = 0; k < scree_boundary_count(state); k++) {
-        scree_body_motion(state, scree_boundary_row(state, k), velocity, spin);
-        for (int i = 0; i < 3; i++)
-            for (int j = 0; j < 3; j++) rate[3 * i + j] += velocity[i] * area[k][j] / volume;
-    }
+    enum { VOLUME = 9 };
+    scree_integer_sum sum[10] = {0};
+    scree_vector origin, place, velocity, spin;
+    scree_body_place(state, scree_boundary_row(state, 0), origin);
+    while (scree_integer_sum_next(sum, 10))
+        for (size_t k = 0; k < scree_boundary_count(state); k++) {
+            size_t row = scree_boundary_row(state, k);
+            scree_body_motion(state, row, velocity, spin);
+            scree_body_place(state, row, place);
+            scree_subtract(place, origin, place);
+            scree_integer_sum_add(&sum[VOLUME], scree_dot(place, area[k]));
+            for (int i = 0; i < state->dimension; i++)
+                for (int j = 0; j < state->dimension; j++)
+                    scree_integer_sum_add(&sum[3 * i + j], velocity[i] * area[k][j]);
+        }
+    double volume = scree_integer_sum_total(&sum[VOLUME]) / state->dimension;
+    for (int c = 0; c < 9; c++) rate[c] = scree_integer_sum_total(&sum[c]) / volume;
+    return volume;
 }
 
 /// Mirror image of component c of a 3 x 3 tensor.
@@ -81,7 +97,7 @@ static int mirror(int c)
 
 void scree_drive_record(scree_state *state, const double rate[9])
 {
-    scree_drive *drive = &state->drive;
+    scree_imposed_gradient *drive = scree_imposed(state);
     memcpy(drive->rate, rate, sizeof drive->rate);
     for (int c = 0; c < 9; c++) {
         if (drive->prescribed[c] == SCREE_FREE) continue;
@@ -93,7 +109,7 @@ void scree_drive_record(scree_state *state, const double rate[9])
 
 double scree_drive_take_ratio(scree_state *state)
 {
-    scree_drive *drive = &state->drive;
+    scree_imposed_gradient *drive = scree_imposed(state);
     double ratio = drive->wanted > 0 ? drive->achieved / drive->wanted : NAN;
     drive->achieved = drive->wanted = 0;
     return ratio;
@@ -136,4 +152,16 @@ void scree_drive_apply_stress(const scree_model *model, scree_state *state, cons
         for (int t = 0; t < terms; t++) add_term(&facet, t, (t + 1) % facet.corners, stress, scale, share);
         for (int c = 0; c < facet.corners; c++) scree_drive_add(state, facet.node[c], share);
     }
+}
+
+scree_status scree_imposed_refresh(const scree_context *context, scree_error *error)
+{
+    return scree_drive_refresh(context->model, context->state, error);
+}
+
+scree_status scree_imposed_work(const scree_context *context, scree_error *error)
+{
+    (void)error;
+    scree_drive_work(context->state);
+    return SCREE_OK;
 }

@@ -1,7 +1,9 @@
-/// What boundaries share that impose a motion through forces on the bodies of the Delaunay boundary (state.drive).
+/// What boundaries share that impose a motion through forces on the bodies of the Delaunay boundary
+/// (*scree_imposed(&state)).
 #ifndef SCREE_BOUNDARY_DRIVE_H
 #define SCREE_BOUNDARY_DRIVE_H
 
+#include "measure/imposed_gradient.h"
 #include "state/work.h"
 
 /// Forgets the forces and rates of an earlier stage; target, prescribed components and viscosity stay.
@@ -10,14 +12,19 @@ scree_status scree_drive_begin(const scree_model *model, scree_state *state, scr
 /// Room for one force a node of the present boundary. Errors: memory.
 scree_status scree_drive_refresh(const scree_model *model, scree_state *state, scree_error *error) SCREE_MUST_USE;
 
+/// The same, and scree_drive_work, as passes.
+scree_status scree_imposed_refresh(const scree_context *context, scree_error *error) SCREE_MUST_USE;
+scree_status scree_imposed_work(const scree_context *context, scree_error *error) SCREE_MUST_USE;
+
 /// Adds a force in quanta to the sum of a node and keeps it in drive.force.
 void scree_drive_add(scree_state *state, size_t node, const int64_t quanta[3]);
 
 /// Books 1/2 F . v dt of the kept forces, with the velocities that rows hold now.
 void scree_drive_work(scree_state *state);
 
-/// Velocity gradient of the boundary [1/s] with the velocities that rows hold now. area: a node.
-void scree_drive_measure(const scree_state *state, scree_vector *area, double volume, double rate[9]);
+/// Velocity gradient of the boundary [1/s] with the velocities that rows hold now. area: a node. Returns the volume
+/// inside [m3].
+double scree_drive_measure(const scree_state *state, scree_vector *area, double rate[9]);
 
 /// Books the rate of this step for the recorded ratio of actual and wanted rate.
 void scree_drive_record(scree_state *state, const double rate[9]);

@@ -9,7 +9,10 @@
 /// the pressure, and so does the gap between its rim and the plate (measure/hull.h). With an active side plate nothing
 /// is loaded: the sides are not free. Cost: O(triangles).
 #include "boundary/facing.h"
+#include "state/plates.h"
 
+#include "base/integer_sum.h"
+#include "measure/delaunay_boundary.h"
 #include "measure/hull.h"
 
 #include <math.h>
@@ -37,8 +40,8 @@ static double gap_to(const scree_state *state, const scree_wall *wall, uint32_t 
 /// Marks the nodes that face a wall.
 static void find_facing(const scree_model *model, const marking *m, int index)
 {
-    const scree_wall *wall = &m->state->wall[index];
-    const scree_wall *opposite = &m->state->wall[SCREE_WALL_BOTTOM + SCREE_WALL_TOP - index];
+    const scree_wall *wall = &scree_plates(m->state)[index];
+    const scree_wall *opposite = &scree_plates(m->state)[SCREE_WALL_BOTTOM + SCREE_WALL_TOP - index];
     double nearest = INFINITY;
     for (int pass = 0; pass < 2; pass++)
         for (size_t k = 0; k < m->hull->node_count; k++) {
@@ -72,7 +75,7 @@ static void mark_facing(const marking *m)
         if (face == 0 || m->faces[node[1]] != face || m->faces[node[2]] != face) continue;
         scree_vector area;
         area_vector(m, t, area);
-        if (-m->state->wall[face - 1].normal[2] * area[2] > FACING_COSINE * scree_length(area))
+        if (-scree_plates(m->state)[face - 1].normal[2] * area[2] > FACING_COSINE * scree_length(area))
             m->hull->loaded[t] = (uint8_t)(SCREE_HULL_ON_WALL + face - 1);
     }
 }
@@ -85,16 +88,26 @@ typedef struct part {
     unsigned walls;
 } part;
 
+/// Twice the area of the triangles queue[first .. last): which part is the largest depends on no order.
+static double area_of(const marking *m, size_t first, size_t last)
+{
+    scree_integer_sum sum = {0};
+    while (scree_integer_sum_next(&sum, 1))
+        for (size_t k = first; k < last; k++) {
+            scree_vector area;
+            area_vector(m, m->queue[k], area);
+            scree_integer_sum_add(&sum, scree_length(area));
+        }
+    return scree_integer_sum_total(&sum);
+}
+
 /// The part that holds the triangle `start`, queued behind those found before; its triangles become bare for the time.
 static part collect_part(const marking *m, uint32_t start, size_t first)
 {
     part p = {.first = first, .last = first + 1};
     m->queue[first] = start;
     m->hull->loaded[start] = SCREE_HULL_BARE;
-    for (size_t k = first; k < p.last; k++) {
-        scree_vector area;
-        area_vector(m, m->queue[k], area);
-        p.area += scree_length(area);
+    for (size_t k = first; k < p.last; k++)
         for (int c = 0; c < 3; c++) {
             uint32_t beside = m->neighbour[m->queue[k]][c];
             int wall = scree_hull_wall(m->hull, beside);
@@ -103,7 +116,7 @@ static part collect_part(const marking *m, uint32_t start, size_t first)
             m->hull->loaded[beside] = SCREE_HULL_BARE;
             m->queue[p.last++] = beside;
         }
-    }
+    p.area = area_of(m, p.first, p.last);
     return p;
 }
 
@@ -137,7 +150,7 @@ scree_status scree_hull_mark_loaded(const scree_model *model, const scree_state 
 {
     bool free_sides = true;
     if (hull->triangle_count == 0) return SCREE_OK;
-    for (int w = SCREE_WALL_LEFT; w < SCREE_WALL_COUNT; w++) free_sides = free_sides && !state->wall[w].active;
+    for (int w = SCREE_WALL_LEFT; w < SCREE_WALL_COUNT; w++) free_sides = free_sides && !scree_plates(state)[w].active;
     memset(hull->loaded, free_sides ? SCREE_HULL_LOADED : SCREE_HULL_BARE, hull->triangle_count);
     if (!free_sides) return SCREE_OK;
     marking m = {.state = state, .hull = hull};
@@ -147,7 +160,7 @@ scree_status scree_hull_mark_loaded(const scree_model *model, const scree_state 
     if (!status) status = scree_hull_neighbours(hull, m.neighbour, error);
     if (!status) {
         for (int w = SCREE_WALL_BOTTOM; w <= SCREE_WALL_TOP; w++)
-            if (state->wall[w].active) find_facing(model, &m, w);
+            if (scree_plates(state)[w].active) find_facing(model, &m, w);
         mark_facing(&m);
         settle_parts(&m);
     }

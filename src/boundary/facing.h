@@ -2,6 +2,7 @@
 #ifndef SCREE_BOUNDARY_FACING_H
 #define SCREE_BOUNDARY_FACING_H
 
+#include "measure/delaunay_boundary.h"
 #include "state/state.h"
 
 /// Fills hull->loaded of a hull of the bodies of `state` from their present positions; `hull` need not be the one of

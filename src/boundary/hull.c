@@ -9,7 +9,10 @@
 /// threads shows. Cost: O(triangles) a step, 10 ns each; a refresh 20 to 50 microseconds a body near the outside
 /// (search/outer_surface.c).
 #include "boundary/hull.h"
+#include "measure/delaunay_boundary.h"
+#include "state/plates.h"
 
+#include "base/integer_sum.h"
 #include "boundary/facing.h"
 #include "boundary/pressed_facet.h"
 #include "measure/facets.h"
@@ -98,8 +101,8 @@ scree_status scree_hull_renew(const scree_model *model, scree_state *state, scre
     if (!status) status = scree_hull_mark_loaded(model, state, &fresh, error);
     if (!status) {
         double enclosed = scree_strain_close(state);
-        hull_destroy(&state->hull);
-        state->hull = fresh;
+        hull_destroy(scree_hull_of(state));
+        *scree_hull_of(state) = fresh;
         scree_strain_redetected(state, enclosed);
     } else {
         hull_destroy(&fresh);
@@ -111,18 +114,18 @@ scree_status scree_hull_renew(const scree_model *model, scree_state *state, scre
 
 static void add_force(scree_state *state, size_t node, const int64_t force[3])
 {
-    scree_sum_row *sum = &state->sum[state->row_of_id[state->hull.id[node]]];
+    scree_sum_row *sum = &state->sum[state->row_of_id[scree_hull_of(state)->id[node]]];
     sum->fx += force[0];
     sum->fy += force[1];
     sum->fz += force[2];
-    for (int k = 0; k < 3; k++) state->hull.force[node][k] += (double)force[k] * state->force_quantum;
+    for (int k = 0; k < 3; k++) scree_hull_of(state)->force[node][k] += (double)force[k] * state->force_quantum;
 }
 
 static void press_triangle(scree_state *state, size_t t, double scale, scree_vector corner[3])
 {
     int64_t force[3];
     scree_triangle_press(scale, corner, force);
-    for (int c = 0; c < 3; c++) add_force(state, state->hull.triangle[t][c], force);
+    for (int c = 0; c < 3; c++) add_force(state, scree_hull_of(state)->triangle[t][c], force);
 }
 
 /// The walls between the edges of a triangle and the plate at height `plate`.
@@ -130,7 +133,7 @@ static void press_walls(scree_state *state, size_t t, double scale, double plate
 {
     for (int c = 0; c < 3; c++) {
         int64_t at_a[3], at_b[3];
-        size_t a = state->hull.triangle[t][c], b = state->hull.triangle[t][(c + 1) % 3];
+        size_t a = scree_hull_of(state)->triangle[t][c], b = scree_hull_of(state)->triangle[t][(c + 1) % 3];
         scree_wall_press(scale, plate, corner[c], corner[(c + 1) % 3], a < b, at_a, at_b);
         add_force(state, a, at_a);
         add_force(state, b, at_b);
@@ -139,7 +142,7 @@ static void press_walls(scree_state *state, size_t t, double scale, double plate
 
 void scree_hull_press(scree_state *state)
 {
-    scree_hull *hull = &state->hull;
+    scree_hull *hull = scree_hull_of(state);
     if (hull->node_count == 0) return;
     memset(hull->force, 0, hull->node_count * sizeof *hull->force);
     if (!(scree_direct_pressure(state) > 0)) return;
@@ -154,7 +157,7 @@ void scree_hull_press(scree_state *state)
             press_triangle(state, t, scale, corner);
             continue;
         }
-        const scree_wall *wall = &state->wall[index];
+        const scree_wall *wall = &scree_plates(state)[index];
         double plate = wall->normal[2] * wall->position - origin[2];
         press_walls(state, t, scale, plate, corner);
     }
@@ -162,7 +165,7 @@ void scree_hull_press(scree_state *state)
 
 double scree_hull_pressure_bound(const scree_model *model, const scree_state *state)
 {
-    const scree_hull *hull = &state->hull;
+    const scree_hull *hull = scree_hull_of(state);
     if (!(scree_direct_pressure(state) > 0) || hull->node_count == 0) return 0;
     double square = 0;
     for (int k = 0; k < 3; k++) {
@@ -182,12 +185,13 @@ double scree_hull_pressure_bound(const scree_model *model, const scree_state *st
 
 double scree_hull_power(const scree_state *state)
 {
-    const scree_hull *hull = &state->hull;
-    double power = 0;
-    for (size_t k = 0; k < hull->node_count; k++) {
-        scree_vector velocity, spin;
-        scree_body_motion(state, state->row_of_id[hull->id[k]], velocity, spin);
-        for (int i = 0; i < 3; i++) power += hull->force[k][i] * velocity[i];
-    }
-    return power;
+    const scree_hull *hull = scree_hull_of(state);
+    scree_integer_sum power = {0};
+    while (scree_integer_sum_next(&power, 1))
+        for (size_t k = 0; k < hull->node_count; k++) {
+            scree_vector velocity, spin;
+            scree_body_motion(state, state->row_of_id[hull->id[k]], velocity, spin);
+            scree_integer_sum_add(&power, scree_dot(hull->force[k], velocity));
+        }
+    return scree_integer_sum_total(&power);
 }

@@ -3,13 +3,14 @@
 #ifndef SCREE_BOUNDARY_HULL_H
 #define SCREE_BOUNDARY_HULL_H
 
+#include "state/pressure.h"
 #include "state/state.h"
 
 /// Finds the hull of the present positions, marks its loads, closes the strain increment of the old one and takes its
 /// place. Errors: memory, SCREE_ERROR_GUARD; the state is unchanged then.
 scree_status scree_hull_renew(const scree_model *model, scree_state *state, scree_error *error) SCREE_MUST_USE;
 
-/// Adds the forces of state->pressure at the present positions to the sums, and keeps them in hull.force.
+/// Adds the forces of scree_pressure_now(state) at the present positions to the sums, and keeps them in hull.force.
 void scree_hull_press(scree_state *state);
 
 /// A bound of the force of the pressure on a body [N], for the quanta.

@@ -24,11 +24,15 @@
 /// energy that the springs store is the negative of their part of it, up to the third order in the step.
 /// Cost: O(bodies of the membrane) a step.
 #include "boundary/membrane.h"
+#include "measure/delaunay_boundary.h"
+#include "state/plates.h"
 
 #include "base/fixed.h"
+#include "base/integer_sum.h"
 #include "boundary/boundary.h"
 #include "boundary/plates.h"
 #include "boundary/sheet.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -37,20 +41,23 @@
 
 static scree_status begin(const scree_model *model, scree_state *state, scree_error *error)
 {
-    if (state->membrane.count > 0) return SCREE_OK;
+    if (scree_membrane_of(state)->count > 0) return SCREE_OK;
     // Without a pressure there is nothing to hand over.
-    double wave = state->pressure > 0 ? scree_sample_wave_time(model, state, state->pressure) : 0;
-    state->membrane.ramp_time = RAMP_WAVES * wave;
-    state->membrane.share = wave > 0 ? 0 : 1;
+    double wave = scree_pressure_now(state) > 0 ? scree_sample_wave_time(model, state, scree_pressure_now(state)) : 0;
+    scree_membrane_of(state)->ramp_time = RAMP_WAVES * wave;
+    scree_delaunay_boundary_of(state)->taken_over = wave > 0 ? 0 : 1;
     return scree_membrane_place(model, state, error);
 }
 
-static scree_status refresh(const scree_model *model, scree_state *state, scree_error *error)
+static scree_status refresh(const scree_context *c, scree_error *error)
 {
-    scree_membrane *membrane = &state->membrane;
-    if (membrane->share < 1) membrane->share = fmin(1, membrane->share + state->step_size / membrane->ramp_time);
+    const scree_model *model = c->model;
+    scree_state *state = c->state;
+    scree_membrane *membrane = scree_membrane_of(state);
+    double *share = &scree_delaunay_boundary_of(state)->taken_over;
+    if (*share < 1) *share = fmin(1, *share + state->step_size / membrane->ramp_time);
     // As often as the Delaunay boundary is found anew.
-    if (state->dimension == 2 || state->hull.updated != state->step) return SCREE_OK;
+    if (state->dimension == 2 || scree_hull_of(state)->updated != state->step) return SCREE_OK;
     double hole = scree_sheet_hole(state);
     if (hole < model->radius_min) return SCREE_OK;
     return scree_error_set(error, SCREE_ERROR_GUARD,
@@ -69,7 +76,7 @@ typedef struct spring {
 /// Spring `s` of body `k`; false: there is none.
 static bool find_spring(const scree_model *model, const scree_state *state, size_t k, int s, spring *found)
 {
-    const scree_membrane *membrane = &state->membrane;
+    const scree_membrane *membrane = scree_membrane_of(state);
     double rest = membrane->rest[k][s];
     if (!(rest > 0)) return false;
     bool solid = state->dimension == 3;
@@ -93,13 +100,14 @@ static int springs_of_body(const scree_state *state)
 
 double scree_membrane_energy(const scree_model *model, const scree_state *state)
 {
-    double energy = 0;
+    scree_integer_sum energy = {0};
     spring found;
-    for (size_t k = 0; k < state->membrane.count; k++)
-        for (int s = 0; s < springs_of_body(state); s++)
-            if (find_spring(model, state, k, s, &found) && found.force > 0)
-                energy += 0.5 * found.force * found.force / found.stiffness;
-    return energy;
+    while (scree_integer_sum_next(&energy, 1))
+        for (size_t k = 0; k < scree_membrane_of(state)->count; k++)
+            for (int s = 0; s < springs_of_body(state); s++)
+                if (find_spring(model, state, k, s, &found) && found.force > 0)
+                    scree_integer_sum_add(&energy, 0.5 * found.force * found.force / found.stiffness);
+    return scree_integer_sum_total(&energy);
 }
 
 static void add_force(scree_state *state, size_t k, const int64_t force[3])
@@ -108,13 +116,13 @@ static void add_force(scree_state *state, size_t k, const int64_t force[3])
     sum->fx += force[0];
     sum->fy += force[1];
     if (state->dimension == 3) sum->fz += force[2];
-    for (int i = 0; i < 3; i++) state->membrane.force[k][i] += (double)force[i] * state->force_quantum;
+    for (int i = 0; i < 3; i++) scree_membrane_of(state)->force[k][i] += (double)force[i] * state->force_quantum;
 }
 
 static void add_springs(const scree_model *model, scree_state *state)
 {
     spring found;
-    for (size_t k = 0; k < state->membrane.count; k++)
+    for (size_t k = 0; k < scree_membrane_of(state)->count; k++)
         for (int s = 0; s < springs_of_body(state); s++) {
             if (!find_spring(model, state, k, s, &found) || !(found.force > 0)) continue;
             int64_t pull[3], back[3];
@@ -140,11 +148,11 @@ static double axial_velocity_error(const scree_state *state, size_t k, const scr
 static void hold_ends(const scree_model *model, scree_state *state, double kick)
 {
     int axis = state->dimension - 1;
-    for (size_t k = 0; k < state->membrane.count; k++) {
+    for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
         int plate = scree_membrane_plate(state, k);
         if (plate < 0) continue;
         size_t row = scree_membrane_row(state, k);
-        double change = -axial_velocity_error(state, k, &state->wall[plate]);
+        double change = -axial_velocity_error(state, k, &scree_plates(state)[plate]);
         double force = state->row[row].mass * (change / kick - model->gravity[axis]);
         int64_t others = axis == 2 ? state->sum[row].fz : state->sum[row].fy, holding[3] = {0};
         holding[axis] = llrint(fmin(fmax(force / state->force_quantum, -0x1p62), 0x1p62)) - others;
@@ -154,31 +162,31 @@ static void hold_ends(const scree_model *model, scree_state *state, double kick)
 
 static double half_work(const scree_state *state, scree_vector *force)
 {
-    double work = 0;
+    scree_integer_sum power = {0};
     scree_vector velocity, spin;
-    for (size_t k = 0; k < state->membrane.count; k++) {
-        scree_body_motion(state, scree_membrane_row(state, k), velocity, spin);
-        double power = force[k][0] * velocity[0] + force[k][1] * velocity[1];
-        if (state->dimension == 3) power += force[k][2] * velocity[2];
-        work += 0.5 * state->step_size * power;
-    }
-    return work;
+    while (scree_integer_sum_next(&power, 1))
+        for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
+            scree_body_motion(state, scree_membrane_row(state, k), velocity, spin);
+            scree_integer_sum_add(&power, scree_dot(force[k], velocity));
+        }
+    return 0.5 * state->step_size * scree_integer_sum_total(&power);
 }
 
 static void book_half_work(scree_state *state)
 {
-    double pressure = half_work(state, state->membrane.press), springs = half_work(state, state->membrane.force);
+    double pressure = half_work(state, scree_membrane_of(state)->press),
+           springs = half_work(state, scree_membrane_of(state)->force);
     state->ledger.pressure += pressure;
     state->ledger.boundary += springs;
     state->ledger.turnover += fabs(pressure) + fabs(springs);
 }
 
-static void forces(const scree_model *model, scree_state *state, scree_work *work)
+static void add_forces(const scree_model *model, scree_state *state, scree_work *work)
 {
-    scree_membrane *membrane = &state->membrane;
+    scree_membrane *membrane = scree_membrane_of(state);
     memset(membrane->press, 0, membrane->count * sizeof *membrane->press);
     memset(membrane->force, 0, membrane->count * sizeof *membrane->force);
-    scree_membrane_press(model, state, state->pressure - scree_direct_pressure(state));
+    scree_membrane_press(model, state, scree_pressure_now(state) - scree_direct_pressure(state));
     add_springs(model, state);
     hold_ends(model, state, work->next_kick);
     book_half_work(state);
@@ -194,7 +202,7 @@ static double loaded_area(const scree_model *model, const scree_state *state, do
     for (int i = 0; i < 3; i++) {
         double low = INFINITY, high = -INFINITY;
         scree_vector place;
-        for (size_t k = 0; k < state->membrane.count; k++) {
+        for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
             scree_body_place(state, scree_membrane_row(state, k), place);
             low = fmin(low, place[i]);
             high = fmax(high, place[i]);
@@ -204,31 +212,50 @@ static double loaded_area(const scree_model *model, const scree_state *state, do
     return fmax(2 * length * length, square / 256);
 }
 
-static double bound(const scree_model *model, const scree_state *state)
+static double bound(const scree_context *c)
 {
+    const scree_model *model = c->model;
+    const scree_state *state = c->state;
     double force = 0, length = 0, holding = 0;
     bool solid = state->dimension == 3;
     spring found;
-    for (size_t k = 0; k < state->membrane.count; k++) {
+    for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
         for (int s = 0; s < springs_of_body(state); s++) {
             if (!find_spring(model, state, k, s, &found)) continue;
             force = fmax(force, found.force);
-            length = fmax(length, state->membrane.rest[k][s] + found.force / found.stiffness);
+            length = fmax(length, scree_membrane_of(state)->rest[k][s] + found.force / found.stiffness);
         }
         int plate = scree_membrane_plate(state, k);
         if (plate < 0) continue;
-        const scree_wall *wall = &state->wall[plate];
+        const scree_wall *wall = &scree_plates(state)[plate];
         double change = fabs(axial_velocity_error(state, k, wall)) + fabs(wall->velocity);
         holding = fmax(holding, state->row[scree_membrane_row(state, k)].mass * change / state->step_size);
     }
-    double pressure = state->pressure * loaded_area(model, state, length + 2 * state->membrane.radius);
+    double pressure =
+        scree_pressure_now(state) * loaded_area(model, state, length + 2 * scree_membrane_of(state)->radius);
     return fmax(holding, (solid ? 6 : 2) * force + pressure);
 }
+
+static scree_status follow(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    book_half_work(c->state);
+    return SCREE_OK;
+}
+
+static scree_status load(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    add_forces(c->model, c->state, c->work);
+    return SCREE_OK;
+}
+
+static const scree_pass passes[] = {
+    {SCREE_PHASE_FOLLOW, follow}, {SCREE_PHASE_SEARCH, refresh}, {SCREE_PHASE_LOADS, load}};
 
 const scree_boundary scree_boundary_membrane = {.name = "membrane",
                                                 .walls = 1U << SCREE_WALL_BOTTOM | 1U << SCREE_WALL_TOP,
                                                 .begin = begin,
-                                                .refresh = refresh,
-                                                .bound = bound,
-                                                .forces = forces,
-                                                .work = book_half_work};
+                                                .passes = passes,
+                                                .pass_count = sizeof passes / sizeof *passes,
+                                                .bound = bound};

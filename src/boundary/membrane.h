@@ -2,7 +2,30 @@
 #ifndef SCREE_BOUNDARY_MEMBRANE_H
 #define SCREE_BOUNDARY_MEMBRANE_H
 
+#include "state/plates.h"
 #include "state/state.h"
+
+/// State of the module `membrane`. Its bodies have the ids from state.grains on; count =
+/// 0: there is no membrane. 2D: two chains of discs, the right side from bottom to top, then the left side from top to
+/// bottom. 3D: a triangulated tube of spheres (boundary/sheet.h), ring by ring from bottom to top.
+typedef struct scree_membrane {
+    scree_vector *rest; ///< count, m, unstressed lengths of the springs that begin at this body; 0: no spring. 2D: one,
+                        ///< to the next body; 3D: to the next of its ring and to two of the ring above
+    scree_vector *press; ///< count, N, force of the pressure at n
+    scree_vector *force; ///< count, N, force of the springs, and of the plates on its ends, at n
+    size_t count, capacity;
+    uint64_t right;   ///< 2D: bodies of the right side
+    uint64_t around;  ///< 3D: bodies of a ring
+    double radius;    ///< m
+    double ramp_time; ///< s, in which the membrane takes the pressure over
+} scree_membrane;
+
+extern const scree_group scree_membrane_bodies;
+
+static inline scree_membrane *scree_membrane_of(const scree_state *state)
+{
+    return state->own[SCREE_SLOT_membrane];
+}
 
 /// Places the membrane around the grains between the bottom and the top plate (membrane_place.c, sheet_place.c): the
 /// bodies are appended to the state, unstressed, against the grains without indentation. Errors: memory;
@@ -32,7 +55,7 @@ static inline size_t scree_membrane_row(const scree_state *state, size_t k)
 /// The plate of an end; -1 for the bodies between.
 static inline int scree_membrane_plate(const scree_state *state, size_t k)
 {
-    const scree_membrane *membrane = &state->membrane;
+    const scree_membrane *membrane = scree_membrane_of(state);
     if (state->dimension == 3)
         return k < membrane->around ? SCREE_WALL_BOTTOM : k + membrane->around >= membrane->count ? SCREE_WALL_TOP : -1;
     if (k == 0 || k + 1 == membrane->count) return SCREE_WALL_BOTTOM;
@@ -42,7 +65,7 @@ static inline int scree_membrane_plate(const scree_state *state, size_t k)
 /// Height of the bottom or top plate [m].
 static inline double scree_plate_height(const scree_state *state, int wall)
 {
-    return state->wall[wall].position * state->wall[wall].normal[state->dimension - 1];
+    return scree_plates(state)[wall].position * scree_plates(state)[wall].normal[state->dimension - 1];
 }
 
 #endif

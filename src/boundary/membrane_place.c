@@ -4,7 +4,10 @@
 /// The unstressed lengths of the chain are the distances that this gives. Cost: O(grains x bodies of the membrane),
 /// once.
 #include "boundary/membrane.h"
+
 #include "boundary/sheet.h"
+#include "state/fields.h"
+#include "state/plates.h"
 
 #include <math.h>
 
@@ -37,9 +40,9 @@ static void fill_gaps(double *x, size_t count)
 /// One side: bodies [first, first + count) of the membrane.
 static void place_side(const scree_model *model, scree_state *state, size_t first, size_t count, double side, double *x)
 {
-    scree_membrane *membrane = &state->membrane;
-    double low = state->wall[SCREE_WALL_BOTTOM].position + membrane->radius;
-    double high = -state->wall[SCREE_WALL_TOP].position - membrane->radius;
+    scree_membrane *membrane = scree_membrane_of(state);
+    double low = scree_plates(state)[SCREE_WALL_BOTTOM].position + membrane->radius;
+    double high = -scree_plates(state)[SCREE_WALL_TOP].position - membrane->radius;
     double begin = side > 0 ? low : high, spacing = (side > 0 ? high - low : low - high) / (double)(count - 1);
     for (size_t k = 0; k < count; k++)
         x[k] = touching_place(state, membrane->radius, begin + spacing * (double)k, side);
@@ -59,12 +62,10 @@ static void place_side(const scree_model *model, scree_state *state, size_t firs
 
 scree_status scree_membrane_make_room(scree_state *state, size_t count, scree_error *error)
 {
-    scree_membrane *membrane = &state->membrane;
-    scree_status status = scree_reallocate(&membrane->rest, 0, count, sizeof *membrane->rest, error);
-    if (!status) status = scree_reallocate(&membrane->press, 0, count, sizeof *membrane->press, error);
-    if (!status) status = scree_reallocate(&membrane->force, 0, count, sizeof *membrane->force, error);
+    scree_membrane *membrane = scree_membrane_of(state);
+    scree_status status = scree_group_reserve(state, &scree_module_membrane, &scree_membrane_bodies, count, error);
     if (!status) status = scree_state_append(state, count, error);
-    if (!status) membrane->count = membrane->capacity = count;
+    if (!status) membrane->count = count;
     return status;
 }
 
@@ -77,8 +78,8 @@ static scree_status place_chains(const scree_model *model, scree_state *state, d
     scree_status status = scree_allocate(&x, side, sizeof *x, error);
     if (!status) status = scree_membrane_make_room(state, 2 * side, error);
     if (!status) {
-        state->membrane.radius = radius;
-        state->membrane.right = side;
+        scree_membrane_of(state)->radius = radius;
+        scree_membrane_of(state)->right = side;
         place_side(model, state, 0, side, 1, x);
         place_side(model, state, side, side, -1, x);
     }

@@ -16,6 +16,7 @@
 #include "base/fixed.h"
 #include "boundary/pressed_facet.h"
 #include "boundary/sheet.h"
+#include "state/plates.h"
 
 #include <math.h>
 #include <string.h>
@@ -26,7 +27,7 @@ static void add_press(scree_state *state, size_t k, const int64_t force[3])
     sum->fx += force[0];
     sum->fy += force[1];
     if (state->dimension == 3) sum->fz += force[2];
-    for (int i = 0; i < 3; i++) state->membrane.press[k][i] += (double)force[i] * state->force_quantum;
+    for (int i = 0; i < 3; i++) scree_membrane_of(state)->press[k][i] += (double)force[i] * state->force_quantum;
 }
 
 // ---- 2D ----------------------------------------------------------------------------------------------------------
@@ -86,7 +87,8 @@ static void centre_of(const scree_state *state, size_t k, const scree_vector ori
 /// Edge j of a rim, in the sense of a cap that closes the tube; what is between it and the plate is loaded.
 static void rim_edge(const scree_state *state, int plate, size_t j, size_t end[2])
 {
-    size_t around = state->membrane.around, first = plate == SCREE_WALL_TOP ? state->membrane.count - around : 0;
+    size_t around = scree_membrane_of(state)->around,
+           first = plate == SCREE_WALL_TOP ? scree_membrane_of(state)->count - around : 0;
     size_t next = first + (j + 1) % around;
     end[0] = plate == SCREE_WALL_TOP ? first + j : next;
     end[1] = plate == SCREE_WALL_TOP ? next : first + j;
@@ -94,7 +96,7 @@ static void rim_edge(const scree_state *state, int plate, size_t j, size_t end[2
 
 static void press_sheet(scree_state *state, double scale)
 {
-    const scree_membrane *membrane = &state->membrane;
+    const scree_membrane *membrane = scree_membrane_of(state);
     scree_vector origin, corner[3];
     int64_t force[2][3];
     scree_body_place(state, scree_membrane_row(state, 0), origin);
@@ -120,7 +122,7 @@ static void press_sheet(scree_state *state, double scale)
 /// Horizontal virial of the triangles: integral of (x n_x + y n_y) dS / 2.
 static double triangles_volume(const scree_state *state, const scree_vector origin)
 {
-    const scree_membrane *membrane = &state->membrane;
+    const scree_membrane *membrane = scree_membrane_of(state);
     double volume = 0;
     scree_vector p[3];
     for (size_t t = 0; t < scree_sheet_triangle_count(membrane->around, membrane->count); t++) {
@@ -140,7 +142,7 @@ static double triangles_volume(const scree_state *state, const scree_vector orig
 static double rim_volume(const scree_state *state, int plate, const scree_vector origin)
 {
     double volume = 0, height = scree_plate_height(state, plate) - origin[2];
-    for (size_t j = 0; j < state->membrane.around; j++) {
+    for (size_t j = 0; j < scree_membrane_of(state)->around; j++) {
         size_t end[2];
         scree_vector a, b;
         rim_edge(state, plate, j, end);
@@ -156,7 +158,7 @@ static double rim_volume(const scree_state *state, int plate, const scree_vector
 
 void scree_membrane_press(const scree_model *model, scree_state *state, double pressure)
 {
-    const scree_membrane *membrane = &state->membrane;
+    const scree_membrane *membrane = scree_membrane_of(state);
     if (state->dimension == 3) {
         press_sheet(state, pressure / 6 / state->force_quantum);
         return;
@@ -168,7 +170,7 @@ void scree_membrane_press(const scree_model *model, scree_state *state, double p
 
 double scree_membrane_volume(const scree_model *model, const scree_state *state)
 {
-    const scree_membrane *membrane = &state->membrane;
+    const scree_membrane *membrane = scree_membrane_of(state);
     if (state->dimension == 2)
         return model->thickness *
                (side_area(state, 0, membrane->right - 1) + side_area(state, membrane->right, membrane->count - 1));

@@ -24,11 +24,14 @@
 /// that applies none of it and raises SCREE_FLAG_FORCE_RANGE, which stops the run.
 /// Cost: O(boundary) a step.
 #include "boundary/minimal.h"
+#include "measure/imposed_gradient.h"
 
 #include "base/fixed.h"
+#include "base/integer_sum.h"
 #include "boundary/boundary.h"
 #include "boundary/drive.h"
 #include "measure/facets.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -41,7 +44,7 @@ typedef struct conditions {
     int count;
 } conditions;
 
-static conditions conditions_get(const scree_drive *drive)
+static conditions conditions_get(const scree_imposed_gradient *drive)
 {
     conditions all = {0};
     for (int c = 0; c < 9; c++) {
@@ -60,26 +63,34 @@ static double double_product(const double a[9], const double b[9])
     return sum;
 }
 
-/// Velocity gradient that the next kick leads to without the penalty, and B / V.
-static void predict(const scree_state *state, scree_vector *area, double volume, double kick, double rate[9],
-                    double mobility[9])
+/// Adds what a node gives to V times the rate of change of the velocity gradient by all forces but the penalty, and to
+/// B, of which the upper half is enough.
+static void add_node(const scree_state *state, size_t node, const scree_vector area, scree_integer_sum change[9],
+                     scree_integer_sum mobility[9])
 {
-    memset(rate, 0, 9 * sizeof *rate);
-    memset(mobility, 0, 9 * sizeof *mobility);
-    for (size_t k = 0; k < state->drive.count; k++) {
-        size_t row = scree_boundary_row(state, k);
-        const scree_sum_row *sum = &state->sum[row];
-        const int64_t force[3] = {sum->fx, sum->fy, state->dimension == 3 ? sum->fz : 0};
-        double inverse_mass = 1 / state->row[row].mass;
-        scree_vector velocity, spin;
-        scree_body_motion(state, row, velocity, spin);
-        for (int i = 0; i < 3; i++) {
-            double next = velocity[i] + kick * scree_fixed_to(force[i], state->force_quantum) * inverse_mass;
-            for (int j = 0; j < 3; j++) {
-                rate[3 * i + j] += next * area[k][j] / volume;
-                mobility[3 * i + j] += area[k][i] * area[k][j] * inverse_mass / volume;
-            }
-        }
+    size_t row = scree_boundary_row(state, node);
+    const scree_sum_row *sum = &state->sum[row];
+    const int64_t force[3] = {sum->fx, sum->fy, state->dimension == 3 ? sum->fz : 0};
+    double inverse_mass = 1 / state->row[row].mass;
+    for (int i = 0; i < state->dimension; i++) {
+        double acceleration = scree_fixed_to(force[i], state->force_quantum) * inverse_mass;
+        for (int j = 0; j < state->dimension; j++) scree_integer_sum_add(&change[3 * i + j], acceleration * area[j]);
+        for (int j = i; j < state->dimension; j++)
+            scree_integer_sum_add(&mobility[3 * i + j], area[i] * area[j] * inverse_mass);
+    }
+}
+
+/// Velocity gradient that the next kick leads to without the penalty, from that of now, and B / V.
+static void predict(const scree_state *state, scree_vector *area, double volume, double kick, const double now[9],
+                    double rate[9], double mobility[9])
+{
+    scree_integer_sum sum[18] = {0}, *change = sum, *products = sum + 9;
+    while (scree_integer_sum_next(sum, 18))
+        for (size_t k = 0; k < scree_imposed(state)->count; k++) add_node(state, k, area[k], change, products);
+    for (int c = 0; c < 9; c++) {
+        int upper = c / 3 <= c % 3 ? c : 3 * (c % 3) + c / 3;
+        rate[c] = now[c] + kick * scree_integer_sum_total(&change[c]) / volume;
+        mobility[c] = scree_integer_sum_total(&products[upper]) / volume;
     }
 }
 
@@ -102,8 +113,8 @@ static void solve(double matrix[9][9], double *right, int count)
 }
 
 /// The stress Lambda of this step.
-static void find_stress(const scree_drive *drive, const double rate[9], const double mobility[9], double step,
-                        double stress[9])
+static void find_stress(const scree_imposed_gradient *drive, const double rate[9], const double mobility[9],
+                        double step, double stress[9])
 {
     conditions all = conditions_get(drive);
     double matrix[9][9], lambda[9];
@@ -131,7 +142,7 @@ static bool stress_fits(const scree_model *model, const scree_state *state, cons
     scree_vector origin, place;
     for (int i = 0; i < 9; i++) largest += fabs(stress[i]);
     scree_body_place(state, scree_boundary_row(state, 0), origin);
-    for (size_t k = 1; k < state->drive.count; k++) {
+    for (size_t k = 1; k < scree_imposed(state)->count; k++) {
         scree_body_place(state, scree_boundary_row(state, k), place);
         for (int i = 0; i < state->dimension; i++) reach = fmax(reach, fabs(place[i] - origin[i]));
     }
@@ -139,16 +150,16 @@ static bool stress_fits(const scree_model *model, const scree_state *state, cons
     return 2 * largest * scale * reach < ldexp(state->force_quantum, 60);
 }
 
-static void forces(const scree_model *model, scree_state *state, scree_work *work)
+static void add_forces(const scree_model *model, scree_state *state, scree_work *work)
 {
-    scree_drive *drive = &state->drive;
+    scree_imposed_gradient *drive = scree_imposed(state);
     if (drive->count == 0) return;
-    double actual[9], predicted[9], mobility[9], volume = scree_boundary_volume(model, state);
+    double actual[9], predicted[9], mobility[9];
     // The array of the forces holds the area vectors until they are known.
     scree_boundary_areas(model, state, drive->force);
-    scree_drive_measure(state, drive->force, volume, actual);
+    double volume = scree_drive_measure(state, drive->force, actual);
     scree_drive_record(state, actual);
-    predict(state, drive->force, volume, work->next_kick, predicted, mobility);
+    predict(state, drive->force, volume, work->next_kick, actual, predicted, mobility);
     find_stress(drive, predicted, mobility, work->next_kick, drive->stress);
     memset(drive->force, 0, drive->count * sizeof *drive->force);
     if (!stress_fits(model, state, drive->stress)) {
@@ -160,15 +171,17 @@ static void forces(const scree_model *model, scree_state *state, scree_work *wor
     scree_drive_work(state);
 }
 
-static double bound(const scree_model *model, const scree_state *state)
+static double bound(const scree_context *c)
 {
-    double stress = state->pressure, largest = 0;
-    for (int i = 0; i < 9; i++) stress = fmax(stress, fabs(state->drive.stress[i]));
+    const scree_model *model = c->model;
+    const scree_state *state = c->state;
+    double stress = scree_pressure_now(state), largest = 0;
+    for (int i = 0; i < 9; i++) stress = fmax(stress, fabs(scree_imposed(state)->stress[i]));
     for (size_t f = 0; f < scree_facet_count(state); f++) {
         scree_facet facet = scree_facet_get(state, f);
-        for (int c = 1; c < facet.corners; c++) {
+        for (int k = 1; k < facet.corners; k++) {
             scree_vector edge;
-            for (int i = 0; i < 3; i++) edge[i] = facet.place[c][i] - facet.place[0][i];
+            for (int i = 0; i < 3; i++) edge[i] = facet.place[k][i] - facet.place[0][i];
             largest = fmax(largest, scree_length(edge));
         }
     }
@@ -183,10 +196,19 @@ double scree_minimal_viscosity(double pressure, const double target[9])
     return pressure > 0 && rate > 0 ? pressure / (RELATIVE_ERROR * rate) : INFINITY;
 }
 
+static scree_status load(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    add_forces(c->model, c->state, c->work);
+    return SCREE_OK;
+}
+
+static const scree_pass passes[] = {
+    {SCREE_PHASE_FOLLOW, scree_imposed_work}, {SCREE_PHASE_SEARCH, scree_imposed_refresh}, {SCREE_PHASE_LOADS, load}};
+
 const scree_boundary scree_boundary_minimal = {.name = "minimal",
                                                .walls = 0,
                                                .begin = scree_drive_begin,
-                                               .refresh = scree_drive_refresh,
-                                               .bound = bound,
-                                               .forces = forces,
-                                               .work = scree_drive_work};
+                                               .passes = passes,
+                                               .pass_count = sizeof passes / sizeof *passes,
+                                               .bound = bound};

@@ -46,6 +46,7 @@
 #include "boundary/periodic.h"
 
 #include "base/fixed.h"
+#include "base/integer_sum.h"
 #include "base/matrix.h"
 #include "base/wide_sum.h"
 #include "search/neighbours.h"
@@ -69,9 +70,10 @@ static bool deforms(const scree_periodic_cell *cell)
 
 static double density(const scree_model *model, const scree_state *state)
 {
-    double mass = 0;
-    for (size_t id = 0; id < state->count; id++) mass += state->row[state->row_of_id[id]].mass;
-    return mass / (scree_periodic_extent(state) * model->thickness);
+    scree_integer_sum mass = {0};
+    while (scree_integer_sum_next(&mass, 1))
+        for (size_t row = 0; row < state->count; row++) scree_integer_sum_add(&mass, state->row[row].mass);
+    return scree_integer_sum_total(&mass) / (scree_periodic_extent(state) * model->thickness);
 }
 
 /// Speed of longitudinal waves [m/s], see the head of plates.c.
@@ -85,7 +87,7 @@ static double wave_speed(const scree_model *model, const scree_state *state, dou
 static void widths(const scree_state *state, double width[3])
 {
     double inverse[9];
-    scree_matrix_invert(state->periodic.lattice, inverse);
+    scree_matrix_invert(scree_cell(state)->lattice, inverse);
     scree_periodic_widths(inverse, width);
 }
 
@@ -131,7 +133,7 @@ static void hold_stress(const scree_periodic_drive *drive, double dt, double wan
 void scree_periodic_control(const scree_model *model, scree_state *state, const scree_periodic_drive *drive,
                             double rise)
 {
-    scree_periodic_cell *cell = &state->periodic;
+    scree_periodic_cell *cell = scree_cell(state);
     double stress[9];
     scree_periodic_stress(model, state, stress);
     for (int k = 0; k < 9; k++) {
@@ -155,8 +157,8 @@ static step_maps maps_of(const scree_state *state)
 {
     step_maps maps;
     double plus[9], minus[9], half = 0.5 * state->step_size;
-    scree_matrix_unit_plus(half, state->periodic.gradient, plus);
-    scree_matrix_unit_plus(-half, state->periodic.gradient, minus);
+    scree_matrix_unit_plus(half, scree_cell(state)->gradient, plus);
+    scree_matrix_unit_plus(-half, scree_cell(state)->gradient, minus);
     scree_matrix_invert(plus, maps.slow);
     scree_matrix_invert(minus, maps.forward);
     scree_matrix_multiply(maps.forward, plus, maps.map);
@@ -186,7 +188,7 @@ static void set_velocity(scree_state *state, size_t row, const scree_vector velo
 /// From a row after `first`, at x(n) + dt c- with the velocity c-, to x(n+1) and v; `relative` becomes c+.
 static void move_body(scree_state *state, const step_maps *maps, size_t row, scree_vector relative)
 {
-    const double dt = state->step_size, *gradient = state->periodic.gradient;
+    const double dt = state->step_size, *gradient = scree_cell(state)->gradient;
     scree_vector before, place, middle, affine, sum, velocity;
     velocity_of(state, row, before);
     scree_body_place(state, row, place);
@@ -231,7 +233,7 @@ static void run_shares(scree_work *work, scree_team_task *share, bodies_task *ta
 
 static void move_lattice(scree_state *state, const step_maps *maps)
 {
-    scree_periodic_cell *cell = &state->periodic;
+    scree_periodic_cell *cell = scree_cell(state);
     double before[9];
     memcpy(before, cell->lattice, sizeof before);
     scree_matrix_multiply(maps->map, before, cell->lattice);
@@ -282,13 +284,13 @@ static void measure_motion(const scree_model *model, scree_state *state, scree_w
     const double bound = mass_bound(model) * state->largest_speed * state->largest_speed;
     bodies_task task = {.state = state, .maps = maps, .quantum = scree_fixed_quantum(4 * bound)};
     run_shares(work, motion_share, &task);
-    scree_wide_total(task.sum, scree_work_shares(work), task.quantum, state->periodic.motion);
+    scree_wide_total(task.sum, scree_work_shares(work), task.quantum, scree_cell(state)->motion);
 }
 
 /// Work of the cell on the bodies for a part of its stress times volume, sum over dt.
 static void book_work(scree_state *state, const double tensor[9], double factor)
 {
-    double work = -factor * state->step_size * scree_matrix_contract(tensor, state->periodic.gradient);
+    double work = -factor * state->step_size * scree_matrix_contract(tensor, scree_cell(state)->gradient);
     state->ledger.periodic += work;
     state->ledger.turnover += fabs(work);
 }
@@ -322,7 +324,7 @@ static bool straighten_all(scree_state *state)
     bool changed = false;
     for (int k = 0; k < state->dimension; k++)
         for (int other = 0; other < state->dimension; other++)
-            if (k != other && straighten(&state->periodic, k, other)) changed = true;
+            if (k != other && straighten(scree_cell(state), k, other)) changed = true;
     return changed;
 }
 
@@ -339,7 +341,7 @@ static void outside_share(void *argument, int index, int count)
         scree_matrix_apply(task->inverse, place, f);
         for (int k = 0; k < state->dimension; k++) {
             double outside = fmax(-f[k], f[k] - 1) * width[k];
-            if (scree_periodic_repeats(&state->periodic, k) && outside > largest) largest = outside;
+            if (scree_periodic_repeats(scree_cell(state), k) && outside > largest) largest = outside;
         }
     }
     task->largest[index] = largest;
@@ -355,44 +357,65 @@ static double farthest_outside(scree_state *state, scree_work *work, const doubl
     return largest;
 }
 
-/// Puts one body back by whole lattice vectors, with its reference position.
-static void put_back(const scree_model *model, scree_state *state, const double inverse[9], const double velocity[9],
-                     size_t row)
+/// Whole lattice vectors by which a body must be put back; false: by none.
+static bool find_shift(const scree_state *state, const double inverse[9], size_t row, scree_vector shift)
 {
-    scree_vector place, speed, f, shift = {0}, by, reference, faster;
+    scree_vector place, f;
     scree_body_place(state, row, place);
     scree_matrix_apply(inverse, place, f);
     bool moved = false;
-    for (int k = 0; k < state->dimension; k++) {
-        if (scree_periodic_repeats(&state->periodic, k)) shift[k] = -floor(f[k]);
+    for (int k = 0; k < 3; k++) {
+        shift[k] = k < state->dimension && scree_periodic_repeats(scree_cell(state), k) ? -floor(f[k]) : 0;
         moved = moved || shift[k] != 0;
     }
-    if (!moved || !isfinite(f[0] + f[1] + f[2])) return;
+    return moved && isfinite(f[0] + f[1] + f[2]);
+}
+
+/// Energy of gravity that all bodies together change by when they are put back: no work.
+static double change_of_gravity(const scree_model *model, const scree_state *state, const double inverse[9])
+{
+    scree_integer_sum sum = {0};
+    while (scree_integer_sum_next(&sum, 1))
+        for (size_t row = 0; row < state->count; row++) {
+            scree_vector shift, by;
+            if (!find_shift(state, inverse, row, shift)) continue;
+            scree_matrix_apply(scree_cell(state)->lattice, shift, by);
+            scree_integer_sum_add(&sum, state->row[row].mass * scree_dot(model->gravity, by));
+        }
+    return scree_integer_sum_total(&sum);
+}
+
+/// Puts one body back by whole lattice vectors, with its reference position.
+static void put_back(scree_state *state, const double inverse[9], const double velocity[9], size_t row)
+{
+    scree_vector place, speed, shift, by, reference, faster;
+    if (!find_shift(state, inverse, row, shift)) return;
+    scree_body_place(state, row, place);
     velocity_of(state, row, speed);
-    scree_matrix_apply(state->periodic.lattice, shift, by);
-    scree_matrix_apply(state->periodic.reference, shift, reference);
+    scree_matrix_apply(scree_cell(state)->lattice, shift, by);
+    scree_matrix_apply(scree_cell(state)->reference, shift, reference);
     scree_matrix_apply(velocity, shift, faster);
     for (int k = 0; k < 3; k++) {
         place[k] += by[k];
         speed[k] += faster[k];
         state->reference[row][k] += reference[k];
-        state->ledger.gravity += state->row[row].mass * model->gravity[k] * by[k];
     }
     set_place(state, row, place);
     set_velocity(state, row, speed);
 }
 
 /// Looked at in every CHECKED-th step, since bodies go much less than a radius between; the number of force evaluations
-/// is part of the state. In the order of ids, so that the ledger does not depend on that of rows.
+/// is part of the state.
 static void put_all_back(const scree_model *model, scree_state *state, scree_work *work)
 {
     double inverse[9], velocity[9];
     if (state->evaluations % CHECKED != 0) return;
-    bool straightened = deforms(&state->periodic) && straighten_all(state);
-    scree_matrix_invert(state->periodic.lattice, inverse);
+    bool straightened = deforms(scree_cell(state)) && straighten_all(state);
+    scree_matrix_invert(scree_cell(state)->lattice, inverse);
     if (!straightened && farthest_outside(state, work, inverse) <= 2 * model->mean_radius) return;
     scree_periodic_lattice_velocity(state, velocity);
-    for (size_t id = 0; id < state->count; id++) put_back(model, state, inverse, velocity, state->row_of_id[id]);
+    state->ledger.gravity += change_of_gravity(model, state, inverse);
+    for (size_t row = 0; row < state->count; row++) put_back(state, inverse, velocity, row);
     scree_neighbours_invalidate(work);
 }
 
@@ -404,20 +427,20 @@ static void allow_for_gradient(const scree_model *model, scree_state *state, scr
     double change[9];
     for (int k = 0; k < 9; k++) change[k] = maps->map[k] - (k % 4 == 0);
     work->budget -= 1.25 * scree_matrix_norm(change) * (model->radius_max + 1.5 * work->skin);
-    state->largest_speed += 2 * model->radius_max * scree_matrix_norm(state->periodic.gradient);
+    state->largest_speed += 2 * model->radius_max * scree_matrix_norm(scree_cell(state)->gradient);
 }
 
 scree_status scree_periodic_move(const scree_model *model, scree_state *state, scree_work *work, scree_error *error)
 {
-    if (!state->periodic.directions) return SCREE_OK;
+    if (!scree_cell(state)->directions) return SCREE_OK;
     if (scree_periodic_is_whole(state)) {
         step_maps maps = maps_of(state);
         measure_motion(model, state, work, &maps);
-        if (deforms(&state->periodic)) {
+        if (deforms(scree_cell(state))) {
             scree_status status = reserve_relative(work, state->count, error);
             if (status) return status;
-            book_work(state, state->periodic.motion, 1);
-            book_work(state, state->periodic.virial, 0.5);
+            book_work(state, scree_cell(state)->motion, 1);
+            book_work(state, scree_cell(state)->virial, 0.5);
             move_lattice(state, &maps);
             run_shares(work, move_share, &(bodies_task){.state = state, .work = work, .maps = &maps});
             allow_for_gradient(model, state, work, &maps);
@@ -437,7 +460,7 @@ static void settle_share(void *argument, int index, int count)
 
 void scree_periodic_settle(scree_state *state, scree_work *work)
 {
-    if (!scree_periodic_is_whole(state) || !deforms(&state->periodic)) return;
+    if (!scree_periodic_is_whole(state) || !deforms(scree_cell(state))) return;
     run_shares(work, settle_share, &(bodies_task){.state = state, .work = work});
-    book_work(state, state->periodic.virial, 0.5);
+    book_work(state, scree_cell(state)->virial, 0.5);
 }

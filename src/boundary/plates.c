@@ -11,7 +11,10 @@
 /// half of it; the gain of the case scales the estimate.) Limits: quasistatic servo; the stress is the one of the last
 /// force evaluation. Cost: O(boundary) a step.
 #include "boundary/plates.h"
+#include "measure/delaunay_boundary.h"
+#include "state/plates.h"
 
+#include "base/integer_sum.h"
 #include "measure/hull.h"
 #include "measure/measure.h"
 #include "measure/outline.h"
@@ -19,24 +22,18 @@
 
 #include <math.h>
 
-void scree_plates_move(scree_state *state)
-{
-    for (int w = 0; w < SCREE_WALL_COUNT; w++)
-        if (state->wall[w].active) state->wall[w].position += state->wall[w].velocity * state->step_size;
-}
-
 /// Distance between a pair of opposite walls.
 static double distance(const scree_state *state, int one, int other)
 {
     // Opposite normals: positions along them add up to minus the distance.
-    return -(state->wall[one].position + state->wall[other].position);
+    return -(scree_plates(state)[one].position + scree_plates(state)[other].position);
 }
 
 /// Area of the bottom or top plate that the boundary of the sample covers; 0 without a boundary.
 static double covered_area(const scree_model *model, const scree_state *state, int index)
 {
-    if (state->dimension == 3) return state->hull.node_count > 0 ? scree_hull_plate_area(state, index) : 0;
-    return state->loop.count > 0 ? model->thickness * scree_outline_plate_length(state, index) : 0;
+    if (state->dimension == 3) return scree_hull_of(state)->node_count > 0 ? scree_hull_plate_area(state, index) : 0;
+    return scree_loop_of(state)->count > 0 ? model->thickness * scree_outline_plate_length(state, index) : 0;
 }
 
 double scree_plate_area(const scree_model *model, const scree_state *state, int index)
@@ -46,22 +43,25 @@ double scree_plate_area(const scree_model *model, const scree_state *state, int 
     double depth = state->dimension == 3 ? distance(state, SCREE_WALL_FRONT, SCREE_WALL_BACK) : model->thickness;
     if (index == SCREE_WALL_LEFT || index == SCREE_WALL_RIGHT) return height * depth;
     if (index == SCREE_WALL_FRONT || index == SCREE_WALL_BACK) return height * width;
-    if (state->periodic.directions) return scree_sample_volume(model, state) / height;
-    if (state->wall[SCREE_WALL_LEFT].active && state->wall[SCREE_WALL_RIGHT].active) return width * depth;
+    if (scree_cell(state)->directions) return scree_sample_volume(model, state) / height;
+    if (scree_plates(state)[SCREE_WALL_LEFT].active && scree_plates(state)[SCREE_WALL_RIGHT].active)
+        return width * depth;
     double area = covered_area(model, state, index);
     return area > 0 ? area : scree_sample_volume(model, state) / height;
 }
 
 double scree_plate_stress(const scree_model *model, const scree_state *state, int index)
 {
-    return state->wall[index].force / scree_plate_area(model, state, index);
+    return scree_plates(state)[index].force / scree_plate_area(model, state, index);
 }
 
 static double sample_mass(const scree_state *state)
 {
-    double mass = 0;
-    for (size_t id = 0; id < state->grains; id++) mass += state->row[state->row_of_id[id]].mass;
-    return mass;
+    scree_integer_sum mass = {0};
+    while (scree_integer_sum_next(&mass, 1))
+        for (size_t row = 0; row < state->count; row++)
+            if (scree_body_is_grain(state, row)) scree_integer_sum_add(&mass, state->row[row].mass);
+    return scree_integer_sum_total(&mass);
 }
 
 double scree_confined_modulus(const scree_model *model, double pressure)
@@ -91,7 +91,7 @@ double scree_sample_wave_time(const scree_model *model, const scree_state *state
 
 void scree_plate_servo(const scree_model *model, scree_state *state, int index, scree_servo servo, double pressure)
 {
-    scree_wall *wall = &state->wall[index];
+    scree_wall *wall = &scree_plates(state)[index];
     double target = pressure * scree_plate_area(model, state, index), kick = state->kick_size;
     double velocity =
         (wall->velocity + kick / servo.mass * (target - wall->force)) / (1 + kick / servo.mass * servo.impedance);

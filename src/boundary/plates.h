@@ -4,9 +4,6 @@
 
 #include "state/work.h"
 
-/// Moves every active wall by velocity * dt.
-void scree_plates_move(scree_state *state);
-
 /// A plate under servo: its dashpot and its mass, see plates.c.
 typedef struct scree_servo {
     double impedance; ///< N s/m

@@ -16,8 +16,11 @@
 /// threads shows. Cost: O(length of the loop) a step; a refresh 5 ms for 4000 bodies, 0.5 s for a million
 /// (search/outer_loop.c).
 #include "boundary/pressure.h"
+#include "measure/delaunay_boundary.h"
+#include "state/periodic.h"
 
 #include "base/fixed.h"
+#include "base/integer_sum.h"
 #include "boundary/corners.h"
 #include "boundary/facing.h"
 #include "boundary/hull.h"
@@ -25,23 +28,11 @@
 #include "measure/measure.h"
 #include "measure/outline.h"
 #include "search/delaunay.h"
+#include "state/fields.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
-
-static scree_status reserve_loop(scree_loop *loop, size_t count, scree_error *error)
-{
-    if (count <= loop->capacity) return SCREE_OK;
-    size_t capacity = count + count / 2 + 16;
-    scree_status status = scree_reallocate(&loop->id, loop->capacity, capacity, sizeof *loop->id, error);
-    if (!status) status = scree_reallocate(&loop->loaded, loop->capacity, capacity, sizeof *loop->loaded, error);
-    double **const arrays[] = {&loop->x, &loop->y, &loop->fx, &loop->fy};
-    for (size_t k = 0; k < sizeof arrays / sizeof *arrays && !status; k++)
-        status = scree_reallocate(arrays[k], loop->capacity, capacity, sizeof **arrays[k], error);
-    // After a failure some arrays are larger than the capacity says, and the next call copies no more than it says.
-    if (!status) loop->capacity = capacity;
-    return status;
-}
 
 /// The loop of the present positions, as ids.
 static scree_status find_loop(const scree_model *model, const scree_state *state, uint32_t **ids, size_t *count,
@@ -71,7 +62,7 @@ static scree_status find_loop(const scree_model *model, const scree_state *state
 /// Puts the new loop in the place of the old one, whose strain increment is closed first.
 static void replace_loop(const scree_model *model, scree_state *state, const uint32_t *ids, size_t count)
 {
-    scree_loop *loop = &state->loop;
+    scree_loop *loop = scree_loop_of(state);
     double enclosed = scree_strain_close(state);
     loop->count = count;
     loop->updated = state->step;
@@ -89,8 +80,8 @@ static void replace_loop(const scree_model *model, scree_state *state, const uin
 
 scree_status scree_boundary_mark_loaded(const scree_model *model, scree_state *state, scree_error *error)
 {
-    if (state->dimension == 3) return scree_hull_mark_loaded(model, state, &state->hull, error);
-    if (state->loop.count > 0) scree_loop_mark_loaded(model, state);
+    if (state->dimension == 3) return scree_hull_mark_loaded(model, state, scree_hull_of(state), error);
+    if (scree_loop_of(state)->count > 0) scree_loop_mark_loaded(model, state);
     return SCREE_OK;
 }
 
@@ -98,19 +89,19 @@ scree_status scree_boundary_mark_loaded(const scree_model *model, scree_state *s
 static bool is_fresh(const scree_model *model, const scree_state *state)
 {
     bool solid = state->dimension == 3;
-    size_t count = solid ? state->hull.node_count : state->loop.count;
-    uint64_t updated = solid ? state->hull.updated : state->loop.updated;
+    size_t count = solid ? scree_hull_of(state)->node_count : scree_loop_of(state)->count;
+    uint64_t updated = solid ? scree_hull_of(state)->updated : scree_loop_of(state)->updated;
     return count > 0 && state->step - updated < (uint64_t)model->config->boundary.every * model->largest_step;
 }
 
 scree_status scree_boundary_refresh(const scree_model *model, scree_state *state, scree_error *error)
 {
-    if (state->periodic.directions || is_fresh(model, state)) return SCREE_OK;
+    if (scree_cell(state)->directions || is_fresh(model, state)) return SCREE_OK;
     if (state->dimension == 3) return scree_hull_renew(model, state, error);
     uint32_t *ids = NULL;
     size_t count = 0;
     scree_status status = find_loop(model, state, &ids, &count, error);
-    if (!status) status = reserve_loop(&state->loop, count, error);
+    if (!status) status = scree_group_reserve(state, &scree_module_delaunay_boundary, &scree_loop_group, count, error);
     if (!status) replace_loop(model, state, ids, count);
     scree_release(&ids);
     return status;
@@ -125,11 +116,11 @@ typedef struct pressure_forces {
 static void add_force(pressure_forces *forces, size_t k, int64_t fx, int64_t fy)
 {
     scree_state *state = forces->state;
-    scree_sum_row *sum = &state->sum[state->row_of_id[state->loop.id[k]]];
+    scree_sum_row *sum = &state->sum[state->row_of_id[scree_loop_of(state)->id[k]]];
     sum->fx += fx;
     sum->fy += fy;
-    state->loop.fx[k] += (double)fx * state->force_quantum;
-    state->loop.fy[k] += (double)fy * state->force_quantum;
+    scree_loop_of(state)->fx[k] += (double)fx * state->force_quantum;
+    scree_loop_of(state)->fy[k] += (double)fy * state->force_quantum;
 }
 
 static void press_segment(void *user, const scree_outline_segment *segment)
@@ -144,22 +135,30 @@ static void press_segment(void *user, const scree_outline_segment *segment)
     add_force(forces, segment->second, -half[1], half[0]);
 }
 
+static double loop_power(const scree_state *state)
+{
+    const scree_loop *loop = scree_loop_of(state);
+    scree_integer_sum power = {0};
+    while (scree_integer_sum_next(&power, 1))
+        for (size_t k = 0; k < loop->count; k++) {
+            const scree_row *row = &state->row[state->row_of_id[loop->id[k]]];
+            scree_integer_sum_add(&power, loop->fx[k] * row->vx + loop->fy[k] * row->vy);
+        }
+    return scree_integer_sum_total(&power);
+}
+
 /// 1/2 F . v dt with the velocities that the rows hold now.
 static void book_half_work(scree_state *state)
 {
-    const scree_loop *loop = &state->loop;
-    double work = state->dimension == 3 ? 0.5 * state->step_size * scree_hull_power(state) : 0;
-    for (size_t k = 0; k < loop->count; k++) {
-        const scree_row *row = &state->row[state->row_of_id[loop->id[k]]];
-        work += 0.5 * state->step_size * (loop->fx[k] * row->vx + loop->fy[k] * row->vy);
-    }
+    double power = state->dimension == 3 ? scree_hull_power(state) : loop_power(state);
+    double work = 0.5 * state->step_size * power;
     state->ledger.pressure += work;
     state->ledger.turnover += fabs(work);
 }
 
 void scree_pressure_forces(const scree_model *model, scree_state *state)
 {
-    scree_loop *loop = &state->loop;
+    scree_loop *loop = scree_loop_of(state);
     if (state->dimension == 3) {
         scree_hull_press(state);
         book_half_work(state);
@@ -192,8 +191,45 @@ double scree_pressure_bound(const scree_model *model, const scree_state *state)
 {
     double longest = 0;
     if (state->dimension == 3) return scree_hull_pressure_bound(model, state);
-    if (!(state->pressure > 0)) return 0;
+    if (!(scree_pressure_now(state) > 0)) return 0;
     scree_outline_walk(state, longest_segment, &longest);
     // At most two segments meet in a body.
-    return 2 * state->pressure * model->thickness * sqrt(longest);
+    return 2 * scree_pressure_now(state) * model->thickness * sqrt(longest);
 }
+
+static scree_status follow(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    scree_pressure_work(c->state);
+    return SCREE_OK;
+}
+
+static scree_status load(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    scree_pressure_forces(c->model, c->state);
+    return SCREE_OK;
+}
+
+static double bound(const scree_context *c)
+{
+    return scree_pressure_bound(c->model, c->state);
+}
+
+static const scree_field fields[] = {
+    SCREE_FIELD_ONE(pressure, scree_pressure, now, "scalars/pressure", SCREE_FIELD_DOUBLE, 1, "Pa",
+                    "confining pressure applied now"),
+};
+
+static const scree_pass passes[] = {{SCREE_PHASE_FOLLOW, follow}, {SCREE_PHASE_LOADS, load}};
+
+const scree_module scree_module_pressure = {
+    .name = "pressure",
+    .meaning = "the confining pressure, on the Delaunay boundary where nothing else carries it",
+    .state_size = sizeof(scree_pressure),
+    .fields = fields,
+    .field_count = 1,
+    .passes = passes,
+    .pass_count = sizeof passes / sizeof *passes,
+    .bound = bound,
+};

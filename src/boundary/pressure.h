@@ -5,6 +5,7 @@
 #ifndef SCREE_BOUNDARY_PRESSURE_H
 #define SCREE_BOUNDARY_PRESSURE_H
 
+#include "state/pressure.h"
 #include "state/state.h"
 
 /// Re-finds the boundary loop if it is due (every config->boundary.every steps, or none yet): triangulates, cleans,
@@ -22,7 +23,7 @@ scree_status scree_boundary_mark_loaded(const scree_model *model, scree_state *s
 /// Adds the pressure forces at the present positions to state->sum, keeps them in loop.fx, loop.fy, and books the half
 /// 1/2 F(n) . v(n-1/2) dt of their work. Call after scree_contact_forces and scree_boundary_refresh, before `second`,
 /// with the quantum of this step set: rows then hold v(n-1/2) in both schemes. Nothing when there is no loop; zeros the
-/// kept forces when state->pressure is zero.
+/// kept forces when scree_pressure_now(state) is zero.
 void scree_pressure_forces(const scree_model *model, scree_state *state);
 
 /// Largest force that the pressure may put on one body [N], for the quanta. Call after scree_boundary_refresh.

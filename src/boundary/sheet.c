@@ -31,7 +31,7 @@ static double square_of_edge(const scree_state *state, size_t one, size_t other)
 
 double scree_sheet_hole(const scree_state *state)
 {
-    const scree_membrane *membrane = &state->membrane;
+    const scree_membrane *membrane = scree_membrane_of(state);
     double hole = 0, radius = membrane->radius;
     for (size_t t = 0; t < scree_sheet_triangle_count(membrane->around, membrane->count); t++) {
         size_t corner[3];

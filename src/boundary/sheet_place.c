@@ -12,6 +12,7 @@
 #include "boundary/sheet.h"
 
 #include "boundary/membrane.h"
+#include "state/plates.h"
 
 #include <math.h>
 
@@ -88,7 +89,7 @@ static void level_out(double *depth, size_t around, size_t count, double most)
 
 static void set_rest_lengths(scree_state *state)
 {
-    scree_membrane *membrane = &state->membrane;
+    scree_membrane *membrane = scree_membrane_of(state);
     for (size_t k = 0; k < membrane->count; k++)
         for (int s = 0; s < SCREE_SHEET_SPRINGS; s++) {
             size_t other = scree_sheet_neighbour(membrane->around, membrane->count, k, s);
@@ -104,7 +105,7 @@ static void set_rest_lengths(scree_state *state)
 static void place_bodies(const scree_model *model, scree_state *state, double (*corner)[2], double length,
                          double *depth)
 {
-    scree_membrane *membrane = &state->membrane;
+    scree_membrane *membrane = scree_membrane_of(state);
     size_t around = membrane->around, count = membrane->count, rings = count / around;
     double radius = membrane->radius, low = scree_plate_height(state, SCREE_WALL_BOTTOM) + radius;
     double rise = (scree_plate_height(state, SCREE_WALL_TOP) - radius - low) / (double)(rings - 1);
@@ -141,8 +142,8 @@ scree_status scree_sheet_place(const scree_model *model, scree_state *state, scr
     scree_status status = scree_allocate(&depth, around * rings, sizeof *depth, error);
     if (!status) status = scree_membrane_make_room(state, around * rings, error);
     if (!status) {
-        state->membrane.radius = radius;
-        state->membrane.around = around;
+        scree_membrane_of(state)->radius = radius;
+        scree_membrane_of(state)->around = around;
         place_bodies(model, state, corner, length, depth);
         set_rest_lengths(state);
         double hole = scree_sheet_hole(state);

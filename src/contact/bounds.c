@@ -9,6 +9,8 @@
 ///
 /// Cost: materials (materials + walls), a few powers.
 #include "contact/bounds.h"
+#include "state/case_walls.h"
+#include "state/plates.h"
 
 #include "base/fixed.h"
 #include "contact/contact.h"
@@ -42,9 +44,9 @@ static double largest_mass(const scree_model *model)
 
 static double largest_speed(const scree_state *state)
 {
-    double speed = fmax(state->largest_speed, state->surface_speed);
+    double speed = fmax(state->largest_speed, scree_case_walls(state)->speed);
     for (int k = 0; k < SCREE_WALL_COUNT; k++) {
-        const scree_wall *wall = &state->wall[k];
+        const scree_wall *wall = &scree_plates(state)[k];
         if (wall->active) speed = fmax(speed, fabs(wall->velocity) + scree_length(wall->tangential_velocity));
     }
     return speed;

@@ -1,6 +1,7 @@
 /// Faults are sought again from positions and velocities, body by body and pair by pair, so the answer does not depend
 /// on the kernel, on threads or on the order of the list.
 #include "contact/faults.h"
+#include "state/plates.h"
 
 #include "contact/bounds.h"
 #include "contact/single.h"
@@ -76,7 +77,7 @@ void contact_find_faults(const scree_model *model, const scree_state *state, scr
     for (size_t p = 0; p < walls->count; p++) {
         contact_body body = contact_body_get(state, walls->body[p]);
         memory_rows memory = contact_memory_of(work, CONTACT_PLATE, p);
-        if (contact_of_wall(model, state, &body, &state->wall[walls->wall[p]], &memory, &c))
+        if (contact_of_wall(model, state, &body, &scree_plates(state)[walls->wall[p]], &memory, &c))
             check_contact(&c, limit * body.row.radius, force_limit, state->id[walls->body[p]], &f);
     }
     check_elements(model, state, work, force_limit, &f);

@@ -13,6 +13,7 @@
 #include "contact/partition.h"
 #include "contact/reference.h"
 #include "contact/surfaces.h"
+#include "state/plates.h"
 
 int scree_contact_instruction_set(int wanted)
 {
@@ -72,7 +73,7 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
 static contact_totals evaluate_serially(contact_job *job, scree_state *state, const scree_work *work)
 {
     contact_pairs_reference(job);
-    contact_walls(job, state->wall, &work->wall_pairs, 0, state->count);
+    contact_walls(job, scree_plates(state), &work->wall_pairs, 0, state->count);
     contact_surfaces(job, state, work, 0, state->count);
     return job->totals;
 }
@@ -119,7 +120,7 @@ static void finish_share(void *argument, int index, int count)
     contact_merge(task->scratch, state, begin, end);
     job->sum = state->sum;
     job->torque = state->torque;
-    contact_walls(job, state->wall, &task->work->wall_pairs, begin, end);
+    contact_walls(job, scree_plates(state), &task->work->wall_pairs, begin, end);
     contact_surfaces(job, state, task->work, begin, end);
 }
 
@@ -138,7 +139,7 @@ static contact_totals evaluate_parts(contact_kernel *kernel, contact_scratch *sc
 /// Tangential force on wall `w` [N].
 static void shear_of(const scree_state *state, const contact_totals *totals, int w, scree_vector shear)
 {
-    const double *normal = state->wall[w].normal;
+    const double *normal = scree_plates(state)[w].normal;
     for (int k = 0; k < 3; k++) shear[k] = scree_fixed_to((int64_t)totals->wall_shear[w][k], state->force_quantum);
     if (state->dimension == 3) return;
     double along = shear[0];
@@ -151,7 +152,7 @@ static double settle_walls(scree_state *state, const contact_totals *totals)
 {
     double work = 0;
     for (int w = 0; w < SCREE_WALL_COUNT; w++) {
-        scree_wall *wall = &state->wall[w];
+        scree_wall *wall = &scree_plates(state)[w];
         double force = scree_fixed_to((int64_t)totals->wall_force[w], state->force_quantum);
         scree_vector shear;
         shear_of(state, totals, w, shear);

@@ -110,7 +110,7 @@ static void sum_bodies(const scree_state *state, scree_work *work, double produc
 
 void scree_images_fold(scree_state *state, scree_work *work)
 {
-    scree_periodic_cell *cell = &state->periodic;
+    scree_periodic_cell *cell = scree_cell(state);
     int64_t faces[9] = {0};
     if (!cell->directions) return;
     fold(state, &work->ghosts, faces);

@@ -5,6 +5,7 @@
 #define SCREE_CONTACT_JOB_H
 
 #include "contact/law.h"
+#include "state/plates.h"
 
 /// Inverse quanta (base/fixed.h) of the integer sums, and the largest force they may hold.
 typedef struct contact_scale {

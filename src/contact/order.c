@@ -1,5 +1,6 @@
 /// Counting sort by the first id; the few contacts of one body are then put in order by insertion.
 #include "contact/order.h"
+#include "state/plates.h"
 
 #include "contact/scalar.h"
 #include "contact/surfaces.h"
@@ -24,7 +25,7 @@ static bool reference_get(const scree_state *state, const scree_work *work, cons
     }
     uint32_t body = work->wall_pairs.body[k], wall = work->wall_pairs.wall[k];
     *r = (contact_reference){state->id[body], SCREE_WALL_ID + wall, (uint32_t)k};
-    return wall_touches(state->dimension, &state->row[body], &state->wall[wall]);
+    return wall_touches(state->dimension, &state->row[body], &scree_plates(state)[wall]);
 }
 
 /// Puts list[k] in its place among list[begin .. k - 1], which are in order.

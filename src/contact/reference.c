@@ -3,6 +3,7 @@
 #include "contact/reference.h"
 
 #include "contact/advance.h"
+#include "state/plates.h"
 
 #define WALL_PAIRS_AHEAD 8
 

@@ -3,6 +3,7 @@
 #define SCREE_CONTACT_REFERENCE_H
 
 #include "contact/job.h"
+#include "state/plates.h"
 #include "state/work.h"
 
 /// Adds the forces of the job's pairs to its sums and its totals. Needs no near_touched.

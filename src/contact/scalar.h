@@ -3,6 +3,7 @@
 #define SCREE_CONTACT_SCALAR_H
 
 #include "contact/evaluate.h"
+#include "state/plates.h"
 
 /// `turn` is not read in two dimensions.
 static inline bodies body_get(int dimension, const scree_row *row, const scree_turn_row *turn)

@@ -3,8 +3,10 @@
 /// A contact slides when its tangential force has reached mu f_n; where friction follows the slip speed, that is at
 /// v_R.
 #include "contact/single.h"
+#include "state/case_walls.h"
 
 #include "contact/surfaces.h"
+#include "state/plates.h"
 
 /// Round-off of a tangential force that is computed again from the spring it left.
 #define SLIDING_TOLERANCE 1e-9
@@ -102,7 +104,7 @@ void contact_of_element(const scree_model *model, const scree_state *state, cons
     scree_site site;
     scree_element_site(work->container, element, (const double[3]){one.place.x, one.place.y, one.place.z}, &site);
     const scree_surface *surface = contact_surface_of(work->container, element);
-    motion m = motion_of_surface(work->container, element, dimension, &one, &site, state->surface_moving != 0,
+    motion m = motion_of_surface(work->container, element, dimension, &one, &site, scree_case_walls(state)->moving != 0,
                                  state->step_size);
     scree_pair_constants constants = contact_surface_constants(model, surface, (int)one.material);
     describe_wall(model, dimension, &constants, &one, &m, memory, contact);

@@ -5,6 +5,7 @@
 #include "contact/contact.h"
 #include "contact/order.h"
 #include "contact/scalar.h"
+#include "state/plates.h"
 
 /// A body with v(n - 1/2).
 typedef struct contact_body {

@@ -1,5 +1,6 @@
 /// Scalar, one body after the other. Cost: linear in the pairs of bodies and elements.
 #include "contact/surfaces.h"
+#include "state/case_walls.h"
 
 #include "base/fixed.h"
 #include "base/vectors.h"
@@ -259,7 +260,7 @@ SCREE_INLINE void evaluate_group(contact_job *job, variant v, const scree_state 
         const scree_site *site = touch ? &touch->site : &left;
         if (v.dimension == 3 && law_traits(v)->displacement) turn_stretches(site->normal, &rows);
         motion m = motion_of_surface(g->container, g->pairs->wall[p], v.dimension, &one, site,
-                                     state->surface_moving != 0, job->settings.step);
+                                     scree_case_walls(state)->moving != 0, job->settings.step);
         if (law_foresees(v)) {
             foresight ahead = foresight_get(v.dimension, &job->foreseen[row]);
             motion_foresee(v.dimension, &m, &one, &ahead, NULL, NULL);
@@ -324,7 +325,7 @@ double contact_surfaces_settle(scree_state *state, const scree_work *work, const
     double whole = 0;
     for (int w = 0; work->container && w < work->container->count; w++) {
         const scree_config_wall *config = work->container->surface[w].config;
-        scree_surface_load *load = &state->surface[w];
+        scree_surface_load *load = &scree_case_walls(state)->load[w];
         double power = 0;
         for (int k = 0; k < 3; k++) {
             double force = scree_fixed_to((int64_t)totals->surface_force[w][k], state->force_quantum);
@@ -333,7 +334,7 @@ double contact_surfaces_settle(scree_state *state, const scree_work *work, const
             load->force[k] = force;
             load->torque[k] = torque;
         }
-        double done = state->surface_moving ? 0.5 * state->step_size * power : 0;
+        double done = scree_case_walls(state)->moving ? 0.5 * state->step_size * power : 0;
         load->work += done;
         whole += done;
     }

@@ -5,6 +5,7 @@
 #include "contact/single.h"
 #include "module/integrator.h"
 #include "state/periodic.h"
+#include "state/plates.h"
 
 /// A body with its velocity at n - 1/2; a scheme may keep v(n), half a step of acceleration later.
 static contact_body stored_body_at_half_step(const scree_model *model, const scree_state *state, size_t k)
@@ -34,7 +35,7 @@ static contact_body body_at_half_step(const scree_model *model, const scree_stat
                                       uint32_t k)
 {
     contact_body body = stored_body_at_half_step(model, state, scree_parent_row(state, work, k));
-    if (!state->periodic.directions) return body;
+    if (!scree_cell(state)->directions) return body;
     scree_row *row = &body.row;
     bool solid = state->dimension == 3;
     scree_vector place, relative = {row->vx, row->vy, solid ? row->vz : 0}, velocity;
@@ -84,7 +85,7 @@ static void fill(const scree_model *model, const scree_state *state, const scree
     contact->membrane = !scree_body_is_grain(state, contact->first);
     contact_body first = body_at_half_step(model, state, work, one);
     if (list == CONTACT_PLATE) {
-        contact_of_wall(model, state, &first, &state->wall[other], &memory, contact);
+        contact_of_wall(model, state, &first, &scree_plates(state)[other], &memory, contact);
         return;
     }
     if (list == CONTACT_ELEMENT) {

@@ -115,9 +115,11 @@ enum { BODY_RESULT_COUNT = sizeof body_results / sizeof *body_results };
 /// The index-th field of this dimension with snapshot = true, NULL when there are fewer.
 static const scree_field *snapshot_field(int dimension, size_t index)
 {
-    for (size_t k = 0; k < scree_field_count; k++)
-        if (scree_fields[k].snapshot && scree_field_exists(&scree_fields[k], dimension) && index-- == 0)
-            return &scree_fields[k];
+    for (size_t k = 0; k < scree_field_total(); k++) {
+        const scree_field *field = scree_field_at(k);
+        if (field->rows == SCREE_ROWS_BODIES && field->snapshot && scree_field_exists(field, dimension) && index-- == 0)
+            return field;
+    }
     return NULL;
 }
 
@@ -167,7 +169,8 @@ typedef struct contact_member {
 /// Rows of `first` and `second` become ids when they are packed.
 static const contact_member contact_members[] = {
     {"first", SCREE_FIELD_UINT32, 1, "1", "id of the first body", offsetof(scree_contact, first)},
-    {"second", SCREE_FIELD_UINT32, 1, "1", "id of the second body; 4294967280 + index for a plate, 2147483648 + element for a wall of the case",
+    {"second", SCREE_FIELD_UINT32, 1, "1",
+     "id of the second body; 4294967280 + index for a plate, 2147483648 + element for a wall of the case",
      offsetof(scree_contact, second)},
     {"normal", SCREE_FIELD_DOUBLE, SCREE_VECTOR, "1", "unit normal n, from the second to the first",
      offsetof(scree_contact, normal)},

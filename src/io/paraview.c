@@ -10,6 +10,8 @@
 ///   cells-000012.vtu     the Delaunay cells with their fields, when the snapshot has them
 ///   discs.pvd, ...       the collections of all snapshots with their times
 #include "io/paraview.h"
+#include "measure/delaunay_boundary.h"
+#include "state/plates.h"
 
 #include "boundary/membrane.h"
 #include "boundary/sheet.h"
@@ -94,17 +96,16 @@ static scree_status build_contacts(scree_vtp *vtp, const scene *from, scree_erro
     return status ? status : add_contact_force(vtp, table, error);
 }
 
-/// Adds every member of the state that has as many rows as `points` or as `cells`.
-static scree_status add_members(scree_vtp *vtp, const scree_state *state, scree_field_rows points,
-                                scree_field_rows cells, scree_error *error)
+/// Adds every field of a group, whose rows are points, or of another, whose rows are cells.
+static scree_status add_groups(scree_vtp *vtp, const scree_state *state, const scree_group *points,
+                               const scree_group *cells, scree_error *error)
 {
     scree_status status = SCREE_OK;
-    for (size_t k = 0; k < scree_member_count && !status; k++) {
-        const scree_field *field = &scree_members[k];
-        if (field->rows != points && field->rows != cells) continue;
+    for (size_t k = 0; k < scree_field_total() && !status; k++) {
+        const scree_field *field = scree_field_at(k);
+        if (!field->group || (field->group != points && field->group != cells)) continue;
         // `loaded` belongs to the edge that begins at the body, the rest to the body.
-        bool of_cells = field->rows == points && points == cells ? strcmp(field->name, "boundary/loaded") == 0
-                                                                 : field->rows == cells;
+        bool of_cells = points == cells ? strcmp(field->name, "boundary/loaded") == 0 : field->group == cells;
         scree_array array;
         status = scree_array_from_field(state, field, false, &array, error);
         if (!status) status = scree_vtp_add(vtp, of_cells, array, error);
@@ -116,7 +117,7 @@ static scree_status add_members(scree_vtp *vtp, const scree_state *state, scree_
 static scree_status build_boundary(scree_vtp *vtp, const scene *from, scree_error *error)
 {
     const scree_state *state = from->state;
-    const scree_loop *loop = &state->loop;
+    const scree_loop *loop = scree_loop_of(state);
     scree_status status = scree_vtp_create(vtp, loop->count, SCREE_VTP_LINES, loop->count, error);
     if (status) return status;
     for (size_t k = 0; k < loop->count; k++) {
@@ -126,13 +127,13 @@ static scree_status build_boundary(scree_vtp *vtp, const scene *from, scree_erro
         scree_vtp_join(vtp, k, 0, k);
         scree_vtp_join(vtp, k, 1, (k + 1) % loop->count);
     }
-    return add_members(vtp, state, SCREE_ROWS_LOOP, SCREE_ROWS_LOOP, error);
+    return add_groups(vtp, state, &scree_loop_group, &scree_loop_group, error);
 }
 
 static scree_status build_hull(scree_vtp *vtp, const scene *from, scree_error *error)
 {
     const scree_state *state = from->state;
-    const scree_hull *hull = &state->hull;
+    const scree_hull *hull = scree_hull_of(state);
     scree_status status = scree_vtp_create(vtp, hull->node_count, SCREE_VTP_TRIANGLES, hull->triangle_count, error);
     if (status) return status;
     for (size_t k = 0; k < hull->node_count; k++) {
@@ -142,14 +143,14 @@ static scree_status build_hull(scree_vtp *vtp, const scene *from, scree_error *e
     }
     for (size_t k = 0; k < hull->triangle_count; k++)
         for (size_t c = 0; c < 3; c++) scree_vtp_join(vtp, k, c, hull->triangle[k][c]);
-    return add_members(vtp, state, SCREE_ROWS_HULL_NODES, SCREE_ROWS_HULL_TRIANGLES, error);
+    return add_groups(vtp, state, &scree_hull_nodes, &scree_hull_triangles, error);
 }
 
 /// The sheet of a membrane.
 static scree_status build_membrane(scree_vtp *vtp, const scene *from, scree_error *error)
 {
     const scree_state *state = from->state;
-    const scree_membrane *membrane = &state->membrane;
+    const scree_membrane *membrane = scree_membrane_of(state);
     size_t triangles = scree_sheet_triangle_count(membrane->around, membrane->count), corner[3];
     scree_status status = scree_vtp_create(vtp, membrane->count, SCREE_VTP_TRIANGLES, triangles, error);
     if (status) return status;
@@ -162,7 +163,7 @@ static scree_status build_membrane(scree_vtp *vtp, const scene *from, scree_erro
         scree_sheet_triangle(membrane->around, membrane->count, t, corner);
         for (size_t c = 0; c < 3; c++) scree_vtp_join(vtp, t, c, corner[c]);
     }
-    return add_members(vtp, state, SCREE_ROWS_MEMBRANE, SCREE_ROWS_MEMBRANE, error);
+    return add_groups(vtp, state, &scree_membrane_bodies, NULL, error);
 }
 
 /// Extent of the bodies along a direction.
@@ -208,23 +209,23 @@ static void keep_active(scree_array *array, const scree_state *state)
     unsigned char *data = array->data;
     array->rows = 0;
     for (size_t w = 0; w < SCREE_WALL_COUNT; w++)
-        if (state->wall[w].active) memmove(data + size * array->rows++, data + size * w, size);
+        if (scree_plates(state)[w].active) memmove(data + size * array->rows++, data + size * w, size);
 }
 
 static scree_status build_plates(scree_vtp *vtp, const scene *from, scree_error *error)
 {
     const scree_state *state = from->state;
     size_t active = 0, cell = 0;
-    for (size_t w = 0; w < SCREE_WALL_COUNT; w++) active += state->wall[w].active != 0;
+    for (size_t w = 0; w < SCREE_WALL_COUNT; w++) active += scree_plates(state)[w].active != 0;
     const scree_vtp_cells cells = state->dimension == 3 ? SCREE_VTP_QUADRILATERALS : SCREE_VTP_LINES;
     scree_status status = scree_vtp_create(vtp, (size_t)cells * active, cells, active, error);
     if (status) return status;
     for (size_t w = 0; w < SCREE_WALL_COUNT; w++)
-        if (state->wall[w].active) place_wall(vtp, cell++, &state->wall[w], state);
-    for (size_t k = 0; k < scree_member_count && !status; k++) {
-        if (scree_members[k].rows != SCREE_ROWS_WALLS) continue;
+        if (scree_plates(state)[w].active) place_wall(vtp, cell++, &scree_plates(state)[w], state);
+    for (size_t k = 0; k < scree_field_total() && !status; k++) {
+        if (scree_field_at(k)->owner != &scree_module_plates) continue;
         scree_array array;
-        status = scree_array_from_field(state, &scree_members[k], false, &array, error);
+        status = scree_array_from_field(state, scree_field_at(k), false, &array, error);
         if (status) break;
         keep_active(&array, state);
         status = scree_vtp_add(vtp, true, array, error);
@@ -252,11 +253,11 @@ static scree_status build_lattice(scree_vtp *vtp, const scene *from, scree_error
 {
     const scree_state *state = from->state;
     scree_vector low, high, ends[2];
-    scree_periodic_box(state, low, high);
+    scree_periodic_box(state->dimension, scree_plates(state), low, high);
     size_t line = 0, edges = state->dimension == 2 ? 4 : 12;
     scree_status status = scree_vtp_create(vtp, 2 * edges, SCREE_VTP_LINES, edges, error);
     for (int edge = 0; edge < SCREE_PERIODIC_EDGES && !status; edge++) {
-        if (!scree_periodic_edge(&state->periodic, state->dimension, low, high, edge, ends)) continue;
+        if (!scree_periodic_edge(scree_cell(state), state->dimension, low, high, edge, ends)) continue;
         scree_vtp_place(vtp, 2 * line, ends[0]);
         scree_vtp_place(vtp, 2 * line++ + 1, ends[1]);
     }
@@ -367,12 +368,12 @@ scree_status scree_paraview_write(const char *directory, const scree_model *mode
     for (size_t k = 0; k < sizeof scenes / sizeof *scenes && !status; k++) {
         if (scenes[k].only_dimension && scenes[k].only_dimension != state->dimension) continue;
         if (scenes[k].build == build_cells && (!info->cells || info->cells->count == 0)) continue;
-        if (scenes[k].build == build_membrane && state->membrane.count == 0) continue;
+        if (scenes[k].build == build_membrane && scree_membrane_of(state)->count == 0) continue;
         if (scenes[k].build == build_walls && (!info->walls || info->walls->count == 0)) continue;
         scree_vtp vtp;
         // A cell has no boundary, and only a periodic sample has a cell.
         bool around = scenes[k].build == build_boundary || scenes[k].build == build_hull;
-        if (state->periodic.directions ? around : scenes[k].build == build_lattice) continue;
+        if (scree_cell(state)->directions ? around : scenes[k].build == build_lattice) continue;
         status = scenes[k].build(&vtp, &from, error);
         if (!status) status = write_scene(&vtp, folder, scenes[k].kind, info, error);
         scree_vtp_destroy(&vtp);

@@ -404,12 +404,6 @@ scree_status scree_run_file_rewind(const char *directory, const char *case_name,
     return status ? status : for_each_part(directory, kept, notes, remove_not_kept, error);
 }
 
-scree_status scree_snapshots_truncate(const char *directory, int64_t from_index, scree_error *error)
-{
-    const scree_kept kept = {.snapshots = from_index, .last_checkpoint = INT64_MAX};
-    return scree_run_file_rewind(directory, NULL, &kept, NULL, error);
-}
-
 // ---- the end of a run --------------------------------------------------------------------------------------------
 
 /// Takes the disk space of a file before HDF5 writes into it: a full disk is met here and not inside the library.

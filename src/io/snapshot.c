@@ -2,11 +2,15 @@
 /// as a part of run.h5 (run_file.h), read back by index from a run that goes on or has ended. Cost: about 130 bytes a
 /// body and 100 a contact on disk; a few milliseconds for 5000 discs.
 #include "io/snapshot.h"
+#include "boundary/membrane.h"
 
 #include "boundary/sheet.h"
 #include "io/cell_file.h"
 #include "io/run_file.h"
 #include "io/state_file.h"
+#include "state/periodic.h"
+#include "state/plates.h"
+#include "state/pressure.h"
 
 #include <limits.h>
 #include <stdio.h>
@@ -40,10 +44,12 @@ static void write_contacts(scree_hdf5 *part, const char *group, const scree_stat
 /// Boundary loop and walls, as the table of members has them.
 static void write_members(scree_hdf5 *part, const char *group, const scree_state *state)
 {
-    for (size_t k = 0; k < scree_member_count && !part->status; k++) {
-        if (!scree_members[k].snapshot || !scree_field_exists(&scree_members[k], state->dimension)) continue;
+    for (size_t k = 0; k < scree_field_total() && !part->status; k++) {
+        const scree_field *field = scree_field_at(k);
+        bool member = field->rows != SCREE_ROWS_BODIES && field->snapshot;
+        if (!member || !scree_field_exists(field, state->dimension)) continue;
         scree_array array;
-        part->status = scree_array_from_field(state, &scree_members[k], true, &array, part->error);
+        part->status = scree_array_from_field(state, field, true, &array, part->error);
         scree_hdf5_write(part, group, &array);
         scree_array_destroy(&array);
     }
@@ -76,7 +82,7 @@ static void write_wall_triangles(scree_hdf5 *part, const char *group, const scre
 /// The triangles of the sheet of a membrane, by ids of bodies.
 static void write_sheet(scree_hdf5 *part, const char *group, const scree_state *state)
 {
-    const scree_membrane *membrane = &state->membrane;
+    const scree_membrane *membrane = scree_membrane_of(state);
     if (membrane->around == 0 || part->status) return;
     scree_array array = {.name = "membrane/triangle",
                          .type = SCREE_FIELD_UINT32,
@@ -118,7 +124,7 @@ scree_status scree_snapshot_write(const char *directory, const scree_model *mode
     scree_hdf5_set_text(&part, group, "stage", info->stage);
     scree_hdf5_set_number(&part, group, "axial_strain", info->axial_strain);
     scree_hdf5_set_integer(&part, group, "grains", state->grains);
-    scree_hdf5_set_number(&part, group, "pressure", state->pressure);
+    scree_hdf5_set_number(&part, group, "pressure", scree_pressure_now(state));
     scree_hdf5_set_text(&part, group, "attribute_units",
                         "step 1, dimension 1, grains 1, time s, axial_strain 1, pressure Pa, wall_triangles 1");
     write_bodies(&part, group, model, state);
@@ -229,11 +235,13 @@ static void read_contacts(scree_hdf5 *run, const char *group, scree_snapshot *sn
 /// Walls and cell, through the table of members: they are read into an otherwise empty state.
 static void read_members(scree_hdf5 *run, const char *group, scree_snapshot *snapshot)
 {
-    scree_state members = {.dimension = 2};
-    for (size_t k = 0; k < scree_member_count && !run->status; k++) {
-        const scree_field *field = &scree_members[k];
-        bool wanted = field->rows == SCREE_ROWS_WALLS || (field->rows == SCREE_ROWS_ONE && field->snapshot);
-        if (!wanted) continue;
+    scree_state members;
+    scree_status opened = scree_state_open(&members, snapshot->dimension, run->error);
+    if (!run->status) run->status = opened;
+    for (size_t k = 0; k < scree_field_total() && !run->status; k++) {
+        const scree_field *field = scree_field_at(k);
+        if (!field->snapshot || (field->owner != &scree_module_plates && field->owner != &scree_module_periodic_cell))
+            continue;
         scree_array array = scree_array_of_field(&members, field);
         scree_hdf5_read(run, group, &array);
         if (!run->status && array.rows != scree_field_rows_count(&members, field))
@@ -241,8 +249,11 @@ static void read_members(scree_hdf5 *run, const char *group, scree_snapshot *sna
         if (!run->status) scree_array_to_field(&array, field, &members);
         scree_array_destroy(&array);
     }
-    memcpy(snapshot->wall, members.wall, sizeof members.wall);
-    snapshot->periodic = members.periodic;
+    if (!opened) {
+        memcpy(snapshot->wall, scree_plates(&members), sizeof snapshot->wall);
+        snapshot->periodic = *scree_cell(&members);
+    }
+    scree_state_destroy(&members);
 }
 
 static void read_wall_triangles(scree_hdf5 *run, const char *group, scree_snapshot *snapshot)

@@ -18,6 +18,8 @@
 #include "integrate/integrate.h"
 #include "measure/cells.h"
 #include "shape/container.h"
+#include "state/periodic.h"
+#include "state/plates.h"
 
 typedef struct scree_snapshot_info {
     int64_t index;       ///< running number, names the group
@@ -91,10 +93,6 @@ scree_status scree_restart_point_check(const char *directory, const scree_restar
 /// first one, and why.
 scree_status scree_restart_find(const char *directory, const scree_restart_wanted *wanted, scree_restart_point *used,
                                 scree_state *state, scree_error *error) SCREE_MUST_USE;
-
-/// Drops the snapshots with numbers from `from_index` on: a run that continues from an older step writes them anew. A
-/// finished run.h5 is taken apart into parts again. Call before the first snapshot after a restart.
-scree_status scree_snapshots_truncate(const char *directory, int64_t from_index, scree_error *error) SCREE_MUST_USE;
 
 /// The end of a run: everything into one self-contained run.h5, parts removed. What is damaged is left out, with a note
 /// (`notes` may be NULL). Killed at any moment, or out of disk space, it leaves what was there before. Calling it again

@@ -14,23 +14,17 @@
 
 // ---- the tables as one list --------------------------------------------------------------------------------------
 
-static size_t stored_count(void)
-{
-    return scree_field_count + scree_member_count;
-}
-
-/// The index-th of all fields and members; NULL when it is derived and therefore not stored, or of the other dimension.
+/// The field with this number; NULL when it is derived and therefore not stored, or of the other dimension.
 static const scree_field *stored_field(int dimension, size_t index)
 {
-    const scree_field *field =
-        index < scree_field_count ? &scree_fields[index] : &scree_members[index - scree_field_count];
-    return field->role == SCREE_FIELD_STATE && scree_field_exists(field, dimension) ? field : NULL;
+    const scree_field *field = scree_field_at(index);
+    return scree_field_is_stored(field, dimension) ? field : NULL;
 }
 
 static uint64_t layout_checksum(int dimension)
 {
     uint64_t checksum = (uint64_t)dimension;
-    for (size_t k = 0; k < stored_count(); k++) {
+    for (size_t k = 0; k < scree_field_total(); k++) {
         const scree_field *field = stored_field(dimension, k);
         if (!field) continue;
         checksum = scree_checksum_bytes(checksum, field->name, strlen(field->name));
@@ -52,7 +46,7 @@ void scree_state_write(scree_hdf5 *part, const char *group, const char *shared, 
     scree_hdf5_set_number(part, group, "wall_time", state->spent.run);
     scree_hdf5_set_number(part, group, "stage_wall_time", state->spent.stage);
     scree_hdf5_set_number(part, group, "stage_processor_time", state->spent.processor);
-    for (size_t k = 0; k < stored_count() && !part->status; k++) {
+    for (size_t k = 0; k < scree_field_total() && !part->status; k++) {
         const scree_field *field = stored_field(state->dimension, k);
         if (!field || (shared && field->snapshot)) continue;
         scree_array array;
@@ -83,71 +77,15 @@ static void check_origin(scree_hdf5 *file, const char *group, int dimension, uin
             scree_error_set(file->error, SCREE_ERROR_INPUT, "'%s' is a checkpoint of another case", file->path);
 }
 
-/// Makes an empty loop of `rows` vertices.
-static scree_status make_loop(scree_loop *loop, size_t rows, scree_error *error)
-{
-    scree_status status = scree_allocate(&loop->id, rows, sizeof *loop->id, error);
-    if (!status) status = scree_allocate(&loop->loaded, rows, sizeof *loop->loaded, error);
-    if (!status) status = scree_allocate(&loop->x, rows, sizeof *loop->x, error);
-    if (!status) status = scree_allocate(&loop->y, rows, sizeof *loop->y, error);
-    if (!status) status = scree_allocate(&loop->fx, rows, sizeof *loop->fx, error);
-    if (!status) status = scree_allocate(&loop->fy, rows, sizeof *loop->fy, error);
-    if (!status) loop->count = loop->capacity = rows;
-    return status;
-}
-
-/// Makes bodies in a state that has only its dimension.
-static scree_status make_bodies(scree_state *state, size_t rows, scree_error *error)
-{
-    return scree_state_create(state, state->dimension, rows, error);
-}
-
-/// Makes an empty hull of `rows` nodes, or of as many triangles.
-static scree_status make_hull_nodes(scree_hull *hull, size_t rows, scree_error *error)
-{
-    scree_status status = scree_allocate(&hull->id, rows, sizeof *hull->id, error);
-    if (!status) status = scree_allocate(&hull->place, rows, sizeof *hull->place, error);
-    if (!status) status = scree_allocate(&hull->force, rows, sizeof *hull->force, error);
-    if (!status) hull->node_count = hull->node_capacity = rows;
-    return status;
-}
-
-static scree_status make_hull_triangles(scree_hull *hull, size_t rows, scree_error *error)
-{
-    scree_status status = scree_allocate(&hull->triangle, rows, sizeof *hull->triangle, error);
-    if (!status) status = scree_allocate(&hull->loaded, rows, sizeof *hull->loaded, error);
-    if (!status) hull->triangle_count = hull->triangle_capacity = rows;
-    return status;
-}
-
-static scree_status make_drive(scree_drive *drive, size_t rows, scree_error *error)
-{
-    scree_status status = scree_allocate(&drive->force, rows, sizeof *drive->force, error);
-    if (!status) drive->count = drive->capacity = rows;
-    return status;
-}
-
-static scree_status make_membrane(scree_membrane *membrane, size_t rows, scree_error *error)
-{
-    scree_status status = scree_allocate(&membrane->rest, rows, sizeof *membrane->rest, error);
-    if (!status) status = scree_allocate(&membrane->press, rows, sizeof *membrane->press, error);
-    if (!status) status = scree_allocate(&membrane->force, rows, sizeof *membrane->force, error);
-    if (!status) membrane->count = membrane->capacity = rows;
-    return status;
-}
-
 /// Makes the part of `state` that `field` describes have `rows` rows, when it has none yet.
 static scree_status make_room(scree_state *state, const scree_field *field, size_t rows, scree_error *error)
 {
-    if (field->rows == SCREE_ROWS_BODIES && !state->row) return make_bodies(state, rows, error);
-    if (field->rows == SCREE_ROWS_LOOP && state->loop.count == 0) return make_loop(&state->loop, rows, error);
-    scree_hull *hull = &state->hull;
-    if (field->rows == SCREE_ROWS_HULL_NODES && hull->node_count == 0) return make_hull_nodes(hull, rows, error);
-    if (field->rows == SCREE_ROWS_HULL_TRIANGLES && hull->triangle_count == 0)
-        return make_hull_triangles(hull, rows, error);
-    if (field->rows == SCREE_ROWS_DRIVE && state->drive.count == 0) return make_drive(&state->drive, rows, error);
-    if (field->rows == SCREE_ROWS_MEMBRANE && state->membrane.count == 0)
-        return make_membrane(&state->membrane, rows, error);
+    if (field->rows == SCREE_ROWS_BODIES && !state->row) return scree_state_make_bodies(state, rows, error);
+    if (field->rows == SCREE_ROWS_GROUP && scree_field_rows_count(state, field) == 0) {
+        scree_status status = scree_group_reserve(state, field->owner, field->group, rows, error);
+        if (!status) scree_group_set_count(state, field->owner, field->group, rows);
+        return status;
+    }
     if (field->rows == SCREE_ROWS_BOOKING && rows > 0) return scree_state_add_booking(state, error);
     if (field->rows == SCREE_ROWS_ROLLING && rows > 0) return scree_state_add_rolling(state, error);
     if (field->rows != SCREE_ROWS_CONTACTS || state->contact_count > 0) return SCREE_OK;
@@ -183,13 +121,14 @@ static void find_rows(scree_hdf5 *file, scree_state *state)
 void scree_state_read(scree_hdf5 *file, const char *group, const char *shared, int dimension, uint64_t case_checksum,
                       scree_state *state)
 {
-    *state = (scree_state){.dimension = dimension};
+    scree_status opened = scree_state_open(state, dimension, file->error);
+    if (!file->status) file->status = opened;
     check_origin(file, group, dimension, case_checksum);
     scree_time_spent spent = {0};
     scree_hdf5_get_number(file, group, "wall_time", &spent.run);
     scree_hdf5_get_number(file, group, "stage_wall_time", &spent.stage);
     scree_hdf5_get_number(file, group, "stage_processor_time", &spent.processor);
-    for (size_t k = 0; k < stored_count() && !file->status; k++) {
+    for (size_t k = 0; k < scree_field_total() && !file->status; k++) {
         const scree_field *field = stored_field(dimension, k);
         if (field) read_field(file, shared && field->snapshot ? shared : group, field, state);
     }

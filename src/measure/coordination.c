@@ -9,6 +9,7 @@
 /// distance from both sides. The pressure on the boundary is one more support, along its force, of the bodies that
 /// carry it; in 3D gravity acts on all. A contact with a rattler bears no load, so rattlers are taken away and the rest
 /// is counted again, until nothing changes. Cost: O(contacts) a pass, a few passes.
+#include "measure/delaunay_boundary.h"
 #include "measure/measure.h"
 
 #include <math.h>
@@ -111,12 +112,13 @@ static bool mark_rattlers(const supports *s, size_t count)
 
 static void mark_pressed(const scree_state *state, const supports *s)
 {
-    const scree_loop *loop = &state->loop;
+    const scree_loop *loop = scree_loop_of(state);
     for (size_t k = 0; k < loop->count; k++)
         if (scree_direct_pressure(state) > 0 && (loop->loaded[k] || loop->loaded[k > 0 ? k - 1 : loop->count - 1]))
             s->pressed[state->row_of_id[loop->id[k]]] = 1;
-    for (size_t k = 0; k < state->hull.node_count; k++)
-        if (scree_length(state->hull.force[k]) > 0) s->pressed[state->row_of_id[state->hull.id[k]]] = 1;
+    for (size_t k = 0; k < scree_hull_of(state)->node_count; k++)
+        if (scree_length(scree_hull_of(state)->force[k]) > 0)
+            s->pressed[state->row_of_id[scree_hull_of(state)->id[k]]] = 1;
 }
 
 /// Puts a support behind those that the row has already; begin[row + 1] is where.
@@ -132,7 +134,7 @@ static scree_status collect_normals(const scree_model *model, const scree_state 
                                     const scree_contact_table *table, supports *s, scree_error *error)
 {
     double weight = scree_length(model->gravity);
-    size_t room = 2 * table->count + state->hull.node_count + state->count;
+    size_t room = 2 * table->count + scree_hull_of(state)->node_count + state->count;
     scree_status status = scree_allocate(&s->begin, state->count + 2, sizeof *s->begin, error);
     if (!status) status = scree_allocate(&s->normal, room, sizeof *s->normal, error);
     if (!status) status = scree_allocate(&s->other, room, sizeof *s->other, error);
@@ -150,9 +152,9 @@ static scree_status collect_normals(const scree_model *model, const scree_state 
                    scree_contact_is_outer(contact) ? UINT32_MAX : contact->second);
         if (!scree_contact_is_outer(contact)) add_normal(s, contact->second, contact->normal, -1, contact->first);
     }
-    for (size_t k = 0; k < state->hull.node_count; k++) {
-        const double *force = state->hull.force[k], length = scree_length(force);
-        if (length > 0) add_normal(s, state->row_of_id[state->hull.id[k]], force, 1 / length, UINT32_MAX);
+    for (size_t k = 0; k < scree_hull_of(state)->node_count; k++) {
+        const double *force = scree_hull_of(state)->force[k], length = scree_length(force);
+        if (length > 0) add_normal(s, state->row_of_id[scree_hull_of(state)->id[k]], force, 1 / length, UINT32_MAX);
     }
     for (size_t row = 0; row < state->count && weight > 0; row++)
         add_normal(s, row, model->gravity, 1 / weight, UINT32_MAX);

@@ -5,7 +5,8 @@
 ///     T(n+1) - T(n) = sum 1/2 (F(n) + F(n+1)) . v(n+1/2) dt,
 /// the trapezoidal work of the forces over the very displacement x(n+1) - x(n) = v(n+1/2) dt. The ledger books every
 /// force by the same rule, so the residual
-///     (kinetic + elastic - initial) - (plates + pressure + boundary + periodic + gravity) + damping + friction - stiffness
+///     (kinetic + elastic - initial) - (plates + pressure + boundary + periodic + gravity) + damping + friction -
+///     stiffness
 ///     - scheme
 /// holds no error of the integrator, only that of the trapezoidal rule along the elastic force laws: third order in the
 /// step. Work done on the bodies is positive, dissipation is positive; `stiffness` is what the change of the tangential
@@ -15,6 +16,9 @@
 /// The difference, sum m a^2 (h^2 - h'^2) / 8, is booked as `scheme`; it goes to zero with the square of the step.
 /// J = m R^2 / 2 (disc), 2 m R^2 / 5 (sphere). Cost: O(bodies + contacts).
 ///
+/// The guard stops a run by what is measured here, and `scheme` is part of the state: all sums are in integers, over
+/// rows and contacts in any order (base/integer_sum.h).
+///
 /// The residual is judged against all energy that there is and was: what there was at the begin, what has been turned
 /// over (dissipation included), what gravity did on balance, what is stored now. Nothing is ever exactly at rest, so
 /// round-off, which has no such energy to be measured by, has its own part of the scale. Positions are known to
@@ -23,8 +27,10 @@
 ///     two bodies that should just touch    to              (2/5) K sqrt(R) d^(5/2), which may be felt after they part,
 ///     the sum of N terms m g . x           to              N / 2 units in the last place of the sum of |m g . x|.
 /// The sums of kinetic and elastic energy have errors of the same kind, but against themselves, which are in the scale.
+#include "integrate/forced_spin.h"
 #include "measure/measure.h"
 
+#include "base/integer_sum.h"
 #include "integrate/integrate.h"
 
 #include <float.h>
@@ -32,18 +38,39 @@
 
 #define ROUNDING 16.0
 
+/// What is summed over bodies.
+typedef enum body_sum {
+    KINETIC,          ///< J
+    KINETIC_ROTATION, ///< J
+    MASS,             ///< kg
+    POTENTIAL,        ///< J, m g . x
+    MAGNITUDES,       ///< J, |m g . x|
+    BODY_SUMS
+} body_sum;
+
+/// What is summed over contacts.
+typedef enum contact_sum {
+    ELASTIC_NORMAL,     ///< J
+    ELASTIC_TANGENTIAL, ///< J
+    NORMAL_FORCE,       ///< N
+    CONTACT_SUMS
+} contact_sum;
+
 /// v(n-1/2) . v(n+1/2) of a body, translation and rotation.
-static void add_kinetic(const scree_model *model, const scree_state *state, size_t index, scree_energy *energy)
+static void add_kinetic(const scree_model *model, const scree_state *state, size_t index, scree_integer_sum *sum)
 {
+    double kinetic = 0, rotation = 0;
     double mass = state->row[index].mass, inertia = scree_body_inertia(state, index), dt = state->step_size;
     scree_vector velocity, spin, force, torque;
     scree_body_half_velocity(model, state, index, velocity, spin);
     scree_body_force(model, state, index, force, torque);
     for (int k = 0; k < 3; k++) {
-        energy->kinetic += 0.5 * mass * velocity[k] * (velocity[k] + dt * force[k] / mass);
-        if (!state->forced.active || state->forced.id != state->id[index])
-            energy->kinetic_rotation += 0.5 * inertia * spin[k] * (spin[k] + dt * torque[k] / inertia);
+        kinetic += 0.5 * mass * velocity[k] * (velocity[k] + dt * force[k] / mass);
+        rotation += 0.5 * inertia * spin[k] * (spin[k] + dt * torque[k] / inertia);
     }
+    scree_integer_sum_add(&sum[KINETIC], kinetic);
+    if (!scree_forced(state)->active || scree_forced(state)->id != state->id[index])
+        scree_integer_sum_add(&sum[KINETIC_ROTATION], rotation);
 }
 
 /// F^2 / m + T^2 / J of a body. Called for every body at most steps of two timescales, so without divisions to spare.
@@ -68,69 +95,86 @@ static double inertial_power(const scree_model *model, const scree_state *state,
 
 void scree_energy_change_step(const scree_model *model, scree_state *state, double before, double after)
 {
-    double sum = 0;
-    // In the order of ids, so that neither threads nor the order of rows show.
-    for (size_t id = 0; id < state->count; id++) sum += inertial_power(model, state, state->row_of_id[id]);
-    state->ledger.scheme += 0.125 * (before * before - after * after) * sum;
+    scree_integer_sum sum = {0};
+    while (scree_integer_sum_next(&sum, 1))
+        for (size_t row = 0; row < state->count; row++) scree_integer_sum_add(&sum, inertial_power(model, state, row));
+    state->ledger.scheme += 0.125 * (before * before - after * after) * scree_integer_sum_total(&sum);
 }
 
 /// What the scale of the residual needs of gravity and coordinates, beside the energies themselves.
-typedef struct coordinates {
-    double largest;    ///< m, magnitude
-    double mass;       ///< kg
-    double potential;  ///< J, sum of m g . x
-    double magnitudes; ///< J, sum of |m g . x|
-} coordinates;
-
-static void add_body(const scree_model *model, const scree_state *state, size_t row, coordinates *sum)
+static void add_place(const scree_model *model, const scree_state *state, size_t row, scree_integer_sum *sum,
+                      double *largest)
 {
+    double potential = 0, magnitudes = 0;
     scree_vector place;
     double mass = state->row[row].mass;
     scree_body_place(state, row, place);
     for (int k = 0; k < state->dimension; k++) {
-        double potential = mass * model->gravity[k] * place[k];
-        sum->potential += potential;
-        sum->magnitudes += fabs(potential);
-        sum->largest = fmax(sum->largest, fabs(place[k]));
+        double part = mass * model->gravity[k] * place[k];
+        potential += part;
+        magnitudes += fabs(part);
+        *largest = fmax(*largest, fabs(place[k]));
     }
-    sum->mass += mass;
+    scree_integer_sum_add(&sum[MASS], mass);
+    scree_integer_sum_add(&sum[POTENTIAL], potential);
+    scree_integer_sum_add(&sum[MAGNITUDES], magnitudes);
+}
+
+/// largest [m]: coordinate, in magnitude.
+static void sum_bodies(const scree_model *model, const scree_state *state, double total[BODY_SUMS], double *largest)
+{
+    scree_integer_sum sum[BODY_SUMS] = {0};
+    *largest = 0;
+    while (scree_integer_sum_next(sum, BODY_SUMS))
+        for (size_t row = 0; row < state->count; row++) {
+            add_kinetic(model, state, row, sum);
+            add_place(model, state, row, sum, largest);
+        }
+    for (int k = 0; k < BODY_SUMS; k++) total[k] = scree_integer_sum_total(&sum[k]);
+}
+
+static void sum_contacts(const scree_contact_table *table, double total[CONTACT_SUMS])
+{
+    scree_integer_sum sum[CONTACT_SUMS] = {0};
+    while (scree_integer_sum_next(sum, CONTACT_SUMS))
+        for (size_t c = 0; c < table->count; c++) {
+            scree_integer_sum_add(&sum[ELASTIC_NORMAL], table->contact[c].elastic_normal);
+            scree_integer_sum_add(&sum[ELASTIC_TANGENTIAL], table->contact[c].elastic_tangential);
+            scree_integer_sum_add(&sum[NORMAL_FORCE], table->contact[c].normal_force);
+        }
+    for (int k = 0; k < CONTACT_SUMS; k++) total[k] = scree_integer_sum_total(&sum[k]);
 }
 
 /// Energy to which round-off lets the balance be known: the head of this file.
-static double energy_of_rounding(const scree_model *model, const scree_state *state, const coordinates *sum,
-                                 double contact_force)
+static double energy_of_rounding(const scree_model *model, const scree_state *state, const double body[BODY_SUMS],
+                                 double largest, double contact_force)
 {
-    double distance = ROUNDING * DBL_EPSILON * sum->largest;
-    double weight = sum->mass * scree_length(model->gravity), bodies = (double)state->count;
+    double distance = ROUNDING * DBL_EPSILON * largest;
+    double weight = body[MASS] * scree_length(model->gravity), bodies = (double)state->count;
     const scree_pair_constants *pair = &model->pairs[SCREE_PARTICLE_MATERIAL][SCREE_PARTICLE_MATERIAL];
     return distance * (contact_force + weight) +
            bodies * scree_model_law(model)->elastic->energy(pair, model->mean_radius, distance) +
-           0.5 * DBL_EPSILON * bodies * sum->magnitudes;
+           0.5 * DBL_EPSILON * bodies * body[MAGNITUDES];
 }
 
 void scree_energy_measure(const scree_model *model, const scree_state *state, const scree_contact_table *table,
                           scree_energy *energy)
 {
     const scree_ledger *ledger = &state->ledger;
-    *energy = (scree_energy){0};
-    coordinates sum = {0};
-    double contact_force = 0;
-    for (size_t id = 0; id < state->count; id++) {
-        add_kinetic(model, state, state->row_of_id[id], energy);
-        add_body(model, state, state->row_of_id[id], &sum);
-    }
-    for (size_t c = 0; c < table->count; c++) {
-        energy->elastic_normal += table->contact[c].elastic_normal;
-        energy->elastic_tangential += table->contact[c].elastic_tangential;
-        contact_force += table->contact[c].normal_force;
-    }
-    energy->gravity = sum.potential - ledger->gravity;
+    double body[BODY_SUMS], contact[CONTACT_SUMS], largest;
+    sum_bodies(model, state, body, &largest);
+    sum_contacts(table, contact);
+    *energy = (scree_energy){.kinetic = body[KINETIC],
+                             .kinetic_rotation = body[KINETIC_ROTATION],
+                             .elastic_normal = contact[ELASTIC_NORMAL],
+                             .elastic_tangential = contact[ELASTIC_TANGENTIAL],
+                             .gravity = body[POTENTIAL] - ledger->gravity};
     double stored = energy->kinetic + energy->kinetic_rotation + energy->elastic_normal + energy->elastic_tangential;
     energy->residual =
         (stored - ledger->initial) -
         (ledger->plates + ledger->pressure + ledger->boundary + ledger->periodic + ledger->forced + energy->gravity) +
         ledger->damping + ledger->friction - ledger->stiffness - ledger->scheme;
     energy->scale = ledger->initial + ledger->turnover + fabs(energy->gravity) + stored +
-                    energy_of_rounding(model, state, &sum, contact_force);
+                    energy_of_rounding(model, state, body, largest, contact[NORMAL_FORCE]);
     energy->relative = energy->scale > 0 ? fabs(energy->residual) / energy->scale : 0;
 }

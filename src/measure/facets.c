@@ -1,19 +1,23 @@
 /// Facets of the boundary: see facets.h. Cost: O(length of the loop), O(triangles of the hull).
+///
+/// Area vectors steer boundaries, so facets may come in any order. In 2D that of a node is half the way from the one
+/// before to the one behind, turned, times the thickness: no sum. In 3D the shares of a node in its triangles are added
+/// as integers, which its area holds until they are all there, in quanta so small that a node could have all triangles:
+/// 62 bits less those of their number are left for a share.
 #include "measure/facets.h"
+#include "measure/delaunay_boundary.h"
+
+#include <math.h>
+#include <string.h>
 
 size_t scree_boundary_count(const scree_state *state)
 {
-    return state->dimension == 3 ? state->hull.node_count : state->loop.count;
-}
-
-size_t scree_boundary_row(const scree_state *state, size_t node)
-{
-    return state->row_of_id[state->dimension == 3 ? state->hull.id[node] : state->loop.id[node]];
+    return state->dimension == 3 ? scree_hull_of(state)->node_count : scree_loop_of(state)->count;
 }
 
 size_t scree_facet_count(const scree_state *state)
 {
-    return state->dimension == 3 ? state->hull.triangle_count : state->loop.count;
+    return state->dimension == 3 ? scree_hull_of(state)->triangle_count : scree_loop_of(state)->count;
 }
 
 scree_facet scree_facet_get(const scree_state *state, size_t index)
@@ -22,8 +26,8 @@ scree_facet scree_facet_get(const scree_state *state, size_t index)
     scree_vector origin;
     scree_body_place(state, scree_boundary_row(state, 0), origin);
     for (int c = 0; c < facet.corners; c++) {
-        size_t next = index + (size_t)c < state->loop.count ? index + (size_t)c : 0;
-        facet.node[c] = state->dimension == 3 ? state->hull.triangle[index][c] : next;
+        size_t next = index + (size_t)c < scree_loop_of(state)->count ? index + (size_t)c : 0;
+        facet.node[c] = state->dimension == 3 ? scree_hull_of(state)->triangle[index][c] : next;
         scree_body_place(state, scree_boundary_row(state, facet.node[c]), facet.place[c]);
         for (int i = 0; i < 3; i++) facet.place[c][i] -= origin[i];
     }
@@ -51,44 +55,88 @@ scree_status scree_facet_rule(const scree_model *model, const scree_state *state
     return SCREE_OK;
 }
 
-/// Share of each corner in the area vector of the facet [m2].
-static void corner_area(const scree_model *model, const scree_facet *facet, scree_vector area)
+/// Share of each corner in the area vector of a triangle [m2].
+static void corner_area(const scree_facet *facet, scree_vector area)
 {
     const double *a = facet->place[0], *b = facet->place[1], *c = facet->place[2];
-    if (facet->corners == 2) {
-        area[0] = 0.5 * model->thickness * (b[1] - a[1]);
-        area[1] = -0.5 * model->thickness * (b[0] - a[0]);
-        area[2] = 0;
-        return;
-    }
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
         area[i] = ((b[j] - a[j]) * (c[k] - a[k]) - (b[k] - a[k]) * (c[j] - a[j])) / 6;
     }
 }
 
-void scree_boundary_areas(const scree_model *model, const scree_state *state, scree_vector *area)
+/// Largest component of all shares [m2].
+static double largest_share(const scree_state *state)
 {
-    for (size_t k = 0; k < scree_boundary_count(state); k++) area[k][0] = area[k][1] = area[k][2] = 0;
+    double largest = 0;
     for (size_t f = 0; f < scree_facet_count(state); f++) {
         scree_facet facet = scree_facet_get(state, f);
         scree_vector share;
-        corner_area(model, &facet, share);
-        for (int c = 0; c < facet.corners; c++)
-            for (int i = 0; i < 3; i++) area[facet.node[c]][i] += share[i];
+        corner_area(&facet, share);
+        for (int i = 0; i < 3; i++) largest = fmax(largest, fabs(share[i]));
+    }
+    return largest;
+}
+
+/// Adds to an integer that lies where a double will be.
+static void add_quanta(double *place, int64_t quanta)
+{
+    int64_t sum;
+    memcpy(&sum, place, sizeof sum);
+    sum += quanta;
+    memcpy(place, &sum, sizeof sum);
+}
+
+static double quanta_at(const double *place)
+{
+    int64_t sum;
+    memcpy(&sum, place, sizeof sum);
+    return (double)sum;
+}
+
+static void areas_3d(const scree_state *state, scree_vector *area)
+{
+    int share_bits, number_bits;
+    (void)frexp(largest_share(state), &share_bits);
+    (void)frexp((double)scree_facet_count(state), &number_bits);
+    const double quantum = ldexp(1.0, share_bits + number_bits - 62), inverse = 1 / quantum;
+    // Zero is all bits zero, of doubles and of integers.
+    memset(area, 0, scree_boundary_count(state) * sizeof *area);
+    for (size_t f = 0; f < scree_facet_count(state); f++) {
+        scree_facet facet = scree_facet_get(state, f);
+        scree_vector share;
+        corner_area(&facet, share);
+        for (int i = 0; i < 3; i++) {
+            int64_t quanta = llrint(share[i] * inverse);
+            for (int c = 0; c < 3; c++) add_quanta(&area[facet.node[c]][i], quanta);
+        }
+    }
+    for (size_t k = 0; k < scree_boundary_count(state); k++)
+        for (int i = 0; i < 3; i++) area[k][i] = quanta_at(&area[k][i]) * quantum;
+}
+
+static void areas_2d(const scree_model *model, const scree_state *state, scree_vector *area)
+{
+    const size_t count = scree_loop_of(state)->count;
+    const double half = 0.5 * model->thickness;
+    scree_vector before, here, behind;
+    if (count == 0) return;
+    scree_body_place(state, scree_boundary_row(state, count - 1), before);
+    scree_body_place(state, scree_boundary_row(state, 0), here);
+    for (size_t k = 0; k < count; k++) {
+        scree_body_place(state, scree_boundary_row(state, k + 1 < count ? k + 1 : 0), behind);
+        area[k][0] = half * (behind[1] - before[1]);
+        area[k][1] = -half * (behind[0] - before[0]);
+        area[k][2] = 0;
+        memcpy(before, here, sizeof before);
+        memcpy(here, behind, sizeof here);
     }
 }
 
-double scree_boundary_volume(const scree_model *model, const scree_state *state)
+void scree_boundary_areas(const scree_model *model, const scree_state *state, scree_vector *area)
 {
-    double volume = 0;
-    // (1/d) sum x . a over the corners of all facets.
-    for (size_t f = 0; f < scree_facet_count(state); f++) {
-        scree_facet facet = scree_facet_get(state, f);
-        scree_vector share;
-        corner_area(model, &facet, share);
-        for (int c = 0; c < facet.corners; c++)
-            for (int i = 0; i < state->dimension; i++) volume += facet.place[c][i] * share[i] / state->dimension;
-    }
-    return volume;
+    if (state->dimension == 3)
+        areas_3d(state, area);
+    else
+        areas_2d(model, state, area);
 }

@@ -8,12 +8,16 @@
 #ifndef SCREE_MEASURE_FACETS_H
 #define SCREE_MEASURE_FACETS_H
 
+#include "measure/delaunay_boundary.h"
 #include "search/peel_rule.h"
 #include "state/state.h"
 
 /// Number of nodes, and the row of one of them. Loop and hull list them in an order that does not depend on rows.
 size_t scree_boundary_count(const scree_state *state);
-size_t scree_boundary_row(const scree_state *state, size_t node);
+static inline size_t scree_boundary_row(const scree_state *state, size_t node)
+{
+    return state->row_of_id[state->dimension == 3 ? scree_hull_of(state)->id[node] : scree_loop_of(state)->id[node]];
+}
 
 /// One facet: its nodes, in 2D counter-clockwise with the sample on the left, in 3D counter-clockwise from outside.
 typedef struct scree_facet {
@@ -32,8 +36,5 @@ scree_status scree_facet_rule(const scree_model *model, const scree_state *state
 
 /// Area vectors of all nodes [m2] (in 2D length times thickness); `area` has one element a node.
 void scree_boundary_areas(const scree_model *model, const scree_state *state, scree_vector *area);
-
-/// Volume inside [m3].
-double scree_boundary_volume(const scree_model *model, const scree_state *state);
 
 #endif

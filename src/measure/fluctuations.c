@@ -5,6 +5,7 @@
 #include "measure/measure.h"
 
 #include "base/matrix.h"
+#include "state/periodic.h"
 
 #include <math.h>
 
@@ -84,9 +85,9 @@ static void deformation_of(const scree_periodic_cell *cell, double deformation[9
     scree_matrix_multiply(cell->lattice, inverse, deformation);
 }
 
-double scree_periodic_fluctuations(const scree_periodic_cell *from_cell, const scree_periodic_cell *to_cell, int dimension,
-                               const double *const *from, const double *const *to, size_t count,
-                               double *const *fluctuation)
+double scree_periodic_fluctuations(const scree_periodic_cell *from_cell, const scree_periodic_cell *to_cell,
+                                   int dimension, const double *const *from, const double *const *to, size_t count,
+                                   double *const *fluctuation)
 {
     double before[9], back[9], after[9], deformation[9], inverse[9], mean[3] = {0}, square = 0;
     deformation_of(from_cell, before);

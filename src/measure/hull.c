@@ -1,17 +1,22 @@
-/// The sample inside a triangulated hull: see hull.h. Cost: O(triangles).
+/// The sample inside a triangulated hull: see hull.h. Volumes, centre and areas are sums in integers. Cost:
+/// O(triangles).
 #include "measure/hull.h"
+#include "measure/delaunay_boundary.h"
+#include "state/plates.h"
+
+#include "base/integer_sum.h"
 
 #include <math.h>
 
 void scree_hull_position(const scree_state *state, size_t node, scree_vector place)
 {
-    scree_body_place(state, state->row_of_id[state->hull.id[node]], place);
+    scree_body_place(state, state->row_of_id[scree_hull_of(state)->id[node]], place);
 }
 
 void scree_hull_corners(const scree_state *state, size_t triangle, const scree_vector origin, scree_vector corner[3])
 {
     for (int c = 0; c < 3; c++) {
-        scree_hull_position(state, state->hull.triangle[triangle][c], corner[c]);
+        scree_hull_position(state, scree_hull_of(state)->triangle[triangle][c], corner[c]);
         for (int k = 0; k < 3; k++) corner[c][k] -= origin[k];
     }
 }
@@ -27,22 +32,25 @@ static double six_volumes(const scree_vector a, const scree_vector b, const scre
 /// Volume, and centre relative to `origin`.
 static double volume_about(const scree_state *state, const scree_vector origin, scree_vector centre)
 {
-    double volume = 0;
-    scree_vector corner[3], moment = {0};
-    for (size_t t = 0; t < state->hull.triangle_count; t++) {
-        scree_hull_corners(state, t, origin, corner);
-        double part = six_volumes(corner[0], corner[1], corner[2]) / 6;
-        volume += part;
-        for (int k = 0; k < 3; k++) moment[k] += part * (corner[0][k] + corner[1][k] + corner[2][k]) / 4;
-    }
-    for (int k = 0; k < 3; k++) centre[k] = volume > 0 ? moment[k] / volume : 0;
+    scree_integer_sum sum[4] = {0}; // volume; moments
+    scree_vector corner[3];
+    while (scree_integer_sum_next(sum, 4))
+        for (size_t t = 0; t < scree_hull_of(state)->triangle_count; t++) {
+            scree_hull_corners(state, t, origin, corner);
+            double part = six_volumes(corner[0], corner[1], corner[2]) / 6;
+            scree_integer_sum_add(&sum[0], part);
+            for (int k = 0; k < 3; k++)
+                scree_integer_sum_add(&sum[1 + k], part * (corner[0][k] + corner[1][k] + corner[2][k]) / 4);
+        }
+    double volume = scree_integer_sum_total(&sum[0]);
+    for (int k = 0; k < 3; k++) centre[k] = volume > 0 ? scree_integer_sum_total(&sum[1 + k]) / volume : 0;
     return volume;
 }
 
 double scree_hull_volume(const scree_state *state)
 {
     scree_vector origin = {0}, centre;
-    if (state->hull.node_count > 0) scree_hull_position(state, 0, origin);
+    if (scree_hull_of(state)->node_count > 0) scree_hull_position(state, 0, origin);
     return volume_about(state, origin, centre);
 }
 
@@ -56,16 +64,18 @@ static double foot_area(const scree_wall *wall, scree_vector corner[3])
 double scree_hull_sample_volume(const scree_state *state, scree_vector centre)
 {
     scree_vector origin = {0}, corner[3];
-    if (state->hull.node_count > 0) scree_hull_position(state, 0, origin);
-    double volume = volume_about(state, origin, centre);
-    for (size_t t = 0; t < state->hull.triangle_count; t++) {
-        int w = scree_hull_wall(&state->hull, t);
-        if (w < 0) continue;
-        const scree_wall *wall = &state->wall[w];
-        scree_hull_corners(state, t, origin, corner);
-        double height = wall->normal[2] * (origin[2] + (corner[0][2] + corner[1][2] + corner[2][2]) / 3);
-        volume += foot_area(wall, corner) * (height - wall->position);
-    }
+    if (scree_hull_of(state)->node_count > 0) scree_hull_position(state, 0, origin);
+    scree_integer_sum prisms = {0};
+    while (scree_integer_sum_next(&prisms, 1))
+        for (size_t t = 0; t < scree_hull_of(state)->triangle_count; t++) {
+            int w = scree_hull_wall(scree_hull_of(state), t);
+            if (w < 0) continue;
+            const scree_wall *wall = &scree_plates(state)[w];
+            scree_hull_corners(state, t, origin, corner);
+            double height = wall->normal[2] * (origin[2] + (corner[0][2] + corner[1][2] + corner[2][2]) / 3);
+            scree_integer_sum_add(&prisms, foot_area(wall, corner) * (height - wall->position));
+        }
+    double volume = volume_about(state, origin, centre) + scree_integer_sum_total(&prisms);
     for (int k = 0; k < 3; k++) centre[k] += origin[k];
     return volume;
 }
@@ -79,7 +89,7 @@ static void take_product(const scree_vector area, const scree_vector place, doub
 
 void scree_hull_pressure_moment(const scree_state *state, const scree_vector centre, double moment[9])
 {
-    const scree_hull *hull = &state->hull;
+    const scree_hull *hull = scree_hull_of(state);
     scree_vector corner[3];
     for (int i = 0; i < 9; i++) moment[i] = 0;
     for (size_t t = 0; t < hull->triangle_count; t++) {
@@ -98,7 +108,7 @@ void scree_hull_pressure_moment(const scree_state *state, const scree_vector cen
                 }
                 continue;
             }
-            double plate = state->wall[w].position * state->wall[w].normal[2] - centre[2];
+            double plate = scree_plates(state)[w].position * scree_plates(state)[w].normal[2] - centre[2];
             double at_a = a[2] - plate, at_b = b[2] - plate;
             scree_vector across = {a[1] - b[1], b[0] - a[0], 0};
             take_product(across, a, (2 * at_a + at_b) / 6, moment);
@@ -109,15 +119,16 @@ void scree_hull_pressure_moment(const scree_state *state, const scree_vector cen
 
 double scree_hull_plate_area(const scree_state *state, int wall)
 {
-    double area = 0;
+    scree_integer_sum area = {0};
     scree_vector origin = {0}, corner[3];
-    if (state->hull.node_count > 0) scree_hull_position(state, 0, origin);
-    for (size_t t = 0; t < state->hull.triangle_count; t++) {
-        if (state->hull.loaded[t] != SCREE_HULL_ON_WALL + wall) continue;
-        scree_hull_corners(state, t, origin, corner);
-        area += foot_area(&state->wall[wall], corner);
-    }
-    return area;
+    if (scree_hull_of(state)->node_count > 0) scree_hull_position(state, 0, origin);
+    while (scree_integer_sum_next(&area, 1))
+        for (size_t t = 0; t < scree_hull_of(state)->triangle_count; t++) {
+            if (scree_hull_of(state)->loaded[t] != SCREE_HULL_ON_WALL + wall) continue;
+            scree_hull_corners(state, t, origin, corner);
+            scree_integer_sum_add(&area, foot_area(&scree_plates(state)[wall], corner));
+        }
+    return scree_integer_sum_total(&area);
 }
 
 /// Partner of the edge `edge` (3 x triangle + corner) among those that start at its end; UINT32_MAX: none.

@@ -8,6 +8,7 @@
 #ifndef SCREE_MEASURE_HULL_H
 #define SCREE_MEASURE_HULL_H
 
+#include "measure/delaunay_boundary.h"
 #include "state/state.h"
 
 /// Present position [m] of the body at a node of the hull.

@@ -5,6 +5,8 @@
 #define SCREE_MEASURE_MEASURE_H
 
 #include "contact/contact.h"
+#include "measure/delaunay_boundary.h"
+#include "state/periodic.h"
 
 /// Area of the Delaunay boundary polygon through the centres [m2] (shoelace).
 double scree_loop_area(const scree_state *state);
@@ -43,21 +45,21 @@ void scree_stress_from_plates(const scree_model *model, const scree_state *state
 void scree_loop_gradient(const double *x, const double *y, const double *ux, const double *uy, size_t count,
                          double gradient[4]);
 
-/// Displacement gradient accumulated up to now: the closed increments in state->strain plus that of the present loop. A
-/// sum of increments over the current configuration, so its trace is the logarithmic volume change of the regions,
-/// without what re-detections change in what is enclosed (strain.c). Of a whole periodic cell the integral of its
-/// velocity gradient. Tension positive.
+/// Displacement gradient accumulated up to now: the closed increments in *scree_strain_of(state) plus that of the
+/// present loop. A sum of increments over the current configuration, so its trace is the logarithmic volume change of
+/// the regions, without what re-detections change in what is enclosed (strain.c). Of a whole periodic cell the integral
+/// of its velocity gradient. Tension positive.
 void scree_strain_measure(const scree_state *state, double gradient[9]);
 
 /// Re-detection of the boundary: the first call closes the increment of the present one and returns what it encloses
-/// [m2, in 3D m3], the second books in state->strain.redetected by how much the new one, at the same positions,
-/// encloses more.
+/// [m2, in 3D m3], the second books in scree_strain_of(state)->redetected by how much the new one, at the same
+/// positions, encloses more.
 double scree_strain_close(scree_state *state);
 void scree_strain_redetected(scree_state *state, double enclosed);
 
 /// Logarithm of what the boundary encloses (2D: m2, 3D: m3), the polygon or polyhedron through the centres of its
 /// bodies. Its change is that of the trace of scree_strain_measure plus that of
-/// state->strain.redetected, to third order in the increments. NAN without a boundary.
+/// scree_strain_of(state)->redetected, to third order in the increments. NAN without a boundary.
 double scree_enclosed_logarithm(const scree_state *state);
 
 typedef struct scree_coordination {

@@ -10,6 +10,7 @@
 #ifndef SCREE_MEASURE_OUTLINE_H
 #define SCREE_MEASURE_OUTLINE_H
 
+#include "measure/delaunay_boundary.h"
 #include "state/state.h"
 
 #include <stdbool.h>
@@ -40,7 +41,7 @@ void scree_outline_visit_run(const scree_state *state, scree_outline_visitor *vi
 /// Present position [m] of the body at place k of the loop.
 static inline void scree_loop_position(const scree_state *state, size_t k, double position[2])
 {
-    const scree_row *row = &state->row[state->row_of_id[state->loop.id[k]]];
+    const scree_row *row = &state->row[state->row_of_id[scree_loop_of(state)->id[k]]];
     position[0] = row->x;
     position[1] = row->y;
 }
@@ -54,7 +55,7 @@ static inline size_t scree_loop_next(const scree_loop *loop, size_t k)
 static inline __attribute__((always_inline)) void scree_outline_walk(const scree_state *state,
                                                                      scree_outline_visitor *visit, void *user)
 {
-    const scree_loop *loop = &state->loop;
+    const scree_loop *loop = scree_loop_of(state);
     if (loop->count == 0) return;
     bool any = memchr(loop->loaded, 1, loop->count) != NULL;
     scree_outline_segment edge = {.kind = any ? SCREE_OUTLINE_EDGE : SCREE_OUTLINE_BARE, .wall = -1};

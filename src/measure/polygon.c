@@ -8,14 +8,16 @@ void scree_polygon_add_edge(scree_polygon_sum *sum, const double a[2], const dou
     double start[2] = {a[0] + ua[0] / 2, a[1] + ua[1] / 2};
     double edge[2] = {b[0] + ub[0] / 2 - start[0], b[1] + ub[1] / 2 - start[1]};
     double mean[2] = {(ua[0] + ub[0]) / 2, (ua[1] + ub[1]) / 2};
-    sum->area += (start[0] * edge[1] - start[1] * edge[0]) / 2;
+    scree_integer_sum_add(&sum->area, (start[0] * edge[1] - start[1] * edge[0]) / 2);
     for (int i = 0; i < 2; i++) {
-        sum->gradient[2 * i] += mean[i] * edge[1];
-        sum->gradient[2 * i + 1] -= mean[i] * edge[0];
+        scree_integer_sum_add(&sum->gradient[2 * i], mean[i] * edge[1]);
+        scree_integer_sum_add(&sum->gradient[2 * i + 1], -mean[i] * edge[0]);
     }
 }
 
 void scree_polygon_finish(const scree_polygon_sum *sum, double gradient[4])
 {
-    for (int i = 0; i < 4; i++) gradient[i] = sum->area > 0 || sum->area < 0 ? sum->gradient[i] / sum->area : 0;
+    double area = scree_integer_sum_total(&sum->area);
+    for (int i = 0; i < 4; i++)
+        gradient[i] = area > 0 || area < 0 ? scree_integer_sum_total(&sum->gradient[i]) / area : 0;
 }

@@ -10,11 +10,21 @@
 #ifndef SCREE_MEASURE_POLYGON_H
 #define SCREE_MEASURE_POLYGON_H
 
-/// Start from zeros.
+#include "base/integer_sum.h"
+
+/// Starts from zeros. The edges may come in any order; all of them twice:
+/// while (scree_polygon_next(&sum)) for (...) scree_polygon_add_edge(&sum, ...).
 typedef struct scree_polygon_sum {
-    double area;        ///< m2, positive counter-clockwise
-    double gradient[4]; ///< m2 until scree_polygon_finish: xx, xy, yx, yy (d u_row / d x_column)
+    scree_integer_sum area;        ///< m2, positive counter-clockwise
+    scree_integer_sum gradient[4]; ///< m2: xx, xy, yx, yy (d u_row / d x_column)
 } scree_polygon_sum;
+
+/// Begins the next pass over the edges; false behind the second (base/integer_sum.h).
+static inline bool scree_polygon_next(scree_polygon_sum *sum)
+{
+    (void)scree_integer_sum_next(&sum->area, 1);
+    return scree_integer_sum_next(sum->gradient, 4);
+}
 
 /// Adds the edge from a to b [m] whose ends are displaced by ua, ub [m].
 void scree_polygon_add_edge(scree_polygon_sum *sum, const double a[2], const double ua[2], const double b[2],

@@ -11,11 +11,21 @@
 #ifndef SCREE_MEASURE_POLYHEDRON_H
 #define SCREE_MEASURE_POLYHEDRON_H
 
-/// Start from zeros.
+#include "base/integer_sum.h"
+
+/// Starts from zeros. The triangles may come in any order; all of them twice:
+/// while (scree_polyhedron_next(&sum)) for (...) scree_polyhedron_add(&sum, ...).
 typedef struct scree_polyhedron_sum {
-    double volume;      ///< m3
-    double gradient[9]; ///< m3 until scree_polyhedron_finish: row-major, d u_row / d x_column
+    scree_integer_sum volume;      ///< m3
+    scree_integer_sum gradient[9]; ///< m3: row-major, d u_row / d x_column
 } scree_polyhedron_sum;
+
+/// Begins the next pass over the triangles; false behind the second (base/integer_sum.h).
+static inline bool scree_polyhedron_next(scree_polyhedron_sum *sum)
+{
+    (void)scree_integer_sum_next(&sum->volume, 1);
+    return scree_integer_sum_next(sum->gradient, 9);
+}
 
 /// Adds the triangle with corners x [m], counter-clockwise seen from outside, that are displaced by u [m].
 void scree_polyhedron_add(scree_polyhedron_sum *sum, double x[3][3], double u[3][3]);

@@ -1,6 +1,8 @@
 /// Decay of spins with the distance from a forced body: bins, fit, reach. See rotation.h. Cost: O(bodies).
 #include "measure/rotation.h"
 
+#include "base/integer_sum.h"
+
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_fit.h>
 #include <gsl/gsl_sort.h>
@@ -25,14 +27,17 @@ bool scree_rotation_counts(const scree_state *state, size_t row)
 
 double scree_rotation_mean_amount(const scree_state *state, size_t forced)
 {
-    double sum = 0, count = 0;
-    for (size_t id = 0; id < state->grains; id++) {
-        size_t row = state->row_of_id[id];
-        if (row == forced || !scree_rotation_counts(state, row)) continue;
-        sum += scree_rotation_amount(state, row);
-        count++;
+    scree_integer_sum sum = {0};
+    double count = 0;
+    while (scree_integer_sum_next(&sum, 1)) {
+        count = 0;
+        for (size_t row = 0; row < state->count; row++) {
+            if (row == forced || !scree_rotation_counts(state, row)) continue;
+            scree_integer_sum_add(&sum, scree_rotation_amount(state, row));
+            count++;
+        }
     }
-    return sum / fmax(1, count);
+    return scree_integer_sum_total(&sum) / fmax(1, count);
 }
 
 size_t scree_rotation_bin_at(double distance)

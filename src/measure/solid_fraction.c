@@ -2,8 +2,10 @@
 /// interior angle that its two edges leave (exact as long as the disc meets no other edge of the loop), a sphere on the
 /// hull as the interior solid angle of its triangles. Overlaps at contacts are counted twice: a relative error of the
 /// order of (indentation / radius)^1.5. In a periodic cell all bodies count whole. Cost: O(bodies).
+#include "measure/delaunay_boundary.h"
 #include "measure/measure.h"
 
+#include "base/integer_sum.h"
 #include "measure/hull.h"
 #include "measure/outline.h"
 #include "state/periodic.h"
@@ -14,7 +16,7 @@
 /// Interior angle of the loop at place k, 0 to 2 pi.
 static double interior_angle(const scree_state *state, size_t k)
 {
-    size_t count = state->loop.count;
+    size_t count = scree_loop_of(state)->count;
     double x[2], next[2], previous[2];
     scree_loop_position(state, k, x);
     scree_loop_position(state, (k + 1) % count, next);
@@ -43,7 +45,7 @@ static void edges_at(const scree_state *state, size_t triangle, int c, scree_vec
 {
     scree_vector origin;
     scree_vector corner[3];
-    scree_hull_position(state, state->hull.triangle[triangle][c], origin);
+    scree_hull_position(state, scree_hull_of(state)->triangle[triangle][c], origin);
     scree_hull_corners(state, triangle, origin, corner);
     memcpy(next, corner[(c + 1) % 3], sizeof corner[0]);
     memcpy(last, corner[(c + 2) % 3], sizeof corner[0]);
@@ -54,7 +56,7 @@ static void edges_at(const scree_state *state, size_t triangle, int c, scree_vec
 /// against the sum of the normals. `inward` is zero before.
 static void add_solid_angles(const scree_state *state, scree_vector *inward, double *angle)
 {
-    const scree_hull *hull = &state->hull;
+    const scree_hull *hull = scree_hull_of(state);
     scree_vector next, last, area;
     for (size_t t = 0; t < hull->triangle_count; t++) {
         edges_at(state, t, 0, next, last);
@@ -76,18 +78,21 @@ static void add_solid_angles(const scree_state *state, scree_vector *inward, dou
 /// Area (2D) or volume of all grains.
 static double solid_of_all(const scree_state *state)
 {
-    double solid = 0;
-    for (size_t id = 0; id < state->grains; id++) {
-        double radius = state->row[state->row_of_id[id]].radius;
-        solid += state->dimension == 2 ? M_PI * radius * radius : 4 * M_PI / 3 * radius * radius * radius;
-    }
-    return solid;
+    scree_integer_sum solid = {0};
+    while (scree_integer_sum_next(&solid, 1))
+        for (size_t row = 0; row < state->count; row++) {
+            if (!scree_body_is_grain(state, row)) continue;
+            double square = state->row[row].radius * state->row[row].radius;
+            scree_integer_sum_add(&solid,
+                                  M_PI * square * (state->dimension == 2 ? 1 : 4.0 / 3 * state->row[row].radius));
+        }
+    return scree_integer_sum_total(&solid);
 }
 
 /// Sphere volume inside the hull: whole ones less what the boundary cuts off.
 static scree_status solid_in_hull(const scree_state *state, double *solid, scree_error *error)
 {
-    const scree_hull *hull = &state->hull;
+    const scree_hull *hull = scree_hull_of(state);
     scree_vector *inward = NULL;
     double *angle = NULL;
     scree_status status = scree_allocate(&inward, hull->node_count, sizeof *inward, error);
@@ -109,8 +114,8 @@ static scree_status solid_in_hull(const scree_state *state, double *solid, scree
 static double solid_in_loop(const scree_state *state)
 {
     double solid = solid_of_all(state);
-    for (size_t k = 0; k < state->loop.count; k++) {
-        double radius = state->row[state->row_of_id[state->loop.id[k]]].radius;
+    for (size_t k = 0; k < scree_loop_of(state)->count; k++) {
+        double radius = state->row[state->row_of_id[scree_loop_of(state)->id[k]]].radius;
         solid -= (M_PI - interior_angle(state, k) / 2) * radius * radius;
     }
     return solid;
@@ -121,9 +126,10 @@ scree_status scree_solid_fraction(const scree_state *state, double *fraction, sc
     *fraction = NAN;
     double solid = 0;
     scree_status status = SCREE_OK;
-    if (state->periodic.directions) *fraction = solid_of_all(state) / scree_periodic_extent(state);
-    if (state->dimension == 2 && state->loop.count > 0) *fraction = solid_in_loop(state) / scree_loop_area(state);
-    if (state->dimension == 3 && state->hull.node_count > 0) {
+    if (scree_cell(state)->directions) *fraction = solid_of_all(state) / scree_periodic_extent(state);
+    if (state->dimension == 2 && scree_loop_of(state)->count > 0)
+        *fraction = solid_in_loop(state) / scree_loop_area(state);
+    if (state->dimension == 3 && scree_hull_of(state)->node_count > 0) {
         status = solid_in_hull(state, &solid, error);
         if (!status) *fraction = solid / scree_hull_volume(state);
     }

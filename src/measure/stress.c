@@ -18,12 +18,16 @@
 /// sigma = -p exactly (integral of n (x) x over a closed outline = area), and the lateral stress of the boundary is -p
 /// for any shape of the sides. Sources: Christoffersen, Mehrabadi, Nemat-Nasser 1981 (contact stress); Bagi 1996
 /// (boundary). Cost: O(contacts), O(loop).
+#include "measure/delaunay_boundary.h"
+#include "measure/imposed_gradient.h"
 #include "measure/measure.h"
+#include "state/plates.h"
 
 #include "measure/facets.h"
 #include "measure/hull.h"
 #include "measure/outline.h"
 #include "state/periodic.h"
+#include "state/pressure.h"
 
 #include <math.h>
 
@@ -84,11 +88,11 @@ static void add_hull_pressure(const scree_state *state, pressure_sum *pressure, 
         scree_hull_pressure_moment(state, pressure->centre, moment);
         for (int i = 0; i < 9; i++) pressure->sum[i] += carried * moment[i];
     }
-    for (size_t k = 0; k < state->hull.node_count; k++) {
+    for (size_t k = 0; k < scree_hull_of(state)->node_count; k++) {
         scree_vector place;
         scree_hull_position(state, k, place);
         for (int i = 0; i < 3; i++) place[i] -= pressure->centre[i];
-        add_product(pressure->sum, state->hull.force[k], place);
+        add_product(pressure->sum, scree_hull_of(state)->force[k], place);
     }
 }
 
@@ -96,10 +100,10 @@ static void add_hull_pressure(const scree_state *state, pressure_sum *pressure, 
 static void add_drive(const scree_state *state, const scree_vector centre, double sum[9])
 {
     scree_vector point;
-    for (size_t k = 0; k < state->drive.count; k++) {
+    for (size_t k = 0; k < scree_imposed(state)->count; k++) {
         scree_body_place(state, scree_boundary_row(state, k), point);
         for (int i = 0; i < 3; i++) point[i] -= centre[i];
-        add_product(sum, state->drive.force[k], point);
+        add_product(sum, scree_imposed(state)->force[k], point);
     }
 }
 
@@ -152,7 +156,7 @@ static void add_wall(const scree_wall *wall, const scree_vector centre, double s
 static bool has_plates(const scree_state *state, int axis)
 {
     int low = axis == state->dimension - 1 ? SCREE_WALL_BOTTOM : axis == 0 ? SCREE_WALL_LEFT : SCREE_WALL_FRONT;
-    return state->wall[low].active || state->wall[low + 1].active;
+    return scree_plates(state)[low].active || scree_plates(state)[low + 1].active;
 }
 
 void scree_stress_from_plates(const scree_model *model, const scree_state *state, double stress[9])
@@ -161,8 +165,8 @@ void scree_stress_from_plates(const scree_model *model, const scree_state *state
         scree_periodic_stress(model, state, stress);
         return;
     }
-    pressure_sum pressure = sum_pressure(model, state, state->pressure);
-    const scree_wall *wall = state->wall;
+    pressure_sum pressure = sum_pressure(model, state, scree_pressure_now(state));
+    const scree_wall *wall = scree_plates(state);
     for (int w = 0; w < SCREE_WALL_COUNT; w++)
         if (wall[w].active) add_wall(&wall[w], pressure.centre, pressure.sum);
     add_drive(state, pressure.centre, pressure.sum);
@@ -171,7 +175,9 @@ void scree_stress_from_plates(const scree_model *model, const scree_state *state
 
     // What cannot be known from the resultants of the walls: see measure.h.
     int dimension = state->dimension, active = 0;
-    bool pressed = state->pressure > 0 && (state->loop.count > 0 || state->hull.node_count > 0), plates[3];
+    bool pressed =
+             scree_pressure_now(state) > 0 && (scree_loop_of(state)->count > 0 || scree_hull_of(state)->node_count > 0),
+         plates[3];
     for (int k = 0; k < dimension; k++) active += plates[k] = has_plates(state, k);
     double known[9];
     for (int i = 0; i < 9; i++) known[i] = stress[i];

@@ -5,30 +5,43 @@
 /// The mean ratio takes the resultant as the change of momentum since the last sample over its time: friction that
 /// depends on the sign of a velocity (hertz_brilliantov) turns round at every step in a sample at rest, and its
 /// instantaneous resultant says nothing. Cost: O(bodies + contacts).
+/// It ends stages, so it is made of sums in integers.
 #include "measure/measure.h"
 
+#include "base/integer_sum.h"
 #include "integrate/integrate.h"
 
 #include <math.h>
+
+/// Sum of the magnitudes of the contact forces [N].
+static double sum_contacts(const scree_contact_table *table)
+{
+    scree_integer_sum sum = {0};
+    while (scree_integer_sum_next(&sum, 1))
+        for (size_t c = 0; c < table->count; c++)
+            scree_integer_sum_add(&sum, hypot(table->contact[c].normal_force, table->contact[c].tangential_force));
+    return scree_integer_sum_total(&sum);
+}
 
 /// Mean over the bodies that touch something of the force that `resultant_on` gives, over the mean contact force.
 static double ratio(const scree_model *model, const scree_state *state, const scree_contact_table *table,
                     void (*resultant_on)(const scree_model *, const scree_state *, size_t row, scree_vector force))
 {
-    double resultant = 0, contact_force = 0;
+    scree_integer_sum resultant = {0};
     scree_vector force;
     size_t bodies = 0;
-    for (size_t id = 0; id < state->grains; id++) {
-        size_t row = state->row_of_id[id];
-        if (state->sum[row].contacts == 0) continue;
-        resultant_on(model, state, row, force);
-        resultant += sqrt(force[0] * force[0] + force[1] * force[1] + force[2] * force[2]);
-        bodies++;
+    while (scree_integer_sum_next(&resultant, 1)) {
+        bodies = 0;
+        for (size_t row = 0; row < state->count; row++) {
+            if (!scree_body_is_grain(state, row) || state->sum[row].contacts == 0) continue;
+            resultant_on(model, state, row, force);
+            scree_integer_sum_add(&resultant, scree_length(force));
+            bodies++;
+        }
     }
-    for (size_t c = 0; c < table->count; c++)
-        contact_force += hypot(table->contact[c].normal_force, table->contact[c].tangential_force);
+    double contact_force = sum_contacts(table);
     if (bodies == 0 || !(contact_force > 0)) return NAN;
-    return (resultant / (double)bodies) / (contact_force / (double)table->count);
+    return (scree_integer_sum_total(&resultant) / (double)bodies) / (contact_force / (double)table->count);
 }
 
 static void present_force(const scree_model *model, const scree_state *state, size_t row, scree_vector force)

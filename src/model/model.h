@@ -5,6 +5,7 @@
 #define SCREE_MODEL_MODEL_H
 
 #include "model/law.h"
+#include "module/module.h"
 
 #include <math.h>
 
@@ -13,7 +14,7 @@
 /// Number of the material that the particles are made of.
 enum { SCREE_PARTICLE_MATERIAL = 0 };
 
-typedef struct scree_model {
+struct scree_model {
     int dimension;
     double thickness;              ///< m, length of the discs; 1 in 3D
     scree_law_use law;             ///< how contacts resist
@@ -40,7 +41,7 @@ typedef struct scree_model {
     bool friction_of_stage; ///< the stage's own friction holds for all contacts, the walls of the case included
     double density[SCREE_MAX_MATERIALS];
     const scree_config *config; ///< what the user said; outlives the model
-} scree_model;
+};
 
 /// Resolves `config` into `model`. Errors: SCREE_ERROR_INPUT with the field for anything that only shows when values
 /// meet: a step above the critical one (names it and offers it), a packing that cannot fit, a material that does not

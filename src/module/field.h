@@ -40,8 +40,8 @@ typedef enum scree_field_rows {
 
 /// Arrays of a module that have one length: where in its struct their number of rows and their capacity lie (size_t).
 typedef struct scree_group {
-    const char *row;        ///< what messages call a row: "node"
-    const char *collection; ///< name of the rows as a collection of ParaView; NULL: not written there
+    const char *row;    ///< what messages call a row: "node"
+    const char *symbol; ///< of their number in docs/output.md: "h"
     size_t count_offset, capacity_offset;
 } scree_group;
 

@@ -5,15 +5,13 @@
 #define SCREE_MODULE_MODULE_H
 
 #include "base/error.h"
+#include "module/field.h"
 #include "module/key.h"
+#include "module/pass.h"
 #include "module/table.h"
 
 #include <stdint.h>
 
-typedef struct scree_module scree_module;
-typedef struct scree_field scree_field; // module/field.h
-typedef struct scree_model scree_model;
-typedef struct scree_state scree_state;
 typedef struct scree_config scree_config;
 typedef struct scree_reader scree_reader;
 
@@ -44,6 +42,15 @@ struct scree_module {
     scree_status (*check)(const scree_state *state, const scree_model *model, scree_error *error);
     /// Continues the state checksum with what physics depends on (docs/architecture.md). NULL: nothing.
     uint64_t (*checksum)(const scree_model *model, const scree_state *state, uint64_t checksum);
+
+    // ---- passes: what it does in a step ----
+    const scree_pass *passes;
+    size_t pass_count;
+    /// Whether it has something to do in the stage that begins. NULL: always.
+    bool (*in_use)(const scree_context *context);
+    /// Largest force that its loads may put on one body in this step [N], for the quanta; up to 2^10 times more is
+    /// safe. NULL: none.
+    double (*bound)(const scree_context *context);
 };
 
 #define SCREE_MODULE_DECLARE(name) extern const scree_module scree_module_##name;

@@ -5,8 +5,8 @@
 #define SCREE_MODULE_TABLE_H
 
 #define SCREE_STATE_MODULES(row)                                                                                       \
-    row(plates) row(case_walls) row(periodic_cell) row(delaunay_boundary) row(imposed_gradient) row(membrane)          \
-        row(forced_spin)
+    row(plates) row(case_walls) row(periodic_cell) row(delaunay_boundary) row(pressure) row(imposed_gradient)          \
+        row(membrane) row(forced_spin)
 
 /// Contact laws, each with its header in contact/laws.h.
 #define SCREE_LAWS(row) row(hertz_brilliantov) row(hertz_mindlin)
@@ -18,6 +18,6 @@
         row(face_centred) row(cubic) row(gas) row(growth) row(pair) row(bodies) row(prepare) row(confine)              \
             row(compress) row(deform) row(rotate_particle) row(relax) row(collide)
 
-#define SCREE_MODULES(row) SCREE_CASE_MODULES(row)
+#define SCREE_MODULES(row) SCREE_STATE_MODULES(row) SCREE_CASE_MODULES(row)
 
 #endif

@@ -16,6 +16,7 @@
 #include "prepare/growth.h"
 #include "module/key_rows.h"
 #include "prepare/methods.h"
+#include "state/plates.h"
 
 #include "base/random.h"
 #include "search/neighbours.h"
@@ -73,8 +74,8 @@ static scree_status begin_growth(growth *g, scree_error *error)
     }
     for (int axis = 0; axis < packing->dimension; axis++)
         for (int w = 2 * axis; w < 2 * axis + 2; w++) {
-            g->state.wall[w] = (scree_wall){.position = w % 2 ? -side[axis] : 0, .active = 1};
-            g->state.wall[w].normal[axis] = w % 2 ? -1 : 1;
+            scree_plates(&g->state)[w] = (scree_wall){.position = w % 2 ? -side[axis] : 0, .active = 1};
+            scree_plates(&g->state)[w].normal[axis] = w % 2 ? -1 : 1;
         }
     return SCREE_OK;
 }
@@ -124,7 +125,7 @@ static scree_status evaluate(growth *g, scree_error *error)
         g->overlap = fmax(g->overlap, overlap);
     }
     for (size_t k = 0; k < walls->count; k++) {
-        const scree_wall *wall = &g->state.wall[walls->wall[k]];
+        const scree_wall *wall = &scree_plates(&g->state)[walls->wall[k]];
         scree_vector place;
         scree_body_place(&g->state, walls->body[k], place);
         double away = wall->normal[0] * place[0] + wall->normal[1] * place[1] + wall->normal[2] * place[2];

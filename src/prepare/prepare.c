@@ -3,6 +3,7 @@
 /// Positions and radii are pure functions of (case, seed), by arithmetic that is exact to the same bit on every
 /// machine.
 #include "prepare/methods.h"
+#include "state/plates.h"
 
 #include "base/random.h"
 #include "state/periodic.h"
@@ -64,7 +65,7 @@ static void stand_walls(const scree_box *box, bool active, scree_state *state)
     const int axis[SCREE_WALL_COUNT] = {state->dimension - 1, state->dimension - 1, 0, 0, 1, 1};
     const double far[SCREE_WALL_COUNT / 2] = {box->height, box->width, box->depth};
     for (int w = 0; w < 2 * state->dimension; w++) {
-        scree_wall *wall = &state->wall[w];
+        scree_wall *wall = &scree_plates(state)[w];
         *wall =
             (scree_wall){.position = w % 2 ? -far[w / 2] : 0, .active = active, .material = SCREE_PARTICLE_MATERIAL};
         wall->normal[axis[w]] = w % 2 ? -1 : 1;
@@ -72,7 +73,7 @@ static void stand_walls(const scree_box *box, bool active, scree_state *state)
         if (box->periodic >> axis[w] & 1) wall->active = 0;
     }
     const double side[3] = {box->width, state->dimension == 3 ? box->depth : box->height, box->height};
-    if (box->periodic) scree_periodic_set(&state->periodic, box->periodic, side);
+    if (box->periodic) scree_periodic_set(scree_cell(state), box->periodic, side);
 }
 
 scree_status scree_prepare(const scree_model *model, const scree_config_stage *stage, scree_state *state,

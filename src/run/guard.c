@@ -1,21 +1,23 @@
 /// Guards and their messages: which body, why, and what to try.
 #include "run/guard.h"
+#include "state/plates.h"
 
 #include <math.h>
 
 /// Lowest id whose row is not finite; count when there is none.
 static size_t first_not_finite(const scree_state *state)
 {
-    for (size_t id = 0; id < state->count; id++) {
+    size_t lowest = state->count;
+    for (size_t row = 0; row < state->count; row++) {
         scree_vector place, velocity, spin;
-        scree_body_place(state, state->row_of_id[id], place);
-        scree_body_motion(state, state->row_of_id[id], velocity, spin);
+        scree_body_place(state, row, place);
+        scree_body_motion(state, row, velocity, spin);
         // The sum of finite numbers of these sizes is finite, and of others it is not.
         double sum = 0;
         for (int k = 0; k < 3; k++) sum += place[k] + velocity[k] + spin[k];
-        if (!isfinite(sum)) return id;
+        if (!isfinite(sum) && state->id[row] < lowest) lowest = state->id[row];
     }
-    return state->count;
+    return lowest;
 }
 
 static scree_status stop_not_finite(const scree_simulation *s, scree_error *error)
@@ -56,7 +58,7 @@ scree_status scree_guard_step(const scree_simulation *s, scree_error *error)
 static scree_status stop_escaped(const scree_simulation *s, scree_error *error)
 {
     const scree_state *state = &s->state;
-    const scree_wall *bottom = &state->wall[SCREE_WALL_BOTTOM], *top = &state->wall[SCREE_WALL_TOP];
+    const scree_wall *bottom = &scree_plates(state)[SCREE_WALL_BOTTOM], *top = &scree_plates(state)[SCREE_WALL_TOP];
     for (size_t id = 0; id < state->count; id++) {
         scree_vector place;
         scree_body_place(state, state->row_of_id[id], place);

@@ -5,6 +5,8 @@
 #include "boundary/minimal.h"
 #include "measure/measure.h"
 #include "run/simulation.h"
+#include "state/plates.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -17,12 +19,12 @@
 /// Distance between the plates; without them the extent of the bodies along the axis.
 static double present_height(const scree_state *state)
 {
-    const scree_wall *bottom = &state->wall[SCREE_WALL_BOTTOM], *top = &state->wall[SCREE_WALL_TOP];
+    const scree_wall *bottom = &scree_plates(state)[SCREE_WALL_BOTTOM], *top = &scree_plates(state)[SCREE_WALL_TOP];
     if (bottom->active && top->active) return -(bottom->position + top->position);
     double low = INFINITY, high = -INFINITY;
     scree_vector place;
-    for (size_t id = 0; id < state->grains; id++) {
-        size_t row = state->row_of_id[id];
+    for (size_t row = 0; row < state->count; row++) {
+        if (!scree_body_is_grain(state, row)) continue;
         scree_body_place(state, row, place);
         low = fmin(low, place[state->dimension - 1] - state->row[row].radius);
         high = fmax(high, place[state->dimension - 1] + state->row[row].radius);
@@ -35,9 +37,9 @@ void scree_loading_begin(scree_simulation *s)
     scree_state *state = &s->state;
     double *reference = state->stage.reference;
     reference[SCREE_LOADING_HEIGHT] = present_height(state);
-    reference[SCREE_LOADING_WAVE] = scree_sample_wave_time(&s->model, state, state->pressure);
+    reference[SCREE_LOADING_WAVE] = scree_sample_wave_time(&s->model, state, scree_pressure_now(state));
     scree_strain_measure(state, &reference[SCREE_LOADING_STRAIN]);
-    scree_servo sides = scree_servo_for(&s->model, state, SCREE_WALL_LEFT, state->pressure);
+    scree_servo sides = scree_servo_for(&s->model, state, SCREE_WALL_LEFT, scree_pressure_now(state));
     reference[SCREE_LOADING_SIDES] = sides.impedance;
     reference[SCREE_LOADING_SIDES + 1] = sides.mass;
     for (size_t row = 0; row < state->count; row++) scree_body_place(state, row, state->reference[row]);

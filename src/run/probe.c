@@ -14,6 +14,7 @@
 /// Limits: the cost of a body in a larger sample is scaled by run/estimate.c; a flow is seen at rest. Cost: some tenths
 /// of a second.
 #include "run/probe.h"
+#include "state/plates.h"
 
 #include "measure/cells.h"
 #include "run/quasistatic.h"
@@ -21,6 +22,7 @@
 #include "run/step.h"
 #include "search/neighbours.h"
 #include "state/periodic.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -119,12 +121,12 @@ static scree_status prepare(probe_case *probe, scree_error *error)
 static void close_cell(const scree_model *model, unsigned periodic, scree_state *state)
 {
     scree_vector low, high;
-    scree_periodic_box(state, low, high);
+    scree_periodic_box(state->dimension, scree_plates(state), low, high);
     double side[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
-    scree_periodic_set(&state->periodic, periodic, side);
+    scree_periodic_set(scree_cell(state), periodic, side);
     for (int w = 0; w < SCREE_WALL_COUNT; w++) {
         int axis = w / 2 == 0 ? model->dimension - 1 : w / 2 - 1;
-        if (periodic >> axis & 1) state->wall[w].active = 0;
+        if (periodic >> axis & 1) scree_plates(state)[w].active = 0;
     }
 }
 
@@ -142,10 +144,10 @@ static void press(const scree_model *model, scree_state *state, double pressure)
         if (model->dimension == 3) state->row[row].z *= scale;
         scree_body_place(state, row, state->reference[row]);
     }
-    for (int w = 0; w < SCREE_WALL_COUNT; w++) state->wall[w].position *= scale;
+    for (int w = 0; w < SCREE_WALL_COUNT; w++) scree_plates(state)[w].position *= scale;
     for (int k = 0; k < 9; k++)
-        if (state->periodic.directions >> (k % 3) & 1) state->periodic.lattice[k] *= scale;
-    memcpy(state->periodic.reference, state->periodic.lattice, sizeof state->periodic.reference);
+        if (scree_cell(state)->directions >> (k % 3) & 1) scree_cell(state)->lattice[k] *= scale;
+    memcpy(scree_cell(state)->reference, scree_cell(state)->lattice, sizeof scree_cell(state)->reference);
 }
 
 /// Bodies placed and pressed, in the stage that is to be measured.
@@ -157,7 +159,7 @@ static scree_status stand(probe_case *probe, int64_t stage, scree_error *error)
     double pressure = scree_confining_pressure(&probe->c.config, stage);
     if (probe->dropped && probe->periodic) close_cell(&s->model, probe->periodic, &s->state);
     if (pressure > 0 && s->state.count > 2) press(&s->model, &s->state, pressure);
-    s->state.pressure = pressure > 0 ? pressure : 0;
+    scree_pressure_set(&s->state, pressure > 0 ? pressure : 0);
     s->state.stage.index = stage;
     s->state.stage.counter = -1;
     scree_neighbours_invalidate(&s->work);
@@ -180,7 +182,7 @@ static scree_status renew_boundary(probe_case *probe, scree_error *error)
     scree_simulation *s = &probe->s;
     int64_t *every = &probe->c.config.boundary.every, kept = *every;
     *every = 0;
-    scree_status status = scree_boundary_prepare(s->boundary, &s->stage_model, &s->state, error);
+    scree_status status = scree_step_phase(s, SCREE_PHASE_SEARCH, error);
     *every = kept;
     return status;
 }
@@ -232,7 +234,7 @@ static scree_status time_all(probe_case *small, scree_probe *probe, scree_error 
     if (!status) status = time_task(small, renew_list, &probe->rebuild, error);
     if (!status) status = time_task(small, renew_boundary, &probe->upkeep, error);
     if (!status) status = time_task(small, take_sample, &probe->sample, error);
-    if (status || !small->c.config.measure.cells || s->state.periodic.directions) return status;
+    if (status || !small->c.config.measure.cells || scree_cell(&s->state)->directions) return status;
     status = time_task(small, measure_cells, &probe->cells, error);
     // A few bodies have no cells.
     if (status) probe->cells = 0;

@@ -1,6 +1,7 @@
 /// What a run writes. Order after a step: series row, snapshot, checkpoint, so that a checkpoint knows how many rows
 /// and snapshots there are and a restart cuts what came later.
 #include "run/recorder.h"
+#include "state/periodic.h"
 
 #include "io/disk.h"
 #include "io/paraview.h"
@@ -137,7 +138,7 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
     scree_wall_triangles walls = {0};
     scree_status status = picture_walls(s, &walls, error);
     info.walls = &walls;
-    if (!status && sound && s->model.config->measure.cells && !s->state.periodic.directions) {
+    if (!status && sound && s->model.config->measure.cells && !scree_cell(&s->state)->directions) {
         status = scree_cells_measure(model, &s->state, &s->table, &cells, error);
         // A few bodies, or bodies on a line, have no triangulation and so no cells.
         if (!status) info.cells = &cells;

@@ -68,6 +68,7 @@ scree_status scree_restart_try(scree_simulation *s, const char *directory, uint6
     wanted_run run = {s, directory};
     const scree_restart_wanted wanted = {
         .dimension = s->model.dimension, .case_checksum = checksum, .usable = usable, .context = &run};
+    scree_state_destroy(&s->state);
     return scree_restart_point_read(directory, point, &wanted, &s->state, &another, error);
 }
 
@@ -95,6 +96,7 @@ scree_status scree_restart_read(scree_simulation *s, const char *directory, cons
     scree_status status = parse_from(from, &wanted.snapshot, error);
     if (status) return status;
     scree_error note = {0};
+    scree_state_destroy(&s->state);
     status = scree_restart_find(directory, &wanted, used, &s->state, &note);
     if (status && error) *error = note;
     if (!status && note.message[0]) scree_notes_add(notes, "%s", note.message);

@@ -16,6 +16,8 @@
 /// What springs were given by the change of their stiffness, over the energy at the begin and the work turned over, is
 /// `stiffness_share`.
 #include "run/results.h"
+#include "state/case_walls.h"
+#include "state/periodic.h"
 
 #include "io/loading_stage.h"
 #include "io/run_directory.h"
@@ -243,7 +245,7 @@ static void summarise_walls(const scree_simulation *s, scree_summary *summary)
 {
     const scree_config *config = s->model.config;
     for (int64_t w = 0; w < config->wall_count; w++) {
-        const scree_surface_load *load = &s->state.surface[w];
+        const scree_surface_load *load = &scree_case_walls(&s->state)->load[w];
         char name[96];
         (void)snprintf(name, sizeof name, "%s_work", config->walls[w].name);
         scree_summary_set_number(summary, name, load->work);
@@ -301,7 +303,7 @@ static scree_status summarise_stage(const scree_simulation *s, scree_summary *su
     summarise_cost(s, summary);
     bool plates = scree_boundary_has_plates(scree_boundary_get(scree_config_boundary_of(config, present)));
     bool strained = !isnan(scree_model_loading_rate(&config->stages[present]));
-    bool cornered = strained && !plates && !s->state.periodic.directions;
+    bool cornered = strained && !plates && !scree_cell(&s->state)->directions;
     return cornered ? summarise_shape(s, summary, error) : SCREE_OK;
 }
 
@@ -325,7 +327,7 @@ scree_status scree_results_collect(const scree_recorder *recorder, scree_simulat
         status = summarise_energy(&series, s, *summary, error);
     }
     if (!status) status = summarise_stage(s, *summary, error);
-    if (!status && s->model.config->measure.cells && !s->state.periodic.directions)
+    if (!status && s->model.config->measure.cells && !scree_cell(&s->state)->directions)
         status = scree_cell_results_write(recorder->directory, s->model.config, &series, *summary, error);
     if (!status) status = scree_collide_results(s, *summary, error);
     if (!status) status = scree_rotation_results(recorder->directory, s, *summary, error);

@@ -1,6 +1,7 @@
 /// Tables and scalars of the transmission of rotations (measure/rotation.h). Lengths in mean diameters; angles in
 /// degrees.
 #include "run/rotation_results.h"
+#include "integrate/forced_spin.h"
 #include "run/stage_rotate.h"
 
 #include "io/run_directory.h"
@@ -129,7 +130,7 @@ static void summarise(const scree_simulation *s, const findings *f, scree_summar
     double diagonal = fabs(tensor[0]) + fabs(tensor[4]) + fabs(tensor[8]), other = 0;
     for (int c = 0; c < 9; c++) other += c / 3 != c % 3 ? fabs(tensor[c]) : 0;
     const scree_rotation_alignment *a = &f->alignment;
-    scree_summary_set_integer(summary, "forced_particle", s->state.forced.id);
+    scree_summary_set_integer(summary, "forced_particle", scree_forced(&s->state)->id);
     scree_summary_set_number(summary, "rotation_reach", f->decay.reach);
     set_interval(summary, "rotation_decay_length", f->decay.length, f->decay.length_low, f->decay.length_high);
     scree_summary_set_number(summary, "rotation_at_contact", f->decay.amplitude * exp(-1 / f->decay.length));
@@ -154,8 +155,8 @@ scree_status scree_rotation_results(const char *directory, scree_simulation *s, 
 {
     const scree_state *state = &s->state;
     // Before the end of the stage the angles are not those of the hold.
-    if (!state->forced.active || state->stage.index < s->model.config->stage_count) return SCREE_OK;
-    findings f = {.forced = state->row_of_id[state->forced.id]};
+    if (!scree_forced(state)->active || state->stage.index < s->model.config->stage_count) return SCREE_OK;
+    findings f = {.forced = state->row_of_id[scree_forced(state)->id]};
     double cutoff = last_stage(s)->cutoff;
     scree_status status = scree_contact_table_build(&s->stage_model, state, &s->work, &s->table, error);
     if (status) return status;

@@ -1,5 +1,6 @@
 /// The columns of series.csv and how each comes from the measures.
 #include "run/sample.h"
+#include "measure/delaunay_boundary.h"
 
 #include "boundary/drive.h"
 #include "boundary/membrane.h"
@@ -80,7 +81,8 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
     [SCREE_SAMPLE_WORK_GRAVITY] = {"work_gravity", "J", "work of gravity"},
     [SCREE_SAMPLE_SCHEME_WORK] = {"scheme_work", "J", "put into the kinetic energy by changes of the step"},
     [SCREE_SAMPLE_ENERGY_RESIDUAL] = {"energy_residual", "J", "what the energy balance leaves open"},
-    [SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE] = {"energy_residual_relative", "1", "its magnitude over all energy: at the begin, turned over, stored now"},
+    [SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE] = {"energy_residual_relative", "1",
+                                               "its magnitude over all energy: at the begin, turned over, stored now"},
     [SCREE_SAMPLE_HEIGHT] = {"height", "m",
                              "distance of bottom and top plate or of the faces of the periodic cell, or height as the "
                              "Delaunay boundary is strained"},
@@ -124,7 +126,7 @@ static void sample_strain(const scree_simulation *s, double *value)
 static void sample_volume(scree_simulation *s, double *value)
 {
     double *begin = s->state.stage.reference, enclosed = scree_enclosed_logarithm(&s->state);
-    double redetected = s->state.strain.redetected, solid = value[SCREE_SAMPLE_SOLID_FRACTION];
+    double redetected = scree_strain_of(&s->state)->redetected, solid = value[SCREE_SAMPLE_SOLID_FRACTION];
     value[SCREE_SAMPLE_VOLUMETRIC_REDETECTED] = value[SCREE_SAMPLE_VOLUMETRIC_ENCLOSED] =
         value[SCREE_SAMPLE_VOLUMETRIC_SOLID] = NAN;
     if (!s->stage->loading) return;
@@ -152,7 +154,8 @@ static void sample_stress(const scree_simulation *s, double *value)
     scree_stress_from_plates(model, &s->state, plates);
     scree_stress_from_contacts(&s->table, volume, contacts);
     value[SCREE_SAMPLE_VOLUME] = volume;
-    value[SCREE_SAMPLE_MEMBRANE_VOLUME] = s->state.membrane.count > 0 ? scree_membrane_volume(model, &s->state) : NAN;
+    value[SCREE_SAMPLE_MEMBRANE_VOLUME] =
+        scree_membrane_of(&s->state)->count > 0 ? scree_membrane_volume(model, &s->state) : NAN;
     value[SCREE_SAMPLE_AREA] = s->state.dimension == 3 ? volume / scree_sample_height(s) : scree_sample_area(&s->state);
     value[SCREE_SAMPLE_AXIAL_PLATES] = -plates[axial];
     value[SCREE_SAMPLE_LATERAL_APPLIED] = -lateral_of(s, plates);

@@ -2,7 +2,7 @@
 #include "run/simulation.h"
 
 #include "base/processor.h"
-#include "boundary/forced_spin.h"
+#include "integrate/forced_spin.h"
 #include "measure/measure.h"
 #include "run/sample.h"
 #include "run/step.h"
@@ -22,12 +22,13 @@ scree_status scree_simulation_open(const scree_case *c, int threads, scree_simul
 {
     memset(s, 0, sizeof *s);
     s->c = c;
-    s->state.stage.counter = NOT_BEGUN;
     scree_status status = scree_model_build(&c->config, &s->model, error);
     if (status) {
         scree_case_locate(c, error);
         return status;
     }
+    if ((status = scree_state_open(&s->state, s->model.dimension, error))) return status;
+    s->state.stage.counter = NOT_BEGUN;
     s->stage_model = s->model;
     s->integrator = scree_integrator_get(s->model.scheme);
     // A thread pays from a few thousand bodies on; below, its barriers cost more than it does (docs/performance.md).
@@ -106,6 +107,7 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
         if (status) return status;
     }
     if (s->stage->plan) s->stage->plan(s);
+    scree_step_compile(s);
     return SCREE_OK;
 }
 

@@ -14,6 +14,8 @@ typedef struct scree_sample {
     double value[SCREE_SAMPLE_COLUMNS];
 } scree_sample;
 
+enum { SCREE_PASSES = 64 }; ///< most passes of a step
+
 struct scree_simulation {
     const scree_case *c;
     scree_model model;       ///< of the case
@@ -21,9 +23,11 @@ struct scree_simulation {
     const scree_integrator *integrator;
     scree_state state;
     scree_work work;
-    scree_contact_table table;      ///< at the last sample
-    const scree_stage *stage;       ///< NULL when the case has ended
-    const scree_boundary *boundary; ///< of the present stage
+    scree_contact_table table;       ///< at the last sample
+    const scree_stage *stage;        ///< NULL when the case has ended
+    const scree_boundary *boundary;  ///< of the present stage
+    scree_pass passes[SCREE_PASSES]; ///< of the step of this stage, in their order
+    size_t pass_count;
     scree_stage_plan plan;
     scree_sample sample; ///< the last one
     bool sampled;        ///< the last step made a sample

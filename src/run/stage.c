@@ -1,5 +1,6 @@
 /// What several stages share.
 #include "run/stage.h"
+#include "state/plates.h"
 
 #include "base/matrix.h"
 #include "measure/measure.h"
@@ -44,10 +45,10 @@ static double axial_stretch(const scree_simulation *s)
 
 double scree_sample_height(const scree_simulation *s)
 {
-    const scree_wall *wall = s->state.wall;
+    const scree_wall *wall = scree_plates(&s->state);
     if (scree_periodic_is_whole(&s->state)) {
         double inverse[9], width[3];
-        scree_matrix_invert(s->state.periodic.lattice, inverse);
+        scree_matrix_invert(scree_cell(&s->state)->lattice, inverse);
         scree_periodic_widths(inverse, width);
         return width[s->state.dimension - 1];
     }
@@ -77,5 +78,6 @@ double scree_smooth_ramp(double fraction)
 void scree_servo_sides(scree_simulation *s, double pressure)
 {
     for (int w = SCREE_WALL_LEFT; w < SCREE_WALL_COUNT; w++)
-        if (s->state.wall[w].active) scree_plate_servo(&s->stage_model, &s->state, w, s->plan.sides, pressure);
+        if (scree_plates(&s->state)[w].active)
+            scree_plate_servo(&s->stage_model, &s->state, w, s->plan.sides, pressure);
 }

@@ -4,6 +4,7 @@
 
 #include "boundary/periodic.h"
 #include "boundary/plates.h"
+#include "measure/delaunay_boundary.h"
 #include "state/work.h"
 
 typedef struct scree_simulation scree_simulation;
@@ -98,7 +99,7 @@ enum {
     SCREE_LOADING_OTHERS = 13, ///< free for the stage
     // all loading stages, periodic ones too; set by the first sample (run/sample.c)
     SCREE_LOADING_ENCLOSED = 20, ///< 1, scree_enclosed_logarithm
-    SCREE_LOADING_REDETECTED,    ///< 1, state.strain.redetected
+    SCREE_LOADING_REDETECTED,    ///< 1, scree_strain_of(&state)->redetected
     SCREE_LOADING_SOLID,         ///< 1, solid fraction
 };
 

@@ -7,8 +7,11 @@
 /// run/stage.h, SCREE_LOADING_...
 #include "run/stage_compress.h"
 #include "boundary/minimal.h"
+#include "measure/imposed_gradient.h"
 #include "module/key_rows.h"
 #include "run/simulation.h"
+#include "state/plates.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -29,13 +32,13 @@ static const config *own_config(const scree_simulation *s)
 /// Minimal conditions on the axial component alone.
 static void prescribe(scree_simulation *s)
 {
-    scree_drive *drive = &s->state.drive;
+    scree_imposed_gradient *drive = scree_imposed(&s->state);
     int axial = s->state.dimension == 3 ? 8 : 4;
     double full[9] = {[0] = own_config(s)->rate}, penalty = s->model.config->boundary.penalty;
     memset(drive->target, 0, sizeof drive->target);
     memset(drive->prescribed, 0, sizeof drive->prescribed);
     drive->prescribed[axial] = SCREE_FULL;
-    drive->viscosity = isnan(penalty) ? scree_minimal_viscosity(s->state.pressure, full) : penalty;
+    drive->viscosity = isnan(penalty) ? scree_minimal_viscosity(scree_pressure_now(&s->state), full) : penalty;
 }
 
 static scree_status begin(scree_simulation *s, scree_error *error)
@@ -58,12 +61,12 @@ static void control(scree_simulation *s)
     scree_state *state = &s->state;
     double loaded, rate = stage->rate * scree_loading_rise(s, &loaded);
     if (!scree_boundary_has_plates(s->boundary)) {
-        state->drive.target[state->dimension == 3 ? 8 : 4] = -rate / (1 - stage->rate * loaded);
+        scree_imposed(state)->target[state->dimension == 3 ? 8 : 4] = -rate / (1 - stage->rate * loaded);
         return;
     }
     double velocity = 0.5 * rate * state->stage.reference[SCREE_LOADING_HEIGHT];
-    state->wall[SCREE_WALL_BOTTOM].velocity = state->wall[SCREE_WALL_TOP].velocity = velocity;
-    scree_servo_sides(s, state->pressure);
+    scree_plates(state)[SCREE_WALL_BOTTOM].velocity = scree_plates(state)[SCREE_WALL_TOP].velocity = velocity;
+    scree_servo_sides(s, scree_pressure_now(state));
 }
 
 static scree_status finished(scree_simulation *s, bool *done, scree_error *error)

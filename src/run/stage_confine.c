@@ -11,11 +11,14 @@
 /// state.stage.reference: [0] pressure at the begin, [1] wave time, [2, 3] impedance and mass of the plates, [4, 5] of
 /// the side plates.
 #include "run/stage_confine.h"
+#include "measure/imposed_gradient.h"
 #include "model/critical_step.h"
 #include "module/key_rows.h"
 #include "run/quasistatic.h"
 #include "run/sample.h"
 #include "run/simulation.h"
+#include "state/plates.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -60,7 +63,7 @@ static scree_status begin(scree_simulation *s, scree_error *error)
     scree_state *state = &s->state;
     const config *stage = own_config(s);
     double *reference = state->stage.reference;
-    reference[0] = state->pressure;
+    reference[0] = scree_pressure_now(state);
     reference[1] = scree_sample_wave_time(&s->model, state, stage->pressure);
     scree_servo plates = scree_servo_for(&s->model, state, SCREE_WALL_TOP, stage->pressure);
     scree_servo sides = scree_servo_for(&s->model, state, SCREE_WALL_LEFT, stage->pressure);
@@ -68,7 +71,7 @@ static scree_status begin(scree_simulation *s, scree_error *error)
     reference[3] = plates.mass;
     reference[4] = sides.impedance;
     reference[5] = sides.mass;
-    memset(state->drive.prescribed, 0, sizeof state->drive.prescribed);
+    memset(scree_imposed(state)->prescribed, 0, sizeof scree_imposed(state)->prescribed);
     return SCREE_OK;
 }
 
@@ -90,11 +93,11 @@ static void control(scree_simulation *s)
 {
     double from = s->state.stage.reference[0], to = own_config(s)->pressure;
     double done = s->plan.ramp_time > 0 ? scree_stage_elapsed(s) / s->plan.ramp_time : 1;
-    s->state.pressure = from + (to - from) * scree_smooth_ramp(done);
-    s->state.wall[SCREE_WALL_BOTTOM].velocity = 0;
+    scree_pressure_set(&s->state, from + (to - from) * scree_smooth_ramp(done));
+    scree_plates(&s->state)[SCREE_WALL_BOTTOM].velocity = 0;
     if (!scree_boundary_has_plates(s->boundary)) return;
-    scree_plate_servo(&s->stage_model, &s->state, SCREE_WALL_TOP, s->plan.plates, s->state.pressure);
-    scree_servo_sides(s, s->state.pressure);
+    scree_plate_servo(&s->stage_model, &s->state, SCREE_WALL_TOP, s->plan.plates, scree_pressure_now(&s->state));
+    scree_servo_sides(s, scree_pressure_now(&s->state));
 }
 
 scree_status scree_confine_finished(scree_simulation *s, const char *what, double off, double tolerance, bool *done,

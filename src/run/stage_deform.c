@@ -6,9 +6,11 @@
 /// (logarithmic, sum of increments), has reached `strain`. reference: run/stage.h, SCREE_LOADING_...
 #include "run/stage_deform.h"
 #include "boundary/minimal.h"
+#include "measure/imposed_gradient.h"
 #include "measure/measure.h"
 #include "module/key_rows.h"
 #include "run/simulation.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -78,12 +80,12 @@ static int find_target(const config *stage, double target[9], int64_t prescribed
 static scree_status begin(scree_simulation *s, scree_error *error)
 {
     (void)error;
-    scree_drive *drive = &s->state.drive;
+    scree_imposed_gradient *drive = scree_imposed(&s->state);
     double target[9], penalty = s->model.config->boundary.penalty;
     scree_loading_begin(s);
     memset(drive->target, 0, sizeof drive->target);
     (void)find_target(own_config(s), target, drive->prescribed);
-    drive->viscosity = isnan(penalty) ? scree_minimal_viscosity(s->state.pressure, target) : penalty;
+    drive->viscosity = isnan(penalty) ? scree_minimal_viscosity(scree_pressure_now(&s->state), target) : penalty;
     return SCREE_OK;
 }
 
@@ -98,7 +100,7 @@ static void plan(scree_simulation *s)
 
 static void control(scree_simulation *s)
 {
-    scree_drive *drive = &s->state.drive;
+    scree_imposed_gradient *drive = scree_imposed(&s->state);
     double loaded, rise = scree_loading_rise(s, &loaded);
     int64_t prescribed[9];
     (void)find_target(own_config(s), drive->target, prescribed);

@@ -20,6 +20,7 @@
 #include "run/stage_confine.h"
 #include "run/stage_deform.h"
 #include "state/periodic.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -41,14 +42,14 @@ static void measure_sample(scree_simulation *s, double pressure)
     reference[INERTIA] = drive.inertia;
     reference[DAMPING] = drive.damping;
     reference[LIMIT] = drive.limit;
-    memcpy(&reference[STRAIN], s->state.periodic.strain, sizeof s->state.periodic.strain);
+    memcpy(&reference[STRAIN], scree_cell(&s->state)->strain, sizeof scree_cell(&s->state)->strain);
 }
 
 /// Displacements and rotations count from here.
 static void set_reference(scree_state *state)
 {
     for (size_t row = 0; row < state->count; row++) scree_body_place(state, row, state->reference[row]);
-    memcpy(state->periodic.reference, state->periodic.lattice, sizeof state->periodic.reference);
+    memcpy(scree_cell(state)->reference, scree_cell(state)->lattice, sizeof scree_cell(state)->reference);
     if (state->angle) memset(state->angle, 0, state->count * sizeof *state->angle);
 }
 
@@ -102,7 +103,7 @@ static const scree_deform_config *deform_config(const scree_simulation *s)
 static scree_status begin_confine(scree_simulation *s, scree_error *error)
 {
     (void)error;
-    s->state.stage.reference[0] = s->state.pressure;
+    s->state.stage.reference[0] = scree_pressure_now(&s->state);
     measure_sample(s, confine_config(s)->pressure);
     forget_stresses(s);
     return SCREE_OK;
@@ -124,8 +125,8 @@ static void control_confine(scree_simulation *s)
 {
     double from = s->state.stage.reference[0], to = confine_config(s)->pressure;
     double done = s->plan.ramp_time > 0 ? scree_stage_elapsed(s) / s->plan.ramp_time : 1;
-    s->state.pressure = from + (to - from) * scree_smooth_ramp(done);
-    for (int k = 0; k < s->state.dimension; k++) hold_pressure(&s->plan.periodic, k, s->state.pressure);
+    scree_pressure_set(&s->state, from + (to - from) * scree_smooth_ramp(done));
+    for (int k = 0; k < s->state.dimension; k++) hold_pressure(&s->plan.periodic, k, scree_pressure_now(&s->state));
     scree_periodic_control(&s->stage_model, &s->state, &s->plan.periodic, 1);
     remember_stresses(s);
 }
@@ -185,7 +186,7 @@ static double rise_now(const scree_simulation *s)
 static scree_status loading_finished(scree_simulation *s, bool *done, scree_error *error)
 {
     (void)error;
-    double strain = scree_loading_strain(s), gradient = scree_matrix_norm(s->state.periodic.gradient);
+    double strain = scree_loading_strain(s), gradient = scree_matrix_norm(scree_cell(&s->state)->gradient);
     // The last sample lies on the planned last step.
     *done = strain >= end_of(s) - SCREE_LOADING_SHORT * gradient * s->state.tick;
     (void)snprintf(s->reason, sizeof s->reason, "strain %.4g reached", strain);
@@ -200,7 +201,7 @@ static double loading_fraction(const scree_simulation *s)
 static scree_status begin_compress(scree_simulation *s, scree_error *error)
 {
     (void)error;
-    measure_sample(s, s->state.pressure);
+    measure_sample(s, scree_pressure_now(&s->state));
     s->state.stage.reference[0] = scree_sample_height(s);
     set_reference(&s->state);
     return SCREE_OK;
@@ -210,7 +211,7 @@ static void plan_compress(scree_simulation *s)
 {
     const scree_compress_config *stage = compress_config(s);
     plan_loading(s, stage->strain, stage->rate, stage->rise_time);
-    for (int k = 0; k + 1 < s->state.dimension; k++) hold_pressure(&s->plan.periodic, k, s->state.pressure);
+    for (int k = 0; k + 1 < s->state.dimension; k++) hold_pressure(&s->plan.periodic, k, scree_pressure_now(&s->state));
 }
 
 static void control_compress(scree_simulation *s)
@@ -249,7 +250,7 @@ static scree_status begin_deform(scree_simulation *s, scree_error *error)
 {
     (void)error;
     double held = scree_held_pressure(scree_stage_config(s));
-    measure_sample(s, held > 0 ? held : s->state.pressure);
+    measure_sample(s, held > 0 ? held : scree_pressure_now(&s->state));
     set_reference(&s->state);
     return SCREE_OK;
 }
@@ -273,7 +274,7 @@ static double deform_strain(const scree_simulation *s)
 {
     double rate[9];
     int leader = find_rates(deform_config(s), rate);
-    return fabs(s->state.periodic.strain[leader] - s->state.stage.reference[STRAIN + leader]);
+    return fabs(scree_cell(&s->state)->strain[leader] - s->state.stage.reference[STRAIN + leader]);
 }
 
 const scree_stage scree_stage_deform_periodic = {.name = "deform",

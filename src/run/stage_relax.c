@@ -3,10 +3,13 @@
 ///
 /// The first such stage looks whether the bodies are where the walls of the case leave room: none may be closer to a
 /// wall than its radius less the overlap that the guard allows.
+#include "measure/imposed_gradient.h"
 #include "module/key_rows.h"
 #include "run/sample.h"
 #include "run/simulation.h"
 #include "shape/container.h"
+#include "state/case_walls.h"
+#include "state/plates.h"
 
 #include <math.h>
 #include <string.h>
@@ -64,13 +67,13 @@ static scree_status begin(scree_simulation *s, scree_error *error)
 {
     scree_state *state = &s->state;
     memset(state->stage.reference, 0, sizeof state->stage.reference);
-    memset(state->drive.prescribed, 0, sizeof state->drive.prescribed);
+    memset(scree_imposed(state)->prescribed, 0, sizeof scree_imposed(state)->prescribed);
     for (int w = 0; w < SCREE_WALL_COUNT; w++) {
-        state->wall[w].velocity = 0;
-        memset(state->wall[w].tangential_velocity, 0, sizeof state->wall[w].tangential_velocity);
+        scree_plates(state)[w].velocity = 0;
+        memset(scree_plates(state)[w].tangential_velocity, 0, sizeof scree_plates(state)[w].tangential_velocity);
     }
     for (size_t row = 0; row < state->count; row++) scree_body_place(state, row, state->reference[row]);
-    state->surface_moving = own_config(s)->walls == WALLS_MOVE;
+    scree_case_walls(state)->moving = own_config(s)->walls == WALLS_MOVE;
     return state->evaluations == 0 ? check_room(s, error) : SCREE_OK;
 }
 

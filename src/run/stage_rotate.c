@@ -8,12 +8,16 @@
 /// over its time the mean spins, from which the waves of single instants have gone.
 /// state.stage.reference: run/stage.h, SCREE_LOADING_... and SCREE_ROTATE_...
 #include "run/stage_rotate.h"
-#include "boundary/forced_spin.h"
+#include "base/fixed.h"
+#include "base/integer_sum.h"
 #include "boundary/minimal.h"
+#include "integrate/forced_spin.h"
+#include "measure/imposed_gradient.h"
 #include "measure/measure.h"
 #include "measure/rotation.h"
 #include "module/key_rows.h"
 #include "run/simulation.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -49,40 +53,58 @@ static const config *own_config(const scree_simulation *s)
     return scree_stage_config(s)->own;
 }
 
-/// Sum of the normal forces on each row; room for them is made. Errors: memory.
-static scree_status measure_loads(scree_simulation *s, double **load, scree_error *error)
+/// Sum of the normal forces on each row, in quanta of their own, so that the order of contacts does not show; room for
+/// them is made. Errors: memory.
+static scree_status measure_loads(scree_simulation *s, int64_t **load, scree_error *error)
 {
+    double largest = 0;
     scree_status status = scree_contact_table_build(&s->stage_model, &s->state, &s->work, &s->table, error);
     if (!status) status = scree_allocate(load, s->state.count, sizeof **load, error);
+    for (size_t c = 0; !status && c < s->table.count; c++)
+        largest = fmax(largest, fabs(s->table.contact[c].normal_force));
+    double inverse = 1 / scree_fixed_quantum(largest);
     for (size_t c = 0; !status && c < s->table.count; c++) {
         const scree_contact *contact = &s->table.contact[c];
-        (*load)[contact->first] += contact->normal_force;
-        if (!contact->wall) (*load)[contact->second] += contact->normal_force;
+        int64_t quanta = scree_fixed_from(contact->normal_force, inverse);
+        (*load)[contact->first] += quanta;
+        if (!contact->wall) (*load)[contact->second] += quanta;
     }
     return status;
 }
 
+/// Mean position of the assembly.
+static void find_centre(const scree_state *state, scree_vector centre)
+{
+    scree_integer_sum sum[3] = {0};
+    scree_vector place;
+    while (scree_integer_sum_next(sum, 3))
+        for (size_t row = 0; row < state->count; row++) {
+            if (!scree_body_is_grain(state, row)) continue;
+            scree_body_place(state, row, place);
+            for (int i = 0; i < 3; i++) scree_integer_sum_add(&sum[i], place[i]);
+        }
+    for (int i = 0; i < 3; i++) centre[i] = scree_integer_sum_total(&sum[i]) / (double)state->grains;
+}
+
 /// Id of the particle that bears most of those within CENTRE mean diameters of the centre of the assembly that touch
 /// three others or more (four in 3D); -1: none. One that bears little slides on its neighbours and turns none of them.
-static int64_t find_central(const scree_simulation *s, const double *load)
+static int64_t find_central(const scree_simulation *s, const int64_t *load)
 {
     const scree_state *state = &s->state;
-    scree_vector centre = {0}, place;
-    for (size_t id = 0; id < state->grains; id++) {
-        scree_body_place(state, state->row_of_id[id], place);
-        for (int i = 0; i < 3; i++) centre[i] += place[i] / (double)state->grains;
-    }
-    int64_t best = -1;
-    double most = 0;
-    for (size_t id = 0; id < state->grains; id++) {
-        size_t row = state->row_of_id[id];
+    scree_vector centre, place;
+    find_centre(state, centre);
+    int64_t best = -1, most = 0;
+    for (size_t row = 0; row < state->count; row++) {
+        if (!scree_body_is_grain(state, row)) continue;
         scree_body_place(state, row, place);
         for (int i = 0; i < 3; i++) place[i] -= centre[i];
-        if (state->sum[row].contacts <= state->dimension || scree_length(place) > CENTRE * 2 * s->model.mean_radius ||
-            !(load[row] > most))
-            continue;
+        int64_t id = state->id[row];
+        bool held = state->sum[row].contacts > state->dimension;
+        if (!held || scree_length(place) > CENTRE * 2 * s->model.mean_radius || load[row] <= 0) continue;
+        // Of two that bear the same the one with the lower id, in whatever order they come.
+        if (load[row] < most || (load[row] == most && id > best)) continue;
         most = load[row];
-        best = (int64_t)id;
+        best = id;
     }
     return best;
 }
@@ -90,7 +112,8 @@ static int64_t find_central(const scree_simulation *s, const double *load)
 /// The particle that the case names, or the central one.
 static scree_status choose(scree_simulation *s, uint32_t *id, scree_error *error)
 {
-    double named = own_config(s)->particle, *load = NULL;
+    double named = own_config(s)->particle;
+    int64_t *load = NULL;
     long long stage = (long long)s->state.stage.index;
     int64_t found = isnan(named) ? -1 : (int64_t)named;
     if (isnan(named)) {
@@ -113,7 +136,7 @@ static scree_status choose(scree_simulation *s, uint32_t *id, scree_error *error
 /// The boundary as a whole keeps its shape of angles and does not turn.
 static void hold_rotation(scree_simulation *s)
 {
-    scree_drive *drive = &s->state.drive;
+    scree_imposed_gradient *drive = scree_imposed(&s->state);
     int dimension = s->state.dimension;
     double penalty = s->model.config->boundary.penalty, rate[9] = {0};
     memset(drive->target, 0, sizeof drive->target);
@@ -121,7 +144,7 @@ static void hold_rotation(scree_simulation *s)
         drive->prescribed[c] = c / 3 != c % 3 && c / 3 < dimension && c % 3 < dimension ? SCREE_FULL : SCREE_FREE;
     // The scale of the rates that are to be held back: those of the particle.
     rate[1] = own_config(s)->spin;
-    drive->viscosity = isnan(penalty) ? scree_minimal_viscosity(s->state.pressure, rate) : penalty;
+    drive->viscosity = isnan(penalty) ? scree_minimal_viscosity(scree_pressure_now(&s->state), rate) : penalty;
 }
 
 /// Ticks from the begin of the stage to the ends of rest, ramp and hold.
@@ -164,7 +187,7 @@ static void plan(scree_simulation *s)
 /// What the particles that bear load turn by at rest, over the prescribed spin.
 static double background(const scree_simulation *s, uint64_t ticks)
 {
-    double mean = scree_rotation_mean_amount(&s->state, s->state.row_of_id[s->state.forced.id]);
+    double mean = scree_rotation_mean_amount(&s->state, s->state.row_of_id[scree_forced(&s->state)->id]);
     double time = s->state.dimension == 2 ? (double)ticks * s->state.tick : 1;
     return mean / (time * own_config(s)->spin);
 }

@@ -1,54 +1,150 @@
 /// The step. Between two steps the state holds x(n), the scheme's velocity and the force sums at n; a restart begins
 /// here.
+///
+/// It is a list of passes, by phase (module/pass.h): in each phase those of the core, which stand here, then those of
+/// the modules in use by their place in the table, then those of the boundary of the stage.
 #include "run/step.h"
 
-#include "boundary/periodic.h"
-#include "boundary/forced_spin.h"
-#include "boundary/plates.h"
 #include "measure/measure.h"
 #include "run/guard.h"
 #include "search/neighbours.h"
 
-/// The size of the step from n to n + 1, in ticks; where it differs from the last one, the ledger is told.
-static uint64_t choose_step(scree_simulation *s)
+#include <assert.h>
+
+/// Chooses the step from n to n + 1; where its size differs from the last one, the ledger is told.
+static scree_status choose_step(const scree_context *c, scree_error *error)
 {
+    scree_simulation *s = c->simulation;
     double before = s->state.step_size;
-    uint64_t ticks = scree_integrator_choose_step(s->integrator, &s->stage_model, &s->state, s->stage->loading);
-    if (s->state.step_size != before && s->work.ledger)
-        scree_energy_change_step(&s->stage_model, &s->state, before, s->state.step_size);
-    return ticks;
+    (void)error;
+    (void)scree_team_size_follow(&c->work->size, c->work->team, c->work->threads);
+    c->work->ticks = scree_integrator_choose_step(s->integrator, c->model, c->state, s->stage->loading);
+    if (s->state.step_size != before && c->work->ledger)
+        scree_energy_change_step(c->model, c->state, before, s->state.step_size);
+    return SCREE_OK;
+}
+
+static scree_status control(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    if (c->simulation->stage->control) c->simulation->stage->control(c->simulation);
+    return SCREE_OK;
+}
+
+static scree_status first_half(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    c->simulation->integrator->first(c->model, c->state, c->work);
+    return SCREE_OK;
+}
+
+static scree_status advance_clock(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    c->state->step += c->work->ticks;
+    c->state->evaluations++;
+    return SCREE_OK;
+}
+
+static scree_status refresh_neighbours(const scree_context *c, scree_error *error)
+{
+    return scree_neighbours_refresh(c->model, c->state, c->work, error);
+}
+
+/// Room for what a law that looks ahead needs.
+static scree_status look_ahead(const scree_context *c, scree_error *error)
+{
+    return scree_model_foresees(c->model) ? scree_state_foresee(c->state, error) : SCREE_OK;
+}
+
+/// Largest force of the loads of this step on one body [N].
+static double bound_of_loads(const scree_context *c)
+{
+    double bound = c->boundary->bound ? c->boundary->bound(c) : 0;
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
+        if (scree_modules[m]->bound) bound = fmax(bound, scree_modules[m]->bound(c));
+    return bound;
+}
+
+static scree_status contact_forces(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    scree_contact_set_quanta(c->model, c->state, bound_of_loads(c));
+    scree_contact_forces(c->model, c->state, c->work);
+    return SCREE_OK;
+}
+
+/// Loads may ask how long their forces will act.
+static scree_status foresee_kick(const scree_context *c, scree_error *error)
+{
+    const scree_simulation *s = c->simulation;
+    (void)error;
+    c->work->next_kick = scree_integrator_next_kick(s->integrator, c->model, c->state, s->stage->loading);
+    return SCREE_OK;
+}
+
+static scree_status second_half(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    if (c->simulation->integrator->second) c->simulation->integrator->second(c->model, c->state, c->work);
+    return SCREE_OK;
+}
+
+static scree_status guard(const scree_context *c, scree_error *error)
+{
+    return scree_guard_step(c->simulation, error);
+}
+
+static const scree_pass core[] = {
+    {SCREE_PHASE_DECIDE, look_ahead},       {SCREE_PHASE_DECIDE, choose_step},
+    {SCREE_PHASE_DECIDE, control},          {SCREE_PHASE_FIRST_HALF, first_half},
+    {SCREE_PHASE_FOLLOW, advance_clock},    {SCREE_PHASE_SEARCH, refresh_neighbours},
+    {SCREE_PHASE_CONTACTS, contact_forces}, {SCREE_PHASE_LOADS, foresee_kick},
+    {SCREE_PHASE_SECOND_HALF, second_half}, {SCREE_PHASE_GUARD, guard},
+};
+
+scree_context scree_step_context(scree_simulation *s)
+{
+    return (scree_context){&s->stage_model, &s->state, &s->work, s->boundary, s};
+}
+
+/// Appends those of `passes` that belong to a phase.
+static void append(scree_simulation *s, scree_phase phase, const scree_pass *passes, size_t count)
+{
+    for (size_t k = 0; k < count; k++)
+        if (passes[k].phase == phase) {
+            assert(s->pass_count < SCREE_PASSES);
+            s->passes[s->pass_count++] = passes[k];
+        }
+}
+
+void scree_step_compile(scree_simulation *s)
+{
+    const scree_context context = scree_step_context(s);
+    s->pass_count = 0;
+    for (scree_phase phase = 0; phase < SCREE_PHASE_COUNT; phase++) {
+        append(s, phase, core, sizeof core / sizeof *core);
+        for (int m = 0; m < SCREE_MODULE_COUNT; m++) {
+            const scree_module *module = scree_modules[m];
+            if (!module->in_use || module->in_use(&context)) append(s, phase, module->passes, module->pass_count);
+        }
+        append(s, phase, s->boundary->passes, s->boundary->pass_count);
+    }
 }
 
 scree_status scree_step(scree_simulation *s, scree_error *error)
 {
-    const scree_model *model = &s->stage_model;
-    scree_state *state = &s->state;
-    scree_work *work = &s->work;
-    scree_status status;
+    const scree_context context = scree_step_context(s);
+    scree_status status = SCREE_OK;
+    for (size_t k = 0; k < s->pass_count && !status; k++) status = s->passes[k].run(&context, error);
+    return status;
+}
 
-    (void)scree_team_size_follow(&work->size, work->team, work->threads);
-    if (scree_model_foresees(model) && (status = scree_state_foresee(state, error))) return status;
-    uint64_t ticks = choose_step(s);
-    // Boundaries decide their velocities from the stresses at n, then everything moves to n + 1.
-    if (s->stage->control) s->stage->control(s);
-    scree_plates_move(state);
-    s->integrator->first(model, state, work);
-    scree_boundary_finish_work(s->boundary, state);
-    if ((status = scree_periodic_move(model, state, work, error))) return status;
-    state->step += ticks;
-    if (state->surface_moving) state->surface_ticks += ticks;
-    state->evaluations++;
-
-    // Forces at n + 1: contacts of bodies and plates, then the pressure and what else the boundary applies.
-    if ((status = scree_neighbours_refresh(model, state, work, error))) return status;
-    if ((status = scree_boundary_prepare(s->boundary, model, state, error))) return status;
-    scree_contact_set_quanta(model, state, scree_boundary_bound(s->boundary, model, state));
-    scree_contact_forces(model, state, work);
-    scree_periodic_settle(state, work);
-    work->next_kick = scree_integrator_next_kick(s->integrator, model, state, s->stage->loading);
-    scree_boundary_forces(s->boundary, model, state, work);
-    scree_forced_spin_settle(state);
-
-    if (s->integrator->second) s->integrator->second(model, state, work);
-    return scree_guard_step(s, error);
+scree_status scree_step_phase(scree_simulation *s, scree_phase phase, scree_error *error)
+{
+    const scree_context context = scree_step_context(s);
+    scree_status status = SCREE_OK;
+    for (size_t k = 0; k < s->pass_count && !status; k++)
+        if (s->passes[k].phase == phase) status = s->passes[k].run(&context, error);
+    return status;
 }

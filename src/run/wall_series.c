@@ -1,5 +1,6 @@
 /// The columns of walls.csv.
 #include "run/wall_series.h"
+#include "state/case_walls.h"
 
 #include "io/run_directory.h"
 
@@ -44,7 +45,7 @@ scree_status scree_wall_series_append(scree_series_writer *writer, const scree_s
     double value[MOST] = {(double)s->state.step, scree_state_time(&s->state)};
     if (!writer->file) return SCREE_OK;
     for (int64_t w = 0; w < s->model.config->wall_count; w++) {
-        const scree_surface_load *load = &s->state.surface[w];
+        const scree_surface_load *load = &scree_case_walls(&s->state)->load[w];
         double *of = &value[BEFORE + OF_WALL * w];
         memcpy(of, load->force, sizeof load->force);
         memcpy(of + 3, load->torque, sizeof load->torque);

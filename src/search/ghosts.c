@@ -57,13 +57,13 @@ static scree_status check_range(const scree_state *state, const image_range *ran
 {
     double needed = 4 * range->radius + 2 * skin;
     for (int k = 0; k < state->dimension; k++)
-        if (scree_periodic_repeats(&state->periodic, k) && !(range->high[k] - range->low[k] <= MOST_CELLS))
+        if (scree_periodic_repeats(scree_cell(state), k) && !(range->high[k] - range->low[k] <= MOST_CELLS))
             return scree_error_set(error, SCREE_ERROR_GUARD,
                                    "step %llu: particles are %.3g periodic cells apart along lattice vector %d: their "
                                    "motion is no longer physical, try a smaller integrator.step",
                                    (unsigned long long)state->step, range->high[k] - range->low[k], k + 1);
     for (int k = 0; k < state->dimension; k++)
-        if (scree_periodic_repeats(&state->periodic, k) && !(range->width[k] >= needed))
+        if (scree_periodic_repeats(scree_cell(state), k) && !(range->width[k] >= needed))
             return scree_error_set(
                 error, SCREE_ERROR_GUARD,
                 "stage %lld, step %llu: the periodic cell is only %.4g m wide along lattice vector %d; it must be "
@@ -100,7 +100,7 @@ static scree_status append_images(const scree_state *state, scree_work *work, co
     fraction_of(state, work, row, f);
     if (!isfinite(f[0] + f[1] + f[2])) return SCREE_OK;
     for (int k = 0; k < state->dimension; k++) {
-        if (!scree_periodic_repeats(&state->periodic, k)) continue;
+        if (!scree_periodic_repeats(scree_cell(state), k)) continue;
         double margin = reach / range->width[k];
         least[k] = (int)ceil(range->low[k] - margin - f[k]);
         most[k] = (int)floor(range->high[k] + margin - f[k]);
@@ -116,8 +116,8 @@ scree_status scree_ghosts_make(scree_state *state, scree_work *work, scree_error
 {
     scree_ghost_list *list = &work->ghosts;
     list->count = 0;
-    if (!state->periodic.directions) return SCREE_OK;
-    scree_matrix_invert(state->periodic.lattice, list->lattice_inverse);
+    if (!scree_cell(state)->directions) return SCREE_OK;
+    scree_matrix_invert(scree_cell(state)->lattice, list->lattice_inverse);
     image_range range = measure_range(state, work);
     list->largest_radius = range.radius;
     scree_status status = check_range(state, &range, work->skin, error);
@@ -146,7 +146,7 @@ static void place_image(const place_task *task, size_t k)
     const double s[3] = {ghost->shift[0], ghost->shift[1], ghost->shift[2]};
     scree_row *image = &state->row[state->count + k];
     scree_vector place, velocity;
-    scree_matrix_apply(state->periodic.lattice, s, place);
+    scree_matrix_apply(scree_cell(state)->lattice, s, place);
     scree_matrix_apply(task->lattice_velocity, s, velocity);
     *image = state->row[ghost->parent];
     image->x += place[0];
@@ -176,7 +176,7 @@ void scree_ghosts_place(scree_state *state, scree_work *work)
 
 void scree_ghosts_deformation(const scree_state *state, const scree_work *work, double deformation[9])
 {
-    scree_matrix_multiply(state->periodic.lattice, work->ghosts.lattice_inverse, deformation);
+    scree_matrix_multiply(scree_cell(state)->lattice, work->ghosts.lattice_inverse, deformation);
 }
 
 // ---- the search --------------------------------------------------------------------------------------------------
@@ -283,7 +283,7 @@ static bool is_near_face(const scree_state *state, const scree_work *work, const
     fraction_of(state, work, row, f);
     if (!isfinite(f[0] + f[1] + f[2])) return false;
     for (int k = 0; k < state->dimension; k++)
-        if (scree_periodic_repeats(&state->periodic, k) && f[k] >= range->low[k] + 1 - reach / range->width[k])
+        if (scree_periodic_repeats(scree_cell(state), k) && f[k] >= range->low[k] + 1 - reach / range->width[k])
             return true;
     return false;
 }

@@ -16,6 +16,9 @@
 /// histories are. Memory: 40 bytes a pair for the list (56 in 3D), during a rebuild 40 (56) a contact for
 /// state->contact and about 150 a disc, 250 a sphere, for cells and buffers, which only small samples keep.
 #include "search/neighbours.h"
+#include "state/case_walls.h"
+#include "state/periodic.h"
+#include "state/plates.h"
 
 #include "base/matrix.h"
 #include "search/ghosts.h"
@@ -81,12 +84,13 @@ static double surface_time(const scree_state *state, uint64_t ticks)
 static bool walls_need_rebuild(const scree_model *model, const scree_state *state, const scree_work *work)
 {
     if (work->container) {
-        double time = surface_time(state, state->surface_ticks) - surface_time(state, work->search->surface_ticks);
+        double time =
+            surface_time(state, scree_case_walls(state)->ticks) - surface_time(state, work->search->surface_ticks);
         double margin = scree_model_largest_radius(model) + work->skin;
         if (!(scree_container_way(work->container, time, margin) < half_skin(work))) return true;
     }
     for (int w = 0; w < SCREE_WALL_COUNT; w++) {
-        const scree_wall *now = &state->wall[w], *then = &work->search->wall[w];
+        const scree_wall *now = &scree_plates(state)[w], *then = &work->search->wall[w];
         if (!now->active) continue;
         bool same = then->active && now->normal[0] == then->normal[0] && now->normal[1] == then->normal[1] &&
                     now->normal[2] == then->normal[2];
@@ -179,7 +183,7 @@ static void pairs_share(void *argument, int index, int count)
     task->failed[index] =
         task->find(&task->search->grid, state, begin, end, chunk, NULL) ||
         scree_elements_search(task->work->container, state, begin, end, task->work->skin, &chunk->element, NULL);
-    if (state->membrane.count == 0) return;
+    if (state->grains == state->count) return;
     drop_membrane_pairs(state, &chunk->touching);
     drop_membrane_pairs(state, &chunk->near);
 }
@@ -415,8 +419,8 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     if (status) return status;
 
     for (size_t k = 0; k < state->count; k++) scree_body_place(state, k, state->rebuild[k]);
-    memcpy(search->wall, state->wall, sizeof search->wall);
-    search->surface_ticks = state->surface_ticks;
+    memcpy(search->wall, scree_plates(state), sizeof search->wall);
+    search->surface_ticks = scree_case_walls(state)->ticks;
     release_scratch(search, state);
     search->listed = work->valid = true;
     work->budget = half_skin(work);
@@ -430,7 +434,7 @@ static scree_status check_list(const scree_model *model, scree_state *state, scr
 {
     double deformation[9], change[9], shrunk = 0;
     scree_matrix_unit(deformation);
-    if (state->periodic.directions) {
+    if (scree_cell(state)->directions) {
         scree_ghosts_deformation(state, work, deformation);
         for (int k = 0; k < 9; k++) change[k] = deformation[k] - (k % 4 == 0);
         shrunk = scree_matrix_norm(change) * (work->ghosts.largest_radius + 0.5 * work->skin);
@@ -445,8 +449,8 @@ scree_status scree_neighbours_refresh(const scree_model *model, scree_state *sta
                                       scree_error *error)
 {
     if (work->container) {
-        scree_container_place(work->container, surface_time(state, state->surface_ticks));
-        state->surface_speed = state->surface_moving ? scree_container_speed(work->container) : 0;
+        scree_container_place(work->container, surface_time(state, scree_case_walls(state)->ticks));
+        scree_case_walls(state)->speed = scree_case_walls(state)->moving ? scree_container_speed(work->container) : 0;
     }
     if (!work->valid || work->search->bodies != state->count || walls_need_rebuild(model, state, work))
         return rebuild(model, state, work, error);

@@ -3,6 +3,7 @@
 /// dimension is a constant of each of its two forms.
 /// Cost: about 10 slots a body in a dense packing of like discs, 65 of like spheres; 25 and 35 flops a slot.
 #include "search/pair_search.h"
+#include "state/plates.h"
 
 #include <string.h>
 
@@ -164,7 +165,7 @@ static scree_status search_walls(const scree_state *state, seeker body, scree_pa
     scree_status status = reserve(buffer, SCREE_WALL_COUNT, 64, error);
     if (status) return status;
     for (uint32_t w = 0; w < SCREE_WALL_COUNT; w++) {
-        const scree_wall *wall = &state->wall[w];
+        const scree_wall *wall = &scree_plates(state)[w];
         double along = wall->normal[0] * body.x + wall->normal[1] * body.y;
         if (state->dimension == 3) along += wall->normal[2] * body.z;
         double distance = along - wall->position;

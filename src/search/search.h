@@ -3,6 +3,7 @@
 #define SCREE_SEARCH_SEARCH_H
 
 #include "search/pair_search.h"
+#include "state/plates.h"
 #include "state/work.h"
 
 /// Entries behind the last one that kernels may read ahead; they hold row 0 and zero histories.

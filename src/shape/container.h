@@ -6,15 +6,16 @@
 /// local minima of the distance to a wall (shape/mesh.h); walls that meet each other do not know of each other.
 ///
 /// Motion. A wall turns with a constant spin w about a centre that moves with a constant velocity v: with its time t
-/// (state->surface_ticks x tick, never accumulated), x(t) = c + v t + R(w t) (x(0) - c), R a rotation by |w| t about w
-/// (Rodrigues). Geometry stays in the frame of t = 0, into which the centre of the sphere is brought. A wall that moves
-/// in itself (a drum about its axis, a plane along itself) is not moved at all: only its points are.
+/// (scree_case_walls(state)->ticks x tick, never accumulated), x(t) = c + v t + R(w t) (x(0) - c), R a rotation by |w|
+/// t about w (Rodrigues). Geometry stays in the frame of t = 0, into which the centre of the sphere is brought. A wall
+/// that moves in itself (a drum about its axis, a plane along itself) is not moved at all: only its points are.
 ///
 /// A surface with an inside counts up to one radius behind it, a plane without limit.
 #ifndef SCREE_SHAPE_CONTAINER_H
 #define SCREE_SHAPE_CONTAINER_H
 
 #include "shape/mesh.h"
+#include "state/case_walls.h"
 
 /// A line in the half-plane of coordinate `s` along the axis and distance `r` from it, m.
 typedef struct scree_profile {

@@ -1,6 +1,9 @@
 /// The state checksum, by the definition in docs/architecture.md ("The state checksum"): a change here is a change
 /// there, and of every number under tests/reference/. Every value goes in by itself as one 64-bit word, none as the
 /// bytes of a struct, so that structs may change.
+#include "state/case_walls.h"
+#include "state/periodic.h"
+#include "state/plates.h"
 #include "state/state.h"
 
 #include "base/checksum.h"
@@ -96,41 +99,6 @@ static uint64_t checksum_contacts(const scree_state *state, uint64_t c)
     return scree_checksum_word(c, count);
 }
 
-/// The plates that stand now, then the walls of the case.
-static uint64_t checksum_walls(const scree_model *model, const scree_state *state, uint64_t c)
-{
-    for (uint64_t w = 0; w < SCREE_WALL_COUNT; w++) {
-        const scree_wall *wall = &state->wall[w];
-        if (!wall->active) continue;
-        c = scree_checksum_word(c, w);
-        c = scree_checksum_number(c, wall->position);
-        c = scree_checksum_number(c, wall->velocity);
-        c = scree_checksum_numbers(c, wall->tangential_velocity, 3);
-    }
-    double time = (double)state->surface_ticks * state->tick;
-    for (int64_t w = 0; w < model->config->wall_count; w++) {
-        const scree_config_wall *wall = &model->config->walls[w];
-        for (int k = 0; k < 3; k++) {
-            c = scree_checksum_number(c, wall->centre[k] + wall->velocity[k] * time);
-            c = scree_checksum_number(c, wall->spin[k] * time);
-            c = scree_checksum_number(c, state->surface_moving ? wall->velocity[k] : 0);
-            c = scree_checksum_number(c, state->surface_moving ? wall->spin[k] : 0);
-        }
-    }
-    return c;
-}
-
-/// The periodic cell, where there is one.
-static uint64_t checksum_cell(const scree_state *state, uint64_t c)
-{
-    const scree_periodic_cell *cell = &state->periodic;
-    if (!cell->directions) return c;
-    c = scree_checksum_word(c, cell->directions);
-    c = scree_checksum_numbers(c, cell->lattice, 9);
-    c = scree_checksum_numbers(c, cell->gradient, 9);
-    return scree_checksum_numbers(c, cell->strain, 9);
-}
-
 static uint64_t checksum_ledger(const scree_ledger *ledger, uint64_t c)
 {
     const double energies[] = {ledger->damping,  ledger->friction, ledger->stiffness, ledger->plates,
@@ -146,8 +114,7 @@ uint64_t scree_state_checksum(const scree_model *model, const scree_state *state
     c = scree_checksum_number(c, state->tick);
     c = checksum_bodies(model, state, c);
     c = checksum_contacts(state, c);
-    c = checksum_walls(model, state, c);
-    c = checksum_cell(state, c);
-    c = scree_checksum_numbers(c, state->strain.gradient, 9);
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
+        if (scree_modules[m]->checksum) c = scree_modules[m]->checksum(model, state, c);
     return checksum_ledger(&state->ledger, c);
 }

@@ -1,5 +1,6 @@
 /// Geometry of the periodic cell; formulas in boundary/periodic.c.
 #include "state/periodic.h"
+#include "state/plates.h"
 
 #include "base/matrix.h"
 
@@ -22,26 +23,26 @@ void scree_periodic_widths(const double inverse[9], double width[3])
 
 double scree_periodic_extent(const scree_state *state)
 {
-    double extent = fabs(scree_matrix_determinant(state->periodic.lattice));
+    double extent = fabs(scree_matrix_determinant(scree_cell(state)->lattice));
     scree_vector low, high;
-    scree_periodic_box(state, low, high);
+    scree_periodic_box(state->dimension, scree_plates(state), low, high);
     for (int k = 0; k < state->dimension; k++)
-        if (!scree_periodic_repeats(&state->periodic, k)) extent *= high[k] - low[k];
+        if (!scree_periodic_repeats(scree_cell(state), k)) extent *= high[k] - low[k];
     return extent;
 }
 
-void scree_periodic_box(const scree_state *state, scree_vector low, scree_vector high)
+void scree_periodic_box(int dimension, const scree_wall *plates, scree_vector low, scree_vector high)
 {
     static const int below[] = {SCREE_WALL_LEFT, SCREE_WALL_FRONT}, above[] = {SCREE_WALL_RIGHT, SCREE_WALL_BACK};
     for (int k = 0; k < 3; k++) {
-        bool axial = k == state->dimension - 1, none = k >= state->dimension;
-        low[k] = none ? 0 : state->wall[axial ? SCREE_WALL_BOTTOM : below[k]].position;
-        high[k] = none ? 0 : -state->wall[axial ? SCREE_WALL_TOP : above[k]].position;
+        bool axial = k == dimension - 1, none = k >= dimension;
+        low[k] = none ? 0 : plates[axial ? SCREE_WALL_BOTTOM : below[k]].position;
+        high[k] = none ? 0 : -plates[axial ? SCREE_WALL_TOP : above[k]].position;
     }
 }
 
-bool scree_periodic_edge(const scree_periodic_cell *cell, int dimension, const scree_vector low, const scree_vector high, int edge,
-                     scree_vector ends[2])
+bool scree_periodic_edge(const scree_periodic_cell *cell, int dimension, const scree_vector low,
+                         const scree_vector high, int edge, scree_vector ends[2])
 {
     // Edges are numbered by their direction and the corner, a bit a direction, that they begin at.
     int direction = edge / 8, corner = edge % 8;
@@ -62,7 +63,7 @@ bool scree_periodic_edge(const scree_periodic_cell *cell, int dimension, const s
 static void half_step_inverse(const scree_state *state, double sign, double inverse[9])
 {
     double matrix[9];
-    scree_matrix_unit_plus(sign * 0.5 * state->step_size, state->periodic.gradient, matrix);
+    scree_matrix_unit_plus(sign * 0.5 * state->step_size, scree_cell(state)->gradient, matrix);
     scree_matrix_invert(matrix, inverse);
 }
 
@@ -70,19 +71,19 @@ void scree_periodic_lattice_velocity(const scree_state *state, double velocity[9
 {
     double back[9], middle[9];
     half_step_inverse(state, 1, back);
-    scree_matrix_multiply(back, state->periodic.lattice, middle);
-    scree_matrix_multiply(state->periodic.gradient, middle, velocity);
+    scree_matrix_multiply(back, scree_cell(state)->lattice, middle);
+    scree_matrix_multiply(scree_cell(state)->gradient, middle, velocity);
 }
 
 void scree_periodic_stress(const scree_model *model, const scree_state *state, double stress[9])
 {
-    const scree_periodic_cell *cell = &state->periodic;
+    const scree_periodic_cell *cell = scree_cell(state);
     double volume = scree_periodic_extent(state) * (state->dimension == 2 ? model->thickness : 1);
     for (int k = 0; k < 9; k++) stress[k] = -(cell->virial[k] + cell->motion[k]) / volume;
 }
 
 void scree_periodic_full_velocity(const scree_state *state, const scree_vector place, const scree_vector relative,
-                              scree_vector velocity)
+                                  scree_vector velocity)
 {
     // c+ = (1 - h L) c, v = c + L (x - h v), h = dt / 2.
     double forward[9], back[9];
@@ -90,7 +91,7 @@ void scree_periodic_full_velocity(const scree_state *state, const scree_vector p
     half_step_inverse(state, -1, forward);
     half_step_inverse(state, 1, back);
     scree_matrix_apply(forward, relative, middle);
-    scree_matrix_apply(state->periodic.gradient, place, affine);
+    scree_matrix_apply(scree_cell(state)->gradient, place, affine);
     for (int k = 0; k < 3; k++) sum[k] = middle[k] + affine[k];
     scree_matrix_apply(back, sum, velocity);
 }

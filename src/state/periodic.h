@@ -7,12 +7,31 @@
 #ifndef SCREE_STATE_PERIODIC_H
 #define SCREE_STATE_PERIODIC_H
 
-#include "state/state.h"
+#include "state/plates.h"
+
+/// The periodic cell; `directions` zero: there is none. Motion in boundary/periodic.c.
+/// Velocities of bodies in a deforming cell are relative to the affine field gradient . x. Tensors are 3 x 3 by rows,
+/// tension and extension positive.
+typedef struct scree_periodic_cell {
+    double lattice[9];   ///< m, lattice vectors as columns; the unit vector where a direction is not periodic
+    double reference[9]; ///< m, the same lattice vectors at the start of the loading stage
+    double gradient[9];  ///< 1/s, velocity gradient of the last step, d v_row / d x_column
+    double drift[9];     ///< 1/s, running mean of the gradient, for the servo
+    double strain[9];    ///< 1, its integral over time
+    double virial[9];    ///< J, at the present step: sum over contacts of force on first (x) branch
+    double motion[9];    ///< J, in the last step: sum over bodies of mass velocity (x) velocity
+    uint64_t directions; ///< bits 0, 1, 2: x, y, z
+} scree_periodic_cell;
+
+static inline scree_periodic_cell *scree_cell(const scree_state *state)
+{
+    return state->own[SCREE_SLOT_periodic_cell];
+}
 
 /// All directions of space are periodic: only such a cell deforms.
 static inline bool scree_periodic_is_whole(const scree_state *state)
 {
-    return state->periodic.directions == (1U << state->dimension) - 1;
+    return scree_cell(state)->directions == (1U << state->dimension) - 1;
 }
 
 static inline bool scree_periodic_repeats(const scree_periodic_cell *cell, int direction)
@@ -30,8 +49,8 @@ void scree_periodic_widths(const double inverse[9], double width[3]);
 /// that do not repeat. [m2, m3]
 double scree_periodic_extent(const scree_state *state);
 
-/// Walls on both sides of the sample along each axis [m]; 0 in 2D along z.
-void scree_periodic_box(const scree_state *state, scree_vector low, scree_vector high);
+/// Plates on both sides of the sample along each axis [m]; 0 in 2D along z.
+void scree_periodic_box(int dimension, const scree_wall *plates, scree_vector low, scree_vector high);
 
 /// Ends [m] of an edge of the cell; in directions that do not repeat from `low` to `high`. False: no edge in this
 /// dimension.

@@ -1,5 +1,5 @@
 /// Life and order of the state.
-#include "state/state.h"
+#include "state/store.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -34,10 +34,23 @@ static size_t body_arrays(scree_state *state, body_array arrays[BODY_ARRAYS])
     return count;
 }
 
-scree_status scree_state_create(scree_state *state, int dimension, size_t count, scree_error *error)
+scree_status scree_state_open(scree_state *state, int dimension, scree_error *error)
 {
     memset(state, 0, sizeof *state);
     state->dimension = dimension;
+    scree_status status = scree_store_open(state, error);
+    if (status) scree_state_destroy(state);
+    return status;
+}
+
+scree_status scree_state_create(scree_state *state, int dimension, size_t count, scree_error *error)
+{
+    scree_status status = scree_state_open(state, dimension, error);
+    return status ? status : scree_state_make_bodies(state, count, error);
+}
+
+scree_status scree_state_make_bodies(scree_state *state, size_t count, scree_error *error)
+{
     scree_status status = SCREE_OK;
     body_array arrays[BODY_ARRAYS];
     size_t array_count = body_arrays(state, arrays);
@@ -58,18 +71,12 @@ scree_status scree_state_create(scree_state *state, int dimension, size_t count,
 
 void scree_state_destroy(scree_state *state)
 {
-    scree_loop *loop = &state->loop;
-    scree_hull *hull = &state->hull;
-    scree_membrane *membrane = &state->membrane;
-    void *const others[] = {&state->row_of_id,   &state->contact, &state->booking,  &state->rolling,
-                            &loop->id,           &loop->loaded,   &loop->x,         &loop->y,
-                            &loop->fx,           &loop->fy,       &hull->id,        &hull->place,
-                            &hull->force,        &hull->triangle, &hull->loaded,    &state->foreseen,
-                            &state->drive.force, &membrane->rest, &membrane->press, &membrane->force};
+    void *const others[] = {&state->row_of_id, &state->contact, &state->booking, &state->rolling, &state->foreseen};
     body_array arrays[BODY_ARRAYS];
     size_t array_count = body_arrays(state, arrays);
     for (size_t k = 0; k < array_count; k++) scree_release(arrays[k].array);
     for (size_t k = 0; k < sizeof others / sizeof *others; k++) scree_release(others[k]);
+    scree_store_close(state);
     memset(state, 0, sizeof *state);
 }
 

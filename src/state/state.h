@@ -11,6 +11,7 @@
 #include "base/memory.h"
 #include "base/vectors.h"
 #include "model/model.h"
+#include "module/module.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -101,36 +102,6 @@ typedef struct scree_contact_memory {
     scree_history history;
 } scree_contact_memory;
 
-/// A rigid plane wall: all bodies lie on the side that its unit normal points to. Plates move along their normal.
-typedef struct scree_wall {
-    double position;                  ///< m, along the normal: points x with normal . x = position
-    scree_vector normal;              ///< 1
-    double velocity;                  ///< m/s along the normal, v(n - 1/2): position(n) = position(n-1) + velocity dt
-    double force;                     ///< N, normal force by the bodies on the wall at n, compression positive
-    scree_vector shear;               ///< N, tangential force by the bodies on the wall at n
-    scree_vector tangential_velocity; ///< m/s, in the plane of the wall
-    int32_t active;                   ///< 0: does not exist in this stage
-    int32_t material;                 ///< material index of the plate
-} scree_wall;
-
-/// Bottom and top bound the last axis (y in 2D, z in 3D), left and right x, front and back y in 3D.
-enum {
-    SCREE_WALL_BOTTOM,
-    SCREE_WALL_TOP,
-    SCREE_WALL_LEFT,
-    SCREE_WALL_RIGHT,
-    SCREE_WALL_FRONT,
-    SCREE_WALL_BACK,
-    SCREE_WALL_COUNT
-};
-
-/// What the bodies do to a wall of the case.
-typedef struct scree_surface_load {
-    scree_vector force;  ///< N, by the bodies on the wall at n
-    scree_vector torque; ///< N m, the same about its centre at n
-    double work;         ///< J, of the wall on the bodies since the begin of the run
-} scree_surface_load;
-
 /// Energy ledger, J. Work is done ON the bodies; dissipation is positive. Residual of the balance:
 /// kinetic + elastic - initial - (plates + pressure + boundary + periodic + gravity) + damping + friction - stiffness -
 /// scheme: measure/energy.c.
@@ -148,102 +119,6 @@ typedef struct scree_ledger {
     double scheme;    ///< put into the kinetic energy of the scheme by changes of its step (measure/energy.c)
     double turnover;  ///< sum of |work| increments, the scale of the residual
 } scree_ledger;
-
-/// A body whose spin is prescribed (boundary/forced_spin.h).
-typedef struct scree_forced_spin {
-    int64_t active; ///< 0: there is none
-    int64_t id;
-    scree_vector spin;   ///< rad/s, at n - 1/2
-    scree_vector torque; ///< N m, by its contacts at n
-} scree_forced_spin;
-
-/// Closed loop of bodies on the outer Delaunay boundary, counter-clockwise, by id; empty when there is none.
-typedef struct scree_loop {
-    uint32_t *id;
-    uint8_t *loaded; ///< 1: the edge from id[k] to id[k+1] carries the lateral pressure
-    double *x, *y;   ///< m, positions at `updated`; the strain increment since then is measured from them
-    double *fx,
-        *fy; ///< N, pressure force on each body of the loop at the present step (first half of the next work increment)
-    size_t count, capacity;
-    uint64_t updated; ///< step of the last update
-} scree_loop;
-
-/// What a triangle of the hull carries.
-typedef enum scree_hull_load {
-    SCREE_HULL_BARE = 0,    ///< nothing
-    SCREE_HULL_LOADED = 1,  ///< the lateral pressure
-    SCREE_HULL_ON_WALL = 2, ///< faces a plate: this value plus the index of the wall
-} scree_hull_load;
-
-/// 3D: triangulated hull of the assembly, closed, normals outward; empty when there is none. The counterpart of
-/// scree_loop in 2D.
-typedef struct scree_hull {
-    uint32_t *id;            ///< node_count, ids of the bodies on it, ascending
-    scree_vector *place;     ///< node_count, m, positions at `updated`
-    scree_vector *force;     ///< node_count, N, force of the boundary at the present step
-    uint32_t (*triangle)[3]; ///< triangle_count, nodes; counter-clockwise seen from outside
-    uint8_t *loaded;         ///< triangle_count, scree_hull_load
-    size_t node_count, node_capacity;
-    size_t triangle_count, triangle_capacity;
-    uint64_t updated; ///< step of the last update
-} scree_hull;
-
-/// What a boundary imposes through forces on its own bodies (boundary/minimal.c, affine.c).
-typedef struct scree_drive {
-    double target[9];      ///< 1/s, wanted velocity gradient (d v_row / d x_column), extension positive
-    int64_t prescribed[9]; ///< of each component: scree_prescription
-    double viscosity;      ///< Pa s, stress over error of the rate (INFINITY: no error is left)
-    double rate[9];        ///< 1/s, velocity gradient of the boundary at n - 1/2
-    double stress[9];      ///< Pa, uniform stress applied besides the pressure at n, tension positive
-    double achieved;       ///< 1/s, integral of target : rate over time since the last sample
-    double wanted;         ///< 1/s, the same of target : target
-    scree_vector *force;   ///< count, N, on the bodies of the boundary at n (scree_boundary_row in measure/facets.h)
-    size_t count, capacity;
-} scree_drive;
-
-/// How a component of the velocity gradient is prescribed.
-typedef enum scree_prescription {
-    SCREE_FREE,
-    SCREE_FULL,      ///< itself
-    SCREE_SYMMETRIC, ///< the mean of it and its mirror, which then says free: a strain rate, which leaves rotations
-                     ///< free
-} scree_prescription;
-
-/// Membrane around the sides of the sample (boundary/membrane.c). Its bodies have the ids from state.grains on; count =
-/// 0: there is no membrane. 2D: two chains of discs, the right side from bottom to top, then the left side from top to
-/// bottom. 3D: a triangulated tube of spheres (boundary/sheet.h), ring by ring from bottom to top.
-typedef struct scree_membrane {
-    scree_vector *rest; ///< count, m, unstressed lengths of the springs that begin at this body; 0: no spring. 2D: one,
-                        ///< to the next body; 3D: to the next of its ring and to two of the ring above
-    scree_vector *press; ///< count, N, force of the pressure at n
-    scree_vector *force; ///< count, N, force of the springs, and of the plates on its ends, at n
-    size_t count, capacity;
-    uint64_t right;   ///< 2D: bodies of the right side
-    uint64_t around;  ///< 3D: bodies of a ring
-    double radius;    ///< m
-    double ramp_time; ///< s, in which the membrane takes the pressure over
-    double share;     ///< 1, fraction of the time passed
-} scree_membrane;
-
-/// Strain accumulated from the Delaunay boundary (Bagi), see measure/strain.h; compression is NEGATIVE here (tensor).
-typedef struct scree_strain {
-    double gradient[9]; ///< accumulated displacement gradient, row-major (d u_row / d x_column)
-    double redetected;  ///< 1, sum of log (enclosed volume after / before) over the re-detections of the boundary
-} scree_strain;
-
-/// The periodic cell; `directions` zero: there is none. Geometry in state/periodic.h, motion in boundary/periodic.c.
-/// Velocities of bodies in a deforming cell are relative to the affine field gradient . x. Tensors are 3 x 3 by rows,
-/// tension and extension positive.
-typedef struct scree_periodic_cell {
-    double lattice[9];   ///< m, lattice vectors as columns; the unit vector where a direction is not periodic
-    double reference[9]; ///< m, the same lattice vectors at the start of the loading stage
-    double gradient[9];  ///< 1/s, velocity gradient of the last step, d v_row / d x_column
-    double drift[9];     ///< 1/s, running mean of the gradient, for the servo
-    double strain[9];    ///< 1, its integral over time
-    double virial[9];    ///< J, at the present step: sum over contacts of force on first (x) branch
-    double motion[9];    ///< J, in the last step: sum over bodies of mass velocity (x) velocity
-    uint64_t directions; ///< bits 0, 1, 2: x, y, z
-} scree_periodic_cell;
 
 enum { SCREE_STAGE_REFERENCES = 24 };
 typedef struct scree_stage_state {
@@ -264,7 +139,7 @@ typedef struct scree_time_spent {
     double processor;  ///< s, of the stage, all threads together
 } scree_time_spent;
 
-typedef struct scree_state {
+struct scree_state {
     int dimension; ///< 2 or 3
     size_t count;
     size_t grains;            ///< bodies with ids below it are the assembly, those from it on belong to a membrane
@@ -297,26 +172,19 @@ typedef struct scree_state {
     scree_booking *booking; ///< beside `contact` where the law has booking rows; else NULL
     scree_rolling *rolling; ///< beside `contact` with rolling resistance; else NULL
     size_t contact_count, contact_capacity;
-    scree_wall wall[SCREE_WALL_COUNT];
-    scree_surface_load surface[SCREE_SURFACES]; ///< walls of the case, in its order
-    uint64_t surface_ticks;                     ///< for which they have been moving
-    uint64_t surface_moving;                    ///< 1: they move now
-    double surface_speed;                       ///< m/s, bound of their velocity now
-    double pressure;                            ///< Pa, confining pressure applied now
-    scree_loop loop;                            ///< 2D
-    scree_hull hull;                            ///< 3D
-    scree_periodic_cell periodic;               ///< periodic boundary
-    scree_drive drive;
-    scree_membrane membrane;
-    scree_strain strain;
-    scree_forced_spin forced;
+    void *own[SCREE_MODULE_COUNT]; ///< the struct of each module that has one (module/module.h), by slot
     scree_ledger ledger;
     scree_stage_state stage;
     scree_time_spent spent;
-} scree_state;
+};
 
-/// Allocates arrays for `count` bodies of dimension 2 or 3, ids 0 .. count-1, everything else zero.
+/// A state without bodies: the structs of all modules, zero. Errors: memory.
+scree_status scree_state_open(scree_state *state, int dimension, scree_error *error) SCREE_MUST_USE;
+
+/// A state with `count` bodies of dimension 2 or 3, ids 0 .. count-1, everything else zero.
 scree_status scree_state_create(scree_state *state, int dimension, size_t count, scree_error *error) SCREE_MUST_USE;
+/// The same for a state that is open and has no bodies yet; on failure it is destroyed.
+scree_status scree_state_make_bodies(scree_state *state, size_t count, scree_error *error) SCREE_MUST_USE;
 void scree_state_destroy(scree_state *state);
 
 /// Grows the arrays that contacts read and write (row, turn, sum, torque, id, foreseen) to hold `count` rows. Errors:
@@ -365,13 +233,6 @@ scree_status scree_state_foresee(scree_state *state, scree_error *error) SCREE_M
 static inline bool scree_body_is_grain(const scree_state *state, size_t row)
 {
     return state->id[row] < state->grains;
-}
-
-/// Pressure [Pa] that acts on the Delaunay boundary itself; a membrane takes it over smoothly.
-static inline double scree_direct_pressure(const scree_state *state)
-{
-    double share = state->membrane.share;
-    return state->pressure * (1 - share * share * (3 - 2 * share));
 }
 
 /// Adds `more` bodies behind those that there are, with the ids that follow, all zero. Everything that refers to rows

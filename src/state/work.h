@@ -74,6 +74,7 @@ typedef struct scree_work {
     double budget; ///< m, distance that bodies may still move before the list must be checked
     bool valid;    ///< false: rebuild before the next force evaluation
     uint64_t rebuilds;
+    uint64_t ticks;    ///< of the present step
     double next_kick;  ///< s, in which the forces of this step will act (integrate.h), for boundaries that foresee it
     int threads;       ///< at most
     bool keep_threads; ///< use all of them, however busy the machine is (tests)

@@ -1,5 +1,6 @@
 /// Projection and section of a snapshot of spheres. Cost: linear.
 #include "view/projection.h"
+#include "state/plates.h"
 
 #include "base/memory.h"
 #include "state/periodic.h"
@@ -60,10 +61,8 @@ static void place_plates(const scree_snapshot *solid, const axes *view, scree_pr
 static scree_periodic_edges place_edges(const scree_snapshot *snapshot, const scree_vector right, const scree_vector up)
 {
     scree_periodic_edges lines = {.count = 0};
-    scree_state state = {.dimension = snapshot->dimension, .periodic = snapshot->periodic};
     scree_vector low, high, ends[2];
-    memcpy(state.wall, snapshot->wall, sizeof state.wall);
-    scree_periodic_box(&state, low, high);
+    scree_periodic_box(snapshot->dimension, snapshot->wall, low, high);
     for (int edge = 0; edge < SCREE_PERIODIC_EDGES && snapshot->periodic.directions; edge++) {
         if (!scree_periodic_edge(&snapshot->periodic, snapshot->dimension, low, high, edge, ends)) continue;
         for (int end = 0; end < 2; end++) {

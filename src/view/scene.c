@@ -5,6 +5,7 @@
 #include "view/scene_parts.h"
 
 #include "base/memory.h"
+#include "state/plates.h"
 #include "view/projection.h"
 
 #include <math.h>

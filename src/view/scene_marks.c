@@ -1,5 +1,6 @@
 /// The marks of a scene: plates, discs, force network, Delaunay boundary, arrows. Marks of equal style share one path,
 /// which keeps the SVG of 5000 discs near 2 MB. Cost: linear.
+#include "state/plates.h"
 #include "view/projection.h"
 #include "view/scene_parts.h"
 

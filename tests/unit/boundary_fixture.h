@@ -4,13 +4,18 @@
 #define SCREE_TESTS_BOUNDARY_FIXTURE_H
 
 #include "law_choice.h"
+#include "state/plates.h"
 #include "testing.h"
+
+#include "boundary_passes.h"
 
 #include "base/random.h"
 #include "boundary/boundary.h"
 #include "boundary/membrane.h"
 #include "boundary/pressure.h"
+#include "measure/delaunay_boundary.h"
 #include "measure/measure.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -57,12 +62,12 @@ static inline void bench_begin(bench *b, int dimension, size_t count, double ste
     b->model.walls[1] = b->model.pairs[1][1];
     assert_int_equal(scree_state_create(&b->state, dimension, count, NULL), SCREE_OK);
     scree_state *state = &b->state;
-    state->pressure = PRESSURE;
+    scree_pressure_set(state, PRESSURE);
     state->force_quantum = QUANTUM;
     state->tick = state->step_size = state->kick_size = b->work.next_kick = step;
     const int axis[SCREE_WALL_COUNT] = {dimension - 1, dimension - 1, 0, 0, 1, 1};
     for (int w = 0; w < (dimension == 3 ? SCREE_WALL_COUNT : SCREE_WALL_FRONT); w++)
-        state->wall[w].normal[axis[w]] = w % 2 ? -1 : 1;
+        scree_plates(state)[w].normal[axis[w]] = w % 2 ? -1 : 1;
 }
 
 /// Puts all grains on a disturbed lattice, `side` of them along each horizontal direction, layers shifted; the plates
@@ -86,9 +91,9 @@ static inline void bench_fill(bench *b, size_t side, bool plates)
         low = fmin(low, 2 * RADIUS * height - row->radius);
         high = fmax(high, 2 * RADIUS * height + row->radius);
     }
-    state->wall[SCREE_WALL_BOTTOM].position = low;
-    state->wall[SCREE_WALL_TOP].position = -high;
-    state->wall[SCREE_WALL_BOTTOM].active = state->wall[SCREE_WALL_TOP].active = plates;
+    scree_plates(state)[SCREE_WALL_BOTTOM].position = low;
+    scree_plates(state)[SCREE_WALL_TOP].position = -high;
+    scree_plates(state)[SCREE_WALL_BOTTOM].active = scree_plates(state)[SCREE_WALL_TOP].active = plates;
 }
 
 /// Foresees a membrane of bodies of this radius, which has taken the pressure over.
@@ -98,7 +103,7 @@ static inline void bench_foresee_membrane(bench *b, double radius)
     b->model.membrane_material = 1;
     b->model.membrane_radius = radius;
     b->model.membrane_stiffness = STIFFNESS;
-    b->state.membrane.share = 1;
+    scree_delaunay_boundary_of(&b->state)->taken_over = 1;
 }
 
 /// A body of the membrane.
@@ -111,7 +116,7 @@ static inline scree_row *member(bench *b, size_t k)
 static inline void membrane_forces(bench *b)
 {
     memset(b->state.sum, 0, b->state.count * sizeof *b->state.sum);
-    scree_boundary_get(SCREE_BOUNDARY_MEMBRANE)->forces(&b->model, &b->state, &b->work);
+    boundary_load(scree_boundary_get(SCREE_BOUNDARY_MEMBRANE), &b->model, &b->state, &b->work);
 }
 
 #endif

@@ -3,6 +3,7 @@
 #define SCREE_TESTS_CONTACT_FIXTURE_H
 
 #include "law_choice.h"
+#include "state/plates.h"
 #include "testing.h"
 
 #include "base/fixed.h"
@@ -162,7 +163,7 @@ static inline void fixture_find_walls(fixture *f)
         assert_int_equal(scree_allocate(&list->rolling, most, sizeof *list->rolling, &error), SCREE_OK);
     list->capacity = most;
     for (uint32_t w = 0; w < SCREE_WALL_COUNT; w++)
-        for (size_t k = 0; k < f->state.count && f->state.wall[w].active; k++) {
+        for (size_t k = 0; k < f->state.count && scree_plates(&f->state)[w].active; k++) {
             list->body[list->count] = (uint32_t)k;
             list->wall[list->count++] = w;
         }
@@ -214,7 +215,8 @@ static inline void fixture_step(fixture *f)
         row->x += dt * row->vx;
         row->y += dt * row->vy;
     }
-    for (int w = 0; w < SCREE_WALL_COUNT; w++) f->state.wall[w].position += dt * f->state.wall[w].velocity;
+    for (int w = 0; w < SCREE_WALL_COUNT; w++)
+        scree_plates(&f->state)[w].position += dt * scree_plates(&f->state)[w].velocity;
     f->state.step++;
     fixture_measure_speed(f);
     fixture_forces(f);

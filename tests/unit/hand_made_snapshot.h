@@ -6,6 +6,7 @@
 #include "io/snapshot.h"
 
 #include "base/memory.h"
+#include "state/plates.h"
 
 #include <math.h>
 #include <stdio.h>

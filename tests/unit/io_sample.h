@@ -4,7 +4,10 @@
 
 #include "base/random.h"
 #include "contact/contact.h"
+#include "measure/delaunay_boundary.h"
 #include "state/fields.h"
+#include "state/plates.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -41,32 +44,27 @@ static inline scree_status sample_state(scree_state *state, size_t count, uint64
     state->step_size = 1e-6;
     state->force_quantum = ldexp(1, -30);
     state->torque_quantum = ldexp(1, -40);
-    state->pressure = 1e5;
+    scree_pressure_set(state, 1e5);
     const double normals[][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
     const double positions[] = {-1e-3, -17e-3, -1e-3, -17e-3};
     for (int w = 0; w <= SCREE_WALL_RIGHT; w++)
-        state->wall[w] = (scree_wall){.position = positions[w],
-                                      .normal = {normals[w][0], normals[w][1]},
-                                      .velocity = 0.1 * w,
-                                      .force = 10.0 + w,
-                                      .shear = {-1.0 * w, 0.5 * w},
-                                      .active = w != SCREE_WALL_RIGHT,
-                                      .material = 1};
+        scree_plates(state)[w] = (scree_wall){.position = positions[w],
+                                              .normal = {normals[w][0], normals[w][1]},
+                                              .velocity = 0.1 * w,
+                                              .force = 10.0 + w,
+                                              .shear = {-1.0 * w, 0.5 * w},
+                                              .active = w != SCREE_WALL_RIGHT,
+                                              .material = 1};
     return status;
 }
 
 /// A loop of `count` bodies 0, 1, ... with every array set.
 static inline scree_status sample_loop(scree_state *state, size_t count, scree_error *error)
 {
-    scree_loop *loop = &state->loop;
-    scree_status status = scree_allocate(&loop->id, count, sizeof *loop->id, error);
-    if (!status) status = scree_allocate(&loop->loaded, count, sizeof *loop->loaded, error);
-    if (!status) status = scree_allocate(&loop->x, count, sizeof *loop->x, error);
-    if (!status) status = scree_allocate(&loop->y, count, sizeof *loop->y, error);
-    if (!status) status = scree_allocate(&loop->fx, count, sizeof *loop->fx, error);
-    if (!status) status = scree_allocate(&loop->fy, count, sizeof *loop->fy, error);
+    scree_loop *loop = scree_loop_of(state);
+    scree_status status = scree_group_reserve(state, &scree_module_delaunay_boundary, &scree_loop_group, count, error);
     if (status) return status;
-    loop->count = loop->capacity = count;
+    loop->count = count;
     loop->updated = 1200;
     for (size_t k = 0; k < count; k++) {
         loop->id[k] = (uint32_t)k;

@@ -52,9 +52,9 @@ static inline void periodic_create(periodic_sample *s, int dimension, size_t cou
     s->model.largest_step = s->model.large_multiple = 1;
     s->state.tick = s->state.step_size = s->state.kick_size = s->model.step;
     const double none[3] = {1, 1, 1};
-    scree_periodic_set(&s->state.periodic, dimension == 2 ? 3 : 7, none);
-    memcpy(s->state.periodic.lattice, lattice, sizeof s->state.periodic.lattice);
-    memcpy(s->state.periodic.reference, lattice, sizeof s->state.periodic.reference);
+    scree_periodic_set(scree_cell(&s->state), dimension == 2 ? 3 : 7, none);
+    memcpy(scree_cell(&s->state)->lattice, lattice, sizeof scree_cell(&s->state)->lattice);
+    memcpy(scree_cell(&s->state)->reference, lattice, sizeof scree_cell(&s->state)->reference);
     check(scree_work_create(&s->work, &s->model, 1, &error), &error);
 }
 
@@ -109,7 +109,7 @@ static inline void periodic_step(periodic_sample *s)
 
 static inline void periodic_run(periodic_sample *s, const double gradient[9], int steps)
 {
-    memcpy(s->state.periodic.gradient, gradient, sizeof s->state.periodic.gradient);
+    memcpy(scree_cell(&s->state)->gradient, gradient, sizeof scree_cell(&s->state)->gradient);
     for (int k = 0; k < steps; k++) periodic_step(s);
 }
 

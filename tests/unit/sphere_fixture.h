@@ -3,6 +3,7 @@
 #define SCREE_TESTS_SPHERE_FIXTURE_H
 
 #include "contact_fixture.h"
+#include "state/plates.h"
 
 #include "integrate/integrate.h"
 
@@ -40,7 +41,7 @@ static inline void sphere_step(fixture *f)
     const scree_integrator *scheme = scree_integrator_get(f->model.scheme);
     scheme->first(&f->model, &f->state, &f->work);
     for (int w = 0; w < SCREE_WALL_COUNT; w++)
-        f->state.wall[w].position += f->state.step_size * f->state.wall[w].velocity;
+        scree_plates(&f->state)[w].position += f->state.step_size * scree_plates(&f->state)[w].velocity;
     f->state.step++;
     fixture_forces(f);
     if (scheme->second) scheme->second(&f->model, &f->state, &f->work);

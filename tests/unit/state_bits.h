@@ -23,8 +23,7 @@ static inline uint64_t field_bits(const scree_state *state, const scree_field *f
 static inline uint64_t state_bits(const scree_state *state)
 {
     uint64_t bits = 0;
-    for (size_t k = 0; k < scree_field_count; k++) bits = field_bits(state, &scree_fields[k], bits);
-    for (size_t k = 0; k < scree_member_count; k++) bits = field_bits(state, &scree_members[k], bits);
+    for (size_t k = 0; k < scree_field_total(); k++) bits = field_bits(state, scree_field_at(k), bits);
     return bits;
 }
 

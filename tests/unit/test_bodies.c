@@ -1,6 +1,8 @@
 /// Prepare method `bodies`: the state is what the case says, an impact is the one of method `pair` to the bit, a
 /// restart goes on, the written case reads back, and what cannot be is refused where it stands.
 #include "run_fixture.h"
+#include "state/periodic.h"
+#include "state/plates.h"
 
 #include "case/case.h"
 #include "io/summary.h"
@@ -70,7 +72,8 @@ static void discs_are_what_the_case_says(void **unused)
     // Discs of a length of twice the mean radius, which is 0.75 mm; a few roundings.
     assert_true(fabs(row[1].mass / (7850 * M_PI * 1e-6 * 1.5e-3) - 1) < 1e-14);
     assert_true(fabs(row[2].mass / (2650 * M_PI * 0.49e-6 * 1.5e-3) - 1) < 1e-14);
-    assert_true(s.state.wall[SCREE_WALL_RIGHT].position == -10e-3 && s.state.wall[SCREE_WALL_TOP].position == -4e-3);
+    assert_true(scree_plates(&s.state)[SCREE_WALL_RIGHT].position == -10e-3 &&
+                scree_plates(&s.state)[SCREE_WALL_TOP].position == -4e-3);
     scree_simulation_close(&s);
     scree_case_free(c);
 }
@@ -88,7 +91,7 @@ static void spheres_are_what_the_case_says(void **unused)
     assert_true(velocity[0] == 4 && velocity[1] == 5 && velocity[2] == 6);
     assert_true(spin[0] == 7 && spin[1] == 8 && spin[2] == 9);
     assert_true(s.state.row[1].radius == 1e-3);
-    const double *cell = s.state.periodic.lattice;
+    const double *cell = scree_cell(&s.state)->lattice;
     assert_true(cell[0] == 12e-3 && cell[4] == 11e-3 && cell[8] == 10e-3);
     scree_simulation_close(&s);
     scree_case_free(c);
@@ -105,7 +108,7 @@ static void sides_that_are_left_out_follow_the_bodies(void **unused)
     prepare(spheres, overrides, 5, &c, &s);
     const int far[3] = {SCREE_WALL_RIGHT, SCREE_WALL_BACK, SCREE_WALL_TOP};
     // The sum of a position and a radius.
-    for (int k = 0; k < 3; k++) assert_true(fabs(s.state.wall[far[k]].position + 6e-3) < 1e-18);
+    for (int k = 0; k < 3; k++) assert_true(fabs(scree_plates(&s.state)[far[k]].position + 6e-3) < 1e-18);
     scree_simulation_close(&s);
     scree_case_free(c);
 }
@@ -122,12 +125,12 @@ static void write_bodies(const scree_state *state, char *text, size_t size)
 {
     bool solid = state->dimension == 3;
     int length = snprintf(text, size, PAIR_CASE "stages:\n  - stage: prepare\n    method: bodies\n    width: %.17g\n",
-                          -state->wall[SCREE_WALL_RIGHT].position);
-    length +=
-        snprintf(text + length, size - (size_t)length, "    height: %.17g\n", -state->wall[SCREE_WALL_TOP].position);
+                          -scree_plates(state)[SCREE_WALL_RIGHT].position);
+    length += snprintf(text + length, size - (size_t)length, "    height: %.17g\n",
+                       -scree_plates(state)[SCREE_WALL_TOP].position);
     if (solid)
         length += snprintf(text + length, size - (size_t)length, "    depth: %.17g\n",
-                           -state->wall[SCREE_WALL_BACK].position);
+                           -scree_plates(state)[SCREE_WALL_BACK].position);
     length += snprintf(text + length, size - (size_t)length, "    bodies:\n");
     for (size_t i = 0; i < 2; i++) {
         scree_vector place, velocity, spin;

@@ -1,4 +1,8 @@
 /// Boundaries as forces on facets, in 2D and 3D: area vectors, uniform stress, minimal conditions, affine motion.
+#include "boundary_passes.h"
+#include "measure/delaunay_boundary.h"
+#include "measure/imposed_gradient.h"
+#include "state/plates.h"
 #include "testing.h"
 
 #include "base/fixed.h"
@@ -33,7 +37,7 @@ static double uniform(uint64_t counter)
 
 static void make_loop(scree_state *state)
 {
-    scree_loop *loop = &state->loop;
+    scree_loop *loop = scree_loop_of(state);
     assert_int_equal(scree_allocate(&loop->id, SIDES, sizeof *loop->id, NULL), SCREE_OK);
     assert_int_equal(scree_allocate(&loop->loaded, SIDES, 1, NULL), SCREE_OK);
     double **arrays[] = {&loop->x, &loop->y, &loop->fx, &loop->fy};
@@ -51,7 +55,7 @@ static void make_loop(scree_state *state)
 /// A lumpy ball: rings of nodes, two poles.
 static void make_hull(scree_state *state)
 {
-    scree_hull *hull = &state->hull;
+    scree_hull *hull = scree_hull_of(state);
     size_t nodes = RINGS * RING + 2, triangles = 2 * RINGS * RING;
     assert_int_equal(scree_allocate(&hull->id, nodes, sizeof *hull->id, NULL), SCREE_OK);
     assert_int_equal(scree_allocate(&hull->place, nodes, sizeof *hull->place, NULL), SCREE_OK);
@@ -127,11 +131,12 @@ static double kinetic(const scree_state *state)
     return energy;
 }
 
-static void measure_rate(bench *b, double rate[9])
+/// Returns the volume.
+static double measure_rate(bench *b, double rate[9])
 {
     scree_vector area[SIDES + RINGS * RING];
     scree_boundary_areas(&b->model, &b->state, area);
-    scree_drive_measure(&b->state, area, scree_boundary_volume(&b->model, &b->state), rate);
+    return scree_drive_measure(&b->state, area, rate);
 }
 
 static void area_vectors_integrate_the_normal(void **unused)
@@ -142,7 +147,8 @@ static void area_vectors_integrate_the_normal(void **unused)
         bench_create(&b, dimension);
         scree_vector area[SIDES + RINGS * RING], place;
         scree_boundary_areas(&b.model, &b.state, area);
-        double volume = scree_boundary_volume(&b.model, &b.state), sum[3] = {0}, moment[9] = {0}, largest = 0;
+        double rate[9], volume = scree_drive_measure(&b.state, area, rate);
+        double sum[3] = {0}, moment[9] = {0}, largest = 0;
         for (size_t k = 0; k < scree_boundary_count(&b.state); k++) {
             scree_body_place(&b.state, scree_boundary_row(&b.state, k), place);
             largest = fmax(largest, scree_length(area[k]));
@@ -170,10 +176,10 @@ static void the_power_of_a_stress_is_volume_stress_rate(void **unused)
         b.state.force_quantum = FINE;
         assert_int_equal(scree_drive_refresh(&b.model, &b.state, NULL), SCREE_OK);
         scree_drive_apply_stress(&b.model, &b.state, stress);
-        double rate[9], power = 0, expected = 0, scale = 0, volume = scree_boundary_volume(&b.model, &b.state);
+        double rate[9], power = 0, expected = 0, scale = 0, volume;
         int64_t total[3] = {0};
         scree_vector velocity, spin;
-        measure_rate(&b, rate);
+        volume = measure_rate(&b, rate);
         for (size_t k = 0; k < b.state.count; k++) {
             const scree_sum_row *sum = &b.state.sum[k];
             const int64_t force[3] = {sum->fx, sum->fy, dimension == 3 ? sum->fz : 0};
@@ -209,13 +215,13 @@ static void minimal_conditions_meet_their_rates(void **unused)
         bench b;
         bench_create(&b, 2 + k / 4);
         scree_state *state = &b.state;
-        for (int i = 0; i < 9; i++) state->drive.prescribed[i] = prescribed[k % 4][i];
-        memcpy(state->drive.target, target, sizeof target);
-        state->drive.viscosity = INFINITY;
+        for (int i = 0; i < 9; i++) scree_imposed(state)->prescribed[i] = prescribed[k % 4][i];
+        memcpy(scree_imposed(state)->target, target, sizeof target);
+        scree_imposed(state)->viscosity = INFINITY;
         // Other forces, which the solution has to foresee.
         for (size_t r = 0; r < state->count; r++) state->sum[r].fx = (int64_t)(1e15 * uniform(500 + r));
-        assert_int_equal(minimal->refresh(&b.model, state, NULL), SCREE_OK);
-        minimal->forces(&b.model, state, &b.work);
+        assert_int_equal(boundary_pass(minimal, SCREE_PHASE_SEARCH, &b.model, state, &b.work, NULL), SCREE_OK);
+        boundary_load(minimal, &b.model, state, &b.work);
         kick(state);
         double rate[9];
         measure_rate(&b, rate);
@@ -238,17 +244,17 @@ static void a_multiplier_out_of_range_stops_the_run(void **unused)
         bench b;
         bench_create(&b, 2 + k / 2);
         scree_state *state = &b.state;
-        state->drive.prescribed[4] = SCREE_FULL;
+        scree_imposed(state)->prescribed[4] = SCREE_FULL;
         // A rate whose force is some 1e25 times the largest of the integers, or one that is not a number.
-        state->drive.target[4] = k % 2 ? NAN : 1e40;
-        state->drive.viscosity = INFINITY;
-        assert_int_equal(minimal->refresh(&b.model, state, NULL), SCREE_OK);
-        minimal->forces(&b.model, state, &b.work);
+        scree_imposed(state)->target[4] = k % 2 ? NAN : 1e40;
+        scree_imposed(state)->viscosity = INFINITY;
+        assert_int_equal(boundary_pass(minimal, SCREE_PHASE_SEARCH, &b.model, state, &b.work, NULL), SCREE_OK);
+        boundary_load(minimal, &b.model, state, &b.work);
         assert_int_equal(b.work.flags, SCREE_FLAG_FORCE_RANGE);
         for (size_t r = 0; r < state->count; r++) assert_true(state->sum[r].fx == 0 && state->sum[r].fy == 0);
-        state->drive.target[4] = 1;
+        scree_imposed(state)->target[4] = 1;
         b.work.flags = 0;
-        minimal->forces(&b.model, state, &b.work);
+        boundary_load(minimal, &b.model, state, &b.work);
         assert_int_equal(b.work.flags, 0);
         scree_state_destroy(state);
     }
@@ -263,12 +269,12 @@ static void a_strain_rate_has_no_moment(void **unused)
         bench b;
         bench_create(&b, 2);
         scree_state *state = &b.state;
-        state->drive.prescribed[1] = SCREE_SYMMETRIC;
-        if (k == 1) state->drive.prescribed[1] = state->drive.prescribed[3] = SCREE_FULL;
-        state->drive.target[1] = 0.5;
-        state->drive.viscosity = 1e6;
-        assert_int_equal(minimal->refresh(&b.model, state, NULL), SCREE_OK);
-        minimal->forces(&b.model, state, &b.work);
+        scree_imposed(state)->prescribed[1] = SCREE_SYMMETRIC;
+        if (k == 1) scree_imposed(state)->prescribed[1] = scree_imposed(state)->prescribed[3] = SCREE_FULL;
+        scree_imposed(state)->target[1] = 0.5;
+        scree_imposed(state)->viscosity = 1e6;
+        assert_int_equal(boundary_pass(minimal, SCREE_PHASE_SEARCH, &b.model, state, &b.work, NULL), SCREE_OK);
+        boundary_load(minimal, &b.model, state, &b.work);
         double moment = 0, scale = 0;
         for (size_t r = 0; r < state->count; r++) {
             double x = state->row[r].x, y = state->row[r].y;
@@ -291,16 +297,16 @@ static void penalty_is_stable_and_booked(void **unused)
         bench_create(&b, 2 + k / 6);
         scree_state *state = &b.state;
         int axial = state->dimension == 3 ? 8 : 4;
-        state->drive.prescribed[axial] = SCREE_FULL;
-        state->drive.target[axial] = -0.5;
-        state->drive.viscosity = pow(10, 3 * (k % 6));
+        scree_imposed(state)->prescribed[axial] = SCREE_FULL;
+        scree_imposed(state)->target[axial] = -0.5;
+        scree_imposed(state)->viscosity = pow(10, 3 * (k % 6));
         double before = INFINITY, begin = kinetic(state), rate[9];
         for (int step = 0; step < 50; step++) {
             memset(state->sum, 0, state->count * sizeof *state->sum);
-            assert_int_equal(minimal->refresh(&b.model, state, NULL), SCREE_OK);
-            minimal->forces(&b.model, state, &b.work);
+            assert_int_equal(boundary_pass(minimal, SCREE_PHASE_SEARCH, &b.model, state, &b.work, NULL), SCREE_OK);
+            boundary_load(minimal, &b.model, state, &b.work);
             kick(state);
-            minimal->work(state);
+            boundary_follow(minimal, &b.model, state);
             measure_rate(&b, rate);
             double error = fabs(rate[axial] + 0.5);
             assert_true(error <= before || error < 1e-11);
@@ -327,24 +333,24 @@ static void affine_bodies_move_with_the_gradient(void **unused)
         bench_create(&b, dimension);
         scree_state *state = &b.state;
         for (int i = 0; i < 9; i++)
-            if (i / 3 < dimension && i % 3 < dimension) state->drive.target[i] = target[i];
+            if (i / 3 < dimension && i % 3 < dimension) scree_imposed(state)->target[i] = target[i];
         for (size_t r = 0; r < state->count; r++) state->sum[r].fy = (int64_t)(1e15 * uniform(500 + r));
-        assert_int_equal(affine->refresh(&b.model, state, NULL), SCREE_OK);
-        double begin = kinetic(state), bound = affine->bound(&b.model, state);
+        assert_int_equal(boundary_pass(affine, SCREE_PHASE_SEARCH, &b.model, state, &b.work, NULL), SCREE_OK);
+        double begin = kinetic(state), bound = affine->bound(&(scree_context){.model = &b.model, .state = state});
         int64_t others[SIDES + RINGS * RING];
         for (size_t r = 0; r < state->count; r++) others[r] = state->sum[r].fy;
-        affine->forces(&b.model, state, &b.work);
+        boundary_load(affine, &b.model, state, &b.work);
         kick(state);
-        affine->work(state);
+        boundary_follow(affine, &b.model, state);
         double rate[9], outer = 0;
         measure_rate(&b, rate);
-        for (int i = 0; i < 9; i++) assert_true(fabs(rate[i] - state->drive.target[i]) < 1e-11);
-        for (size_t k = 0; k < state->drive.count; k++) {
+        for (int i = 0; i < 9; i++) assert_true(fabs(rate[i] - scree_imposed(state)->target[i]) < 1e-11);
+        for (size_t k = 0; k < scree_imposed(state)->count; k++) {
             size_t r = scree_boundary_row(state, k);
             double mean = state->row[r].vy - 0.5 * STEP * (double)state->sum[r].fy * QUANTUM / state->row[r].mass;
             outer += STEP * (double)others[r] * QUANTUM * mean;
             // Apart from the others, which it balances, no force is above the bound.
-            double own = state->drive.force[k][1] + (double)others[r] * QUANTUM;
+            double own = scree_imposed(state)->force[k][1] + (double)others[r] * QUANTUM;
             assert_true(fabs(own) <= bound * (1 + 1e-12));
         }
         // The work of the boundary and of the other forces is the change of the kinetic energy.
@@ -362,8 +368,8 @@ static void walls_come_and_go(void **unused)
     bench_create(&b, 2);
     scree_state *state = &b.state;
     bool changed;
-    for (int w = 0; w < 4; w++) state->wall[w].active = 1;
-    state->wall[SCREE_WALL_TOP].velocity = 3;
+    for (int w = 0; w < 4; w++) scree_plates(state)[w].active = 1;
+    scree_plates(state)[SCREE_WALL_TOP].velocity = 3;
     scree_contact contact[3] = {{.wall = true, .second = SCREE_WALL_TOP, .elastic_normal = 2, .elastic_tangential = 1},
                                 {.wall = true, .second = SCREE_WALL_LEFT, .elastic_normal = 8},
                                 {.wall = false, .second = SCREE_WALL_TOP, .elastic_normal = 64}};
@@ -371,12 +377,12 @@ static void walls_come_and_go(void **unused)
     const scree_boundary *pressure = scree_boundary_get(SCREE_BOUNDARY_PRESSURE);
     assert_int_equal(scree_boundary_begin(pressure, &b.model, state, &table, &changed, NULL), SCREE_OK);
     assert_true(changed && state->ledger.plates == -8);
-    assert_true(state->wall[SCREE_WALL_TOP].active && !state->wall[SCREE_WALL_LEFT].active);
+    assert_true(scree_plates(state)[SCREE_WALL_TOP].active && !scree_plates(state)[SCREE_WALL_LEFT].active);
     assert_int_equal(scree_boundary_begin(pressure, &b.model, state, &table, &changed, NULL), SCREE_OK);
-    assert_true(!changed && state->ledger.plates == -8 && state->wall[SCREE_WALL_TOP].velocity == 3);
+    assert_true(!changed && state->ledger.plates == -8 && scree_plates(state)[SCREE_WALL_TOP].velocity == 3);
     const scree_boundary *minimal = scree_boundary_get(SCREE_BOUNDARY_MINIMAL);
     assert_int_equal(scree_boundary_begin(minimal, &b.model, state, &table, &changed, NULL), SCREE_OK);
-    assert_true(changed && state->ledger.plates == -11 && state->wall[SCREE_WALL_TOP].velocity == 0);
+    assert_true(changed && state->ledger.plates == -11 && scree_plates(state)[SCREE_WALL_TOP].velocity == 0);
     assert_true(scree_boundary_has_plates(pressure) && !scree_boundary_has_plates(minimal));
     scree_state_destroy(state);
 }

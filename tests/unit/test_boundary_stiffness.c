@@ -12,7 +12,7 @@
 /// components is the uniform traction, so these two are equal. For the comparison no grain turns: an image on a single
 /// contact could roll about it, and satisfy a mean for nothing. The energy is that of the contacts of the sample,
 /// linearised as model/critical_step.h says. Two runs that compare boundaries on different cuts of a packing
-/// (test_boundary_runs.c) order them only within the scatter of cuts.
+/// (test_boundary_order.c) order them only within the scatter of cuts.
 ///
 /// What ties it to the code. The same small strains as a deform stage of the periodic cell must give the stress that
 /// the periodic conditions give: image shifts, velocity jumps, virial and servo all enter.
@@ -423,11 +423,11 @@ static void compare_with_stage(scree_simulation *s, double expected)
 {
     double before[9], after[9];
     const int axial = 4 * (s->state.dimension - 1);
-    double strained = s->state.periodic.strain[axial];
+    double strained = scree_cell(&s->state)->strain[axial];
     scree_periodic_stress(&s->stage_model, &s->state, before);
     while (simulation_goes_on(s)) simulation_step(s);
     scree_periodic_stress(&s->stage_model, &s->state, after);
-    double found = (after[axial] - before[axial]) / (s->state.periodic.strain[axial] - strained);
+    double found = (after[axial] - before[axial]) / (scree_cell(&s->state)->strain[axial] - strained);
     print_message("%dD: as a stage %.5g, as a network %.5g Pa\n", s->state.dimension, found, expected);
     // The network leaves out that contacts turn the forces that they have: f / (k R) = 5 % at indentations of 8 % of R.
     assert_true(fabs(found / expected - 1) < 0.06);

@@ -6,6 +6,7 @@
 #include "io/snapshot.h"
 #include "io_sample.h"
 #include "io_scratch.h"
+#include "measure/delaunay_boundary.h"
 #include "state_bits.h"
 
 enum { BODIES = 40, CASE = 77 };
@@ -18,8 +19,8 @@ static void create_state(scree_state *state, uint64_t seed)
     assert_int_equal(sample_loop(state, 12, NULL), SCREE_OK);
     assert_int_equal(sample_contacts(state, 60, NULL), SCREE_OK);
     uint64_t counter = 0;
-    for (size_t k = 1; k < scree_field_count + scree_member_count; k++) {
-        const scree_field *field = k < scree_field_count ? &scree_fields[k] : &scree_members[k - scree_field_count];
+    for (size_t k = 1; k < scree_field_total(); k++) {
+        const scree_field *field = scree_field_at(k);
         if (!scree_field_exists(field, state->dimension)) continue;
         size_t size = (size_t)scree_components(field->components, state->dimension) * scree_field_size(field->type);
         for (size_t row = 0; row < scree_field_rows_count(state, field); row++)
@@ -38,11 +39,11 @@ static void assert_same(const scree_state *a, const scree_state *b)
     assert_int_equal(state_bits(a), state_bits(b));
     assert_int_equal(a->count, b->count);
     assert_int_equal(a->contact_count, b->contact_count);
-    assert_int_equal(a->loop.count, b->loop.count);
+    assert_int_equal(scree_loop_of(a)->count, scree_loop_of(b)->count);
     assert_memory_equal(&a->spent, &b->spent, sizeof a->spent);
     assert_memory_equal(a->row_of_id, b->row_of_id, a->count * sizeof *a->row_of_id);
-    for (size_t k = 0; k < scree_field_count + scree_member_count; k++) {
-        const scree_field *field = k < scree_field_count ? &scree_fields[k] : &scree_members[k - scree_field_count];
+    for (size_t k = 0; k < scree_field_total(); k++) {
+        const scree_field *field = scree_field_at(k);
         if (!scree_field_exists(field, a->dimension)) continue;
         size_t size = (size_t)scree_components(field->components, a->dimension) * scree_field_size(field->type);
         for (size_t row = 0; row < scree_field_rows_count(a, field) && field->role == SCREE_FIELD_STATE; row++)
@@ -263,7 +264,8 @@ static void failed_allocations(void **unused)
         assert_int_equal(before, after);
         if (made < n) break;
         if (!status) fail_msg("allocation %llu failed without an error", (unsigned long long)n);
-        if (!strstr(error.message, "out of memory")) fail_msg("allocation %llu: %s", (unsigned long long)n, error.message);
+        if (!strstr(error.message, "out of memory"))
+            fail_msg("allocation %llu: %s", (unsigned long long)n, error.message);
     }
     assert_string_equal(read_checkpoint(2, SCREE_OK, CASE), "");
     for (uint64_t n = 1;; n++) {
@@ -278,7 +280,8 @@ static void failed_allocations(void **unused)
         assert_int_equal(before, after);
         if (made < n) break;
         if (!status) fail_msg("allocation %llu failed without an error", (unsigned long long)n);
-        if (!strstr(error.message, "out of memory")) fail_msg("allocation %llu: %s", (unsigned long long)n, error.message);
+        if (!strstr(error.message, "out of memory"))
+            fail_msg("allocation %llu: %s", (unsigned long long)n, error.message);
     }
     scree_state_destroy(&state);
 }

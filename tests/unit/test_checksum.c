@@ -1,6 +1,11 @@
 /// The state checksum against its definition in docs/architecture.md: numbers worked out by another program from the
 /// text alone; what belongs to the physics shows, and what is bookkeeping does not.
 #include "law_choice.h"
+#include "measure/delaunay_boundary.h"
+#include "measure/imposed_gradient.h"
+#include "state/case_walls.h"
+#include "state/periodic.h"
+#include "state/plates.h"
 #include "testing.h"
 
 #include "base/checksum.h"
@@ -62,10 +67,10 @@ static void create(sample *s, int dimension)
     if (dimension == 2) state->rolling[1].value[1] = 77; // its force, not its displacement
     if (dimension == 3) memset(&state->rolling[1], 0, sizeof state->rolling[1]);
     state->contact_count = 4;
-    state->wall[SCREE_WALL_TOP] = (scree_wall){
+    scree_plates(state)[SCREE_WALL_TOP] = (scree_wall){
         .position = -9, .normal = {0, -1, 0}, .velocity = 0.75, .tangential_velocity = {1, 2, 3}, .active = 1};
-    state->wall[SCREE_WALL_LEFT] = (scree_wall){.position = 5, .velocity = 6};
-    for (int k = 0; k < 9; k++) state->strain.gradient[k] = 0.001 * k;
+    scree_plates(state)[SCREE_WALL_LEFT] = (scree_wall){.position = 5, .velocity = 6};
+    for (int k = 0; k < 9; k++) scree_strain_of(state)->gradient[k] = 0.001 * k;
     state->ledger = (scree_ledger){1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
 }
 
@@ -75,13 +80,13 @@ static void create_full(sample *s, int dimension)
     create(s, dimension);
     s->config.wall_count = 1;
     s->wall = (scree_config_wall){.velocity = {1, 2, 3}, .spin = {0, 4, 0}, .centre = {0.5, 0.25, 0}};
-    s->state.surface_ticks = 6;
-    s->state.surface_moving = 1;
-    s->state.periodic.directions = 1;
+    scree_case_walls(&s->state)->ticks = 6;
+    scree_case_walls(&s->state)->moving = 1;
+    scree_cell(&s->state)->directions = 1;
     for (int k = 0; k < 9; k++) {
-        s->state.periodic.lattice[k] = k + 1;
-        s->state.periodic.gradient[k] = 0.25 * k;
-        s->state.periodic.strain[k] = 0.5 * k;
+        scree_cell(&s->state)->lattice[k] = k + 1;
+        scree_cell(&s->state)->gradient[k] = 0.25 * k;
+        scree_cell(&s->state)->strain[k] = 0.5 * k;
     }
 }
 
@@ -117,10 +122,10 @@ static void bookkeeping_does_not_show(void **unused)
         state->stage = (scree_stage_state){.index = 3, .samples = 4, .snapshots = 5, .counter = 6, .reference = {7}};
         state->sampled_step = state->evaluations = 77;
         state->sampled_velocity[1][0] = state->reference[2][1] = 3;
-        state->loop.updated = state->hull.updated = 9;
-        state->largest_overlap = state->largest_speed = state->drive.achieved = 4;
-        state->wall[SCREE_WALL_LEFT].position = 8; // stands no more
-        state->wall[SCREE_WALL_TOP].force = 1;
+        scree_loop_of(state)->updated = scree_hull_of(state)->updated = 9;
+        state->largest_overlap = state->largest_speed = scree_imposed(state)->achieved = 4;
+        scree_plates(state)[SCREE_WALL_LEFT].position = 8; // stands no more
+        scree_plates(state)[SCREE_WALL_TOP].force = 1;
         state->booking = NULL;
         state->contact[1].history.value[3] = 55; // what is kept for the ledger alone
         // The same forces in quanta half as large.
@@ -137,7 +142,7 @@ static void bookkeeping_does_not_show(void **unused)
         }
         s.model.density[0] = 1;
         for (int k = 0; k < 3; k++) *(dimension == 3 ? &state->turn[k].material : &state->row[k].material) += 1;
-        state->strain.gradient[0] = -0.0;
+        scree_strain_of(state)->gradient[0] = -0.0;
         assert_true(checksum_of(&s) == before);
         scree_state_destroy(&state[0]);
     }
@@ -175,15 +180,15 @@ static void physics_shows(void **unused)
         &s.model.pairs[0][0].value[SCREE_FRICTION],
         &state->contact[0].history.value[2],
         &state->rolling[2].value[3],
-        &state->wall[SCREE_WALL_TOP].position,
-        &state->wall[SCREE_WALL_TOP].velocity,
-        &state->wall[SCREE_WALL_TOP].tangential_velocity[2],
+        &scree_plates(state)[SCREE_WALL_TOP].position,
+        &scree_plates(state)[SCREE_WALL_TOP].velocity,
+        &scree_plates(state)[SCREE_WALL_TOP].tangential_velocity[2],
         &s.wall.velocity[1],
         &s.wall.spin[1],
-        &state->periodic.lattice[8],
-        &state->periodic.gradient[8],
-        &state->periodic.strain[8],
-        &state->strain.gradient[4],
+        &scree_cell(state)->lattice[8],
+        &scree_cell(state)->gradient[8],
+        &scree_cell(state)->strain[8],
+        &scree_strain_of(state)->gradient[4],
         &state->ledger.damping,
         &state->ledger.turnover,
     };
@@ -206,7 +211,7 @@ static void physics_shows(void **unused)
     state->contact[2].second++;
     assert_true(checksum_of(&s) != before);
     state->contact[2].second--;
-    state->surface_moving = 0;
+    scree_case_walls(state)->moving = 0;
     assert_true(checksum_of(&s) != before);
     scree_state_destroy(state);
 }

@@ -7,6 +7,7 @@
 ///   indent, stretch, part, stretch back            X                X
 /// Pairs and bodies on a plate, in 2D and 3D; slip, rolling and twisting.
 #include "sphere_fixture.h"
+#include "state/plates.h"
 
 enum { PHASE = 2000 }; // steps of a quarter of a cycle
 static const double STEP = 1e-7, R1 = 1e-3, R2 = 1.5e-3, SHALLOW = 2e-6, DEEP = 20e-6;
@@ -33,7 +34,7 @@ static void create(fixture *f, const setting *s)
     if (!s->plate) f->state.row[1].radius = R2;
     for (int k = 0; k < count; k++) f->state.row[k].mass = fixture_mass(&f->model, 0, f->state.row[k].radius);
     f->state.row[0].x = R1 + (s->plate ? 0 : R2) - SHALLOW;
-    f->state.wall[SCREE_WALL_LEFT] = (scree_wall){.normal = {1, 0, 0}, .active = s->plate};
+    scree_plates(&f->state)[SCREE_WALL_LEFT] = (scree_wall){.normal = {1, 0, 0}, .active = s->plate};
     if (s->plate)
         fixture_find_walls(f);
     else

@@ -1,5 +1,6 @@
 /// The machinery around the laws: every kernel, partition and order of the list gives the same bits; sums are exact.
 #include "contact_fixture.h"
+#include "state/plates.h"
 
 #include <stdlib.h>
 
@@ -14,7 +15,7 @@ static void assert_same(const fixture *a, const fixture *b)
     assert_memory_equal(&s->ledger, &t->ledger, sizeof s->ledger);
     assert_memory_equal(&s->largest_overlap, &t->largest_overlap, sizeof(double));
     assert_memory_equal(&s->force_quantum, &t->force_quantum, sizeof(double));
-    assert_memory_equal(s->wall, t->wall, sizeof s->wall);
+    assert_memory_equal(scree_plates(s), scree_plates(t), SCREE_WALL_COUNT * sizeof(scree_wall));
     assert_int_equal(a->work.flags, b->work.flags);
 }
 
@@ -22,9 +23,9 @@ static void assert_same(const fixture *a, const fixture *b)
 static void create(fixture *f, law_choice law, int materials)
 {
     fixture_create_assembly(f, law, SIDE, materials);
-    f->state.wall[SCREE_WALL_BOTTOM] = (scree_wall){
+    scree_plates(&f->state)[SCREE_WALL_BOTTOM] = (scree_wall){
         .position = -0.95e-3, .normal = {0, 1}, .velocity = 0.3, .tangential_velocity = {-0.2}, .active = 1};
-    f->state.wall[SCREE_WALL_LEFT] =
+    scree_plates(&f->state)[SCREE_WALL_LEFT] =
         (scree_wall){.position = -0.96e-3, .normal = {1, 0}, .velocity = -0.1, .active = 1};
     fixture_find_walls(f);
 }
@@ -175,7 +176,8 @@ static void momentum_is_conserved_exactly(void **unused)
         contacts += f.state.sum[k].contacts;
     }
     // What the walls give is on their books, in the same quanta: normals along the axes round nothing.
-    const scree_wall *bottom = &f.state.wall[SCREE_WALL_BOTTOM], *left = &f.state.wall[SCREE_WALL_LEFT];
+    const scree_wall *bottom = &scree_plates(&f.state)[SCREE_WALL_BOTTOM],
+                     *left = &scree_plates(&f.state)[SCREE_WALL_LEFT];
     assert_true(bottom->force > 0 && left->force > 0 && bottom->shear[0] != 0);
     int64_t x = scree_fixed_from(left->force - bottom->shear[0], 1 / f.state.force_quantum);
     int64_t y = scree_fixed_from(bottom->force - left->shear[1], 1 / f.state.force_quantum);

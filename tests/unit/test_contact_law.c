@@ -6,6 +6,7 @@
 /// Rates are those of the middle of the step (motion.h): the closed form of a force of velocities alone is taken with a
 /// step of zero.
 #include "contact_fixture.h"
+#include "state/plates.h"
 
 #include "theory/restitution.h"
 
@@ -379,7 +380,7 @@ static void a_boost_changes_nothing(void **unused)
 static void create_on_wall(fixture *f, law_choice law, double nx, double ny)
 {
     fixture_create(f, law, 1, 1e-7);
-    f->state.wall[SCREE_WALL_BOTTOM] = (scree_wall){.position = 0.1, .normal = {nx, ny}, .active = 1};
+    scree_plates(&f->state)[SCREE_WALL_BOTTOM] = (scree_wall){.position = 0.1, .normal = {nx, ny}, .active = 1};
     f->state.row[0].x = (0.1 + 1e-3 - 2e-6) * nx;
     f->state.row[0].y = (0.1 + 1e-3 - 2e-6) * ny;
     f->state.largest_overlap = 2e-6;
@@ -394,7 +395,7 @@ static void wall_is_a_body_of_infinite_radius_and_mass(void **unused)
         fixture f;
         double force[3], nx = turn == 1 ? 1 : turn == 3 ? -1 : 0, ny = turn == 0 ? 1 : turn == 2 ? -1 : 0;
         create_on_wall(&f, HERTZ_MINDLIN, nx, ny);
-        scree_wall *wall = &f.state.wall[SCREE_WALL_BOTTOM];
+        scree_wall *wall = &scree_plates(&f.state)[SCREE_WALL_BOTTOM];
         wall->velocity = 0.01;
         wall->tangential_velocity[0] = 0.01 * ny;
         wall->tangential_velocity[1] = -0.01 * nx;

@@ -1,6 +1,7 @@
 /// The energy ledger of the contact laws on a few colliding, rolling and sliding bodies between moving walls: kinetic +
 /// elastic + dissipated - put in is constant, up to an error that falls as the square of the step.
 #include "contact_fixture.h"
+#include "state/plates.h"
 
 /// Five unequal bodies that meet in the middle of a box of four walls, two of which move.
 static void create(fixture *f, law_choice law, double step)
@@ -21,7 +22,7 @@ static void create(fixture *f, law_choice law, double step)
                            .spin = spin[k],
                            .mass = fixture_mass(&f->model, 0, radius)};
     }
-    scree_wall *wall = f->state.wall;
+    scree_wall *wall = scree_plates(&f->state);
     wall[SCREE_WALL_BOTTOM] = (scree_wall){.position = -3e-3, .normal = {0, 1}, .velocity = 0.5, .active = 1};
     wall[SCREE_WALL_TOP] =
         (scree_wall){.position = -3.6e-3, .normal = {0, -1}, .tangential_velocity = {2}, .active = 1};

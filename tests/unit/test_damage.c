@@ -4,9 +4,9 @@
 #include "base/notes.h"
 #include "io/run_file.h"
 #include "io/snapshot.h"
-#include "state_bits.h"
 #include "io_sample.h"
 #include "io_scratch.h"
+#include "state_bits.h"
 
 /// HDF5 (1.10) loses memory of its own when it reads damaged files. For the leak sanitizer, in this test alone.
 const char *__lsan_default_suppressions(void);
@@ -151,7 +151,8 @@ static void a_damaged_part_costs_itself(void **unused)
         const scree_restart_point kept = {.snapshot = true, .index = 2, .part = !finish};
         assert_true(reads_as(&kept, 2, true));
         assert_int_equal(unlink(aside), 0);
-        assert_int_equal(scree_snapshots_truncate(scratch, 0, NULL), SCREE_OK);
+        const scree_kept checkpoints = {.last_checkpoint = INT64_MAX};
+        assert_int_equal(scree_run_file_rewind(scratch, NULL, &checkpoints, NULL, NULL), SCREE_OK);
     }
 }
 

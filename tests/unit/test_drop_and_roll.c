@@ -4,6 +4,7 @@
 /// Equal bodies and two sizes are the hard ones: beside a wall the centres of equal spheres lie in one plane, and in a
 /// box as wide as a few radii gaps are as wide as what has to pass, all to the last bit.
 #include "biaxial_config.h"
+#include "state/plates.h"
 #include "testing.h"
 
 #include "base/vectors.h"
@@ -99,7 +100,8 @@ static void touch_walls(const scree_state *state, const double at[3], double rad
             double normal[3] = {0};
             normal[axis] = far ? -1 : 1;
             bool plane = state->dimension == 2 && axis == 1;
-            double gap = plane ? 0 : (normal[axis] * at[axis] - state->wall[walls[axis][far]].position - radius) / unit;
+            double gap =
+                plane ? 0 : (normal[axis] * at[axis] - scree_plates(state)[walls[axis][far]].position - radius) / unit;
             if (gap < -ROUND_OFF) fail_msg("outside of wall %d by %g radii", walls[axis][far], -gap);
             if (gap < TOUCHING && (axis < 2 || !far)) add_contact(of, normal);
         }

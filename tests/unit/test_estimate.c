@@ -3,24 +3,14 @@
 #include "run_fixture.h"
 
 #include "run/estimate.h"
+#include "small_cases.h"
 
-#define HEAD                                                                                                           \
-    "scree: 1\nseed: 3\n"                                                                                              \
-    "materials:\n"                                                                                                     \
-    "  - {name: quartz, young_modulus: 30 GPa, density: 2.675e8 kg/m3, friction: 0.45, restitution: 0.2}\n"
+#define HEAD "scree: 1\nseed: 3\nmaterials:\n" SMALL_QUARTZ
 #define PLAIN                                                                                                          \
     "scree: 1\nseed: 3\n"                                                                                              \
     "materials:\n"                                                                                                     \
     "  - {name: quartz, young_modulus: 30 GPa, density: 2.675e8 kg/m3, friction: 0.45}\n"
-#define DISCS                                                                                                          \
-    HEAD "particles: {material: quartz, count: 60, radius_min: 0.5 mm, radius_max: 1 mm}\n"                            \
-         "measure: {samples: 20}\n"                                                                                    \
-         "contact: {law: hertz_mindlin, reference_velocity: 1e-4 m/s}\n"                                               \
-         "boundary: {every: 100}\n"                                                                                    \
-         "stages:\n"                                                                                                   \
-         "  - {stage: prepare, aspect_ratio: 1}\n"                                                                     \
-         "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 1e-3}\n"                                           \
-         "  - {stage: compress, strain: 0.2 %, rate: 0.2 1/s}\n"
+#define DISCS HEAD SMALL_DISCS("60", "1e-3")
 #define ROTATED                                                                                                        \
     PLAIN "particles: {material: quartz, count: 60, radius_min: 0.5 mm, radius_max: 1 mm}\n"                           \
           "contact: {law: hertz_brilliantov, damping_time: 2 ms, friction_update: implicit, reference_velocity: 1e-4 " \
@@ -41,15 +31,7 @@
          "  - {stage: prepare, method: gas, solid_fraction: 60 %}\n"                                                   \
          "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 1e-3}\n"                                           \
          "  - {stage: deform, velocity_gradient: {xy: 0.2 1/s}, stress: {yy: 100 kPa}, strain: 0.2 %}\n"
-#define POURED                                                                                                         \
-    HEAD "gravity: [0, -9.81]\n"                                                                                       \
-         "particles: {material: quartz, count: 30, radius_min: 0.5 mm, radius_max: 1 mm}\n"                            \
-         "measure: {samples: 20, cells: no}\n"                                                                         \
-         "walls:\n"                                                                                                    \
-         "  - {shape: plane, point: [0, -1 mm], normal: [0, 1]}\n"                                                     \
-         "stages:\n"                                                                                                   \
-         "  - {stage: prepare, method: gas, velocity: 20 mm/s}\n"                                                      \
-         "  - {stage: relax, duration: 30 ms}\n"
+#define POURED HEAD SMALL_POUR
 #define STRUCK                                                                                                         \
     PLAIN "particles: {material: quartz, count: 2, distribution: equal, radius: 0.75 mm}\n"                            \
           "contact: {law: hertz_brilliantov, damping_time: 2 ms, reference_velocity: 7.5e-6 m/s}\n"                    \

@@ -1,4 +1,6 @@
 /// The tables of fields: names, units, places, and that nothing of a state is missing from them.
+#include "measure/delaunay_boundary.h"
+#include "state/plates.h"
 #include "testing.h"
 
 #include "io/array.h"
@@ -9,11 +11,11 @@
 
 static size_t all_count(void)
 {
-    return scree_field_count + scree_member_count;
+    return scree_field_total();
 }
 static const scree_field *all(size_t k)
 {
-    return k < scree_field_count ? &scree_fields[k] : &scree_members[k - scree_field_count];
+    return scree_field_at(k);
 }
 
 static void every_name_is_unique_and_explained(void **unused)
@@ -104,10 +106,10 @@ static void fields_lie_where_their_names_say(void **unused)
         {"rebuild", state.rebuild[2]},
         {"contacts/second", &state.contact[2].second},
         {"contacts/history", state.contact[2].history.value},
-        {"boundary/force_y", &state.loop.fy[2]},
-        {"boundary/loaded", &state.loop.loaded[2]},
-        {"walls/normal", state.wall[2].normal},
-        {"walls/active", &state.wall[2].active},
+        {"boundary/force_y", &scree_loop_of(&state)->fy[2]},
+        {"boundary/loaded", &scree_loop_of(&state)->loaded[2]},
+        {"walls/normal", scree_plates(&state)[2].normal},
+        {"walls/active", &scree_plates(&state)[2].active},
     };
     for (size_t e = 0; e < sizeof expected / sizeof *expected; e++) {
         const void *found = NULL;
@@ -121,8 +123,23 @@ static void fields_lie_where_their_names_say(void **unused)
 
 #define EXCEPT(member) memset(covered + offsetof(scree_state, member), 1, sizeof(((scree_state *)0)->member))
 
-/// Marks the bytes of scree_state that the tables speak of, with the array pointers; a new member that is in neither
-/// table and not in this list is found here.
+/// Marks the bytes of a struct that the fields of `owner` speak of, with the array pointers and counts of groups.
+static void mark_fields(const scree_module *owner, unsigned char *covered)
+{
+    for (size_t k = 0; k < all_count(); k++) {
+        const scree_field *field = all(k);
+        size_t size = (size_t)scree_components(field->components, 3) * scree_field_size(field->type);
+        if (field->owner != owner) continue;
+        if (field->group) memset(covered + field->group->count_offset, 1, sizeof(size_t));
+        if (field->group) memset(covered + field->group->capacity_offset, 1, sizeof(size_t));
+        if (scree_field_is_array(field)) memset(covered + field->array_offset, 1, sizeof(void *));
+        if (field->rows == SCREE_ROWS_ONE) memset(covered + field->array_offset, 1, size);
+        for (size_t w = 0; w < field->fixed; w++)
+            memset(covered + field->array_offset + w * field->stride + field->offset, 1, size);
+    }
+}
+
+/// A new member that is in no table and not in this list is found here.
 static void no_member_of_the_state_is_missing(void **unused)
 {
     (void)unused;
@@ -132,33 +149,28 @@ static void no_member_of_the_state_is_missing(void **unused)
     EXCEPT(row_of_id);
     EXCEPT(contact_count);
     EXCEPT(contact_capacity);
-    EXCEPT(loop.count);
-    EXCEPT(loop.capacity);
-    EXCEPT(hull.node_count);
-    EXCEPT(hull.node_capacity);
-    EXCEPT(hull.triangle_count);
-    EXCEPT(hull.triangle_capacity);
-    EXCEPT(drive.count);
-    EXCEPT(drive.capacity);
-    EXCEPT(membrane.count);
-    EXCEPT(membrane.capacity);
     EXCEPT(row_capacity);
     EXCEPT(booking); // beside `contact`
     EXCEPT(rolling);
     EXCEPT(foreseen); // made anew in every step
     EXCEPT(spent);    // kept by checkpoints, but no part of what is computed
-    for (size_t k = 0; k < all_count(); k++) {
-        const scree_field *field = all(k);
-        size_t size = (size_t)scree_components(field->components, 3) * scree_field_size(field->type);
-        if (field->rows <= SCREE_ROWS_MEMBRANE) memset(covered + field->array_offset, 1, sizeof(void *));
-        if (field->rows == SCREE_ROWS_ONE) memset(covered + field->array_offset, 1, size);
-        for (size_t w = 0; w < SCREE_WALL_COUNT && field->rows == SCREE_ROWS_WALLS; w++)
-            memset(covered + field->array_offset + w * field->stride + field->offset, 1, size);
-        for (size_t w = 0; w < SCREE_SURFACES && field->rows == SCREE_ROWS_SURFACES; w++)
-            memset(covered + field->array_offset + w * field->stride + field->offset, 1, size);
-    }
+    EXCEPT(own);      // of the modules
+    mark_fields(NULL, covered);
     for (size_t b = 0; b < sizeof covered; b++)
         if (!covered[b]) fail_msg("byte %zu of scree_state is in no table", b);
+}
+
+static void no_member_of_a_module_is_missing(void **unused)
+{
+    (void)unused;
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++) {
+        static unsigned char covered[1 << 16];
+        assert_true(scree_modules[m]->state_size <= sizeof covered);
+        memset(covered, 0, sizeof covered);
+        mark_fields(scree_modules[m], covered);
+        for (size_t b = 0; b < scree_modules[m]->state_size; b++)
+            if (!covered[b]) fail_msg("byte %zu of the state of module %s is in no field", b, scree_modules[m]->name);
+    }
 }
 
 /// The same inside the arrays of structures: every byte of an element belongs to exactly one field.
@@ -181,7 +193,8 @@ static void no_member_of_an_element_is_missing(void **unused)
             if (arrays[a].dimension && arrays[a].dimension != dimension) continue;
             size_t bytes = arrays[a].unused;
             for (size_t k = 0; k < all_count(); k++) {
-                if (all(k)->array_offset != arrays[a].offset || all(k)->rows > SCREE_ROWS_HULL_TRIANGLES) continue;
+                if (all(k)->owner || all(k)->array_offset != arrays[a].offset || !scree_field_is_array(all(k)))
+                    continue;
                 if (!scree_field_exists(all(k), dimension)) continue;
                 bytes += (size_t)scree_components(all(k)->components, dimension) * scree_field_size(all(k)->type);
                 assert_int_equal(all(k)->stride, arrays[a].size);
@@ -196,18 +209,18 @@ static void packing_and_unpacking_agree(void **unused)
     scree_state state, copy;
     assert_int_equal(sample_state(&state, 7, 1, NULL), SCREE_OK);
     assert_int_equal(scree_state_create(&copy, 2, 7, NULL), SCREE_OK);
-    for (size_t k = 0; k < scree_field_count; k++) {
+    for (size_t k = 0; k < scree_field_total(); k++) {
         scree_array array;
-        if (!scree_field_exists(&scree_fields[k], 2)) continue;
-        assert_int_equal(scree_array_from_field(&state, &scree_fields[k], false, &array, NULL), SCREE_OK);
-        scree_array_to_field(&array, &scree_fields[k], &copy);
+        if (scree_field_at(k)->rows != SCREE_ROWS_BODIES || !scree_field_exists(scree_field_at(k), 2)) continue;
+        assert_int_equal(scree_array_from_field(&state, scree_field_at(k), false, &array, NULL), SCREE_OK);
+        scree_array_to_field(&array, scree_field_at(k), &copy);
         scree_array_destroy(&array);
     }
     assert_memory_equal(state.row, copy.row, 7 * sizeof *state.row);
     assert_memory_equal(state.sum, copy.sum, 7 * sizeof *state.sum);
     assert_memory_equal(state.id, copy.id, 7 * sizeof *state.id);
     scree_array array;
-    assert_int_equal(scree_array_from_field(&state, &scree_fields[0], true, &array, NULL), SCREE_OK);
+    assert_int_equal(scree_array_from_field(&state, scree_field_at(0), true, &array, NULL), SCREE_OK);
     const uint32_t *id = array.data;
     for (uint32_t k = 0; k < 7; k++) assert_int_equal(id[k], k);
     scree_array_destroy(&array);
@@ -226,9 +239,9 @@ static void permuting_moves_whole_elements(void **unused)
         assert_int_equal(scree_state_create(&state, dimension, BODIES, NULL), SCREE_OK);
         assert_int_equal(scree_state_create(&before, dimension, BODIES, NULL), SCREE_OK);
         uint32_t order[BODIES];
-        for (size_t k = 0; k < scree_field_count; k++) {
-            const scree_field *field = &scree_fields[k];
-            if (!scree_field_exists(field, dimension)) continue;
+        for (size_t k = 0; k < scree_field_total(); k++) {
+            const scree_field *field = scree_field_at(k);
+            if (field->rows != SCREE_ROWS_BODIES || !scree_field_exists(field, dimension)) continue;
             assert_true(field->stride <= scree_state_widest(&state));
             for (size_t row = 0; row < BODIES && strcmp(field->name, "id") != 0; row++)
                 for (size_t b = 0; b < field->stride - field->offset; b++) {
@@ -239,11 +252,13 @@ static void permuting_moves_whole_elements(void **unused)
         }
         for (uint32_t k = 0; k < BODIES; k++) order[k] = (3 * k + 2) % BODIES;
         assert_int_equal(scree_state_permute(&state, order, NULL), SCREE_OK);
-        for (size_t k = 0; k < scree_field_count; k++)
-            for (size_t row = 0; row < BODIES && scree_field_exists(&scree_fields[k], dimension); row++)
-                assert_memory_equal(scree_field_get(&state, &scree_fields[k], row),
-                                    scree_field_get(&before, &scree_fields[k], order[row]),
-                                    scree_fields[k].stride - scree_fields[k].offset);
+        for (size_t k = 0; k < scree_field_total(); k++) {
+            const scree_field *field = scree_field_at(k);
+            if (field->rows != SCREE_ROWS_BODIES || !scree_field_exists(field, dimension)) continue;
+            for (size_t row = 0; row < BODIES; row++)
+                assert_memory_equal(scree_field_get(&state, field, row), scree_field_get(&before, field, order[row]),
+                                    field->stride - field->offset);
+        }
         scree_state_destroy(&state);
         scree_state_destroy(&before);
     }
@@ -277,11 +292,19 @@ static void assert_documented(const char *manual, const scree_array *array, cons
     undocumented++;
 }
 
+/// The number of rows of a field, as docs/output.md writes it.
+static const char *rows_symbol(const scree_field *field)
+{
+    static char number[16];
+    (void)snprintf(number, sizeof number, "%zu", field->fixed);
+    if (field->group) return field->group->symbol;
+    return field->rows == SCREE_ROWS_FIXED ? number : field->rows == SCREE_ROWS_BODIES ? "n" : "c";
+}
+
 static void the_manual_lists_every_dataset(void **unused)
 {
     (void)unused;
     static char manual[1 << 16];
-    static const char *const rows[] = {"n", "c", "c", "c", "b", "h", "t", "b", "k", "6", "16", "1"};
     FILE *file = fopen(SCREE_SOURCE_DIR "/docs/output.md", "r");
     assert_non_null(file);
     assert_true(fread(manual, 1, sizeof manual - 1, file) > 1000);
@@ -306,7 +329,7 @@ static void the_manual_lists_every_dataset(void **unused)
     for (size_t k = 0; k < all_count(); k++) {
         state.dimension = scree_field_exists(all(k), 2) ? 2 : 3;
         array = scree_array_of_field(&state, all(k));
-        if (all(k)->role == SCREE_FIELD_STATE) assert_documented(manual, &array, "", rows[all(k)->rows]);
+        if (all(k)->role == SCREE_FIELD_STATE) assert_documented(manual, &array, "", rows_symbol(all(k)));
     }
     state.dimension = 2;
     scree_state_destroy(&state);
@@ -321,6 +344,7 @@ int main(void)
         cmocka_unit_test(fields_do_not_overlap),
         cmocka_unit_test(fields_lie_where_their_names_say),
         cmocka_unit_test(no_member_of_the_state_is_missing),
+        cmocka_unit_test(no_member_of_a_module_is_missing),
         cmocka_unit_test(no_member_of_an_element_is_missing),
         cmocka_unit_test(packing_and_unpacking_agree),
         cmocka_unit_test(permuting_moves_whole_elements),

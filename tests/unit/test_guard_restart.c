@@ -1,29 +1,15 @@
 /// A run that a guard has stopped: going on from its folder stops at the same place with the same rows, until the limit
 /// has been changed.
+#include "measure/delaunay_boundary.h"
 #include "run_fixture.h"
+#include "state/plates.h"
 
 #include "io/series.h"
 #include "io_scratch.h"
+#include "simulation_cases.h"
 
-static const char case_text[] =
-    "scree: 1\n"
-    "name: small\n"
-    "dimension: 2\n"
-    "seed: 1\n"
-    "materials:\n"
-    "  - {name: quartz, young_modulus: 30 GPa, poisson_ratio: 0.3, density: 2.675e8 kg/m3,\n"
-    "     friction: 0.45, restitution: 0.2}\n"
-    "particles: {shape: disc, material: quartz, count: 40, distribution: uniform,\n"
-    "            radius_min: 0.9 mm, radius_max: 1 mm}\n"
-    "contact: {law: hertz_mindlin}\n"
-    "integrator: {scheme: velocity_verlet, step: 2e-5 s}\n"
-    "boundary: {lateral: pressure, every: 100}\n"
-    "stages:\n"
-    "  - {stage: prepare, method: drop_and_roll, aspect_ratio: 1.5}\n"
-    "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 0.2}\n"
-    "  - {stage: compress, strain: 0.2 %, rate: 5e-2 1/s}\n"
-    "measure: {samples: 20, cells: no}\n"
-    "output: {snapshots: 2, paraview: no, figures: no, checkpoint_steps: 1500}\n";
+static const char case_text[] = SIMULATION_CASE("count: 40, radius_min: 0.9 mm, radius_max: 1 mm", "0.2", "0.2 %",
+                                                ", cells: no", ", checkpoint_steps: 1500");
 
 static const scree_run_options plain = {.output = "run", .threads = 1, .force = true};
 
@@ -172,8 +158,8 @@ static void lift_plate(scree_state *state)
         state->row[row].x += 1;
         state->reference[row][0] += 1;
     }
-    for (size_t k = 0; k < state->loop.count; k++) state->loop.x[k] += 1;
-    scree_wall *bottom = &state->wall[SCREE_WALL_BOTTOM];
+    for (size_t k = 0; k < scree_loop_of(state)->count; k++) scree_loop_of(state)->x[k] += 1;
+    scree_wall *bottom = &scree_plates(state)[SCREE_WALL_BOTTOM];
     bottom->position = 0.5;
     bottom->normal[0] = 1;
     bottom->normal[1] = 0;

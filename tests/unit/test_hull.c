@@ -1,11 +1,14 @@
 /// Pressure on the triangulated hull in 3D: which triangles carry it, what it adds up to, its work, its strain, the
 /// stress that it makes; volume and strain of polyhedra.
 #include "boundary_fixture.h"
+#include "measure/delaunay_boundary.h"
+#include "state/plates.h"
 
 #include "boundary/plates.h"
 #include "integrate/integrate.h"
 #include "measure/hull.h"
 #include "measure/polyhedron.h"
+#include "state/pressure.h"
 #include "state_bits.h"
 
 #include <stdlib.h>
@@ -34,7 +37,7 @@ static void a_closed_hull_has_no_net_force(void **user)
     bench_create(&b, 5, 11, false);
     scree_state *state = &b.state;
     assert_int_equal(scree_boundary_refresh(&b.model, state, NULL), SCREE_OK);
-    const scree_hull *hull = &state->hull;
+    const scree_hull *hull = scree_hull_of(state);
     assert_int_equal(hull->triangle_count, 2 * hull->node_count - 4);
     for (size_t k = 1; k < hull->node_count; k++) assert_true(hull->id[k] > hull->id[k - 1]);
     for (size_t t = 0; t < hull->triangle_count; t++) assert_int_equal(hull->loaded[t], SCREE_HULL_LOADED);
@@ -69,7 +72,7 @@ static void plates_take_the_ends(void **user)
     bench_create(&b, 6, 13, true);
     scree_state *state = &b.state;
     assert_int_equal(scree_boundary_refresh(&b.model, state, NULL), SCREE_OK);
-    const scree_hull *hull = &state->hull;
+    const scree_hull *hull = scree_hull_of(state);
     scree_pressure_forces(&b.model, state);
     int64_t total[3];
     add_sums(state, total);
@@ -100,15 +103,15 @@ static void plates_take_the_ends(void **user)
     assert_true(fabs(stress[1]) < 1e-11 * PRESSURE && fabs(stress[3]) < 1e-11 * PRESSURE);
     // With plates that bear p on their areas (and the gap walls' vertical part, which there is none of) so is the
     // axial.
-    state->wall[SCREE_WALL_BOTTOM].force = PRESSURE * bottom;
-    state->wall[SCREE_WALL_TOP].force = PRESSURE * top;
+    scree_plates(state)[SCREE_WALL_BOTTOM].force = PRESSURE * bottom;
+    scree_plates(state)[SCREE_WALL_TOP].force = PRESSURE * top;
     scree_stress_from_plates(&b.model, state, stress);
     assert_true(fabs(stress[8] + PRESSURE) < 1e-11 * PRESSURE);
     assert_true(isnan(stress[1]) && isnan(stress[3])); // where on the plates their friction acts is not known
     assert_true(fabs(stress[2] - stress[6]) == 0 && fabs(stress[5] - stress[7]) == 0);
     // The sample is larger than the hull by what lies between it and the plates.
     assert_true(volume > scree_hull_volume(state));
-    double height = -(state->wall[SCREE_WALL_BOTTOM].position + state->wall[SCREE_WALL_TOP].position);
+    double height = -(scree_plates(state)[SCREE_WALL_BOTTOM].position + scree_plates(state)[SCREE_WALL_TOP].position);
     assert_true(volume < 1.2 * section * height && volume > 0.9 * section * height);
     scree_state_destroy(state);
 }
@@ -128,12 +131,12 @@ static void a_column_of_known_volume(void **user)
         row->y = 2 * RADIUS * (double)(i / 2 % 2);
         row->z = 2 * RADIUS * (double)(i / 4);
     }
-    state->wall[SCREE_WALL_BOTTOM].position = -RADIUS;
-    state->wall[SCREE_WALL_TOP].position = -5 * RADIUS;
+    scree_plates(state)[SCREE_WALL_BOTTOM].position = -RADIUS;
+    scree_plates(state)[SCREE_WALL_TOP].position = -5 * RADIUS;
     assert_int_equal(scree_boundary_refresh(&b.model, state, NULL), SCREE_OK);
     scree_pressure_forces(&b.model, state);
     double area = 4 * RADIUS * RADIUS;
-    assert_int_equal(state->hull.node_count, 12);
+    assert_int_equal(scree_hull_of(state)->node_count, 12);
     assert_true(fabs(scree_hull_plate_area(state, SCREE_WALL_TOP) - area) < 1e-14 * area);
     assert_true(fabs(scree_hull_plate_area(state, SCREE_WALL_BOTTOM) - area) < 1e-14 * area);
     assert_true(fabs(scree_hull_volume(state) - 4 * RADIUS * area) < 1e-13 * RADIUS * area);
@@ -155,8 +158,8 @@ static void plates_all_round_leave_nothing_to_press(void **user)
     bench b;
     bench_create(&b, 4, 6, true);
     for (int w = 0; w < SCREE_WALL_COUNT; w++) {
-        b.state.wall[w].active = 1;
-        b.state.wall[w].position = w % 2 ? -(w + 1) * 1e-2 : 0;
+        scree_plates(&b.state)[w].active = 1;
+        scree_plates(&b.state)[w].position = w % 2 ? -(w + 1) * 1e-2 : 0;
     }
     assert_int_equal(scree_boundary_refresh(&b.model, &b.state, NULL), SCREE_OK);
     scree_pressure_forces(&b.model, &b.state);
@@ -208,7 +211,7 @@ static void work_is_the_kinetic_energy(void **user)
         scree_energy_measure(&b.model, state, &empty, &energy);
         state->ledger.initial = energy.kinetic + energy.kinetic_rotation;
         for (int step = 0; step < 60; step++) {
-            state->pressure = PRESSURE * (1 + 0.01 * step);
+            scree_pressure_set(state, PRESSURE * (1 + 0.01 * step));
             integrator->first(&b.model, state, &work);
             scree_pressure_work(state);
             state->step++;
@@ -232,7 +235,7 @@ static void refresh_is_due_and_closes_the_strain(void **user)
     bench_create(&b, 4, 9, true);
     scree_state *state = &b.state;
     assert_int_equal(scree_boundary_refresh(&b.model, state, NULL), SCREE_OK);
-    uint64_t updated = state->hull.updated;
+    uint64_t updated = scree_hull_of(state)->updated;
     for (int k = 0; k < 20; k++) {
         for (size_t i = 0; i < state->count; i++) {
             state->row[i].x *= 1.005;
@@ -241,10 +244,10 @@ static void refresh_is_due_and_closes_the_strain(void **user)
         }
         state->step += 249;
         assert_int_equal(scree_boundary_refresh(&b.model, state, NULL), SCREE_OK);
-        assert_int_equal(state->hull.updated, updated);
+        assert_int_equal(scree_hull_of(state)->updated, updated);
         state->step++;
         assert_int_equal(scree_boundary_refresh(&b.model, state, NULL), SCREE_OK);
-        assert_int_equal(state->hull.updated, state->step);
+        assert_int_equal(scree_hull_of(state)->updated, state->step);
         updated = state->step;
     }
     double total[9];
@@ -290,18 +293,19 @@ typedef struct polyhedron {
 
 static void sum_polyhedron(const polyhedron *p, double *volume, double gradient[9])
 {
-    const scree_hull *hull = &p->b.state.hull;
+    const scree_hull *hull = scree_hull_of(&p->b.state);
     scree_polyhedron_sum sum = {0};
-    for (size_t t = 0; t < hull->triangle_count; t++) {
-        double x[3][3], u[3][3];
-        for (int c = 0; c < 3; c++)
-            for (int k = 0; k < 3; k++) {
-                x[c][k] = hull->place[hull->triangle[t][c]][k];
-                u[c][k] = p->u ? p->u[hull->triangle[t][c]][k] : 0;
-            }
-        scree_polyhedron_add(&sum, x, u);
-    }
-    *volume = sum.volume;
+    while (scree_polyhedron_next(&sum))
+        for (size_t t = 0; t < hull->triangle_count; t++) {
+            double x[3][3], u[3][3];
+            for (int c = 0; c < 3; c++)
+                for (int k = 0; k < 3; k++) {
+                    x[c][k] = hull->place[hull->triangle[t][c]][k];
+                    u[c][k] = p->u ? p->u[hull->triangle[t][c]][k] : 0;
+                }
+            scree_polyhedron_add(&sum, x, u);
+        }
+    *volume = scree_integer_sum_total(&sum.volume);
     scree_polyhedron_finish(&sum, gradient);
 }
 
@@ -310,7 +314,7 @@ static void polyhedra_keep_their_promises(void **user)
     (void)user;
     polyhedron p = {0};
     bench_create(&p.b, 3, 5, false);
-    scree_hull *hull = &p.b.state.hull;
+    scree_hull *hull = scree_hull_of(&p.b.state);
     assert_int_equal(scree_boundary_refresh(&p.b.model, &p.b.state, NULL), SCREE_OK);
     assert_int_equal(scree_allocate(&p.u, hull->node_count, sizeof *p.u, NULL), SCREE_OK);
     double before, after, middle, unused[9], gradient[9], (*u)[3] = p.u;

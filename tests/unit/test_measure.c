@@ -1,10 +1,13 @@
 /// The measures against closed forms: stress of hand-made equilibria, strain of affine maps, counting, energies.
+#include "measure/delaunay_boundary.h"
+#include "state/plates.h"
 #include "testing.h"
 
 #include "base/random.h"
 #include "boundary/pressure.h"
 #include "integrate/integrate.h"
 #include "measure/measure.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -44,7 +47,8 @@ static void bench_create(bench *b, size_t count)
     b->state.force_quantum = b->state.torque_quantum = 0x1p-50;
     b->state.step_size = 1e-6;
     const double normals[][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
-    for (int w = 0; w <= SCREE_WALL_RIGHT; w++) memcpy(b->state.wall[w].normal, normals[w], sizeof normals[w]);
+    for (int w = 0; w <= SCREE_WALL_RIGHT; w++)
+        memcpy(scree_plates(&b->state)[w].normal, normals[w], sizeof normals[w]);
     for (size_t i = 0; i < count; i++) {
         b->state.row[i].radius = RADIUS;
         b->state.row[i].mass = 1e-3;
@@ -60,8 +64,8 @@ static void place(bench *b, size_t i, double x, double y)
 
 static void put_wall(bench *b, int wall, double position)
 {
-    b->state.wall[wall].position = position * RADIUS;
-    b->state.wall[wall].active = 1;
+    scree_plates(&b->state)[wall].position = position * RADIUS;
+    scree_plates(&b->state)[wall].active = 1;
 }
 
 /// A contact of two bodies with the given forces.
@@ -86,7 +90,7 @@ static scree_contact *touch(bench *b, uint32_t first, uint32_t second, double no
 /// A contact of a body with a wall; the wall's resultants grow by it.
 static void touch_wall(bench *b, uint32_t first, uint32_t wall, double normal_force, double tangential_force)
 {
-    scree_wall *w = &b->state.wall[wall];
+    scree_wall *w = &scree_plates(&b->state)[wall];
     const scree_row *i = &b->state.row[first];
     double distance = w->normal[0] * i->x + w->normal[1] * i->y - w->position;
     scree_contact *contact = &b->contact[b->table.count++];
@@ -139,7 +143,7 @@ static void pressed_column(bench *b, double column_force)
     for (size_t i = 0; i < 12; i++) place(b, i, 2.0 * (double)(i % 3), 1 + 2.0 * (double)(i / 3));
     put_wall(b, SCREE_WALL_BOTTOM, 0);
     put_wall(b, SCREE_WALL_TOP, -8);
-    b->state.pressure = PRESSURE;
+    scree_pressure_set(&b->state, PRESSURE);
     double row_force = PRESSURE * 2 * RADIUS * THICKNESS; // a row takes the pressure on its own height
     for (uint32_t row = 0; row < 4; row++)
         for (uint32_t column = 0; column < 3; column++) {
@@ -185,7 +189,7 @@ static void stress_without_pressure_is_not_a_number_where_nothing_acts(void **us
     bench b;
     pressed_column(&b, 0.7);
     double plates[9];
-    b.state.pressure = 0;
+    scree_pressure_set(&b.state, 0);
     scree_stress_from_plates(&b.model, &b.state, plates);
     assert_true(isnan(plates[0]));
     assert_true(near(plates[4], -3 * 0.7 / (4 * RADIUS * THICKNESS), 1e-13, PRESSURE));
@@ -200,7 +204,7 @@ static void stress_of_a_free_triangle(void **user)
     bench_create(&b, 3);
     const double corner[3][2] = {{3, 4}, {5.1, 4.2}, {3.9, 5.9}};
     for (size_t i = 0; i < 3; i++) place(&b, i, corner[i][0], corner[i][1]);
-    b.state.pressure = PRESSURE;
+    scree_pressure_set(&b.state, PRESSURE);
     assert_int_equal(scree_boundary_refresh(&b.model, &b.state, NULL), SCREE_OK);
     scree_pressure_forces(&b.model, &b.state);
     // Disc 0: bars to 1 and 2 balance the pressure force; disc 1 gives the third bar (2 equations, 2 unknowns each).
@@ -249,7 +253,7 @@ static void stress_differs_by_the_residual(void **user)
               1.2 + 2.0 * (double)(i / 5) + 0.4 * uniform(2 * i + 1));
     put_wall(&b, SCREE_WALL_BOTTOM, 0.2);
     put_wall(&b, SCREE_WALL_TOP, -16.5);
-    b.state.pressure = PRESSURE;
+    scree_pressure_set(&b.state, PRESSURE);
     assert_int_equal(scree_boundary_refresh(&b.model, &b.state, NULL), SCREE_OK);
     scree_pressure_forces(&b.model, &b.state);
     for (uint32_t i = 0; i < 35; i++) touch(&b, i, i + 5, uniform(100 + i), uniform(200 + i) - 0.5);
@@ -411,10 +415,10 @@ static void coordination_and_rattlers(void **user)
     b.model.pairs[0][0].value[SCREE_FRICTION] = 0.5;
     uint32_t id[3] = {3, 6, 7};
     uint8_t loaded[3] = {1, 0, 1};
-    b.state.loop.id = id;
-    b.state.loop.loaded = loaded;
-    b.state.loop.count = 3;
-    b.state.pressure = PRESSURE;
+    scree_loop_of(&b.state)->id = id;
+    scree_loop_of(&b.state)->loaded = loaded;
+    scree_loop_of(&b.state)->count = 3;
+    scree_pressure_set(&b.state, PRESSURE);
     assert_int_equal(scree_coordination_measure(&b.model, &b.state, &b.table, &c, NULL), SCREE_OK);
     assert_true(near(c.rattler_fraction, 1.0 / 8, 1e-15, 1));
     for (uint64_t n = 1; n <= 3; n++) {
@@ -422,7 +426,7 @@ static void coordination_and_rattlers(void **user)
         assert_int_equal(scree_coordination_measure(&b.model, &b.state, &b.table, &c, NULL), SCREE_ERROR_IO);
     }
     scree_allocation_fail_after(0);
-    b.state.loop = (scree_loop){0};
+    *scree_loop_of(&b.state) = (scree_loop){0};
     scree_state_destroy(&b.state);
 }
 
@@ -491,12 +495,12 @@ static void areas_and_boxes(void **user)
     assert_true(near(scree_sample_area(&b.state), 7 * 8 * unit, 1e-14, unit * 56)); // no loop yet: the box
     assert_int_equal(scree_boundary_refresh(&b.model, &b.state, NULL), SCREE_OK);
     assert_true(near(scree_sample_area(&b.state), 7 * 8 * unit, 1e-14, unit * 56));
-    b.state.wall[SCREE_WALL_LEFT].active = b.state.wall[SCREE_WALL_RIGHT].active = 0;
-    b.state.loop.count = 0;
+    scree_plates(&b.state)[SCREE_WALL_LEFT].active = scree_plates(&b.state)[SCREE_WALL_RIGHT].active = 0;
+    scree_loop_of(&b.state)->count = 0;
     assert_int_equal(scree_boundary_refresh(&b.model, &b.state, NULL), SCREE_OK);
     assert_true(near(scree_sample_area(&b.state), 4 * 8 * unit, 1e-14, unit * 56));
-    b.state.wall[SCREE_WALL_TOP].active = 0;
-    b.state.loop.count = 0;
+    scree_plates(&b.state)[SCREE_WALL_TOP].active = 0;
+    scree_loop_of(&b.state)->count = 0;
     assert_int_equal(scree_boundary_refresh(&b.model, &b.state, NULL), SCREE_OK);
     assert_true(near(scree_sample_area(&b.state), 4 * 7 * unit, 1e-14, unit * 56));
     scree_state_destroy(&b.state);

@@ -1,8 +1,12 @@
 /// Membrane around a plane sample: placement, pressure, chain, ends, what it is left out of.
+#include "boundary/membrane.h"
 #include "boundary_fixture.h"
+#include "state/plates.h"
 
+#include "measure/delaunay_boundary.h"
 #include "measure/outline.h"
 #include "search/neighbours.h"
+#include "state/pressure.h"
 #include "state_bits.h"
 
 #define STEP 1e-5
@@ -24,7 +28,7 @@ static void it_touches_and_does_not_press(void **unused)
     bench b;
     bench_create(&b);
     scree_state *state = &b.state;
-    size_t count = state->membrane.count, side = state->membrane.right;
+    size_t count = scree_membrane_of(state)->count, side = scree_membrane_of(state)->right;
     assert_int_equal(state->grains, COLUMNS * ROWS);
     assert_int_equal(state->count, state->grains + count);
     assert_int_equal(count, 2 * side);
@@ -44,10 +48,11 @@ static void it_touches_and_does_not_press(void **unused)
         assert_true(m->material == 1 && m->mass > 0 && m->radius == 1.25 * RADIUS);
         bool last = k + 1 == side || k + 1 == count;
         double rest = last ? 0 : hypot(member(&b, k + 1)->x - m->x, member(&b, k + 1)->y - m->y);
-        assert_true(fabs(state->membrane.rest[k][0] - rest) < 1e-15);
+        assert_true(fabs(scree_membrane_of(state)->rest[k][0] - rest) < 1e-15);
     }
     assert_true(touching > count * 3 / 4);
-    double bottom = state->wall[SCREE_WALL_BOTTOM].position, top = -state->wall[SCREE_WALL_TOP].position;
+    double bottom = scree_plates(state)[SCREE_WALL_BOTTOM].position,
+           top = -scree_plates(state)[SCREE_WALL_TOP].position;
     for (size_t k = 0; k < count; k += side) {
         bool right = k == 0;
         assert_true(fabs(member(&b, k)->y - (right ? bottom + 1.25 * RADIUS : top - 1.25 * RADIUS)) < 1e-15);
@@ -63,15 +68,15 @@ static void both_sides_press_alike(void **unused)
     bench b;
     bench_create(&b);
     scree_state *state = &b.state;
-    for (size_t k = 0; k < state->membrane.count; k++) member(&b, k)->x += 1e-4 * uniform(1000 + k);
+    for (size_t k = 0; k < scree_membrane_of(state)->count; k++) member(&b, k)->x += 1e-4 * uniform(1000 + k);
     membrane_forces(&b);
-    double height = -(state->wall[SCREE_WALL_BOTTOM].position + state->wall[SCREE_WALL_TOP].position);
+    double height = -(scree_plates(state)[SCREE_WALL_BOTTOM].position + scree_plates(state)[SCREE_WALL_TOP].position);
     int64_t side[2] = {0};
     double pressure = 0, chain_x = 0;
-    for (size_t k = 0; k < state->membrane.count; k++) {
-        side[k >= state->membrane.right] += state->sum[scree_membrane_row(state, k)].fx;
-        pressure += k < state->membrane.right ? state->membrane.press[k][0] : 0;
-        chain_x += state->membrane.force[k][0];
+    for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
+        side[k >= scree_membrane_of(state)->right] += state->sum[scree_membrane_row(state, k)].fx;
+        pressure += k < scree_membrane_of(state)->right ? scree_membrane_of(state)->press[k][0] : 0;
+        chain_x += scree_membrane_of(state)->force[k][0];
     }
     assert_true(side[0] < 0 && side[0] + side[1] == 0);
     // Rounding of some ten forces to a quantum, and of the products.
@@ -79,7 +84,7 @@ static void both_sides_press_alike(void **unused)
     assert_true(fabs((double)side[0] * QUANTUM + expected) < 1e-12 * expected);
     assert_true(fabs(pressure + expected) < 1e-12 * expected);
     assert_true(fabs(chain_x) < 1e-12 * expected);
-    state->membrane.share = 0.5;
+    scree_delaunay_boundary_of(state)->taken_over = 0.5;
     assert_true(fabs(scree_direct_pressure(state) - 0.5 * PRESSURE) < 1e-9);
     scree_state_destroy(state);
 }
@@ -92,17 +97,17 @@ static void the_chain_stores_what_it_takes(void **unused)
     bench_create(&b);
     scree_state *state = &b.state;
     const scree_boundary *membrane = scree_boundary_get(SCREE_BOUNDARY_MEMBRANE);
-    state->pressure = 0;
-    for (size_t k = 0; k < state->membrane.count; k++) {
+    scree_pressure_set(state, 0);
+    for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
         member(&b, k)->x += 2e-4 * uniform(1000 + k);
         member(&b, k)->vx = 0.02 * uniform(2000 + k);
     }
     double begin = scree_membrane_energy(&b.model, state), momentum = 0, after = 0, scale = 0, change = 0;
-    for (size_t k = 0; k < state->membrane.count; k++) momentum += member(&b, k)->mass * member(&b, k)->vx;
+    for (size_t k = 0; k < scree_membrane_of(state)->count; k++) momentum += member(&b, k)->mass * member(&b, k)->vx;
     membrane_forces(&b);
     state->ledger = (scree_ledger){0};
     for (int step = 0; step < 400; step++) {
-        for (size_t k = 0; k < state->membrane.count; k++) {
+        for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
             scree_row *row = member(&b, k);
             const scree_sum_row *sum = &state->sum[scree_membrane_row(state, k)];
             row->vx += STEP * (double)sum->fx * QUANTUM / row->mass;
@@ -110,11 +115,11 @@ static void the_chain_stores_what_it_takes(void **unused)
             row->x += STEP * row->vx;
             row->y += STEP * row->vy;
         }
-        membrane->work(state);
+        boundary_follow(membrane, &b.model, state);
         membrane_forces(&b);
         change = fmax(change, fabs(scree_membrane_energy(&b.model, state) - begin));
     }
-    for (size_t k = 0; k < state->membrane.count; k++) {
+    for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
         after += member(&b, k)->mass * member(&b, k)->vx;
         scale += fabs(member(&b, k)->mass * member(&b, k)->vx);
     }
@@ -125,8 +130,8 @@ static void the_chain_stores_what_it_takes(void **unused)
     assert_true(change > 0.1 * begin && begin > 0);
     assert_true(fabs(stored + state->ledger.boundary) < 1e-4 * begin);
     // Slack: all on one point along the plates.
-    for (size_t k = 0; k < state->membrane.count; k++) {
-        member(&b, k)->x = k < state->membrane.right ? 1 : 0;
+    for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
+        member(&b, k)->x = k < scree_membrane_of(state)->right ? 1 : 0;
         member(&b, k)->y *= 0.5;
     }
     assert_true(scree_membrane_energy(&b.model, state) < 1e-20);
@@ -139,10 +144,10 @@ static void ends_move_with_the_plates(void **unused)
     bench b;
     bench_create(&b);
     scree_state *state = &b.state;
-    state->wall[SCREE_WALL_BOTTOM].velocity = 3e-3;
-    state->wall[SCREE_WALL_TOP].velocity = 1e-3;
+    scree_plates(state)[SCREE_WALL_BOTTOM].velocity = 3e-3;
+    scree_plates(state)[SCREE_WALL_TOP].velocity = 1e-3;
     membrane_forces(&b);
-    size_t side = state->membrane.right, end[4] = {0, side - 1, side, 2 * side - 1};
+    size_t side = scree_membrane_of(state)->right, end[4] = {0, side - 1, side, 2 * side - 1};
     for (int e = 0; e < 4; e++) {
         const scree_row *row = member(&b, end[e]);
         const scree_sum_row *sum = &state->sum[scree_membrane_row(state, end[e])];
@@ -150,7 +155,7 @@ static void ends_move_with_the_plates(void **unused)
         double wanted = e == 0 || e == 3 ? 3e-3 : -1e-3;
         assert_true(fabs(after - wanted) < 1e-15);
         // Free along the plate; the chain is not stretched but for round-off.
-        assert_true(fabs(state->membrane.force[end[e]][0]) < 1e-12);
+        assert_true(fabs(scree_membrane_of(state)->force[end[e]][0]) < 1e-12);
     }
     scree_state_destroy(state);
 }
@@ -165,8 +170,8 @@ static void it_is_no_part_of_the_assembly(void **unused)
     scree_error error;
     assert_int_equal(scree_work_create(&b.work, &b.model, 1, &error), SCREE_OK);
     // Pushed together and inwards: they overlap each other and the grains.
-    for (size_t k = 0; k < state->membrane.count; k++) {
-        member(&b, k)->x += k < state->membrane.right ? -2e-6 : 2e-6;
+    for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
+        member(&b, k)->x += k < scree_membrane_of(state)->right ? -2e-6 : 2e-6;
         member(&b, k)->y *= 0.9999;
     }
     assert_int_equal(scree_neighbours_refresh(&b.model, state, &b.work, &error), SCREE_OK);
@@ -231,8 +236,8 @@ static void failures_leave_the_state(void **unused)
     bench_create(&b);
     scree_state state;
     assert_int_equal(scree_state_create(&state, 2, 4, NULL), SCREE_OK);
-    state.wall[SCREE_WALL_TOP] = (scree_wall){.position = -0.05, .normal = {0, -1}, .active = 1};
-    state.wall[SCREE_WALL_BOTTOM] = (scree_wall){.normal = {0, 1}, .active = 1};
+    scree_plates(&state)[SCREE_WALL_TOP] = (scree_wall){.position = -0.05, .normal = {0, -1}, .active = 1};
+    scree_plates(&state)[SCREE_WALL_BOTTOM] = (scree_wall){.normal = {0, 1}, .active = 1};
     for (size_t k = 0; k < 4; k++) state.row[k] = (scree_row){.y = 0.01 * (double)(k + 1), .radius = 1e-3, .mass = 1};
     uint64_t before = state_bits(&state);
     bool failed = true;
@@ -243,10 +248,10 @@ static void failures_leave_the_state(void **unused)
         scree_allocation_fail_after(0);
         if (failed) assert_true(state_bits(&state) == before && error.status == SCREE_ERROR_IO);
     }
-    assert_true(state.membrane.count > 20);
+    assert_true(scree_membrane_of(&state)->count > 20);
     scree_state_destroy(&state);
     // Plates too close.
-    b.state.wall[SCREE_WALL_TOP].position = -b.state.wall[SCREE_WALL_BOTTOM].position - 3 * RADIUS;
+    scree_plates(&b.state)[SCREE_WALL_TOP].position = -scree_plates(&b.state)[SCREE_WALL_BOTTOM].position - 3 * RADIUS;
     scree_error error;
     assert_int_equal(scree_membrane_place(&b.model, &b.state, &error), SCREE_ERROR_GUARD);
     scree_state_destroy(&b.state);

@@ -1,6 +1,7 @@
 /// Neighbour list against brute force, histories over rebuilds, the budget rule, independence of order, threads and
 /// instruction sets, odd positions, failing memory, and linear cost by counts of what is looked at.
 
+#include "state/plates.h"
 #include "testing.h"
 
 #include "base/random.h"
@@ -53,7 +54,7 @@ static int by_ids(const void *a, const void *b)
 
 static void make_work(scree_work *work, int threads)
 {
-    const scree_model model = {.mean_radius = 1};
+    const scree_model model = {.mean_radius = 1, .law = {.law = SCREE_SLOT_hertz_mindlin}};
     scree_error error;
     assert_int_equal(scree_work_create(work, &model, threads, &error), SCREE_OK);
     work->skin = SKIN;
@@ -61,7 +62,7 @@ static void make_work(scree_work *work, int threads)
 
 static void refresh(scree_state *state, scree_work *work)
 {
-    const scree_model model = {.mean_radius = 1};
+    const scree_model model = {.mean_radius = 1, .law = {.law = SCREE_SLOT_hertz_mindlin}};
     scree_error error;
     assert_int_equal(scree_neighbours_refresh(&model, state, work, &error), SCREE_OK);
 }
@@ -77,8 +78,8 @@ static void stand_walls(scree_state *state, double side)
 {
     const int axis[SCREE_WALL_COUNT] = {state->dimension - 1, state->dimension - 1, 0, 0, 1, 1};
     for (int w = 0; w < 2 * state->dimension; w++) {
-        state->wall[w] = (scree_wall){.position = w % 2 ? -side : 0, .active = w != SCREE_WALL_TOP};
-        state->wall[w].normal[axis[w]] = w % 2 ? -1 : 1;
+        scree_plates(state)[w] = (scree_wall){.position = w % 2 ? -side : 0, .active = w != SCREE_WALL_TOP};
+        scree_plates(state)[w].normal[axis[w]] = w % 2 ? -1 : 1;
     }
 }
 
@@ -110,7 +111,7 @@ typedef enum arrangement { CLOUD, CLUSTERED, FLAT, LINE, ARRANGEMENTS } arrangem
 
 static void arrange(scree_state *state, arrangement kind)
 {
-    double side = -state->wall[SCREE_WALL_RIGHT].position;
+    double side = -scree_plates(state)[SCREE_WALL_RIGHT].position;
     for (size_t k = 0; k < state->count; k++) {
         scree_row *row = &state->row[k];
         double *last = state->dimension == 3 ? &row->z : &row->y;
@@ -146,7 +147,7 @@ static id_list brute_force(const scree_state *state, double skin)
                                                 .touching = square < sum * sum};
         }
         for (uint64_t w = 0; w < SCREE_WALL_COUNT; w++) {
-            const scree_wall *wall = &state->wall[w];
+            const scree_wall *wall = &scree_plates(state)[w];
             double along = wall->normal[0] * one->x + wall->normal[1] * one->y;
             if (state->dimension == 3) along += wall->normal[2] * one->z;
             double distance = along - wall->position;
@@ -426,7 +427,7 @@ static uint64_t fly(int dimension, double slow, double fast, double wall, int st
             *(upright ? &row->z : &row->y) += *other;
             fastest = fmax(fastest, hypot(row->vx, *other));
         }
-        state.wall[SCREE_WALL_BOTTOM].position += wall;
+        scree_plates(&state)[SCREE_WALL_BOTTOM].position += wall;
         work.budget -= fastest;
         refresh(&state, &work);
         id_list needed = brute_force(&state, 0), found = sorted(listed(&state, &work));
@@ -476,18 +477,18 @@ static void rebuild_waits_for_half_the_skin(void **dimension)
     refresh(&state, &work);
     assert_int_equal(work.rebuilds, 2);
     // Walls: a small motion, a large one, a new wall, one that goes.
-    scree_wall *side = &state.wall[state.dimension == 3 ? SCREE_WALL_FRONT : SCREE_WALL_LEFT];
+    scree_wall *side = &scree_plates(&state)[state.dimension == 3 ? SCREE_WALL_FRONT : SCREE_WALL_LEFT];
     side->position -= 0.45 * SKIN;
     refresh(&state, &work);
     assert_int_equal(work.rebuilds, 2);
     side->position -= 0.1 * SKIN;
     refresh(&state, &work);
     assert_int_equal(work.rebuilds, 3);
-    state.wall[SCREE_WALL_TOP].active = 1;
+    scree_plates(&state)[SCREE_WALL_TOP].active = 1;
     refresh(&state, &work);
     assert_int_equal(work.rebuilds, 4);
     assert_equals_brute_force(&state, &work);
-    state.wall[SCREE_WALL_TOP].active = 0;
+    scree_plates(&state)[SCREE_WALL_TOP].active = 0;
     refresh(&state, &work);
     assert_int_equal(work.rebuilds, 4);
     scree_work_destroy(&work);
@@ -647,7 +648,7 @@ static void rebuild_without_growth_allocates_nothing(void **dimension)
 /// Each allocation of the first rebuilds fails once: an error, and the next refresh goes on with all histories.
 static void failed_allocations_lose_nothing(void **dimension)
 {
-    const scree_model model = {.mean_radius = 1};
+    const scree_model model = {.mean_radius = 1, .law = {.law = SCREE_SLOT_hertz_mindlin}};
     scree_error error;
     int failures = 0;
     for (uint64_t site = 1; site < 1000; site++) {

@@ -1,5 +1,6 @@
 /// The periodic cell: contacts through faces, motion, energy, lattices, control.
 #include "periodic_fixture.h"
+#include "state/periodic.h"
 #include "state_bits.h"
 
 static const double at_rest[3] = {0, 0, 0};
@@ -56,7 +57,7 @@ static void contacts_across_faces_are_contacts(int dimension, law_choice law)
         }
         const scree_state *a = &direct.state, *b = &across.state;
         for (int k = 0; k < 9; k++)
-            assert_true(fabs(a->periodic.virial[k] - b->periodic.virial[k]) <= 1e-12 * size * 2e-3);
+            assert_true(fabs(scree_cell(a)->virial[k] - scree_cell(b)->virial[k]) <= 1e-12 * size * 2e-3);
         assert_int_equal(b->sum[0].contacts, 1);
         assert_int_equal(b->sum[1].contacts, 1);
         periodic_destroy(&across);
@@ -98,7 +99,7 @@ static void table_agrees_with_the_sums(void **unused)
         }
         assert_true(images && scale > 0);
         // Forces from the table go through the velocities once more: round-off of v over v, some 1e-11 of a force.
-        for (int k = 0; k < 9; k++) assert_true(fabs(virial[k] - s.state.periodic.virial[k]) < 1e-9 * scale);
+        for (int k = 0; k < 9; k++) assert_true(fabs(virial[k] - scree_cell(&s.state)->virial[k]) < 1e-9 * scale);
         scree_contact_table_destroy(&table);
         periodic_destroy(&s);
     }
@@ -136,7 +137,8 @@ static void stress_after(int dimension, law_choice law, const double shift[3], i
         if (dimension == 3) s.state.row[k].z += shift[2];
     }
     // The same lattice by other vectors.
-    for (int i = 0; i < 3; i++) s.state.periodic.lattice[3 * i + 1] += remap * s.state.periodic.lattice[3 * i];
+    for (int i = 0; i < 3; i++)
+        scree_cell(&s.state)->lattice[3 * i + 1] += remap * scree_cell(&s.state)->lattice[3 * i];
     periodic_run(&s, gradient, 400);
     scree_periodic_stress(&s.model, &s.state, stress);
     periodic_destroy(&s);
@@ -176,9 +178,9 @@ static void lattices_are_reduced(void **unused)
         // Far apart: nothing but the lattice moves.
         for (size_t k = 0; k < s.state.count; k++) s.state.row[k].radius *= 0.2;
         periodic_run(&s, gradient, 6000);
-        const double *h = s.state.periodic.lattice;
+        const double *h = scree_cell(&s.state)->lattice;
         for (int k = 0; k < dimension; k++) longest = fmax(longest, hypot(hypot(h[k], h[3 + k]), h[6 + k]));
-        assert_true(fabs(s.state.periodic.strain[1] - 2.4) < 1e-12);
+        assert_true(fabs(scree_cell(&s.state)->strain[1] - 2.4) < 1e-12);
         assert_true(longest < 2 * 4 * 1.97e-3);
         // Each step of the map has a determinant of 1 to 2^-53; the lattice was remapped a few times.
         assert_true(fabs(scree_periodic_extent(&s.state) / volume - 1) < 1e-11);
@@ -244,7 +246,7 @@ static void power_is_volume_times_stress_times_rate(void **unused)
         double before[9], moved[9], now[9], work = 0, size = 0;
         periodic_fill(&s, dimension, 5, HERTZ_MINDLIN, 0.2);
         periodic_run(&s, gradient, 50);
-        memcpy(before, s.state.periodic.virial, sizeof before);
+        memcpy(before, scree_cell(&s.state)->virial, sizeof before);
         double booked = s.state.ledger.periodic;
         for (int step = 0; step < 50; step++) {
             periodic_run(&s, gradient, 1);
@@ -288,11 +290,11 @@ static void displacements_go_across_faces(void **unused)
     int steps = 2000;
     periodic_run(&s, gradient, steps);
     double t = steps * 1e-5, inverse[9], deformation[9], carried[3], u[3], f[3];
-    scree_matrix_invert(s.state.periodic.reference, inverse);
-    scree_matrix_multiply(s.state.periodic.lattice, inverse, deformation);
+    scree_matrix_invert(scree_cell(&s.state)->reference, inverse);
+    scree_matrix_multiply(scree_cell(&s.state)->lattice, inverse, deformation);
     scree_matrix_apply(deformation, s.state.reference[0], carried);
     scree_body_place(&s.state, 0, u);
-    scree_matrix_invert(s.state.periodic.lattice, inverse);
+    scree_matrix_invert(scree_cell(&s.state)->lattice, inverse);
     scree_matrix_apply(inverse, u, f);
     for (int k = 0; k < 2; k++) assert_true(f[k] > -0.2 && f[k] < 1.2);
     for (int k = 0; k < 3; k++) u[k] -= carried[k];
@@ -336,7 +338,7 @@ static void lasting_rates_are_not_resisted(void **unused)
         periodic_sample s;
         scree_periodic_drive drive = {.inertia = 0};
         periodic_fill(&s, 3, 5, HERTZ_MINDLIN, 0);
-        scree_periodic_cell *cell = &s.state.periodic;
+        scree_periodic_cell *cell = scree_cell(&s.state);
         for (int k = 0; k < 9; k++) drive.stress[k] = k % 4 == 0 ? -1e6 : NAN;
         scree_periodic_drive_fit(&s.model, &s.state, 1e6, &drive);
         for (int k = 0; k < 9; k += 4) {
@@ -379,10 +381,10 @@ static void rates_and_stresses_are_mixed(void **unused)
         drive.rate[1] = 1.5;
         drive.rate[3] = -0.5;
         if (solid) drive.rate[6] = 0.7;
-        memcpy(begin, s.state.periodic.strain, sizeof begin);
+        memcpy(begin, scree_cell(&s.state)->strain, sizeof begin);
         double before = s.state.ledger.periodic, work = 0;
         for (int step = 0; step < loading; step++) {
-            const scree_periodic_cell *cell = &s.state.periodic;
+            const scree_periodic_cell *cell = scree_cell(&s.state);
             scree_periodic_control(&s.model, &s.state, &drive, 1);
             work -= 0.5 * s.model.step * scree_matrix_contract(cell->virial, cell->gradient);
             periodic_step(&s);
@@ -392,7 +394,8 @@ static void rates_and_stresses_are_mixed(void **unused)
             for (int k = 0; k < 9 && step >= loading / 2; k++) mean[k] += stress[k] / (loading / 2);
         }
         for (int k = 0; k < 9; k++) {
-            double strain = s.state.periodic.strain[k] - begin[k], prescribed = drive.rate[k] * loading * s.model.step;
+            double strain = scree_cell(&s.state)->strain[k] - begin[k],
+                   prescribed = drive.rate[k] * loading * s.model.step;
             // Sums of equal increments, each rounded to 2^-53 of what there is.
             bool held = !isnan(drive.stress[k]), exact = fabs(strain - prescribed) <= 1e-12 * fabs(prescribed);
             // A servo without overshoot is as near as the motion of the grains lets it, see stresses_are_held.

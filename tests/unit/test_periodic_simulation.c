@@ -1,6 +1,7 @@
 /// Cases in a periodic cell (threads: test_periodic.c): lost work, restart, the pressure that is asked for, balance of
 /// energy, refusals.
 #include "run_fixture.h"
+#include "state/plates.h"
 
 #include "io_scratch.h"
 #include "state/periodic.h"
@@ -133,12 +134,12 @@ static void stages_do_what_they_say(void **unused)
             rows++;
         }
     }
-    assert_true(fabs(s.state.periodic.strain[1] / s.state.periodic.strain[3] + 4) < 1e-9);
+    assert_true(fabs(scree_cell(&s.state)->strain[1] / scree_cell(&s.state)->strain[3] + 4) < 1e-9);
     print_message("largest energy residual over work: %.3g; mean stresses %.4g, %.4g\n", worst, held / rows,
                   lateral / rows);
     // Means of some 16 samples of rapid shear of 70 discs: they scatter by a fifth.
     assert_true(fabs(held / rows / 1e5 - 1) < 0.4 && fabs(lateral / rows / 8e4 - 1) < 0.4);
-    // Trapezoids along Hertz springs (test_simulation.c), here with free flights and impacts.
+    // Trapezoids along Hertz springs (test_simulation_balance.c), here with free flights and impacts.
     assert_true(worst < 1e-4);
     assert_true(fabs(s.state.ledger.periodic) > 0);
     scree_simulation_close(&s);
@@ -160,12 +161,12 @@ static void plates_close_the_other_direction(void **unused)
     scree_simulation s;
     simulation_open(c, 1, &s);
     double worst = simulation_finish(&s);
-    assert_true(s.work.ghosts.count > 0 && !s.state.wall[SCREE_WALL_LEFT].active);
+    assert_true(s.work.ghosts.count > 0 && !scree_plates(&s.state)[SCREE_WALL_LEFT].active);
     assert_true(worst < 1e-4);
     // Contact stress and plates agree to the inertia of a fast compression.
     const double *v = s.sample.value;
     assert_true(fabs(v[SCREE_SAMPLE_AXIAL_CONTACTS] / v[SCREE_SAMPLE_AXIAL_PLATES] - 1) < 0.1);
-    assert_true(fabs(v[SCREE_SAMPLE_AREA] - s.state.periodic.lattice[0] * v[SCREE_SAMPLE_HEIGHT]) < 1e-12);
+    assert_true(fabs(v[SCREE_SAMPLE_AREA] - scree_cell(&s.state)->lattice[0] * v[SCREE_SAMPLE_HEIGHT]) < 1e-12);
     scree_simulation_close(&s);
     scree_case_free(c);
 }

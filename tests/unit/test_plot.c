@@ -1,4 +1,6 @@
 /// All figures of a run directory, from a hand-made series.csv and hand-made snapshots.
+#include "measure/delaunay_boundary.h"
+#include "state/plates.h"
 #include "view_testing.h"
 
 #include "hand_made_snapshot.h"
@@ -122,14 +124,15 @@ static void put_snapshot(const char *directory, const scree_snapshot *s, int64_t
                                            .normal_force = s->normal_force[k],
                                            .tangential_force = s->tangential_force[k]};
     }
-    memcpy(state.wall, s->wall, sizeof state.wall);
-    state.loop.count = state.loop.capacity = s->loop_count;
-    state.loop.id = hand_made_array(s->loop_count, sizeof *state.loop.id);
-    state.loop.loaded = hand_made_array(s->loop_count, sizeof *state.loop.loaded);
-    double **place[] = {&state.loop.x, &state.loop.y, &state.loop.fx, &state.loop.fy};
+    memcpy(scree_plates(&state), s->wall, SCREE_WALL_COUNT * sizeof(scree_wall));
+    scree_loop_of(&state)->count = scree_loop_of(&state)->capacity = s->loop_count;
+    scree_loop_of(&state)->id = hand_made_array(s->loop_count, sizeof *scree_loop_of(&state)->id);
+    scree_loop_of(&state)->loaded = hand_made_array(s->loop_count, sizeof *scree_loop_of(&state)->loaded);
+    double **place[] = {&scree_loop_of(&state)->x, &scree_loop_of(&state)->y, &scree_loop_of(&state)->fx,
+                        &scree_loop_of(&state)->fy};
     for (size_t k = 0; k < sizeof place / sizeof place[0]; k++)
         *place[k] = hand_made_array(s->loop_count, sizeof(double));
-    memcpy(state.loop.id, s->loop, s->loop_count * sizeof *s->loop);
+    memcpy(scree_loop_of(&state)->id, s->loop, s->loop_count * sizeof *s->loop);
     if (scree_cells_measure(&model, &state, &table, &cells, &error)) fail_msg("%s", error.message);
     const scree_snapshot_info info = {
         .index = index, .time = s->time, .axial_strain = s->axial_strain, .stage = s->stage, .cells = &cells};

@@ -1,6 +1,7 @@
 /// Initial assemblies: geometry of packings to round-off, solid fractions, reproducibility, velocities, errors, and
 /// memory that fails at every allocation.
 #include "biaxial_config.h"
+#include "state/plates.h"
 #include "testing.h"
 
 #include "prepare/prepare.h"
@@ -28,8 +29,8 @@ static void sample_prepare(sample *s)
     scree_error error = {0};
     if (scree_model_build(&s->c.config, &s->model, &error)) fail_msg("%s", error.message);
     if (scree_prepare(&s->model, &s->c.stage[0], &s->state, &error)) fail_msg("%s", error.message);
-    s->width = -s->state.wall[SCREE_WALL_RIGHT].position;
-    s->height = -s->state.wall[SCREE_WALL_TOP].position;
+    s->width = -scree_plates(&s->state)[SCREE_WALL_RIGHT].position;
+    s->height = -scree_plates(&s->state)[SCREE_WALL_TOP].position;
 }
 
 static void sample_expect_error(sample *s, const char *field, const char *part)
@@ -246,11 +247,13 @@ static void test_state_is_complete(void **unused)
     assert_true(s.state.step_size == s.model.step);
     const double normals[][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
     for (int w = 0; w <= SCREE_WALL_RIGHT; w++) {
-        assert_true(s.state.wall[w].active && s.state.wall[w].material == SCREE_PARTICLE_MATERIAL &&
-                    s.state.wall[w].velocity == 0);
-        assert_true(s.state.wall[w].normal[0] == normals[w][0] && s.state.wall[w].normal[1] == normals[w][1]);
+        assert_true(scree_plates(&s.state)[w].active && scree_plates(&s.state)[w].material == SCREE_PARTICLE_MATERIAL &&
+                    scree_plates(&s.state)[w].velocity == 0);
+        assert_true(scree_plates(&s.state)[w].normal[0] == normals[w][0] &&
+                    scree_plates(&s.state)[w].normal[1] == normals[w][1]);
     }
-    assert_true(s.state.wall[SCREE_WALL_BOTTOM].position == 0 && s.state.wall[SCREE_WALL_LEFT].position == 0);
+    assert_true(scree_plates(&s.state)[SCREE_WALL_BOTTOM].position == 0 &&
+                scree_plates(&s.state)[SCREE_WALL_LEFT].position == 0);
     scree_state_destroy(&s.state);
 }
 

@@ -1,6 +1,7 @@
 /// Initial assemblies of spheres, growth packings and round samples in both dimensions: geometry to round-off,
 /// stability of every sphere, solid fractions, isotropy, reproducibility.
 #include "biaxial_config.h"
+#include "state/plates.h"
 #include "testing.h"
 
 #include "prepare/prepare.h"
@@ -32,9 +33,9 @@ static void sample_prepare(sample *s)
     scree_error error = {0};
     if (scree_model_build(&s->c.config, &s->model, &error)) fail_msg("%s", error.message);
     if (scree_prepare(&s->model, &s->c.stage[0], &s->state, &error)) fail_msg("%s", error.message);
-    s->side[0] = -s->state.wall[SCREE_WALL_RIGHT].position;
-    s->side[1] = -s->state.wall[s->state.dimension == 3 ? SCREE_WALL_BACK : SCREE_WALL_TOP].position;
-    s->side[2] = s->state.dimension == 3 ? -s->state.wall[SCREE_WALL_TOP].position : 0;
+    s->side[0] = -scree_plates(&s->state)[SCREE_WALL_RIGHT].position;
+    s->side[1] = -scree_plates(&s->state)[s->state.dimension == 3 ? SCREE_WALL_BACK : SCREE_WALL_TOP].position;
+    s->side[2] = s->state.dimension == 3 ? -scree_plates(&s->state)[SCREE_WALL_TOP].position : 0;
 }
 
 /// Contacts of body i: unit normals towards it, from bodies placed before it, and from the walls if wanted.
@@ -315,10 +316,11 @@ static void states_of_spheres_are_complete(void **unused)
         assert_true(x[0] == p->x && x[1] == p->y && x[2] == p->z);
     }
     for (int w = 0; w < SCREE_WALL_COUNT; w++) {
-        const double *n = s.state.wall[w].normal;
+        const double *n = scree_plates(&s.state)[w].normal;
         const int axis = w < 2 ? 2 : w < 4 ? 0 : 1;
         for (int c = 0; c < 3; c++) assert_true(n[c] == (c != axis ? 0 : w % 2 ? -1 : 1));
-        assert_true(s.state.wall[w].active == 1 && s.state.wall[w].material == SCREE_PARTICLE_MATERIAL);
+        assert_true(scree_plates(&s.state)[w].active == 1 &&
+                    scree_plates(&s.state)[w].material == SCREE_PARTICLE_MATERIAL);
     }
     scree_state_destroy(&s.state);
 }
@@ -418,7 +420,7 @@ static void round_samples(void **unused)
             const double dense[2][3] = {{0.7, 0.25, 0.7}, {0.4, 0.1, 0.4}};
             double share = dimension == 3 ? M_PI / 6 : M_PI / 4;
             assert_true(solid_fraction(&s) / share > dense[dimension - 2][k]);
-            for (int w = 0; w < SCREE_WALL_COUNT; w++) assert_int_equal(s.state.wall[w].active, 0);
+            for (int w = 0; w < SCREE_WALL_COUNT; w++) assert_int_equal(scree_plates(&s.state)[w].active, 0);
             scree_state_destroy(&s.state);
         }
 }

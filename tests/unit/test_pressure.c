@@ -1,8 +1,11 @@
 /// Pressure on the Delaunay boundary: which edges carry it, what it adds up to, its work, its strain.
 #include "boundary_fixture.h"
+#include "measure/delaunay_boundary.h"
+#include "state/plates.h"
 
 #include "integrate/integrate.h"
 #include "measure/outline.h"
+#include "state/pressure.h"
 #include "state_bits.h"
 
 #include <stdlib.h>
@@ -33,7 +36,7 @@ static void a_closed_loop_has_no_net_force(void **user)
     bench b;
     bench_create(&b, 9, 17, false);
     assert_int_equal(scree_boundary_refresh(&b.model, &b.state, NULL), SCREE_OK);
-    for (size_t k = 0; k < b.state.loop.count; k++) assert_int_equal(b.state.loop.loaded[k], 1);
+    for (size_t k = 0; k < scree_loop_of(&b.state)->count; k++) assert_int_equal(scree_loop_of(&b.state)->loaded[k], 1);
     scree_pressure_forces(&b.model, &b.state);
     int64_t total[2];
     double sides[2], kept = 0, largest = 0;
@@ -42,11 +45,12 @@ static void a_closed_loop_has_no_net_force(void **user)
     assert_int_equal(total[1], 0);
     assert_true(sides[0] > 0 && sides[1] < 0); // inwards
     // What the loop keeps is what the bodies got, exactly: integers of less than 53 bits times a power of two.
-    for (size_t k = 0; k < b.state.loop.count; k++) {
-        scree_sum_row *sum = &b.state.sum[b.state.row_of_id[b.state.loop.id[k]]];
-        assert_true(b.state.loop.fx[k] == (double)sum->fx * QUANTUM && b.state.loop.fy[k] == (double)sum->fy * QUANTUM);
-        kept += fabs(b.state.loop.fx[k]);
-        largest = fmax(largest, hypot(b.state.loop.fx[k], b.state.loop.fy[k]));
+    for (size_t k = 0; k < scree_loop_of(&b.state)->count; k++) {
+        scree_sum_row *sum = &b.state.sum[b.state.row_of_id[scree_loop_of(&b.state)->id[k]]];
+        assert_true(scree_loop_of(&b.state)->fx[k] == (double)sum->fx * QUANTUM &&
+                    scree_loop_of(&b.state)->fy[k] == (double)sum->fy * QUANTUM);
+        kept += fabs(scree_loop_of(&b.state)->fx[k]);
+        largest = fmax(largest, hypot(scree_loop_of(&b.state)->fx[k], scree_loop_of(&b.state)->fy[k]));
     }
     assert_true(kept > 0);
     assert_true(largest <= scree_pressure_bound(&b.model, &b.state));
@@ -60,18 +64,18 @@ static void plates_take_the_ends(void **user)
     bench_create(&b, 9, 17, true);
     assert_int_equal(scree_boundary_refresh(&b.model, &b.state, NULL), SCREE_OK);
     scree_state *state = &b.state;
-    double height = -(state->wall[SCREE_WALL_BOTTOM].position + state->wall[SCREE_WALL_TOP].position);
+    double height = -(scree_plates(state)[SCREE_WALL_BOTTOM].position + scree_plates(state)[SCREE_WALL_TOP].position);
     // Unloaded edges lie along a plate, loaded ones join bodies of which one at most is near it (a corner).
     size_t runs = 0;
-    for (size_t k = 0; k < state->loop.count; k++) {
+    for (size_t k = 0; k < scree_loop_of(state)->count; k++) {
         double a[2], c[2];
         scree_loop_position(state, k, a);
-        scree_loop_position(state, (k + 1) % state->loop.count, c);
-        if (state->loop.loaded[k]) continue;
+        scree_loop_position(state, (k + 1) % scree_loop_of(state)->count, c);
+        if (scree_loop_of(state)->loaded[k]) continue;
         bool bottom = a[1] < 3.2 * RADIUS && c[1] < 3.2 * RADIUS && c[0] > a[0];
         bool top = a[1] > height - 5 * RADIUS && c[1] > height - 5 * RADIUS && c[0] < a[0];
         assert_true(bottom || top);
-        runs += state->loop.loaded[(k + 1) % state->loop.count];
+        runs += scree_loop_of(state)->loaded[(k + 1) % scree_loop_of(state)->count];
     }
     assert_int_equal(runs, 2);
     scree_pressure_forces(&b.model, state);
@@ -91,9 +95,9 @@ static void plates_all_round_leave_nothing_to_press(void **user)
     (void)user;
     bench b;
     bench_create(&b, 6, 8, true);
-    b.state.wall[SCREE_WALL_LEFT].active = b.state.wall[SCREE_WALL_RIGHT].active = 1;
+    scree_plates(&b.state)[SCREE_WALL_LEFT].active = scree_plates(&b.state)[SCREE_WALL_RIGHT].active = 1;
     assert_int_equal(scree_boundary_refresh(&b.model, &b.state, NULL), SCREE_OK);
-    for (size_t k = 0; k < b.state.loop.count; k++) assert_int_equal(b.state.loop.loaded[k], 0);
+    for (size_t k = 0; k < scree_loop_of(&b.state)->count; k++) assert_int_equal(scree_loop_of(&b.state)->loaded[k], 0);
     scree_pressure_forces(&b.model, &b.state);
     for (size_t i = 0; i < b.state.count; i++) assert_true(b.state.sum[i].fx == 0 && b.state.sum[i].fy == 0);
     assert_true(scree_pressure_bound(&b.model, &b.state) == 0);
@@ -113,12 +117,12 @@ static void few_discs_between_plates(void **user)
         state->row[i].x = RADIUS * place[i][0];
         state->row[i].y = RADIUS * place[i][1];
     }
-    state->wall[SCREE_WALL_BOTTOM].position = 0;
-    state->wall[SCREE_WALL_TOP].position = -RADIUS * (2 + sqrt(3.0));
+    scree_plates(state)[SCREE_WALL_BOTTOM].position = 0;
+    scree_plates(state)[SCREE_WALL_TOP].position = -RADIUS * (2 + sqrt(3.0));
     assert_int_equal(scree_boundary_refresh(&b.model, state, NULL), SCREE_OK);
     scree_pressure_forces(&b.model, state);
-    assert_int_equal(state->loop.loaded[0], 0);
-    assert_int_equal(state->loop.loaded[1] + state->loop.loaded[2], 2);
+    assert_int_equal(scree_loop_of(state)->loaded[0], 0);
+    assert_int_equal(scree_loop_of(state)->loaded[1] + scree_loop_of(state)->loaded[2], 2);
     int64_t total = state->sum[0].fx + state->sum[1].fx + state->sum[2].fx;
     assert_int_equal(total, 0);
     // The left disc has half its edge and the gap below it; the gaps beside the upper disc cancel.
@@ -171,7 +175,7 @@ static void work_is_the_kinetic_energy(void **user)
         scree_energy_measure(&b.model, state, &empty, &energy);
         state->ledger.initial = energy.kinetic + energy.kinetic_rotation;
         for (int step = 0; step < 100; step++) {
-            state->pressure = PRESSURE * (1 + 0.01 * step);
+            scree_pressure_set(state, PRESSURE * (1 + 0.01 * step));
             integrator->first(&b.model, state, &work);
             scree_pressure_work(state);
             state->step++;
@@ -197,7 +201,7 @@ static void refresh_is_due_and_closes_the_strain(void **user)
     scree_state *state = &b.state;
     assert_int_equal(scree_boundary_refresh(&b.model, state, NULL), SCREE_OK);
     double total[9], area = scree_loop_area(state);
-    uint64_t updated = state->loop.updated;
+    uint64_t updated = scree_loop_of(state)->updated;
     for (int k = 0; k < 40; k++) {
         // Compression by 1 % in y, extension by 0.5 % in x, and a growing disturbance that changes the loop.
         for (size_t i = 0; i < state->count; i++) {
@@ -206,10 +210,10 @@ static void refresh_is_due_and_closes_the_strain(void **user)
         }
         state->step += 249;
         assert_int_equal(scree_boundary_refresh(&b.model, state, NULL), SCREE_OK);
-        assert_int_equal(state->loop.updated, updated);
+        assert_int_equal(scree_loop_of(state)->updated, updated);
         state->step++;
         assert_int_equal(scree_boundary_refresh(&b.model, state, NULL), SCREE_OK);
-        assert_int_equal(state->loop.updated, state->step);
+        assert_int_equal(scree_loop_of(state)->updated, state->step);
         updated = state->step;
     }
     scree_strain_measure(state, total);

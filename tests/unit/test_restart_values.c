@@ -101,8 +101,8 @@ static void no_value_does_harm(void **unused)
         scree_case *c = write_one(k, &checksum);
         simulation_open(c, 1, &s);
         check(restart_read(&s, checksum, &error), &error);
-        for (size_t f = 0; f < scree_field_count + scree_member_count; f++) {
-            const scree_field *field = f < scree_field_count ? &scree_fields[f] : &scree_members[f - scree_field_count];
+        for (size_t f = 0; f < scree_field_total(); f++) {
+            const scree_field *field = scree_field_at(f);
             if (field->role != SCREE_FIELD_STATE || !scree_field_exists(field, s.state.dimension)) continue;
             size_t rows = scree_field_rows_count(&s.state, field);
             int components = scree_components(field->components, s.state.dimension);

@@ -5,6 +5,8 @@
 ///
 /// Motion is prescribed: positions at n, velocities and spins at n - 1/2 (x(n) = x(n-1) + v(n-1/2) dt), as the schemes
 /// have them.
+#include "state/case_walls.h"
+#include "state/plates.h"
 #include "wall_fixture.h"
 
 static const double PI2 = 2 * M_PI;
@@ -185,7 +187,7 @@ static double roll_on_plate(int dimension, int steps)
     double expected[3] = {0};
     fixture_create_in(&f, dimension, HERTZ_MINDLIN, 1, dt);
     f.model.walls[0].value[SCREE_FRICTION] = 1e6;
-    f.state.wall[SCREE_WALL_BOTTOM] =
+    scree_plates(&f.state)[SCREE_WALL_BOTTOM] =
         (scree_wall){.normal = {0, 1, 0}, .tangential_velocity = {0.2, 0, 0}, .active = 1};
     fixture_find_walls(&f);
     scree_row *row = f.state.row;
@@ -304,7 +306,7 @@ static double carry(const carried *c, int steps)
     world w = {0};
     scree_config_wall *wall = make_wall(&w, c);
     world_start(&w, c->dimension, HERTZ_MINDLIN, SCREE_SLOT_position_verlet, 1, dt);
-    w.f.state.surface_moving = 1;
+    scree_case_walls(&w.f.state)->moving = 1;
     w.f.model.walls[0].value[SCREE_FRICTION] = 1e6; // no cap
     double largest = 0;
     for (int n = 1; n <= steps; n++) {
@@ -318,7 +320,7 @@ static double carry(const carried *c, int steps)
         leave(wall, (n - 0.5) * dt, false, inner, spin);
         for (int k = 0; k < 3; k++) spin[k] += wall->spin[k];
         put_body(&w, now, velocity, spin);
-        w.f.state.surface_ticks = (uint64_t)n;
+        scree_case_walls(&w.f.state)->ticks = (uint64_t)n;
         world_forces(&w);
         assert_int_equal(w.f.state.sum[0].contacts, 1);
         for (size_t p = 0; p < w.f.work.element_pairs.count; p++) {

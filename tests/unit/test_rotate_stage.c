@@ -1,4 +1,5 @@
 /// The stage rotate_particle end to end: spin, energy, bits, refusals, and a crystal of spheres whose answer is known.
+#include "integrate/forced_spin.h"
 #include "run_fixture.h"
 
 #include "io_scratch.h"
@@ -77,7 +78,7 @@ static void the_spin_follows_the_ramp(void **unused)
     scree_simulation s;
     scree_case *c = case_read(DISCS, NULL, 0);
     open_at_stage(c, 1, &s);
-    size_t id = (size_t)s.state.forced.id;
+    size_t id = (size_t)scree_forced(&s.state)->id;
     double turned = 0;
     for (int k = 1; k <= REST + RAMP + HOLD; k++) {
         assert_non_null(s.stage);
@@ -181,7 +182,7 @@ static void a_named_particle_is_turned(void **unused)
     const char *override = "stages.rotate_particle.particle=59";
     scree_case *c = case_read(DISCS, &override, 1);
     open_at_stage(c, 1, &s);
-    assert_int_equal(s.state.forced.id, 59);
+    assert_int_equal(scree_forced(&s.state)->id, 59);
     scree_simulation_close(&s);
     scree_case_free(c);
 }
@@ -199,7 +200,7 @@ static void a_crystal_turns_like_gears(void **unused)
         scree_vector centre, place;
         open_at_stage(c, 1, &s);
         while (s.state.stage.index < 3) simulation_step(&s);
-        size_t forced = (size_t)s.state.forced.id;
+        size_t forced = (size_t)scree_forced(&s.state)->id;
         double plane[4], along = 0, driven = spin_of(&s, forced, axis);
         int beside = 0;
         scree_body_place(&s.state, s.state.row_of_id[forced], centre);

@@ -1,9 +1,13 @@
 /// Membrane of spheres around a solid sample: its net, placement, pressure, springs, ends, what it is left out of.
+#include "boundary/membrane.h"
 #include "boundary_fixture.h"
+#include "measure/delaunay_boundary.h"
+#include "state/plates.h"
 
 #include "boundary/sheet.h"
 #include "measure/hull.h"
 #include "search/neighbours.h"
+#include "state/pressure.h"
 #include "state_bits.h"
 
 #include <stdlib.h>
@@ -18,8 +22,8 @@ static void plates_create(bench *b, size_t count, double height)
 {
     bench_begin(b, 3, count, STEP);
     bench_foresee_membrane(b, SHEET);
-    b->state.wall[SCREE_WALL_TOP].position = -height;
-    b->state.wall[SCREE_WALL_BOTTOM].active = b->state.wall[SCREE_WALL_TOP].active = 1;
+    scree_plates(&b->state)[SCREE_WALL_TOP].position = -height;
+    scree_plates(&b->state)[SCREE_WALL_BOTTOM].active = scree_plates(&b->state)[SCREE_WALL_TOP].active = 1;
 }
 
 /// An uneven block of grains in its membrane.
@@ -40,8 +44,8 @@ static void tube_create(bench *b, size_t around, size_t rings, double edge)
     plates_create(b, 0, 2 * SHEET + rise * (double)(rings - 1));
     scree_state *state = &b->state;
     assert_int_equal(scree_membrane_make_room(state, around * rings, NULL), SCREE_OK);
-    state->membrane.radius = SHEET;
-    state->membrane.around = around;
+    scree_membrane_of(state)->radius = SHEET;
+    scree_membrane_of(state)->around = around;
     for (size_t k = 0; k < around * rings; k++) {
         double angle = 2 * M_PI / (double)around * ((double)(k % around) + 0.5 * (double)(k / around % 2));
         *member(b, k) = (scree_row){.x = radius * cos(angle),
@@ -50,7 +54,8 @@ static void tube_create(bench *b, size_t around, size_t rings, double edge)
                                     .radius = SHEET,
                                     .mass = scree_model_mass(&b->model, 1, SHEET)};
         for (int s = 0; s < SCREE_SHEET_SPRINGS; s++)
-            if (scree_sheet_neighbour(around, around * rings, k, s) != SIZE_MAX) state->membrane.rest[k][s] = edge;
+            if (scree_sheet_neighbour(around, around * rings, k, s) != SIZE_MAX)
+                scree_membrane_of(state)->rest[k][s] = edge;
     }
 }
 
@@ -93,7 +98,7 @@ static void the_net_is_a_tube(void **unused)
 static double winding(bench *b, const double point[3])
 {
     scree_state *state = &b->state;
-    size_t around = state->membrane.around, count = state->membrane.count;
+    size_t around = scree_membrane_of(state)->around, count = scree_membrane_of(state)->count;
     size_t triangles = scree_sheet_triangle_count(around, count);
     double sum = 0;
     for (size_t t = 0; t < triangles + 2 * (around - 2); t++) {
@@ -131,10 +136,10 @@ static void it_wraps_the_grains_without_pressing(void **unused)
     bench b;
     bench_create(&b);
     scree_state *state = &b.state;
-    size_t count = state->membrane.count, around = state->membrane.around, touching = 0, inside = 0;
+    size_t count = scree_membrane_of(state)->count, around = scree_membrane_of(state)->around, touching = 0, inside = 0;
     assert_int_equal(state->grains, SIDE * SIDE * LEVELS);
     assert_int_equal(state->count, state->grains + count);
-    double low = state->wall[SCREE_WALL_BOTTOM].position, high = -state->wall[SCREE_WALL_TOP].position;
+    double low = scree_plates(state)[SCREE_WALL_BOTTOM].position, high = -scree_plates(state)[SCREE_WALL_TOP].position;
     for (size_t k = 0; k < count; k++) {
         const scree_row *m = member(&b, k);
         double gap = INFINITY;
@@ -152,7 +157,7 @@ static void it_wraps_the_grains_without_pressing(void **unused)
         for (int s = 0; s < SCREE_SHEET_SPRINGS; s++) {
             size_t other = scree_sheet_neighbour(around, count, k, s);
             double rest = other == SIZE_MAX ? 0 : distance(&b, k, other);
-            assert_true(fabs(state->membrane.rest[k][s] - rest) < 1e-15);
+            assert_true(fabs(scree_membrane_of(state)->rest[k][s] - rest) < 1e-15);
             // On the outline at most two radii apart; pushed in, one more radius a spacing.
             assert_true(rest <= 2.3 * SHEET);
         }
@@ -177,7 +182,7 @@ static void pressure_is_the_derivative_of_the_volume(void **unused)
     bench b;
     tube_create(&b, 12, 6, 2 * SHEET);
     scree_state *state = &b.state;
-    size_t count = state->membrane.count, around = 12;
+    size_t count = scree_membrane_of(state)->count, around = 12;
     b.model.membrane_stiffness = 0;
     // A regular tube, by the rule of prismatoids: sections are 12-gons at the rings, 24-gons half way.
     double radius = hypot(member(&b, 0)->x, member(&b, 0)->y), rise = member(&b, around)->z - SHEET;
@@ -199,7 +204,7 @@ static void pressure_is_the_derivative_of_the_volume(void **unused)
     int64_t total[3] = {0};
     double work = 0, size = 0, vertical = 0, areas[2] = {0};
     for (size_t k = 0; k < count; k++) {
-        const double *press = state->membrane.press[k];
+        const double *press = scree_membrane_of(state)->press[k];
         const scree_sum_row *sum = &state->sum[scree_membrane_row(state, k)];
         total[0] += sum->fx;
         total[1] += sum->fy;
@@ -248,9 +253,9 @@ static void the_sheet_has_its_stiffness(void **unused)
         tube_create(&b, AROUND, RINGS, 2 * SHEET);
         double sheet = 2 / sqrt(3) * b.model.membrane_stiffness;
         double radius = hypot(member(&b, 0)->x, member(&b, 0)->y);
-        double length = member(&b, b.state.membrane.count - 1)->z - member(&b, 0)->z;
+        double length = member(&b, scree_membrane_of(&b.state)->count - 1)->z - member(&b, 0)->z;
         assert_true(scree_membrane_energy(&b.model, &b.state) < 1e-18);
-        for (size_t k = 0; k < b.state.membrane.count; k++) {
+        for (size_t k = 0; k < scree_membrane_of(&b.state)->count; k++) {
             member(&b, k)->x *= 1 + strain[n][0];
             member(&b, k)->y *= 1 + strain[n][0];
             member(&b, k)->z *= 1 + strain[n][1];
@@ -264,7 +269,7 @@ static void the_sheet_has_its_stiffness(void **unused)
         // Curvature: chords and their angles differ by (pi / 60)^2 / 2 = 1.4e-3 at most; strains are 1e-4.
         assert_true(fabs(energy / expected - 1) < 1.6e-3);
         // Without tension nothing is stored.
-        for (size_t k = 0; k < b.state.membrane.count; k++)
+        for (size_t k = 0; k < scree_membrane_of(&b.state)->count; k++)
             member(&b, k)->x *= 0.99, member(&b, k)->y *= 0.99, member(&b, k)->z *= 0.99;
         assert_true(scree_membrane_energy(&b.model, &b.state) == 0);
         scree_state_destroy(&b.state);
@@ -275,7 +280,7 @@ static void the_sheet_has_its_stiffness(void **unused)
 static void tube_step(bench *b, double keep)
 {
     scree_state *state = &b->state;
-    for (size_t k = 0; k < state->membrane.count; k++) {
+    for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
         scree_row *m = member(b, k);
         const scree_sum_row *sum = &state->sum[scree_membrane_row(state, k)];
         m->vx = keep * m->vx + state->step_size * (double)sum->fx * QUANTUM / m->mass;
@@ -285,7 +290,7 @@ static void tube_step(bench *b, double keep)
         m->y += state->step_size * m->vy;
         m->z += state->step_size * m->vz;
     }
-    scree_boundary_get(SCREE_BOUNDARY_MEMBRANE)->work(state);
+    boundary_follow(scree_boundary_get(SCREE_BOUNDARY_MEMBRANE), &b->model, state);
     membrane_forces(b);
 }
 
@@ -297,28 +302,29 @@ static void hoop_tension_carries_the_pressure(void **unused)
     bench b;
     tube_create(&b, AROUND, RINGS, 2 * SHEET);
     scree_state *state = &b.state;
-    state->pressure = -1e4; // from inside: the springs only pull
+    scree_pressure_set(state, -1e4); // from inside: the springs only pull
     state->step_size = b.work.next_kick = 1e-3;
     membrane_forces(&b);
     for (int step = 0; step < 4000; step++) tube_step(&b, 0.97);
     double residual = 0, through = 0, radius = 0, angle = 0.3 * 2 * M_PI / AROUND;
-    for (size_t k = 0; k < state->membrane.count; k++) {
+    for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
         const scree_row *m = member(&b, k);
         const scree_sum_row *sum = &state->sum[scree_membrane_row(state, k)];
         residual = fmax(residual, hypot((double)sum->fx, (double)sum->fy) * QUANTUM);
-        radius += hypot(m->x, m->y) / (double)state->membrane.count;
+        radius += hypot(m->x, m->y) / (double)scree_membrane_of(state)->count;
         for (int s = 0; s < SCREE_SHEET_SPRINGS; s++) {
-            size_t other = scree_sheet_neighbour(AROUND, state->membrane.count, k, s);
+            size_t other = scree_sheet_neighbour(AROUND, scree_membrane_of(state)->count, k, s);
             if (other == SIZE_MAX) continue;
             const scree_row *o = member(&b, other);
             double at[2] = {cos(angle) * m->y - sin(angle) * m->x, cos(angle) * o->y - sin(angle) * o->x};
             if (at[0] * at[1] > 0 || m->x * cos(angle) + m->y * sin(angle) < 0) continue;
             bool rim = s == 0 && scree_membrane_plate(state, k) >= 0;
-            double force = (rim ? 0.5 : 1) * STIFFNESS * (distance(&b, k, other) - state->membrane.rest[k][s]);
+            double force =
+                (rim ? 0.5 : 1) * STIFFNESS * (distance(&b, k, other) - scree_membrane_of(state)->rest[k][s]);
             if (force > 0) through += force * fabs(at[1] - at[0]) / distance(&b, k, other);
         }
     }
-    double height = -state->wall[SCREE_WALL_TOP].position, expected = 1e4 * radius * height;
+    double height = -scree_plates(state)[SCREE_WALL_TOP].position, expected = 1e4 * radius * height;
     print_message("hoop tension over p R: %.5f, largest resultant over the load of a body %.2g\n", through / expected,
                   residual / (1e4 * 4 * SHEET * SHEET));
     assert_true(residual < 1e-6 * 1e4 * 4 * SHEET * SHEET);
@@ -333,8 +339,8 @@ static void springs_store_what_they_take(void **unused)
     bench b;
     tube_create(&b, 10, 6, 2 * SHEET);
     scree_state *state = &b.state;
-    state->pressure = 0;
-    for (size_t k = 0; k < state->membrane.count; k++) {
+    scree_pressure_set(state, 0);
+    for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
         scree_row *m = member(&b, k);
         m->x += 0.2 * SHEET * (uniform(3 * k) - 0.5);
         m->y += 0.2 * SHEET * (uniform(3 * k + 1) - 0.5);
@@ -345,7 +351,7 @@ static void springs_store_what_they_take(void **unused)
     membrane_forces(&b);
     state->ledger = (scree_ledger){0};
     for (int step = 0; step <= 400; step++) {
-        for (size_t k = 0; k < state->membrane.count && step % 400 == 0; k++) {
+        for (size_t k = 0; k < scree_membrane_of(state)->count && step % 400 == 0; k++) {
             momentum[step / 400][0] += member(&b, k)->mass * member(&b, k)->vx;
             momentum[step / 400][1] += member(&b, k)->mass * fabs(member(&b, k)->vx);
         }
@@ -368,11 +374,11 @@ static void ends_move_with_the_plates(void **unused)
     bench_create(&b);
     scree_state *state = &b.state;
     b.model.gravity[2] = -9.81;
-    state->wall[SCREE_WALL_BOTTOM].velocity = 3e-3;
-    state->wall[SCREE_WALL_TOP].velocity = 1e-3;
+    scree_plates(state)[SCREE_WALL_BOTTOM].velocity = 3e-3;
+    scree_plates(state)[SCREE_WALL_TOP].velocity = 1e-3;
     membrane_forces(&b);
     size_t ends = 0;
-    for (size_t k = 0; k < state->membrane.count; k++) {
+    for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
         int plate = scree_membrane_plate(state, k);
         if (plate < 0) continue;
         const scree_row *row = member(&b, k);
@@ -380,10 +386,10 @@ static void ends_move_with_the_plates(void **unused)
         double after = row->vz + STEP * ((double)sum->fz * QUANTUM / row->mass - 9.81);
         assert_true(fabs(after - (plate == SCREE_WALL_BOTTOM ? 3e-3 : -1e-3)) < 1e-15);
         // Free along the plate; the sheet is not stretched but for round-off.
-        assert_true(hypot(state->membrane.force[k][0], state->membrane.force[k][1]) < 1e-9);
+        assert_true(hypot(scree_membrane_of(state)->force[k][0], scree_membrane_of(state)->force[k][1]) < 1e-9);
         ends++;
     }
-    assert_int_equal(ends, 2 * state->membrane.around);
+    assert_int_equal(ends, 2 * scree_membrane_of(state)->around);
     scree_state_destroy(state);
 }
 
@@ -441,7 +447,7 @@ static void it_is_no_part_of_the_assembly(void **unused)
     scree_state *state = &b.state;
     scree_error error;
     assert_int_equal(scree_work_create(&b.work, &b.model, 1, &error), SCREE_OK);
-    for (size_t k = 0; k < state->membrane.count; k++) {
+    for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
         member(&b, k)->x += member(&b, k)->x < 4 * RADIUS ? 2e-6 : -2e-6;
         member(&b, k)->y += member(&b, k)->y < 4 * RADIUS ? 2e-6 : -2e-6;
     }
@@ -488,7 +494,7 @@ static void it_is_no_part_of_the_assembly(void **unused)
     // What an experimenter knows, with the pressure on the membrane as if on the hull itself.
     double wrapped[9], bare[9];
     scree_stress_from_plates(&b.model, state, wrapped);
-    state->membrane.share = 0;
+    scree_delaunay_boundary_of(state)->taken_over = 0;
     scree_pressure_forces(&b.model, state);
     scree_stress_from_plates(&b.model, state, bare);
     for (int i = 0; i < 3; i++) assert_true(fabs(wrapped[4 * i] - bare[4 * i]) < 1e-9 * PRESSURE);
@@ -515,16 +521,16 @@ static void failures_are_told(void **unused)
         scree_allocation_fail_after(0);
         if (failed) assert_true(state_bits(state) == before && error.status == SCREE_ERROR_IO);
     }
-    assert_true(state->membrane.count > 20);
+    assert_true(scree_membrane_of(state)->count > 20);
     // Grains so small that they slip through, when it is placed and later.
     scree_error error;
     b.model.radius_min = 0.1 * SHEET;
-    state->hull.updated = state->step;
+    scree_hull_of(state)->updated = state->step;
     const scree_boundary *membrane = scree_boundary_get(SCREE_BOUNDARY_MEMBRANE);
-    assert_int_equal(membrane->refresh(&b.model, state, &error), SCREE_ERROR_GUARD);
+    assert_int_equal(boundary_pass(membrane, SCREE_PHASE_SEARCH, &b.model, state, &b.work, &error), SCREE_ERROR_GUARD);
     assert_non_null(strstr(error.message, "slip through"));
-    state->hull.updated = state->step + 1; // not looked at between two updates
-    assert_int_equal(membrane->refresh(&b.model, state, &error), SCREE_OK);
+    scree_hull_of(state)->updated = state->step + 1; // not looked at between two updates
+    assert_int_equal(boundary_pass(membrane, SCREE_PHASE_SEARCH, &b.model, state, &b.work, &error), SCREE_OK);
     scree_state_destroy(state);
     plates_create(&b, 1, 0.02);
     b.state.row[0] = (scree_row){.z = 0.01, .radius = 1e-3, .mass = 1};

@@ -4,7 +4,9 @@
 #include "boundary/membrane.h"
 #include "boundary/sheet.h"
 #include "io_scratch.h"
+#include "measure/delaunay_boundary.h"
 #include "run/step.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -37,7 +39,7 @@ static uint64_t run_some(scree_simulation *begin, const char *folder, int thread
         simulation_step(&s);
         if (discard > 0 && simulation_last_steps(&s) == discard) simulation_lose_work(&s, threads);
     }
-    assert_true(s.state.membrane.count > 100 && s.state.membrane.share > 0);
+    assert_true(scree_membrane_of(&s.state)->count > 100 && scree_delaunay_boundary_of(&s.state)->taken_over > 0);
     return simulation_close(&s);
 }
 
@@ -76,7 +78,7 @@ static void check_restart(const char *const *overrides, size_t count, int dimens
         if (rolling) stretch = fmax(stretch, fabs(state->rolling[k].value[twist]));
         if (dimension == 3) booked = fmax(booked, fabs((double)state->booking[k].value[0]));
     }
-    assert_true(state->membrane.count > 0 && (stretch > 0) == rolling && (booked > 0) == (dimension == 3));
+    assert_true(scree_membrane_of(state)->count > 0 && (stretch > 0) == rolling && (booked > 0) == (dimension == 3));
     for (int n = 0; n < 300; n++)
         for (int i = 0; i < 2; i++) check(scree_step(&s[i], &error), &error);
     assert_true(simulation_bits(&s[0]) == simulation_bits(&s[1]));
@@ -125,7 +127,7 @@ static void the_energy_balance_closes(void **unused)
         stored, work);
     // The bound that the program promises for history laws.
     assert_true(worst < 1e-6);
-    assert_true(stored > 0 && work != 0 && s.state.membrane.share > 0.5);
+    assert_true(stored > 0 && work != 0 && scree_delaunay_boundary_of(&s.state)->taken_over > 0.5);
     scree_simulation_close(&s);
     scree_case_free(c);
 }
@@ -142,7 +144,7 @@ static void add_product(double sum[9], const double a[3], const double b[3], dou
 static void stress_with_membrane(scree_simulation *s, double stress[9], double inertia[9], double rubbing[9])
 {
     const scree_state *state = &s->state;
-    const scree_membrane *membrane = &state->membrane;
+    const scree_membrane *membrane = scree_membrane_of(state);
     double volume = scree_membrane_volume(&s->stage_model, state), quantum = state->force_quantum;
     for (int i = 0; i < 9; i++) stress[i] = inertia[i] = rubbing[i] = 0;
     for (size_t k = 0; k < s->table.count; k++) {
@@ -196,13 +198,14 @@ static void a_sample_is_held_by_its_membrane(void **unused)
         samples++;
     }
     check(scree_contact_table_build(&s.model, &s.state, &s.work, &s.table, &error), &error);
-    double stress[9], inertia[9], rubbing[9], pressure = s.state.pressure;
+    double stress[9], inertia[9], rubbing[9], pressure = scree_pressure_now(&s.state);
     stress_with_membrane(&s, stress, inertia, rubbing);
     double sides = -0.5 * (stress[0] + stress[4]), moving = 0.5 * (inertia[0] + inertia[4]);
     double shear = 0.5 * (rubbing[0] + rubbing[4]);
     print_message("%zu bodies of the membrane; axial stress %.0f Pa from contacts, %.0f Pa from plates; lateral in the "
                   "grains %.0f Pa; on the sides, springs included, %.0f Pa (inertia %.0f, friction of plates %.0f)\n",
-                  s.state.membrane.count, axial / samples, plates / samples, lateral / samples, sides, moving, shear);
+                  scree_membrane_of(&s.state)->count, axial / samples, plates / samples, lateral / samples, sides,
+                  moving, shear);
     // An identity: springs, contacts and pressure are all the forces there are. Round-off of 5000 contacts, and of
     // quanta of 2^-40 of the largest force.
     assert_true(fabs(sides - moving + shear - pressure) < 1e-8 * pressure);
@@ -221,9 +224,9 @@ static void a_sample_is_held_by_its_membrane(void **unused)
         scree_body_place(&s.state, s.state.row_of_id[id], place);
         double turns = 0;
         // Winding number of the rings about the axis through the grain: those next to it in height go around it.
-        size_t around = s.state.membrane.around, best = 0;
+        size_t around = scree_membrane_of(&s.state)->around, best = 0;
         double nearest = INFINITY;
-        for (size_t k = 0; k < s.state.membrane.count; k++) {
+        for (size_t k = 0; k < scree_membrane_of(&s.state)->count; k++) {
             scree_vector member;
             scree_body_place(&s.state, scree_membrane_row(&s.state, k), member);
             if (fabs(member[2] - place[2]) < nearest) nearest = fabs(member[2] - place[2]), best = k / around;

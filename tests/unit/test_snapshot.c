@@ -1,5 +1,6 @@
 /// Snapshots and run.h5: what is written comes back, from a run that goes on and from one that has ended; kills, full
 /// disks, damage and restarts lose nothing.
+#include "state/plates.h"
 #include "testing.h"
 
 #include "io/run_file.h"
@@ -78,7 +79,7 @@ static void assert_snapshot(size_t which, int64_t index, uint64_t seed)
     }
     assert_int_equal(snapshot.loop_count, LOOP);
     for (uint32_t k = 0; k < LOOP; k++) assert_int_equal(snapshot.loop[k], k);
-    assert_memory_equal(snapshot.wall, state.wall, sizeof state.wall);
+    assert_memory_equal(snapshot.wall, scree_plates(&state), sizeof scree_plates(&state));
     scree_snapshot_destroy(&snapshot);
     scree_state_destroy(&state);
 }
@@ -86,6 +87,13 @@ static void assert_snapshot(size_t which, int64_t index, uint64_t seed)
 static void run_path(char *path, size_t size)
 {
     assert_int_equal(scree_run_file_path(scratch, path, size, NULL), 0);
+}
+
+/// What a run that goes on does first: keeps the first `count` snapshots, and every checkpoint.
+static scree_status try_rewind(int64_t count, scree_error *error)
+{
+    const scree_kept kept = {.snapshots = count, .last_checkpoint = INT64_MAX};
+    return scree_run_file_rewind(scratch, NULL, &kept, NULL, error);
 }
 
 static void finish(void)
@@ -148,11 +156,9 @@ static void every_dataset_tells_its_unit_and_meaning(void **unused)
     assert_non_null(strstr(text, "tension positive"));
     assert_int_equal(scree_hdf5_close(&run), SCREE_OK);
     int stored = 0;
-    for (size_t k = 0; k < scree_field_count; k++)
-        stored += scree_fields[k].role == SCREE_FIELD_STATE && scree_field_exists(&scree_fields[k], 2);
-    for (size_t k = 0; k < scree_member_count; k++) stored += scree_field_exists(&scree_members[k], 2);
-    // 7 fields and 5 results of bodies, 13 of contacts, 6 of the loop, 8 of plates, 3 of walls, 8 of the cell; the tables without
-    // derived fields.
+    for (size_t k = 0; k < scree_field_total(); k++) stored += scree_field_is_stored(scree_field_at(k), 2);
+    // 7 fields and 5 results of bodies, 13 of contacts, 6 of the loop, 8 of plates, 3 of walls, 8 of the cell; the
+    // tables without derived fields.
     assert_int_equal(all.datasets, 7 + 5 + 13 + 6 + 8 + 3 + 8 + stored);
     assert_int_equal(all.bare, 0);
 }
@@ -249,14 +255,14 @@ static void a_restart_drops_later_snapshots(void **unused)
     for (int ended = 0; ended < 2; ended++) {
         for (int64_t k = 0; k < 5; k++) write_snapshot(k, (uint64_t)k);
         if (ended) finish();
-        assert_int_equal(scree_snapshots_truncate(scratch, 3, NULL), SCREE_OK);
+        assert_int_equal(try_rewind(3, NULL), SCREE_OK);
         assert_int_equal(count_snapshots(), 3);
         write_snapshot(3, 9);
         assert_int_equal(count_snapshots(), 4);
         for (size_t k = 0; k < 3; k++) assert_snapshot(k, (int64_t)k, k);
         assert_snapshot(3, 3, 9);
     }
-    assert_int_equal(scree_snapshots_truncate(scratch, 0, NULL), SCREE_OK);
+    assert_int_equal(try_rewind(0, NULL), SCREE_OK);
     assert_int_equal(count_snapshots(), 0);
 }
 
@@ -307,7 +313,7 @@ static _Noreturn void write_for_ever(void)
     scree_error error;
     bool good = sample_state(&state, BODIES, 1, NULL) == SCREE_OK;
     for (int64_t k = 0; good; k = (k + 1) % 7) {
-        if (k == 0) good = scree_snapshots_truncate(scratch, 2, &error) == SCREE_OK;
+        if (k == 0) good = try_rewind(2, &error) == SCREE_OK;
         good = good && try_write(2 + k, (uint64_t)k, &error) == SCREE_OK;
         good = good && scree_checkpoint_write(scratch, &state, 1, &error) == SCREE_OK;
         if (k % 3 == 2) good = good && scree_run_file_finish(scratch, NULL, &error) == SCREE_OK;
@@ -384,9 +390,9 @@ static scree_status write_first(scree_error *error)
 {
     return try_write(0, 1, error);
 }
-static scree_status truncate_all(scree_error *error)
+static scree_status rewind_two(scree_error *error)
 {
-    return scree_snapshots_truncate(scratch, 2, error);
+    return try_rewind(2, error);
 }
 static scree_status finish_all(scree_error *error)
 {
@@ -397,7 +403,7 @@ static scree_status finish_all(scree_error *error)
 static void failed_allocations(void **unused)
 {
     (void)unused;
-    scree_status (*const actions[])(scree_error *) = {write_first, read_first, finish_all, truncate_all};
+    scree_status (*const actions[])(scree_error *) = {write_first, read_first, finish_all, rewind_two};
     for (size_t a = 0; a < sizeof actions / sizeof *actions; a++) {
         uint64_t n = 1;
         for (bool reached = true; reached; n++) {

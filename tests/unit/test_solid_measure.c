@@ -1,10 +1,13 @@
 /// Measures in three dimensions: stress from contacts and boundary, bodies that bear no load, fluctuations.
+#include "measure/delaunay_boundary.h"
+#include "state/plates.h"
 #include "testing.h"
 
 #include "base/random.h"
 #include "boundary/pressure.h"
 #include "measure/hull.h"
 #include "measure/measure.h"
+#include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
@@ -40,7 +43,7 @@ static bench *bench_create(void)
     b->model.pairs[0][0].value[SCREE_FRICTION] = 0.45;
     b->table.contact = b->contact;
     assert_int_equal(scree_state_create(&b->state, 3, 225, NULL), SCREE_OK);
-    b->state.pressure = PRESSURE;
+    scree_pressure_set(&b->state, PRESSURE);
     b->state.force_quantum = 0x1p-50;
     for (size_t i = 0; i < 225; i++) {
         scree_row *row = &b->state.row[i];
@@ -50,10 +53,10 @@ static bench *bench_create(void)
         row->z = 2 * RADIUS * ((double)(i / 25) + 0.2 * uniform(4 * i + 2));
     }
     static const int axis[SCREE_WALL_COUNT] = {2, 2, 0, 0, 1, 1};
-    for (int w = 0; w < SCREE_WALL_COUNT; w++) b->state.wall[w].normal[axis[w]] = w % 2 ? -1 : 1;
-    b->state.wall[SCREE_WALL_BOTTOM].position = -RADIUS;
-    b->state.wall[SCREE_WALL_TOP].position = -17.4 * RADIUS;
-    b->state.wall[SCREE_WALL_BOTTOM].active = b->state.wall[SCREE_WALL_TOP].active = 1;
+    for (int w = 0; w < SCREE_WALL_COUNT; w++) scree_plates(&b->state)[w].normal[axis[w]] = w % 2 ? -1 : 1;
+    scree_plates(&b->state)[SCREE_WALL_BOTTOM].position = -RADIUS;
+    scree_plates(&b->state)[SCREE_WALL_TOP].position = -17.4 * RADIUS;
+    scree_plates(&b->state)[SCREE_WALL_BOTTOM].active = scree_plates(&b->state)[SCREE_WALL_TOP].active = 1;
     assert_int_equal(scree_boundary_refresh(&b->model, &b->state, NULL), SCREE_OK);
     scree_pressure_forces(&b->model, &b->state);
     return b;
@@ -74,7 +77,7 @@ static void add_contact(bench *b, uint32_t first, uint32_t second, bool wall, ui
     scree_body_place(&b->state, first, x);
     if (wall) {
         memcpy(y, x, sizeof y);
-        y[2] = b->state.wall[second].normal[2] * b->state.wall[second].position;
+        y[2] = scree_plates(&b->state)[second].normal[2] * scree_plates(&b->state)[second].position;
     } else {
         scree_body_place(&b->state, second, y);
     }
@@ -115,14 +118,15 @@ static void contacts_and_boundary_differ_by_the_residual(void **user)
             resultant[contact->first][k] += f;
             if (!contact->wall) resultant[contact->second][k] -= f;
             if (contact->wall) {
-                scree_wall *wall = &b->state.wall[contact->second];
+                scree_wall *wall = &scree_plates(&b->state)[contact->second];
                 wall->force += f * wall->normal[k];
                 if (k < 2) wall->shear[k] -= f;
             }
         }
     }
-    for (size_t n = 0; n < b->state.hull.node_count; n++)
-        for (int k = 0; k < 3; k++) resultant[b->state.hull.id[n]][k] += b->state.hull.force[n][k];
+    for (size_t n = 0; n < scree_hull_of(&b->state)->node_count; n++)
+        for (int k = 0; k < 3; k++)
+            resultant[scree_hull_of(&b->state)->id[n]][k] += scree_hull_of(&b->state)->force[n][k];
     for (size_t i = 0; i < 225; i++) {
         scree_vector x;
         scree_body_place(&b->state, i, x);
@@ -148,7 +152,8 @@ static void contacts_and_boundary_differ_by_the_residual(void **user)
 static bool is_rattler(double friction, const scree_vector *normal, size_t count)
 {
     bench *b = bench_create();
-    memset(b->state.hull.force, 0, b->state.hull.node_count * sizeof *b->state.hull.force);
+    memset(scree_hull_of(&b->state)->force, 0,
+           scree_hull_of(&b->state)->node_count * sizeof *scree_hull_of(&b->state)->force);
     b->model.pairs[0][0].value[SCREE_FRICTION] = friction;
     scree_coordination before, after;
     // Bodies 1 .. 6 each rest between three pairs of walls; all the rest are rattlers anyway.
@@ -212,8 +217,8 @@ static void the_pressure_supports(void **user)
     bench *b = bench_create();
     scree_coordination before, after;
     uint32_t node = 0;
-    while (scree_length(b->state.hull.force[node]) == 0) node++;
-    uint32_t body = b->state.hull.id[node], other = body == 112 ? 113 : 112;
+    while (scree_length(scree_hull_of(&b->state)->force[node]) == 0) node++;
+    uint32_t body = scree_hull_of(&b->state)->id[node], other = body == 112 ? 113 : 112;
     for (int k = 0; k < 6; k++) {
         scree_contact *contact = &b->contact[b->table.count++];
         *contact = (scree_contact){.first = other, .second = (uint32_t)k, .wall = true};
@@ -223,7 +228,8 @@ static void the_pressure_supports(void **user)
     scree_contact *contact = &b->contact[b->table.count++];
     *contact = (scree_contact){.first = body, .second = other};
     for (int k = 0; k < 3; k++)
-        contact->normal[k] = -b->state.hull.force[node][k] / scree_length(b->state.hull.force[node]);
+        contact->normal[k] =
+            -scree_hull_of(&b->state)->force[node][k] / scree_length(scree_hull_of(&b->state)->force[node]);
     assert_int_equal(scree_coordination_measure(&b->model, &b->state, &b->table, &after, NULL), SCREE_OK);
     assert_true(fabs(before.rattler_fraction - after.rattler_fraction - 1 / 225.0) < 1e-14);
     bench_destroy(b);

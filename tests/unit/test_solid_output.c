@@ -1,5 +1,8 @@
 /// Spheres in files and figures: a snapshot, ParaView files and a checkpoint of a state in three dimensions, read back;
 /// the view from outside and the section of it.
+#include "boundary/membrane.h"
+#include "measure/delaunay_boundary.h"
+#include "state/plates.h"
 #include "view_testing.h"
 
 #include "base/random.h"
@@ -41,8 +44,9 @@ static void create_bodies(scree_state *state)
         scree_body_place(state, row, state->reference[row]);
     }
     state->step_size = 1e-6;
-    state->wall[SCREE_WALL_BOTTOM] = (scree_wall){.normal = {0, 0, 1}, .active = 1};
-    state->wall[SCREE_WALL_TOP] = (scree_wall){.normal = {0, 0, -1}, .position = -2.05e-3 * HEIGHT, .active = 1};
+    scree_plates(state)[SCREE_WALL_BOTTOM] = (scree_wall){.normal = {0, 0, 1}, .active = 1};
+    scree_plates(state)[SCREE_WALL_TOP] =
+        (scree_wall){.normal = {0, 0, -1}, .position = -2.05e-3 * HEIGHT, .active = 1};
 }
 
 /// A tetrahedron is enough of a hull for a file.
@@ -94,7 +98,7 @@ static char solid_name[] = "solid";
 static void create(solid *s)
 {
     create_bodies(&s->state);
-    create_hull(&s->state.hull);
+    create_hull(scree_hull_of(&s->state));
     create_table(&s->state, &s->table);
     s->config = (scree_config){.name = solid_name};
     s->model = sample_model(&s->config);
@@ -173,7 +177,7 @@ static void a_checkpoint_of_spheres_comes_back(void **unused)
     assert_int_equal(scree_checkpoint_read(scratch, 2, &copy, 1, NULL), SCREE_ERROR_INPUT); // of discs
     assert_int_equal(scree_checkpoint_read(scratch, 3, &copy, 1, NULL), SCREE_OK);
     assert_true(state_bits(&copy) == state_bits(&s.state));
-    s.state.hull.force[2][1] += 1;
+    scree_hull_of(&s.state)->force[2][1] += 1;
     assert_true(state_bits(&copy) != state_bits(&s.state));
     scree_state_destroy(&copy);
     destroy(&s);
@@ -233,7 +237,7 @@ static void spheres_are_drawn(void **unused)
 /// The last 30 spheres as a sheet of three rings.
 static void wrap(solid *s)
 {
-    scree_membrane *membrane = &s->state.membrane;
+    scree_membrane *membrane = scree_membrane_of(&s->state);
     s->state.grains = COUNT - 30;
     membrane->around = 10;
     membrane->count = membrane->capacity = 30;
@@ -291,8 +295,8 @@ static void a_sheet_is_written_and_drawn(void **unused)
     // And it is part of a checkpoint.
     assert_int_equal(scree_checkpoint_write(scratch, &s.state, 1, NULL), SCREE_OK);
     assert_int_equal(scree_checkpoint_read(scratch, 3, &copy, 1, NULL), SCREE_OK);
-    assert_true(state_bits(&copy) == state_bits(&s.state) && copy.membrane.around == 10);
-    s.state.membrane.rest[7][2] += 1;
+    assert_true(state_bits(&copy) == state_bits(&s.state) && scree_membrane_of(&copy)->around == 10);
+    scree_membrane_of(&s.state)->rest[7][2] += 1;
     assert_true(state_bits(&copy) != state_bits(&s.state));
     scree_state_destroy(&copy);
     destroy(&s);

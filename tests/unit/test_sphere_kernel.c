@@ -1,6 +1,7 @@
 /// The machinery around the laws in three dimensions: every kernel, thread count and order of the list gives the same
 /// bits; momentum is exact; the table says what the sums hold; rows of the memory are saved.
 #include "sphere_fixture.h"
+#include "state/plates.h"
 
 enum { EDGE = 7, STEPS = 150 }; // 343 bodies: no multiple of any number of lanes or threads
 
@@ -13,7 +14,7 @@ static void assert_same(const fixture *a, const fixture *b)
     assert_memory_equal(s->torque, t->torque, s->count * sizeof *s->torque);
     assert_memory_equal(&s->ledger, &t->ledger, sizeof s->ledger);
     assert_memory_equal(&s->largest_overlap, &t->largest_overlap, sizeof(double));
-    assert_memory_equal(s->wall, t->wall, sizeof s->wall);
+    assert_memory_equal(scree_plates(s), scree_plates(t), SCREE_WALL_COUNT * sizeof(scree_wall));
     assert_int_equal(a->work.flags, b->work.flags);
 }
 
@@ -21,9 +22,10 @@ static void assert_same(const fixture *a, const fixture *b)
 static void create(fixture *f, law_choice law, int materials, bool rolling)
 {
     sphere_create_assembly(f, law, EDGE, materials, rolling);
-    f->state.wall[SCREE_WALL_BOTTOM] = (scree_wall){
+    scree_plates(&f->state)[SCREE_WALL_BOTTOM] = (scree_wall){
         .position = -0.95e-3, .normal = {0, 0, 1}, .velocity = 0.3, .tangential_velocity = {0.2, -0.1}, .active = 1};
-    f->state.wall[SCREE_WALL_LEFT] = (scree_wall){.position = -0.96e-3, .normal = {1}, .velocity = -0.1, .active = 1};
+    scree_plates(&f->state)[SCREE_WALL_LEFT] =
+        (scree_wall){.position = -0.96e-3, .normal = {1}, .velocity = -0.1, .active = 1};
     fixture_find_walls(f);
 }
 
@@ -120,7 +122,8 @@ static void momentum_is_conserved_exactly(void **unused)
         sum[0] += s->fx, sum[1] += s->fy, sum[2] += s->fz;
         contacts += s->contacts;
     }
-    const scree_wall *bottom = &f.state.wall[SCREE_WALL_BOTTOM], *left = &f.state.wall[SCREE_WALL_LEFT];
+    const scree_wall *bottom = &scree_plates(&f.state)[SCREE_WALL_BOTTOM],
+                     *left = &scree_plates(&f.state)[SCREE_WALL_LEFT];
     assert_true(bottom->force > 0 && left->force > 0 && bottom->shear[0] != 0 && bottom->shear[1] != 0);
     const double given[3] = {left->force - bottom->shear[0], -left->shear[1] - bottom->shear[1],
                              bottom->force - left->shear[2]};

@@ -4,6 +4,7 @@
 /// 2^8 times the force itself, and a few roundings of 2^-53 (the indentation, a difference of lengths a thousand times
 /// as large, is computed here in the same way). Others say where they come from.
 #include "sphere_fixture.h"
+#include "state/plates.h"
 
 #include "theory/restitution.h"
 
@@ -411,7 +412,7 @@ static void wall_is_a_body_of_infinite_radius_and_mass(void **unused)
         normal[axis / 2] = axis % 2 ? -1 : 1;
         slip[(axis / 2 + 1) % 3] = 3e-3, slip[(axis / 2 + 2) % 3] = -4e-3;
         fixture_create_in(&f, 3, HERTZ_MINDLIN, 1, 1e-7);
-        scree_wall *wall = &f.state.wall[SCREE_WALL_BOTTOM];
+        scree_wall *wall = &scree_plates(&f.state)[SCREE_WALL_BOTTOM];
         *wall = (scree_wall){.position = 0.1, .velocity = 0.01, .active = 1};
         sphere s = {.radius = 1e-3};
         for (int k = 0; k < 3; k++) {

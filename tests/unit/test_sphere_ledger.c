@@ -1,6 +1,7 @@
 /// The energy ledger on spheres: kinetic + elastic + dissipated - put in is constant, up to an error that falls as the
 /// square of the step. Bodies that collide, slide, roll and twist between moving walls; a single oblique impact.
 #include "sphere_fixture.h"
+#include "state/plates.h"
 
 /// Five unequal spheres that meet in the middle of a box of six walls, three of which move.
 static void create(fixture *f, law_choice law, bool rolling, double step)
@@ -15,7 +16,7 @@ static void create(fixture *f, law_choice law, bool rolling, double step)
     fixture_create_in(f, 3, law, 5, step);
     if (rolling) sphere_resist_turning(f);
     for (size_t k = 0; k < 5; k++) sphere_set(f, k, &spheres[k]);
-    scree_wall *wall = f->state.wall;
+    scree_wall *wall = scree_plates(&f->state);
     wall[SCREE_WALL_BOTTOM] = (scree_wall){.position = -3e-3, .normal = {0, 0, 1}, .velocity = 0.5, .active = 1};
     wall[SCREE_WALL_TOP] =
         (scree_wall){.position = -3.6e-3, .normal = {0, 0, -1}, .tangential_velocity = {2, -1}, .active = 1};

@@ -2,6 +2,7 @@
 /// the discs, which the laws read from the rows; their moment of inertia belongs to the integrator (2/5 against 1/2),
 /// so a leapfrog of this test, with that of discs, moves both.
 #include "sphere_fixture.h"
+#include "state/plates.h"
 
 enum { SIDE = 15, STEPS = 400 };
 
@@ -26,7 +27,7 @@ static void create_solid(fixture *solid, const fixture *plane, law_choice law)
 
 static void put_walls(fixture *f)
 {
-    f->state.wall[SCREE_WALL_LEFT] = (scree_wall){
+    scree_plates(&f->state)[SCREE_WALL_LEFT] = (scree_wall){
         .position = -0.96e-3, .normal = {1}, .velocity = 0.3, .tangential_velocity = {0, 0.2}, .active = 1};
     fixture_find_walls(f);
 }
@@ -46,7 +47,8 @@ static void step_as_discs(fixture *f)
         turn->wz += dt * torque[2] / inertia;
         row->x += dt * row->vx, row->y += dt * row->vy, row->z += dt * row->vz;
     }
-    for (int w = 0; w < SCREE_WALL_COUNT; w++) f->state.wall[w].position += dt * f->state.wall[w].velocity;
+    for (int w = 0; w < SCREE_WALL_COUNT; w++)
+        scree_plates(&f->state)[w].position += dt * scree_plates(&f->state)[w].velocity;
     f->state.step++;
     fixture_measure_speed(f);
     fixture_forces(f);
@@ -70,7 +72,8 @@ static void compare(const fixture *plane, const fixture *solid)
     assert_true(a->damping > 0 && fabs(a->damping - b->damping) < 1e-7 * a->turnover);
     assert_true(a->friction > 0 && fabs(a->friction - b->friction) < 1e-7 * a->turnover);
     assert_true(fabs(a->plates - b->plates) < 1e-9 * a->turnover);
-    const scree_wall *one = &plane->state.wall[SCREE_WALL_LEFT], *other = &solid->state.wall[SCREE_WALL_LEFT];
+    const scree_wall *one = &scree_plates(&plane->state)[SCREE_WALL_LEFT],
+                     *other = &scree_plates(&solid->state)[SCREE_WALL_LEFT];
     assert_true(one->force > 0 && fabs(one->force - other->force) < 1e-8 * one->force);
     assert_true(fabs(one->shear[1] - other->shear[1]) < 1e-8 * one->force && other->shear[2] == 0);
 }

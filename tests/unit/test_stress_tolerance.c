@@ -2,6 +2,7 @@
 #include "run_fixture.h"
 
 #include "state/periodic.h"
+#include "state/plates.h"
 
 #define TEXT(dimension, shape, directions, count, fraction, stages)                                                    \
     "scree: 1\n"                                                                                                       \

@@ -171,12 +171,9 @@ static void memory_that_runs_out_is_told(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(memory_that_runs_out_is_told),
-        cmocka_unit_test(values_are_exact),
-        cmocka_unit_test(negative_zero_is_zero),
-        cmocka_unit_test(wrong_values_are_refused),
-        cmocka_unit_test(long_numbers_are_safe),
-        cmocka_unit_test(threads_may_convert_at_once),
+        cmocka_unit_test(memory_that_runs_out_is_told), cmocka_unit_test(values_are_exact),
+        cmocka_unit_test(negative_zero_is_zero),        cmocka_unit_test(wrong_values_are_refused),
+        cmocka_unit_test(long_numbers_are_safe),        cmocka_unit_test(threads_may_convert_at_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

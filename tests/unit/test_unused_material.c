@@ -1,22 +1,15 @@
 /// A material that nothing is made of changes nothing, wherever it stands in the list.
 #include "run_fixture.h"
 
+#include "small_cases.h"
+
 #include <stdlib.h>
 
 #define UNUSED                                                                                                         \
     "  - {name: unused, young_modulus: 3 MPa, poisson_ratio: 0.45, density: 20 kg/m3, friction: 5, wall_friction: "    \
     "3,\n"                                                                                                             \
     "     restitution: 0.01, rolling_friction: 2, twisting_friction: 0}\n"
-#define QUARTZ "  - {name: quartz, young_modulus: 30 GPa, density: 2.675e8 kg/m3, friction: 0.45, restitution: 0.2}\n"
-#define DISCS                                                                                                          \
-    "particles: {material: quartz, count: 40, radius_min: 0.5 mm, radius_max: 1 mm}\n"                                 \
-    "measure: {samples: 20}\n"                                                                                         \
-    "contact: {law: hertz_mindlin, reference_velocity: 1e-4 m/s}\n"                                                    \
-    "boundary: {every: 100}\n"                                                                                         \
-    "stages:\n"                                                                                                        \
-    "  - {stage: prepare, aspect_ratio: 1}\n"                                                                          \
-    "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 0.2}\n"                                                 \
-    "  - {stage: compress, strain: 0.2 %, rate: 0.2 1/s}\n"
+#define DISCS SMALL_DISCS("40", "0.2")
 
 static const char *const discs[][3] = {
     {"boundary.lateral=pressure"},
@@ -34,17 +27,6 @@ static const char *const discs[][3] = {
     "  - {stage: prepare, method: cubic, aspect_ratio: 1}\n"                                                           \
     "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 0.2}\n"                                                 \
     "  - {stage: compress, strain: 0.2 %, rate: 1 1/s}\n"
-
-/// In a box of the case, under gravity.
-#define POUR                                                                                                           \
-    "gravity: [0, -9.81]\n"                                                                                            \
-    "particles: {material: quartz, count: 30, radius_min: 0.5 mm, radius_max: 1 mm}\n"                                 \
-    "measure: {samples: 20, cells: no}\n"                                                                              \
-    "walls:\n"                                                                                                         \
-    "  - {shape: plane, point: [0, -1 mm], normal: [0, 1]}\n"                                                          \
-    "stages:\n"                                                                                                        \
-    "  - {stage: prepare, method: gas, velocity: 20 mm/s}\n"                                                           \
-    "  - {stage: relax, duration: 30 ms}\n"
 
 typedef struct outcome {
     uint64_t checksum;
@@ -70,8 +52,8 @@ static outcome run_case(const char *materials, const char *rest, const char *con
 /// The same bits with the other material first and last, and none.
 static void expect_no_part(const char *rest, const char *const *overrides, size_t count)
 {
-    outcome alone = run_case(QUARTZ, rest, overrides, count), with;
-    const char *const materials[] = {UNUSED QUARTZ, QUARTZ UNUSED};
+    outcome alone = run_case(SMALL_QUARTZ, rest, overrides, count), with;
+    const char *const materials[] = {UNUSED SMALL_QUARTZ, SMALL_QUARTZ UNUSED};
     for (int k = 0; k < 2; k++) {
         with = run_case(materials[k], rest, overrides, count);
         assert_true(with.step == alone.step && with.critical == alone.critical);
@@ -95,14 +77,15 @@ static void spheres_and_walls(void **unused)
 {
     (void)unused;
     expect_no_part(SPHERES, NULL, 0);
-    expect_no_part(POUR, NULL, 0);
+    expect_no_part(SMALL_POUR, NULL, 0);
 }
 
 /// What `scree check` says of a case comes from the particles' material too.
 static void estimates(void **unused)
 {
     (void)unused;
-    const char *const text[] = {"scree: 1\nmaterials:\n" QUARTZ DISCS, "scree: 1\nmaterials:\n" UNUSED QUARTZ DISCS};
+    const char *const text[] = {"scree: 1\nmaterials:\n" SMALL_QUARTZ DISCS,
+                                "scree: 1\nmaterials:\n" UNUSED SMALL_QUARTZ DISCS};
     scree_case_summary summary[2];
     scree_error error;
     for (int k = 0; k < 2; k++) {

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "search/tetrahedra.h"
+#include "state/plates.h"
 #include "view/cell_section.h"
 #include "view/chart.h"
 #include "view/colour.h"

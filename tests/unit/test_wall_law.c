@@ -1,6 +1,8 @@
 /// The forces of contacts with the walls of a case: against the built-in walls, and against the closed form of law
 /// hertz_brilliantov on cones and on boxes, in 2D and 3D; and what 2D refuses.
 #include "run_fixture.h"
+#include "state/case_walls.h"
+#include "state/plates.h"
 #include "wall_fixture.h"
 
 static const double R = 1e-3;
@@ -49,8 +51,8 @@ static void throw(int dimension, law_choice law, bool built_in, double seen[STEP
         }
     }
     world_start(&w, dimension, law, SCREE_SLOT_velocity_verlet, 1, dt);
-    w.f.state.surface_moving = !built_in;
-    scree_wall *wall = &w.f.state.wall[SCREE_WALL_BOTTOM];
+    scree_case_walls(&w.f.state)->moving = !built_in;
+    scree_wall *wall = &scree_plates(&w.f.state)[SCREE_WALL_BOTTOM];
     *wall = (scree_wall){.position = 0.013, .velocity = towards, .active = built_in};
     memcpy(wall->normal, n, sizeof wall->normal);
     memcpy(wall->tangential_velocity, drag, sizeof drag);
@@ -66,7 +68,8 @@ static void throw(int dimension, law_choice law, bool built_in, double seen[STEP
         scree_body_motion(&w.f.state, 0, speed, turning);
         double *value = seen[step], on_wall[3];
         for (int k = 0; k < 3; k++)
-            on_wall[k] = built_in ? wall->shear[k] - wall->force * n[k] : w.f.state.surface[0].force[k];
+            on_wall[k] =
+                built_in ? wall->shear[k] - wall->force * n[k] : scree_case_walls(&w.f.state)->load[0].force[k];
         const double *const all[] = {force, torque, at, speed, turning, on_wall};
         for (int k = 0; k < VALUES; k++) value[k] = all[k / 3][k % 3];
     }
@@ -107,7 +110,7 @@ static void expected_force(const world *w, const double place[3], const double v
     const double *number = w->f.model.law.number;
     const double d = R - distance, arm = R - 0.5 * d;
     double lever[3], turning[3], rolling[3], u[3], slip[3], speed = 0;
-    double time = (double)w->f.state.surface_ticks * w->f.state.tick;
+    double time = (double)scree_case_walls(&w->f.state)->ticks * w->f.state.tick;
     for (int k = 0; k < 3; k++) lever[k] = place[k] - arm * normal[k] - wall->centre[k] - wall->velocity[k] * time;
     scree_cross(wall->spin, lever, turning);
     for (int k = 0; k < 3; k++) lever[k] = -arm * normal[k];
@@ -147,7 +150,7 @@ static void check_contact(world *w, const double foot[3], const double normal[3]
         for (int k = 0; k < 3; k++) {
             assert_near(found[k], force[k], 1e-9 * size);
             assert_near(turned[k], torque[k], 1e-9 * size * R);
-            assert_near(w->f.state.surface[0].force[k], -force[k], 1e-9 * size);
+            assert_near(scree_case_walls(&w->f.state)->load[0].force[k], -force[k], 1e-9 * size);
         }
     }
 }
@@ -180,7 +183,7 @@ static void make_cone(world *w, double radius_start, double radius_end, scree_si
         wall->spin[k] = 7 * AXIS[k];
     }
     world_start(w, 3, HERTZ_BRILLIANTOV, SCREE_SLOT_velocity_verlet, 1, 1e-7);
-    w->f.state.surface_moving = 1;
+    scree_case_walls(&w->f.state)->moving = 1;
 }
 
 /// The closest point (s, r) of the cone and the direction from it, in the half-plane.
@@ -376,7 +379,7 @@ static void rigid_motion_meets_no_resistance(void **unused)
             memcpy(wall->spin, spin, sizeof spin);
             world_start(&w, dimension, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-7);
             sphere_resist_turning(&w.f);
-            w.f.state.surface_moving = 1;
+            scree_case_walls(&w.f.state)->moving = 1;
             w.f.state.step_size = 0; // finite steps: test_rigid_motion.c
             scree_cross(spin, place, velocity);
             // The contact point of a body at rest moves with the wall when its centre does, with the lever between.
@@ -410,13 +413,14 @@ static void make_square(world *w, scree_side side)
     wall->spin[2] = 11;
     wall->velocity[1] = 0.07;
     world_start(w, 2, HERTZ_BRILLIANTOV, SCREE_SLOT_velocity_verlet, 1, 1e-3);
-    w->f.state.surface_moving = 1;
+    scree_case_walls(&w->f.state)->moving = 1;
 }
 
 /// A point of the square and the direction from it, given in its own frame.
 static void check_square_at(world *w, double x, double y, double direction_x, double direction_y)
 {
-    double time = (double)w->f.state.surface_ticks * w->f.state.tick, size = hypot(direction_x, direction_y);
+    double time = (double)scree_case_walls(&w->f.state)->ticks * w->f.state.tick,
+           size = hypot(direction_x, direction_y);
     double cosine = cos(11 * time), sine = sin(11 * time), lever = x - 0.002;
     const double foot[3] = {0.002 + cosine * lever - sine * y, 0.07 * time + sine * lever + cosine * y, 0};
     const double normal[3] = {(cosine * direction_x - sine * direction_y) / size,
@@ -431,7 +435,7 @@ static void squares_touch_discs(void **unused)
     world w = {0};
     make_square(&w, SCREE_SIDE_OUTSIDE);
     for (int turned = 0; turned < 2; turned++) {
-        w.f.state.surface_ticks = turned ? 50 : 0;
+        scree_case_walls(&w.f.state)->ticks = turned ? 50 : 0;
         check_square_at(&w, 0.3 * H, H, 0, 1);
         check_square_at(&w, 0.3 * H, -H, 0, -1);
         check_square_at(&w, -H, 0.1 * H, -1, 0);
@@ -442,13 +446,13 @@ static void squares_touch_discs(void **unused)
     world_close(&w);
     make_square(&w, SCREE_SIDE_INSIDE);
     for (int turned = 0; turned < 2; turned++) {
-        w.f.state.surface_ticks = turned ? 50 : 0;
+        scree_case_walls(&w.f.state)->ticks = turned ? 50 : 0;
         check_square_at(&w, 0.3 * H, H, 0, -1);
         check_square_at(&w, -H, 0.1 * H, 1, 0);
     }
     // In a corner both sides push.
     const double corner[3] = {0.99 * R - H, 0.99 * R - H, 0}, still[3] = {0};
-    w.f.state.surface_ticks = 0;
+    scree_case_walls(&w.f.state)->ticks = 0;
     put(&w, corner, still, still);
     world_forces(&w);
     assert_int_equal(w.f.state.sum[0].contacts, 2);

@@ -1,5 +1,6 @@
 /// Whole runs among walls of a case: threads, lost work, restart, power balance, messages.
 #include "run_fixture.h"
+#include "state/case_walls.h"
 #include "wall_fixture.h"
 
 #include "io_scratch.h"
@@ -89,7 +90,7 @@ static uint64_t run_some(scree_simulation *begin, int threads, uint64_t discard)
         simulation_step(&s);
         if (discard > 0 && simulation_last_steps(&s) == discard) simulation_lose_work(&s, threads);
     }
-    assert_true(s.state.surface[1].work > 0 && s.state.surface[0].work == 0);
+    assert_true(scree_case_walls(&s.state)->load[1].work > 0 && scree_case_walls(&s.state)->load[0].work == 0);
     return simulation_close(&s);
 }
 
@@ -152,7 +153,7 @@ static void test_power(void **state)
         for (int i = 0; i < 3; i++) sum[i] += all[i] - s.state.row[k].mass * s.model.gravity[i];
     }
     for (int w = 0; w < 3; w++)
-        for (int i = 0; i < 3; i++) force[i] += s.state.surface[w].force[i];
+        for (int i = 0; i < 3; i++) force[i] += scree_case_walls(&s.state)->load[w].force[i];
     double scale = fabs(sum[2]) + 1e-3;
     for (int i = 0; i < 3; i++) assert_near(force[i], -sum[i], 1e-12 * scale);
     scree_simulation_close(&s);

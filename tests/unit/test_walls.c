@@ -1,4 +1,5 @@
 /// Contacts with the walls of a case against closed forms.
+#include "state/case_walls.h"
 #include "wall_fixture.h"
 
 static const double R = 1e-3, G = 10;
@@ -63,7 +64,7 @@ static void check_rest(world *w, double x, double y, double z, double above)
     put(w, x, y, z + above - 0.5 * d);
     world_begin(w);
     world_run(w, 20000);
-    const scree_surface_load *load = &w->f.state.surface[0];
+    const scree_surface_load *load = &scree_case_walls(&w->f.state)->load[0];
     // Oscillations have died out to exp(-damping rate x time); what is left is round-off of positions over d, 1e-9.
     assert_near(load->force[2], -weight, 1e-7 * weight);
     assert_near(load->force[0], 0, 1e-7 * weight);
@@ -344,7 +345,7 @@ static void test_moving_wall(void **state)
         wall->velocity[0] = 0.02; // drags, too
         char *file = wall->file;
         world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 2e-7);
-        w.f.state.surface_moving = 1;
+        scree_case_walls(&w.f.state)->moving = 1;
         put(&w, 0.001, 0.002, R + 1e-6);
         world_begin(&w);
         world_run(&w, 4000);
@@ -352,7 +353,7 @@ static void test_moving_wall(void **state)
         assert_int_equal(w.f.state.sum[0].contacts, 0);
         assert_true(w.f.state.row[0].vz > 0.05 && w.f.state.row[0].vz < 0.1);
         scree_energy energy = world_energy(&w, NULL);
-        double work = w.f.state.surface[0].work;
+        double work = scree_case_walls(&w.f.state)->load[0].work;
         assert_near(work, w.f.state.ledger.plates, 1e-15 * work);
         // Momentum that it got times the velocity of the wall; quanta.
         double mass = w.f.state.row[0].mass;
@@ -373,14 +374,14 @@ static void test_spinning_drum(void **state)
     wall->start[1] = -0.02, wall->end[1] = 0.02, wall->radius = 0.01;
     wall->spin[1] = 3;
     world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 2e-7);
-    w.f.state.surface_moving = 1;
+    scree_case_walls(&w.f.state)->moving = 1;
     put(&w, 0, 0, -0.01 + R - 1e-6);
     world_begin(&w);
     double momentum = 0;
     for (int k = 0; k < 5000; k++) {
-        double before = w.f.state.surface[0].torque[1];
+        double before = scree_case_walls(&w.f.state)->load[0].torque[1];
         world_step(&w);
-        momentum -= 0.5 * w.f.state.step_size * (before + w.f.state.surface[0].torque[1]);
+        momentum -= 0.5 * w.f.state.step_size * (before + scree_case_walls(&w.f.state)->load[0].torque[1]);
     }
     const scree_row *row = &w.f.state.row[0];
     double spin = 0.4 * row->mass * R * R * w.f.state.turn[0].wy;
@@ -388,7 +389,7 @@ static void test_spinning_drum(void **state)
     // The trapezoid of the torque over steps of 2e-7 s.
     assert_near(momentum, spin + orbit, 1e-4 * fabs(spin + orbit));
     assert_true(fabs(momentum) > 0);
-    assert_near(w.f.state.surface[0].work, 3 * momentum, 1e-9 * fabs(3 * momentum));
+    assert_near(scree_case_walls(&w.f.state)->load[0].work, 3 * momentum, 1e-9 * fabs(3 * momentum));
     // A drum that turns about its axis is nowhere else: no neighbour list is built for it.
     assert_true(scree_container_way(w.f.work.container, 1, R) == 0);
     scree_energy energy = world_energy(&w, NULL);
@@ -418,7 +419,7 @@ static void test_faceted_drum(void **state)
     wall->spin[1] = -5;
     world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 2e-6);
     set_gravity(&w, 0, 0, -G);
-    w.f.state.surface_moving = 1;
+    scree_case_walls(&w.f.state)->moving = 1;
     put(&w, 0, 0.001, -0.01 * cos(M_PI / PIECES) + R - world_rest(&w, R, G));
     world_begin(&w);
     size_t most = 0, contacts = 0;

@@ -3,6 +3,7 @@
 #define SCREE_TESTS_WALL_FIXTURE_H
 
 #include "sphere_fixture.h"
+#include "state/case_walls.h"
 
 #include "measure/measure.h"
 #include "search/neighbours.h"
@@ -85,7 +86,7 @@ static inline void world_begin(world *w)
     scree_contact_table table = {0};
     world_forces(w);
     w->f.state.ledger = (scree_ledger){0};
-    w->f.state.surface[0].work = 0;
+    scree_case_walls(&w->f.state)->load[0].work = 0;
     assert_int_equal(scree_contact_table_build(&w->f.model, &w->f.state, &w->f.work, &table, &error), SCREE_OK);
     scree_energy_measure(&w->f.model, &w->f.state, &table, &energy);
     scree_contact_table_destroy(&table);
@@ -100,7 +101,7 @@ static inline void world_step(world *w)
     const scree_integrator *scheme = scree_integrator_get(f->model.scheme);
     scheme->first(&f->model, &f->state, &f->work);
     f->state.step++;
-    if (f->state.surface_moving) f->state.surface_ticks++;
+    if (scree_case_walls(&f->state)->moving) scree_case_walls(&f->state)->ticks++;
     world_forces(w);
     if (scheme->second) scheme->second(&f->model, &f->state, &f->work);
 }

@@ -4,7 +4,7 @@
 ///     - 1/2 (T(n) + T(n+1)) . w(n+1/2) dt
 /// by the trapezoidal rule of all forces (measure/energy.c). The rotation of the body itself is part of what is
 /// prescribed: its energy is not in the balance while it is forced. Cost: none without such a body.
-#include "boundary/forced_spin.h"
+#include "integrate/forced_spin.h"
 
 #include "base/fixed.h"
 
@@ -19,21 +19,21 @@ void scree_forced_spin_begin(scree_state *state, uint32_t id)
 {
     scree_forced_spin_end(state);
     state->ledger.forced -= rotation_energy(state, state->row_of_id[id]);
-    state->forced = (scree_forced_spin){.active = 1, .id = id};
+    *scree_forced(state) = (scree_forced_spin){.active = 1, .id = id};
     scree_forced_spin_settle(state);
 }
 
 void scree_forced_spin_end(scree_state *state)
 {
-    if (!state->forced.active) return;
-    state->ledger.forced += rotation_energy(state, state->row_of_id[state->forced.id]);
-    state->forced = (scree_forced_spin){0};
+    if (!scree_forced(state)->active) return;
+    state->ledger.forced += rotation_energy(state, state->row_of_id[scree_forced(state)->id]);
+    *scree_forced(state) = (scree_forced_spin){0};
 }
 
 void scree_forced_spin_set(scree_state *state, const scree_vector spin)
 {
-    size_t row = state->row_of_id[state->forced.id];
-    for (int i = 0; i < 3; i++) state->forced.spin[i] = spin[i];
+    size_t row = state->row_of_id[scree_forced(state)->id];
+    for (int i = 0; i < 3; i++) scree_forced(state)->spin[i] = spin[i];
     if (state->dimension == 2) {
         state->row[row].spin = spin[2];
         return;
@@ -53,7 +53,7 @@ static double take(int64_t *sum, double quantum)
 
 void scree_forced_spin_settle(scree_state *state)
 {
-    scree_forced_spin *forced = &state->forced;
+    scree_forced_spin *forced = scree_forced(state);
     if (!forced->active) return;
     size_t row = state->row_of_id[forced->id];
     scree_vector torque = {0};
@@ -72,3 +72,39 @@ void scree_forced_spin_settle(scree_state *state)
     state->ledger.forced += work;
     state->ledger.turnover += fabs(work);
 }
+
+typedef scree_forced_spin own;
+
+#define ONE(member, type, components, unit, meaning, ...)                                                              \
+    SCREE_FIELD_ONE(forced_spin, own, member, "forced/" #member, type, components, unit, meaning, __VA_ARGS__)
+static const scree_field fields[] = {
+    ONE(id, SCREE_FIELD_INT64, 1, "1", "body whose spin is prescribed", SCREE_RANGE_TO(SCREE_LIMIT_LAST_BODY)),
+    ONE(active, SCREE_FIELD_INT64, 1, "1", "0: there is none", SCREE_RANGE(0, 1)),
+    ONE(spin, SCREE_FIELD_DOUBLE, 3, "rad/s", "its spin"),
+    ONE(torque, SCREE_FIELD_DOUBLE, 3, "N m", "torque of its contacts on it"),
+};
+
+static bool in_use(const scree_context *c)
+{
+    return scree_forced(c->state)->active != 0;
+}
+
+static scree_status settle(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    scree_forced_spin_settle(c->state);
+    return SCREE_OK;
+}
+
+static const scree_pass passes[] = {{SCREE_PHASE_LOADS, settle}};
+
+const scree_module scree_module_forced_spin = {
+    .name = "forced_spin",
+    .meaning = "a body whose spin is prescribed",
+    .state_size = sizeof(own),
+    .fields = fields,
+    .field_count = sizeof fields / sizeof *fields,
+    .passes = passes,
+    .pass_count = 1,
+    .in_use = in_use,
+};

@@ -1,0 +1,83 @@
+/// The Delaunay boundary of the sample: the loop of 2D, the hull of 3D, and the strain accumulated from them. Measures
+/// read it; boundary/pressure.c and boundary/hull.c find it anew and press on it.
+#ifndef SCREE_MEASURE_DELAUNAY_BOUNDARY_H
+#define SCREE_MEASURE_DELAUNAY_BOUNDARY_H
+
+#include "state/pressure.h"
+#include "state/state.h"
+
+/// Closed loop of bodies on the outer Delaunay boundary, counter-clockwise, by id; empty when there is none.
+typedef struct scree_loop {
+    uint32_t *id;
+    uint8_t *loaded; ///< 1: the edge from id[k] to id[k+1] carries the lateral pressure
+    double *x, *y;   ///< m, positions at `updated`; the strain increment since then is measured from them
+    double *fx,
+        *fy; ///< N, pressure force on each body of the loop at the present step (first half of the next work increment)
+    size_t count, capacity;
+    uint64_t updated; ///< step of the last update
+} scree_loop;
+
+/// What a triangle of the hull carries.
+typedef enum scree_hull_load {
+    SCREE_HULL_BARE = 0,    ///< nothing
+    SCREE_HULL_LOADED = 1,  ///< the lateral pressure
+    SCREE_HULL_ON_WALL = 2, ///< faces a plate: this value plus the index of the wall
+} scree_hull_load;
+
+/// 3D: triangulated hull of the assembly, closed, normals outward; empty when there is none. The counterpart of
+/// scree_loop in 2D.
+typedef struct scree_hull {
+    uint32_t *id;            ///< node_count, ids of the bodies on it, ascending
+    scree_vector *place;     ///< node_count, m, positions at `updated`
+    scree_vector *force;     ///< node_count, N, force of the boundary at the present step
+    uint32_t (*triangle)[3]; ///< triangle_count, nodes; counter-clockwise seen from outside
+    uint8_t *loaded;         ///< triangle_count, scree_hull_load
+    size_t node_count, node_capacity;
+    size_t triangle_count, triangle_capacity;
+    uint64_t updated; ///< step of the last update
+} scree_hull;
+
+/// Strain accumulated from the Delaunay boundary (Bagi), see measure/strain.h; compression is NEGATIVE here (tensor).
+typedef struct scree_strain {
+    double gradient[9]; ///< accumulated displacement gradient, row-major (d u_row / d x_column)
+    double redetected;  ///< 1, sum of log (enclosed volume after / before) over the re-detections of the boundary
+} scree_strain;
+
+/// State of the module `delaunay_boundary`.
+typedef struct scree_delaunay_boundary {
+    scree_loop loop; ///< 2D
+    scree_hull hull; ///< 3D
+    scree_strain strain;
+    double taken_over; ///< 1, fraction of the time passed in which a membrane takes the pressure over; 0 without one
+} scree_delaunay_boundary;
+
+extern const scree_group scree_loop_group, scree_hull_nodes, scree_hull_triangles;
+
+static inline scree_delaunay_boundary *scree_delaunay_boundary_of(const scree_state *state)
+{
+    return state->own[SCREE_SLOT_delaunay_boundary];
+}
+
+static inline scree_loop *scree_loop_of(const scree_state *state)
+{
+    return &scree_delaunay_boundary_of(state)->loop;
+}
+
+static inline scree_hull *scree_hull_of(const scree_state *state)
+{
+    return &scree_delaunay_boundary_of(state)->hull;
+}
+
+static inline scree_strain *scree_strain_of(const scree_state *state)
+{
+    return &scree_delaunay_boundary_of(state)->strain;
+}
+
+/// Pressure [Pa] that acts on the Delaunay boundary itself; a membrane takes it over smoothly.
+static inline double scree_direct_pressure(const scree_state *state)
+{
+    double share = scree_delaunay_boundary_of(state)->taken_over;
+    return scree_pressure_now(state) * (1 - share * share * (3 - 2 * share));
+}
+
+#endif

@@ -1,0 +1,62 @@
+/// The walls of a case as a module: what is stored of them, and their time.
+#include "state/case_walls.h"
+
+#include "base/checksum.h"
+#include "state/work.h"
+
+#include <float.h>
+
+typedef scree_case_wall_set own;
+
+#define WALL(member, components, unit, meaning)                                                                        \
+    SCREE_FIELD_FIXED(case_walls, own, load, SCREE_SURFACES, scree_surface_load, member, "case_walls/" #member,        \
+                      SCREE_FIELD_DOUBLE, components, unit, meaning, .snapshot = true)
+#define ONE(...) SCREE_FIELD_ONE(case_walls, own, __VA_ARGS__)
+static const scree_field fields[] = {
+    WALL(force, 3, "N", "force of the bodies on each wall of the case"),
+    WALL(torque, 3, "N m", "torque of the bodies on each wall of the case, about its centre"),
+    WALL(work, 1, "J", "work of each wall of the case on the bodies"),
+    ONE(ticks, "scalars/surface_ticks", SCREE_FIELD_UINT64, 1, "1",
+        "ticks for which the walls of the case have been moving", SCREE_RANGE_TO(SCREE_LIMIT_STEP)),
+    ONE(moving, "scalars/surface_moving", SCREE_FIELD_UINT64, 1, "1", "1: the walls of the case move now",
+        SCREE_RANGE(0, 1)),
+    ONE(speed, "scalars/surface_speed", SCREE_FIELD_DOUBLE, 1, "m/s", "bound of the velocity of the walls of the case",
+        SCREE_RANGE(0, DBL_MAX)),
+};
+
+static uint64_t checksum(const scree_model *model, const scree_state *state, uint64_t c)
+{
+    const scree_case_wall_set *walls = scree_case_walls(state);
+    double time = (double)walls->ticks * state->tick;
+    for (int64_t w = 0; w < model->config->wall_count; w++) {
+        const scree_config_wall *wall = &model->config->walls[w];
+        for (int k = 0; k < 3; k++) {
+            c = scree_checksum_number(c, wall->centre[k] + wall->velocity[k] * time);
+            c = scree_checksum_number(c, wall->spin[k] * time);
+            c = scree_checksum_number(c, walls->moving ? wall->velocity[k] : 0);
+            c = scree_checksum_number(c, walls->moving ? wall->spin[k] : 0);
+        }
+    }
+    return c;
+}
+
+static scree_status follow(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    scree_case_wall_set *walls = scree_case_walls(c->state);
+    if (walls->moving) walls->ticks += c->work->ticks;
+    return SCREE_OK;
+}
+
+static const scree_pass passes[] = {{SCREE_PHASE_FOLLOW, follow}};
+
+const scree_module scree_module_case_walls = {
+    .name = "case_walls",
+    .meaning = "the walls of the case: how far they have moved, and what the bodies do to them",
+    .state_size = sizeof(own),
+    .fields = fields,
+    .field_count = sizeof fields / sizeof *fields,
+    .checksum = checksum,
+    .passes = passes,
+    .pass_count = 1,
+};

@@ -1,0 +1,28 @@
+/// The walls of a case in a run: whether they move, and what the bodies do to them. Their geometry is in
+/// shape/container.h.
+#ifndef SCREE_STATE_CASE_WALLS_H
+#define SCREE_STATE_CASE_WALLS_H
+
+#include "state/state.h"
+
+/// What the bodies do to a wall of the case.
+typedef struct scree_surface_load {
+    scree_vector force;  ///< N, by the bodies on the wall at n
+    scree_vector torque; ///< N m, the same about its centre at n
+    double work;         ///< J, of the wall on the bodies since the begin of the run
+} scree_surface_load;
+
+/// State of the module `case_walls`.
+typedef struct scree_case_wall_set {
+    scree_surface_load load[SCREE_SURFACES]; ///< in the order of the case
+    uint64_t ticks;                          ///< for which they have been moving
+    uint64_t moving;                         ///< 1: they move now
+    double speed;                            ///< m/s, bound of their velocity now
+} scree_case_wall_set;
+
+static inline scree_case_wall_set *scree_case_walls(const scree_state *state)
+{
+    return state->own[SCREE_SLOT_case_walls];
+}
+
+#endif
