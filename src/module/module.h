@@ -28,6 +28,7 @@ struct scree_module {
     void (*rules)(scree_reader *reader, const scree_config *config);
 
     // ---- faces: what only modules of one kind have ----
+    const struct scree_law *law;                 ///< model/law.h
     const struct scree_integrator *integrator;   ///< module/integrator.h
     const struct scree_preparation *preparation; ///< module/preparation.h
     const struct scree_stage_numbers *numbers;   ///< module/stage.h
