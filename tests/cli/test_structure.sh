@@ -25,8 +25,17 @@ for folder in src/*/; do
         fi
     done < <(grep -nHE '^#include "[a-z]+/' "$folder"*.[ch])
 done
-mapfile -t modules < <(sed -nE '/define SCREE_(BOUNDARY|CASE)_MODULES/,/^$/p' src/module/table.h | grep -oE 'row\([a-z_]+\)' | sed -E 's/row\((.*)\)/\1/')
-[ ${#modules[@]} -ge 28 ] || complain "the rows of src/module/table.h were not found"
+# A law is known to its own two files, its row, and its header in contact/laws.h; else it may only be a default of the schema.
+mapfile -t laws < <(grep 'define SCREE_LAWS' src/module/table.h | grep -oE 'row\([a-z_]+\)' | sed -E 's/row\((.*)\)/\1/')
+[ ${#laws[@]} -ge 2 ] || complain "the laws of src/module/table.h were not found"
+for law in "${laws[@]}"; do
+    for own in src/contact/$law.h src/contact/$law.c; do [ -f "$own" ] || complain "law $law has no $own"; done
+    while IFS= read -r hit; do complain "${hit%%:*} knows the law $law"; done \
+        < <(find src -name '*.[ch]' ! -path "src/contact/$law.*" ! -path src/contact/laws.h ! -path src/module/table.h -exec \
+            awk -v law="$law" '{ sub(/\/\/.*/, "") } index($0, law) && !/\.standard = / { print FILENAME ":" FNR }' {} +)
+done
+mapfile -t modules < <(sed -nE '/define SCREE_(LAWS|BOUNDARY_MODULES|CASE_MODULES)/,/^$/p' src/module/table.h | grep -oE 'row\([a-z_]+\)' | sed -E 's/row\((.*)\)/\1/')
+[ ${#modules[@]} -ge 30 ] || complain "the rows of src/module/table.h were not found"
 for name in "${modules[@]}"; do
     mapfile -t owner < <(grep -rlE "scree_module_$name = \{|[A-Z]+\($name, \"" src)
     [ ${#owner[@]} -eq 1 ] || complain "module $name has ${#owner[@]} descriptors"
