@@ -1,9 +1,8 @@
 /// Reading cases: what is accepted, every kind of mistake with its message and place, --set, quick, lost memory.
-#include "law_choice.h"
-#include "own_config.h"
 #include "base/memory.h"
 #include "case/case.h"
 #include "good_case.h"
+#include "law_choice.h"
 #include "own_config.h"
 #include "run/stage_compress.h"
 #include "run/stage_confine.h"
@@ -276,7 +275,8 @@ static void overrides_may_choose(void **state)
     const char *text = good_case();
     scree_case *c = right(text, SET("contact.law=hertz_brilliantov"), false);
     assert_int_equal(c->config.contact.law, SCREE_SLOT_hertz_brilliantov);
-    assert_true(OWN(c->config.contact.own, scree_brilliantov_config, hertz_brilliantov, "contact")->damping_time == 2e-3);
+    assert_true(OWN(c->config.contact.own, scree_brilliantov_config, hertz_brilliantov, "contact")->damping_time ==
+                2e-3);
     assert_true(OWN(c->config.materials[0].own, scree_mindlin_material, hertz_mindlin, "materials")->restitution == 0);
     scree_case_free(c);
     c = right(text, SET("particles.distribution=equal", "particles.radius=2 mm"), false);
@@ -395,14 +395,15 @@ static void later_errors_find_their_place(void **state)
     scree_case_free(c);
 }
 
+static const char loaded[] = "materials: [{name: steel, young_modulus: 200 GPa, density: 7800, friction: 0.1}]\n"
+                             "particles: {material: steel, count: 10, radius_min: 1 mm, radius_max: 1 mm}\n"
+                             "stages: [{stage: prepare, method: gas}, {stage: confine, pressure: 1 kPa}, "
+                             "{stage: compress, rate: 1 1/s, strain: 1 %}]\n";
+
 /// The boundary of stage `index` of a case with these overrides, and of the stage before it, by name.
 static void assert_held_by(const char *const overrides[], int64_t index, const char *before, const char *present)
 {
-    static const char text[] = "materials: [{name: steel, young_modulus: 200 GPa, density: 7800, friction: 0.1}]\n"
-                               "particles: {material: steel, count: 10, radius_min: 1 mm, radius_max: 1 mm}\n"
-                               "stages: [{stage: prepare, method: gas}, {stage: confine, pressure: 1 kPa}, "
-                               "{stage: compress, rate: 1 1/s, strain: 1 %}]\n";
-    scree_case *c = right(text, overrides, false);
+    scree_case *c = right(loaded, overrides, false);
     const char *const names[2] = {before, present};
     for (int64_t k = 0; k < 2; k++) {
         int slot = scree_config_boundary_of(&c->config, index - 1 + k);
@@ -424,6 +425,9 @@ static void stages_have_boundaries(void **state)
     assert_held_by((const char *const[]){"stages.1.boundary=minimal", NULL}, 2, "minimal", "minimal");
     assert_held_by((const char *const[]){"boundary.periodic=xy", NULL}, 1, "periodic", "periodic");
     assert_held_by((const char *const[]){"boundary.periodic=x", NULL}, 2, "channel", "channel");
+    // Of one that was wrong nobody else says anything.
+    wrong(loaded, (const char *const[]){"integrator.scheme=two_timescales", "stages.2.boundary=foo", NULL},
+          "there is no boundary 'foo'");
 }
 
 static void nearest_names(void **state)
