@@ -157,14 +157,43 @@ static void read_list(const scope *s, const scree_key *key, scree_node *node, co
     memcpy(scree_key_block(key, s->base) + key->count_offset, &index, sizeof index);
 }
 
+/// Gives a section the block in which the structs of modules lie.
+static bool make_room(const scope *s)
+{
+    if (s->section->own_size == 0) return true;
+    void *own = scree_arena_take(s->reader->arena, s->section->own_size);
+    if (own)
+        memcpy((char *)s->base + s->section->own_offset, &own, sizeof own);
+    else
+        scree_reader_fail(s->reader, s->section->own_size);
+    return own != NULL;
+}
+
+static void leave_unread(const scope *s);
+
+/// What a key that was not read leaves: choices are wrong, and sections have room for what modules say.
+static void leave_key(const scope *s, const scree_key *key)
+{
+    const int unknown = SCREE_CHOICE_WRONG;
+    if (key->type == SCREE_KEY_SECTION) {
+        scope inner = {.reader = s->reader, .section = key->sections, .base = scree_key_member(key, s->base)};
+        leave_unread(&inner);
+    }
+    for (; key && key->type == SCREE_KEY_CHOICE; key = key->twin)
+        memcpy(scree_key_member(key, s->base), &unknown, sizeof unknown);
+}
+
+/// A section that could not be read, which has been noted.
+static void leave_unread(const scope *s)
+{
+    if (!make_room(s)) return;
+    for (size_t i = 0; i < s->section->count; i++) leave_key(s, &s->section->keys[i]);
+}
+
 /// A section, whether the case has it or not: its defaults count either way.
 static void read_inner_section(const scope *s, const scree_key *key, scree_node *node, const char *path)
 {
     bool empty = !node || (node->kind == SCREE_NODE_SCALAR && !node->text[0]);
-    if (!empty && node->kind != SCREE_NODE_MAPPING) {
-        scree_problem_add(s->reader, node->place, path, node->text, NULL, "expected %s", scree_key_noun(key));
-        return;
-    }
     scope inner = {s->reader,
                    key->sections,
                    NULL,
@@ -172,7 +201,12 @@ static void read_inner_section(const scope *s, const scree_key *key, scree_node 
                    node ? node->key_place : s->place,
                    path,
                    scree_key_member(key, s->base)};
-    read_section(&inner);
+    if (empty || node->kind == SCREE_NODE_MAPPING) {
+        read_section(&inner);
+        return;
+    }
+    scree_problem_add(s->reader, node->place, path, node->text, NULL, "expected %s", scree_key_noun(key));
+    leave_unread(&inner);
 }
 
 static void read_key(const scope *s, const scree_key *key)
@@ -195,18 +229,6 @@ static void read_key(const scope *s, const scree_key *key)
         scree_value_store(s->reader, key, child, path, s->base);
 }
 
-/// Gives a section the block in which the structs of modules lie.
-static bool make_room(const scope *s)
-{
-    if (s->section->own_size == 0) return true;
-    void *own = scree_arena_take(s->reader->arena, s->section->own_size);
-    if (own)
-        memcpy((char *)s->base + s->section->own_offset, &own, sizeof own);
-    else
-        scree_reader_fail(s->reader, s->section->own_size);
-    return own != NULL;
-}
-
 static void read_section(const scope *s)
 {
     if (!make_room(s)) return;
@@ -216,11 +238,10 @@ static void read_section(const scope *s)
     for (size_t i = 0; i < s->section->count; i++) {
         const scree_key *key = &s->section->keys[i];
         bool misspelt = meant >> i & 1 && !scree_node_find(s->mapping, key->name);
-        const int unknown = SCREE_CHOICE_WRONG;
-        if (!misspelt)
+        if (misspelt)
+            leave_key(s, key);
+        else
             read_key(s, key);
-        else if (key->type == SCREE_KEY_CHOICE)
-            memcpy(scree_key_member(key, s->base), &unknown, sizeof unknown);
     }
 }
 

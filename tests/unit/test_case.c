@@ -414,6 +414,22 @@ static void assert_held_by(const char *const overrides[], int64_t index, const c
     scree_case_free(c);
 }
 
+/// A section that is none or misspelt is one problem, also where modules have keys in it.
+static void sections_are_no_values(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"contact", "integrator", "boundary", "measure", "output", "guard"};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        char text[600], expected[80];
+        (void)snprintf(text, sizeof text, "%s%s: 5\n", loaded, names[k]);
+        (void)snprintf(expected, sizeof expected, "%s: expected a section", names[k]);
+        wrong(text, NULL, expected);
+        (void)snprintf(text, sizeof text, "%s%c%s: {}\n", loaded, names[k][0], &names[k][2]);
+        (void)snprintf(expected, sizeof expected, "did you mean '%s'?", names[k]);
+        wrong(text, NULL, expected);
+    }
+}
+
 /// What the case leaves no choice of, then what a stage or one before it chooses, then `lateral`.
 static void stages_have_boundaries(void **state)
 {
@@ -506,6 +522,7 @@ int main(void)
         cmocka_unit_test(many_problems_are_counted),
         cmocka_unit_test(later_errors_find_their_place),
         cmocka_unit_test(stages_have_boundaries),
+        cmocka_unit_test(sections_are_no_values),
         cmocka_unit_test(nearest_names),
         cmocka_unit_test(lost_memory_is_survived),
     };
