@@ -6,21 +6,13 @@
 #ifndef SCREE_MODULE_FIELD_H
 #define SCREE_MODULE_FIELD_H
 
+#include <scree/view.h>
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
 typedef struct scree_module scree_module;
-
-typedef enum scree_field_type {
-    SCREE_FIELD_DOUBLE,
-    SCREE_FIELD_INT64,
-    SCREE_FIELD_UINT64,
-    SCREE_FIELD_FLOAT,
-    SCREE_FIELD_INT32,
-    SCREE_FIELD_UINT32,
-    SCREE_FIELD_UINT8
-} scree_field_type;
 
 typedef enum scree_field_role {
     SCREE_FIELD_STATE,

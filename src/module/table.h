@@ -5,7 +5,7 @@
 #define SCREE_MODULE_TABLE_H
 
 #define SCREE_MODULES(row)                                                                                             \
-    row(plates) row(case_walls) row(periodic_cell) row(delaunay_boundary) row(pressure) row(imposed_gradient)          \
-        row(membrane) row(forced_spin)
+    row(plates) row(case_walls) row(periodic_cell) row(delaunay_boundary) row(pressure) row(own_force)                 \
+        row(imposed_gradient) row(membrane) row(forced_spin)
 
 #endif

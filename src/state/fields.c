@@ -121,6 +121,8 @@ static const scree_field fields[] = {
         "work of the other forces of the boundary on the bodies"),
     ONE("ledger/forced", SCREE_FIELD_DOUBLE, 1, "J", ledger.forced,
         "work of the torque that keeps a body at its prescribed spin"),
+    ONE("ledger/outside", SCREE_FIELD_DOUBLE, 1, "J", ledger.outside,
+        "work of own forces of a program that uses the library, and of its changes of bodies"),
     ONE("ledger/gravity", SCREE_FIELD_DOUBLE, 1, "J", ledger.gravity, "work of gravity on the bodies"),
     ONE("ledger/initial", SCREE_FIELD_DOUBLE, 1, "J", ledger.initial, "energy when the ledger was opened"),
     ONE("ledger/scheme", SCREE_FIELD_DOUBLE, 1, "J", ledger.scheme,

@@ -103,8 +103,8 @@ typedef struct scree_contact_memory {
 } scree_contact_memory;
 
 /// Energy ledger, J. Work is done ON the bodies; dissipation is positive. Residual of the balance:
-/// kinetic + elastic - initial - (plates + pressure + boundary + periodic + gravity) + damping + friction - stiffness -
-/// scheme: measure/energy.c.
+/// kinetic + elastic - initial - (plates + pressure + boundary + periodic + forced + outside + gravity) + damping +
+/// friction - stiffness - scheme: measure/energy.c.
 typedef struct scree_ledger {
     double damping;   ///< dissipated by contact damping, normal and tangential
     double friction;  ///< dissipated by sliding
@@ -114,6 +114,7 @@ typedef struct scree_ledger {
     double boundary;  ///< work of the other forces of the boundary: imposed rates, springs and ends of a membrane
     double periodic;  ///< work of the deforming periodic cell
     double forced;    ///< work of the torque that keeps a body at a prescribed spin
+    double outside;   ///< work from outside of the program: own forces, changes of bodies (include/scree/simulation.h)
     double gravity;   ///< sum of m g . x when the ledger was opened
     double initial;   ///< kinetic + elastic energy when the ledger was opened
     double scheme;    ///< put into the kinetic energy of the scheme by changes of its step (measure/energy.c)
