@@ -2,8 +2,8 @@
 ///
 /// Method. The forces that the next kick will use belong to the positions that there are. So after a change neighbours
 /// are searched and all forces evaluated anew by the passes of the step itself, with a step of size zero: springs are
-/// not stretched, no work is done, nothing moves. A scheme that keeps v(n - 1/2) gets it from the velocity that was
-/// asked for and the new force, v(n) - a(n) dt / 2.
+/// not stretched, no work is done, nothing moves. They see the velocities that they saw in the step, those of n - 1/2;
+/// where the scheme keeps others, these are taken back and forth by a dt / 2. What was asked for is the velocity at n.
 ///
 /// Ledger. The residual of the balance (measure/energy.c) is what the energy has changed by without work that is known;
 /// by how much it differs before and after is the work of the change. It is added to `outside`, and so closes the
@@ -156,18 +156,73 @@ static void put(scree_simulation *s, const scree_body_values *values)
     }
 }
 
-/// From velocities at n to those that the scheme keeps.
-static void shift(scree_simulation *s, const scree_body_values *values)
+/// Velocity and acceleration of a body before the change.
+typedef struct former {
+    scree_vector velocity, spin, acceleration, turning;
+} former;
+
+static void accelerations(const scree_simulation *s, size_t row, scree_vector acceleration, scree_vector turning)
+{
+    const scree_state *state = &s->state;
+    scree_body_force(&s->stage_model, state, row, acceleration, turning);
+    for (int k = 0; k < 3; k++) {
+        acceleration[k] /= state->row[row].mass;
+        turning[k] /= scree_body_inertia(state, row);
+    }
+}
+
+static void move_to(scree_state *state, size_t row, const scree_vector velocity, const scree_vector spin)
+{
+    move(state, row, velocity, state->dimension == 3 ? spin : spin + 2);
+}
+
+/// From the velocities that the scheme keeps to those of n - 1/2, with which forces are evaluated. by_id: count.
+static void step_back(scree_simulation *s, former *by_id)
 {
     scree_state *state = &s->state;
-    double back = (s->integrator->velocity_lead - 0.5) * state->step_size;
+    double back = -s->integrator->velocity_lead * state->step_size;
+    for (size_t row = 0; row < state->count; row++) {
+        former *f = &by_id[state->id[row]];
+        scree_vector velocity, spin;
+        scree_body_motion(state, row, f->velocity, f->spin);
+        accelerations(s, row, f->acceleration, f->turning);
+        scree_along(f->velocity, back, f->acceleration, velocity);
+        scree_along(f->spin, back, f->turning, spin);
+        move_to(state, row, velocity, spin);
+    }
+}
+
+/// The way back, with the new forces; where they are the old ones, to the very bits.
+static void step_forth(scree_simulation *s, const former *by_id)
+{
+    scree_state *state = &s->state;
+    double forth = s->integrator->velocity_lead * state->step_size;
+    for (size_t row = 0; row < state->count; row++) {
+        const former *f = &by_id[state->id[row]];
+        scree_vector velocity, spin, acceleration, turning;
+        accelerations(s, row, acceleration, turning);
+        for (int k = 0; k < 3; k++) {
+            velocity[k] = f->velocity[k] + forth * (acceleration[k] - f->acceleration[k]);
+            spin[k] = f->spin[k] + forth * (turning[k] - f->turning[k]);
+        }
+        move_to(state, row, velocity, spin);
+    }
+}
+
+/// Velocities that were asked for belong to n.
+static void give(scree_simulation *s, const scree_body_values *values)
+{
+    scree_state *state = &s->state;
+    const size_t dimension = (size_t)state->dimension, turns = dimension == 3 ? 3 : 1;
+    double shift = (s->integrator->velocity_lead - 0.5) * state->step_size;
     for (size_t k = 0; k < values->count; k++) {
         size_t row = state->row_of_id[values->id[k]];
-        scree_vector velocity, spin, force, torque;
-        scree_body_motion(state, row, velocity, spin);
-        scree_body_force(&s->stage_model, state, row, force, torque);
-        scree_along(velocity, back / state->row[row].mass, force, velocity);
-        scree_along(spin, back / scree_body_inertia(state, row), torque, spin);
+        scree_vector velocity = {0}, spin = {0}, acceleration, turning;
+        accelerations(s, row, acceleration, turning);
+        if (values->velocity) memcpy(velocity, values->velocity + dimension * k, dimension * sizeof *velocity);
+        if (values->spin) memcpy(spin + 3 - turns, values->spin + turns * k, turns * sizeof *spin);
+        scree_along(velocity, shift, acceleration, velocity);
+        scree_along(spin, shift, turning, spin);
         const double *turn = state->dimension == 3 ? spin : spin + 2;
         move(state, row, values->velocity ? velocity : NULL, values->spin ? turn : NULL);
     }
@@ -203,26 +258,33 @@ static void choose_size(scree_simulation *s)
     scree_energy_change_step(&s->stage_model, &s->state, 0, s->state.step_size);
 }
 
-scree_status scree_simulation_set(scree_simulation *s, const scree_body_values *values, scree_error *error)
+/// From the check of the values on nothing is refused: what fails stops the simulation.
+static scree_status change(scree_simulation *s, const scree_body_values *values, former *by_id, scree_error *error)
 {
     scree_energy before, after;
-    scree_status status = check(s, values, error);
-    if (status) return status;
     choose_size(s);
-    if ((status = measure(s, &before, error))) return status;
+    scree_status status = measure(s, &before, error);
+    if (status) return status;
+    step_back(s, by_id);
     put(s, values);
-    status = evaluate(s, &s->stopped);
-    if (!status) {
-        shift(s, values);
-        status = measure(s, &after, &s->stopped);
-    }
-    if (!status) {
-        double work = after.residual - before.residual;
-        s->state.ledger.outside += work;
-        s->state.ledger.turnover += fabs(work);
-        status = scree_guard_step(s, &s->stopped);
-    }
-    s->stopped.status = status;
+    if ((status = evaluate(s, error))) return status;
+    step_forth(s, by_id);
+    give(s, values);
+    if ((status = measure(s, &after, error))) return status;
+    double work = after.residual - before.residual;
+    s->state.ledger.outside += work;
+    s->state.ledger.turnover += fabs(work);
+    return scree_guard_step(s, error);
+}
+
+scree_status scree_simulation_set(scree_simulation *s, const scree_body_values *values, scree_error *error)
+{
+    former *by_id = NULL;
+    scree_status status = check(s, values, error);
+    if (!status) status = scree_allocate(&by_id, s->state.count, sizeof *by_id, error);
+    if (status) return status;
+    status = s->stopped.status = change(s, values, by_id, &s->stopped);
     if (status && error) *error = s->stopped;
+    scree_release(&by_id);
     return status;
 }
