@@ -39,8 +39,8 @@ SCREE_API uint64_t scree_simulation_steps(const scree_simulation *s); ///< taken
 SCREE_API double
 scree_simulation_step_size(const scree_simulation *s); ///< s, of the last step; the first one, before it
 SCREE_API size_t scree_simulation_bodies(const scree_simulation *s);
-/// Index of the present stage in the case and its name; the number of stages and NULL when the case has ended. `name`
-/// may be NULL.
+/// Index of the present stage in the case and its name there (its kind, numbered where there are several); the number
+/// of stages and NULL when the case has ended. `name` may be NULL.
 SCREE_API int64_t scree_simulation_stage(const scree_simulation *s, const char **name);
 /// Strain that the present loading stage has imposed so far [1], compression positive; NAN in others.
 SCREE_API double scree_simulation_loading_strain(const scree_simulation *s);

@@ -115,10 +115,7 @@ int64_t scree_simulation_stage(const scree_simulation *s, const char **name)
     handle_assert(s);
     if (name) *name = NULL;
     if (has_ended(s)) return s->model.config->stage_count;
-    const scree_config_stage *config = scree_stage_config(s);
-    const scree_stage *stage =
-        scree_stage_get((scree_stage_kind)config->kind, scree_model_is_wholly_periodic(&s->model));
-    if (name) *name = stage->name;
+    if (name) *name = scree_stage_config(s)->name;
     return s->state.stage.index;
 }
 

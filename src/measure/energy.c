@@ -150,9 +150,9 @@ static double energy_of_rounding(const scree_model *model, const scree_state *st
 {
     double distance = ROUNDING * DBL_EPSILON * largest;
     double weight = body[MASS] * scree_length(model->gravity), bodies = (double)state->count;
-    double stiffness = model->pairs[SCREE_PARTICLE_MATERIAL][SCREE_PARTICLE_MATERIAL].normal_stiffness;
+    const scree_pair_constants *pair = &model->pairs[SCREE_PARTICLE_MATERIAL][SCREE_PARTICLE_MATERIAL];
     return distance * (contact_force + weight) +
-           bodies * 0.4 * stiffness * sqrt(model->mean_radius) * pow(distance, 2.5) +
+           bodies * scree_model_law(model)->elastic->energy(pair, model->mean_radius, distance) +
            0.5 * DBL_EPSILON * bodies * body[MAGNITUDES];
 }
 

@@ -114,22 +114,19 @@ typedef struct scree_ledger {
     double boundary;  ///< work of the other forces of the boundary: imposed rates, springs and ends of a membrane
     double periodic;  ///< work of the deforming periodic cell
     double forced;    ///< work of the torque that keeps a body at a prescribed spin
-    double outside;   ///< work from outside of the program: own forces, changes of bodies (include/scree/simulation.h)
     double gravity;   ///< sum of m g . x when the ledger was opened
     double initial;   ///< kinetic + elastic energy when the ledger was opened
     double scheme;    ///< put into the kinetic energy of the scheme by changes of its step (measure/energy.c)
     double turnover;  ///< sum of |work| increments, the scale of the residual
+    double outside;   ///< work from outside of the program: own forces, changes of bodies (include/scree/simulation.h)
 } scree_ledger;
 
-enum { SCREE_STAGE_REFERENCES = 24 };
 typedef struct scree_stage_state {
-    int64_t index;                            ///< which stage of the case
-    uint64_t first_step;                      ///< step at which it began
-    double first_time;                        ///< s
-    uint64_t first_evaluations;               ///< state.evaluations when it began
-    double reference[SCREE_STAGE_REFERENCES]; ///< stage-specific numbers (height at start, pressure at start, ...): see
-                                              ///< the stage's file
-    int64_t samples;                          ///< rows written in this stage
+    int64_t index;              ///< which stage of the case
+    uint64_t first_step;        ///< step at which it began
+    double first_time;          ///< s
+    uint64_t first_evaluations; ///< state.evaluations when it began
+    int64_t samples;            ///< rows written in this stage
     int64_t snapshots;
     int64_t counter; ///< stage-specific
 } scree_stage_state;

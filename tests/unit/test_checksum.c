@@ -1,5 +1,6 @@
 /// The state checksum against its definition in docs/architecture.md: numbers worked out by another program from the
 /// text alone; what belongs to the physics shows, and what is bookkeeping does not.
+#include "law_choice.h"
 #include "measure/delaunay_boundary.h"
 #include "measure/imposed_gradient.h"
 #include "state/case_walls.h"
@@ -8,6 +9,7 @@
 #include "testing.h"
 
 #include "base/checksum.h"
+#include "run/loading.h"
 #include "state/state.h"
 
 #include <string.h>
@@ -26,14 +28,12 @@ static void create(sample *s, int dimension)
     s->config.walls = &s->wall;
     s->model.config = &s->config;
     s->model.dimension = dimension;
+    s->model.law.law = SCREE_SLOT_hertz_mindlin;
     s->model.material_count = 2;
     for (int m = 0; m < 2; m++) {
         s->model.density[m] = 2000 + 500 * m;
-        s->model.pairs[m][m] = (scree_pair_constants){.normal_stiffness = 1e9 + m,
-                                                      .tangential_stiffness = 2e9,
-                                                      .friction = 0.25 + 0.25 * m,
-                                                      .damping = 0.125,
-                                                      .rolling_friction = 0.0625};
+        s->model.pairs[m][m] = hertz_pair(1e9 + m, 2e9, 0.25 + 0.25 * m, 0.125);
+        s->model.pairs[m][m].value[HERTZ_ROLLING] = 0.0625;
     }
     assert_int_equal(scree_state_create(&s->state, dimension, 3, NULL), SCREE_OK);
     scree_state *state = &s->state;
@@ -72,7 +72,7 @@ static void create(sample *s, int dimension)
         .position = -9, .normal = {0, -1, 0}, .velocity = 0.75, .tangential_velocity = {1, 2, 3}, .active = 1};
     scree_plates(state)[SCREE_WALL_LEFT] = (scree_wall){.position = 5, .velocity = 6};
     for (int k = 0; k < 9; k++) scree_strain_of(state)->gradient[k] = 0.001 * k;
-    state->ledger = (scree_ledger){1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+    state->ledger = (scree_ledger){1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 0};
 }
 
 /// With a cell and a moving wall of the case.
@@ -111,6 +111,20 @@ static void the_definition_holds(void **unused)
         }
 }
 
+/// What a program did from outside is the last word, where it did something.
+static void work_from_outside_is_a_word(void **unused)
+{
+    (void)unused;
+    sample s;
+    create(&s, 2);
+    uint64_t before = checksum_of(&s);
+    s.state.ledger.outside = -0.0;
+    assert_true(checksum_of(&s) == before);
+    s.state.ledger.outside = 13;
+    assert_true(checksum_of(&s) == scree_checksum_number(before, 13));
+    scree_state_destroy(&s.state);
+}
+
 /// Bookkeeping of stages, samples, boundaries and quanta, materials that nothing is made of, signs of zeros.
 static void bookkeeping_does_not_show(void **unused)
 {
@@ -120,7 +134,8 @@ static void bookkeeping_does_not_show(void **unused)
         create(&s, dimension);
         uint64_t before = checksum_of(&s);
         scree_state *state = &s.state;
-        state->stage = (scree_stage_state){.index = 3, .samples = 4, .snapshots = 5, .counter = 6, .reference = {7}};
+        state->stage = (scree_stage_state){.index = 3, .samples = 4, .snapshots = 5, .counter = 6};
+        scree_loading_of(state)->height = 7;
         state->sampled_step = state->evaluations = 77;
         state->sampled_velocity[1][0] = state->reference[2][1] = 3;
         scree_loop_of(state)->updated = scree_hull_of(state)->updated = 9;
@@ -178,7 +193,7 @@ static void physics_shows(void **unused)
         &state->row[1].radius,
         &state->row[1].mass,
         &s.model.density[1],
-        &s.model.pairs[0][0].friction,
+        &s.model.pairs[0][0].value[SCREE_FRICTION],
         &state->contact[0].history.value[2],
         &state->rolling[2].value[3],
         &scree_plates(state)[SCREE_WALL_TOP].position,
@@ -221,6 +236,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_definition_holds),
+        cmocka_unit_test(work_from_outside_is_a_word),
         cmocka_unit_test(bookkeeping_does_not_show),
         cmocka_unit_test(rows_do_not_show),
         cmocka_unit_test(physics_shows),
