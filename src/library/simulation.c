@@ -144,6 +144,7 @@ scree_status scree_simulation_save(scree_simulation *s, const char *path, scree_
     if (!status) status = scree_case_checksum(s->c, &checksum, error);
     if (!status) status = scree_contacts_save(&s->state, &s->work, error);
     if (status) return status;
+    scree_own_loads_of(&s->state)->registered = (int64_t)s->forces.count;
     scree_hdf5_create(&file, path, error);
     scree_state_write(&file, GROUP, NULL, &s->state, checksum);
     return scree_hdf5_save(&file);

@@ -38,8 +38,7 @@ static const scree_group group = {
 
 static const scree_field fields[] = {
     SCREE_FIELD_ONE(own_force, own, registered, "own_force/registered", SCREE_FIELD_INT64, 1, "1",
-                    "number of functions of a program that added forces in the last step",
-                    SCREE_RANGE_TO(SCREE_LIMIT_MANY)),
+                    "number of functions of a program that add forces", SCREE_RANGE_TO(SCREE_LIMIT_MANY)),
     SCREE_FIELD_GROUP(own_force, own, group, force, int64_t[3], "own_force/force", SCREE_FIELD_INT64, 3, "1",
                       "their forces on each body, by id, in units of scalars/force_quantum",
                       SCREE_RANGE(-0x1p61, 0x1p61)),
@@ -142,6 +141,8 @@ static void take_half_work(scree_state *state)
     scree_integer_sum power = {0};
     while (scree_integer_sum_next(&power, 1))
         for (size_t row = 0; row < state->count; row++) {
+            // A body that has been added since had none.
+            if (state->id[row] >= sums->count) continue;
             const int64_t *force = sums->force[state->id[row]], *torque = sums->torque[state->id[row]];
             scree_vector velocity, spin;
             scree_body_motion(state, row, velocity, spin);
@@ -199,15 +200,6 @@ static double bound(const scree_context *c)
     return largest;
 }
 
-static scree_status check(const scree_state *state, const scree_model *model, scree_error *error)
-{
-    const own *sums = scree_own_loads_of(state);
-    (void)model;
-    if (sums->count == 0 || sums->count == state->count) return SCREE_OK;
-    return scree_error_set(error, SCREE_ERROR_IO, "dataset 'own_force/force': %zu rows for %zu bodies", sums->count,
-                           state->count);
-}
-
 static const scree_pass passes[] = {{SCREE_PHASE_FIRST_HALF, kicked}, {SCREE_PHASE_LOADS, load}};
 
 const scree_module scree_module_own_force = {
@@ -216,7 +208,6 @@ const scree_module scree_module_own_force = {
     .state_size = sizeof(own),
     .fields = fields,
     .field_count = sizeof fields / sizeof *fields,
-    .check = check,
     .passes = passes,
     .pass_count = sizeof passes / sizeof *passes,
     .in_use = in_use,

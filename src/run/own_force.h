@@ -18,7 +18,7 @@ void scree_own_force_list_destroy(scree_own_force_list *list);
 
 /// State of the module `own_force`: the forces of the last step, by id.
 typedef struct scree_own_loads {
-    int64_t registered; ///< functions that made them
+    int64_t registered; ///< functions that make them
     size_t count;       ///< bodies; 0: there were none
     size_t capacity;
     int64_t (*force)[3];  ///< state.force_quantum

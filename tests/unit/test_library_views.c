@@ -78,6 +78,8 @@ static void known_views_hold_what_they_say(void **unused)
     (void)unused;
     scree_case *c = case_read(SIMULATION_SMALL, NULL, 0);
     scree_simulation *s = library_create(c);
+    assert_true(library_view(s, "position").count == 0 && !library_view(s, "position").data);
+    assert_true(library_view(s, "contacts/first").count == 0);
     library_advance(s, 400);
     scree_view position = library_view(s, "position"), radius = library_view(s, "radius");
     assert_ptr_equal(position.data, &s->state.row[0].x);
