@@ -97,6 +97,12 @@ typedef struct scree_prepare_config {
     double depth;        ///< m, 3D only; auto: the width
 } scree_prepare_config;
 
+/// What acts on the bodies beside contacts and the boundary. What stands in `own` is said by the module of its kind.
+typedef struct scree_config_load {
+    int kind;  ///< slot of a module that is a load
+    void *own; ///< its struct
+} scree_config_load;
+
 /// One stage. What stands in `own` is said by the module of its kind.
 typedef struct scree_config_stage {
     int kind;        ///< slot of a module with a stage
@@ -182,6 +188,8 @@ struct scree_config {
     scree_config_boundary boundary;
     scree_config_wall *walls;
     int64_t wall_count;
+    scree_config_load *loads;
+    int64_t load_count;
     scree_config_stage *stages;
     int64_t stage_count;
     scree_config_measure measure;

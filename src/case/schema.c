@@ -151,6 +151,12 @@ static const scree_key stage_keys[] = {
            .meaning = "Friction in this stage, e.g. less while confining for a denser sample; auto: the material's."),
 };
 
+typedef scree_config_load load;
+static const scree_key load_keys[] = {
+    {.name = "load", .type = SCREE_KEY_CHOICE, .offset = offsetof(load, kind), .meaning = "Kind of the load."},
+    MODULE_KEYS,
+};
+
 typedef scree_config_measure measure;
 static const scree_key measure_keys[] = {
     INTEGER(measure, samples, .standard = "200", FROM("1"), TO("1e6"),
@@ -195,6 +201,7 @@ static const scree_section integrator_table[] = {
     OPEN_TABLE("integrator", "Motion in time.", integrator_keys, integrator)};
 static const scree_section boundary_table[] = {TABLE("boundary", "What surrounds the sample.", boundary_keys)};
 static const scree_section stage_table[] = {OPEN_TABLE("stages", "What happens.", stage_keys, stage)};
+static const scree_section load_table[] = {OPEN_TABLE("loads", "What acts on the bodies.", load_keys, load)};
 static const scree_section measure_table[] = {TABLE("measure", "What is recorded.", measure_keys)};
 static const scree_section output_table[] = {TABLE("output", "What is written, and how often.", output_keys)};
 static const scree_section guard_table[] = {TABLE("guard", "Limits that stop a run that went wrong.", guard_keys)};
@@ -235,6 +242,9 @@ static const scree_key root_keys[] = {
         .section_count = SCREE_WALL_SECTIONS, .count_offset = offsetof(scree_config, wall_count),
         .element_size = sizeof(scree_config_wall),
         .meaning = "Rigid walls beside the plates, fixed or moving; for `relax`."),
+    KEY(scree_config, loads, SCREE_KEY_LIST, .standard = "[]", FROM("0"), TO("16"), .sections = load_table,
+        .section_count = 1, .count_offset = offsetof(scree_config, load_count), .element_size = sizeof(load),
+        .meaning = "What acts on the bodies in all stages, beside contacts, boundary and gravity."),
     KEY(scree_config, stages, SCREE_KEY_LIST, FROM("1"), TO("100"), .sections = stage_table, .section_count = 1,
         .count_offset = offsetof(scree_config, stage_count), .element_size = sizeof(stage),
         .meaning = "What happens, one stage after the other."),

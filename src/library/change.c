@@ -11,7 +11,8 @@
 ///
 /// Limits. Boundaries that impose motions, membranes and periodic cells that deform divide by the step or keep
 /// velocities of the last one: refused. The strain of a Delaunay boundary takes a change of its bodies for strain.
-/// Cost: one step and two contact tables.
+/// Background damping counts the work of the half step that comes with the velocities before the change. Cost: one step
+/// and two contact tables.
 #include "library/handle.h"
 
 #include "base/matrix.h"
@@ -237,7 +238,7 @@ static scree_status evaluate(scree_simulation *s, scree_error *error)
     s->work.clear_rows = 0;
     s->state.largest_overlap = 0; // the bounds of forces count with the limit of the guard instead
     s->state.step_size = 0;
-    for (scree_phase phase = SCREE_PHASE_SEARCH; phase <= SCREE_PHASE_LOADS && !status; phase++)
+    for (scree_phase phase = SCREE_PHASE_SEARCH; phase < SCREE_PHASE_SECOND_HALF && !status; phase++)
         status = scree_step_phase(s, phase, error);
     s->state.step_size = size;
     return status;

@@ -173,6 +173,8 @@ void scree_energy_measure(const scree_model *model, const scree_state *state, co
                        (ledger->plates + ledger->pressure + ledger->boundary + ledger->periodic + ledger->forced +
                         ledger->outside + energy->gravity) +
                        ledger->damping + ledger->friction - ledger->stiffness - ledger->scheme;
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
+        if (scree_modules[m]->work) energy->residual -= scree_modules[m]->work(state);
     energy->scale = ledger->initial + ledger->turnover + fabs(energy->gravity) + stored +
                     energy_of_rounding(model, state, body, largest, contact[NORMAL_FORCE]);
     energy->relative = energy->scale > 0 ? fabs(energy->residual) / energy->scale : 0;

@@ -51,6 +51,8 @@ struct scree_module {
     /// Largest force that its loads may put on one body in this step [N], for the quanta; up to 2^10 times more is
     /// safe. NULL: none.
     double (*bound)(const scree_context *context);
+    /// Work [J] that it has done on the bodies since the begin of the run. NULL: it does none, or has a row of the ledger.
+    double (*work)(const scree_state *state);
 };
 
 #define SCREE_MODULE_DECLARE(name) extern const scree_module scree_module_##name;

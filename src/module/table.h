@@ -17,7 +17,7 @@
     SCREE_LAWS(row)                                                                                                    \
     row(position_verlet) row(velocity_verlet) row(two_timescales) row(drop_and_roll) row(hexagonal) row(square)        \
         row(face_centred) row(cubic) row(gas) row(growth) row(pair) row(bodies) row(prepare) row(confine)              \
-            row(compress) row(deform) row(rotate_particle) row(relax) row(collide)
+            row(compress) row(deform) row(rotate_particle) row(relax) row(collide) row(background_damping)
 
 #define SCREE_MODULES(row) SCREE_STATE_MODULES(row) SCREE_CASE_MODULES(row)
 
