@@ -7,7 +7,7 @@
 /// force by the same rule, so the residual
 ///     (kinetic + elastic - initial) - (plates + pressure + boundary + periodic + gravity) + damping + friction -
 ///     stiffness
-///     - scheme
+///     - scheme + removed
 /// holds no error of the integrator, only that of the trapezoidal rule along the elastic force laws: third order in the
 /// step. Work done on the bodies is positive, dissipation is positive; `stiffness` is what the change of the tangential
 /// stiffness puts into (positive) or takes out of the tangential springs.
@@ -173,8 +173,8 @@ void scree_energy_measure(const scree_model *model, const scree_state *state, co
     energy->residual =
         (stored - ledger->initial) -
         (ledger->plates + ledger->pressure + ledger->boundary + ledger->periodic + ledger->forced + energy->gravity) +
-        ledger->damping + ledger->friction - ledger->stiffness - ledger->scheme;
-    energy->scale = ledger->initial + ledger->turnover + fabs(energy->gravity) + stored +
+        ledger->damping + ledger->friction - ledger->stiffness - ledger->scheme + ledger->removed;
+    energy->scale = ledger->initial + ledger->turnover + fabs(ledger->removed) + fabs(energy->gravity) + stored +
                     energy_of_rounding(model, state, body, largest, contact[NORMAL_FORCE]);
     energy->relative = energy->scale > 0 ? fabs(energy->residual) / energy->scale : 0;
 }

@@ -243,7 +243,7 @@ scree_status scree_probe_measure(const scree_case *c, int64_t stage, scree_probe
     double begin = processor_time();
     status = stand(&small, stage, error);
     probe->preparation = processor_time() - begin;
-    probe->count = (double)small.s.state.grains;
+    probe->count = (double)scree_grain_count(&small.s.state);
     if (!status && small.c.config.stages[stage].kind == SCREE_STAGE_COLLIDE)
         probe->collision = scree_collide_expected(&small.s);
     if (!status) status = time_all(&small, probe, error);
