@@ -103,4 +103,5 @@ const scree_boundary scree_boundary_affine = {.name = "affine",
                                               .begin = scree_drive_begin,
                                               .passes = passes,
                                               .pass_count = sizeof passes / sizeof *passes,
-                                              .bound = bound};
+                                              .bound = bound,
+ SCREE_IMPOSED};

@@ -3,6 +3,7 @@
 #include "state/plates.h"
 
 #include "base/integer_sum.h"
+#include "boundary/axial_plates.h"
 #include "boundary/pressure.h"
 #include "measure/imposed_gradient.h"
 
@@ -13,14 +14,13 @@ enum {
     LATERAL = 1U << SCREE_WALL_LEFT | 1U << SCREE_WALL_RIGHT | 1U << SCREE_WALL_FRONT | 1U << SCREE_WALL_BACK
 };
 
-const scree_boundary scree_boundary_pressure = {.name = "pressure", .walls = AXIAL};
+const scree_boundary scree_boundary_pressure = {.name = "pressure", .walls = AXIAL, SCREE_AXIAL_PLATES};
 const scree_boundary scree_boundary_none = {.name = "none", .open = true};
-const scree_boundary scree_boundary_plates = {.name = "plates", .walls = AXIAL | LATERAL};
+const scree_boundary scree_boundary_plates = {.name = "plates", .walls = AXIAL | LATERAL, SCREE_AXIAL_PLATES};
 const scree_boundary scree_boundary_walls = {.name = "walls", .open = true};
 
-// A periodic cell has no walls and no forces of its own (periodic.c); a channel is periodic but for its plates.
-const scree_boundary scree_boundary_periodic = {.name = "periodic"};
-const scree_boundary scree_boundary_channel = {.name = "channel", .walls = AXIAL};
+// A channel is periodic but for its plates.
+const scree_boundary scree_boundary_channel = {.name = "channel", .walls = AXIAL, SCREE_AXIAL_PLATES};
 
 const scree_boundary *scree_boundary_get(scree_boundary_kind kind)
 {

@@ -3,6 +3,7 @@
 #ifndef SCREE_BOUNDARY_DRIVE_H
 #define SCREE_BOUNDARY_DRIVE_H
 
+#include "boundary/boundary.h"
 #include "measure/imposed_gradient.h"
 #include "state/work.h"
 
@@ -36,5 +37,16 @@ double scree_drive_take_ratio(scree_state *state);
 /// Forces f = stress . a on all nodes, whose integers add up to zero exactly (facets.h; drive.c tells how), added to
 /// the sums and to drive.force. stress [Pa], tension positive. quantum: that of the present step.
 void scree_drive_apply_stress(const scree_model *model, scree_state *state, const double stress[9]);
+
+/// What stages ask of a boundary that imposes a velocity gradient (imposed_control.c).
+double scree_imposed_wave_time(const scree_context *context, double pressure);
+void scree_imposed_fit(const scree_context *context, double pressure);
+void scree_imposed_compress(const scree_context *context, const scree_compression *compression);
+void scree_imposed_deform(const scree_context *context, const scree_demand *demand, double rise);
+
+/// The members of such a boundary.
+#define SCREE_IMPOSED                                                                                                  \
+    .wave_time = scree_imposed_wave_time, .fit = scree_imposed_fit, .compress = scree_imposed_compress,                \
+    .deform = scree_imposed_deform, .patience = 400
 
 #endif

@@ -29,7 +29,7 @@
 
 #include "base/fixed.h"
 #include "base/integer_sum.h"
-#include "boundary/boundary.h"
+#include "boundary/axial_plates.h"
 #include "boundary/plates.h"
 #include "boundary/sheet.h"
 #include "state/pressure.h"
@@ -258,4 +258,5 @@ const scree_boundary scree_boundary_membrane = {.name = "membrane",
                                                 .begin = begin,
                                                 .passes = passes,
                                                 .pass_count = sizeof passes / sizeof *passes,
-                                                .bound = bound};
+                                                .bound = bound,
+                                                SCREE_AXIAL_PLATES};

@@ -211,4 +211,5 @@ const scree_boundary scree_boundary_minimal = {.name = "minimal",
                                                .begin = scree_drive_begin,
                                                .passes = passes,
                                                .pass_count = sizeof passes / sizeof *passes,
-                                               .bound = bound};
+                                               .bound = bound,
+ SCREE_IMPOSED};

@@ -80,9 +80,8 @@ static double density(const scree_model *model, const scree_state *state)
 static double wave_speed(const scree_model *model, const scree_state *state, double pressure)
 {
     double diameter = 2 * model->mean_radius, depth = state->dimension == 2 ? model->thickness : diameter;
-    double k = model->pairs[SCREE_PARTICLE_MATERIAL][SCREE_PARTICLE_MATERIAL].normal_stiffness *
-               sqrt(0.5 * model->mean_radius);
-    return sqrt(1.5 * cbrt(k * k * pressure * diameter * depth) / depth / density(model, state));
+    double k = scree_model_stiffness(model, pressure, diameter, depth);
+    return sqrt(k / depth / density(model, state));
 }
 
 static void widths(const scree_state *state, double width[3])
@@ -108,27 +107,27 @@ double scree_periodic_wave_time(const scree_model *model, const scree_state *sta
     return longest / wave_speed(model, state, pressure);
 }
 
-void scree_periodic_drive_fit(const scree_model *model, const scree_state *state, double pressure,
-                              scree_periodic_drive *drive)
+void scree_periodic_fit(const scree_model *model, scree_state *state, double pressure)
 {
+    scree_periodic_cell *cell = scree_cell(state);
     const scree_config_boundary *boundary = &model->config->boundary;
     double diameter = 2 * model->mean_radius;
-    drive->inertia = CREEP_GRAINS * density(model, state) * diameter * diameter;
-    drive->damping = wave_speed(model, state, pressure) / diameter / boundary->servo_gain;
+    cell->inertia = CREEP_GRAINS * density(model, state) * diameter * diameter;
+    cell->damping = wave_speed(model, state, pressure) / diameter / boundary->servo_gain;
     // Auto: a face may not cross a hundredth of the smallest radius in a step.
     double velocity = boundary->servo_velocity;
-    drive->limit = (isnan(velocity) ? 0.01 * model->radius_min / state->step_size : velocity) / mean_width(state);
+    cell->limit = (isnan(velocity) ? 0.01 * model->radius_min / state->step_size : velocity) / mean_width(state);
 }
 
 /// One step of the servo of a component.
-static void hold_stress(const scree_periodic_drive *drive, double dt, double wanted, double stress, double *rate,
+static void hold_stress(const scree_periodic_cell *cell, double dt, double wanted, double stress, double *rate,
                         double *drift)
 {
     double reached = fmin(1, fabs(stress / wanted));
-    double resistance = dt * drive->damping * fmax(LEAST_RESISTANCE, reached);
-    double next = (*rate + dt / drive->inertia * (wanted - stress) + resistance * reached * *drift) / (1 + resistance);
-    *rate = fmax(-drive->limit, fmin(drive->limit, next));
-    *drift += dt * drive->damping / MEAN_GRAINS * (*rate - *drift);
+    double resistance = dt * cell->damping * fmax(LEAST_RESISTANCE, reached);
+    double next = (*rate + dt / cell->inertia * (wanted - stress) + resistance * reached * *drift) / (1 + resistance);
+    *rate = fmax(-cell->limit, fmin(cell->limit, next));
+    *drift += dt * cell->damping / MEAN_GRAINS * (*rate - *drift);
 }
 
 void scree_periodic_control(const scree_model *model, scree_state *state, const scree_periodic_drive *drive,
@@ -141,7 +140,7 @@ void scree_periodic_control(const scree_model *model, scree_state *state, const 
         if (isnan(drive->stress[k]))
             cell->gradient[k] = cell->drift[k] = drive->rate[k] * rise;
         else
-            hold_stress(drive, state->step_size, drive->stress[k], stress[k], &cell->gradient[k], &cell->drift[k]);
+            hold_stress(cell, state->step_size, drive->stress[k], stress[k], &cell->gradient[k], &cell->drift[k]);
     }
 }
 

@@ -4,18 +4,14 @@
 
 #include "state/work.h"
 
-/// What drives the cell. Components row-major; of every component either a rate or a stress counts.
+/// Of every component of the velocity gradient either a rate or a stress.
 typedef struct scree_periodic_drive {
-    double rate[9];   ///< 1/s; NAN where a stress is held
+    double rate[9];   ///< 1/s; counts where no stress is held
     double stress[9]; ///< Pa, tension positive; NAN where a rate is prescribed
-    double inertia;   ///< Pa s2, of the rate of a component under stress
-    double damping;   ///< 1/s, its dashpot over its inertia
-    double limit;     ///< 1/s, largest magnitude of such a rate
 } scree_periodic_drive;
 
-/// Sets inertia, damping and limit as they suit the present sample at `pressure` [Pa], see periodic.c.
-void scree_periodic_drive_fit(const scree_model *model, const scree_state *state, double pressure,
-                              scree_periodic_drive *drive);
+/// Sets inertia, damping and limit of the servo as they suit the present sample at `pressure` [Pa], see periodic.c.
+void scree_periodic_fit(const scree_model *model, scree_state *state, double pressure);
 
 /// Time [s] that a longitudinal wave needs through the longest side of the cell at `pressure`.
 double scree_periodic_wave_time(const scree_model *model, const scree_state *state, double pressure);

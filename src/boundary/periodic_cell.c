@@ -5,11 +5,16 @@
 #include "base/matrix.h"
 #include "state/periodic.h"
 
+#include <float.h>
+
 typedef scree_periodic_cell own;
 
 #define CELL(member, type, components, unit, meaning, ...)                                                             \
     SCREE_FIELD_ONE(periodic_cell, own, member, "periodic/" #member, type, components, unit, meaning,                  \
                     .snapshot = true, __VA_ARGS__)
+#define SERVO(member, components, unit, meaning, ...)                                                                  \
+    SCREE_FIELD_ONE(periodic_cell, own, member, "periodic/" #member, SCREE_FIELD_DOUBLE, components, unit, meaning,    \
+                    __VA_ARGS__)
 static const scree_field fields[] = {
     CELL(lattice, SCREE_FIELD_DOUBLE, 9, "m",
          "lattice vectors of the periodic cell as columns, 3 x 3 by rows; unit vectors where it is not periodic"),
@@ -22,6 +27,11 @@ static const scree_field fields[] = {
     CELL(motion, SCREE_FIELD_DOUBLE, 9, "J",
          "sum over bodies of mass velocity (x) velocity, relative to the affine field"),
     CELL(directions, SCREE_FIELD_UINT64, 1, "1", "periodic directions: 1 x, 2 y, 4 z, added up", SCREE_RANGE(0, 7)),
+    SERVO(inertia, 1, "Pa s2", "inertia of the rate of a component under stress", SCREE_RANGE(0, DBL_MAX)),
+    SERVO(damping, 1, "1/s", "its dashpot over its inertia", SCREE_RANGE(0, DBL_MAX)),
+    SERVO(limit, 1, "1/s", "largest magnitude of such a rate", SCREE_RANGE(0, DBL_MAX)),
+    SERVO(stress_sum, 3, "Pa s", "sums of the normal stresses times the step since the last sample of a confine stage"),
+    SERVO(stress_time, 1, "s", "sum of these steps", SCREE_RANGE(0, DBL_MAX)),
 };
 
 /// The lattice encloses a volume, and the bodies are in it or a little outside: less than a cell.

@@ -2,13 +2,8 @@
 #ifndef SCREE_BOUNDARY_PLATES_H
 #define SCREE_BOUNDARY_PLATES_H
 
+#include "state/plates.h"
 #include "state/work.h"
-
-/// A plate under servo: its dashpot and its mass, see plates.c.
-typedef struct scree_servo {
-    double impedance; ///< N s/m
-    double mass;      ///< kg
-} scree_servo;
 
 /// Longitudinal modulus [Pa] of a packing of the model's grains under `pressure` [Pa], estimated as above.
 double scree_confined_modulus(const scree_model *model, double pressure);

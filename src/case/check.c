@@ -100,7 +100,10 @@ static void refuse_missing(const scope *s, const scree_key *key, const char *pat
 
 static void read_element(const scope *s, const scree_key *list, scree_node *element, const char *path, void *base)
 {
+    const scree_key *kind = &list->sections[0].keys[0];
+    const int unknown = SCREE_CHOICE_WRONG;
     scope inner = {s->reader, scree_element_section(list, element), NULL, element, element->place, path, base};
+    if (list->section_count > 1 && !inner.section) memcpy(scree_key_member(kind, base), &unknown, sizeof unknown);
     if (element->kind != SCREE_NODE_MAPPING) {
         scree_problem_add(s->reader, element->place, path, element->text, NULL,
                           "expected keys with values, e.g. '- %s: ...'", list->sections[0].keys[0].name);
@@ -112,7 +115,6 @@ static void read_element(const scope *s, const scree_key *list, scree_node *elem
         return;
     }
     // Without its kind nothing else of the element can be judged.
-    const scree_key *kind = &list->sections[0].keys[0];
     const scree_node *given = scree_node_find(element, kind->name);
     char kind_path[SCREE_PATH_BYTES];
     scree_key_join(kind_path, path, kind->name);
@@ -120,8 +122,7 @@ static void read_element(const scope *s, const scree_key *list, scree_node *elem
         scree_value_store(s->reader, kind, given, kind_path, base);
     else
         refuse_missing(&inner, kind, kind_path);
-    int unknown = -1;
-    memcpy((char *)base + kind->offset, &unknown, sizeof unknown);
+    memcpy(scree_key_member(kind, base), &unknown, sizeof unknown);
 }
 
 static void read_list(const scope *s, const scree_key *key, scree_node *node, const char *path)
@@ -148,10 +149,12 @@ static void read_list(const scope *s, const scree_key *key, scree_node *node, co
         char number[24], inner[SCREE_PATH_BYTES];
         (void)snprintf(number, sizeof number, "%lld", (long long)index);
         scree_key_join(inner, path, number);
-        read_element(s, key, element, inner, elements + (size_t)index * key->element_size);
+        char *base = elements + (size_t)index * key->element_size;
+        if (key->initial) memcpy(base, key->initial, key->element_size);
+        read_element(s, key, element, inner, base);
     }
-    memcpy((char *)s->base + key->offset, &elements, sizeof elements);
-    memcpy((char *)s->base + key->count_offset, &index, sizeof index);
+    memcpy(scree_key_member(key, s->base), &elements, sizeof elements);
+    memcpy(scree_key_block(key, s->base) + key->count_offset, &index, sizeof index);
 }
 
 /// A section, whether the case has it or not: its defaults count either way.
@@ -168,7 +171,7 @@ static void read_inner_section(const scope *s, const scree_key *key, scree_node 
                    empty ? NULL : node,
                    node ? node->key_place : s->place,
                    path,
-                   (char *)s->base + key->offset};
+                   scree_key_member(key, s->base)};
     read_section(&inner);
 }
 
@@ -192,15 +195,32 @@ static void read_key(const scope *s, const scree_key *key)
         scree_value_store(s->reader, key, child, path, s->base);
 }
 
+/// Gives a section the block in which the structs of modules lie.
+static bool make_room(const scope *s)
+{
+    if (s->section->own_size == 0) return true;
+    void *own = scree_arena_take(s->reader->arena, s->section->own_size);
+    if (own)
+        memcpy((char *)s->base + s->section->own_offset, &own, sizeof own);
+    else
+        scree_reader_fail(s->reader, s->section->own_size);
+    return own != NULL;
+}
+
 static void read_section(const scope *s)
 {
+    if (!make_room(s)) return;
     uint64_t meant = 0;
     for (scree_node *child = s->mapping ? s->mapping->first : NULL; child; child = child->next)
         if (!scree_section_find(s->section, child->key, strlen(child->key))) meant |= refuse_unknown(s, child);
     for (size_t i = 0; i < s->section->count; i++) {
         const scree_key *key = &s->section->keys[i];
         bool misspelt = meant >> i & 1 && !scree_node_find(s->mapping, key->name);
-        if (!misspelt) read_key(s, key);
+        const int unknown = SCREE_CHOICE_WRONG;
+        if (!misspelt)
+            read_key(s, key);
+        else if (key->type == SCREE_KEY_CHOICE)
+            memcpy(scree_key_member(key, s->base), &unknown, sizeof unknown);
     }
 }
 
@@ -219,5 +239,6 @@ bool scree_root_read(scree_reader *reader, const scree_section *section, void *b
 
 void scree_config_read(scree_reader *reader, scree_config *config)
 {
-    if (scree_root_read(reader, &scree_schema, config)) scree_rules_check(reader, config);
+    // Where memory ran out, what is tied together need not be there.
+    if (scree_root_read(reader, scree_schema(), config) && !reader->failure.status) scree_rules_check(reader, config);
 }

@@ -60,11 +60,16 @@ scree_node *scree_case_root(const scree_case *c);
 /// Rules that tie keys together. Values that are missing or wrong are left out: they have been noted.
 void scree_rules_check(scree_reader *reader, scree_config *config);
 
+/// Those of the modules that the case uses (module_rules.c).
+void scree_rules_check_modules(scree_reader *reader, scree_config *config);
+
+/// Notes a problem at a key path, "stages.2.rate"; where the case does not have the key, at the section that should.
+/// For the rules of modules. accepted: may be NULL.
+void scree_rule_refuse(scree_reader *reader, const char *path, const char *accepted, const char *format, ...)
+    SCREE_PRINTF(4, 5);
+
 /// Those of the boundaries of stages, and of the velocity gradients that they impose (boundary_rules.c).
 void scree_rules_check_boundaries(scree_reader *reader, const scree_config *config);
-
-/// Those of the bodies that a prepare stage lists (body_rules.c).
-void scree_rules_check_bodies(scree_reader *reader, const scree_config *config);
 
 /// Those of the walls of the case, and of the stages that they can be used in (wall_rules.c). Finds the files of
 /// meshes: their paths become absolute, and the case holds the checksum of their content.

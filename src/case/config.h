@@ -4,7 +4,8 @@
 #ifndef SCREE_CASE_CONFIG_H
 #define SCREE_CASE_CONFIG_H
 
-#include "base/error.h"
+#include "module/preparation.h"
+#include "module/stage.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -15,15 +16,13 @@
 
 typedef struct scree_config_material {
     char *name;
-    double young_modulus;    ///< Pa
-    double poisson_ratio;    ///< 1
-    double density;          ///< kg/m3
-    double friction;         ///< 1, grain on grain
-    double wall_friction;    ///< 1, grain on plate; auto: friction
-    char *wall_material;     ///< what plates and walls are made of for it: a name, or SCREE_RIGID; auto (NULL): like it
-    double restitution;      ///< 1, used by laws that damp by restitution
-    double rolling_friction; ///< 1, hertz_mindlin: limit of the rolling resistance over the normal force
-    double twisting_friction; ///< 1, hertz_mindlin in 3D: limit of the twisting torque over R_eff times that force
+    double young_modulus; ///< Pa
+    double poisson_ratio; ///< 1
+    double density;       ///< kg/m3
+    double friction;      ///< 1, grain on grain
+    double wall_friction; ///< 1, grain on plate; auto: friction
+    char *wall_material;  ///< what plates and walls are made of for it: a name, or SCREE_RIGID; auto (NULL): like it
+    void *own;            ///< structs of modules (scree_config_own)
 } scree_config_material;
 
 typedef enum scree_shape_kind { SCREE_SHAPE_DISC, SCREE_SHAPE_SPHERE } scree_shape_kind;
@@ -43,42 +42,17 @@ typedef struct scree_config_particles {
     double thickness;  ///< m, length of a disc (a cylinder), not used by spheres; auto: twice the mean radius
 } scree_config_particles;
 
-/// The third is hertz_brilliantov with friction_update implicit: model_build resolves the two keys into one law.
-typedef enum scree_law {
-    SCREE_LAW_HERTZ_BRILLIANTOV,
-    SCREE_LAW_HERTZ_MINDLIN,
-    SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT
-} scree_law;
-
-typedef enum scree_friction_update { SCREE_FRICTION_EXPLICIT, SCREE_FRICTION_IMPLICIT } scree_friction_update;
-
-typedef enum scree_tangential_history {
-    SCREE_TANGENTIAL_DISPLACEMENT,
-    SCREE_TANGENTIAL_RESCALED
-} scree_tangential_history;
-
 typedef struct scree_config_contact {
-    int law;                   ///< scree_law
-    int tangential_history;    ///< scree_tangential_history of hertz_mindlin
-    double damping_time;       ///< s, T of hertz_brilliantov
-    double friction_exponent;  ///< 1, c of hertz_brilliantov
-    int friction_update;       ///< scree_friction_update of hertz_brilliantov
+    int law;                   ///< slot of a module with a law
     double reference_velocity; ///< m/s, v_R; auto: 2 * rate * mean radius of the first compress stage
+    void *own;                 ///< structs of modules
 } scree_config_contact;
 
-typedef enum scree_scheme {
-    SCREE_SCHEME_POSITION_VERLET,
-    SCREE_SCHEME_VELOCITY_VERLET,
-    SCREE_SCHEME_TWO_TIMESCALES
-} scree_scheme;
-
 typedef struct scree_config_integrator {
-    int scheme;             ///< scree_scheme
-    double step;            ///< s, the small one of two_timescales; auto: step_fraction * critical step, over N_S
-    double step_fraction;   ///< 1, of the critical step, when step is auto
-    int64_t repeats;        ///< two_timescales: m of m(n+q) = N_S
-    int64_t large_multiple; ///< n
-    int64_t small_steps;    ///< q
+    int scheme;           ///< slot of a module with an integrator
+    double step;          ///< s, the small one of two_timescales; auto: step_fraction * critical step, over N_S
+    double step_fraction; ///< 1, of the critical step, when step is auto
+    void *own;            ///< structs of modules (scree_config_own)
 } scree_config_integrator;
 
 /// What holds the sample (boundary/boundary.h).
@@ -111,88 +85,31 @@ typedef struct scree_config_boundary {
     double membrane_radius;    ///< m, of its bodies; auto: 1.25 mean radii of the grains, 3D: 0.75
 } scree_config_boundary;
 
-typedef enum scree_stage_kind {
-    SCREE_STAGE_PREPARE,
-    SCREE_STAGE_CONFINE,
-    SCREE_STAGE_COMPRESS,
-    SCREE_STAGE_DEFORM,
-    SCREE_STAGE_ROTATE,
-    SCREE_STAGE_COLLIDE,
-    SCREE_STAGE_RELAX
-} scree_stage_kind;
-typedef enum scree_axis { SCREE_AXIS_X, SCREE_AXIS_Y, SCREE_AXIS_Z } scree_axis;
-typedef enum scree_prepare_method {
-    SCREE_PREPARE_DROP_AND_ROLL,
-    SCREE_PREPARE_HEXAGONAL,
-    SCREE_PREPARE_SQUARE,
-    SCREE_PREPARE_FACE_CENTRED,
-    SCREE_PREPARE_CUBIC,
-    SCREE_PREPARE_GAS,
-    SCREE_PREPARE_GROWTH,
-    SCREE_PREPARE_PAIR,
-    SCREE_PREPARE_BODIES
-} scree_prepare_method;
-
-/// A body of prepare method bodies.
-typedef struct scree_config_body {
-    double position[3]; ///< m, of its centre
-    double velocity[3]; ///< m/s
-    double spin[3];     ///< rad/s
-    double radius;      ///< m; auto: that of all particles
-    char *material;     ///< name in `materials`; auto: that of the particles
-} scree_config_body;
-
-/// Whether the walls of the case move in a stage.
-typedef enum scree_wall_motion { SCREE_WALLS_MOVE, SCREE_WALLS_STAND } scree_wall_motion;
-
 /// What the sample looks like: it fills its box, or has been cut out of a larger packing.
 typedef enum scree_sample_outline { SCREE_SAMPLE_BOX, SCREE_SAMPLE_CIRCLE, SCREE_SAMPLE_BALL } scree_sample_outline;
 
-/// One stage; the schema lists for each kind which members its keys fill. All stages keep `name` and `kind`.
+/// What the stage says that places the particles. Behind it lie the structs of methods.
+typedef struct scree_prepare_config {
+    int method;          ///< slot of a module with a preparation
+    double aspect_ratio; ///< 1, height over width of the box
+    int outline;         ///< scree_sample_outline
+    double width;        ///< m; auto: from count, sizes and aspect ratio
+    double depth;        ///< m, 3D only; auto: the width
+} scree_prepare_config;
+
+/// What acts on the bodies beside contacts and the boundary. What stands in `own` is said by the module of its kind.
+typedef struct scree_config_load {
+    int kind;  ///< slot of a module that is a load
+    void *own; ///< its struct
+} scree_config_load;
+
+/// One stage. What stands in `own` is said by the module of its kind.
 typedef struct scree_config_stage {
-    int kind;   ///< scree_stage_kind
-    char *name; ///< unique among the stages: the kind, numbered (compress_1, compress_2) if there are several
-    // prepare
-    int method;            ///< scree_prepare_method
-    double aspect_ratio;   ///< 1, height over width of the box
-    int outline;           ///< scree_sample_outline
-    double width;          ///< m; auto: from count, sizes and aspect ratio
-    double depth;          ///< m, 3D only; auto: the width
-    double solid_fraction; ///< 1, gas and growth only; auto: see the schema
-    double velocity;       ///< m/s, gas only: root-mean-square velocity component
-    double gap;            ///< m, pair only: between the surfaces; auto: see prepare/pair.c
-    double speed;          ///< m/s, pair only: at which they approach; auto: v_R
-    double height;         ///< m, bodies only: of the box; auto: up to the highest of them
-    scree_config_body *bodies;
-    int64_t body_count;
-    // confine
-    double pressure;         ///< Pa, compression positive
-    double ramp_time;        ///< s; auto
-    double unbalanced_limit; ///< 1, stop when the unbalanced force ratio stays below it
-    double stress_tolerance; ///< 1, of the pressure: stop when the stress is within it; auto: see the stages' files
-    double time_limit;       ///< s; auto; reaching it is an error of the case, not a silent stop
-    // compress
-    double strain;    ///< 1, axial strain (engineering) at which to stop, compression positive
-    double rate;      ///< 1/s, axial strain rate referred to the height at the start of the stage
-    double rise_time; ///< s, in which the plates reach their velocity; auto: four wave times of the sample
-    // deform; extension positive, row the direction of the velocity, NAN where free
-    double velocity_gradient[9]; ///< 1/s
-    double strain_rate[9];       ///< 1/s, symmetric: only components on and above the diagonal are given
-    double stress[9];            ///< Pa, held by a periodic cell, given like strain_rate; compression positive, shear
-                                 ///< stress in the sense of the shear rate
-    // rotate_particle
-    double spin;      ///< rad/s, that the particle is brought to
-    int axis;         ///< scree_axis, about which it turns
-    double particle;  ///< id of the particle; auto: of those near the centre the one that bears most
-    double rest_time; ///< s, before, in which it is held still and the spins that there are anyway are measured
-    double hold_time; ///< s, at that spin, in which the others are measured
-    double cutoff;    ///< mean diameters, of the force network around it
-    // collide and relax
-    double duration; ///< s, after which it ends in any case; of collide auto
-    int walls;       ///< relax: scree_wall_motion
-    // all but prepare and collide
+    int kind;        ///< slot of a module with a stage
+    char *name;      ///< unique among the stages: the kind, numbered (compress_1, compress_2) if there are several
     int boundary;    ///< scree_boundary_kind
     double friction; ///< 1, friction during this stage; auto: the material's
+    void *own;       ///< struct of its kind, and of what else adds keys to it (scree_config_own)
 } scree_config_stage;
 
 /// A wall beside the six plates (shape/container.h). Which members its keys fill depends on the shape.
@@ -256,7 +173,7 @@ typedef struct scree_config_guard {
     double energy_growth; ///< 1, largest energy-ledger residual over all energy that there is and was
 } scree_config_guard;
 
-typedef struct scree_config {
+struct scree_config {
     int64_t language; ///< version of the case language
     char *name;
     char *title;
@@ -271,24 +188,50 @@ typedef struct scree_config {
     scree_config_boundary boundary;
     scree_config_wall *walls;
     int64_t wall_count;
+    scree_config_load *loads;
+    int64_t load_count;
     scree_config_stage *stages;
     int64_t stage_count;
     scree_config_measure measure;
     scree_config_output output;
     scree_config_guard guard;
-} scree_config;
+};
 
-/// Radius [m] of a listed body.
-static inline double scree_config_body_radius(const scree_config *config, const scree_config_body *body)
+/// A copy of the stages whose own structs may be changed, as one piece of memory. Errors: memory.
+scree_status scree_config_copy_stages(const scree_config *config, scree_config_stage **stages,
+                                      scree_error *error) SCREE_MUST_USE;
+
+/// The struct of `module` among those of modules that a section's `own` points to. section: its path ("integrator"), as
+/// the module's `keys` have it. NULL: there are none.
+const void *scree_config_own(const scree_module *module, const char *section, const void *own);
+
+/// What a stage says that places the particles.
+static inline const scree_prepare_config *scree_config_prepared(const scree_config_stage *stage)
 {
-    return isnan(body->radius) ? config->particles.radius_min : body->radius;
+    return stage->own;
+}
+
+/// The stage that places the particles, with which a case begins; NULL: there is none, or its method is wrong.
+static inline const scree_config_stage *scree_config_prepare(const scree_config *config)
+{
+    const scree_config_stage *first = config->stages;
+    bool places = config->stage_count > 0 && first->kind >= 0 && scree_modules[first->kind]->numbers->places;
+    return places && scree_config_prepared(first)->method >= 0 ? first : NULL;
+}
+
+/// Its method; NULL: there is none.
+static inline const scree_preparation *scree_config_preparation(const scree_config *config)
+{
+    const scree_config_stage *stage = scree_config_prepare(config);
+    return stage ? scree_modules[scree_config_prepared(stage)->method]->preparation : NULL;
 }
 
 /// The boundary of stage `index`: periodic as the case says, else its own choice, or that of the last stage before it
 /// that made one, or the walls of the case, or `lateral`.
 static inline scree_boundary_kind scree_config_boundary_of(const scree_config *config, int64_t index)
 {
-    if (config->stages[index].kind == SCREE_STAGE_COLLIDE) return SCREE_BOUNDARY_NONE;
+    const int stage = config->stages[index].kind;
+    if (stage >= 0 && scree_modules[stage]->numbers->collides) return SCREE_BOUNDARY_NONE;
     if (config->boundary.periodic > 0) {
         bool whole = config->boundary.periodic == (1 << config->dimension) - 1;
         return whole ? SCREE_BOUNDARY_PERIODIC : SCREE_BOUNDARY_CHANNEL;

@@ -84,7 +84,7 @@ static void write_table(FILE *file, const scree_section *section)
         for (const scree_choice *choice = key->choices; choice->name; choice++)
             (void)fprintf(file, "- `%s`: %s\n", choice->name, choice->meaning);
     }
-    for (size_t i = 0; i < section->count && section != &scree_schema; i++) {
+    for (size_t i = 0; i < section->count && section != scree_schema(); i++) {
         const scree_key *key = &section->keys[i];
         if (key->type != SCREE_KEY_LIST) continue;
         (void)fprintf(file, "\nKeys of each element of `%s`:\n", key->name);
@@ -111,9 +111,9 @@ static void write_list(FILE *file, const scree_key *key)
 scree_status scree_schema_write_manual(FILE *file, scree_error *error)
 {
     (void)fprintf(file, "%s\n## The case\n", introduction);
-    write_table(file, &scree_schema);
-    for (size_t i = 0; i < scree_schema.count; i++) {
-        const scree_key *key = &scree_schema.keys[i];
+    write_table(file, scree_schema());
+    for (size_t i = 0; i < scree_schema()->count; i++) {
+        const scree_key *key = &scree_schema()->keys[i];
         if (key->type == SCREE_KEY_LIST) write_list(file, key);
         if (key->type != SCREE_KEY_SECTION) continue;
         (void)fprintf(file, "\n## %s\n\n%s\n", key->name, key->sections->meaning);

@@ -91,7 +91,7 @@ static bool enter_element(scree_target *target, const char **path)
 bool scree_path_follow(scree_node *root, const char *path, scree_reader *creator, scree_place place,
                        scree_target *target)
 {
-    *target = (scree_target){.section = &scree_schema, .parent = root};
+    *target = (scree_target){.section = scree_schema(), .parent = root};
     while (true) {
         part p = next_part(&path);
         const scree_key *key = scree_section_find(target->section, p.text, p.length);
@@ -177,7 +177,7 @@ static void refuse_path(scree_reader *reader, const char *path, const scree_node
     const char *dot = strrchr(path, '.');
     s.wanted_tail = dot ? dot + 1 : path;
     for (const char *rest = path; *rest && !s.by_index;) s.by_index = is_index(next_part(&rest));
-    consider_section(&s, &scree_schema, reader->root, "");
+    consider_section(&s, scree_schema(), reader->root, "");
     scree_problem_add(reader, place, path, value->text, s.best, "%s%s%s%s", reason, s.best[0] ? "; did you mean '" : "",
                       s.best, s.best[0] ? "'?" : "");
 }

@@ -81,19 +81,6 @@ static void check_materials(scree_reader *reader, const scree_config *config)
                       nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
 }
 
-/// Discs turn about one axis, which no contact twists.
-static void check_twisting(scree_reader *reader, const scree_config *config)
-{
-    for (int64_t i = 0; i < config->material_count && config->dimension == 2; i++) {
-        if (!(config->materials[i].twisting_friction > 0)) continue;
-        const char *text;
-        char path[SCREE_PATH_BYTES];
-        (void)snprintf(path, sizeof path, "materials.%lld.twisting_friction", (long long)i);
-        scree_place place = place_of(element(reader, "materials", i), "twisting_friction", &text);
-        scree_problem_add(reader, place, path, text, "0", "discs do not twist: twisting_friction is for spheres");
-    }
-}
-
 static void check_radii(scree_reader *reader, scree_config *config)
 {
     scree_config_particles *particles = &config->particles;
@@ -112,7 +99,7 @@ static void check_radii(scree_reader *reader, scree_config *config)
 static void name_stages(scree_reader *reader, scree_config *config)
 {
     const scree_node *list = scree_node_find(reader->root, "stages");
-    const scree_key *key = scree_section_find(&scree_schema, "stages", strlen("stages"));
+    const scree_key *key = scree_section_find(scree_schema(), "stages", strlen("stages"));
     for (int64_t i = 0; i < config->stage_count; i++) {
         const scree_node *stage = element(reader, "stages", i);
         char name[80], path[SCREE_PATH_BYTES];
@@ -135,27 +122,23 @@ static void name_stages(scree_reader *reader, scree_config *config)
 static void check_stage_order(scree_reader *reader, const scree_config *config)
 {
     bool confined = false;
+    const scree_preparation *method = scree_config_preparation(config);
     for (int64_t i = 0; i < config->stage_count; i++)
         if (config->stages[i].kind < 0) return; // wrong, and noted
     for (int64_t i = 0; i < config->stage_count; i++) {
-        int kind = config->stages[i].kind;
+        const scree_stage_numbers *stage = scree_modules[config->stages[i].kind]->numbers;
         const char *wrong = NULL, *text;
-        if (i == 0 && kind != SCREE_STAGE_PREPARE)
+        if (i == 0 && !stage->places)
             wrong = "the first stage must be prepare: it places the particles";
-        else if (i > 0 && kind == SCREE_STAGE_PREPARE)
+        else if (i > 0 && stage->places)
             wrong = "only the first stage can be prepare";
-        else if (kind == SCREE_STAGE_COMPRESS && !confined)
-            wrong = "a confine stage must come before: compress keeps its pressure";
-        else if (kind == SCREE_STAGE_DEFORM && !confined)
-            wrong = "a confine stage must come before: deform keeps its pressure";
-        else if (kind == SCREE_STAGE_ROTATE && !confined)
-            wrong = "a confine stage must come before: rotate_particle keeps its pressure";
-        else if (i > 0 && kind == SCREE_STAGE_COLLIDE && config->stages[0].method != SCREE_PREPARE_PAIR &&
-                 config->stages[0].method != SCREE_PREPARE_BODIES)
-            wrong = "collide needs two particles that approach: prepare method pair or bodies";
-        else if (i > 0 && kind != SCREE_STAGE_COLLIDE && config->stages[0].method == SCREE_PREPARE_PAIR)
+        else if (stage->needs_pressure && !confined)
+            wrong = stage->needs_pressure;
+        else if (i > 0 && stage->needs_approach && method && !method->approaching)
+            wrong = stage->needs_approach;
+        else if (i > 0 && !stage->collides && method && method->binary)
             wrong = "two particles can only collide";
-        confined = confined || kind == SCREE_STAGE_CONFINE;
+        confined = confined || stage->settles;
         if (!wrong) continue;
         char path[SCREE_PATH_BYTES];
         (void)snprintf(path, sizeof path, "stages.%lld.stage", (long long)i);
@@ -164,24 +147,17 @@ static void check_stage_order(scree_reader *reader, const scree_config *config)
     }
 }
 
-/// Choices that exist in one dimension only, and what takes their place in the other.
-typedef struct twin {
-    int plane, solid; ///< values of the choice
-    const char *plane_name, *solid_name;
-} twin;
-
-static void check_twin(scree_reader *reader, const scree_config *config, int64_t stage, const char *key, int value,
-                       const twin *pair)
+/// Notes a choice that exists in the other dimension only; `other` takes its place in this one.
+static void refuse_dimension(scree_reader *reader, const scree_config *config, int64_t stage, const char *key,
+                             const char *other)
 {
     const bool solid = config->dimension == 3;
-    if (value != (solid ? pair->plane : pair->solid)) return;
     char path[SCREE_PATH_BYTES];
     const char *text;
     (void)snprintf(path, sizeof path, "stages.%lld.%s", (long long)stage, key);
     scree_place place = place_of(element(reader, "stages", stage), key, &text);
-    scree_problem_add(reader, place, path, text, solid ? pair->solid_name : pair->plane_name,
-                      "'%s' exists in %s dimensions only; in %s choose '%s'", text ? text : "", solid ? "two" : "three",
-                      solid ? "three" : "two", solid ? pair->solid_name : pair->plane_name);
+    scree_problem_add(reader, place, path, text, other, "'%s' exists in %s dimensions only; in %s choose '%s'",
+                      text ? text : "", solid ? "two" : "three", solid ? "three" : "two", other);
 }
 
 /// Discs in two dimensions, spheres in three; as many components of gravity.
@@ -205,20 +181,21 @@ static void check_dimension(scree_reader *reader, const scree_config *config)
 
 static void check_preparation(scree_reader *reader, const scree_config *config)
 {
-    static const twin lattices[] = {{SCREE_PREPARE_HEXAGONAL, SCREE_PREPARE_FACE_CENTRED, "hexagonal", "face_centred"},
-                                    {SCREE_PREPARE_SQUARE, SCREE_PREPARE_CUBIC, "square", "cubic"}};
-    static const twin outlines = {SCREE_SAMPLE_CIRCLE, SCREE_SAMPLE_BALL, "circle", "ball"};
+    const bool solid = config->dimension == 3;
     for (int64_t i = 0; i < config->stage_count; i++) {
         const scree_config_stage *stage = &config->stages[i];
-        if (stage->kind != SCREE_STAGE_PREPARE) continue;
-        for (size_t k = 0; k < sizeof lattices / sizeof *lattices; k++)
-            check_twin(reader, config, i, "method", stage->method, &lattices[k]);
-        check_twin(reader, config, i, "outline", stage->outline, &outlines);
+        if (stage->kind < 0 || !scree_modules[stage->kind]->numbers->places) continue;
+        const scree_prepare_config *prepare = scree_config_prepared(stage);
+        const scree_preparation *method = prepare->method >= 0 ? scree_modules[prepare->method]->preparation : NULL;
+        if (method && method->only_dimension && method->only_dimension != config->dimension)
+            refuse_dimension(reader, config, i, "method", method->elsewhere);
+        if (prepare->outline == (solid ? SCREE_SAMPLE_CIRCLE : SCREE_SAMPLE_BALL))
+            refuse_dimension(reader, config, i, "outline", solid ? "ball" : "circle");
         char path[SCREE_PATH_BYTES];
         const char *text;
         (void)snprintf(path, sizeof path, "stages.%lld.depth", (long long)i);
         scree_place place = place_of(element(reader, "stages", i), "depth", &text);
-        if (stage->outline != SCREE_SAMPLE_BOX && text && !isnan(stage->depth))
+        if (prepare->outline != SCREE_SAMPLE_BOX && text && !isnan(prepare->depth))
             scree_problem_add(reader, place, path, text, "auto", "a round sample has no depth of its own");
     }
 }
@@ -227,8 +204,10 @@ static void check_preparation(scree_reader *reader, const scree_config *config)
 static void check_pair(scree_reader *reader, const scree_config *config)
 {
     const char *text;
-    bool pair = config->stage_count > 0 && config->stages[0].method == SCREE_PREPARE_PAIR;
-    for (int64_t i = 1; i < config->stage_count; i++) pair = pair || config->stages[i].kind == SCREE_STAGE_COLLIDE;
+    const scree_preparation *method = scree_config_preparation(config);
+    bool pair = method && method->binary;
+    for (int64_t i = 1; i < config->stage_count; i++)
+        pair = pair || (config->stages[i].kind >= 0 && scree_modules[config->stages[i].kind]->numbers->collides);
     if (!pair) return;
     scree_place place = place_of(scree_node_find(reader->root, "particles"), "count", &text);
     if (config->particles.count != 2)
@@ -248,10 +227,12 @@ static void check_windows(scree_reader *reader, const scree_config *config)
     const char *largest_text = "0 %";
     for (int64_t i = 0; i < config->stage_count; i++) {
         const scree_config_stage *stage = &config->stages[i];
-        bool loads = stage->kind == SCREE_STAGE_COMPRESS || stage->kind == SCREE_STAGE_DEFORM;
-        if (stage->kind < 0 || (loads && !(stage->strain > 0))) return; // noted
-        if (!loads || stage->strain <= largest) continue;
-        largest = stage->strain;
+        if (stage->kind < 0) return; // noted
+        double (*strain_of)(const void *config) = scree_modules[stage->kind]->numbers->strain;
+        double strain = strain_of ? strain_of(stage->own) : 0;
+        if (strain_of && !(strain > 0)) return; // noted
+        if (!strain_of || strain <= largest) continue;
+        largest = strain;
         (void)place_of(element(reader, "stages", i), "strain", &largest_text);
     }
     const scree_node *list = scree_node_find(scree_node_find(reader->root, "measure"), "windows");
@@ -271,33 +252,9 @@ static void check_windows(scree_reader *reader, const scree_config *config)
     }
 }
 
-/// What reckons with a kick of the size of the last step cannot stand steps of two sizes.
-static void check_timescales(scree_reader *reader, const scree_config *config)
-{
-    if (config->integrator.scheme != SCREE_SCHEME_TWO_TIMESCALES) return;
-    const char *text;
-    scree_place place = place_of(scree_node_find(reader->root, "integrator"), "scheme", &text);
-    if (config->contact.law == SCREE_LAW_HERTZ_BRILLIANTOV &&
-        config->contact.friction_update == SCREE_FRICTION_IMPLICIT && config->integrator.small_steps > 0)
-        scree_problem_add(reader, place, "integrator.scheme", text, "position_verlet, velocity_verlet",
-                          "an implicit contact.friction_update needs equal steps, and makes small ones needless: "
-                          "choose another scheme, or small_steps: 0");
-    for (int64_t i = 0; i < config->stage_count; i++) {
-        scree_boundary_kind kind = scree_config_boundary_of(config, i);
-        // A periodic cell moves bodies by its gradient in every step, whatever its size.
-        if (config->boundary.periodic > 0 || kind == SCREE_BOUNDARY_PRESSURE || kind == SCREE_BOUNDARY_PLATES ||
-            kind == SCREE_BOUNDARY_WALLS || kind == SCREE_BOUNDARY_NONE)
-            continue;
-        scree_problem_add(reader, place, "integrator.scheme", text, "position_verlet, velocity_verlet",
-                          "the boundary of stages.%lld imposes velocities and needs equal steps", (long long)i);
-        return;
-    }
-}
-
 void scree_rules_check(scree_reader *reader, scree_config *config)
 {
     check_materials(reader, config);
-    check_twisting(reader, config);
     check_radii(reader, config);
     name_stages(reader, config);
     check_stage_order(reader, config);
@@ -305,8 +262,7 @@ void scree_rules_check(scree_reader *reader, scree_config *config)
     check_preparation(reader, config);
     check_pair(reader, config);
     check_windows(reader, config);
-    check_timescales(reader, config);
-    scree_rules_check_bodies(reader, config);
     scree_rules_check_boundaries(reader, config);
     scree_rules_check_walls(reader, config);
+    scree_rules_check_modules(reader, config);
 }

@@ -34,14 +34,14 @@ static bool same_texts(const void *one, const void *other)
 static int64_t count_of(const scree_key *key, const part *p)
 {
     int64_t count;
-    memcpy(&count, p->base + key->count_offset, sizeof count);
+    memcpy(&count, scree_key_block(key, p->base) + key->count_offset, sizeof count);
     return count;
 }
 
 static const char *array_of(const scree_key *key, const part *p)
 {
     const char *array;
-    memcpy(&array, p->base + key->offset, sizeof array);
+    memcpy(&array, scree_key_member(key, p->base), sizeof array);
     return array;
 }
 
@@ -65,7 +65,7 @@ static bool same_lists(const scree_key *key, const part *one, const part *other)
 
 static bool same_key(const scree_key *key, const part *one, const part *other)
 {
-    const char *a = one->base + key->offset, *b = other->base + key->offset;
+    const char *a = scree_key_member(key, one->base), *b = scree_key_member(key, other->base);
     part first = {one->root, scree_node_find(one->mapping, key->name), a};
     part second = {other->root, scree_node_find(other->mapping, key->name), b};
     switch (key->type) {
@@ -93,7 +93,8 @@ static bool same_key(const scree_key *key, const part *one, const part *other)
         return same_lists(key, one, other);
     case SCREE_KEY_VALUES:
     case SCREE_KEY_PATHS:
-        break; // the quick section: what it changes has been applied, or does not count
+    case SCREE_KEY_MODULES: // never in a schema that is put together
+        break;              // the quick section: what it changes has been applied, or does not count
     }
     return true;
 }
@@ -113,5 +114,5 @@ bool scree_case_same(const scree_case *one, const scree_case *other)
 {
     part first = {scree_case_root(one), scree_case_root(one), (const char *)&one->config};
     part second = {scree_case_root(other), scree_case_root(other), (const char *)&other->config};
-    return same_section(&scree_schema, &first, &second);
+    return same_section(scree_schema(), &first, &second);
 }

@@ -1,8 +1,10 @@
-/// The schema table of a case file. Add a key: a member in config.h, a line here; the rest follows.
+/// What the core declares of the schema of a case file. Add a key: a member in config.h, a line here; the rest follows.
+/// Keys of modules stand in their own files.
 /// Ranges are wide: they keep out slips of the unit and numbers that would overflow, not unusual physics.
 #include "case/schema.h"
 
-#include "case/schema_keys.h"
+#include "case/schema_walls.h"
+#include "module/key_rows.h"
 
 // ---- choices -----------------------------------------------------------------------------------------------------
 
@@ -15,35 +17,6 @@ static const scree_choice distributions[] = {
     {"uniform", SCREE_SIZE_UNIFORM, "every radius between the smallest and the largest is equally likely"},
     {"two_sizes", SCREE_SIZE_TWO_SIZES, "the smallest and the largest radius, in equal numbers"},
     {"equal", SCREE_SIZE_EQUAL, "one radius for all"},
-    {0},
-};
-static const scree_choice laws[] = {
-    {"hertz_brilliantov", SCREE_LAW_HERTZ_BRILLIANTOV,
-     "Hertz with the viscous damping of Brilliantov et al. (1996) and friction regularised by the slip speed; no "
-     "history"},
-    {"hertz_mindlin", SCREE_LAW_HERTZ_MINDLIN,
-     "Hertz with the tangential spring of Mindlin (with history), Coulomb limit, damping from the restitution"},
-    {0},
-};
-static const scree_choice friction_updates[] = {
-    {"explicit", SCREE_FRICTION_EXPLICIT, "from the slip of the step before; needs small steps"},
-    {"implicit", SCREE_FRICTION_IMPLICIT,
-     "from the slip that the coming step will have, solved contact by contact; stable at the large step"},
-    {0},
-};
-static const scree_choice tangential_histories[] = {
-    {"displacement", SCREE_TANGENTIAL_DISPLACEMENT,
-     "the tangential displacement stays as it is; cycles of indentation and slip may deliver energy"},
-    {"rescaled", SCREE_TANGENTIAL_RESCALED,
-     "the tangential force stays as it is while the contact stiffens, the displacement while it softens (Thornton et "
-     "al. 2013); no cycle delivers energy"},
-    {0},
-};
-static const scree_choice schemes[] = {
-    {"position_verlet", SCREE_SCHEME_POSITION_VERLET, "leapfrog with velocities half a step behind"},
-    {"velocity_verlet", SCREE_SCHEME_VELOCITY_VERLET, "velocities and positions at the same time"},
-    {"two_timescales", SCREE_SCHEME_TWO_TIMESCALES,
-     "position_verlet that repeats one large and several small steps while loading (Padbidri 2010, 2.4)"},
     {0},
 };
 static const scree_choice periodics[] = {
@@ -73,64 +46,6 @@ static const scree_choice boundaries[] = {
     {"walls", SCREE_BOUNDARY_WALLS, "no plates: only the `walls` of the case"},
     {0},
 };
-// Component ij is the derivative of velocity i by coordinate j; its value is its place in a 3 x 3 tensor by rows.
-static const scree_choice components[] = {
-    {"xx", 0, "d v_x / d x"}, {"xy", 1, "d v_x / d y"},
-    {"xz", 2, "d v_x / d z"}, {"yx", 3, "d v_y / d x"},
-    {"yy", 4, "d v_y / d y"}, {"yz", 5, "d v_y / d z"},
-    {"zx", 6, "d v_z / d x"}, {"zy", 7, "d v_z / d y"},
-    {"zz", 8, "d v_z / d z"}, {0},
-};
-static const scree_choice symmetric_components[] = {
-    {"xx", 0, "strain rate along x"},
-    {"yy", 4, "strain rate along y"},
-    {"zz", 8, "strain rate along z"},
-    {"xy", 1, "shear rate, mean of xy and yx"},
-    {"xz", 2, "shear rate, mean of xz and zx"},
-    {"yz", 5, "shear rate, mean of yz and zy"},
-    {0},
-};
-static const scree_choice symmetric_stresses[] = {
-    {"xx", 0, "normal stress on x"},
-    {"yy", 4, "normal stress on y"},
-    {"zz", 8, "normal stress on z"},
-    {"xy", 1, "shear stress xy"},
-    {"xz", 2, "shear stress xz"},
-    {"yz", 5, "shear stress yz"},
-    {0},
-};
-static const scree_choice methods[] = {
-    {"drop_and_roll", SCREE_PREPARE_DROP_AND_ROLL,
-     "each particle falls and rolls on those below until it is stable (Jodrey and Tory 1979)"},
-    {"hexagonal", SCREE_PREPARE_HEXAGONAL, "triangular lattice of equal discs that touch"},
-    {"square", SCREE_PREPARE_SQUARE, "square lattice of equal discs that touch"},
-    {"face_centred", SCREE_PREPARE_FACE_CENTRED,
-     "face-centred cubic lattice of equal spheres that touch, square layers horizontal"},
-    {"cubic", SCREE_PREPARE_CUBIC, "simple cubic lattice of equal spheres that touch"},
-    {"gas", SCREE_PREPARE_GAS, "loose random places without contacts"},
-    {"growth", SCREE_PREPARE_GROWTH,
-     "particles grow at random places and push each other away: dense and isotropic, without contacts"},
-    {"pair", SCREE_PREPARE_PAIR, "two particles on the x axis that approach each other, for the stage collide"},
-    {"bodies", SCREE_PREPARE_BODIES, "the particles that `bodies` lists, each where it says and as fast"},
-    {0},
-};
-static const scree_choice outlines[] = {
-    {"box", SCREE_SAMPLE_BOX, "the packing fills its box"},
-    {"circle", SCREE_SAMPLE_CIRCLE, "in two dimensions: the middle of a larger packing, without plates around it"},
-    {"ball", SCREE_SAMPLE_BALL, "in three dimensions: the middle of a larger packing, without plates around it"},
-    {0},
-};
-static const scree_choice stage_kinds[] = {
-    {"prepare", SCREE_STAGE_PREPARE, "places the particles"},
-    {"confine", SCREE_STAGE_CONFINE, "raises the pressure and waits for equilibrium"},
-    {"compress", SCREE_STAGE_COMPRESS, "shortens the sample along its axis to a strain"},
-    {"deform", SCREE_STAGE_DEFORM, "imposes any components of the velocity gradient, to a strain"},
-    {"rotate_particle", SCREE_STAGE_ROTATE, "turns one particle and watches how rotations spread"},
-    {"relax", SCREE_STAGE_RELAX, "lets time pass: gravity, standing plates, walls of the case that stand or move"},
-    {"collide", SCREE_STAGE_COLLIDE, "lets two particles meet and part"},
-    {0},
-};
-
 // ---- sections ----------------------------------------------------------------------------------------------------
 
 typedef scree_config_material material;
@@ -145,12 +60,6 @@ static const scree_key material_keys[] = {
            .meaning = "Coefficient of friction on plates; auto: `friction`."),
     KEY(material, wall_material, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),
         .meaning = "What plates and walls that it touches are made of: a material, or `rigid`; auto: the same as it."),
-    NUMBER(material, restitution, "1", .standard = "0.2", ABOVE("0"), TO("1"), .when = "contact.law=hertz_mindlin",
-           .meaning = "Coefficient of restitution of a normal impact; sets the damping."),
-    NUMBER(material, rolling_friction, "1", .standard = "0", FROM("0"), TO("10"), .when = "contact.law=hertz_mindlin",
-           .meaning = "Limit of the rolling resistance over the normal force; its torque is that times R_eff."),
-    NUMBER(material, twisting_friction, "1", .standard = "0", FROM("0"), TO("10"), .when = "contact.law=hertz_mindlin",
-           .meaning = "Limit of the torque about the normal over R_eff times the normal force; spheres only."),
 };
 
 typedef scree_config_particles particles;
@@ -177,35 +86,21 @@ static const scree_key particles_keys[] = {
 
 typedef scree_config_contact contact;
 static const scree_key contact_keys[] = {
-    CHOICE(contact, law, laws, .standard = "hertz_mindlin", .meaning = "Force law of a contact."),
-    CHOICE(contact, tangential_history, tangential_histories, .standard = "displacement", .when = "law=hertz_mindlin",
-           .meaning = "What a tangential spring keeps when its stiffness changes with the overlap."),
-    NUMBER(contact, damping_time, "s", .standard = "2 ms", FROM("0 s"), TO("1000 s"), .when = "law=hertz_brilliantov",
-           .meaning = "Time T of the viscous part T K d^0.5 d'."),
-    NUMBER(contact, friction_exponent, "1", .standard = "50", FROM("1"), TO("1e6"), .when = "law=hertz_brilliantov",
-           .meaning = "Exponent c of the regularised friction mu f_n (s/v_R)^(1/c)."),
-    CHOICE(contact, friction_update, friction_updates, .standard = "explicit", .when = "law=hertz_brilliantov",
-           .meaning = "How the stiff friction law is integrated."),
+    CHOICE(contact, law, NULL, .standard = "hertz_mindlin", .meaning = "Force law of a contact."),
+    MODULE_KEYS,
     NUMBER(contact, reference_velocity, "m/s", .standard = "auto", ABOVE("0 m/s"), TO("1000 m/s"),
            .meaning = "v_R, to which slip speeds are referred; auto: 2 x strain rate x mean radius."),
 };
 
 typedef scree_config_integrator integrator;
 static const scree_key integrator_keys[] = {
-    CHOICE(integrator, scheme, schemes, .standard = "velocity_verlet", .meaning = "Integration scheme."),
+    CHOICE(integrator, scheme, NULL, .standard = "velocity_verlet", .meaning = "Integration scheme."),
     NUMBER(integrator, step, "s", .standard = "auto", ABOVE("0 s"), TO("10 s"),
            .meaning =
                "Time step, the small one of two_timescales; auto: the largest is `step_fraction` of the critical "
                "step."),
     NUMBER(integrator, step_fraction, "1", .standard = "0.1", ABOVE("0"), TO("1"), .when = "step=auto",
            .meaning = "Largest step over critical step."),
-    INTEGER(integrator, repeats, .standard = "5", FROM("1"), TO("1e6"), .when = "scheme=two_timescales",
-            .meaning = "m of m(n+q): sequences in N_S = m(n+q) small steps. N_S steps are the step before loading, and "
-                       "the unit of boundary.every."),
-    INTEGER(integrator, large_multiple, .standard = "5", FROM("1"), TO("1e6"), .when = "scheme=two_timescales",
-            .meaning = "n of m(n+q): the large step of a sequence, in small steps."),
-    INTEGER(integrator, small_steps, .standard = "5", FROM("0"), TO("1e6"), .when = "scheme=two_timescales",
-            .meaning = "q of m(n+q): small steps after each large one."),
 };
 
 typedef scree_config_boundary boundary;
@@ -240,153 +135,26 @@ static const scree_key boundary_keys[] = {
 };
 
 typedef scree_config_stage stage;
-#define STAGE_HEAD                                                                                                     \
-    {.name = "stage",                                                                                                  \
-     .type = SCREE_KEY_CHOICE,                                                                                         \
-     .choices = stage_kinds,                                                                                           \
-     .offset = offsetof(stage, kind),                                                                                  \
-     .meaning = "Kind of the stage."},                                                                                 \
-        KEY(stage, name, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),                                      \
-            .meaning = "Name in the log and for --set; auto: the kind, numbered from 1 if there are several.")
-#define STAGE_FRICTION                                                                                                 \
-    NUMBER(stage, friction, "1", .standard = "auto", FROM("0"), TO("10"),                                              \
-           .meaning = "Friction in this stage, e.g. less while confining for a denser sample; auto: the material's.")
-#define STAGE_BOUNDARY                                                                                                 \
-    CHOICE(stage, boundary, boundaries, .standard = "auto", .meaning = "What holds the sample in this stage.")
-#define TENSOR(owner, member, list, si, ...)                                                                           \
-    KEY(owner, member, SCREE_KEY_TENSOR, .choices = list, .unit = si, .standard = "{}", __VA_ARGS__)
+static bool is_held(const scree_module *module)
+{
+    return module->numbers->held;
+}
 
-typedef scree_config_body body;
-static const scree_key body_keys[] = {
-    KEY(body, position, SCREE_KEY_VECTOR, .unit = "m", FROM("-1e6 m"), TO("1e6 m"), .meaning = "Of its centre."),
-    KEY(body, velocity, SCREE_KEY_VECTOR, .unit = "m/s", .standard = "[0, 0]", FROM("-1e5 m/s"), TO("1e5 m/s"),
-        .meaning = "At the begin."),
-    KEY(body, spin, SCREE_KEY_VECTOR, .unit = "rad/s", .standard = "[0, 0]", FROM("-1e6 rad/s"), TO("1e6 rad/s"),
-        .meaning = "Angular velocity at the begin; in two dimensions [0, 0, about z]."),
-    NUMBER(body, radius, "m", .standard = "auto", FROM("1 nm"), TO("100 m"),
-           .meaning = "Radius, within the limits of `particles`; auto: the one that all particles have."),
-    KEY(body, material, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),
-        .meaning = "Name of one of the materials; auto: particles.material."),
-};
-static const scree_section body_table[] = {{"bodies", "A particle at a given position.", body_keys, COUNT(body_keys)}};
-static const scree_key prepare_keys[] = {
-    STAGE_HEAD,
-    CHOICE(stage, method, methods, .standard = "drop_and_roll", .meaning = "How the particles are placed."),
-    NUMBER(stage, aspect_ratio, "1", .standard = "2", FROM("0.01"), TO("100"),
-           .when = "width=auto&method=drop_and_roll|hexagonal|square|face_centred|cubic|gas|growth|pair",
-           .meaning = "Height over width of the sample."),
-    CHOICE(stage, outline, outlines, .standard = "box", .meaning = "Outline of the sample."),
-    NUMBER(stage, width, "m", .standard = "auto", FROM("1 nm"), TO("100 km"), .when = "outline=box",
-           .meaning = "Width of the sample; auto: from `aspect_ratio`, and number and sizes of the particles; with "
-                      "`bodies` as far as they reach."),
-    NUMBER(stage, depth, "m", .standard = "auto", FROM("1 nm"), TO("100 km"), .when = "particles.shape=sphere",
-           .meaning = "Depth of the sample, along y in three dimensions; auto: its width; with `bodies` as far as they "
-                      "reach."),
-    NUMBER(stage, solid_fraction, "1", .standard = "auto", ABOVE("0"), TO("90 %"), .when = "method=gas|growth",
-           .meaning = "Area (volume) of the particles over that of the box; auto: 30 % of discs and 15 % of spheres in "
-                      "a gas; with growth 80 % and 60 %, less what the walls take."),
-    NUMBER(stage, velocity, "m/s", .standard = "0 m/s", FROM("0 m/s"), TO("1000 m/s"), .when = "method=gas",
-           .meaning = "Root-mean-square velocity component."),
-    NUMBER(stage, gap, "m", .standard = "auto", FROM("0 m"), TO("1 km"), .when = "method=pair",
-           .meaning = "Between the surfaces of the two; auto: about their indentation in the impact."),
-    NUMBER(stage, speed, "m/s", .standard = "auto", ABOVE("0 m/s"), TO("1e5 m/s"), .when = "method=pair",
-           .meaning = "Relative speed at which they approach; auto: contact.reference_velocity."),
-    NUMBER(stage, height, "m", .standard = "auto", FROM("1 nm"), TO("100 km"), .when = "method=bodies",
-           .meaning = "Height of the box, which begins at the origin; auto: as far as the bodies reach."),
-    KEY(stage, bodies, SCREE_KEY_LIST, FROM("1"), TO("1000"), .sections = body_table, .section_count = 1,
-        .count_offset = offsetof(stage, body_count), .element_size = sizeof(body), .when = "method=bodies",
-        .meaning = "The particles, numbered from 0; as many as particles.count says."),
-};
-static const scree_key confine_keys[] = {
-    STAGE_HEAD,
-    NUMBER(stage, pressure, "Pa", FROM("1e-3 Pa"), TO("1000 GPa"), .meaning = "Confining pressure."),
-    NUMBER(stage, ramp_time, "s", .standard = "auto", FROM("0 s"), TO("1e9 s"),
-           .meaning = "Time in which the pressure is raised."),
-    NUMBER(stage, unbalanced_limit, "1", .standard = "1e-3", FROM("1e-9"), BELOW("1"),
-           .meaning = "The stage ends when the unbalanced force ratio stays below this."),
-    NUMBER(stage, stress_tolerance, "1", .standard = "auto", FROM("1e-9"), BELOW("1"),
-           .meaning =
-               "And when the normal stresses of a periodic cell (means since the last sample), or the stress of the "
-               "top plate, are this near to the pressure, relative to it; auto: 0.2 % in a periodic cell, 5 % "
-               "with plates."),
-    NUMBER(stage, time_limit, "s", .standard = "auto", .guard = true, ABOVE("0 s"), TO("1e9 s"),
-           .meaning = "The run stops with a message if equilibrium takes longer."),
-    STAGE_BOUNDARY,
-    STAGE_FRICTION,
-};
-static const scree_key compress_keys[] = {
-    STAGE_HEAD,
-    NUMBER(stage, strain, "1", ABOVE("0 %"), TO("90 %"), .meaning = "Axial strain at which the stage ends."),
-    NUMBER(stage, rate, "1/s", ABOVE("0 1/s"), TO("1e6 1/s"), .meaning = "Axial strain rate."),
-    NUMBER(stage, rise_time, "s", .standard = "auto", FROM("0 s"), TO("1e9 s"),
-           .meaning = "Time in which the rate is reached; auto: four wave times of the sample."),
-    STAGE_BOUNDARY,
-    STAGE_FRICTION,
-};
-static const scree_key deform_keys[] = {
-    STAGE_HEAD,
-    TENSOR(stage, velocity_gradient, components, "1/s", FROM("-1e6 1/s"), TO("1e6 1/s"),
-           .meaning = "Prescribed components of the velocity gradient, e.g. {xy: 5e-3 1/s, yx: 0}; extension positive; "
-                      "the others are free, in a periodic cell zero."),
-    TENSOR(stage, strain_rate, symmetric_components, "1/s", FROM("-1e6 1/s"), TO("1e6 1/s"),
-           .meaning = "Prescribed components of its symmetric part, e.g. {xy: 5e-3 1/s}; rotations stay free."),
-    TENSOR(stage, stress, symmetric_stresses, "Pa", FROM("-1000 GPa"), TO("1000 GPa"),
-           .meaning =
-               "Stresses that a periodic cell holds by the same component of its velocity gradient, e.g. {yy: 100 "
-               "kPa}; compression positive, shear stress in the sense of the rate."),
-    NUMBER(stage, strain, "1", ABOVE("0 %"), TO("1000000 %"),
-           .meaning = "The stage ends when the largest prescribed component has reached this, measured on the boundary "
-                      "or the cell."),
-    NUMBER(stage, rise_time, "s", .standard = "auto", FROM("0 s"), TO("1e9 s"),
-           .meaning = "Time in which the rates are reached; auto: four wave times of the sample."),
-    STAGE_BOUNDARY,
-    STAGE_FRICTION,
+static const scree_key stage_keys[] = {
+    {.name = "stage", .type = SCREE_KEY_CHOICE, .offset = offsetof(stage, kind), .meaning = "Kind of the stage."},
+    KEY(stage, name, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),
+        .meaning = "Name in the log and for --set; auto: the kind, numbered from 1 if there are several."),
+    MODULE_KEYS,
+    CHOICE(stage, boundary, boundaries, .standard = "auto", .fits = is_held,
+           .meaning = "What holds the sample in this stage."),
+    NUMBER(stage, friction, "1", .standard = "auto", FROM("0"), TO("10"), .fits = is_held,
+           .meaning = "Friction in this stage, e.g. less while confining for a denser sample; auto: the material's."),
 };
 
-static const scree_choice axes[] = {
-    {"x", SCREE_AXIS_X, "only in 3D"},
-    {"y", SCREE_AXIS_Y, "only in 3D"},
-    {"z", SCREE_AXIS_Z, "out of the plane in 2D"},
-    {0},
-};
-static const scree_key rotate_keys[] = {
-    STAGE_HEAD,
-    NUMBER(stage, spin, "rad/s", ABOVE("0 rad/s"), TO("1e6 rad/s"),
-           .meaning = "Angular velocity of the forced particle."),
-    CHOICE(stage, axis, axes, .standard = "z", .meaning = "Axis that it turns about."),
-    NUMBER(stage, particle, "1", .standard = "auto", FROM("0"), TO("1e9"),
-           .meaning = "Number of the forced particle, from 0; auto: of those near the centre the one that bears most."),
-    NUMBER(stage, rest_time, "s", .standard = "0 s", FROM("0 s"), TO("1e9 s"),
-           .meaning = "Time before, in which it is held still and the spins that there are anyway are measured."),
-    NUMBER(stage, ramp_time, "s", .standard = "auto", ABOVE("0 s"), TO("1e9 s"),
-           .meaning = "Time in which the spin is reached, linearly; auto: four wave times of the sample."),
-    NUMBER(stage, hold_time, "s", ABOVE("0 s"), TO("1e9 s"),
-           .meaning = "Time for which it is held, in which the spins of the others are measured."),
-    NUMBER(stage, cutoff, "1", .standard = "10", ABOVE("0"), TO("1e4"),
-           .meaning = "Radius around the particle, in mean diameters, of the force network that is measured."),
-    STAGE_BOUNDARY,
-    STAGE_FRICTION,
-};
-
-static const scree_choice wall_motions[] = {
-    {"move", SCREE_WALLS_MOVE, "with the velocities and spins that the case gives them"},
-    {"stand", SCREE_WALLS_STAND, "all of them stand where they have come to"},
-    {0},
-};
-static const scree_key relax_keys[] = {
-    STAGE_HEAD,
-    NUMBER(stage, duration, "s", ABOVE("0 s"), TO("1e9 s"), .meaning = "Time after which the stage ends."),
-    NUMBER(stage, unbalanced_limit, "1", .standard = "auto", FROM("1e-9"), BELOW("1"),
-           .meaning = "It ends before when the unbalanced force ratio stays below this; auto: never."),
-    CHOICE(stage, walls, wall_motions, .standard = "move", .meaning = "What the walls of the case do."),
-    STAGE_BOUNDARY,
-    STAGE_FRICTION,
-};
-
-static const scree_key collide_keys[] = {
-    STAGE_HEAD,
-    NUMBER(stage, duration, "s", .standard = "auto", ABOVE("0 s"), TO("1e9 s"),
-           .meaning = "The stage ends when the two have parted, or after this; auto: twice as long as it should take."),
+typedef scree_config_load load;
+static const scree_key load_keys[] = {
+    {.name = "load", .type = SCREE_KEY_CHOICE, .offset = offsetof(load, kind), .meaning = "Kind of the load."},
+    MODULE_KEYS,
 };
 
 typedef scree_config_measure measure;
@@ -425,38 +193,21 @@ static const scree_key guard_keys[] = {
 };
 
 static const scree_section material_table[] = {
-    TABLE("materials", "What particles and plates are made of.", material_keys)};
+    OPEN_TABLE("materials", "What particles and plates are made of.", material_keys, scree_config_material)};
 static const scree_section particles_table[] = {TABLE("particles", "Shape, number and sizes.", particles_keys)};
-static const scree_section contact_table[] = {TABLE("contact", "Forces between touching particles.", contact_keys)};
-static const scree_section integrator_table[] = {TABLE("integrator", "Motion in time.", integrator_keys)};
+static const scree_section contact_table[] = {
+    OPEN_TABLE("contact", "Forces between touching particles.", contact_keys, contact)};
+static const scree_section integrator_table[] = {
+    OPEN_TABLE("integrator", "Motion in time.", integrator_keys, integrator)};
 static const scree_section boundary_table[] = {TABLE("boundary", "What surrounds the sample.", boundary_keys)};
-static const scree_section stage_tables[] = {
-    TABLE("prepare", "Places the particles; the first stage of every case.", prepare_keys),
-    TABLE("confine", "Raises the pressure on all sides and waits for equilibrium.", confine_keys),
-    TABLE(
-        "compress",
-        "Shortens the sample along its axis at a constant rate under the pressure reached before: plates approach each "
-        "other, or minimal conditions or a periodic cell impose the rate.",
-        compress_keys),
-    TABLE("deform",
-          "Imposes components of the velocity gradient on the boundary; needs `minimal`, `affine` or a "
-          "periodic cell.",
-          deform_keys),
-    TABLE("rotate_particle",
-          "Turns one particle at a prescribed spin under the pressure reached before; with `minimal` the sample as a "
-          "whole is "
-          "kept from turning.",
-          rotate_keys),
-    TABLE("relax",
-          "Lets time pass under gravity, between plates that stand or the `walls` of the case, which move or stand.",
-          relax_keys),
-    TABLE("collide", "Two particles, prepared as a `pair` or as `bodies`, meet and part; nothing else acts on them.",
-          collide_keys),
-};
+static const scree_section stage_table[] = {OPEN_TABLE("stages", "What happens.", stage_keys, stage)};
+static const scree_section load_table[] = {OPEN_TABLE("loads", "What acts on the bodies.", load_keys, load)};
 static const scree_section measure_table[] = {TABLE("measure", "What is recorded.", measure_keys)};
 static const scree_section output_table[] = {TABLE("output", "What is written, and how often.", output_keys)};
 static const scree_section guard_table[] = {TABLE("guard", "Limits that stop a run that went wrong.", guard_keys)};
 
+#define SECTION(member, table, ...)                                                                                    \
+    KEY(scree_config, member, SCREE_KEY_SECTION, .sections = table, .section_count = 1, __VA_ARGS__)
 static const scree_key root_keys[] = {
     {.name = "scree",
      .type = SCREE_KEY_INTEGER,
@@ -491,9 +242,12 @@ static const scree_key root_keys[] = {
         .section_count = SCREE_WALL_SECTIONS, .count_offset = offsetof(scree_config, wall_count),
         .element_size = sizeof(scree_config_wall),
         .meaning = "Rigid walls beside the plates, fixed or moving; for `relax`."),
-    KEY(scree_config, stages, SCREE_KEY_LIST, FROM("1"), TO("100"), .sections = stage_tables,
-        .section_count = COUNT(stage_tables), .count_offset = offsetof(scree_config, stage_count),
-        .element_size = sizeof(stage), .meaning = "What happens, one stage after the other."),
+    KEY(scree_config, loads, SCREE_KEY_LIST, .standard = "[]", FROM("0"), TO("16"), .sections = load_table,
+        .section_count = 1, .count_offset = offsetof(scree_config, load_count), .element_size = sizeof(load),
+        .meaning = "What acts on the bodies in all stages, beside contacts, boundary and gravity."),
+    KEY(scree_config, stages, SCREE_KEY_LIST, FROM("1"), TO("100"), .sections = stage_table, .section_count = 1,
+        .count_offset = offsetof(scree_config, stage_count), .element_size = sizeof(stage),
+        .meaning = "What happens, one stage after the other."),
     SECTION(measure, measure_table, .meaning = "What is recorded."),
     SECTION(output, output_table, .meaning = "What is written."),
     SECTION(guard, guard_table, .meaning = "When a run is stopped."),
@@ -503,4 +257,4 @@ static const scree_key root_keys[] = {
      .meaning = "Key path and value of everything that --quick changes."},
 };
 
-const scree_section scree_schema = TABLE("case", "A case file.", root_keys);
+const scree_section scree_schema_core = TABLE("case", "A case file.", root_keys);

@@ -1,72 +1,22 @@
-/// The schema of a case file: one table of keys a section. It drives parsing, checks, defaults, --set, the comments of
-/// a written case and the case reference; nothing else knows how a case file looks. Other files in the same language
-/// (sweeps, tables of statements) have tables of their own, read by case/document.h.
+/// The schema of a case file: one table of keys a section, those of the core and of the modules. It drives parsing,
+/// checks, defaults, --set, the comments of a written case and the case reference; nothing else knows how a case file
+/// looks. Other files in the same language (sweeps, tables of statements) have tables of their own, read by
+/// case/document.h.
 #ifndef SCREE_CASE_SCHEMA_H
 #define SCREE_CASE_SCHEMA_H
 
 #include "case/config.h"
+#include "module/module.h"
 
-#include <stdbool.h>
-#include <stddef.h>
+/// The schema of a case file: the sections of the core (schema.c) and what the modules of the table add to them, put
+/// together at the first call (schema_build.c). Safe on any thread; cannot fail.
+const scree_section *scree_schema(void);
 
-typedef enum scree_key_type {
-    SCREE_KEY_NUMBER,  ///< double, SI; NAN for `auto`
-    SCREE_KEY_INTEGER, ///< int64_t
-    SCREE_KEY_TEXT,    ///< char *, any text; limits are numbers of bytes
-    SCREE_KEY_WORD,    ///< char *, a name: letters, digits, '_' and '-', a letter first; NULL for `auto`
-    SCREE_KEY_FLAG,    ///< bool
-    SCREE_KEY_CHOICE,  ///< int, one of `choices`
-    SCREE_KEY_VECTOR,  ///< three doubles, one beside the other; the third may be left out in a case, and is zero then
-    SCREE_KEY_PAIRS,   ///< array of pairs of doubles, and its count; the limits hold for each number
-    SCREE_KEY_TENSOR, ///< nine doubles, 3 x 3 by rows, given as {component: value}: `choices` names the components that
-                      ///< may be given; NAN for all others
-    SCREE_KEY_SECTION, ///< struct, sections[0] describes it
-    SCREE_KEY_LIST,    ///< array of structs, and its count, which the limits are for. With several sections, the first
-                       ///< key of each is the choice that selects among them
-    SCREE_KEY_VALUES,  ///< a list of single values or lists of them; the member is its const scree_node *
-    SCREE_KEY_PATHS,   ///< section of key path -> value; its const scree_node * is stored if element_size is not 0
-} scree_key_type;
+/// What the core declares, to be put together with what modules declare.
+extern const scree_section scree_schema_core;
 
-/// End of a range, as text in the unit that a user would write. NULL: no limit.
-typedef struct scree_limit {
-    const char *text;
-    bool open; ///< the limit itself is outside
-} scree_limit;
-
-typedef struct scree_choice {
-    const char *name; ///< NULL ends a list of choices
-    int value;
-    const char *meaning;
-} scree_choice;
-
-struct scree_section;
-
-typedef struct scree_key {
-    const char *name;
-    scree_key_type type;
-    const char *unit;     ///< SI unit; NULL when not physical
-    const char *standard; ///< default as text, "auto" where the value comes from others; NULL: required. Lists and
-                          ///< vectors have "[]" and "[0, 0]", sections none
-    scree_limit least, most;
-    const scree_choice *choices;
-    bool guard;          ///< only stops a run: no part of what makes a case (scree_case_checksum)
-    const char *when;    ///< "key=value|value": used only then; key of the same section, or "section.key". Several such
-                         ///< conditions are joined by '&'. NULL: always
-    const char *meaning; ///< one line, ends with a full stop
-    size_t offset;       ///< of the member in its section's struct
-    size_t count_offset, element_size; ///< lists and pairs
-    const struct scree_section *sections;
-    size_t section_count;
-} scree_key;
-
-typedef struct scree_section {
-    const char *name;
-    const char *meaning;
-    const scree_key *keys;
-    size_t count;
-} scree_section;
-
-extern const scree_section scree_schema;
+/// Whether all that is declared has found room in the schema: a test asks.
+bool scree_schema_is_whole(void);
 
 const scree_key *scree_section_find(const scree_section *section, const char *name, size_t length);
 

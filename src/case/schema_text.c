@@ -49,6 +49,8 @@ const char *scree_key_noun(const scree_key *key)
         return "a list of values, e.g. [0.2, 0.4]";
     case SCREE_KEY_PATHS:
         return "a section: key paths with values, indented below";
+    case SCREE_KEY_MODULES:
+        break; // never in a schema that is put together
     }
     return "";
 }

@@ -1,5 +1,7 @@
 /// The schema table of walls: keys of each shape. See schema.c.
-#include "case/schema_keys.h"
+#include "case/schema_walls.h"
+
+#include "module/key_rows.h"
 
 typedef scree_config_wall wall;
 static const scree_choice surface_shapes[] = {

@@ -24,7 +24,7 @@ static scree_usage condition_usage(const scree_node *root, const scree_section *
     size_t dot = strcspn(when, ".="), equals = strcspn(when, "=");
     const char *name = when;
     if (dot < equals) {
-        const scree_key *owner = scree_section_find(&scree_schema, when, dot);
+        const scree_key *owner = scree_section_find(scree_schema(), when, dot);
         section = owner->sections;
         mapping = scree_node_find(root, owner->name);
         name += dot + 1;

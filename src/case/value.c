@@ -120,7 +120,7 @@ static int choice_of(const value *v)
     scree_problem_add(v->reader, v->place, v->path, v->text, accepted, "there is no %s '%s'%s%s%s", v->key->name,
                       scree_show(v->text).text, nearest ? "; did you mean '" : "", nearest ? nearest : "",
                       nearest ? "'?" : "");
-    return -1;
+    return SCREE_CHOICE_WRONG;
 }
 
 static char *text_of(const value *v)
@@ -258,10 +258,11 @@ static void store_node(const value *v, const scree_node *node, char *member)
     memcpy(member, &node, sizeof node);
 }
 
-void scree_value_store(scree_reader *reader, const scree_key *key, const scree_node *node, const char *path, void *base)
+static void store_member(scree_reader *reader, const scree_key *key, const scree_node *node, const char *path,
+                         void *base)
 {
     static const scree_place nowhere = {0};
-    char *member = (char *)base + key->offset;
+    char *member = scree_key_member(key, base);
     value v = {reader, key, node ? node->place : nowhere, path, node ? node->text : key->standard};
     bool list = key->type == SCREE_KEY_VECTOR || key->type == SCREE_KEY_PAIRS;
     if (list && !node) return; // the defaults of lists are zeros, or empty
@@ -276,10 +277,24 @@ void scree_value_store(scree_reader *reader, const scree_key *key, const scree_n
         store_numbers(&v, node, 3, vector);
         memcpy(member, vector, sizeof vector);
     } else if (key->type == SCREE_KEY_PAIRS) {
-        store_pairs(&v, node, member, (int64_t *)(void *)((char *)base + key->count_offset));
+        store_pairs(&v, node, member, (int64_t *)(void *)(scree_key_block(key, base) + key->count_offset));
     } else if (node && (node->kind != SCREE_NODE_SCALAR || (!node->text[0] && key->type != SCREE_KEY_TEXT))) {
+        const int wrong = SCREE_CHOICE_WRONG;
+        if (key->type == SCREE_KEY_CHOICE) memcpy(member, &wrong, sizeof wrong);
         reject_kind(&v, node);
     } else {
         store_scalar(&v, member);
     }
+}
+
+void scree_value_store(scree_reader *reader, const scree_key *key, const scree_node *node, const char *path, void *base)
+{
+    static const size_t sizes[] = {
+        [SCREE_KEY_NUMBER] = sizeof(double), [SCREE_KEY_INTEGER] = sizeof(int64_t), [SCREE_KEY_TEXT] = sizeof(char *),
+        [SCREE_KEY_WORD] = sizeof(char *),   [SCREE_KEY_FLAG] = sizeof(bool),       [SCREE_KEY_CHOICE] = sizeof(int),
+    };
+    store_member(reader, key, node, path, base);
+    // Only single values are shared by modules.
+    for (const scree_key *twin = key->twin; twin && key->type <= SCREE_KEY_CHOICE; twin = twin->twin)
+        memcpy(scree_key_member(twin, base), scree_key_member(key, base), sizes[key->type]);
 }

@@ -70,7 +70,7 @@ static const char *wrong_motion(const scree_config_wall *wall, int dimension, co
 static void name_walls(scree_reader *reader, scree_config *config)
 {
     const scree_node *list = scree_node_find(reader->root, "walls");
-    const scree_key *key = scree_section_find(&scree_schema, "walls", strlen("walls"));
+    const scree_key *key = scree_section_find(scree_schema(), "walls", strlen("walls"));
     for (int64_t i = 0; i < config->wall_count; i++) {
         char name[80];
         if (!scree_element_name(key, list, wall_node(reader, i), name, sizeof name)) continue;

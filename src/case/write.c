@@ -167,8 +167,8 @@ static scree_status write_case(const scree_case *c, bool bare, FILE *file, scree
 {
     writer w = {.file = file, .root = scree_case_root(c), .bare = bare};
     if (!bare) (void)fprintf(file, "# The case with every value that it uses, written by Scree %s.\n", SCREE_VERSION);
-    write_values(&w, &scree_schema, w.root, NULL, 0, true);
-    for (size_t i = 0; i < scree_schema.count; i++) write_key(&w, &scree_schema.keys[i]);
+    write_values(&w, scree_schema(), w.root, NULL, 0, true);
+    for (size_t i = 0; i < scree_schema()->count; i++) write_key(&w, &scree_schema()->keys[i]);
     if (fflush(file) != 0 || ferror(file))
         return scree_error_set_errno(error, SCREE_ERROR_IO, "the case cannot be written");
     return SCREE_OK;

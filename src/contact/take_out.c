@@ -22,11 +22,8 @@ static contact_quanta evaluate(const scree_model *model, const scree_state *stat
     bodies one = body_get(dimension, &first.row, &first.turn), other = body_get(dimension, &second.row, &second.turn);
     motion m = motion_of_pair(dimension, &one, &other, state->step_size);
     motion_hold(&m);
-    const variant v = {.dimension = dimension,
-                       .law = model->law,
-                       .many_materials = true,
-                       .rolling = model->rolling,
-                       .rescaled = model->rescaled};
+    const variant v = {
+        .dimension = dimension, .law = model->law.law, .option = model->law.option, .many_materials = true};
     const contact_scale scale = {.inverse_force = 1 / state->force_quantum,
                                  .inverse_torque = 1 / state->torque_quantum,
                                  .force_limit = INFINITY};

@@ -1,17 +1,7 @@
-/// Table of schemes, and the velocities and forces that others ask for.
-#include "integrate/schemes.h"
+/// The choice of the next step, and the velocities and forces that others ask for.
+#include "integrate/integrate.h"
 
 #include "base/fixed.h"
-
-const scree_integrator *scree_integrator_get(scree_scheme scheme)
-{
-    static const scree_integrator *const table[] = {
-        [SCREE_SCHEME_POSITION_VERLET] = &scree_position_verlet,
-        [SCREE_SCHEME_VELOCITY_VERLET] = &scree_velocity_verlet,
-        [SCREE_SCHEME_TWO_TIMESCALES] = &scree_two_timescales,
-    };
-    return table[scheme];
-}
 
 static uint64_t next_ticks(const scree_integrator *integrator, const scree_model *model, const scree_state *state,
                            bool loading)

@@ -1,23 +1,9 @@
-/// Integrators: one file a scheme, one descriptor each. A step is first(), forces at the new positions, second().
+/// What integrators share, and others ask of them. One file a scheme; their face is in module/integrator.h.
 #ifndef SCREE_INTEGRATE_INTEGRATE_H
 #define SCREE_INTEGRATE_INTEGRATE_H
 
+#include "module/integrator.h"
 #include "state/work.h"
-
-typedef struct scree_integrator {
-    const char *name;
-    const char *meaning; ///< one line for the manual
-    /// Ticks of the next step of a loading stage. NULL: always the largest step of the model.
-    uint64_t (*ticks)(const scree_model *model, const scree_state *state);
-    /// Advances rows (and angles, largest_speed, work->budget) to positions n+1 from the sums at n.
-    void (*first)(const scree_model *model, scree_state *state, scree_work *work);
-    /// Finishes velocities with the sums at n+1. May be NULL.
-    void (*second)(const scree_model *model, scree_state *state, scree_work *work);
-    double velocity_lead; ///< stored velocity = v(n - 1/2) + velocity_lead * dt * a(n): 0 position, 1/2 velocity Verlet
-} scree_integrator;
-
-/// Descriptor of a scheme.
-const scree_integrator *scree_integrator_get(scree_scheme scheme);
 
 /// Chooses the next step: sets step_size and kick_size of the state. Returns its ticks. The state must stand between
 /// two steps; state->step is the caller's to advance.

@@ -15,8 +15,50 @@
 /// forces of positions; 1 for forces of velocities, which are evaluated half a step behind. Sequences are no longer
 /// symmetric in time, so energy is not bounded by symmetry; each step conserves its own discrete energy and the ledger
 /// books what a change of the step does to it (measure/energy.c).
+#include "integrate/two_timescales.h"
+
+#include "case/check.h"
 #include "integrate/kick.h"
-#include "integrate/schemes.h"
+#include "module/key_rows.h"
+
+typedef scree_two_timescales_config config;
+static const scree_key keys[] = {
+    INTEGER(config, repeats, .standard = "5", FROM("1"), TO("1e6"), .when = "scheme=two_timescales",
+            .meaning = "m of m(n+q): sequences in N_S = m(n+q) small steps. N_S steps are the step before loading, and "
+                       "the unit of boundary.every."),
+    INTEGER(config, large_multiple, .standard = "5", FROM("1"), TO("1e6"), .when = "scheme=two_timescales",
+            .meaning = "n of m(n+q): the large step of a sequence, in small steps."),
+    INTEGER(config, small_steps, .standard = "5", FROM("0"), TO("1e6"), .when = "scheme=two_timescales",
+            .meaning = "q of m(n+q): small steps after each large one."),
+};
+
+static const config *own_config(const void *own)
+{
+    return scree_config_own(&scree_module_two_timescales, "integrator", own);
+}
+
+static scree_steps steps(const void *own)
+{
+    const config *c = own_config(own);
+    uint64_t multiple = (uint64_t)c->large_multiple, small = (uint64_t)c->small_steps;
+    return (scree_steps){.largest = (uint64_t)c->repeats * (multiple + small), .multiple = multiple, .small = small};
+}
+
+/// What reckons with a kick of the size of the last step cannot stand steps of two sizes.
+static void rules(scree_reader *reader, const scree_config *whole)
+{
+    const char *const others = "position_verlet, velocity_verlet", *const path = "integrator.scheme";
+    for (int64_t i = 0; i < whole->stage_count; i++) {
+        scree_boundary_kind kind = scree_config_boundary_of(whole, i);
+        // A periodic cell moves bodies by its gradient in every step, whatever its size.
+        if (whole->boundary.periodic > 0 || kind == SCREE_BOUNDARY_PRESSURE || kind == SCREE_BOUNDARY_PLATES ||
+            kind == SCREE_BOUNDARY_WALLS || kind == SCREE_BOUNDARY_NONE)
+            continue;
+        scree_rule_refuse(reader, path, others, "the boundary of stages.%lld imposes velocities and needs equal steps",
+                          (long long)i);
+        return;
+    }
+}
 
 static uint64_t ticks(const scree_model *model, const scree_state *state)
 {
@@ -29,11 +71,14 @@ static void first(const scree_model *model, scree_state *state, scree_work *work
     scree_kick_book(state, work, scree_kick(model, state, work, state->kick_size, true));
 }
 
-const scree_integrator scree_two_timescales = {
+static const scree_integrator integrator = {.steps = steps, .ticks = ticks, .first = first, .velocity_lead = 0.0};
+
+const scree_module scree_module_two_timescales = {
     .name = "two_timescales",
-    .meaning = "position Verlet with m sequences of one large and q small steps (Padbidri 2010, 2.4)",
-    .ticks = ticks,
-    .first = first,
-    .second = NULL,
-    .velocity_lead = 0.0,
+    .meaning = "position_verlet that repeats one large and several small steps while loading (Padbidri 2010, 2.4)",
+    .choice_of = CHOICE_OF(IS("integrator.scheme")),
+    .keys = (const scree_keys[]){KEYS_OF("integrator", keys, config)},
+    .keys_count = 1,
+    .rules = rules,
+    .integrator = &integrator,
 };

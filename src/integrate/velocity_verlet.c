@@ -3,7 +3,7 @@
 /// scheme for grains. Order: 2 for forces of positions; 1 for forces of velocities. Costs one pass over the bodies more
 /// than position Verlet, with which it shares its trajectory when started alike (tests/unit/test_integrate.c).
 #include "integrate/kick.h"
-#include "integrate/schemes.h"
+#include "module/key_rows.h"
 
 static void first(const scree_model *model, scree_state *state, scree_work *work)
 {
@@ -15,10 +15,15 @@ static void second(const scree_model *model, scree_state *state, scree_work *wor
     (void)scree_kick(model, state, work, 0.5 * state->step_size, false);
 }
 
-const scree_integrator scree_velocity_verlet = {
-    .name = "velocity_verlet",
-    .meaning = "half kick, drift, forces, half kick; velocities and positions belong to the same instant; two passes",
+static const scree_integrator integrator = {
     .first = first,
     .second = second,
     .velocity_lead = 0.5,
+};
+
+const scree_module scree_module_velocity_verlet = {
+    .name = "velocity_verlet",
+    .meaning = "velocities and positions at the same time",
+    .choice_of = CHOICE_OF(IS("integrator.scheme")),
+    .integrator = &integrator,
 };

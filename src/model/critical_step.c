@@ -31,13 +31,8 @@
 /// hertz_brilliantov at 1.4 times. Not measured under shear, whose higher forces, two- to threefold, would scale to
 /// another 10 to 30 %.
 ///
-/// Tangents at a force f:  f = A sqrt(R_eff) d^1.5,  k_n = 1.5 A sqrt(R_eff d),  k_t = 8 Gbar sqrt(R_eff d);
-///     hertz_brilliantov:  c_n = T A sqrt(R_eff d), no tangential spring
-///     hertz_mindlin:      c_n = c_t = damping sqrt(m_eff k), k = A sqrt(R_eff d) without the 1.5
-///
-/// The friction of hertz_brilliantov, mu f (s/v_R)^(1/c), is bounded and cannot make a run unstable. But slip slower
-/// than s = 3 mu f dt/m (equal discs) is not resolved: it turns its sign every step with about that size, which is of
-/// the order of v_R at P's large step of 1e-5 s (P figure 2.4, scheme I).
+/// The tangents at a force are those of the law (its descriptor's file): elastic ones, and the dashpots that act while
+/// bodies touch. What a law limits, such as friction, cannot make a run unstable and does not count.
 ///
 /// Loads: the largest confining pressure; gravity as the weight of a column of the whole sample; velocities of a gas
 /// and falls through its box as the force of an elastic impact of two smallest discs at six times the root-mean-square
@@ -63,19 +58,7 @@ double scree_expected_solid_fraction(const scree_model *model)
 scree_contact_tangent scree_contact_linearise(const scree_model *model, const scree_pair_constants *pair,
                                               double effective_radius, double effective_mass, double force)
 {
-    double root = sqrt(effective_radius);
-    double indentation = cbrt(force / (pair->normal_stiffness * root));
-    indentation *= indentation;
-    double secant = pair->normal_stiffness * root * sqrt(indentation);
-    scree_contact_tangent tangent = {.normal_stiffness = 1.5 * secant};
-    if (model->law != SCREE_LAW_HERTZ_MINDLIN) {
-        tangent.normal_damping = model->damping_time * secant;
-        return tangent;
-    }
-    tangent.tangential_stiffness = pair->tangential_stiffness * root * sqrt(indentation);
-    tangent.normal_damping = pair->damping * sqrt(effective_mass * secant);
-    tangent.tangential_damping = tangent.normal_damping;
-    return tangent;
+    return scree_model_law(model)->tangent(&model->law, pair, effective_radius, effective_mass, force);
 }
 
 /// Step at which one mode of given stiffness and damping, both per mass, becomes unstable.
@@ -96,61 +79,45 @@ double scree_critical_step_lattice(int dimension, const scree_contact_tangent *t
     return fmin(turning, shifting);
 }
 
-static const scree_config_stage *prepare_stage(const scree_config *config)
-{
-    for (int64_t i = 0; i < config->stage_count; i++)
-        if (config->stages[i].kind == SCREE_STAGE_PREPARE) return &config->stages[i];
-    return NULL;
-}
-
-/// Top of the highest of the bodies that are listed.
-static double listed_height(const scree_model *model, const scree_config_stage *stage)
-{
-    double height = 0;
-    for (int64_t i = 0; i < stage->body_count; i++) {
-        const scree_config_body *body = &stage->bodies[i];
-        height = fmax(height, body->position[model->dimension - 1] + scree_config_body_radius(model->config, body));
-    }
-    return height;
-}
-
-/// Largest relative velocity of bodies that are listed, of each with what stands too.
-static double listed_speed(const scree_config_stage *stage)
-{
-    double fastest = 0;
-    for (int64_t i = 0; i < stage->body_count; i++)
-        for (int64_t k = 0; k <= i; k++) {
-            const double *a = stage->bodies[i].velocity, *b = stage->bodies[k].velocity;
-            double way[3] = {a[0], a[1], a[2]};
-            for (int c = 0; k < i && c < 3; c++) way[c] -= b[c];
-            fastest = fmax(fastest, scree_length(way));
-        }
-    return fastest;
-}
-
 double scree_expected_height(const scree_model *model, double phi)
 {
     const scree_config *config = model->config;
-    const scree_config_stage *stage = prepare_stage(config);
+    const scree_config_stage *stage = scree_config_prepare(config);
+    const scree_preparation *method = scree_config_preparation(config);
     double radius = model->mean_radius;
-    if (stage && stage->method == SCREE_PREPARE_BODIES) return listed_height(model, stage);
-    bool box = stage && stage->outline == SCREE_SAMPLE_BOX;
-    double aspect = box ? stage->aspect_ratio : 1, count = (double)config->particles.count;
+    if (method && method->height) return method->height(model, stage);
+    const scree_prepare_config *prepare = stage ? scree_config_prepared(stage) : NULL;
+    bool box = prepare && prepare->outline == SCREE_SAMPLE_BOX;
+    double aspect = box ? prepare->aspect_ratio : 1, count = (double)config->particles.count;
     if (model->dimension == 3) {
         double volume = count * 4.0 / 3.0 * M_PI * radius * radius * radius / phi;
-        double width = box ? stage->width : NAN, depth = box ? stage->depth : NAN;
+        double width = box ? prepare->width : NAN, depth = box ? prepare->depth : NAN;
         if (isnan(width) && !isnan(depth)) return sqrt(volume * aspect / depth);
         if (isnan(width)) return cbrt(volume * aspect * aspect);
         return volume / (width * (isnan(depth) ? width : depth));
     }
     double area = count * M_PI * radius * radius / phi;
-    if (box && !isnan(stage->width)) return area / stage->width;
+    if (box && !isnan(prepare->width)) return area / prepare->width;
     return sqrt(area * aspect);
 }
 
 double scree_model_gravity(const scree_model *model)
 {
     return hypot(hypot(model->gravity[0], model->gravity[1]), model->gravity[2]);
+}
+
+/// Speed [m/s] at which neighbours pass each other in the fastest loading.
+static double shear_speed(const scree_model *model)
+{
+    double fastest = 0;
+    for (int64_t i = 0; i < model->config->stage_count; i++)
+        fastest = fmax(fastest, scree_model_loading_rate(&model->config->stages[i]));
+    return 2 * model->mean_radius * fastest;
+}
+
+double scree_expected_fast_speed(const scree_model *model, double velocity)
+{
+    return FAST * fmax(velocity, shear_speed(model));
 }
 
 /// Force of a strong contact under pressure and weight.
@@ -165,44 +132,25 @@ static double strong_static_force(const scree_model *model, double height, int m
     return STRONG * pressure * diameter * (model->dimension == 3 ? diameter : model->thickness);
 }
 
-/// Speed [m/s] at which neighbours pass each other in the fastest loading.
-static double shear_speed(const scree_model *model)
-{
-    double fastest = 0;
-    for (int64_t i = 0; i < model->config->stage_count; i++)
-        fastest = fmax(fastest, scree_model_loading_rate(&model->config->stages[i]));
-    return 2 * model->mean_radius * fastest;
-}
-
-/// Largest force of an elastic impact: m v^2 / 2 = (2/5) K d^2.5 and f = K d^1.5.
-static double impact_force(double stiffness, double effective_mass, double speed)
-{
-    return stiffness * pow(1.25 * effective_mass * speed * speed / stiffness, 0.6);
-}
-
 /// The estimate for particles of one material.
 static double estimate_of(const scree_model *model, int material)
 {
     const scree_pair_constants *pair = &model->pairs[material][material];
     double mass = scree_model_mass(model, material, model->radius_min);
     double effective_radius = model->radius_min / 2, effective_mass = mass / 2;
-    double stiffness = pair->normal_stiffness * sqrt(effective_radius);
+    const scree_elastic *elastic = scree_model_law(model)->elastic;
 
-    const scree_config_stage *stage = prepare_stage(model->config);
-    bool gas = stage && stage->method == SCREE_PREPARE_GAS;
-    double height = scree_expected_height(model, gas ? scree_model_gas_fraction(model, stage)
-                                                     : scree_expected_solid_fraction(model));
+    const scree_config_stage *stage = scree_config_prepare(model->config);
+    const scree_preparation *method = scree_config_preparation(model->config);
+    double phi =
+        method && method->solid_fraction ? method->solid_fraction(model, stage) : scree_expected_solid_fraction(model);
+    double height = scree_expected_height(model, phi);
     double force = strong_static_force(model, height, material);
     double fall = sqrt(2 * scree_model_gravity(model) * height);
-    if (gas) {
-        double speed = fmax(stage->velocity, shear_speed(model));
-        force = fmax(force, impact_force(stiffness, effective_mass, fmax(FAST * speed, fall)));
-    }
-    if (stage && stage->method == SCREE_PREPARE_BODIES)
-        force = fmax(force, impact_force(stiffness, effective_mass, hypot(listed_speed(stage), fall)));
-    if (stage && stage->method == SCREE_PREPARE_PAIR)
-        force = impact_force(stiffness, effective_mass, isnan(stage->speed) ? model->reference_velocity : stage->speed);
-    double guard = stiffness * pow(model->config->guard.overlap * model->radius_min, 1.5);
+    if (method && method->impact_speed)
+        force = fmax(force, elastic->impact_force(pair, effective_radius, effective_mass,
+                                                  method->impact_speed(model, stage, fall)));
+    double guard = elastic->force(pair, effective_radius, model->config->guard.overlap * model->radius_min);
     if (!(force > 0 && force < guard)) force = guard;
 
     scree_contact_tangent tangent = scree_contact_linearise(model, pair, effective_radius, effective_mass, force);

@@ -4,12 +4,6 @@
 
 #include "model/model.h"
 
-/// Stiffness [N/m] and viscosity [N s/m] of a contact under small changes of its indentation and its slip.
-typedef struct scree_contact_tangent {
-    double normal_stiffness, normal_damping;
-    double tangential_stiffness, tangential_damping;
-} scree_contact_tangent;
-
 /// Tangent of the model's law at the static normal force `force` [N] between bodies of the effective radius [m] and
 /// mass [kg].
 scree_contact_tangent scree_contact_linearise(const scree_model *model, const scree_pair_constants *pair,
@@ -28,5 +22,9 @@ double scree_critical_step_estimate(const scree_model *model);
 double scree_expected_solid_fraction(const scree_model *model);
 double scree_expected_height(const scree_model *model, double phi);
 double scree_model_gravity(const scree_model *model);
+
+/// Speed [m/s] of fast bodies, of those whose velocity components are `velocity` [m/s], root-mean-square, or that the
+/// fastest loading drives past each other.
+double scree_expected_fast_speed(const scree_model *model, double velocity);
 
 #endif

@@ -1,15 +1,12 @@
 /// From what the user said to the constants that kernels use.
 ///
-/// Contacts of two materials (Hertz 1882, Mindlin 1949; unlike bodies as in Johnson 1985, eqs. 4.3-4.6 and 7.40):
-///     1/Ebar = (1 - nu1^2)/E1 + (1 - nu2^2)/E2,     normal stiffness      (4/3) Ebar
-///     1/Gbar = (2 - nu1)/G1 + (2 - nu2)/G2,         tangential stiffness  8 Gbar,      G = E / (2 (1 + nu))
-/// A rigid wall has no compliance. The weaker rules where materials have no theory of the pair: the smaller friction
-/// (of any kind) and restitution. Everything here is O(materials^2 + stages).
+/// The constants of two materials are the affair of the law (contact/laws.h). Everything here is O(materials^2 +
+/// stages).
 #include "model/model.h"
 
 #include "model/critical_step.h"
+#include "module/integrator.h"
 #include "theory/quasistatic.h"
-#include "theory/restitution.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -32,46 +29,17 @@ static scree_status indexed_error(scree_error *error, const char *list, int64_t 
     return FIELD_ERROR(error, path, "%s", text);
 }
 
-int scree_model_body_material(const scree_model *model, const scree_config_body *body)
+int scree_model_material(const scree_model *model, const char *name)
 {
-    if (!body->material) return SCREE_PARTICLE_MATERIAL;
+    if (!name) return SCREE_PARTICLE_MATERIAL;
     for (int i = 0; i < model->material_count; i++)
-        if (strcmp(model->config->materials[model->listed[i]].name, body->material) == 0) return i;
+        if (strcmp(model->config->materials[model->listed[i]].name, name) == 0) return i;
     return -1;
 }
 
 bool scree_model_is_wholly_periodic(const scree_model *model)
 {
     return model->config->boundary.periodic == (1 << model->dimension) - 1;
-}
-
-/// Over (4/3) and 8 the inverse of a body's share of the two stiffnesses; none of a rigid one (NULL).
-static double compliance_of(const scree_config_material *m)
-{
-    return m ? (1 - m->poisson_ratio * m->poisson_ratio) / m->young_modulus : 0;
-}
-
-static double shear_compliance_of(const scree_config_material *m)
-{
-    return m ? (2 - m->poisson_ratio) * 2 * (1 + m->poisson_ratio) / m->young_modulus : 0;
-}
-
-/// b is NULL for something rigid, which leaves the rest to a.
-static scree_pair_constants pair_constants(const scree_config_material *a, const scree_config_material *b,
-                                           scree_law law)
-{
-    double compliance = compliance_of(a) + compliance_of(b);
-    double shear_compliance = shear_compliance_of(a) + shear_compliance_of(b);
-    if (!b) b = a;
-    double restitution = fmin(a->restitution, b->restitution);
-    return (scree_pair_constants){
-        .normal_stiffness = 4.0 / 3.0 / compliance,
-        .tangential_stiffness = 8 / shear_compliance,
-        .friction = fmin(a->friction, b->friction),
-        .damping = law == SCREE_LAW_HERTZ_MINDLIN ? scree_damping_from_restitution(restitution) : 0,
-        .rolling_friction = fmin(a->rolling_friction, b->rolling_friction),
-        .twisting_friction = fmin(a->twisting_friction, b->twisting_friction),
-    };
 }
 
 static scree_status check_materials(const scree_model *model, scree_error *error)
@@ -84,22 +52,11 @@ static scree_status check_materials(const scree_model *model, scree_error *error
         for (int j = 0; j < i; j++)
             if (strcmp(config->materials[i].name, config->materials[j].name) == 0)
                 return indexed_error(error, "materials", i, "name", "two materials have the same name");
-        if (model->law == SCREE_LAW_HERTZ_MINDLIN && !(config->materials[i].restitution > 0))
-            return indexed_error(error, "materials", i, "restitution",
-                                 "hertz_mindlin reaches a restitution of zero only with infinite damping; "
-                                 "give a value above 0, such as 0.05");
+        const scree_law *law = scree_model_law(model);
+        const char *key, *problem = law->material_problem ? law->material_problem(&config->materials[i], &key) : NULL;
+        if (problem) return indexed_error(error, "materials", i, key, problem);
     }
     return SCREE_OK;
-}
-
-/// Some listed body is made of it.
-static bool is_of_bodies(const scree_config *config, const char *name)
-{
-    for (int64_t k = 0; k < config->stage_count; k++)
-        for (int64_t i = 0; i < config->stages[k].body_count; i++)
-            if (config->stages[k].bodies[i].material && strcmp(config->stages[k].bodies[i].material, name) == 0)
-                return true;
-    return false;
 }
 
 /// Materials in the order of their use: that of the particles, others that something is made of, and the rest, which
@@ -107,7 +64,8 @@ static bool is_of_bodies(const scree_config *config, const char *name)
 static int rank_of(const scree_config *config, const scree_config_material *material)
 {
     if (strcmp(material->name, config->particles.material) == 0) return 0;
-    return is_of_bodies(config, material->name) ? 1 : 2;
+    const scree_preparation *method = scree_config_preparation(config);
+    return method && method->uses && method->uses(scree_config_prepare(config), material->name) ? 1 : 2;
 }
 
 /// Numbers the materials; none is in use when there is none of the particles.
@@ -140,8 +98,8 @@ static scree_status wall_constants(const scree_model *model, int64_t grain, cons
     int found = material && !rigid ? find_material(model->config, material) : (int)grain;
     if (found < 0) return indexed_error(error, list, index, key, "there is no material of this name");
     wall = rigid ? NULL : &model->config->materials[found];
-    *constants = pair_constants(body, wall, model->law);
-    if (!isnan(body->wall_friction)) constants->friction = body->wall_friction;
+    *constants = scree_model_law(model)->constants(body, wall);
+    if (!isnan(body->wall_friction)) constants->value[SCREE_FRICTION] = body->wall_friction;
     return SCREE_OK;
 }
 
@@ -167,6 +125,7 @@ static scree_status resolve_materials(scree_model *model, scree_error *error)
 {
     const scree_config *config = model->config;
     const scree_config_material *listed = config->materials;
+    const scree_law *law = scree_model_law(model);
     scree_status status = check_materials(model, error);
     if (status) return status;
     model->material_count = 0;
@@ -174,11 +133,9 @@ static scree_status resolve_materials(scree_model *model, scree_error *error)
     for (int i = 0; model->material_count > 0 && i < config->material_count; i++) {
         const scree_config_material *material = &listed[model->listed[i]];
         for (int j = 0; j <= i; j++)
-            model->pairs[i][j] = model->pairs[j][i] = pair_constants(material, &listed[model->listed[j]], model->law);
+            model->pairs[i][j] = model->pairs[j][i] = law->constants(material, &listed[model->listed[j]]);
         model->density[i] = material->density;
-        bool rolls = material->rolling_friction > 0 || material->twisting_friction > 0;
-        if (i < model->material_count && model->law == SCREE_LAW_HERTZ_MINDLIN)
-            model->rolling = model->rolling || rolls;
+        if (i < model->material_count) model->law.option |= law->options(&config->contact, material);
     }
     return resolve_walls(model, error);
 }
@@ -208,14 +165,21 @@ static scree_status resolve_particles(scree_model *model, scree_error *error)
     return SCREE_OK;
 }
 
+double scree_model_stiffness(const scree_model *model, double pressure, double diameter, double depth)
+{
+    const scree_pair_constants *pair = &model->pairs[SCREE_PARTICLE_MATERIAL][SCREE_PARTICLE_MATERIAL];
+    return scree_model_law(model)->elastic->stiffness(pair, 0.5 * model->mean_radius, pressure, diameter, depth);
+}
+
 double scree_model_largest_radius(const scree_model *model)
 {
     return fmax(model->radius_max, model->membrane_radius);
 }
 
-static void take_friction(scree_pair_constants *pair)
+static void take_friction(const scree_model *model, scree_pair_constants *pair)
 {
-    pair->friction = pair->rolling_friction = pair->twisting_friction = 0;
+    for (int k = 0; k < SCREE_PAIR_CONSTANTS; k++)
+        if (scree_model_law(model)->resistances >> k & 1) pair->value[k] = 0;
 }
 
 /// Takes the friction of a membrane away.
@@ -223,10 +187,10 @@ static void make_frictionless(scree_model *model)
 {
     if (!model->membrane) return;
     int m = model->membrane_material;
-    take_friction(&model->walls[m]);
-    for (int w = 0; w < SCREE_SURFACES; w++) take_friction(&model->surfaces[w][m]);
+    take_friction(model, &model->walls[m]);
+    for (int w = 0; w < SCREE_SURFACES; w++) take_friction(model, &model->surfaces[w][m]);
     for (int i = 0; i < SCREE_MAX_MATERIALS; i++) {
-        take_friction(&model->pairs[i][m]);
+        take_friction(model, &model->pairs[i][m]);
         model->pairs[m][i] = model->pairs[i][m];
     }
 }
@@ -259,7 +223,7 @@ static scree_status resolve_membrane(scree_model *model, scree_error *error)
 {
     const scree_config *config = model->config;
     for (int64_t i = 0; i < config->stage_count; i++)
-        if (config->stages[i].kind != SCREE_STAGE_PREPARE)
+        if (!scree_modules[config->stages[i].kind]->numbers->places)
             model->membrane = model->membrane || scree_config_boundary_of(config, i) == SCREE_BOUNDARY_MEMBRANE;
     if (!model->membrane) return SCREE_OK;
     if (model->material_count == SCREE_MAX_MATERIALS)
@@ -291,23 +255,17 @@ static scree_status resolve_membrane(scree_model *model, scree_error *error)
 static scree_status check_prepare(const scree_model *model, int64_t index, scree_error *error)
 {
     const scree_config_stage *stage = &model->config->stages[index];
-    bool lattice = stage->method == SCREE_PREPARE_HEXAGONAL || stage->method == SCREE_PREPARE_SQUARE ||
-                   stage->method == SCREE_PREPARE_FACE_CENTRED || stage->method == SCREE_PREPARE_CUBIC;
+    const scree_prepare_config *prepare = scree_config_prepared(stage);
+    const scree_preparation *method = scree_modules[prepare->method]->preparation;
     bool solid = model->dimension == 3;
-    if (lattice && model->radius_min < model->radius_max)
-        return indexed_error(error, "stages", index, "method",
-                             "a lattice needs particles of one radius: set particles.distribution to equal");
-    for (int64_t i = 0; stage->method == SCREE_PREPARE_BODIES && i < stage->body_count; i++)
-        if (scree_model_body_material(model, &stage->bodies[i]) < 0)
-            return indexed_error(error, "stages", index, "bodies",
-                                 "a body is of a material that this case does not have");
-    // A round sample's sides are not the user's; and what bodies are listed has been judged (case/body_rules.c).
-    if (stage->outline != SCREE_SAMPLE_BOX || stage->method == SCREE_PREPARE_BODIES) return SCREE_OK;
-    bool shallow = solid && !isnan(stage->depth) && stage->depth < 2 * model->radius_max;
-    if (shallow || (!isnan(stage->width) && stage->width < 2 * model->radius_max)) {
+    scree_status status = method->check ? method->check(model, index, error) : SCREE_OK;
+    // A round sample's sides are not the user's; and a method that makes its box has judged it.
+    if (status || prepare->outline != SCREE_SAMPLE_BOX || method->sizes_box) return status;
+    bool shallow = solid && !isnan(prepare->depth) && prepare->depth < 2 * model->radius_max;
+    if (shallow || (!isnan(prepare->width) && prepare->width < 2 * model->radius_max)) {
         char text[160];
         (void)snprintf(text, sizeof text, "a %s of radius %g m does not fit into a box %g m %s",
-                       solid ? "sphere" : "disc", model->radius_max, shallow ? stage->depth : stage->width,
+                       solid ? "sphere" : "disc", model->radius_max, shallow ? prepare->depth : prepare->width,
                        shallow ? "deep" : "wide");
         return indexed_error(error, "stages", index, shallow ? "depth" : "width", text);
     }
@@ -327,67 +285,14 @@ double scree_model_mean_mass(const scree_model *model)
 
 double scree_held_pressure(const scree_config_stage *stage)
 {
-    if (stage->kind == SCREE_STAGE_CONFINE) return stage->pressure;
-    double largest = NAN;
-    for (int k = 0; k < 9 && stage->kind == SCREE_STAGE_DEFORM; k += 4) largest = fmax(largest, stage->stress[k]);
-    return largest;
+    const scree_stage_numbers *numbers = scree_modules[stage->kind]->numbers;
+    return numbers->pressure ? numbers->pressure(stage->own) : NAN;
 }
 
 double scree_model_loading_rate(const scree_config_stage *stage)
 {
-    if (stage->kind == SCREE_STAGE_COMPRESS) return fabs(stage->rate);
-    if (stage->kind != SCREE_STAGE_DEFORM) return NAN;
-    double rate = 0;
-    for (int c = 0; c < 9; c++) {
-        if (!isnan(stage->velocity_gradient[c])) rate = fmax(rate, fabs(stage->velocity_gradient[c]));
-        if (!isnan(stage->strain_rate[c])) rate = fmax(rate, fabs(stage->strain_rate[c]));
-    }
-    return rate;
-}
-
-/// Sides [m] of the box of a gas; in 2D the third is infinite.
-static void gas_sides(const scree_model *model, const scree_config_stage *stage, double side[3])
-{
-    const int material = SCREE_PARTICLE_MATERIAL;
-    double depth = model->dimension == 3 ? 1 : model->thickness;
-    double solid = (double)model->config->particles.count * scree_model_mean_mass(model) / model->density[material];
-    double room = solid / depth / scree_model_gas_fraction(model, stage);
-    side[0] = stage->width;
-    side[1] = stage->depth;
-    side[2] = INFINITY;
-    if (model->dimension == 2) {
-        if (isnan(side[0])) side[0] = sqrt(room / stage->aspect_ratio);
-        side[1] = room / side[0];
-        return;
-    }
-    double face = room / stage->aspect_ratio;
-    if (isnan(side[0])) side[0] = isnan(side[1]) ? cbrt(face) : sqrt(face / side[1]);
-    if (isnan(side[1])) side[1] = side[0];
-    side[2] = room / (side[0] * side[1]);
-}
-
-/// A periodic gas must be wide enough when it is prepared, and when its cell has shrunk to the loosest packing that
-/// bears a pressure (solid fraction about 0.76 of discs, 0.55 of spheres). What happens later is not known here: the
-/// search for images says it then.
-static scree_status check_periods(const scree_model *model, int64_t index, bool confined, scree_error *error)
-{
-    const scree_config_stage *stage = &model->config->stages[index];
-    const int periodic = model->config->boundary.periodic;
-    if (!periodic || stage->method != SCREE_PREPARE_GAS) return SCREE_OK;
-    double side[3], loosest = model->dimension == 3 ? 0.55 : 0.76, needed = 4 * model->radius_max;
-    double shrunk = fmin(1, pow(scree_model_gas_fraction(model, stage) / loosest, 1.0 / model->dimension));
-    if (!confined || !scree_model_is_wholly_periodic(model)) shrunk = 1;
-    gas_sides(model, stage, side);
-    for (int k = 0; k < model->dimension; k++) {
-        if (!(periodic >> k & 1) || shrunk * side[k] > needed) continue;
-        char text[240];
-        (void)snprintf(text, sizeof text,
-                       "the periodic cell %s only %.3g m wide along %c, and must be wider than two of the largest "
-                       "particles side by side (%.3g m): take more particles or another aspect_ratio",
-                       shrunk < 1 ? "will be" : "is", shrunk * side[k], "xyz"[k], needed);
-        return indexed_error(error, "stages", index, "aspect_ratio", text);
-    }
-    return SCREE_OK;
+    const scree_stage_numbers *numbers = scree_modules[stage->kind]->numbers;
+    return numbers->rate ? numbers->rate(stage->own) : NAN;
 }
 
 /// Reference velocity, phi and psi: those of the first loading stage under the pressure that it holds or that of the
@@ -398,10 +303,8 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
     double pressure = NAN, rate = NAN;
     for (int64_t i = 0; i < config->stage_count && isnan(rate); i++) {
         const scree_config_stage *stage = &config->stages[i];
-        if (stage->kind == SCREE_STAGE_PREPARE) {
-            bool confined = i + 1 < config->stage_count && config->stages[i + 1].kind == SCREE_STAGE_CONFINE;
+        if (scree_modules[stage->kind]->numbers->places) {
             scree_status status = check_prepare(model, i, error);
-            if (!status) status = check_periods(model, i, confined, error);
             if (status) return status;
         }
         if (scree_held_pressure(stage) > 0) pressure = scree_held_pressure(stage);
@@ -409,10 +312,13 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
     }
     model->reference_velocity = config->contact.reference_velocity;
     if (isnan(model->reference_velocity) && !isnan(rate)) model->reference_velocity = 2 * rate * model->mean_radius;
-    if (model->law != SCREE_LAW_HERTZ_MINDLIN && !(model->reference_velocity > 0))
+    const scree_law *law = scree_model_law(model);
+    if (law->needs_slip_scale && !(model->reference_velocity > 0))
         return FIELD_ERROR(error, "contact.reference_velocity",
-                           "hertz_brilliantov needs a reference slip velocity: without a loading stage (2 rate <R>) "
-                           "give contact.reference_velocity");
+                           "%s needs a reference slip velocity: without a loading stage (2 rate <R>) "
+                           "give contact.reference_velocity",
+                           scree_modules[model->law.law]->name);
+    if (law->resolve) law->resolve(&config->contact, model->reference_velocity, &model->law);
     model->phi = model->psi = NAN;
     if (isnan(rate) || isnan(pressure)) return SCREE_OK;
     double mass = scree_model_mean_mass(model);
@@ -432,13 +338,11 @@ static scree_status resolve_step(scree_model *model, scree_error *error)
 {
     const scree_config_integrator *integrator = &model->config->integrator;
     model->critical_step = scree_critical_step_estimate(model);
-    model->largest_step = model->large_multiple = 1;
-    model->small_steps = 0;
-    if (model->scheme == SCREE_SCHEME_TWO_TIMESCALES) {
-        model->large_multiple = (uint64_t)integrator->large_multiple;
-        model->small_steps = (uint64_t)integrator->small_steps;
-        model->largest_step = (uint64_t)integrator->repeats * (model->large_multiple + model->small_steps);
-    }
+    scree_steps (*lengths)(const void *own) = scree_integrator_get(model->scheme)->steps;
+    scree_steps steps = lengths ? lengths(integrator->own) : (scree_steps){1, 1, 0};
+    model->largest_step = steps.largest;
+    model->large_multiple = steps.multiple;
+    model->small_steps = steps.small;
     double ticks = (double)model->largest_step;
     model->step = isnan(integrator->step) ? integrator->step_fraction * model->critical_step / ticks : integrator->step;
     if (ticks * model->step <= model->critical_step) return SCREE_OK;
@@ -460,22 +364,12 @@ static scree_status resolve_step(scree_model *model, scree_error *error)
     return status;
 }
 
-static scree_law resolve_law(const scree_config_contact *contact)
-{
-    bool implicit = contact->law == SCREE_LAW_HERTZ_BRILLIANTOV && contact->friction_update == SCREE_FRICTION_IMPLICIT;
-    return implicit ? SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT : (scree_law)contact->law;
-}
-
 scree_status scree_model_build(const scree_config *config, scree_model *model, scree_error *error)
 {
     *model = (scree_model){
         .dimension = (int)config->dimension,
-        .law = resolve_law(&config->contact),
-        .rescaled = config->contact.law == SCREE_LAW_HERTZ_MINDLIN &&
-                    config->contact.tangential_history == SCREE_TANGENTIAL_RESCALED,
-        .damping_time = config->contact.damping_time,
-        .inverse_exponent = 1 / config->contact.friction_exponent,
-        .scheme = (scree_scheme)config->integrator.scheme,
+        .law = {.law = config->contact.law},
+        .scheme = config->integrator.scheme,
         .gravity = {config->gravity[0], config->gravity[1], config->gravity[2]},
         .config = config,
     };
@@ -487,21 +381,15 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
     return status;
 }
 
-double scree_model_gas_fraction(const scree_model *model, const scree_config_stage *stage)
-{
-    if (!isnan(stage->solid_fraction)) return stage->solid_fraction;
-    return model->dimension == 3 ? 0.15 : 0.3;
-}
-
 scree_model scree_model_with_friction(const scree_model *model, double friction)
 {
     scree_model copy = *model;
     if (isnan(friction)) return copy;
     copy.friction_of_stage = true;
     for (int i = 0; i < SCREE_MAX_MATERIALS; i++) {
-        copy.walls[i].friction = friction;
-        for (int w = 0; w < SCREE_SURFACES; w++) copy.surfaces[w][i].friction = friction;
-        for (int j = 0; j < SCREE_MAX_MATERIALS; j++) copy.pairs[i][j].friction = friction;
+        copy.walls[i].value[SCREE_FRICTION] = friction;
+        for (int w = 0; w < SCREE_SURFACES; w++) copy.surfaces[w][i].value[SCREE_FRICTION] = friction;
+        for (int j = 0; j < SCREE_MAX_MATERIALS; j++) copy.pairs[i][j].value[SCREE_FRICTION] = friction;
     }
     make_frictionless(&copy);
     return copy;

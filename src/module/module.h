@@ -6,12 +6,33 @@
 
 #include "base/error.h"
 #include "module/field.h"
+#include "module/key.h"
 #include "module/pass.h"
 #include "module/table.h"
+
+#include <stdint.h>
+
+typedef struct scree_config scree_config;
+typedef struct scree_reader scree_reader;
 
 struct scree_module {
     const char *name;
     const char *meaning; ///< one line
+
+    // ---- the case ----
+    const scree_choice_of *choice_of; ///< the keys whose choice it is; NULL: none
+    const scree_keys *keys;           ///< those that it adds to sections of the case
+    size_t keys_count;                ///< sections
+    /// Notes what it cannot be combined with, once for a case that has chosen it. Values that are missing or wrong have
+    /// been noted: of such nothing is said. NULL: nothing.
+    void (*rules)(scree_reader *reader, const scree_config *config);
+
+    // ---- faces: what only modules of one kind have ----
+    const struct scree_law *law;                 ///< model/law.h
+    const struct scree_integrator *integrator;   ///< module/integrator.h
+    const struct scree_preparation *preparation; ///< module/preparation.h
+    const struct scree_stage_numbers *numbers;   ///< module/stage.h
+    const struct scree_stage *stage;             ///< run/stage.h
 
     // ---- state: what it remembers ----
     size_t state_size;         ///< bytes of its struct in the store of the state, zero at first; 0: none
@@ -34,6 +55,8 @@ struct scree_module {
     /// Largest force that its loads may put on one body in this step [N], for the quanta; up to 2^10 times more is
     /// safe. NULL: none.
     double (*bound)(const scree_context *context);
+    /// Work [J] that it has done on the bodies since the begin of the run. NULL: it does none, or has a row of the ledger.
+    double (*work)(const scree_state *state);
 };
 
 #define SCREE_MODULE_DECLARE(name) extern const scree_module scree_module_##name;

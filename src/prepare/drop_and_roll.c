@@ -13,6 +13,7 @@
 /// Width auto. The packing is loose along walls and floor, so its height is not known before it is made. The first
 /// guess takes a solid fraction over the whole box; a packing made with it tells the height, and the second one has the
 /// width that gives the aspect ratio if the solid fraction stays the same.
+#include "module/key_rows.h"
 #include "prepare/deposit.h"
 #include "prepare/heap.h"
 #include "prepare/methods.h"
@@ -184,8 +185,11 @@ static scree_status place(const scree_model *model, const scree_config_stage *st
     return fill(model, packing, error);
 }
 
-const scree_preparation scree_prepare_drop_and_roll = {
+static const scree_preparation preparation = {.needs_walls = true, .dense = true, .place = place};
+
+const scree_module scree_module_drop_and_roll = {
     .name = "drop_and_roll",
-    .meaning = "particles fall one by one and roll to a stable place on those below, over a random bed",
-    .place = place,
+    .meaning = "each particle falls and rolls on those below until it is stable (Jodrey and Tory 1979)",
+    .choice_of = CHOICE_OF(IS("stages.prepare.method")),
+    .preparation = &preparation,
 };

@@ -13,6 +13,8 @@
 ///
 /// Determinism: sums run in the order of the neighbour list, which depends on places and ids alone; one thread.
 /// Cost: a few hundred force evaluations of about 30 ns a pair; more near jamming.
+#include "prepare/growth.h"
+#include "module/key_rows.h"
 #include "prepare/methods.h"
 #include "state/plates.h"
 
@@ -233,11 +235,19 @@ static double standard_fraction(const scree_model *model, const scree_packing *p
     return fraction * fmax(share, 0.5);
 }
 
+typedef scree_growth_config config;
+static const scree_key keys[] = {
+    NUMBER(config, solid_fraction, "1", .standard = "auto", ABOVE("0"), TO("90 %"), .when = "method=growth",
+           .meaning = "Area (volume) of the particles over that of the box; auto: 30 % of discs and 15 % of spheres in "
+                      "a gas; with growth 80 % and 60 %, less what the walls take."),
+};
+
 static scree_status place(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
                           scree_error *error)
 {
     const int dimension = packing->dimension;
-    double fraction = stage->solid_fraction, largest = scree_packing_largest(packing);
+    const config *own = scree_config_own(&scree_module_growth, "stages.prepare", stage->own);
+    double fraction = own->solid_fraction, largest = scree_packing_largest(packing);
     if (isnan(fraction)) fraction = standard_fraction(model, packing);
     scree_packing_fit_box(packing, scree_packing_solid(packing), fraction, 2 * largest);
     const scree_box *box = &packing->box;
@@ -269,8 +279,13 @@ static scree_status place(const scree_model *model, const scree_config_stage *st
     return status;
 }
 
-const scree_preparation scree_prepare_growth = {
+static const scree_preparation preparation = {.needs_walls = true, .loose = true, .place = place};
+
+const scree_module scree_module_growth = {
     .name = "growth",
-    .meaning = "particles grow at random places and push each other apart, without gravity",
-    .place = place,
+    .meaning = "particles grow at random places and push each other away: dense and isotropic, without contacts",
+    .choice_of = CHOICE_OF(IS("stages.prepare.method")),
+    .keys = (const scree_keys[]){KEYS_OF("stages.prepare", keys, config)},
+    .keys_count = 1,
+    .preparation = &preparation,
 };

@@ -10,6 +10,7 @@
 /// Periodic in the horizontal directions, all layers have n (n x m) bodies. Periodic in the last direction too, the
 /// layers have to be whole, and even in number where they alternate: then width (or aspect ratio) and number of bodies
 /// have to suit each other.
+#include "module/key_rows.h"
 #include "prepare/methods.h"
 
 #include <math.h>
@@ -133,20 +134,24 @@ static scree_status place_face_centred(const scree_model *model, const scree_con
     return place_lattice(model, stage, packing, (lattice){1, sqrt(2.0), true}, error);
 }
 
-const scree_preparation scree_prepare_hexagonal = {.name = "hexagonal",
-                                                   .meaning = "equal discs on a triangular lattice, just touching",
-                                                   .periodic = true,
-                                                   .place = place_hexagonal};
-const scree_preparation scree_prepare_square = {.name = "square",
-                                                .meaning = "equal discs on a square lattice, just touching",
-                                                .periodic = true,
-                                                .place = place_upright};
-const scree_preparation scree_prepare_face_centred = {.name = "face_centred",
-                                                      .meaning =
-                                                          "equal spheres on a face-centred lattice, just touching",
-                                                      .periodic = true,
-                                                      .place = place_face_centred};
-const scree_preparation scree_prepare_cubic = {.name = "cubic",
-                                               .meaning = "equal spheres on a simple cubic lattice, just touching",
-                                               .periodic = true,
-                                               .place = place_upright};
+static scree_status check(const scree_model *model, int64_t index, scree_error *error)
+{
+    if (!(model->radius_min < model->radius_max)) return SCREE_OK;
+    return scree_prepare_error(error, model, &model->config->stages[index], "method",
+                               "a lattice needs particles of one radius: set particles.distribution to equal");
+}
+
+#define LATTICE(title, text, dimension, other, function)                                                               \
+    const scree_module scree_module_##title = {                                                                        \
+        .name = #title,                                                                                                \
+        .meaning = text,                                                                                               \
+        .choice_of = CHOICE_OF(IS("stages.prepare.method")),                                                           \
+        .preparation =                                                                                                 \
+            &(const scree_preparation){                                                                                \
+                .periodic = true, .only_dimension = dimension, .elsewhere = other, .check = check, .place = function}, \
+    }
+LATTICE(hexagonal, "triangular lattice of equal discs that touch", 2, "face_centred", place_hexagonal);
+LATTICE(square, "square lattice of equal discs that touch", 2, "cubic", place_upright);
+LATTICE(face_centred, "face-centred cubic lattice of equal spheres that touch, square layers horizontal", 3,
+        "hexagonal", place_face_centred);
+LATTICE(cubic, "simple cubic lattice of equal spheres that touch", 3, "square", place_upright);

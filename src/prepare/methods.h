@@ -1,18 +1,8 @@
-/// The methods, one file each.
+/// What the methods share.
 #ifndef SCREE_PREPARE_METHODS_H
 #define SCREE_PREPARE_METHODS_H
 
 #include "prepare/prepare.h"
-
-extern const scree_preparation scree_prepare_drop_and_roll;
-extern const scree_preparation scree_prepare_hexagonal;
-extern const scree_preparation scree_prepare_square;
-extern const scree_preparation scree_prepare_face_centred;
-extern const scree_preparation scree_prepare_cubic;
-extern const scree_preparation scree_prepare_gas;
-extern const scree_preparation scree_prepare_growth;
-extern const scree_preparation scree_prepare_pair;
-extern const scree_preparation scree_prepare_bodies;
 
 /// Input error at a key of `stage`, with its place in the list of stages when it is one of the model's.
 scree_status scree_prepare_error(scree_error *error, const scree_model *model, const scree_config_stage *stage,

@@ -12,31 +12,6 @@
 #include <math.h>
 #include <stdio.h>
 
-const scree_preparation *scree_preparation_get(scree_prepare_method method)
-{
-    switch (method) {
-    case SCREE_PREPARE_DROP_AND_ROLL:
-        return &scree_prepare_drop_and_roll;
-    case SCREE_PREPARE_HEXAGONAL:
-        return &scree_prepare_hexagonal;
-    case SCREE_PREPARE_SQUARE:
-        return &scree_prepare_square;
-    case SCREE_PREPARE_FACE_CENTRED:
-        return &scree_prepare_face_centred;
-    case SCREE_PREPARE_CUBIC:
-        return &scree_prepare_cubic;
-    case SCREE_PREPARE_GAS:
-        return &scree_prepare_gas;
-    case SCREE_PREPARE_GROWTH:
-        return &scree_prepare_growth;
-    case SCREE_PREPARE_PAIR:
-        return &scree_prepare_pair;
-    case SCREE_PREPARE_BODIES:
-        return &scree_prepare_bodies;
-    }
-    return NULL;
-}
-
 scree_status scree_prepare_error(scree_error *error, const scree_model *model, const scree_config_stage *stage,
                                  const char *key, const char *format, ...)
 {
@@ -105,15 +80,17 @@ static void stand_walls(const scree_box *box, bool active, scree_state *state)
 scree_status scree_prepare(const scree_model *model, const scree_config_stage *stage, scree_state *state,
                            scree_error *error)
 {
-    const scree_preparation *method = scree_preparation_get((scree_prepare_method)stage->method);
-    const bool round = stage->outline != SCREE_SAMPLE_BOX;
+    const scree_prepare_config *prepare = scree_config_prepared(stage);
+    const scree_module *module = scree_modules[prepare->method];
+    const scree_preparation *method = module->preparation;
+    const bool round = prepare->outline != SCREE_SAMPLE_BOX;
     size_t count = (size_t)model->config->particles.count;
     unsigned periodic = (unsigned)model->config->boundary.periodic;
     if (periodic && !method->periodic)
         return scree_prepare_error(error, model, stage, "method",
                                    "%s needs walls and cannot fill a periodic cell: prepare with gas or on a lattice, "
                                    "and confine",
-                                   method->name);
+                                   module->name);
     scree_status status = scree_state_create(state, model->dimension, count, error);
     if (status) return status;
     scree_packing packing;
@@ -121,8 +98,8 @@ scree_status scree_prepare(const scree_model *model, const scree_config_stage *s
     if (!status && round)
         status = scree_packing_cut_round(model, stage, method, &packing, error);
     else if (!status) {
-        packing.box = (scree_box){.width = stage->width, .depth = stage->depth, .periodic = periodic};
-        packing.aspect_ratio = stage->aspect_ratio;
+        packing.box = (scree_box){.width = prepare->width, .depth = prepare->depth, .periodic = periodic};
+        packing.aspect_ratio = prepare->aspect_ratio;
         scree_draw_radii(model, packing.radius, count);
         status = method->place(model, stage, &packing, error);
     }

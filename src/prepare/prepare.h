@@ -21,22 +21,6 @@ typedef struct scree_packing {
     scree_box box;
 } scree_packing;
 
-typedef struct scree_preparation {
-    const char *name;
-    const char *meaning;
-    bool periodic; ///< can fill a box that repeats itself
-    /// Places the bodies of `packing` (radii drawn; width and depth of its box given, or NAN for auto) and sets the
-    /// box. A method may draw other radii from the same distribution. Errors: does not fit, memory.
-    scree_status (*place)(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
-                          scree_error *error);
-    /// Index of the material of body `index`. NULL: that of the particles.
-    int (*material_of)(const scree_model *model, const scree_config_stage *stage, size_t index);
-    /// Velocities at the start, when the rows are filled. NULL: at rest.
-    void (*set_moving)(const scree_model *model, const scree_config_stage *stage, scree_state *state);
-} scree_preparation;
-
-const scree_preparation *scree_preparation_get(scree_prepare_method method);
-
 /// Draws `count` radii from the case's distribution (stream SCREE_RANDOM_RADIUS, counter = index).
 void scree_draw_radii(const scree_model *model, double *radius, size_t count);
 

@@ -1,7 +1,7 @@
 /// Steps, time and memory of a run before it runs.
 ///
 /// Steps: loading and resting stages are planned by time (run/loading.c), an impact by theory; a confinement is known
-/// only by experience (table `confine_grains`). Time: steps at the probed speed
+/// only by experience (run/stage_confine.c). Time: steps at the probed speed
 /// (run/probe.c), which falls with the memory that a step goes through; new neighbour lists and boundaries; samples
 /// and cells at their probed times; what is written and drawn by the constants below. Memory: bytes a body, of what
 /// a run does, on top of the libraries.
@@ -18,17 +18,6 @@
 #include "run/quasistatic.h"
 
 #include <math.h>
-
-/// Duration of a confinement after its ramp, in times that a wave needs from grain to grain: it does not grow with the
-/// sample. Quick forms: biaxial 680 (2000 discs 630, 60 discs 930), biaxial-boundaries 770, biaxial-timescales 710,
-/// rotation-length 900, minimal-shear-circle 1090, minimal-size-effect 1700; periodic-shear 460; triaxial 1070.
-static const struct {
-    double mindlin, other, periodic, solid;
-} confine_grains = {.mindlin = 700, .other = 900, .periodic = 460, .solid = 1070};
-#define RAMP_WAVES 6.0        /* run/stage_confine.c, as is the next */
-enum { CONFINE_SAMPLES = 4 }; ///< a wave time
-#define RISE_WAVES 4.0        /* run/loading.c */
-#define RISE_SHARE 0.1
 
 /// Of two and three dimensions.
 typedef struct expense {
@@ -73,55 +62,28 @@ static double wave_time(const scree_model *model, int64_t index)
     return pressure > 0 ? scree_expected_wave_time(model, pressure) : 0;
 }
 
-static double confine_time(const scree_model *model, const scree_config_stage *stage, double wave)
-{
-    double density = model->density[SCREE_PARTICLE_MATERIAL], modulus = scree_confined_modulus(model, stage->pressure);
-    double grain = 2 * model->mean_radius / scree_wave_speed(modulus, density, scree_expected_solid_fraction(model));
-    double grains = model->law == SCREE_LAW_HERTZ_MINDLIN ? confine_grains.mindlin : confine_grains.other;
-    if (model->dimension == 3) grains = confine_grains.solid;
-    if (scree_model_is_wholly_periodic(model)) grains = confine_grains.periodic;
-    return (isnan(stage->ramp_time) ? RAMP_WAVES * wave : stage->ramp_time) + grains * grain;
-}
-
 /// Time [s] of a stage that is planned; `wave` [s].
-static double planned_time(const scree_model *model, const scree_config_stage *stage, double wave, double collision)
+static double planned_time(const scree_model *model, const scree_config_stage *config, double wave, double collision)
 {
-    double rate = scree_model_loading_rate(stage);
-    switch ((scree_stage_kind)stage->kind) {
-    case SCREE_STAGE_PREPARE:
-        return 0;
-    case SCREE_STAGE_CONFINE:
-        return confine_time(model, stage, wave);
-    case SCREE_STAGE_ROTATE:
-        return stage->rest_time + (isnan(stage->ramp_time) ? RISE_WAVES * wave : stage->ramp_time) + stage->hold_time;
-    case SCREE_STAGE_COLLIDE:
-        return isnan(collision) ? stage->duration : collision;
-    case SCREE_STAGE_RELAX:
-        return stage->duration;
-    case SCREE_STAGE_COMPRESS:
-    case SCREE_STAGE_DEFORM:
-        break;
-    }
-    double time = stage->strain / rate;
-    // The smooth start costs half the rise time.
-    return time + 0.5 * (isnan(stage->rise_time) ? fmin(RISE_WAVES * wave, RISE_SHARE * time) : stage->rise_time);
+    const scree_stage *stage = scree_modules[config->kind]->stage;
+    if (stage->expected && !isnan(collision)) return collision;
+    return stage->planned ? stage->planned(model, config->own, wave) : 0;
 }
 
-static bool loads(const scree_config_stage *stage)
+static const scree_stage *face_of(const scree_config_stage *stage)
 {
-    return stage->kind == SCREE_STAGE_COMPRESS || stage->kind == SCREE_STAGE_DEFORM ||
-           stage->kind == SCREE_STAGE_ROTATE || stage->kind == SCREE_STAGE_RELAX;
+    return scree_modules[stage->kind]->stage;
 }
 
 scree_stage_cost scree_stage_expect(const scree_model *model, int64_t index, double collision)
 {
     const scree_config_stage *stage = &model->config->stages[index];
     double wave = wave_time(model, index), time = planned_time(model, stage, wave, collision);
-    double share = loads(stage) ? evaluations_a_tick(model) : 1 / (double)model->largest_step;
+    double share = face_of(stage)->loading ? evaluations_a_tick(model) : 1 / (double)model->largest_step;
     scree_stage_cost cost = {.steps = isnan(time) ? 0 : time / model->step * share, .snapshots = 1};
-    if (loads(stage)) cost.snapshots += 1 + (double)model->config->output.snapshots;
-    if (stage->kind == SCREE_STAGE_CONFINE)
-        cost.samples = wave > 0 ? CONFINE_SAMPLES * time / wave : 0;
+    if (face_of(stage)->loading) cost.snapshots += 1 + (double)model->config->output.snapshots;
+    if (face_of(stage)->samples_a_wave > 0)
+        cost.samples = wave > 0 ? face_of(stage)->samples_a_wave * time / wave : 0;
     else
         cost.samples = fmin(cost.steps, (double)model->config->measure.samples);
     return cost;
@@ -142,7 +104,7 @@ static double scenes_of(const scree_config *config, double *charts)
 {
     bool strained = false, cells = config->measure.cells && !config->boundary.periodic;
     for (int64_t k = 0; k < config->stage_count; k++)
-        strained = strained || (loads(&config->stages[k]) && config->stages[k].kind != SCREE_STAGE_RELAX);
+        strained = strained || (face_of(&config->stages[k])->loading && face_of(&config->stages[k])->quasistatic);
     double windows = config->measure.window_count > 0 ? (double)config->measure.window_count : 2;
     *charts = strained ? 10 : 0;
     if (!config->output.figures) return *charts = 0;

@@ -2,24 +2,27 @@
 ///
 /// The rate rises as the smooth step 3 f^2 - 2 f^3 of the fraction f of the rise time T, whose integral T (f^3 - f^4/2)
 /// loses half a rise time in the end.
-#include "boundary/minimal.h"
-#include "measure/measure.h"
-#include "run/simulation.h"
-#include "state/plates.h"
-#include "state/pressure.h"
 
+#include "run/loading.h"
+
+#include "measure/measure.h"
+#include "run/step.h"
+
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #define RISE_WAVES 4.0
+#define RISE_SHARE 0.1
 /// A stage that takes this many times as long as planned does not follow its rate.
 #define LATE 2.0
 
-/// Distance between the plates; without them the extent of the bodies along the axis.
-static double present_height(const scree_state *state)
+/// Height of the sample; where the boundary says none the extent of the bodies along the axis.
+static double present_height(scree_simulation *s)
 {
-    const scree_wall *bottom = &scree_plates(state)[SCREE_WALL_BOTTOM], *top = &scree_plates(state)[SCREE_WALL_TOP];
-    if (bottom->active && top->active) return -(bottom->position + top->position);
+    const scree_context context = scree_step_context(s);
+    const scree_state *state = &s->state;
+    if (s->boundary->height) return s->boundary->height(&context);
     double low = INFINITY, high = -INFINITY;
     scree_vector place;
     for (size_t row = 0; row < state->count; row++) {
@@ -31,34 +34,33 @@ static double present_height(const scree_state *state)
     return high - low;
 }
 
-void scree_loading_begin(scree_simulation *s)
+void scree_loading_begin(scree_simulation *s, double pressure)
 {
     scree_state *state = &s->state;
-    double *reference = state->stage.reference;
-    reference[SCREE_LOADING_HEIGHT] = present_height(state);
-    reference[SCREE_LOADING_WAVE] = scree_sample_wave_time(&s->model, state, scree_pressure_now(state));
-    scree_strain_measure(state, &reference[SCREE_LOADING_STRAIN]);
-    scree_servo sides = scree_servo_for(&s->model, state, SCREE_WALL_LEFT, scree_pressure_now(state));
-    reference[SCREE_LOADING_SIDES] = sides.impedance;
-    reference[SCREE_LOADING_SIDES + 1] = sides.mass;
+    scree_loading *loading = scree_loading_of(state);
+    const scree_context context = scree_step_context(s);
+    *loading = (scree_loading){.height = present_height(s), .wave_time = s->boundary->wave_time(&context, pressure)};
+    scree_strain_measure(state, loading->strain);
+    s->boundary->fit(&context, pressure);
+    if (s->boundary->mark) s->boundary->mark(&context);
     for (size_t row = 0; row < state->count; row++) scree_body_place(state, row, state->reference[row]);
     if (state->angle) memset(state->angle, 0, state->count * sizeof *state->angle);
 }
 
-scree_stage_plan scree_loading_plan(const scree_simulation *s, double time)
+double scree_loading_planned(double time, double rise_time, double wave)
 {
-    const scree_config_stage *stage = scree_stage_config(s);
-    const double *reference = s->state.stage.reference;
+    // The smooth start costs half the rise time.
+    return time + 0.5 * (isnan(rise_time) ? fmin(RISE_WAVES * wave, RISE_SHARE * time) : rise_time);
+}
+
+scree_stage_plan scree_loading_plan(const scree_simulation *s, double time, double rise_time)
+{
     // Without a confining pressure there is no wave time; a tenth of the loading is slow enough for anything.
-    double rise = fmin(RISE_WAVES * reference[SCREE_LOADING_WAVE], 0.1 * time);
-    if (!isnan(stage->rise_time)) rise = stage->rise_time;
+    double rise = fmin(RISE_WAVES * scree_loading_of(&s->state)->wave_time, RISE_SHARE * time);
+    if (!isnan(rise_time)) rise = rise_time;
     uint64_t expected = scree_stage_ticks(s, time + 0.5 * rise), largest = s->model.largest_step;
     uint64_t interval = expected / largest / (uint64_t)s->model.config->measure.samples * largest;
-    return (scree_stage_plan){
-        .interval = interval > 0 ? interval : largest,
-        .expected = expected,
-        .ramp_time = rise,
-        .sides = {.impedance = reference[SCREE_LOADING_SIDES], .mass = reference[SCREE_LOADING_SIDES + 1]}};
+    return (scree_stage_plan){.interval = interval > 0 ? interval : largest, .expected = expected, .ramp_time = rise};
 }
 
 double scree_loading_rise(const scree_simulation *s, double *loaded)
@@ -69,7 +71,8 @@ double scree_loading_rise(const scree_simulation *s, double *loaded)
     return rise > 0 ? scree_smooth_ramp(elapsed / rise) : 1;
 }
 
-scree_status scree_loading_check(const scree_simulation *s, scree_error *error)
+/// The error when a stage falls too far behind its rate.
+static scree_status check_pace(const scree_simulation *s, double strain, scree_error *error)
 {
     uint64_t done = s->state.step - s->state.stage.first_step;
     if ((double)done < LATE * (double)s->plan.expected) return SCREE_OK;
@@ -77,5 +80,36 @@ scree_status scree_loading_check(const scree_simulation *s, scree_error *error)
         error, SCREE_ERROR_GUARD,
         "stage %lld (%s): strain %.4g after %.2g times the planned time: the boundary does not follow "
         "the imposed rate; try a larger boundary.penalty",
-        (long long)s->state.stage.index, s->stage->name, scree_loading_strain(s), LATE);
+        (long long)s->state.stage.index, s->stage->name, strain, LATE);
 }
+
+scree_status scree_loading_finished(scree_simulation *s, const char *what, double strain, double end, double rate,
+                                    bool *done, scree_error *error)
+{
+    // The last sample lies on the planned last step.
+    *done = strain >= end - SCREE_LOADING_SHORT * rate * s->state.tick;
+    (void)snprintf(s->reason, sizeof s->reason, "%s %.4g reached", what, strain);
+    return *done ? SCREE_OK : check_pace(s, strain, error);
+}
+
+typedef scree_loading own;
+
+#define ONE(member, components, unit, meaning)                                                                         \
+    SCREE_FIELD_ONE(loading, own, member, "loading/" #member, SCREE_FIELD_DOUBLE, components, unit, meaning,           \
+                    .range = {.least = -DBL_MAX, .limit = SCREE_LIMIT_NUMBER, .most = DBL_MAX, .undefined = true})
+static const scree_field fields[] = {
+    ONE(height, 1, "m", "height of the sample at the begin of the loading stage"),
+    ONE(wave_time, 1, "s", "time that a wave needed through it"),
+    ONE(strain, 9, "1", "strain accumulated before, 3 x 3 by rows"),
+    ONE(enclosed, 1, "1", "logarithm of the enclosed volume at the first sample"),
+    ONE(redetected, 1, "1", "strain/redetected at the first sample"),
+    ONE(solid, 1, "1", "solid fraction at the first sample"),
+};
+
+const scree_module scree_module_loading = {
+    .name = "loading",
+    .meaning = "the sample as it was when its loading began",
+    .state_size = sizeof(own),
+    .fields = fields,
+    .field_count = sizeof fields / sizeof *fields,
+};

@@ -19,7 +19,6 @@
 #include "measure/cells.h"
 #include "run/quasistatic.h"
 #include "run/sample.h"
-#include "run/stage_collide.h"
 #include "run/step.h"
 #include "search/neighbours.h"
 #include "state/periodic.h"
@@ -53,12 +52,12 @@ static double processor_time(void)
 typedef struct probe_case {
     scree_case c;
     scree_simulation s;
-    bool dropped; ///< in the place of a gas
+    bool dropped; ///< in the place of a method without contacts
     unsigned periodic;
 } probe_case;
 
 /// The box of the preparation shrinks with the number of bodies.
-static void shrink_box(scree_config *config, scree_config_stage *prepare, double count)
+static void shrink_box(scree_config *config, scree_prepare_config *prepare, double count)
 {
     double scale = pow(count / (double)config->particles.count, 1.0 / (double)config->dimension);
     config->particles.count = (int64_t)count;
@@ -71,15 +70,15 @@ static scree_status make_case(const scree_case *c, probe_case *probe, scree_erro
 {
     *probe = (probe_case){.c = *c};
     scree_config *config = &probe->c.config;
-    scree_status status = scree_allocate(&config->stages, (size_t)config->stage_count, sizeof *config->stages, error);
+    scree_status status = scree_config_copy_stages(&c->config, &config->stages, error);
     if (status) return status;
-    memcpy(config->stages, c->config.stages, (size_t)config->stage_count * sizeof *config->stages);
-    scree_config_stage *prepare = &config->stages[0];
-    probe->dropped = prepare->method == SCREE_PREPARE_GAS || prepare->method == SCREE_PREPARE_GROWTH;
+    scree_prepare_config *prepare = config->stages[0].own;
+    probe->dropped = scree_modules[prepare->method]->preparation->loose;
     double most = config->dimension == 3 ? MOST_SPHERES : MOST_DISCS;
     if ((double)config->particles.count > most) shrink_box(config, prepare, most);
     for (int64_t k = 0; k < config->stage_count; k++) {
-        if (!(config->stages[k].particle < (double)config->particles.count)) config->stages[k].particle = NAN;
+        void (*fit)(void *own, int64_t count) = scree_modules[config->stages[k].kind]->stage->shrink;
+        if (fit) fit(config->stages[k].own, config->particles.count);
         if (config->wall_count > 0) config->stages[k].boundary = SCREE_BOUNDARY_PLATES;
     }
     config->wall_count = 0;
@@ -94,15 +93,23 @@ static scree_status make_case(const scree_case *c, probe_case *probe, scree_erro
 
 // ---- as it will stand --------------------------------------------------------------------------------------------
 
+/// The method that packs particles between walls.
+static int dense_method(void)
+{
+    int m = 0;
+    while (!scree_modules[m]->preparation || !scree_modules[m]->preparation->dense) m++;
+    return m;
+}
+
 static scree_status prepare(probe_case *probe, scree_error *error)
 {
     scree_simulation *s = &probe->s;
     scree_config *config = &probe->c.config;
-    scree_config_stage *stage = &config->stages[0];
+    scree_prepare_config *stage = config->stages[0].own;
     probe->periodic = (unsigned)config->boundary.periodic;
     scree_status status = scree_simulation_open(&probe->c, 1, s, error);
     if (probe->dropped) {
-        stage->method = SCREE_PREPARE_DROP_AND_ROLL;
+        stage->method = dense_method();
         config->boundary.periodic = SCREE_PERIODIC_NONE;
     }
     if (!status) status = scree_simulation_step(s, error);
@@ -128,9 +135,9 @@ static void press(const scree_model *model, scree_state *state, double pressure)
 {
     const int material = SCREE_PARTICLE_MATERIAL;
     double diameter = 2 * model->mean_radius, width = model->dimension == 3 ? diameter : model->thickness;
-    double force = pressure * diameter * width, root = sqrt(0.5 * model->mean_radius);
-    double overlap = pow(force / (model->pairs[material][material].normal_stiffness * root), 2.0 / 3.0) / diameter;
-    double scale = 1 - fmin(overlap, 0.05);
+    double overlap = scree_model_law(model)->elastic->overlap(&model->pairs[material][material],
+                                                              0.5 * model->mean_radius, pressure * diameter * width);
+    double scale = 1 - fmin(overlap / diameter, 0.05);
     for (size_t row = 0; row < state->count; row++) {
         state->row[row].x *= scale;
         state->row[row].y *= scale;
@@ -244,8 +251,8 @@ scree_status scree_probe_measure(const scree_case *c, int64_t stage, scree_probe
     status = stand(&small, stage, error);
     probe->preparation = processor_time() - begin;
     probe->count = (double)scree_grain_count(&small.s.state);
-    if (!status && small.c.config.stages[stage].kind == SCREE_STAGE_COLLIDE)
-        probe->collision = scree_collide_expected(&small.s);
+    double (*expected)(const scree_simulation *s) = scree_modules[c->config.stages[stage].kind]->stage->expected;
+    if (!status && expected) probe->collision = expected(&small.s);
     if (!status) status = time_all(&small, probe, error);
     scree_simulation_close(&small.s);
     scree_release(&small.c.config.stages);

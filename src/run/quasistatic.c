@@ -13,6 +13,7 @@
 #include "run/quasistatic.h"
 
 #include "model/critical_step.h"
+#include "run/loading.h"
 #include "run/sample.h"
 
 #include <math.h>
@@ -26,8 +27,7 @@ enum { EARLY = 10, CLEARLY = 2, TEXT = 512 };
 
 static bool means_to_be_quasistatic(const scree_config_stage *stage)
 {
-    return stage->kind == SCREE_STAGE_CONFINE || stage->kind == SCREE_STAGE_COMPRESS ||
-           stage->kind == SCREE_STAGE_DEFORM || stage->kind == SCREE_STAGE_ROTATE;
+    return scree_modules[stage->kind]->stage->quasistatic;
 }
 
 double scree_confining_pressure(const scree_config *config, int64_t index)
@@ -157,15 +157,15 @@ void scree_quasistatic_follow(scree_quasistatic_watch *watch, const scree_simula
     const double *value = s->sample.value;
     int64_t stage = (int64_t)value[SCREE_SAMPLE_STAGE];
     const scree_config_stage *config = &s->model.config->stages[stage];
-    if (stage != watch->stage || watch->samples == 0 || config->kind == SCREE_STAGE_CONFINE)
-        *watch = (scree_quasistatic_watch){.stage = stage};
+    const bool settles = scree_modules[config->kind]->numbers->settles;
+    if (stage != watch->stage || watch->samples == 0 || settles) *watch = (scree_quasistatic_watch){.stage = stage};
     watch->kinetic += value[SCREE_SAMPLE_KINETIC];
     watch->elastic += value[SCREE_SAMPLE_ELASTIC_NORMAL] + value[SCREE_SAMPLE_ELASTIC_TANGENTIAL];
     watch->samples++;
     double ratio = watch->kinetic / watch->elastic;
     bool early = watch->samples * EARLY >= (uint64_t)s->model.config->measure.samples &&
                  ratio > CLEARLY * scree_quasistatic_limits[SCREE_QUASISTATIC_KINETIC].limit;
-    bool enough = s->stage_ended || (early && config->kind != SCREE_STAGE_CONFINE);
+    bool enough = s->stage_ended || (early && !settles);
     if (!enough || watch->warned || !means_to_be_quasistatic(config)) return;
     char text[TEXT];
     scree_quasistatic q = scree_quasistatic_expect(&s->model, stage);
@@ -221,7 +221,7 @@ void scree_quasistatic_results(const scree_model *model, const scree_series *ser
         int64_t index = (int64_t)stage[first];
         if (!means_to_be_quasistatic(&config->stages[index])) continue;
         scree_quasistatic expected = scree_quasistatic_expect(model, index), seen = expected;
-        observe(series, first, last, config->stages[index].kind == SCREE_STAGE_CONFINE, &seen);
+        observe(series, first, last, scree_modules[config->stages[index].kind]->numbers->settles, &seen);
         append_findings(model, &expected, &seen, reason, sizeof reason);
         scree_summary_set_number(summary, "inertial_number", seen.value[SCREE_QUASISTATIC_INERTIAL]);
         scree_summary_set_number(summary, "kinetic_over_elastic", seen.value[SCREE_QUASISTATIC_KINETIC]);

@@ -173,8 +173,8 @@ static double ticks_left(const scree_simulation *s)
     double left = (double)s->plan.expected - (double)(s->state.step - s->state.stage.first_step);
     for (int64_t k = s->state.stage.index + 1; k < s->model.config->stage_count; k++) {
         const scree_config_stage *stage = &s->model.config->stages[k];
-        left += stage->kind == SCREE_STAGE_RELAX ? stage->duration / s->state.tick
-                                                 : stage->strain / scree_model_loading_rate(stage) / s->state.tick;
+        double (*duration)(const void *own) = scree_modules[stage->kind]->stage->duration;
+        left += duration ? duration(stage->own) / s->state.tick : NAN;
     }
     return left;
 }

@@ -28,7 +28,7 @@ static scree_status check_stage(const scree_simulation *s, const scree_state *st
 {
     const scree_stage_state *stage = &state->stage;
     bool left = stage->index < s->model.config->stage_count;
-    if (left && stage->counter >= 0 && s->model.config->stages[stage->index].kind == SCREE_STAGE_PREPARE)
+    if (left && stage->counter >= 0 && scree_modules[s->model.config->stages[stage->index].kind]->numbers->places)
         return scree_error_set(error, SCREE_ERROR_IO,
                                "dataset 'stage/counter': %lld (accepted: -1 before the preparation)",
                                (long long)stage->counter);

@@ -162,9 +162,9 @@ static double confine_friction(const scree_model *model)
 {
     const scree_config *config = model->config;
     for (int64_t k = config->stage_count - 1; k >= 0; k--) {
-        if (config->stages[k].kind != SCREE_STAGE_CONFINE) continue;
+        if (!scree_modules[config->stages[k].kind]->numbers->settles) continue;
         if (!isnan(config->stages[k].friction)) return config->stages[k].friction;
-        return model->material_count == 1 ? model->pairs[0][0].friction : NAN;
+        return model->material_count == 1 ? model->pairs[0][0].value[SCREE_FRICTION] : NAN;
     }
     return NAN;
 }
@@ -271,7 +271,7 @@ static scree_status summarise_shape(const scree_simulation *s, scree_summary *su
 {
     double value;
     scree_status status = SCREE_OK;
-    if (s->model.config->stages[0].outline == SCREE_SAMPLE_BOX) {
+    if (scree_config_prepared(s->model.config->stages)->outline == SCREE_SAMPLE_BOX) {
         status = scree_corner_distortion(&s->model, &s->state, &value, error);
         if (!status) scree_summary_set_number(summary, "corner_distortion", value);
     } else if (s->state.dimension == 2) {
@@ -286,11 +286,10 @@ static scree_status summarise_shape(const scree_simulation *s, scree_summary *su
 static int64_t loading_stage(const scree_simulation *s, int64_t wanted)
 {
     const scree_config_stage *stage = s->model.config->stages;
-    bool periodic = scree_model_is_wholly_periodic(&s->model);
     for (int64_t k = wanted; k >= 0; k--)
         if (!isnan(scree_model_loading_rate(&stage[k]))) return k;
     int64_t k = wanted;
-    while (k >= 0 && !scree_stage_get((scree_stage_kind)stage[k].kind, periodic)->loading) k--;
+    while (k >= 0 && !scree_modules[stage[k].kind]->stage->loading) k--;
     return k;
 }
 

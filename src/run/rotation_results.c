@@ -2,10 +2,12 @@
 /// degrees.
 #include "run/rotation_results.h"
 #include "integrate/forced_spin.h"
+#include "run/stage_rotate.h"
 
 #include "io/run_directory.h"
 #include "measure/measure.h"
 #include "measure/rotation.h"
+#include "run/loading.h"
 
 #include <limits.h>
 #include <math.h>
@@ -102,15 +104,19 @@ static void set_interval(scree_summary *summary, const char *name, double value,
     scree_summary_set_number(summary, text, high);
 }
 
+static const scree_rotate_config *last_stage(const scree_simulation *s)
+{
+    return s->model.config->stages[s->model.config->stage_count - 1].own;
+}
+
 /// Rotation of the boundary about the axis of the forced particle in the whole stage, over that of the particle.
 static double rigid_rotation(const scree_simulation *s)
 {
-    const double *reference = s->state.stage.reference;
-    int axis = s->model.config->stages[s->model.config->stage_count - 1].axis, i = (axis + 1) % 3, j = (axis + 2) % 3;
+    int axis = last_stage(s)->axis, i = (axis + 1) % 3, j = (axis + 2) % 3;
     double gradient[9];
     scree_strain_measure(&s->state, gradient);
-    for (int c = 0; c < 9; c++) gradient[c] -= reference[SCREE_LOADING_STRAIN + c];
-    return 0.5 * (gradient[3 * j + i] - gradient[3 * i + j]) / reference[SCREE_ROTATE_TURN];
+    for (int c = 0; c < 9; c++) gradient[c] -= scree_loading_of(&s->state)->strain[c];
+    return 0.5 * (gradient[3 * j + i] - gradient[3 * i + j]) / scree_rotation_of(&s->state)->turn;
 }
 
 /// Angle between two axes in the plane, 0 to 90 degrees.
@@ -129,7 +135,7 @@ static void summarise(const scree_simulation *s, const findings *f, scree_summar
     scree_summary_set_number(summary, "rotation_reach", f->decay.reach);
     set_interval(summary, "rotation_decay_length", f->decay.length, f->decay.length_low, f->decay.length_high);
     scree_summary_set_number(summary, "rotation_at_contact", f->decay.amplitude * exp(-1 / f->decay.length));
-    scree_summary_set_number(summary, "rotation_background", s->state.stage.reference[SCREE_ROTATE_BACKGROUND]);
+    scree_summary_set_number(summary, "rotation_background", scree_rotation_of(&s->state)->background);
     scree_summary_set_number(summary, "rotation_felt", f->decay.limit);
     set_interval(summary, "rotation_chain_correlation", a->chains.value, a->chains.low, a->chains.high);
     set_interval(summary, "rotation_chain_alignment", a->alignment.value, a->alignment.low, a->alignment.high);
@@ -152,10 +158,10 @@ scree_status scree_rotation_results(const char *directory, scree_simulation *s, 
     // Before the end of the stage the angles are not those of the hold.
     if (!scree_forced(state)->active || state->stage.index < s->model.config->stage_count) return SCREE_OK;
     findings f = {.forced = state->row_of_id[scree_forced(state)->id]};
-    double cutoff = s->model.config->stages[s->model.config->stage_count - 1].cutoff;
+    double cutoff = last_stage(s)->cutoff;
     scree_status status = scree_contact_table_build(&s->stage_model, state, &s->work, &s->table, error);
     if (status) return status;
-    scree_rotation_decay_measure(&s->model, state, f.forced, state->stage.reference[SCREE_ROTATE_BACKGROUND], &f.decay);
+    scree_rotation_decay_measure(&s->model, state, f.forced, scree_rotation_of(state)->background, &f.decay);
     scree_rotation_network_measure(&s->model, state, &s->table, f.forced, cutoff, &f.network);
     status = scree_rotation_alignment_measure(&s->model, state, &s->table, f.forced, cutoff, &f.decay, &f.network,
                                               &f.alignment, error);

@@ -7,6 +7,7 @@
 #include "measure/facets.h"
 #include "measure/measure.h"
 #include "run/guard.h"
+#include "run/loading.h"
 #include "run/quasistatic.h"
 #include "state/periodic.h"
 
@@ -106,7 +107,7 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
 
 static void sample_strain(const scree_simulation *s, double *value)
 {
-    const double *begin = &s->state.stage.reference[SCREE_LOADING_STRAIN];
+    const double *begin = scree_loading_of(&s->state)->strain;
     double gradient[9];
     scree_strain_measure(&s->state, gradient);
     bool loading = s->stage->loading;
@@ -125,19 +126,20 @@ static void sample_strain(const scree_simulation *s, double *value)
 /// Volumetric strains that do not depend on the path of the boundary; the first sample of the stage is their zero.
 static void sample_volume(scree_simulation *s, double *value)
 {
-    double *begin = s->state.stage.reference, enclosed = scree_enclosed_logarithm(&s->state);
+    scree_loading *begin = scree_loading_of(&s->state);
+    double enclosed = scree_enclosed_logarithm(&s->state);
     double redetected = scree_strain_of(&s->state)->redetected, solid = value[SCREE_SAMPLE_SOLID_FRACTION];
     value[SCREE_SAMPLE_VOLUMETRIC_REDETECTED] = value[SCREE_SAMPLE_VOLUMETRIC_ENCLOSED] =
         value[SCREE_SAMPLE_VOLUMETRIC_SOLID] = NAN;
     if (!s->stage->loading) return;
     if (s->state.step == s->state.stage.first_step) {
-        begin[SCREE_LOADING_ENCLOSED] = enclosed;
-        begin[SCREE_LOADING_REDETECTED] = redetected;
-        begin[SCREE_LOADING_SOLID] = solid;
+        begin->enclosed = enclosed;
+        begin->redetected = redetected;
+        begin->solid = solid;
     }
-    value[SCREE_SAMPLE_VOLUMETRIC_REDETECTED] = begin[SCREE_LOADING_REDETECTED] - redetected;
-    value[SCREE_SAMPLE_VOLUMETRIC_ENCLOSED] = begin[SCREE_LOADING_ENCLOSED] - enclosed;
-    value[SCREE_SAMPLE_VOLUMETRIC_SOLID] = log(solid / begin[SCREE_LOADING_SOLID]);
+    value[SCREE_SAMPLE_VOLUMETRIC_REDETECTED] = begin->redetected - redetected;
+    value[SCREE_SAMPLE_VOLUMETRIC_ENCLOSED] = begin->enclosed - enclosed;
+    value[SCREE_SAMPLE_VOLUMETRIC_SOLID] = log(solid / begin->solid);
 }
 
 /// Normal stress across the sides: in 3D the mean of both directions.

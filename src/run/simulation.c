@@ -91,7 +91,7 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
         return SCREE_OK;
     }
     const scree_config_stage *config = scree_stage_config(s);
-    s->stage = scree_stage_get((scree_stage_kind)config->kind, scree_model_is_wholly_periodic(&s->model));
+    s->stage = scree_modules[config->kind]->stage;
     s->boundary = scree_boundary_get(scree_config_boundary_of(s->model.config, stage->index));
     s->stage_model = scree_model_with_friction(&s->model, config->friction);
     if (!restart || stage->counter == NOT_BEGUN) {

@@ -1,29 +1,14 @@
-/// Table of stages and what several of them share.
+/// What several stages share.
 #include "run/stage.h"
 #include "state/plates.h"
 
-#include "base/matrix.h"
 #include "measure/measure.h"
-#include "run/simulation.h"
-#include "state/periodic.h"
+#include "run/loading.h"
+#include "run/step.h"
 
 #include <math.h>
 
 #define MOST_STEPS 1e15
-
-const scree_stage *scree_stage_get(scree_stage_kind kind, bool wholly_periodic)
-{
-    static const scree_stage *const table[][2] = {
-        [SCREE_STAGE_PREPARE] = {&scree_stage_prepare, &scree_stage_prepare},
-        [SCREE_STAGE_CONFINE] = {&scree_stage_confine, &scree_stage_confine_periodic},
-        [SCREE_STAGE_COMPRESS] = {&scree_stage_compress, &scree_stage_compress_periodic},
-        [SCREE_STAGE_DEFORM] = {&scree_stage_deform, &scree_stage_deform_periodic},
-        [SCREE_STAGE_ROTATE] = {&scree_stage_rotate, &scree_stage_rotate},
-        [SCREE_STAGE_COLLIDE] = {&scree_stage_collide, &scree_stage_collide},
-        [SCREE_STAGE_RELAX] = {&scree_stage_relax, &scree_stage_relax},
-    };
-    return table[kind][wholly_periodic];
-}
 
 const scree_config_stage *scree_stage_config(const scree_simulation *s)
 {
@@ -48,26 +33,22 @@ static double axial_stretch(const scree_simulation *s)
     double gradient[9];
     int axial = s->state.dimension == 3 ? 8 : 4;
     scree_strain_measure(&s->state, gradient);
-    return gradient[axial] - s->state.stage.reference[SCREE_LOADING_STRAIN + axial];
+    return gradient[axial] - scree_loading_of(&s->state)->strain[axial];
 }
 
 double scree_sample_height(const scree_simulation *s)
 {
+    const scree_context context = scree_step_context((scree_simulation *)(uintptr_t)s);
+    if (s->boundary && s->boundary->height) return s->boundary->height(&context);
+    if (s->boundary && s->stage && s->stage->loading)
+        return scree_loading_of(&s->state)->height * exp(axial_stretch(s));
     const scree_wall *wall = scree_plates(&s->state);
-    if (scree_periodic_is_whole(&s->state)) {
-        double inverse[9], width[3];
-        scree_matrix_invert(scree_cell(&s->state)->lattice, inverse);
-        scree_periodic_widths(inverse, width);
-        return width[s->state.dimension - 1];
-    }
-    if (s->boundary && !scree_boundary_has_plates(s->boundary) && s->stage && s->stage->loading)
-        return s->state.stage.reference[SCREE_LOADING_HEIGHT] * exp(axial_stretch(s));
     return -(wall[SCREE_WALL_BOTTOM].position + wall[SCREE_WALL_TOP].position);
 }
 
 double scree_axial_strain(const scree_simulation *s)
 {
-    double height = s->state.stage.reference[SCREE_LOADING_HEIGHT];
+    double height = scree_loading_of(&s->state)->height;
     return (height - scree_sample_height(s)) / height;
 }
 
@@ -81,11 +62,4 @@ double scree_smooth_ramp(double fraction)
     if (fraction >= 1) return 1;
     if (fraction <= 0) return 0;
     return fraction * fraction * (3 - 2 * fraction);
-}
-
-void scree_servo_sides(scree_simulation *s, double pressure)
-{
-    for (int w = SCREE_WALL_LEFT; w < SCREE_WALL_COUNT; w++)
-        if (scree_plates(&s->state)[w].active)
-            scree_plate_servo(&s->stage_model, &s->state, w, s->plan.sides, pressure);
 }

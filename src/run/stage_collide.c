@@ -4,19 +4,36 @@
 /// Stop rule, at a sample: the force between them has fallen to zero again; or `duration` has passed. P fig. 2.1: the
 /// restitution is the relative speed after over that before, the relaxation time lasts from the first touch (the gap
 /// over the speed: before it nothing acts) until the force is gone, which is found to half a step. Automatic duration:
-/// the approach and twice the relaxation time of the closed form; with hertz_mindlin ten times that of an elastic
-/// impact.
-///
-/// state.stage.reference: [0] speed of approach at the first touch, [1] time of the first touch, [2] last time with a
-/// force, both from the begin of the stage (0: none yet), [3] duration.
+/// the approach and twice the relaxation time of the law's theory; ten times that of an elastic impact where the law
+/// has none.
 #include "run/stage_collide.h"
 
+#include "module/key_rows.h"
+
 #include "base/vectors.h"
-#include "theory/restitution.h"
 
 #include <math.h>
 
-enum { SPEED, TOUCH, LAST_FORCE, DURATION };
+typedef struct config {
+    double duration; ///< s, after which it ends in any case; auto
+} config;
+static const scree_key keys[] = {
+    NUMBER(config, duration, "s", .standard = "auto", ABOVE("0 s"), TO("1e9 s"),
+           .meaning = "The stage ends when the two have parted, or after this; auto: twice as long as it should take."),
+};
+
+/// State of the module; times are those since the begin of the stage.
+typedef struct collision {
+    double speed;      ///< m/s, of approach at the first touch
+    double touch;      ///< s, of the first touch
+    double last_force; ///< s, last time with a force; 0: none yet
+    double duration;   ///< s, of the stage
+} collision;
+
+static collision *own_state(const scree_simulation *s)
+{
+    return s->state.own[SCREE_SLOT_collide];
+}
 
 /// From the first centre to the second, and the velocity of the first relative to the second.
 static void relative_motion(const scree_state *state, double way[3], double velocity[3])
@@ -69,7 +86,7 @@ static bool is_pushed(const scree_state *state)
     return sum->fx != 0 || sum->fy != 0 || (state->dimension == 3 && sum->fz != 0);
 }
 
-/// The impact as theory has it. hertz_mindlin: elastic, with the restitution of its own closed form.
+/// The impact as the law's theory has it.
 static scree_status theory_of(const scree_simulation *s, double speed, scree_impact *impact, scree_error *error)
 {
     const scree_state *state = &s->state;
@@ -77,38 +94,34 @@ static scree_status theory_of(const scree_simulation *s, double speed, scree_imp
     int material = scree_body_material(state, state->row_of_id[0]);
     const scree_pair_constants *pair = &s->model.pairs[material][scree_body_material(state, state->row_of_id[1])];
     double mass = first->mass * second->mass / (first->mass + second->mass);
-    double stiffness = pair->normal_stiffness * sqrt(first->radius * second->radius / (first->radius + second->radius));
-    bool history = s->model.law == SCREE_LAW_HERTZ_MINDLIN;
-    scree_status status =
-        scree_impact_viscoelastic(speed, stiffness, mass, history ? 0 : s->model.damping_time, impact, error);
-    if (history) impact->restitution = scree_restitution_from_damping(pair->damping);
-    return status;
+    double radius = first->radius * second->radius / (first->radius + second->radius);
+    return scree_model_law(&s->model)->impact(&s->model.law, pair, radius, mass, speed, impact, error);
 }
 
 /// The automatic duration in those of the closed form.
 static double patience(const scree_model *model)
 {
-    return model->law == SCREE_LAW_HERTZ_MINDLIN ? 10 : 2;
+    return scree_model_law(model)->impact_duration ? 2 : 10;
 }
 
 static scree_status begin(scree_simulation *s, scree_error *error)
 {
-    double *reference = s->state.stage.reference;
+    collision *own = own_state(s);
     scree_impact impact;
-    reference[LAST_FORCE] = 0;
-    scree_status status = foresee_touch(&s->state, &reference[SPEED], &reference[TOUCH], error);
-    if (!status) status = theory_of(s, reference[SPEED], &impact, error);
+    own->last_force = 0;
+    scree_status status = foresee_touch(&s->state, &own->speed, &own->touch, error);
+    if (!status) status = theory_of(s, own->speed, &impact, error);
     if (status) return status;
     double after = patience(&s->model) * impact.duration;
-    double given = scree_stage_config(s)->duration;
-    reference[DURATION] = isnan(given) ? reference[TOUCH] + after : given;
+    double given = ((const config *)scree_stage_config(s)->own)->duration;
+    own->duration = isnan(given) ? own->touch + after : given;
     return status;
 }
 
 static void plan(scree_simulation *s)
 {
     uint64_t largest = s->model.largest_step;
-    uint64_t expected = scree_stage_ticks(s, s->state.stage.reference[DURATION]);
+    uint64_t expected = scree_stage_ticks(s, own_state(s)->duration);
     uint64_t interval = expected / largest / (uint64_t)s->model.config->measure.samples * largest;
     s->plan = (scree_stage_plan){.interval = interval > 0 ? interval : largest, .expected = expected};
 }
@@ -117,12 +130,12 @@ static void plan(scree_simulation *s)
 static void control(scree_simulation *s)
 {
     const scree_state *state = &s->state;
-    if (is_pushed(state)) s->state.stage.reference[LAST_FORCE] = scree_stage_elapsed(s);
+    if (is_pushed(state)) own_state(s)->last_force = scree_stage_elapsed(s);
 }
 
 static bool has_parted(const scree_state *state)
 {
-    return state->stage.reference[LAST_FORCE] > 0 && !is_pushed(state);
+    return ((const collision *)state->own[SCREE_SLOT_collide])->last_force > 0 && !is_pushed(state);
 }
 
 static scree_status finished(scree_simulation *s, bool *done, scree_error *error)
@@ -132,7 +145,7 @@ static scree_status finished(scree_simulation *s, bool *done, scree_error *error
     bool parted = has_parted(&s->state);
     *done = parted || s->state.step - s->state.stage.first_step >= s->plan.expected;
     (void)snprintf(s->reason, sizeof s->reason, parted ? "parted at %.6g of the speed" : "still together (%.6g)",
-                   -speed / s->state.stage.reference[SPEED]);
+                   -speed / own_state(s)->speed);
     return SCREE_OK;
 }
 
@@ -143,28 +156,66 @@ static double fraction(const scree_simulation *s)
 
 scree_status scree_collide_results(const scree_simulation *s, scree_summary *summary, scree_error *error)
 {
-    const scree_config *config = s->model.config;
-    const double *reference = s->state.stage.reference;
-    if (s->state.stage.index < config->stage_count || !has_parted(&s->state) ||
-        config->stages[config->stage_count - 1].kind != SCREE_STAGE_COLLIDE)
+    const scree_config *whole = s->model.config;
+    const collision *own = own_state(s);
+    if (s->state.stage.index < whole->stage_count || !has_parted(&s->state) ||
+        whole->stages[whole->stage_count - 1].kind != SCREE_SLOT_collide)
         return SCREE_OK;
     double half = 0.5 * (double)s->model.largest_step * s->state.tick;
     scree_impact impact;
-    scree_status status = theory_of(s, reference[SPEED], &impact, error);
+    scree_status status = theory_of(s, own->speed, &impact, error);
     if (status) return status;
-    scree_summary_set_number(summary, "restitution", -approach(&s->state) / reference[SPEED]);
+    scree_summary_set_number(summary, "restitution", -approach(&s->state) / own->speed);
     scree_summary_set_number(summary, "restitution_theory", impact.restitution);
-    scree_summary_set_number(summary, "relaxation_time", reference[LAST_FORCE] + half - reference[TOUCH]);
-    if (s->model.law != SCREE_LAW_HERTZ_MINDLIN)
+    scree_summary_set_number(summary, "relaxation_time", own->last_force + half - own->touch);
+    if (scree_model_law(&s->model)->impact_duration)
         scree_summary_set_number(summary, "relaxation_time_theory", impact.duration);
     return SCREE_OK;
 }
 
 double scree_collide_expected(const scree_simulation *s)
 {
-    const double *reference = s->state.stage.reference;
-    return reference[TOUCH] + (reference[DURATION] - reference[TOUCH]) / patience(&s->model);
+    const collision *own = own_state(s);
+    return own->touch + (own->duration - own->touch) / patience(&s->model);
 }
 
-const scree_stage scree_stage_collide = {
-    .name = "collide", .begin = begin, .plan = plan, .control = control, .finished = finished, .fraction = fraction};
+static double planned(const scree_model *model, const void *own, double wave)
+{
+    (void)model;
+    (void)wave;
+    return ((const config *)own)->duration;
+}
+
+static const scree_stage stage_face = {.name = "collide",
+                                       .begin = begin,
+                                       .plan = plan,
+                                       .control = control,
+                                       .finished = finished,
+                                       .fraction = fraction,
+                                       .planned = planned,
+                                       .expected = scree_collide_expected};
+
+static const scree_stage_numbers numbers = {
+    .collides = true, .needs_approach = "collide needs two particles that approach: prepare method pair or bodies"};
+
+#define ONE(member, unit, meaning)                                                                                     \
+    SCREE_FIELD_ONE(collide, collision, member, "collide/" #member, SCREE_FIELD_DOUBLE, 1, unit, meaning)
+static const scree_field fields[] = {
+    ONE(speed, "m/s", "speed of approach at the first touch"),
+    ONE(touch, "s", "time from the begin of the stage to the first touch"),
+    ONE(last_force, "s", "last time with a force; 0: none yet"),
+    ONE(duration, "s", "after which the stage ends in any case"),
+};
+
+const scree_module scree_module_collide = {
+    .name = "collide",
+    .meaning = "Two particles, prepared as a `pair` or as `bodies`, meet and part; nothing else acts on them.",
+    .choice_of = CHOICE_OF(IS("stages", .meaning = "lets two particles meet and part")),
+    .keys = (const scree_keys[]){KEYS_OF(NULL, keys, config)},
+    .keys_count = 1,
+    .numbers = &numbers,
+    .stage = &stage_face,
+    .state_size = sizeof(collision),
+    .fields = fields,
+    .field_count = sizeof fields / sizeof *fields,
+};

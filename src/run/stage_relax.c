@@ -4,6 +4,8 @@
 /// The first such stage looks whether the bodies are where the walls of the case leave room: none may be closer to a
 /// wall than its radius less the overlap that the guard allows.
 #include "measure/imposed_gradient.h"
+#include "module/key_rows.h"
+#include "run/loading.h"
 #include "run/sample.h"
 #include "run/simulation.h"
 #include "shape/container.h"
@@ -14,6 +16,31 @@
 #include <string.h>
 
 enum { CALM = 5 };
+
+/// Whether the walls of the case move.
+enum { WALLS_MOVE, WALLS_STAND };
+
+typedef struct config {
+    double duration;         ///< s, after which it ends in any case
+    double unbalanced_limit; ///< 1, of the unbalanced force ratio, below which it ends before; auto: never
+    int walls;               ///< WALLS_...
+} config;
+static const scree_choice wall_motions[] = {
+    {"move", WALLS_MOVE, "with the velocities and spins that the case gives them"},
+    {"stand", WALLS_STAND, "all of them stand where they have come to"},
+    {0},
+};
+static const scree_key keys[] = {
+    NUMBER(config, duration, "s", ABOVE("0 s"), TO("1e9 s"), .meaning = "Time after which the stage ends."),
+    NUMBER(config, unbalanced_limit, "1", .standard = "auto", FROM("1e-9"), BELOW("1"),
+           .meaning = "It ends before when the unbalanced force ratio stays below this; auto: never."),
+    CHOICE(config, walls, wall_motions, .standard = "move", .meaning = "What the walls of the case do."),
+};
+
+static const config *own_config(const scree_simulation *s)
+{
+    return scree_stage_config(s)->own;
+}
 
 static scree_status check_room(const scree_simulation *s, scree_error *error)
 {
@@ -42,20 +69,20 @@ static scree_status check_room(const scree_simulation *s, scree_error *error)
 static scree_status begin(scree_simulation *s, scree_error *error)
 {
     scree_state *state = &s->state;
-    memset(state->stage.reference, 0, sizeof state->stage.reference);
+    *scree_loading_of(state) = (scree_loading){.height = 0};
     memset(scree_imposed(state)->prescribed, 0, sizeof scree_imposed(state)->prescribed);
     for (int w = 0; w < SCREE_WALL_COUNT; w++) {
         scree_plates(state)[w].velocity = 0;
         memset(scree_plates(state)[w].tangential_velocity, 0, sizeof scree_plates(state)[w].tangential_velocity);
     }
     for (size_t row = 0; row < state->count; row++) scree_body_place(state, row, state->reference[row]);
-    scree_case_walls(state)->moving = scree_stage_config(s)->walls == SCREE_WALLS_MOVE;
+    scree_case_walls(state)->moving = own_config(s)->walls == WALLS_MOVE;
     return state->evaluations == 0 ? check_room(s, error) : SCREE_OK;
 }
 
 static void plan(scree_simulation *s)
 {
-    uint64_t expected = scree_stage_ticks(s, scree_stage_config(s)->duration), largest = s->model.largest_step;
+    uint64_t expected = scree_stage_ticks(s, own_config(s)->duration), largest = s->model.largest_step;
     uint64_t interval = expected / largest / (uint64_t)s->model.config->measure.samples * largest;
     s->plan = (scree_stage_plan){.interval = interval > 0 ? interval : largest, .expected = expected};
 }
@@ -63,7 +90,7 @@ static void plan(scree_simulation *s)
 static scree_status finished(scree_simulation *s, bool *done, scree_error *error)
 {
     (void)error;
-    const scree_config_stage *stage = scree_stage_config(s);
+    const config *stage = own_config(s);
     scree_stage_state *state = &s->state.stage;
     double unbalanced = s->sample.value[SCREE_SAMPLE_UNBALANCED_RATIO];
     bool calm = unbalanced < stage->unbalanced_limit;
@@ -83,5 +110,39 @@ static double fraction(const scree_simulation *s)
     return (double)(s->state.step - s->state.stage.first_step) / (double)s->plan.expected;
 }
 
-const scree_stage scree_stage_relax = {
-    .name = "relax", .loading = true, .begin = begin, .plan = plan, .finished = finished, .fraction = fraction};
+static double duration(const void *own)
+{
+    return ((const config *)own)->duration;
+}
+
+static double planned(const scree_model *model, const void *own, double wave)
+{
+    (void)model;
+    (void)wave;
+    return duration(own);
+}
+
+static const scree_stage stage_face = {.name = "relax",
+                                       .loading = true,
+                                       .begin = begin,
+                                       .plan = plan,
+                                       .finished = finished,
+                                       .fraction = fraction,
+                                       .duration = duration,
+                                       .planned = planned};
+
+static const scree_stage_numbers numbers = {
+    .held = true,
+    .needs_standing = "relax needs something that stands: give boundary: plates, or walls and boundary: walls"};
+
+const scree_module scree_module_relax = {
+    .name = "relax",
+    .meaning =
+        "Lets time pass under gravity, between plates that stand or the `walls` of the case, which move or stand.",
+    .choice_of = CHOICE_OF(
+        IS("stages", .meaning = "lets time pass: gravity, standing plates, walls of the case that stand or move")),
+    .keys = (const scree_keys[]){KEYS_OF(NULL, keys, config)},
+    .keys_count = 1,
+    .numbers = &numbers,
+    .stage = &stage_face,
+};

@@ -6,22 +6,51 @@
 /// pressure creeps) is the background. Ramp: w(n+1/2) = spin (t(n+1/2) - rest) / ramp. Hold: w = spin. Angles are set
 /// back to zero at the begin of each but the ramp after no rest, so that at the end they are the rotations of the hold:
 /// over its time the mean spins, from which the waves of single instants have gone.
-/// state.stage.reference: run/stage.h, SCREE_LOADING_... and SCREE_ROTATE_...
+#include "run/stage_rotate.h"
 #include "base/fixed.h"
 #include "base/integer_sum.h"
-#include "boundary/minimal.h"
 #include "integrate/forced_spin.h"
-#include "measure/imposed_gradient.h"
 #include "measure/measure.h"
 #include "measure/rotation.h"
-#include "run/simulation.h"
+#include "module/key_rows.h"
+#include "run/loading.h"
+#include "run/step.h"
 #include "state/pressure.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #define RAMP_WAVES 4.0
 #define CENTRE     2.5 /* mean diameters */
+
+typedef scree_rotate_config config;
+static const scree_choice axes[] = {
+    {"x", SCREE_AXIS_X, "only in 3D"},
+    {"y", SCREE_AXIS_Y, "only in 3D"},
+    {"z", SCREE_AXIS_Z, "out of the plane in 2D"},
+    {0},
+};
+static const scree_key keys[] = {
+    NUMBER(config, spin, "rad/s", ABOVE("0 rad/s"), TO("1e6 rad/s"),
+           .meaning = "Angular velocity of the forced particle."),
+    CHOICE(config, axis, axes, .standard = "z", .meaning = "Axis that it turns about."),
+    NUMBER(config, particle, "1", .standard = "auto", FROM("0"), TO("1e9"),
+           .meaning = "Number of the forced particle, from 0; auto: of those near the centre the one that bears most."),
+    NUMBER(config, rest_time, "s", .standard = "0 s", FROM("0 s"), TO("1e9 s"),
+           .meaning = "Time before, in which it is held still and the spins that there are anyway are measured."),
+    NUMBER(config, ramp_time, "s", .standard = "auto", ABOVE("0 s"), TO("1e9 s"),
+           .meaning = "Time in which the spin is reached, linearly; auto: four wave times of the sample."),
+    NUMBER(config, hold_time, "s", ABOVE("0 s"), TO("1e9 s"),
+           .meaning = "Time for which it is held, in which the spins of the others are measured."),
+    NUMBER(config, cutoff, "1", .standard = "10", ABOVE("0"), TO("1e4"),
+           .meaning = "Radius around the particle, in mean diameters, of the force network that is measured."),
+};
+
+static const config *own_config(const scree_simulation *s)
+{
+    return scree_stage_config(s)->own;
+}
 
 /// Sum of the normal forces on each row, in quanta of their own, so that the order of contacts does not show; room for
 /// them is made. Errors: memory.
@@ -82,7 +111,7 @@ static int64_t find_central(const scree_simulation *s, const int64_t *load)
 /// The particle that the case names, or the central one.
 static scree_status choose(scree_simulation *s, uint32_t *id, scree_error *error)
 {
-    double named = scree_stage_config(s)->particle;
+    double named = own_config(s)->particle;
     int64_t *load = NULL;
     long long stage = (long long)s->state.stage.index;
     int64_t found = isnan(named) ? -1 : (int64_t)named;
@@ -104,18 +133,18 @@ static scree_status choose(scree_simulation *s, uint32_t *id, scree_error *error
     return SCREE_OK;
 }
 
-/// The boundary as a whole keeps its shape of angles and does not turn.
+/// The boundary as a whole keeps its shape of angles and does not turn, where it can be told to.
 static void hold_rotation(scree_simulation *s)
 {
-    scree_imposed_gradient *drive = scree_imposed(&s->state);
-    int dimension = s->state.dimension;
-    double penalty = s->model.config->boundary.penalty, rate[9] = {0};
-    memset(drive->target, 0, sizeof drive->target);
-    for (int c = 0; c < 9; c++)
-        drive->prescribed[c] = c / 3 != c % 3 && c / 3 < dimension && c % 3 < dimension ? SCREE_FULL : SCREE_FREE;
+    const scree_context context = scree_step_context(s);
+    const int dimension = s->state.dimension;
     // The scale of the rates that are to be held back: those of the particle.
-    rate[1] = scree_stage_config(s)->spin;
-    drive->viscosity = isnan(penalty) ? scree_minimal_viscosity(scree_pressure_now(&s->state), rate) : penalty;
+    scree_demand demand = {.scale = own_config(s)->spin};
+    for (int c = 0; c < 9; c++) {
+        demand.how[c] = c / 3 != c % 3 && c / 3 < dimension && c % 3 < dimension ? SCREE_FULL : SCREE_FREE;
+        demand.stress[c] = NAN;
+    }
+    if (s->boundary->deform) s->boundary->deform(&context, &demand, 1);
 }
 
 /// Ticks from the begin of the stage to the ends of rest, ramp and hold.
@@ -125,8 +154,8 @@ typedef struct course {
 
 static course course_of(const scree_simulation *s)
 {
-    const scree_config_stage *stage = scree_stage_config(s);
-    double wave = s->state.stage.reference[SCREE_LOADING_WAVE];
+    const config *stage = own_config(s);
+    double wave = scree_loading_of(&s->state)->wave_time;
     course c = {.rest = stage->rest_time > 0 ? scree_stage_ticks(s, stage->rest_time) : 0};
     c.ramp = c.rest + scree_stage_ticks(s, isnan(stage->ramp_time) ? RAMP_WAVES * wave : stage->ramp_time);
     c.hold = c.ramp + scree_stage_ticks(s, stage->hold_time);
@@ -136,14 +165,14 @@ static course course_of(const scree_simulation *s)
 static scree_status begin(scree_simulation *s, scree_error *error)
 {
     uint32_t id = 0;
-    scree_loading_begin(s);
+    scree_loading_begin(s, scree_pressure_now(&s->state));
     hold_rotation(s);
     scree_status status = choose(s, &id, error);
     if (status) return status;
     course c = course_of(s);
     double ramp = (double)(c.ramp - c.rest) * s->state.tick, hold = (double)(c.hold - c.ramp) * s->state.tick;
-    s->state.stage.reference[SCREE_ROTATE_BACKGROUND] = NAN;
-    s->state.stage.reference[SCREE_ROTATE_TURN] = scree_stage_config(s)->spin * (0.5 * ramp + hold);
+    *scree_rotation_of(&s->state) =
+        (scree_rotation){.background = NAN, .turn = own_config(s)->spin * (0.5 * ramp + hold)};
     scree_forced_spin_begin(&s->state, id);
     return SCREE_OK;
 }
@@ -151,7 +180,7 @@ static scree_status begin(scree_simulation *s, scree_error *error)
 static void plan(scree_simulation *s)
 {
     course c = course_of(s);
-    s->plan = scree_loading_plan(s, (double)c.hold * s->state.tick);
+    s->plan = scree_loading_plan(s, (double)c.hold * s->state.tick, NAN);
     s->plan.expected = c.hold;
 }
 
@@ -160,7 +189,7 @@ static double background(const scree_simulation *s, uint64_t ticks)
 {
     double mean = scree_rotation_mean_amount(&s->state, s->state.row_of_id[scree_forced(&s->state)->id]);
     double time = s->state.dimension == 2 ? (double)ticks * s->state.tick : 1;
-    return mean / (time * scree_stage_config(s)->spin);
+    return mean / (time * own_config(s)->spin);
 }
 
 static void forget_angles(scree_state *state)
@@ -171,11 +200,11 @@ static void forget_angles(scree_state *state)
 static void control(scree_simulation *s)
 {
     scree_state *state = &s->state;
-    const scree_config_stage *stage = scree_stage_config(s);
+    const config *stage = own_config(s);
     const course c = course_of(s);
     uint64_t done = state->step - state->stage.first_step;
     if (done == c.rest && c.rest > 0) {
-        state->stage.reference[SCREE_ROTATE_BACKGROUND] = background(s, c.rest);
+        scree_rotation_of(state)->background = background(s, c.rest);
         forget_angles(state);
     }
     if (done == c.ramp) forget_angles(state);
@@ -194,15 +223,80 @@ static scree_status finished(scree_simulation *s, bool *done, scree_error *error
 {
     (void)error;
     *done = s->state.step - s->state.stage.first_step >= s->plan.expected;
-    (void)snprintf(s->reason, sizeof s->reason, "spin %.4g rad/s held for %.4g s", scree_stage_config(s)->spin,
-                   scree_stage_config(s)->hold_time);
+    (void)snprintf(s->reason, sizeof s->reason, "spin %.4g rad/s held for %.4g s", own_config(s)->spin,
+                   own_config(s)->hold_time);
     return SCREE_OK;
 }
 
-const scree_stage scree_stage_rotate = {.name = "rotate_particle",
-                                        .loading = true,
-                                        .begin = begin,
-                                        .plan = plan,
-                                        .control = control,
-                                        .finished = finished,
-                                        .fraction = fraction};
+static double planned(const scree_model *model, const void *own, double wave)
+{
+    (void)model;
+    const config *stage = own;
+    return stage->rest_time + (isnan(stage->ramp_time) ? RAMP_WAVES * wave : stage->ramp_time) + stage->hold_time;
+}
+
+/// A particle that there is not is left open.
+static void shrink(void *own, int64_t count)
+{
+    config *stage = own;
+    if (!(stage->particle < (double)count)) stage->particle = NAN;
+}
+
+/// Why the forced particle cannot be turned, or NULL.
+static const char *wrong(const scree_config *whole, int64_t index, const char **key)
+{
+    const config *stage = whole->stages[index].own;
+    *key = "stage";
+    if (whole->boundary.periodic > 0)
+        return "a particle is not turned in a periodic sample, where it would feel its own images: leave out "
+               "boundary.periodic";
+    *key = "axis";
+    if (stage->axis != SCREE_AXIS_Z && whole->dimension == 2) return "in two dimensions a particle turns about z only";
+    *key = "particle";
+    if (isnan(stage->particle)) return NULL;
+    if (stage->particle != floor(stage->particle)) return "the number of a particle is whole";
+    return stage->particle < (double)whole->particles.count
+               ? NULL
+               : "there is no such particle: numbers begin at 0 and end below particles.count";
+}
+
+static const scree_stage stage_face = {.name = "rotate_particle",
+                                       .loading = true,
+                                       .begin = begin,
+                                       .plan = plan,
+                                       .control = control,
+                                       .finished = finished,
+                                       .fraction = fraction,
+                                       .quasistatic = true,
+                                       .planned = planned,
+                                       .shrink = shrink};
+
+static const scree_stage_numbers numbers = {.held = true,
+                                            .needs_pressure =
+                                                "a confine stage must come before: rotate_particle keeps its pressure",
+                                            .wrong = wrong};
+
+#define ONE(member, unit, meaning)                                                                                     \
+    SCREE_FIELD_ONE(rotate_particle, scree_rotation, member, "rotate_particle/" #member, SCREE_FIELD_DOUBLE, 1, unit,  \
+                    meaning,                                                                                           \
+                    .range = {.least = -DBL_MAX, .limit = SCREE_LIMIT_NUMBER, .most = DBL_MAX, .undefined = true})
+static const scree_field fields[] = {
+    ONE(background, "1", "spins at rest over the prescribed one; not a number: no rest"),
+    ONE(turn, "rad", "angle that the particle turns by in the whole stage"),
+};
+
+const scree_module scree_module_rotate_particle = {
+    .name = "rotate_particle",
+    .meaning =
+        "Turns one particle at a prescribed spin under the pressure reached before; with `minimal` the sample as a "
+        "whole is "
+        "kept from turning.",
+    .choice_of = CHOICE_OF(IS("stages", .meaning = "turns one particle and watches how rotations spread")),
+    .keys = (const scree_keys[]){KEYS_OF(NULL, keys, config)},
+    .keys_count = 1,
+    .numbers = &numbers,
+    .stage = &stage_face,
+    .state_size = sizeof(scree_rotation),
+    .fields = fields,
+    .field_count = sizeof fields / sizeof *fields,
+};

@@ -21,6 +21,12 @@ typedef struct scree_periodic_cell {
     double virial[9];    ///< J, at the present step: sum over contacts of force on first (x) branch
     double motion[9];    ///< J, in the last step: sum over bodies of mass velocity (x) velocity
     uint64_t directions; ///< bits 0, 1, 2: x, y, z
+    // the servo of components under stress, as it suits the sample at the begin of the stage (boundary/periodic.c)
+    double inertia;       ///< Pa s2, of the rate of a component
+    double damping;       ///< 1/s, its dashpot over its inertia
+    double limit;         ///< 1/s, largest magnitude of such a rate
+    double stress_sum[3]; ///< Pa s, sums of the normal stresses times the step since they were last asked for
+    double stress_time;   ///< s, of the steps
 } scree_periodic_cell;
 
 static inline scree_periodic_cell *scree_cell(const scree_state *state)

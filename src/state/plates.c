@@ -3,11 +3,15 @@
 
 #include "base/checksum.h"
 
+#include <float.h>
+
 typedef scree_plate_set own;
 
 #define PLATE(member, name, type, components, unit, meaning, ...)                                                      \
     SCREE_FIELD_FIXED(plates, own, wall, SCREE_WALL_COUNT, scree_wall, member, "walls/" name, type, components, unit,  \
                       meaning, .snapshot = true, __VA_ARGS__)
+#define SERVO(member, name, unit, meaning)                                                                             \
+    SCREE_FIELD_ONE(plates, own, member, "servo/" name, SCREE_FIELD_DOUBLE, 1, unit, meaning, SCREE_RANGE(0, DBL_MAX))
 static const scree_field fields[] = {
     PLATE(position, "position", SCREE_FIELD_DOUBLE, 1, "m", "position along the normal: normal . x = position",
           SCREE_RANGE_TO(SCREE_LIMIT_FARTHEST)),
@@ -19,6 +23,10 @@ static const scree_field fields[] = {
     PLATE(active, "active", SCREE_FIELD_INT32, 1, "1", "1: the wall exists in this stage", SCREE_RANGE(0, 1)),
     PLATE(material, "material", SCREE_FIELD_INT32, 1, "1", "number of the material; 0 is that of the particles",
           SCREE_RANGE_TO(SCREE_LIMIT_LAST_MATERIAL)),
+    SERVO(axial.impedance, "axial_impedance", "N s/m", "dashpot of the bottom and top plate under servo"),
+    SERVO(axial.mass, "axial_mass", "kg", "mass of the bottom and top plate under servo"),
+    SERVO(sides.impedance, "sides_impedance", "N s/m", "dashpot of the side plates under servo"),
+    SERVO(sides.mass, "sides_mass", "kg", "mass of the side plates under servo"),
 };
 
 /// Normals are exact, or rounded once.

@@ -27,10 +27,22 @@ enum {
     SCREE_WALL_COUNT
 };
 
+/// A plate under servo: its dashpot and its mass, see boundary/plates.c.
+typedef struct scree_servo {
+    double impedance; ///< N s/m
+    double mass;      ///< kg
+} scree_servo;
+
 /// State of the module `plates`.
 typedef struct scree_plate_set {
     scree_wall wall[SCREE_WALL_COUNT];
+    scree_servo axial, sides; ///< as they suited the sample at the begin of the stage
 } scree_plate_set;
+
+static inline scree_plate_set *scree_plate_set_of(const scree_state *state)
+{
+    return state->own[SCREE_SLOT_plates];
+}
 
 /// The plates, SCREE_WALL_COUNT of them.
 static inline scree_wall *scree_plates(const scree_state *state)

@@ -130,15 +130,12 @@ typedef struct scree_ledger {
     double removed;   ///< energy that left with bodies that were taken out (measure/removal.c)
 } scree_ledger;
 
-enum { SCREE_STAGE_REFERENCES = 24 };
 typedef struct scree_stage_state {
-    int64_t index;                            ///< which stage of the case
-    uint64_t first_step;                      ///< step at which it began
-    double first_time;                        ///< s
-    uint64_t first_evaluations;               ///< state.evaluations when it began
-    double reference[SCREE_STAGE_REFERENCES]; ///< stage-specific numbers (height at start, pressure at start, ...): see
-                                              ///< the stage's file
-    int64_t samples;                          ///< rows written in this stage
+    int64_t index;              ///< which stage of the case
+    uint64_t first_step;        ///< step at which it began
+    double first_time;          ///< s
+    uint64_t first_evaluations; ///< state.evaluations when it began
+    int64_t samples;            ///< rows written in this stage
     int64_t snapshots;
     int64_t counter; ///< stage-specific
 } scree_stage_state;

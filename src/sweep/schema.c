@@ -15,9 +15,9 @@
 #define LIST(owner, member, table, number, ...)                                                                        \
     KEY(owner, member, SCREE_KEY_LIST, .standard = "[]", FROM("1"), TO("100"), .sections = table, .section_count = 1,  \
         .count_offset = offsetof(owner, number), .element_size = sizeof *((owner *)0)->member, __VA_ARGS__)
-#define TABLE(title, text, keys)                                                                                       \
+#define TABLE(title, text, keys_)                                                                                      \
     {                                                                                                                  \
-        title, text, keys, COUNT(keys)                                                                                 \
+        .name = title, .meaning = text, .keys = keys_, .count = COUNT(keys_)                                           \
     }
 
 typedef scree_sweep_together together;

@@ -20,9 +20,9 @@
 #define LIST(owner, member, label, table, number, ...)                                                                 \
     KEY(owner, member, label, SCREE_KEY_LIST, FROM("1"), TO("500"), .sections = table, .section_count = 1,             \
         .count_offset = offsetof(owner, number), .element_size = sizeof *((owner *)0)->member, __VA_ARGS__)
-#define TABLE(title, text, keys)                                                                                       \
+#define TABLE(title, text, keys_)                                                                                      \
     {                                                                                                                  \
-        title, text, keys, COUNT(keys)                                                                                 \
+        .name = title, .meaning = text, .keys = keys_, .count = COUNT(keys_)                                           \
     }
 
 static const scree_choice forms[] = {

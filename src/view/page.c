@@ -2,6 +2,7 @@
 /// renamed (io/run_directory.h), so a full disk leaves no torn figure.
 #include "view/page.h"
 
+#include "base/memory.h"
 #include "io/run_directory.h"
 
 #include <cairo-svg.h>
@@ -14,11 +15,11 @@ static cairo_status_t append(void *file, const unsigned char *data, unsigned int
     return fwrite(data, 1, length, file) == length ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
 }
 
-static cairo_status_t draw_svg(FILE *file, double width, double height, scree_page_draw *draw, void *user)
+static cairo_status_t draw_svg(FILE *file, const scree_page *page)
 {
-    cairo_surface_t *surface = cairo_svg_surface_create_for_stream(append, file, width, height);
+    cairo_surface_t *surface = cairo_svg_surface_create_for_stream(append, file, page->width, page->height);
     cairo_t *cairo = cairo_create(surface);
-    draw(cairo, user);
+    page->draw(cairo, page->user);
     cairo_status_t status = cairo_status(cairo);
     cairo_destroy(cairo);
     cairo_surface_finish(surface);
@@ -27,14 +28,14 @@ static cairo_status_t draw_svg(FILE *file, double width, double height, scree_pa
     return status;
 }
 
-static cairo_status_t draw_png(FILE *file, double width, double height, scree_page_draw *draw, void *user)
+static cairo_status_t draw_png(FILE *file, const scree_page *page)
 {
-    double scale = SCREE_PAGE_PIXELS / fmax(width, height);
-    cairo_surface_t *surface =
-        cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)lround(width * scale), (int)lround(height * scale));
+    double scale = SCREE_PAGE_PIXELS / fmax(page->width, page->height);
+    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)lround(page->width * scale),
+                                                          (int)lround(page->height * scale));
     cairo_t *cairo = cairo_create(surface);
     cairo_scale(cairo, scale, scale);
-    draw(cairo, user);
+    page->draw(cairo, page->user);
     cairo_status_t status = cairo_status(cairo);
     cairo_destroy(cairo);
     if (!status) status = cairo_surface_write_to_png_stream(surface, append, file);
@@ -42,18 +43,29 @@ static cairo_status_t draw_png(FILE *file, double width, double height, scree_pa
     return status;
 }
 
-typedef cairo_status_t render(FILE *file, double width, double height, scree_page_draw *draw, void *user);
+/// Bytes that Cairo (1.16) may take for a page whose largest shape has `marks` discs: the pixels of the PNG, fonts, and
+/// the edges of that shape, which are cut into pieces of some pixels. Discs that fill a page have a rim of sqrt(marks)
+/// pages; measured were 0.5 MB of that and 5 kB a disc.
+static size_t page_bytes(size_t marks)
+{
+    enum { PIXELS = 4 * SCREE_PAGE_PIXELS * SCREE_PAGE_PIXELS, LIBRARY = 8 << 20, RIM = 700 << 10, MARK = 6 << 10 };
+    return PIXELS + LIBRARY + (size_t)(RIM * sqrt((double)marks)) + MARK * marks;
+}
 
-static scree_status write_one(const char *path, const char *extension, render *renderer, double width, double height,
-                              scree_page_draw *draw, void *user, scree_error *error)
+typedef cairo_status_t render(FILE *file, const scree_page *page);
+
+static scree_status write_one(const char *path, const char *extension, render *renderer, const scree_page *page,
+                              scree_error *error)
 {
     char name[PATH_MAX];
     FILE *file;
     if (snprintf(name, sizeof name, "%s.%s", path, extension) >= (int)sizeof name)
         return scree_error_set(error, SCREE_ERROR_IO, "the path of the figure '%s' is too long", path);
-    scree_status status = scree_replace_begin(name, &file, error);
+    // Where it cannot have memory for edges, Cairo jumps to a place on the stack that it has left.
+    scree_status status = scree_memory_check(page_bytes(page->marks), error);
+    if (!status) status = scree_replace_begin(name, &file, error);
     if (status) return status;
-    cairo_status_t cairo_status = renderer(file, width, height, draw, user);
+    cairo_status_t cairo_status = renderer(file, page);
     status = scree_replace_finish(name, file, cairo_status == CAIRO_STATUS_SUCCESS, error);
     if (cairo_status)
         status = scree_error_set(error, SCREE_ERROR_IO, "cannot draw the figure '%s': %s", name,
@@ -61,11 +73,10 @@ static scree_status write_one(const char *path, const char *extension, render *r
     return status;
 }
 
-scree_status scree_page_write(const char *path, double width, double height, scree_page_draw *draw, void *user,
-                              scree_error *error)
+scree_status scree_page_write(const char *path, const scree_page *page, scree_error *error)
 {
-    scree_status status = write_one(path, "svg", draw_svg, width, height, draw, user, error);
-    return status ? status : write_one(path, "png", draw_png, width, height, draw, user, error);
+    scree_status status = write_one(path, "svg", draw_svg, page, error);
+    return status ? status : write_one(path, "png", draw_png, page, error);
 }
 
 void scree_page_colour(cairo_t *cairo, scree_colour colour)

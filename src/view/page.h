@@ -12,10 +12,16 @@
 
 typedef void scree_page_draw(cairo_t *cairo, void *user);
 
-/// Draws a page of width x height [pt] twice: NAME.svg (text as glyphs, no fonts needed to look at it) and NAME.png.
-/// Errors: disk, memory.
-scree_status scree_page_write(const char *path, double width, double height, scree_page_draw *draw, void *user,
-                              scree_error *error) SCREE_MUST_USE;
+typedef struct scree_page {
+    double width, height; ///< pt
+    size_t marks;         ///< at most so many discs, or as many lines, are one shape of the drawing
+    scree_page_draw *draw;
+    void *user;
+} scree_page;
+
+/// Draws a page twice: NAME.svg (text as glyphs, no fonts needed to look at it) and NAME.png. A page that could not
+/// have the memory that its marks may take is not begun. Errors: disk, memory.
+scree_status scree_page_write(const char *path, const scree_page *page, scree_error *error) SCREE_MUST_USE;
 
 typedef struct scree_text_style {
     double size; ///< pt

@@ -299,7 +299,8 @@ static scree_status draw_rose(const scree_plot_run *run, scree_error *error)
         r.count = table.row_count;
         r.size = 360.0 / (double)r.count;
         for (size_t k = 0; k < r.count; k++) r.largest = fmax(r.largest, r.strength[k]);
-        status = r.largest > 0 ? scree_page_write(path, ROSE_WIDTH, ROSE_HEIGHT, draw_rose_page, &r, error)
+        const scree_page page = {ROSE_WIDTH, ROSE_HEIGHT, r.count, draw_rose_page, &r};
+        status = r.largest > 0 ? scree_page_write(path, &page, error)
                                : scree_error_set(error, SCREE_ERROR_INPUT, "no contact near the forced particle");
     }
     scree_series_destroy(&table);

@@ -274,6 +274,15 @@ static void draw_page(cairo_t *cairo, void *user)
     scree_scene_legend(view, cairo, legend, view->top);
 }
 
+/// No shape has more discs or lines: discs of one colour, contacts of one width, the net, cells, the lines of walls.
+static size_t largest_shape(const scree_scene_view *view)
+{
+    const scree_snapshot *s = view->snapshot;
+    size_t cells = view->scene->cells ? view->scene->cells->count : 0;
+    size_t lines = s->wall_line_count + s->wall_triangle_count;
+    return s->count + s->contact_count + s->triangle_count + cells + lines;
+}
+
 scree_status scree_scene_draw(const char *path, const scree_snapshot *snapshot, const scree_scene *scene,
                               scree_error *error)
 {
@@ -287,7 +296,8 @@ scree_status scree_scene_draw(const char *path, const scree_snapshot *snapshot, 
         measure_forces(&view);
         write_caption(&view);
         lay_out(&view);
-        status = scree_page_write(path, view.page_width, view.page_height, draw_page, &view, error);
+        const scree_page page = {view.page_width, view.page_height, largest_shape(&view), draw_page, &view};
+        status = scree_page_write(path, &page, error);
     }
     scree_release(&view.order);
     return status;

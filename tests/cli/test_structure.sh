@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The structure that docs/architecture.md promises: a file includes only from its own layer or layers above it in the table;
-# the command line includes only the public headers; the library never exits, aborts or prints; files stay below 600 lines.
+# the command line includes only the public headers; the choices of a case that are modules are known by name in their own
+# files alone; the library never exits, aborts or prints; files stay below 600 lines.
 set -u
 source_dir=${SCREE_SOURCE_DIR:?}
 cd "$source_dir" || exit 1
@@ -23,6 +24,24 @@ for folder in src/*/; do
             complain "$file:$line: layer $layer includes from $other, which lies below it"
         fi
     done < <(grep -nHE '^#include "[a-z]+/' "$folder"*.[ch])
+done
+# A law is known to its own two files, its row, and its header in contact/laws.h; else it may only be a default of the schema.
+mapfile -t laws < <(grep 'define SCREE_LAWS' src/module/table.h | grep -oE 'row\([a-z_]+\)' | sed -E 's/row\((.*)\)/\1/')
+[ ${#laws[@]} -ge 2 ] || complain "the laws of src/module/table.h were not found"
+for law in "${laws[@]}"; do
+    for own in src/contact/$law.h src/contact/$law.c; do [ -f "$own" ] || complain "law $law has no $own"; done
+    while IFS= read -r hit; do complain "${hit%%:*} knows the law $law"; done \
+        < <(find src -name '*.[ch]' ! -path "src/contact/$law.*" ! -path src/contact/laws.h ! -path src/module/table.h -exec \
+            awk -v law="$law" '{ sub(/\/\/.*/, "") } index($0, law) && !/\.standard = / { print FILENAME ":" FNR }' {} +)
+done
+mapfile -t modules < <(sed -n '/define SCREE_LAWS/,/^$/p; /define SCREE_CASE_MODULES/,/^$/p' src/module/table.h | grep -oE 'row\([a-z_]+\)' | sed -E 's/row\((.*)\)/\1/')
+[ ${#modules[@]} -ge 12 ] || complain "the rows of src/module/table.h were not found"
+for name in "${modules[@]}"; do
+    mapfile -t owner < <(grep -rlE "scree_module_$name = \{|[A-Z]+\($name, \"" src)
+    [ ${#owner[@]} -eq 1 ] || complain "module $name has ${#owner[@]} descriptors"
+    while IFS= read -r file; do
+        case $file in "${owner[0]%.c}"*) ;; *) complain "$file knows the module $name of ${owner[0]}" ;; esac
+    done < <(grep -rlE "(SCREE_SLOT_|scree_module_)$name\b" src)
 done
 while IFS= read -r hit; do complain "$hit: the library never exits, aborts or prints"; done \
     < <(grep -nHE '(^|[^a-z_>.])(exit|abort|printf|puts|perror)\(' $(find src -name '*.[ch]' ! -path 'src/cli/*') | grep -vE '///|// ')

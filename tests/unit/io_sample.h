@@ -119,7 +119,7 @@ static inline scree_model sample_model(const scree_config *config)
 {
     return (scree_model){.dimension = 2,
                          .thickness = 2e-3,
-                         .scheme = SCREE_SCHEME_POSITION_VERLET,
+                         .scheme = SCREE_SLOT_position_verlet,
                          .step = 1e-6,
                          .gravity = {0, -9.81, 0},
                          .config = config};

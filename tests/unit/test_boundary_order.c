@@ -26,6 +26,12 @@ static scree_status apply_traction(const scree_context *c, scree_error *error)
     return SCREE_OK;
 }
 
+/// Nothing but the traction acts, whatever the stage demands.
+static void impose_nothing(const scree_context *c, const scree_demand *demand, double rise)
+{
+    (void)c, (void)demand, (void)rise;
+}
+
 /// Strain and increments of stress of the last stage of a case; with `traction` its boundary is replaced by a uniform
 /// traction.
 static void load(const char *text, const char *const *overrides, size_t count, const scree_boundary *traction,
@@ -82,7 +88,8 @@ static void boundaries_are_ordered_by_stiffness(void **unused)
     static const scree_pass passes[] = {{SCREE_PHASE_FOLLOW, scree_imposed_work},
                                         {SCREE_PHASE_SEARCH, scree_imposed_refresh},
                                         {SCREE_PHASE_LOADS, apply_traction}};
-    static const scree_boundary traction = {.name = "traction", .passes = passes, .pass_count = 3};
+    static const scree_boundary traction = {
+        .name = "traction", .passes = passes, .pass_count = 3, .deform = impose_nothing};
     double strain[3][9], stress[3][9];
     load(BOUNDARY_COMMON BOUNDARY_SETTLE BOUNDARY_AFFINE, overrides, 5, NULL, strain[0], stress[0]);
     load(BOUNDARY_COMMON BOUNDARY_SETTLE BOUNDARY_AFFINE, minimal, 5, NULL, strain[1], stress[1]);

@@ -1,7 +1,12 @@
 /// Reading cases: what is accepted, every kind of mistake with its message and place, --set, quick, lost memory.
+#include "law_choice.h"
+#include "own_config.h"
 #include "base/memory.h"
 #include "case/case.h"
 #include "good_case.h"
+#include "own_config.h"
+#include "run/stage_compress.h"
+#include "run/stage_confine.h"
 
 #include <dirent.h>
 #include <math.h>
@@ -68,11 +73,11 @@ static void defaults_are_filled_in(void **state)
     assert_true(config->materials[0].poisson_ratio == 0.3);
     assert_true(isnan(config->materials[0].wall_friction));
     assert_true(config->particles.radius_min == 1e-3);
-    assert_int_equal(config->contact.law, SCREE_LAW_HERTZ_MINDLIN);
+    assert_int_equal(config->contact.law, SCREE_SLOT_hertz_mindlin);
     assert_true(isnan(config->integrator.step));
     assert_int_equal(config->stage_count, 1);
     assert_string_equal(config->stages[0].name, "prepare");
-    assert_true(config->stages[0].aspect_ratio == 2);
+    assert_true(STAGE(config, 0, prepare)->aspect_ratio == 2);
     assert_true(config->output.figures);
     assert_int_equal(config->measure.window_count, 0);
     scree_case_free(c);
@@ -103,16 +108,16 @@ static void values_mean_what_they_say(void **state)
     const scree_config *config = &c->config;
     assert_true(config->materials[0].density == 2.675e8);
     assert_true(config->particles.radius_max == 1e-3);
-    assert_true(config->stages[1].pressure == 1e5);
-    assert_true(config->stages[2].strain == 0.15);
-    assert_true(config->stages[2].rate == 1e-2);
+    assert_true(STAGE(config, 1, confine)->pressure == 1e5);
+    assert_true(STAGE(config, 2, compress)->strain == 0.15);
+    assert_true(STAGE(config, 2, compress)->rate == 1e-2);
     assert_string_equal(config->stages[2].name, "compress");
     assert_int_equal(config->measure.window_count, 2);
     assert_true(config->measure.windows[1].from == 0.1 && config->measure.windows[1].to == 0.15);
     scree_case_free(c);
     c = right(good_case(), NULL, true);
     assert_int_equal(c->config.particles.count, 600);
-    assert_true(c->config.stages[2].rate == 3e-2);
+    assert_true(STAGE(&c->config, 2, compress)->rate == 3e-2);
     scree_case_free(c);
 }
 
@@ -235,9 +240,9 @@ static void overrides_change_the_case(void **state)
                               "title=A test: of --set = \"quoted\" # text", "gravity=[0, -9.81 m/s2]",
                               "stages.confine.name=squeeze", "stages.squeeze.ramp_time=3 s", "particles.count=1e5"),
                           false);
-    assert_true(c->config.stages[2].rate == 2e-2);
-    assert_true(c->config.stages[1].pressure == 5e5);
-    assert_true(c->config.stages[1].ramp_time == 3);
+    assert_true(STAGE(&c->config, 2, compress)->rate == 2e-2);
+    assert_true(STAGE(&c->config, 1, confine)->pressure == 5e5);
+    assert_true(STAGE(&c->config, 1, confine)->ramp_time == 3);
     assert_string_equal(c->config.stages[1].name, "squeeze");
     assert_true(c->config.materials[0].friction == 0.3);
     assert_int_equal(c->config.measure.window_count, 1);
@@ -250,7 +255,7 @@ static void overrides_change_the_case(void **state)
     // --set overrules quick.
     c = right(text, SET("particles.count=77"), true);
     assert_int_equal(c->config.particles.count, 77);
-    assert_true(c->config.stages[2].rate == 3e-2);
+    assert_true(STAGE(&c->config, 2, compress)->rate == 3e-2);
     scree_case_free(c);
     scree_problems *problems;
     assert_int_equal(parse(minimal, NULL, true, &c, &problems), SCREE_ERROR_INPUT);
@@ -270,9 +275,9 @@ static void overrides_may_choose(void **state)
     (void)state;
     const char *text = good_case();
     scree_case *c = right(text, SET("contact.law=hertz_brilliantov"), false);
-    assert_int_equal(c->config.contact.law, SCREE_LAW_HERTZ_BRILLIANTOV);
-    assert_true(c->config.contact.damping_time == 2e-3);
-    assert_true(c->config.materials[0].restitution == 0);
+    assert_int_equal(c->config.contact.law, SCREE_SLOT_hertz_brilliantov);
+    assert_true(OWN(c->config.contact.own, scree_brilliantov_config, hertz_brilliantov, "contact")->damping_time == 2e-3);
+    assert_true(OWN(c->config.materials[0].own, scree_mindlin_material, hertz_mindlin, "materials")->restitution == 0);
     scree_case_free(c);
     c = right(text, SET("particles.distribution=equal", "particles.radius=2 mm"), false);
     assert_true(c->config.particles.radius_min == 2e-3 && c->config.particles.radius_max == 2e-3);
@@ -327,8 +332,8 @@ static void stages_of_one_kind_are_numbered(void **state)
     assert_string_equal(c->config.stages[2].name, "compress_1");
     assert_string_equal(c->config.stages[3].name, "middle");
     assert_string_equal(c->config.stages[4].name, "compress_2");
-    assert_true(c->config.stages[4].rate == 7);
-    assert_true(c->config.stages[3].rate == 5);
+    assert_true(STAGE(&c->config, 4, compress)->rate == 7);
+    assert_true(STAGE(&c->config, 3, compress)->rate == 5);
     scree_case_free(c);
     wrong(text, SET("stages.compress.rate=7"), "did you mean 'stages.compress_1.rate'?");
     c = right(text,
@@ -338,7 +343,7 @@ static void stages_of_one_kind_are_numbered(void **state)
                   "confine, pressure: 1}, {stage: confine, pressure: 1}, {stage: confine, pressure: 1}]",
                   "stages.10.pressure=7"),
               false);
-    assert_true(c->config.stages[10].pressure == 7);
+    assert_true(STAGE(&c->config, 10, confine)->pressure == 7);
     assert_string_equal(c->config.stages[10].name, "confine_10");
     scree_case_free(c);
 }

@@ -21,8 +21,12 @@ static const scree_config config = {.measure = {.cells = true, .band_window = 0.
 
 static scree_model model_of(int dimension)
 {
-    return (scree_model){
-        .config = &config, .dimension = dimension, .thickness = 1e-3, .mean_radius = SPACING / 2, .density = {1}};
+    return (scree_model){.config = &config,
+                         .dimension = dimension,
+                         .scheme = SCREE_SLOT_position_verlet,
+                         .thickness = 1e-3,
+                         .mean_radius = SPACING / 2,
+                         .density = {1}};
 }
 
 /// A noisy lattice; rows in the reverse order of ids.

@@ -142,9 +142,9 @@ static void check_deposits(int dimension)
                 if (dimension == 3) c.config.particles.shape = SCREE_SHAPE_SPHERE;
                 c.config.particles.distribution = all_sizes[s].distribution;
                 c.config.particles.radius_min = all_sizes[s].smallest;
-                c.stage[0].aspect_ratio = boxes[b].aspect_ratio;
-                c.stage[0].width = boxes[b].width;
-                c.stage[0].depth = boxes[b].depth;
+                biaxial_prepare(&c)->aspect_ratio = boxes[b].aspect_ratio;
+                biaxial_prepare(&c)->width = boxes[b].width;
+                biaxial_prepare(&c)->depth = boxes[b].depth;
                 check(scree_model_build(&c.config, &model, &error), &error);
                 check(scree_prepare(&model, &c.stage[0], &state, &error), &error);
                 assert_int_equal(state.count, COUNT);

@@ -164,12 +164,12 @@ static void keep_boundary(numbers *n, const scree_model *model, scree_state *sta
     keep(n, others, sizeof others / sizeof *others);
 }
 
-static void keep_servos(numbers *n, const scree_model *model, const scree_state *state)
+static void keep_servos(numbers *n, const scree_model *model, scree_state *state)
 {
     if (scree_cell(state)->directions) {
-        scree_periodic_drive drive = {0};
-        scree_periodic_drive_fit(model, state, 1e5, &drive);
-        keep(n, (double[]){drive.inertia, drive.damping, scree_periodic_wave_time(model, state, 1e5)}, 3);
+        const scree_periodic_cell *cell = scree_cell(state);
+        scree_periodic_fit(model, state, 1e5);
+        keep(n, (double[]){cell->inertia, cell->damping, scree_periodic_wave_time(model, state, 1e5)}, 3);
         return;
     }
     for (int w = 0; w < 2 * state->dimension; w++) {

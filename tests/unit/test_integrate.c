@@ -15,11 +15,12 @@
 #define STIFFNESS 8.0 /* omega = 2 for x and, with the torque below, for the angle */
 #define OMEGA     2.0
 
-static scree_model make_model(scree_scheme scheme)
+static scree_model make_model(int scheme)
 {
     scree_model model;
     memset(&model, 0, sizeof model);
     model.scheme = scheme;
+    model.law.law = SCREE_SLOT_hertz_mindlin;
     return model;
 }
 
@@ -48,7 +49,7 @@ static void make_state(scree_state *state, size_t count, double dt)
 }
 
 /// Largest error of x, y, angle and vx after `time` with `steps` steps.
-static double oscillator_error(scree_scheme scheme, double time, int steps)
+static double oscillator_error(int scheme, double time, int steps)
 {
     scree_model model = make_model(scheme);
     scree_state state;
@@ -58,7 +59,7 @@ static double oscillator_error(scree_scheme scheme, double time, int steps)
     spring_forces(&state);
     const scree_integrator *integrator = scree_integrator_get(scheme);
     // position Verlet starts from v(-1/2), to second order.
-    if (scheme == SCREE_SCHEME_POSITION_VERLET) {
+    if (scheme == SCREE_SLOT_position_verlet) {
         state.row[0].vx = 0.5 * dt * OMEGA * OMEGA * 1.0;
         state.row[0].vy = -0.5 * dt * OMEGA * OMEGA * 0.5;
         state.row[0].spin = 0.5 * dt * OMEGA * OMEGA * 0.3;
@@ -83,9 +84,9 @@ static double oscillator_error(scree_scheme scheme, double time, int steps)
 static void both_schemes_are_of_second_order(void **unused)
 {
     (void)unused;
-    for (int scheme = SCREE_SCHEME_POSITION_VERLET; scheme <= SCREE_SCHEME_VELOCITY_VERLET; scheme++) {
-        double coarse = oscillator_error((scree_scheme)scheme, 3.0, 300);
-        double fine = oscillator_error((scree_scheme)scheme, 3.0, 600);
+    for (int scheme = SCREE_SLOT_position_verlet; scheme <= SCREE_SLOT_velocity_verlet; scheme++) {
+        double coarse = oscillator_error(scheme, 3.0, 300);
+        double fine = oscillator_error(scheme, 3.0, 600);
         // Leading error (omega dt)^2 / 24 * omega t; the ratio of a second-order scheme is 4.
         assert_true(coarse < 2 * pow(OMEGA * 0.01, 2) / 24 * OMEGA * 3.0 * OMEGA);
         assert_true(fabs(coarse / fine - 4) < 0.1);
@@ -109,7 +110,7 @@ static void spring_forces_in_space(scree_state *state, double time)
 }
 
 /// Largest error of positions, velocity and spin of a sphere after `time`.
-static double error_in_space(scree_scheme scheme, double time, int steps)
+static double error_in_space(int scheme, double time, int steps)
 {
     scree_model model = make_model(scheme);
     scree_state state;
@@ -121,7 +122,7 @@ static double error_in_space(scree_scheme scheme, double time, int steps)
     state.force_quantum = state.torque_quantum = scree_fixed_quantum(1000);
     state.row[0] = (scree_row){.x = 1, .y = -0.5, .radius = RADIUS, .mass = MASS};
     state.row[0].z = 0.25;
-    if (scheme == SCREE_SCHEME_POSITION_VERLET) {
+    if (scheme == SCREE_SLOT_position_verlet) {
         double back = 0.5 * dt * OMEGA;
         state.row[0].vx = back * OMEGA, state.row[0].vy = -0.5 * back * OMEGA, state.row[0].vz = 0.25 * back * OMEGA;
         state.turn[0] = (scree_turn_row){-back, 2 * back, -3 * back, 0};
@@ -151,7 +152,7 @@ static double error_in_space(scree_scheme scheme, double time, int steps)
 /// one.
 static double sequences_error(uint64_t n, uint64_t q, double time, int sequences)
 {
-    scree_model model = make_model(SCREE_SCHEME_TWO_TIMESCALES);
+    scree_model model = make_model(SCREE_SLOT_two_timescales);
     model.large_multiple = n;
     model.small_steps = q;
     model.largest_step = n + q;
@@ -164,7 +165,7 @@ static double sequences_error(uint64_t n, uint64_t q, double time, int sequences
     state.row[0].vx = 0.5 * state.step_size * OMEGA * OMEGA * 1.0;
     state.row[0].spin = 0.5 * state.step_size * OMEGA * OMEGA * 0.3;
     spring_forces(&state);
-    const scree_integrator *integrator = scree_integrator_get(SCREE_SCHEME_TWO_TIMESCALES);
+    const scree_integrator *integrator = scree_integrator_get(SCREE_SLOT_two_timescales);
     while (state.step < (uint64_t)sequences * (n + q)) {
         state.step += scree_integrator_choose_step(integrator, &model, &state, true);
         integrator->first(&model, &state, &work);
@@ -183,9 +184,9 @@ static double sequences_error(uint64_t n, uint64_t q, double time, int sequences
 static void both_schemes_are_of_second_order_in_space(void **unused)
 {
     (void)unused;
-    for (int scheme = SCREE_SCHEME_POSITION_VERLET; scheme <= SCREE_SCHEME_VELOCITY_VERLET; scheme++) {
-        double coarse = error_in_space((scree_scheme)scheme, 3.0, 300);
-        double fine = error_in_space((scree_scheme)scheme, 3.0, 600);
+    for (int scheme = SCREE_SLOT_position_verlet; scheme <= SCREE_SLOT_velocity_verlet; scheme++) {
+        double coarse = error_in_space(scheme, 3.0, 300);
+        double fine = error_in_space(scheme, 3.0, 600);
         // As in two dimensions.
         assert_true(coarse < 2 * pow(OMEGA * 0.01, 2) / 24 * OMEGA * 3.0 * OMEGA);
         assert_true(fabs(coarse / fine - 4) < 0.1);
@@ -209,7 +210,7 @@ static void two_timescales_are_of_second_order(void **unused)
 static void changes_of_the_step_are_booked(void **unused)
 {
     (void)unused;
-    scree_model model = make_model(SCREE_SCHEME_TWO_TIMESCALES);
+    scree_model model = make_model(SCREE_SLOT_two_timescales);
     model.large_multiple = 7, model.small_steps = 3, model.largest_step = 10;
     scree_state state;
     scree_work work = {.threads = 1};
@@ -244,8 +245,7 @@ static void changes_of_the_step_are_booked(void **unused)
 static void schemes_share_their_trajectory(void **unused)
 {
     (void)unused;
-    scree_model position = make_model(SCREE_SCHEME_POSITION_VERLET),
-                velocity = make_model(SCREE_SCHEME_VELOCITY_VERLET);
+    scree_model position = make_model(SCREE_SLOT_position_verlet), velocity = make_model(SCREE_SLOT_velocity_verlet);
     scree_state a, b;
     scree_work work = {.threads = 1};
     make_state(&a, 1, 0.01);
@@ -254,8 +254,8 @@ static void schemes_share_their_trajectory(void **unused)
     spring_forces(&b);
     a.row[0].vx = 0.5 * 0.01 * OMEGA * OMEGA;
     a.row[0].vy = -0.5 * 0.01 * OMEGA * OMEGA * 0.5;
-    const scree_integrator *p = scree_integrator_get(SCREE_SCHEME_POSITION_VERLET);
-    const scree_integrator *v = scree_integrator_get(SCREE_SCHEME_VELOCITY_VERLET);
+    const scree_integrator *p = scree_integrator_get(SCREE_SLOT_position_verlet);
+    const scree_integrator *v = scree_integrator_get(SCREE_SLOT_velocity_verlet);
     for (int k = 0; k < 1000; k++) {
         p->first(&position, &a, &work);
         spring_forces(&a);
@@ -279,7 +279,7 @@ static void schemes_share_their_trajectory(void **unused)
 static void gravity_is_a_parabola(void **unused)
 {
     (void)unused;
-    scree_model model = make_model(SCREE_SCHEME_VELOCITY_VERLET);
+    scree_model model = make_model(SCREE_SLOT_velocity_verlet);
     model.gravity[1] = -9.81;
     scree_state state;
     scree_work work = {.threads = 1, .budget = 1.0};
@@ -300,7 +300,7 @@ static void gravity_is_a_parabola(void **unused)
 static void threads_give_the_same_bits(void **unused)
 {
     (void)unused;
-    scree_model model = make_model(SCREE_SCHEME_VELOCITY_VERLET);
+    scree_model model = make_model(SCREE_SLOT_velocity_verlet);
     uint64_t checksum[3];
     for (int threads = 1; threads <= 3; threads++) {
         scree_state state;
@@ -322,7 +322,7 @@ static void threads_give_the_same_bits(void **unused)
 static void a_speed_that_is_not_a_number_raises_the_flag(void **unused)
 {
     (void)unused;
-    scree_model model = make_model(SCREE_SCHEME_POSITION_VERLET);
+    scree_model model = make_model(SCREE_SLOT_position_verlet);
     scree_state state;
     scree_work work = {.threads = 2};
     make_state(&state, 5, 0.01);
@@ -338,8 +338,7 @@ static void a_speed_that_is_not_a_number_raises_the_flag(void **unused)
 static void a_kick_before_a_drift_leaves_the_sums_clear(void **unused)
 {
     (void)unused;
-    const scree_scheme schemes[] = {SCREE_SCHEME_POSITION_VERLET, SCREE_SCHEME_VELOCITY_VERLET,
-                                    SCREE_SCHEME_TWO_TIMESCALES};
+    const int schemes[] = {SCREE_SLOT_position_verlet, SCREE_SLOT_velocity_verlet, SCREE_SLOT_two_timescales};
     for (size_t k = 0; k < sizeof schemes / sizeof *schemes; k++)
         for (int dimension = 2; dimension <= 3; dimension++) {
             scree_model model = make_model(schemes[k]);

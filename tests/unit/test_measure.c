@@ -36,8 +36,13 @@ static void bench_create(bench *b, size_t count)
 {
     memset(b, 0, sizeof *b);
     b->config.boundary = (scree_config_boundary){.every = 250, .gap_limit = 0.5};
-    b->model = (scree_model){.config = &b->config, .thickness = THICKNESS, .mean_radius = RADIUS, .material_count = 1};
-    b->model.pairs[0][0].friction = 0.5;
+    b->model = (scree_model){.config = &b->config,
+                             .law = {.law = SCREE_SLOT_hertz_mindlin},
+                             .scheme = SCREE_SLOT_position_verlet,
+                             .thickness = THICKNESS,
+                             .mean_radius = RADIUS,
+                             .material_count = 1};
+    b->model.pairs[0][0].value[SCREE_FRICTION] = 0.5;
     assert_int_equal(scree_state_create(&b->state, 2, count, NULL), SCREE_OK);
     b->state.force_quantum = b->state.torque_quantum = 0x1p-50;
     b->state.step_size = 1e-6;
@@ -403,11 +408,11 @@ static void coordination_and_rattlers(void **user)
     assert_true(near(c.rattler_fraction, 0.5, 1e-15, 1));
     assert_true(near(c.mean_without_rattlers, 9.0 / 4, 1e-15, 1));
     // Without friction three supports are needed, and nothing holds.
-    b.model.pairs[0][0].friction = 0;
+    b.model.pairs[0][0].value[SCREE_FRICTION] = 0;
     assert_int_equal(scree_coordination_measure(&b.model, &b.state, &b.table, &c, NULL), SCREE_OK);
     assert_true(c.rattler_fraction == 1 && c.mean_without_rattlers == 0);
     // The pressure supports the loner and the end of the chain, not more.
-    b.model.pairs[0][0].friction = 0.5;
+    b.model.pairs[0][0].value[SCREE_FRICTION] = 0.5;
     uint32_t id[3] = {3, 6, 7};
     uint8_t loaded[3] = {1, 0, 1};
     scree_loop_of(&b.state)->id = id;
@@ -505,10 +510,10 @@ static void areas_and_boxes(void **user)
 static void kinetic_energy_is_the_discrete_one(void **user)
 {
     (void)user;
-    for (int scheme = 0; scheme < 2; scheme++) {
+    for (int scheme = SCREE_SLOT_position_verlet; scheme <= SCREE_SLOT_velocity_verlet; scheme++) {
         bench b;
         bench_create(&b, 1);
-        b.model.scheme = (scree_scheme)scheme;
+        b.model.scheme = scheme;
         b.model.gravity[1] = -9.81;
         scree_row *row = &b.state.row[0];
         *row = (scree_row){.radius = 0.5, .mass = 2, .vx = 3, .vy = 1, .spin = 4, .y = 10};
@@ -518,7 +523,7 @@ static void kinetic_energy_is_the_discrete_one(void **user)
         scree_energy energy;
         scree_energy_measure(&b.model, &b.state, &b.table, &energy);
         // v(n-1/2) and v(n+1/2) = v(n-1/2) + 0.1 a, a = (2.5, -9.81), angular 0.5 / 0.25 = 2.
-        double lead = scheme == SCREE_SCHEME_POSITION_VERLET ? 0 : 0.05;
+        double lead = scheme == SCREE_SLOT_position_verlet ? 0 : 0.05;
         double u = 3 - lead * 2.5, v = 1 + lead * 9.81, w = 4 - lead * 2;
         assert_true(near(energy.kinetic, u * (u + 0.25) + v * (v - 0.981), 1e-13, 10));
         assert_true(near(energy.kinetic_rotation, 0.5 * 0.25 * w * (w + 0.2), 1e-13, 10));

@@ -102,7 +102,7 @@ static void put_snapshot(const char *directory, const scree_snapshot *s, int64_t
                          .thickness = 1e-3,
                          .mean_radius = 0.75e-3,
                          .config = &config,
-                         .scheme = SCREE_SCHEME_POSITION_VERLET};
+                         .scheme = SCREE_SLOT_position_verlet};
     assert_int_equal(scree_state_create(&state, 2, s->count, NULL), SCREE_OK);
     for (size_t k = 0; k < s->count; k++) {
         state.row[k] = (scree_row){.x = s->x[k],

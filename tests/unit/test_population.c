@@ -64,16 +64,9 @@ static const scree_module test_module = {
 };
 
 // In place of src/modules.c.
-const scree_module *const scree_modules[SCREE_MODULE_COUNT] = {
-    [SCREE_SLOT_plates] = &scree_module_plates,
-    [SCREE_SLOT_case_walls] = &scree_module_case_walls,
-    [SCREE_SLOT_periodic_cell] = &scree_module_periodic_cell,
-    [SCREE_SLOT_delaunay_boundary] = &scree_module_delaunay_boundary,
-    [SCREE_SLOT_pressure] = &scree_module_pressure,
-    [SCREE_SLOT_imposed_gradient] = &scree_module_imposed_gradient,
-    [SCREE_SLOT_membrane] = &scree_module_membrane,
-    [SCREE_SLOT_forced_spin] = &test_module,
-};
+#define scree_module_forced_spin test_module
+#define ROW(name)                [SCREE_SLOT_##name] = &scree_module_##name,
+const scree_module *const scree_modules[SCREE_MODULE_COUNT] = {SCREE_MODULES(ROW)};
 
 // ---- what each body should have ----------------------------------------------------------------------------------
 

@@ -16,11 +16,11 @@ typedef struct sample {
     double width, height;
 } sample;
 
-static void sample_set(sample *s, scree_prepare_method method, int64_t count)
+static void sample_set(sample *s, int method, int64_t count)
 {
     biaxial_config_set(&s->c, count);
-    s->c.stage[0].method = (int)method;
-    if (method == SCREE_PREPARE_HEXAGONAL || method == SCREE_PREPARE_SQUARE)
+    biaxial_prepare(&s->c)->method = (int)method;
+    if (method == SCREE_SLOT_hexagonal || method == SCREE_SLOT_square)
         s->c.config.particles.distribution = SCREE_SIZE_EQUAL;
 }
 
@@ -119,7 +119,7 @@ static void test_drop_and_roll_is_stable(void **unused)
     for (int k = 0; k < 3; k++) {
         for (int64_t seed = 1; seed <= 3; seed++) {
             sample s;
-            sample_set(&s, SCREE_PREPARE_DROP_AND_ROLL, 2500);
+            sample_set(&s, SCREE_SLOT_drop_and_roll, 2500);
             s.c.config.seed = seed;
             s.c.config.particles.radius_min = smallest[k];
             if (k == 1) s.c.config.particles.distribution = SCREE_SIZE_TWO_SIZES;
@@ -134,14 +134,14 @@ static void test_drop_and_roll_in_awkward_boxes(void **unused)
 {
     (void)unused;
     sample s;
-    sample_set(&s, SCREE_PREPARE_DROP_AND_ROLL, 2500);
+    sample_set(&s, SCREE_SLOT_drop_and_roll, 2500);
     s.c.config.particles.distribution = SCREE_SIZE_EQUAL;
     check_deposit(&s);
     scree_state_destroy(&s.state);
     const double widths[] = {2.0e-3, 2.2e-3, 4.1e-3};
     for (int k = 0; k < 3; k++) {
-        sample_set(&s, SCREE_PREPARE_DROP_AND_ROLL, 150);
-        s.c.stage[0].width = widths[k];
+        sample_set(&s, SCREE_SLOT_drop_and_roll, 150);
+        biaxial_prepare(&s.c)->width = widths[k];
         sample_prepare(&s);
         size_t contacts;
         assert_true(s.width == widths[k]);
@@ -149,7 +149,7 @@ static void test_drop_and_roll_in_awkward_boxes(void **unused)
         for (size_t i = 0; i < s.state.count; i++) assert_true(is_stable(&s, i));
         scree_state_destroy(&s.state);
     }
-    sample_set(&s, SCREE_PREPARE_DROP_AND_ROLL, 1);
+    sample_set(&s, SCREE_SLOT_drop_and_roll, 1);
     sample_prepare(&s);
     assert_true(s.height == 2 * s.state.row[0].radius);
     scree_state_destroy(&s.state);
@@ -163,7 +163,7 @@ static void test_drop_and_roll_solid_fraction(void **unused)
 {
     (void)unused;
     sample s;
-    sample_set(&s, SCREE_PREPARE_DROP_AND_ROLL, 20000);
+    sample_set(&s, SCREE_SLOT_drop_and_roll, 20000);
     sample_prepare(&s);
     double bulk = 0, whole = solid_area(&s.state) / (s.width * s.height);
     for (size_t i = 0; i < s.state.count; i++) {
@@ -184,8 +184,8 @@ static void test_drop_and_roll_aspect_ratio(void **unused)
     const double ratios[] = {0.5, 1, 2};
     for (int k = 0; k < 9; k++) {
         sample s;
-        sample_set(&s, SCREE_PREPARE_DROP_AND_ROLL, counts[k % 3]);
-        s.c.stage[0].aspect_ratio = ratios[k / 3];
+        sample_set(&s, SCREE_SLOT_drop_and_roll, counts[k % 3]);
+        biaxial_prepare(&s.c)->aspect_ratio = ratios[k / 3];
         sample_prepare(&s);
         double diameters_high = s.height / (2 * s.model.mean_radius);
         assert_true(fabs(s.height / s.width / ratios[k / 3] - 1) < 0.01 + 1.5 / diameters_high);
@@ -212,7 +212,7 @@ static uint64_t fingerprint(const scree_state *state)
 static void test_same_seed_same_packing_on_any_machine(void **unused)
 {
     (void)unused;
-    const scree_prepare_method methods[] = {SCREE_PREPARE_DROP_AND_ROLL, SCREE_PREPARE_GAS};
+    const int methods[] = {SCREE_SLOT_drop_and_roll, SCREE_SLOT_gas};
     const uint64_t expected[] = {UINT64_C(0x6845f1de835ef1b0), UINT64_C(0xd91fd46c48b33bd9)};
     for (int k = 0; k < 2; k++) {
         sample s, other;
@@ -232,7 +232,7 @@ static void test_state_is_complete(void **unused)
 {
     (void)unused;
     sample s;
-    sample_set(&s, SCREE_PREPARE_DROP_AND_ROLL, 500);
+    sample_set(&s, SCREE_SLOT_drop_and_roll, 500);
     s.c.config.particles.material = s.c.steel;
     sample_prepare(&s);
     double highest = 0;
@@ -266,7 +266,7 @@ static void test_radii_follow_their_distribution(void **unused)
     // Mean and mean square in units of radius_max; five standard errors of the larger spread, 0.25 / sqrt(COUNT).
     const double mean[] = {0.75, 0.75, 0.75}, square[] = {7.0 / 12, 0.625, 0.5625}, tolerance = 5 * 0.4 / 200;
     for (int distribution = SCREE_SIZE_UNIFORM; distribution <= SCREE_SIZE_EQUAL; distribution++) {
-        sample_set(&s, SCREE_PREPARE_DROP_AND_ROLL, COUNT);
+        sample_set(&s, SCREE_SLOT_drop_and_roll, COUNT);
         s.c.config.particles.distribution = distribution;
         assert_int_equal(scree_model_build(&s.c.config, &s.model, NULL), SCREE_OK);
         scree_draw_radii(&s.model, radius, COUNT);
@@ -286,8 +286,8 @@ static void test_lattices(void **unused)
     // Contacts of complete lattices: 33 discs in hexagonal rows of 6, 5, 6, 5, 6, 5; 5 x 8 discs in a square one.
     sample s;
     size_t contacts;
-    sample_set(&s, SCREE_PREPARE_HEXAGONAL, 33);
-    s.c.stage[0].width = 12.1 * 0.75e-3;
+    sample_set(&s, SCREE_SLOT_hexagonal, 33);
+    biaxial_prepare(&s.c)->width = 12.1 * 0.75e-3;
     sample_prepare(&s);
     assert_true(largest_overlap(&s, &contacts) < ROUND_OFF);
     assert_int_equal(contacts, 3 * 5 + 3 * 4 + 5 * 10);
@@ -295,8 +295,8 @@ static void test_lattices(void **unused)
     assert_true(fabs(s.height / (0.75e-3 * (2 + 5 * sqrt(3.0))) - 1) < 1e-14);
     scree_state_destroy(&s.state);
 
-    sample_set(&s, SCREE_PREPARE_SQUARE, 40);
-    s.c.stage[0].aspect_ratio = 1.6;
+    sample_set(&s, SCREE_SLOT_square, 40);
+    biaxial_prepare(&s.c)->aspect_ratio = 1.6;
     sample_prepare(&s);
     assert_true(largest_overlap(&s, &contacts) < ROUND_OFF);
     assert_int_equal(contacts, 8 * 4 + 5 * 7);
@@ -305,16 +305,16 @@ static void test_lattices(void **unused)
 
     // Incomplete last rows, any count, and the ratio nearest to the one asked for.
     for (int64_t count = 1; count < 200; count += 11)
-        for (int method = SCREE_PREPARE_HEXAGONAL; method <= SCREE_PREPARE_SQUARE; method++) {
-            sample_set(&s, (scree_prepare_method)method, count);
+        for (int method = SCREE_SLOT_hexagonal; method <= SCREE_SLOT_square; method++) {
+            sample_set(&s, method, count);
             sample_prepare(&s);
             assert_true(largest_overlap(&s, &contacts) < ROUND_OFF);
             double rows = s.height / (2 * s.model.mean_radius);
             if (count > 20) assert_true(fabs(s.height / s.width / 2 - 1) < 2.5 / rows);
             scree_state_destroy(&s.state);
         }
-    sample_set(&s, SCREE_PREPARE_HEXAGONAL, 33);
-    s.c.stage[0].width = 2.1e-3;
+    sample_set(&s, SCREE_SLOT_hexagonal, 33);
+    biaxial_prepare(&s.c)->width = 2.1e-3;
     sample_expect_error(&s, "stages.0.width", "row");
 }
 
@@ -323,8 +323,8 @@ static void test_gas(void **unused)
     (void)unused;
     sample s;
     size_t contacts;
-    sample_set(&s, SCREE_PREPARE_GAS, 2000);
-    s.c.stage[0].solid_fraction = 0.5;
+    sample_set(&s, SCREE_SLOT_gas, 2000);
+    biaxial_gas(&s.c)->solid_fraction = 0.5;
     sample_prepare(&s);
     assert_true(largest_overlap(&s, &contacts) <= 0);
     // Round-off of sums over 2000 discs.
@@ -352,18 +352,18 @@ static void test_gas_that_does_not_fit(void **unused)
 {
     (void)unused;
     sample s;
-    sample_set(&s, SCREE_PREPARE_GAS, 1000);
-    s.c.stage[0].solid_fraction = 0.75;
+    sample_set(&s, SCREE_SLOT_gas, 1000);
+    biaxial_gas(&s.c)->solid_fraction = 0.75;
     sample_expect_error(&s, "stages.0.solid_fraction", "ask for");
     // What it offers fits.
     scree_error error;
     (void)!scree_prepare(&s.model, &s.c.stage[0], &s.state, &error);
-    s.c.stage[0].solid_fraction = strtod(strstr(error.message, "ask for ") + strlen("ask for "), NULL);
-    assert_true(s.c.stage[0].solid_fraction > 0.5);
+    biaxial_gas(&s.c)->solid_fraction = strtod(strstr(error.message, "ask for ") + strlen("ask for "), NULL);
+    assert_true(biaxial_gas(&s.c)->solid_fraction > 0.5);
     sample_prepare(&s);
     scree_state_destroy(&s.state);
-    sample_set(&s, SCREE_PREPARE_GAS, 2);
-    s.c.stage[0].width = 0.1;
+    sample_set(&s, SCREE_SLOT_gas, 2);
+    biaxial_prepare(&s.c)->width = 0.1;
     sample_expect_error(&s, "stages.0.solid_fraction", "does not fit");
 }
 
@@ -371,7 +371,7 @@ static void test_gas_that_does_not_fit(void **unused)
 static void test_memory_that_runs_out(void **unused)
 {
     (void)unused;
-    const scree_prepare_method methods[] = {SCREE_PREPARE_DROP_AND_ROLL, SCREE_PREPARE_SQUARE, SCREE_PREPARE_GAS};
+    const int methods[] = {SCREE_SLOT_drop_and_roll, SCREE_SLOT_square, SCREE_SLOT_gas};
     for (int k = 0; k < 3; k++) {
         sample s;
         sample_set(&s, methods[k], 200);

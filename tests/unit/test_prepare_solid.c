@@ -16,15 +16,15 @@ typedef struct sample {
     double side[3]; ///< m, of the box
 } sample;
 
-static void sample_set(sample *s, int dimension, scree_prepare_method method, int64_t count)
+static void sample_set(sample *s, int dimension, int method, int64_t count)
 {
     biaxial_config_set(&s->c, count);
     s->c.config.dimension = dimension;
     if (dimension == 3) s->c.config.particles.shape = SCREE_SHAPE_SPHERE;
-    s->c.stage[0].method = (int)method;
-    s->c.stage[0].solid_fraction = NAN;
-    s->c.stage[0].aspect_ratio = 1;
-    if (method == SCREE_PREPARE_FACE_CENTRED || method == SCREE_PREPARE_CUBIC)
+    biaxial_prepare(&s->c)->method = (int)method;
+    biaxial_gas(&s->c)->solid_fraction = biaxial_growth(&s->c)->solid_fraction = NAN;
+    biaxial_prepare(&s->c)->aspect_ratio = 1;
+    if (method == SCREE_SLOT_face_centred || method == SCREE_SLOT_cubic)
         s->c.config.particles.distribution = SCREE_SIZE_EQUAL;
 }
 
@@ -130,7 +130,7 @@ static void spheres_drop_and_roll_to_stable_places(void **unused)
     const double smallest[] = {0.5e-3, 0.2e-3, 0.999999e-3};
     for (int k = 0; k < 3; k++) {
         sample s;
-        sample_set(&s, 3, SCREE_PREPARE_DROP_AND_ROLL, 1500);
+        sample_set(&s, 3, SCREE_SLOT_drop_and_roll, 1500);
         s.c.config.particles.radius_min = smallest[k];
         s.c.config.seed = k + 1;
         sample_prepare(&s);
@@ -179,7 +179,7 @@ static void dropped_spheres_are_as_dense_as_published(void **unused)
 {
     (void)unused;
     sample s;
-    sample_set(&s, 3, SCREE_PREPARE_DROP_AND_ROLL, 4000);
+    sample_set(&s, 3, SCREE_SLOT_drop_and_roll, 4000);
     s.c.config.particles.distribution = SCREE_SIZE_EQUAL;
     sample_prepare(&s);
     // 500 spheres in the middle: one standard error of the fraction is about 0.005.
@@ -195,7 +195,7 @@ static void dropped_spheres_know_no_horizontal_direction(void **unused)
 {
     (void)unused;
     sample s;
-    sample_set(&s, 3, SCREE_PREPARE_DROP_AND_ROLL, 3000);
+    sample_set(&s, 3, SCREE_SLOT_drop_and_roll, 3000);
     sample_prepare(&s);
     contacts *each = calloc(s.state.count, sizeof *each);
     assert_non_null(each);
@@ -224,9 +224,9 @@ static void spheres_fill_boxes_of_given_sides(void **unused)
     const double sides[][2] = {{20e-3, 8e-3}, {2.01e-3, 9e-3}, {2.0001e-3, 2.0001e-3}, {12e-3, NAN}};
     for (size_t k = 0; k < sizeof sides / sizeof *sides; k++) {
         sample s;
-        sample_set(&s, 3, SCREE_PREPARE_DROP_AND_ROLL, 300);
-        s.c.stage[0].width = sides[k][0];
-        s.c.stage[0].depth = sides[k][1];
+        sample_set(&s, 3, SCREE_SLOT_drop_and_roll, 300);
+        biaxial_prepare(&s.c)->width = sides[k][0];
+        biaxial_prepare(&s.c)->depth = sides[k][1];
         sample_prepare(&s);
         contacts *each = calloc(s.state.count, sizeof *each);
         assert_non_null(each);
@@ -242,13 +242,13 @@ static void spheres_fill_boxes_of_given_sides(void **unused)
 static void lattices_of_spheres(void **unused)
 {
     (void)unused;
-    const scree_prepare_method methods[] = {SCREE_PREPARE_CUBIC, SCREE_PREPARE_FACE_CENTRED};
+    const int methods[] = {SCREE_SLOT_cubic, SCREE_SLOT_face_centred};
     const double inner[] = {6, 12}, fraction[] = {M_PI / 6, M_PI / sqrt(18)};
     for (int k = 0; k < 2; k++) {
         sample s;
         sample_set(&s, 3, methods[k], 1100);
-        s.c.stage[0].aspect_ratio = 1.5;
-        if (k == 1) s.c.stage[0].depth = 14.9e-3;
+        biaxial_prepare(&s.c)->aspect_ratio = 1.5;
+        if (k == 1) biaxial_prepare(&s.c)->depth = 14.9e-3;
         sample_prepare(&s);
         contacts *each = calloc(s.state.count, sizeof *each);
         assert_non_null(each);
@@ -270,9 +270,9 @@ static void gas_of_spheres(void **unused)
 {
     (void)unused;
     sample s;
-    sample_set(&s, 3, SCREE_PREPARE_GAS, 2000);
-    s.c.stage[0].solid_fraction = 0.25;
-    s.c.stage[0].aspect_ratio = 2;
+    sample_set(&s, 3, SCREE_SLOT_gas, 2000);
+    biaxial_gas(&s.c)->solid_fraction = 0.25;
+    biaxial_prepare(&s.c)->aspect_ratio = 2;
     sample_prepare(&s);
     assert_true(largest_overlap(&s, NULL) <= 0);
     // The box is made for the fraction; sums of 2000 terms.
@@ -305,7 +305,7 @@ static void states_of_spheres_are_complete(void **unused)
 {
     (void)unused;
     sample s;
-    sample_set(&s, 3, SCREE_PREPARE_GAS, 200);
+    sample_set(&s, 3, SCREE_SLOT_gas, 200);
     s.c.config.particles.material = s.c.steel;
     sample_prepare(&s);
     for (size_t i = 0; i < s.state.count; i++) {
@@ -351,9 +351,9 @@ static void growth_reaches_the_solid_fraction(void **unused)
     for (int dimension = 2; dimension <= 3; dimension++)
         for (int k = 0; k < 3; k++) {
             sample s;
-            sample_set(&s, dimension, SCREE_PREPARE_GROWTH, 1000);
-            double wanted = s.c.stage[0].solid_fraction = fraction[dimension - 2][k];
-            s.c.stage[0].aspect_ratio = 1.2;
+            sample_set(&s, dimension, SCREE_SLOT_growth, 1000);
+            double wanted = biaxial_growth(&s.c)->solid_fraction = fraction[dimension - 2][k];
+            biaxial_prepare(&s.c)->aspect_ratio = 1.2;
             sample_prepare(&s);
             assert_true(largest_overlap(&s, NULL) <= 0);
             // The box is made for the fraction; sums of 1000 terms. Auto: 80 and 60 % less the share of the walls.
@@ -376,8 +376,8 @@ static void growth_beyond_jamming_is_an_error(void **unused)
     for (int dimension = 2; dimension <= 3; dimension++) {
         sample s;
         scree_error error = {0};
-        sample_set(&s, dimension, SCREE_PREPARE_GROWTH, 60);
-        s.c.stage[0].solid_fraction = 0.89;
+        sample_set(&s, dimension, SCREE_SLOT_growth, 60);
+        biaxial_growth(&s.c)->solid_fraction = 0.89;
         assert_int_equal(scree_model_build(&s.c.config, &s.model, &error), SCREE_OK);
         assert_int_equal(scree_prepare(&s.model, &s.c.stage[0], &s.state, &error), SCREE_ERROR_INPUT);
         assert_string_equal(error.field, "stages.0.solid_fraction");
@@ -389,14 +389,14 @@ static void growth_beyond_jamming_is_an_error(void **unused)
 static void round_samples(void **unused)
 {
     (void)unused;
-    const scree_prepare_method methods[] = {SCREE_PREPARE_DROP_AND_ROLL, SCREE_PREPARE_GAS, SCREE_PREPARE_GROWTH};
+    const int methods[] = {SCREE_SLOT_drop_and_roll, SCREE_SLOT_gas, SCREE_SLOT_growth};
     for (int dimension = 2; dimension <= 3; dimension++)
         for (int k = 0; k < 3; k++) {
             sample s;
             sample_set(&s, dimension, methods[k], 400);
-            s.c.stage[0].outline = dimension == 3 ? SCREE_SAMPLE_BALL : SCREE_SAMPLE_CIRCLE;
+            biaxial_prepare(&s.c)->outline = dimension == 3 ? SCREE_SAMPLE_BALL : SCREE_SAMPLE_CIRCLE;
             // As the case language leaves keys that are not used.
-            s.c.stage[0].width = s.c.stage[0].aspect_ratio = 0;
+            biaxial_prepare(&s.c)->width = biaxial_prepare(&s.c)->aspect_ratio = 0;
             s.c.config.gravity[1] = -9.81;
             sample_prepare(&s);
             assert_int_equal(s.state.count, 400);
@@ -446,7 +446,7 @@ static uint64_t fingerprint(const scree_state *state)
 static void same_seed_same_packing_on_any_machine(void **unused)
 {
     (void)unused;
-    const scree_prepare_method methods[] = {SCREE_PREPARE_DROP_AND_ROLL, SCREE_PREPARE_GAS};
+    const int methods[] = {SCREE_SLOT_drop_and_roll, SCREE_SLOT_gas};
     const uint64_t expected[] = {UINT64_C(0x67d63861a78731ed), UINT64_C(0x54d585f62ee04494)};
     for (int k = 0; k < 2; k++) {
         sample s, other;
@@ -463,8 +463,8 @@ static void same_seed_same_packing_on_any_machine(void **unused)
     // Growth uses pow, so bits are only compared within this machine.
     sample s, other;
     for (int dimension = 2; dimension <= 3; dimension++) {
-        sample_set(&s, dimension, SCREE_PREPARE_GROWTH, 500);
-        sample_set(&other, dimension, SCREE_PREPARE_GROWTH, 500);
+        sample_set(&s, dimension, SCREE_SLOT_growth, 500);
+        sample_set(&other, dimension, SCREE_SLOT_growth, 500);
         sample_prepare(&s);
         sample_prepare(&other);
         assert_true(fingerprint(&s.state) == fingerprint(&other.state));
@@ -477,13 +477,13 @@ static void same_seed_same_packing_on_any_machine(void **unused)
 static void failed_allocations_are_errors(void **unused)
 {
     (void)unused;
-    const scree_prepare_method methods[] = {SCREE_PREPARE_DROP_AND_ROLL, SCREE_PREPARE_GAS, SCREE_PREPARE_GROWTH};
+    const int methods[] = {SCREE_SLOT_drop_and_roll, SCREE_SLOT_gas, SCREE_SLOT_growth};
     for (int k = 0; k < 6; k++) {
         sample s;
         scree_error error = {0};
         sample_set(&s, 3, methods[k % 3], 20);
-        if (k >= 3) s.c.stage[0].outline = SCREE_SAMPLE_BALL;
-        if (methods[k % 3] == SCREE_PREPARE_GROWTH) s.c.stage[0].solid_fraction = 0.3;
+        if (k >= 3) biaxial_prepare(&s.c)->outline = SCREE_SAMPLE_BALL;
+        if (methods[k % 3] == SCREE_SLOT_growth) biaxial_growth(&s.c)->solid_fraction = 0.3;
         assert_int_equal(scree_model_build(&s.c.config, &s.model, &error), SCREE_OK);
         size_t before, after;
         scree_allocation_statistics(&before, NULL);

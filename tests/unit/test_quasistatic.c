@@ -122,22 +122,22 @@ static void test_warnings_whose_advice_helps(void **unused)
     set_config(&c, 983);
     assert_int_equal(warnings_of(&c).count, 0);
 
-    c.stage[2].rate = 0.03;
+    biaxial_compress(&c)->rate = 0.03;
     heard h = warnings_of(&c);
     assert_int_equal(h.count, 1);
     assert_non_null(strstr(h.text[0], "stage 2 (compress): inertial number 0.0021, above 0.001: "));
-    c.stage[2].rate = number_after(h.text[0], "a rate of ");
-    assert_true(c.stage[2].rate > 0.012);
+    biaxial_compress(&c)->rate = number_after(h.text[0], "a rate of ");
+    assert_true(biaxial_compress(&c)->rate > 0.012);
     assert_int_equal(warnings_of(&c).count, 0);
 
     // So light that the inertial number is small, and so many that a wave needs long: 0.03 s.
     c.material[0].density = 1e4;
     c.config.particles.count = 100000000;
-    c.stage[2].rate = 0.5;
+    biaxial_compress(&c)->rate = 0.5;
     h = warnings_of(&c);
     assert_int_equal(h.count, 1);
     assert_non_null(strstr(h.text[0], "stage 2 (compress): strain while a wave crosses the sample "));
-    c.stage[2].rate = number_after(h.text[0], "a rate of ");
+    biaxial_compress(&c)->rate = number_after(h.text[0], "a rate of ");
     assert_int_equal(warnings_of(&c).count, 0);
 }
 
@@ -160,7 +160,7 @@ static void test_warnings_of_modulus_and_weight(void **unused)
     h = warnings_of(&c);
     assert_int_equal(h.count, 2);
     assert_non_null(strstr(h.text[0], "self-weight over pressure 0.14"));
-    c.stage[1].pressure = number_after(h.text[0], "a pressure of ");
+    biaxial_confine(&c)->pressure = number_after(h.text[0], "a pressure of ");
     assert_int_equal(warnings_of(&c).count, 0);
 }
 

@@ -4,6 +4,7 @@
 
 #include "io_scratch.h"
 #include "measure/rotation.h"
+#include "run/stage_rotate.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -91,11 +92,11 @@ static void the_spin_follows_the_ramp(void **unused)
         if (k > REST + RAMP) assert_true(fabs(angle - turned) < 1e-12);
         if (k == REST) assert_true(angle == 0);
         // What a sample at rest turns by is something, and little.
-        double background = s.state.stage.reference[SCREE_ROTATE_BACKGROUND];
+        double background = scree_rotation_of(&s.state)->background;
         if (k > REST) assert_true(background > 0 && background < 0.3);
     }
     assert_true(s.stage_ended);
-    assert_true(fabs(s.state.stage.reference[SCREE_ROTATE_TURN] - SPIN * STEP * (0.5 * RAMP + HOLD)) < 1e-12);
+    assert_true(fabs(scree_rotation_of(&s.state)->turn - SPIN * STEP * (0.5 * RAMP + HOLD)) < 1e-12);
     scree_simulation_close(&s);
     scree_case_free(c);
 }

@@ -48,7 +48,8 @@ static size_t final_strains(const char *folder, const scree_case *c, double stra
     size_t count = 0;
     for (size_t k = 0; k < series.row_count; k++) {
         if (isnan(axial[k]) || (k + 1 < series.row_count && stage[k + 1] == stage[k])) continue;
-        wanted[count] = c->config.stages[(size_t)stage[k]].strain;
+        const scree_config_stage *config = &c->config.stages[(size_t)stage[k]];
+        wanted[count] = scree_modules[config->kind]->numbers->strain(config->own);
         strain[count++] = axial[k];
     }
     scree_series_destroy(&series);

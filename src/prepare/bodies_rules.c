@@ -1,9 +1,10 @@
 /// Rules of the bodies that a prepare stage lists: as many as the case says, of its dimension, materials and sizes,
 /// inside of their box, and not deeper in each other than the guard allows.
-#include "case/case.h"
-#include "case/check.h"
+#include "prepare/bodies.h"
 
 #include "base/vectors.h"
+#include "case/case.h"
+#include "case/check.h"
 
 #include <math.h>
 #include <string.h>
@@ -12,13 +13,14 @@
 typedef struct listed {
     scree_reader *reader;
     const scree_config *config;
-    const scree_config_stage *stage;
+    const scree_prepare_config *stage;
+    const scree_bodies_config *own;
     const scree_node *nodes; ///< the list in the tree
 } listed;
 
 /// What is said of a body, and how far it reaches.
 typedef struct shown {
-    const scree_config_body *body;
+    const scree_listed_body *body;
     const scree_node *node;
     double radius; ///< m; NAN: missing or wrong, and noted
     bool placed;   ///< its position is known
@@ -33,10 +35,10 @@ static bool has_common_radius(const scree_node *body)
 
 static shown show(const listed *l, int64_t index)
 {
-    const scree_config_body *body = &l->stage->bodies[index];
+    const scree_listed_body *body = &l->own->bodies[index];
     const scree_node *node = scree_node_at(l->nodes, (size_t)index);
     bool common = has_common_radius(node) && l->config->particles.distribution == SCREE_SIZE_EQUAL;
-    double radius = common ? scree_config_body_radius(l->config, body) : body->radius;
+    double radius = common ? scree_listed_radius(l->config, body) : body->radius;
     return (shown){body, node, radius, scree_node_find(node, "position") != NULL};
 }
 
@@ -120,7 +122,7 @@ static bool has_box(const scree_config *config)
 static void check_inside(const listed *l, int64_t index, const shown *s)
 {
     const bool solid = l->config->dimension == 3;
-    const double side[3] = {l->stage->width, solid ? l->stage->depth : l->stage->height, l->stage->height};
+    const double side[3] = {l->stage->width, solid ? l->stage->depth : l->own->height, l->own->height};
     static const char *const names[2][3] = {{"width", "height", ""}, {"width", "depth", "height"}};
     for (int c = 0; c < l->config->dimension && s->placed && has_box(l->config); c++) {
         bool periodic = l->config->boundary.periodic >> c & 1;
@@ -144,8 +146,8 @@ static void check_inside(const listed *l, int64_t index, const shown *s)
 /// Distance of two centres; along periodic directions of known sides that of the nearest ghosts.
 static double distance_of(const listed *l, const shown *one, const shown *other)
 {
-    const double side[3] = {l->stage->width, l->config->dimension == 3 ? l->stage->depth : l->stage->height,
-                            l->stage->height};
+    const double side[3] = {l->stage->width, l->config->dimension == 3 ? l->stage->depth : l->own->height,
+                            l->own->height};
     double way[3] = {0};
     for (int c = 0; c < l->config->dimension; c++) {
         way[c] = one->body->position[c] - other->body->position[c];
@@ -175,28 +177,28 @@ static void check_overlap(const listed *l, int64_t index, const shown *s)
 static void check_count(const listed *l)
 {
     const scree_node *node = scree_node_find(scree_node_find(l->reader->root, "particles"), "count");
-    if (!node || l->config->particles.count == l->stage->body_count) return;
+    if (!node || l->config->particles.count == l->own->body_count) return;
     char accepted[32];
-    (void)snprintf(accepted, sizeof accepted, "%lld", (long long)l->stage->body_count);
+    (void)snprintf(accepted, sizeof accepted, "%lld", (long long)l->own->body_count);
     scree_problem_add(l->reader, node->place, "particles.count", node->text, accepted, "stages.0 lists %s bodies",
                       accepted);
 }
 
-void scree_rules_check_bodies(scree_reader *reader, const scree_config *config)
+void scree_bodies_rules(scree_reader *reader, const scree_config *config)
 {
-    if (config->stage_count == 0 || config->stages[0].kind != SCREE_STAGE_PREPARE) return;
-    const scree_config_stage *stage = &config->stages[0];
-    if (stage->method != SCREE_PREPARE_BODIES || stage->body_count == 0) return;
+    const scree_config_stage *stage = scree_config_prepare(config);
+    if (!stage || scree_config_prepared(stage)->method != SCREE_SLOT_bodies || scree_bodies_of(stage)->body_count == 0)
+        return;
     const scree_node *node = scree_node_at(scree_node_find(reader->root, "stages"), 0);
     const scree_node *outline = scree_node_find(node, "outline");
-    listed l = {reader, config, stage, scree_node_find(node, "bodies")};
-    if (outline && stage->outline != SCREE_SAMPLE_BOX) {
+    listed l = {reader, config, scree_config_prepared(stage), scree_bodies_of(stage), scree_node_find(node, "bodies")};
+    if (outline && scree_config_prepared(stage)->outline != SCREE_SAMPLE_BOX) {
         scree_problem_add(reader, outline->place, "stages.0.outline", outline->text, "box",
                           "bodies that are listed are not cut out of a larger packing");
         return; // a round sample has no sides
     }
     check_count(&l);
-    for (int64_t i = 0; i < stage->body_count; i++) {
+    for (int64_t i = 0; i < l.own->body_count; i++) {
         shown s = show(&l, i);
         if (s.node->kind != SCREE_NODE_MAPPING) continue; // noted
         check_components(&l, i, &s);

@@ -1,0 +1,35 @@
+/// The face of an integrator: one file a scheme (src/integrate/). A step is first(), forces at the new positions,
+/// second().
+#ifndef SCREE_MODULE_INTEGRATOR_H
+#define SCREE_MODULE_INTEGRATOR_H
+
+#include "module/module.h"
+
+struct scree_work;
+
+/// Lengths of steps, in ticks.
+typedef struct scree_steps {
+    uint64_t largest;  ///< of the step before loading, and of a sequence of steps while loading
+    uint64_t multiple; ///< of the large steps of a sequence
+    uint64_t small;    ///< number of steps of one tick after a large one
+} scree_steps;
+
+typedef struct scree_integrator {
+    /// Lengths of the steps; `own`: of the section integrator. NULL: one tick each.
+    scree_steps (*steps)(const void *own);
+    /// Ticks of the next step of a loading stage. NULL: always the largest step of the model.
+    uint64_t (*ticks)(const scree_model *model, const scree_state *state);
+    /// Advances rows (and angles, largest_speed, work->budget) to positions n+1 from the sums at n.
+    void (*first)(const scree_model *model, scree_state *state, struct scree_work *work);
+    /// Finishes velocities with the sums at n+1. May be NULL.
+    void (*second)(const scree_model *model, scree_state *state, struct scree_work *work);
+    double velocity_lead; ///< stored velocity = v(n - 1/2) + velocity_lead * dt * a(n): 0 position, 1/2 velocity Verlet
+} scree_integrator;
+
+/// That of a scheme: the slot of a module that is one.
+static inline const scree_integrator *scree_integrator_get(int scheme)
+{
+    return scree_modules[scheme]->integrator;
+}
+
+#endif

@@ -1,0 +1,31 @@
+/// What a stage says of itself before there is a simulation: what rules and the model ask. What it does while a run
+/// steps is its other face (run/stage.h).
+#ifndef SCREE_MODULE_STAGE_H
+#define SCREE_MODULE_STAGE_H
+
+#include "module/module.h"
+
+struct scree_config_stage;
+
+/// `config` is the stage's own struct, in which its keys are.
+typedef struct scree_stage_numbers {
+    bool places;                ///< places the particles: the first stage of a case, and no other
+    bool held;                  ///< something holds the sample, which has the keys boundary and friction
+    bool settles;               ///< waits until the sample is at rest under the pressure
+    bool collides;              ///< nothing holds or drives the bodies, which meet and part
+    const char *needs_pressure; ///< what is wrong where no stage before settles; NULL: it needs none
+    const char *needs_approach; ///< what is wrong where the particles cannot be about to collide; NULL: they need not
+    const char *needs_standing; ///< what is wrong where nothing stands around the sample; NULL: nothing need stand
+    const char *needs_free;     ///< what is wrong where plates stand: it imposes a velocity gradient; NULL: they may
+    /// Largest normal stress that it holds [Pa, compression positive], NAN: none. NULL: holds none.
+    double (*pressure)(const void *config);
+    /// Strain rate that it imposes [1/s], of several components the largest. NULL: it loads nothing.
+    double (*rate)(const void *config);
+    /// Strain at which it ends. NULL: none.
+    double (*strain)(const void *config);
+    /// What is wrong with the keys of the stage `index` of a case, and under which; NULL: nothing. NULL: never
+    /// anything.
+    const char *(*wrong)(const scree_config *config, int64_t index, const char **key);
+} scree_stage_numbers;
+
+#endif
