@@ -169,7 +169,8 @@ static void energy_stays_closed(void **unused)
         // Without contacts what goes is the motion alone.
         if (!runs[k].touches) assert_true(fabs(moving - kinetic(&s) - s.state.ledger.removed) < 1e-12 * moving);
         if (runs[k].touches) assert_true(s.state.ledger.removed != 0);
-        // The released contacts let the sample move: the bound that the program promises for history laws.
+        // The released contacts let the sample move. Largest of these runs: 9e-10; 1e-8 with the forces of what is gone
+        // left in the sums of the others.
         double worst = 0;
         for (int step = 0; step < 300 && simulation_goes_on(&s); step++) {
             simulation_step(&s);
@@ -177,7 +178,7 @@ static void energy_stays_closed(void **unused)
         }
         print_message("%s: %.2g of the energy left, residual over work afterwards %.2g\n", runs[k].name,
                       s.state.ledger.removed / scale, worst);
-        assert_true(worst < 1e-6);
+        assert_true(worst < 2e-9);
         assert_int_equal(scree_delaunay_boundary_of(&s.state)->stale, 0);
         scree_simulation_close(&s);
         scree_case_free(c);
