@@ -80,8 +80,7 @@ static double density(const scree_model *model, const scree_state *state)
 static double wave_speed(const scree_model *model, const scree_state *state, double pressure)
 {
     double diameter = 2 * model->mean_radius, depth = state->dimension == 2 ? model->thickness : diameter;
-    double k = model->pairs[SCREE_PARTICLE_MATERIAL][SCREE_PARTICLE_MATERIAL].normal_stiffness *
-               sqrt(0.5 * model->mean_radius);
+    double k = scree_model_mean_stiffness(model) * sqrt(0.5 * model->mean_radius);
     return sqrt(1.5 * cbrt(k * k * pressure * diameter * depth) / depth / density(model, state));
 }
 

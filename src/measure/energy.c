@@ -151,7 +151,7 @@ static double energy_of_rounding(const scree_model *model, const scree_state *st
 {
     double distance = ROUNDING * DBL_EPSILON * largest;
     double weight = body[MASS] * scree_length(model->gravity), bodies = (double)state->count;
-    double stiffness = model->pairs[SCREE_PARTICLE_MATERIAL][SCREE_PARTICLE_MATERIAL].normal_stiffness;
+    double stiffness = scree_model_mean_stiffness(model);
     return distance * (contact_force + weight) +
            bodies * 0.4 * stiffness * sqrt(model->mean_radius) * pow(distance, 2.5) +
            0.5 * DBL_EPSILON * bodies * body[MAGNITUDES];

@@ -30,6 +30,7 @@ struct scree_module {
     // ---- faces: what only modules of one kind have ----
     const struct scree_integrator *integrator;   ///< module/integrator.h
     const struct scree_preparation *preparation; ///< module/preparation.h
+    const struct scree_size_distribution *sizes; ///< module/size_distribution.h
     const struct scree_stage_numbers *numbers;   ///< module/stage.h
     const struct scree_stage *stage;             ///< run/stage.h
 

@@ -38,10 +38,10 @@ static scree_status place(const scree_model *model, const scree_config_stage *st
         return scree_prepare_error(error, model, stage, "speed",
                                    "without a reference velocity auto is no speed: give one, or "
                                    "contact.reference_velocity");
-    const int material = SCREE_PARTICLE_MATERIAL;
-    double one = scree_model_mass(model, material, a), other = scree_model_mass(model, material, b);
+    const int first = model->species[packing->species[0]].material, last = model->species[packing->species[1]].material;
+    double one = scree_model_mass(model, first, a), other = scree_model_mass(model, last, b);
     double mass = one * other / (one + other);
-    double stiffness = model->pairs[material][material].normal_stiffness * sqrt(a * b / (a + b));
+    double stiffness = model->pairs[first][last].normal_stiffness * sqrt(a * b / (a + b));
     double gap = own_config(stage)->gap;
     if (isnan(gap)) gap = pow(mass * speed * speed / stiffness, 0.4);
     packing->box.width = 3 * (a + b) + gap;

@@ -133,10 +133,9 @@ static void close_cell(const scree_model *model, unsigned periodic, scree_state 
 /// Everything comes closer by the overlap [mean diameters] of a contact under `pressure`.
 static void press(const scree_model *model, scree_state *state, double pressure)
 {
-    const int material = SCREE_PARTICLE_MATERIAL;
     double diameter = 2 * model->mean_radius, width = model->dimension == 3 ? diameter : model->thickness;
     double force = pressure * diameter * width, root = sqrt(0.5 * model->mean_radius);
-    double overlap = pow(force / (model->pairs[material][material].normal_stiffness * root), 2.0 / 3.0) / diameter;
+    double overlap = pow(force / (scree_model_mean_stiffness(model) * root), 2.0 / 3.0) / diameter;
     double scale = 1 - fmin(overlap, 0.05);
     for (size_t row = 0; row < state->count; row++) {
         state->row[row].x *= scale;

@@ -10,7 +10,7 @@ typedef struct body_array {
     size_t size; ///< bytes of an element
 } body_array;
 
-enum { BODY_ARRAYS = 9 };
+enum { BODY_ARRAYS = 10 };
 
 /// The arrays that bodies of the state's dimension have; those that move with the rows.
 static size_t body_arrays(scree_state *state, body_array arrays[BODY_ARRAYS])
@@ -19,6 +19,7 @@ static size_t body_arrays(scree_state *state, body_array arrays[BODY_ARRAYS])
         {&state->row, sizeof *state->row},
         {&state->sum, sizeof *state->sum},
         {&state->id, sizeof *state->id},
+        {&state->species, sizeof *state->species},
         {&state->reference, sizeof *state->reference},
         {&state->sampled_velocity, sizeof *state->sampled_velocity},
         {&state->rebuild, sizeof *state->rebuild},
