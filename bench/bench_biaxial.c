@@ -15,6 +15,7 @@
 #include "boundary/plates.h"
 #include "case/case.h"
 #include "contact/contact.h"
+#include "contact/laws.h"
 #include "integrate/integrate.h"
 #include "prepare/prepare.h"
 #include "search/neighbours.h"
@@ -216,13 +217,14 @@ static void export_data(const sample *s, const char *path)
 static void write_command(const sample *s, const options *o, long steps, char *command, size_t size)
 {
     const scree_config_material *m = &s->model.config->materials[0];
+    const scree_mindlin_material *own = scree_config_own(&scree_module_hertz_mindlin, "materials", m->own);
     const scree_wall *w = scree_plates(&s->state);
     (void)snprintf(
         command, size,
         "cd '%s' && OMP_NUM_THREADS=1 %s -in '%s/bench/peers/lammps_biaxial.in' -log none -var data cell.data "
         "-var young %.17g -var poisson %.17g -var restitution %.17g -var friction %.17g -var step %.17g "
         "-var skin %.17g -var steps %ld -var left %.17g -var right %.17g -var bottom %.17g -var top %.17g",
-        o->folder, o->peer, SCREE_SOURCE_DIR, m->young_modulus, m->poisson_ratio, m->restitution, m->friction,
+        o->folder, o->peer, SCREE_SOURCE_DIR, m->young_modulus, m->poisson_ratio, own->restitution, m->friction,
         s->state.step_size, s->work.skin, steps, w[SCREE_WALL_LEFT].position, -w[SCREE_WALL_RIGHT].position,
         w[SCREE_WALL_BOTTOM].position, -w[SCREE_WALL_TOP].position);
 }

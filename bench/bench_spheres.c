@@ -13,6 +13,7 @@
 #include "base/processor.h"
 #include "boundary/periodic.h"
 #include "contact/contact.h"
+#include "contact/laws.h"
 #include "integrate/integrate.h"
 #include "measure/measure.h"
 #include "search/neighbours.h"
@@ -52,9 +53,16 @@ static double peer_damping(double e)
     return 1.2728 + e * (-4.2783 + e * (11.087 + e * (-22.348 + e * (27.467 + e * (-18.022 + e * 4.8218)))));
 }
 
+static scree_mindlin_material *mindlin_of(const sample *s)
+{
+    const void *own = scree_config_own(&scree_module_hertz_mindlin, "materials", s->material.own);
+    return (scree_mindlin_material *)(uintptr_t)own;
+}
+
 static void open_model(sample *s)
 {
     static char name[] = "glass";
+    static _Alignas(16) unsigned char own[2][1024]; // structs of modules
     scree_error error;
     s->material = (scree_config_material){.name = name,
                                           .young_modulus = 5e6,
@@ -62,19 +70,21 @@ static void open_model(sample *s)
                                           .density = 2500,
                                           .friction = 0.5,
                                           .wall_friction = NAN,
-                                          .restitution = 0.3};
+                                          .own = own[0]};
+    mindlin_of(s)->restitution = 0.3;
     s->config = (scree_config){.dimension = 3, .materials = &s->material, .material_count = 1};
     s->config.particles = (scree_config_particles){
         .material = name, .count = 1, .distribution = SCREE_SLOT_uniform, .thickness = NAN, .own = s->sizes};
     *(scree_size_limits *)(uintptr_t)scree_config_own(&scree_module_uniform, "particles", s->sizes) =
         (scree_size_limits){0.5e-3, 1e-3};
-    s->config.contact = (scree_config_contact){.law = SCREE_LAW_HERTZ_MINDLIN, .friction_exponent = 50};
+    s->config.contact = (scree_config_contact){.law = SCREE_SLOT_hertz_mindlin, .own = own[1]};
     s->config.integrator =
         (scree_config_integrator){.scheme = SCREE_SLOT_velocity_verlet, .step = NAN, .step_fraction = 0.5};
     s->config.guard = (scree_config_guard){.overlap = 0.5, .energy_growth = 0.05};
     require(scree_model_build(&s->config, &s->model, &error), &error);
     s->model.gravity[2] = -gravity;
-    s->model.pairs[0][0].damping = s->model.walls[0].damping = peer_damping(s->material.restitution);
+    s->model.pairs[0][0].value[HERTZ_DAMPING] = s->model.walls[0].value[HERTZ_DAMPING] =
+        peer_damping(mindlin_of(s)->restitution);
     s->model.step = step_size; // the model, which knows no load, is more careful
     s->integrator = scree_integrator_get(s->model.scheme);
 }
@@ -262,8 +272,9 @@ static void write_command(const sample *s, const options *o, char *command, size
         "cd '%s' && OMP_NUM_THREADS=1 %s -in '%s/bench/peers/lammps_spheres.in' -log none -var data spheres.data "
         "-var young %.17g -var poisson %.17g -var restitution %.17g -var friction %.17g -var gravity %.17g "
         "-var step %.17g -var skin %.17g -var steps %d -var wall_normal %.17g -var wall_tangential %.17g",
-        o->folder, o->peer, SCREE_SOURCE_DIR, m->young_modulus, m->poisson_ratio, m->restitution, m->friction, gravity,
-        step_size, s->work.skin, STEPS, s->model.walls[0].normal_stiffness, s->model.walls[0].tangential_stiffness);
+        o->folder, o->peer, SCREE_SOURCE_DIR, m->young_modulus, m->poisson_ratio, mindlin_of(s)->restitution,
+        m->friction, gravity, step_size, s->work.skin, STEPS, s->model.walls[0].value[HERTZ_NORMAL],
+        s->model.walls[0].value[HERTZ_TANGENTIAL]);
 }
 
 /// Energies in a line of the peer's table.

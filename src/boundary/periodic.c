@@ -80,8 +80,8 @@ static double density(const scree_model *model, const scree_state *state)
 static double wave_speed(const scree_model *model, const scree_state *state, double pressure)
 {
     double diameter = 2 * model->mean_radius, depth = state->dimension == 2 ? model->thickness : diameter;
-    double k = scree_model_mean_stiffness(model) * sqrt(0.5 * model->mean_radius);
-    return sqrt(1.5 * cbrt(k * k * pressure * diameter * depth) / depth / density(model, state));
+    double k = scree_model_stiffness(model, pressure, diameter, depth);
+    return sqrt(k / depth / density(model, state));
 }
 
 static void widths(const scree_state *state, double width[3])

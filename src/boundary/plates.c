@@ -67,8 +67,7 @@ static double sample_mass(const scree_state *state)
 double scree_confined_modulus(const scree_model *model, double pressure)
 {
     double diameter = 2 * model->mean_radius, depth = model->dimension == 3 ? diameter : model->thickness;
-    double k = scree_model_mean_stiffness(model) * sqrt(0.5 * model->mean_radius);
-    return 1.5 * cbrt(k * k * pressure * diameter * depth) / depth;
+    return scree_model_stiffness(model, pressure, diameter, depth) / depth;
 }
 
 scree_servo scree_servo_for(const scree_model *model, const scree_state *state, int index, double pressure)

@@ -17,15 +17,13 @@
 
 typedef struct scree_config_material {
     char *name;
-    double young_modulus;    ///< Pa
-    double poisson_ratio;    ///< 1
-    double density;          ///< kg/m3
-    double friction;         ///< 1, grain on grain
-    double wall_friction;    ///< 1, grain on plate; auto: friction
-    char *wall_material;     ///< what plates and walls are made of for it: a name, or SCREE_RIGID; auto (NULL): like it
-    double restitution;      ///< 1, used by laws that damp by restitution
-    double rolling_friction; ///< 1, hertz_mindlin: limit of the rolling resistance over the normal force
-    double twisting_friction; ///< 1, hertz_mindlin in 3D: limit of the twisting torque over R_eff times that force
+    double young_modulus; ///< Pa
+    double poisson_ratio; ///< 1
+    double density;       ///< kg/m3
+    double friction;      ///< 1, grain on grain
+    double wall_friction; ///< 1, grain on plate; auto: friction
+    char *wall_material;  ///< what plates and walls are made of for it: a name, or SCREE_RIGID; auto (NULL): like it
+    void *own;            ///< structs of modules (scree_config_own)
 } scree_config_material;
 
 typedef enum scree_shape_kind { SCREE_SHAPE_DISC, SCREE_SHAPE_SPHERE } scree_shape_kind;
@@ -57,27 +55,10 @@ typedef struct scree_config_particles {
     void *own;             ///< structs of modules
 } scree_config_particles;
 
-/// The third is hertz_brilliantov with friction_update implicit: model_build resolves the two keys into one law.
-typedef enum scree_law {
-    SCREE_LAW_HERTZ_BRILLIANTOV,
-    SCREE_LAW_HERTZ_MINDLIN,
-    SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT
-} scree_law;
-
-typedef enum scree_friction_update { SCREE_FRICTION_EXPLICIT, SCREE_FRICTION_IMPLICIT } scree_friction_update;
-
-typedef enum scree_tangential_history {
-    SCREE_TANGENTIAL_DISPLACEMENT,
-    SCREE_TANGENTIAL_RESCALED
-} scree_tangential_history;
-
 typedef struct scree_config_contact {
-    int law;                   ///< scree_law
-    int tangential_history;    ///< scree_tangential_history of hertz_mindlin
-    double damping_time;       ///< s, T of hertz_brilliantov
-    double friction_exponent;  ///< 1, c of hertz_brilliantov
-    int friction_update;       ///< scree_friction_update of hertz_brilliantov
+    int law;                   ///< slot of a module with a law
     double reference_velocity; ///< m/s, v_R; auto: 2 * rate * mean radius of the first compress stage
+    void *own;                 ///< structs of modules
 } scree_config_contact;
 
 typedef struct scree_config_integrator {
@@ -128,6 +109,12 @@ typedef struct scree_prepare_config {
     double width;        ///< m; auto: from count, sizes and aspect ratio
     double depth;        ///< m, 3D only; auto: the width
 } scree_prepare_config;
+
+/// What acts on the bodies beside contacts and the boundary. What stands in `own` is said by the module of its kind.
+typedef struct scree_config_load {
+    int kind;  ///< slot of a module that is a load
+    void *own; ///< its struct
+} scree_config_load;
 
 /// One stage. What stands in `own` is said by the module of its kind.
 typedef struct scree_config_stage {
@@ -214,6 +201,8 @@ struct scree_config {
     scree_config_boundary boundary;
     scree_config_wall *walls;
     int64_t wall_count;
+    scree_config_load *loads;
+    int64_t load_count;
     scree_config_stage *stages;
     int64_t stage_count;
     scree_config_measure measure;

@@ -71,19 +71,6 @@ static void check_materials(scree_reader *reader, const scree_config *config)
         check_wall_material(reader, config, "walls", i, "material", config->walls[i].material);
 }
 
-/// Discs turn about one axis, which no contact twists.
-static void check_twisting(scree_reader *reader, const scree_config *config)
-{
-    for (int64_t i = 0; i < config->material_count && config->dimension == 2; i++) {
-        if (!(config->materials[i].twisting_friction > 0)) continue;
-        const char *text;
-        char path[SCREE_PATH_BYTES];
-        (void)snprintf(path, sizeof path, "materials.%lld.twisting_friction", (long long)i);
-        scree_place place = place_of(element(reader, "materials", i), "twisting_friction", &text);
-        scree_problem_add(reader, place, path, text, "0", "discs do not twist: twisting_friction is for spheres");
-    }
-}
-
 /// Names the stages, and notes names that occur twice.
 static void name_stages(scree_reader *reader, scree_config *config)
 {
@@ -244,7 +231,6 @@ static void check_windows(scree_reader *reader, const scree_config *config)
 void scree_rules_check(scree_reader *reader, scree_config *config)
 {
     check_materials(reader, config);
-    check_twisting(reader, config);
     scree_rules_check_particles(reader, config);
     name_stages(reader, config);
     check_stage_order(reader, config);

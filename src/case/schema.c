@@ -22,28 +22,6 @@ static const scree_choice share_kinds[] = {
     {0},
 };
 static const scree_choice listed[] = {{"given", 1, "the list has elements"}, {0}};
-static const scree_choice laws[] = {
-    {"hertz_brilliantov", SCREE_LAW_HERTZ_BRILLIANTOV,
-     "Hertz with the viscous damping of Brilliantov et al. (1996) and friction regularised by the slip speed; no "
-     "history"},
-    {"hertz_mindlin", SCREE_LAW_HERTZ_MINDLIN,
-     "Hertz with the tangential spring of Mindlin (with history), Coulomb limit, damping from the restitution"},
-    {0},
-};
-static const scree_choice friction_updates[] = {
-    {"explicit", SCREE_FRICTION_EXPLICIT, "from the slip of the step before; needs small steps"},
-    {"implicit", SCREE_FRICTION_IMPLICIT,
-     "from the slip that the coming step will have, solved contact by contact; stable at the large step"},
-    {0},
-};
-static const scree_choice tangential_histories[] = {
-    {"displacement", SCREE_TANGENTIAL_DISPLACEMENT,
-     "the tangential displacement stays as it is; cycles of indentation and slip may deliver energy"},
-    {"rescaled", SCREE_TANGENTIAL_RESCALED,
-     "the tangential force stays as it is while the contact stiffens, the displacement while it softens (Thornton et "
-     "al. 2013); no cycle delivers energy"},
-    {0},
-};
 static const scree_choice periodics[] = {
     {"no", SCREE_PERIODIC_NONE, "not periodic: plates and what `lateral` says"},
     {"x", SCREE_PERIODIC_X, "2D: periodic in x, between plates below and above"},
@@ -85,12 +63,6 @@ static const scree_key material_keys[] = {
            .meaning = "Coefficient of friction on plates; auto: `friction`."),
     KEY(material, wall_material, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),
         .meaning = "What plates and walls that it touches are made of: a material, or `rigid`; auto: the same as it."),
-    NUMBER(material, restitution, "1", .standard = "0.2", ABOVE("0"), TO("1"), .when = "contact.law=hertz_mindlin",
-           .meaning = "Coefficient of restitution of a normal impact; sets the damping."),
-    NUMBER(material, rolling_friction, "1", .standard = "0", FROM("0"), TO("10"), .when = "contact.law=hertz_mindlin",
-           .meaning = "Limit of the rolling resistance over the normal force; its torque is that times R_eff."),
-    NUMBER(material, twisting_friction, "1", .standard = "0", FROM("0"), TO("10"), .when = "contact.law=hertz_mindlin",
-           .meaning = "Limit of the torque about the normal over R_eff times the normal force; spheres only."),
 };
 
 typedef scree_config_species species;
@@ -130,15 +102,8 @@ static const scree_key particles_keys[] = {
 
 typedef scree_config_contact contact;
 static const scree_key contact_keys[] = {
-    CHOICE(contact, law, laws, .standard = "hertz_mindlin", .meaning = "Force law of a contact."),
-    CHOICE(contact, tangential_history, tangential_histories, .standard = "displacement", .when = "law=hertz_mindlin",
-           .meaning = "What a tangential spring keeps when its stiffness changes with the overlap."),
-    NUMBER(contact, damping_time, "s", .standard = "2 ms", FROM("0 s"), TO("1000 s"), .when = "law=hertz_brilliantov",
-           .meaning = "Time T of the viscous part T K d^0.5 d'."),
-    NUMBER(contact, friction_exponent, "1", .standard = "50", FROM("1"), TO("1e6"), .when = "law=hertz_brilliantov",
-           .meaning = "Exponent c of the regularised friction mu f_n (s/v_R)^(1/c)."),
-    CHOICE(contact, friction_update, friction_updates, .standard = "explicit", .when = "law=hertz_brilliantov",
-           .meaning = "How the stiff friction law is integrated."),
+    CHOICE(contact, law, NULL, .standard = "hertz_mindlin", .meaning = "Force law of a contact."),
+    MODULE_KEYS,
     NUMBER(contact, reference_velocity, "m/s", .standard = "auto", ABOVE("0 m/s"), TO("1000 m/s"),
            .meaning = "v_R, to which slip speeds are referred; auto: 2 x strain rate x mean radius."),
 };
@@ -202,6 +167,12 @@ static const scree_key stage_keys[] = {
            .meaning = "Friction in this stage, e.g. less while confining for a denser sample; auto: the material's."),
 };
 
+typedef scree_config_load load;
+static const scree_key load_keys[] = {
+    {.name = "load", .type = SCREE_KEY_CHOICE, .offset = offsetof(load, kind), .meaning = "Kind of the load."},
+    MODULE_KEYS,
+};
+
 typedef scree_config_measure measure;
 static const scree_key measure_keys[] = {
     INTEGER(measure, samples, .standard = "200", FROM("1"), TO("1e6"),
@@ -238,14 +209,16 @@ static const scree_key guard_keys[] = {
 };
 
 static const scree_section material_table[] = {
-    TABLE("materials", "What particles and plates are made of.", material_keys)};
+    OPEN_TABLE("materials", "What particles and plates are made of.", material_keys, scree_config_material)};
 static const scree_section particles_table[] = {
     OPEN_TABLE("particles", "Shape, number and sizes.", particles_keys, particles)};
-static const scree_section contact_table[] = {TABLE("contact", "Forces between touching particles.", contact_keys)};
+static const scree_section contact_table[] = {
+    OPEN_TABLE("contact", "Forces between touching particles.", contact_keys, contact)};
 static const scree_section integrator_table[] = {
     OPEN_TABLE("integrator", "Motion in time.", integrator_keys, integrator)};
 static const scree_section boundary_table[] = {TABLE("boundary", "What surrounds the sample.", boundary_keys)};
 static const scree_section stage_table[] = {OPEN_TABLE("stages", "What happens.", stage_keys, stage)};
+static const scree_section load_table[] = {OPEN_TABLE("loads", "What acts on the bodies.", load_keys, load)};
 static const scree_section measure_table[] = {TABLE("measure", "What is recorded.", measure_keys)};
 static const scree_section output_table[] = {TABLE("output", "What is written, and how often.", output_keys)};
 static const scree_section guard_table[] = {TABLE("guard", "Limits that stop a run that went wrong.", guard_keys)};
@@ -286,6 +259,9 @@ static const scree_key root_keys[] = {
         .section_count = SCREE_WALL_SECTIONS, .count_offset = offsetof(scree_config, wall_count),
         .element_size = sizeof(scree_config_wall),
         .meaning = "Rigid walls beside the plates, fixed or moving; for `relax`."),
+    KEY(scree_config, loads, SCREE_KEY_LIST, .standard = "[]", FROM("0"), TO("16"), .sections = load_table,
+        .section_count = 1, .count_offset = offsetof(scree_config, load_count), .element_size = sizeof(load),
+        .meaning = "What acts on the bodies in all stages, beside contacts, boundary and gravity."),
     KEY(scree_config, stages, SCREE_KEY_LIST, FROM("1"), TO("100"), .sections = stage_table, .section_count = 1,
         .count_offset = offsetof(scree_config, stage_count), .element_size = sizeof(stage),
         .meaning = "What happens, one stage after the other."),

@@ -10,15 +10,9 @@
 /// for indentations and walls.
 int contact_energy_bits(int dimension, size_t count);
 
-typedef struct contact_bounds {
-    double force;    ///< N
-    double damping;  ///< J, dissipated by damping in one contact and step
-    double friction; ///< J, the same for friction and for the stiffness channel
-} contact_bounds;
-
 /// Bounds for the evaluation at the present positions, from the largest overlap of the last evaluation and the largest
 /// speed of the drift since then.
-contact_bounds contact_bounds_get(const scree_model *model, const scree_state *state);
+scree_law_bounds contact_bounds_get(const scree_model *model, const scree_state *state);
 
 /// Largest indentation over the smaller radius that the case allows; 1 without a config.
 static inline double contact_overlap_limit(const scree_model *model)

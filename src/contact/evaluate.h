@@ -61,6 +61,7 @@ SCREE_INLINE contact_quanta contact_evaluate(variant v, const law_constants *con
                                              const law_memory *before, law_memory *after)
 {
     const int dimension = v.dimension, count = tangential_count(dimension);
+    const bool pulls = law_traits(v)->pulls;
     law_force f = law_evaluate(v, constants, settings, m, touching, before, after);
     law_forget(v, after);
     vector moment = moment_of(dimension, m->normal, f.tangential);
@@ -71,9 +72,10 @@ SCREE_INLINE contact_quanta contact_evaluate(variant v, const law_constants *con
         .count = -touching,
         .normal = lanes_fixed(f.normal, scale->inverse_force),
         .tangential = quanta_of(count, f.tangential, scale->inverse_force),
-        .in_range = lanes_at_or_below(f.normal + vector_extent(count, f.tangential), lanes_all(scale->force_limit)),
+        .in_range = lanes_at_or_below((pulls ? lanes_abs(f.normal) : f.normal) + vector_extent(count, f.tangential),
+                                      lanes_all(scale->force_limit)),
     };
-    if (v.rolling) {
+    if (law_rolls(v)) {
         quanta couple = quanta_of(count, f.couple, scale->inverse_torque);
         q.torque_first = quanta_sum(q.torque_first, couple);
         q.torque_second = quanta_sum(q.torque_second, quanta_opposite(couple));

@@ -37,16 +37,15 @@ static contact_kernel *choose_kernel(int dimension, int wanted)
 /// What all parts of an evaluation share.
 static contact_job describe_job(const scree_model *model, const scree_state *state, const scree_work *work)
 {
-    contact_bounds bounds = contact_bounds_get(model, state);
+    scree_law_bounds bounds = contact_bounds_get(model, state);
     double room = ldexp(1.0, SCREE_FIXED_RANGE_BITS - contact_energy_bits(state->dimension, state->count));
     return (contact_job){
         .model = model,
         .variant = {.dimension = state->dimension,
-                    .law = model->law,
+                    .law = model->law.law,
+                    .option = model->law.option,
                     .many_materials = model->material_count > 1 || model->membrane,
-                    .ledger = work->ledger,
-                    .rolling = model->rolling,
-                    .rescaled = model->rescaled},
+                    .ledger = work->ledger},
         .row = state->row,
         .turn = state->turn,
         .foreseen = state->foreseen,

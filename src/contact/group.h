@@ -86,30 +86,22 @@ SCREE_INLINE lanes_bits group_touches(int dimension, const bodies *first, const 
                         first->radius + second->radius);
 }
 
-SCREE_INLINE law_constants constants_of_columns(columns c, columns turning)
-{
-    return (law_constants){c.c0, c.c1, c.c2, c.c3, turning.c0, turning.c1};
-}
-
 SCREE_INLINE law_constants load_constants(const contact_job *job, variant v, lanes first, lanes second)
 {
-    const scree_pair_constants *same = &job->model->pairs[0][0];
-    columns turning = {0};
+    law_constants constants = {0};
+    const int count = law_rolls(v) ? 8 : 4;
     if (!v.many_materials) {
-        columns c = {lanes_all(same->normal_stiffness), lanes_all(same->tangential_stiffness),
-                     lanes_all(same->friction), lanes_all(same->damping)};
-        if (v.rolling)
-            turning = (columns){.c0 = lanes_all(same->rolling_friction), .c1 = lanes_all(same->twisting_friction)};
-        return constants_of_columns(c, turning);
+        for (int k = 0; k < count; k++) constants.value[k] = lanes_all(job->model->pairs[0][0].value[k]);
+        return constants;
     }
     const double *row[SCREE_LANES];
-    LANE_LOOP row[k] = &job->model->pairs[(int)first[k]][(int)second[k]].normal_stiffness;
+    LANE_LOOP row[k] = job->model->pairs[(int)first[k]][(int)second[k]].value;
     columns c = columns_load(row);
-    if (v.rolling) {
-        LANE_LOOP row[k] += 4;
-        turning = columns_load(row);
-    }
-    return constants_of_columns(c, turning);
+    constants = (law_constants){{c.c0, c.c1, c.c2, c.c3}};
+    if (!law_rolls(v)) return constants;
+    LANE_LOOP row[k] += 4;
+    columns more = columns_load(row);
+    return (law_constants){{c.c0, c.c1, c.c2, c.c3, more.c0, more.c1, more.c2, more.c3}};
 }
 
 SCREE_INLINE void keep_columns(lanes value[4], lanes_bits present, columns c)
@@ -133,7 +125,7 @@ SCREE_INLINE law_memory load_memory(const contact_job *job, variant v, const gro
         LANE_LOOP single[k] = job->booking[g->pair[k]].value;
         keep_columns(m.booked, g->present, columns_load_single(single));
     }
-    if (v.rolling) {
+    if (law_rolls(v)) {
         LANE_LOOP row[k] = job->rolling[g->pair[k]].value;
         keep_columns(m.rolling, g->present, columns_load(row));
         LANE_LOOP single[k] = job->rolling[g->pair[k]].booked;
@@ -154,7 +146,7 @@ SCREE_INLINE void store_memory(const contact_job *job, variant v, const group *g
         LANE_LOOP *(row4_single *)job->booking[g->pair[SCREE_LANES - 1 - k]].value =
             __builtin_convertvector(row[SCREE_LANES - 1 - k], row4_single);
     }
-    if (v.rolling) {
+    if (law_rolls(v)) {
         columns_to_rows((columns){m->rolling[0], m->rolling[1], m->rolling[2], m->rolling[3]}, row);
         LANE_LOOP *(row4 *)job->rolling[g->pair[SCREE_LANES - 1 - k]].value = row[SCREE_LANES - 1 - k];
         const lanes *booked = m->rolling_booked;

@@ -26,7 +26,51 @@
 #ifndef SCREE_CONTACT_HERTZ_BRILLIANTOV_H
 #define SCREE_CONTACT_HERTZ_BRILLIANTOV_H
 
+#include "contact/hertz.h"
 #include "contact/law.h"
+
+/// Option.
+enum { BRILLIANTOV_IMPLICIT = 1 };
+
+/// Numbers of the run.
+enum {
+    BRILLIANTOV_TIME,             ///< s, T
+    BRILLIANTOV_EXPONENT,         ///< 1, c
+    BRILLIANTOV_INVERSE_EXPONENT, ///< 1, 1 / c
+    BRILLIANTOV_BINARY_EXPONENT,  ///< 1 / (c log 2)
+    BRILLIANTOV_VELOCITY,         ///< m/s, v_R
+    BRILLIANTOV_INVERSE_VELOCITY, ///< s/m
+};
+
+typedef enum scree_friction_update { SCREE_FRICTION_EXPLICIT, SCREE_FRICTION_IMPLICIT } scree_friction_update;
+
+/// What a case says of it under `contact`.
+typedef struct scree_brilliantov_config {
+    double damping_time;      ///< s, T
+    double friction_exponent; ///< 1, c
+    int friction_update;      ///< scree_friction_update
+} scree_brilliantov_config;
+
+/// Numbers of the run from T [s], c and v_R [m/s].
+static inline void brilliantov_numbers(double time, double exponent, double velocity, double number[SCREE_LAW_NUMBERS])
+{
+    double inverse_exponent = 1 / exponent;
+    number[BRILLIANTOV_TIME] = time;
+    number[BRILLIANTOV_INVERSE_EXPONENT] = inverse_exponent;
+    number[BRILLIANTOV_BINARY_EXPONENT] = inverse_exponent * M_LOG2E;
+    number[BRILLIANTOV_EXPONENT] = 1.0 / inverse_exponent;
+    number[BRILLIANTOV_VELOCITY] = velocity;
+    number[BRILLIANTOV_INVERSE_VELOCITY] = 1.0 / velocity;
+}
+
+#define hertz_brilliantov_KERNELS(row)                                                                                 \
+    row(hertz_brilliantov, 0, one) row(hertz_brilliantov, 0, many) row(hertz_brilliantov, 1, one)                      \
+        row(hertz_brilliantov, 1, many)
+
+static const scree_law_traits hertz_brilliantov_traits[] = {
+    [0] = {.for_ledger = {0xe, 0x8}},
+    [BRILLIANTOV_IMPLICIT] = {.remembers = true, .for_ledger = {0xe, 0x8}, .looks_ahead = true},
+};
 
 /// -magnitude along the slip.
 SCREE_INLINE vector against_slip(int dimension, lanes magnitude, vector slip, lanes speed)
@@ -45,8 +89,8 @@ SCREE_INLINE lanes power_of(lanes a, double binary)
 /// y of y^c + g y = b.
 SCREE_INLINE lanes mobilised_friction(lanes b, lanes g, const law_settings *settings)
 {
-    const double c = settings->exponent, tiny = 1e-300; // against 0 / 0 where nothing slips
-    lanes y = lanes_at_most(power_of(b, settings->binary_exponent), b / (g + tiny));
+    const double c = settings->number[BRILLIANTOV_EXPONENT], tiny = 1e-300; // against 0 / 0 where nothing slips
+    lanes y = lanes_at_most(power_of(b, settings->number[BRILLIANTOV_BINARY_EXPONENT]), b / (g + tiny));
     for (int k = 0; k < 2; k++) {
         lanes power = power_of(y, c * M_LOG2E);
         lanes excess = power + g * y - b, slope = c * power + g * y, bend = (c * (c - 1.0)) * power;
@@ -60,8 +104,8 @@ SCREE_INLINE vector regularised_friction(variant v, lanes cap, const law_setting
                                          vector before)
 {
     const int count = tangential_count(v.dimension);
-    const lanes scale = lanes_all(settings->inverse_reference_velocity);
-    const bool implicit = v.law == SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT;
+    const lanes scale = lanes_all(settings->number[BRILLIANTOV_INVERSE_VELOCITY]);
+    const bool implicit = v.option & BRILLIANTOV_IMPLICIT;
     // Nothing advances: the force that the last step ended with.
     if (implicit && settings->step == 0) return before;
     vector slip = m->slip;
@@ -73,7 +117,7 @@ SCREE_INLINE vector regularised_friction(variant v, lanes cap, const law_setting
     lanes speed = v.dimension == 2 ? lanes_abs(slip.x) : lanes_root(vector_dot(3, slip, slip)),
           relative = speed * scale;
     lanes mobilised = implicit ? mobilised_friction(relative, mobility * cap * scale, settings)
-                               : power_of(relative, settings->binary_exponent);
+                               : power_of(relative, settings->number[BRILLIANTOV_BINARY_EXPONENT]);
     return against_slip(v.dimension, cap * mobilised, slip, speed);
 }
 
@@ -83,9 +127,10 @@ SCREE_INLINE law_force hertz_brilliantov(variant v, const law_constants *constan
 {
     const int dimension = v.dimension, count = tangential_count(dimension);
     lanes d = lanes_keep(touching, m->indentation);
-    lanes stiffness = constants->normal_stiffness * lanes_root(m->reduced_radius * d);
+    lanes stiffness = constants->value[HERTZ_NORMAL] * lanes_root(m->reduced_radius * d);
     lanes elastic = stiffness * d;
-    lanes normal = lanes_at_least(elastic + stiffness * (settings->damping_time * m->approach), lanes_all(0));
+    lanes normal =
+        lanes_at_least(elastic + stiffness * (settings->number[BRILLIANTOV_TIME] * m->approach), lanes_all(0));
 
     lanes damping = normal - elastic, none = lanes_all(0), damping_before = before->value[1];
     vector tangential_before = {.x = before->value[0]};
@@ -94,7 +139,8 @@ SCREE_INLINE law_force hertz_brilliantov(variant v, const law_constants *constan
         tangential_before = motion_carry(3, m, kept);
         damping_before = before->value[3];
     }
-    vector tangential = regularised_friction(v, constants->friction * normal, settings, m, tangential_before);
+    vector tangential =
+        regularised_friction(v, constants->value[SCREE_FRICTION] * normal, settings, m, tangential_before);
     *after = (law_memory){.value = {tangential.x, damping, none, none}};
     if (dimension == 3) *after = (law_memory){.value = {tangential.x, tangential.y, tangential.z, damping}};
     vector both = vector_plus(count, tangential, tangential_before);

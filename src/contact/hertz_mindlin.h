@@ -11,11 +11,11 @@
 /// (Marshall 2009, whose cap is 2/3 a mu f_n; here its own coefficient, as for rolling). The couples on the two bodies
 /// are opposite.
 ///
-/// When k_t changes with d, a spring keeps its displacement, or (`rescaled`; Thornton, Cummins and Cleary 2013, eq. 18)
-/// its force while k_t grows and its displacement while k_t falls, h <- h min(1, k_t(n-1) / k_t(n)). The first gives a
-/// spring that is stretched while k_t is small, and released while it is large, energy that nobody has spent: a closed
-/// cycle of indentation and slip may deliver work. With the second no change of k_t ever adds energy. Rolling springs
-/// have the same k_t; twisting ones, of k_t a^2 / 2, the cube of that factor.
+/// When k_t changes with d, a spring keeps its displacement, or (MINDLIN_RESCALED; Thornton, Cummins and Cleary 2013,
+/// eq. 18) its force while k_t grows and its displacement while k_t falls, h <- h min(1, k_t(n-1) / k_t(n)). The first
+/// gives a spring that is stretched while k_t is small, and released while it is large, energy that nobody has spent: a
+/// closed cycle of indentation and slip may deliver work. With the second no change of k_t ever adds energy. Rolling
+/// springs have the same k_t; twisting ones, of k_t a^2 / 2, the cube of that factor.
 ///
 /// LAMMPS' `pair granular hertz/material, tangential mindlin, damping tsuji` differs in sliding contacts: there the
 /// spring is set to mu f_n - eta s, which in a fast slide stretches it backwards and charges it with energy that no
@@ -35,8 +35,51 @@
 #ifndef SCREE_CONTACT_HERTZ_MINDLIN_H
 #define SCREE_CONTACT_HERTZ_MINDLIN_H
 
+#include "contact/hertz.h"
 #include "contact/law.h"
 #include "contact/slider.h"
+
+/// Options.
+enum {
+    MINDLIN_RESCALED = 1, ///< springs that stiffen keep their force, not their displacement
+    MINDLIN_ROLLING = 2,  ///< some pair of materials resists rolling or twisting
+};
+
+typedef enum scree_tangential_history {
+    SCREE_TANGENTIAL_DISPLACEMENT,
+    SCREE_TANGENTIAL_RESCALED
+} scree_tangential_history;
+
+/// What a case says of it, under `contact` and of a material.
+typedef struct scree_mindlin_config {
+    int tangential_history; ///< scree_tangential_history
+} scree_mindlin_config;
+
+typedef struct scree_mindlin_material {
+    double restitution;       ///< 1
+    double rolling_friction;  ///< 1, limit of the rolling resistance over the normal force
+    double twisting_friction; ///< 1, in 3D: limit of the twisting torque over R_eff times that force
+} scree_mindlin_material;
+
+/// Resistance to turning looks materials up even if there is only one.
+#define hertz_mindlin_KERNELS(row)                                                                                     \
+    row(hertz_mindlin, 0, one) row(hertz_mindlin, 0, many) row(hertz_mindlin, 1, one) row(hertz_mindlin, 1, many)      \
+        row(hertz_mindlin, 2, many) row(hertz_mindlin, 3, many)
+
+/// In 2D the history holds what the ledger reads, too; k_t is for the ledger alone where springs are not rescaled.
+static const scree_law_traits hertz_mindlin_traits[] = {
+    [0] = {.remembers = true, .for_ledger = {0xe, 0x8}, .books = {false, true}, .displacement = true},
+    [MINDLIN_RESCALED] = {.remembers = true, .for_ledger = {0xc, 0}, .books = {false, true}, .displacement = true},
+    [MINDLIN_ROLLING] =
+        {.remembers = true, .for_ledger = {0xe, 0x8}, .books = {false, true}, .displacement = true, .rolling = true},
+    [MINDLIN_ROLLING | MINDLIN_RESCALED] =
+        {.remembers = true, .for_ledger = {0xc, 0}, .books = {false, true}, .displacement = true, .rolling = true},
+};
+
+SCREE_INLINE bool is_rescaled(variant v)
+{
+    return v.option & MINDLIN_RESCALED;
+}
 
 /// Three values of a row, one after the other.
 SCREE_INLINE vector row_vector(const lanes value[3])
@@ -64,7 +107,7 @@ SCREE_INLINE slider_memory remembered(int dimension, const motion *m, const law_
 /// min(1, k_t(n-1) / k_t): what stiffening springs keep of their displacement. 1 where nothing touches.
 SCREE_INLINE lanes kept_displacement(variant v, const law_memory *before, lanes tangential_stiffness)
 {
-    if (!v.rescaled) return lanes_all(1);
+    if (!is_rescaled(v)) return lanes_all(1);
     return lanes_at_most(lanes_all(1), stiffness_before(v.dimension, before) / tangential_stiffness);
 }
 
@@ -73,9 +116,9 @@ SCREE_INLINE slider advance_slider(variant v, int count, slider_memory *before, 
                                    lanes stiffness, lanes viscosity, lanes cap, lanes_bits touching)
 {
     lanes lost = lanes_all(0);
-    if (v.rescaled) lost = slider_rescale(count, before, kept);
+    if (is_rescaled(v)) lost = slider_rescale(count, before, kept);
     slider s = slider_move(count, before, rate, step, stiffness, viscosity, cap, touching);
-    if (v.rescaled) s.stiffness = s.stiffness - lost;
+    if (is_rescaled(v)) s.stiffness = s.stiffness - lost;
     return s;
 }
 
@@ -97,7 +140,7 @@ SCREE_INLINE void resist_turning(variant v, const law_constants *constants, cons
     lanes kept = kept_displacement(v, before, tangential_stiffness);
     slider_memory rolled = remembered(dimension, m, before, before->rolling, before->rolling_booked);
     slider roll = advance_slider(v, count, &rolled, kept, m->roll, step, tangential_stiffness, eta,
-                                 constants->rolling_friction * normal, touching);
+                                 constants->value[HERTZ_ROLLING] * normal, touching);
     f->couple = vector_times(count, moment_of(dimension, m->normal, roll.resistance), -m->reduced_radius);
     book_slider(f, &roll);
     if (dimension == 2) {
@@ -106,14 +149,14 @@ SCREE_INLINE void resist_turning(variant v, const law_constants *constants, cons
         return;
     }
     // a^2 / 2 at n - 1 from k_t = tangential_stiffness a.
-    lanes radius = tangential_stiffness / constants->tangential_stiffness, half_square = 0.5 * (radius * radius);
-    lanes radius_before = before->value[3] / constants->tangential_stiffness;
+    lanes radius = tangential_stiffness / constants->value[HERTZ_TANGENTIAL], half_square = 0.5 * (radius * radius);
+    lanes radius_before = before->value[3] / constants->value[HERTZ_TANGENTIAL];
     lanes twisting_before = before->value[3] * (0.5 * (radius_before * radius_before));
     slider_memory twisted = {
         {.x = before->rolling[3]}, {.x = twisting_before * before->rolling[3]}, {.x = before->rolling_booked[3]}};
     slider twist = advance_slider(v, 1, &twisted, kept * kept * kept, (vector){.x = m->twist}, step,
                                   tangential_stiffness * half_square, eta * half_square,
-                                  constants->twisting_friction * m->reduced_radius * normal, touching);
+                                  constants->value[HERTZ_TWISTING] * m->reduced_radius * normal, touching);
     f->couple = vector_minus(3, f->couple, vector_times(3, m->normal, twist.resistance.x));
     book_slider(f, &twist);
     vector stretch = roll.now.stretch, dashpot = roll.now.dashpot;
@@ -128,9 +171,9 @@ SCREE_INLINE law_force hertz_mindlin(variant v, const law_constants *constants, 
     const int dimension = v.dimension, count = tangential_count(dimension);
     lanes d = lanes_keep(touching, m->indentation);
     lanes contact_radius = lanes_root(m->reduced_radius * d);
-    lanes normal_stiffness = constants->normal_stiffness * contact_radius;
-    lanes tangential_stiffness = constants->tangential_stiffness * contact_radius;
-    lanes eta = constants->damping * lanes_root(m->reduced_mass * normal_stiffness);
+    lanes normal_stiffness = constants->value[HERTZ_NORMAL] * contact_radius;
+    lanes tangential_stiffness = constants->value[HERTZ_TANGENTIAL] * contact_radius;
+    lanes eta = constants->value[HERTZ_DAMPING] * lanes_root(m->reduced_mass * normal_stiffness);
     lanes elastic = normal_stiffness * d;
     lanes normal = lanes_at_least(elastic + eta * m->approach, lanes_all(0));
     lanes damping = normal - elastic;
@@ -139,7 +182,7 @@ SCREE_INLINE law_force hertz_mindlin(variant v, const law_constants *constants, 
         remembered(dimension, m, before, before->value, dimension == 2 ? before->value + 3 : before->booked + 1);
     lanes kept = kept_displacement(v, before, tangential_stiffness);
     slider slip = advance_slider(v, count, &slipped, kept, m->slip, settings->step, tangential_stiffness, eta,
-                                 constants->friction * normal, touching);
+                                 constants->value[SCREE_FRICTION] * normal, touching);
     vector stretch = slip.now.stretch, dashpot = slip.now.dashpot;
     lanes damping_before = before->value[2];
     *after = (law_memory){.value = {stretch.x, tangential_stiffness, damping, dashpot.x}};
@@ -158,7 +201,7 @@ SCREE_INLINE law_force hertz_mindlin(variant v, const law_constants *constants, 
         .elastic_normal = 0.4 * (elastic * d),
         .elastic_tangential = slip.elastic,
     };
-    if (v.rolling)
+    if (v.option & MINDLIN_ROLLING)
         resist_turning(v, constants, m, settings->step, tangential_stiffness, eta, normal, touching, before, after, &f);
     return f;
 }

@@ -35,7 +35,7 @@ typedef struct contact_job {
     const uint32_t *first, *second; ///< the whole pair list
     scree_history *history;
     scree_booking *booking;              ///< with law_books
-    scree_rolling *rolling;              ///< with variant.rolling
+    scree_rolling *rolling;              ///< with law_rolls
     size_t near;                         ///< number of the first near pair; touching pairs come before it
     size_t touching_begin, touching_end; ///< pairs of this job
     size_t near_begin, near_end;         ///< near pairs of this job; near_begin - near is a multiple of 8

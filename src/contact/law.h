@@ -1,6 +1,9 @@
 /// What a force law is given and what it gives back, in lanes. A law is one always-inline function
-///   law_force name(variant, constants, settings, motion, touching, before, after)
-/// in a header of its own; contact/laws.h lists them. Values of lanes that do not touch must come out zero.
+///   law_force NAME(variant, constants, settings, motion, touching, before, after)
+/// in a header of its own, NAME.h, with its traits (NAME_traits, one for each value of the option) and its kernels
+/// (NAME_KERNELS, row(NAME, option, one or many materials)); its module, with its descriptor (model/law.h), is
+/// scree_module_NAME in NAME.c. module/table.h lists the laws, contact/laws.h includes them. Values of lanes that do
+/// not touch must come out zero.
 #ifndef SCREE_CONTACT_LAW_H
 #define SCREE_CONTACT_LAW_H
 
@@ -10,26 +13,22 @@
 /// What evaluations are specialised by: constants in the kernels, runtime values in the scalar reference.
 typedef struct variant {
     int dimension;
-    scree_law law;
+    int law;         ///< slot of its module
+    unsigned option; ///< bits whose meaning the law declares
     bool many_materials;
     bool ledger;
-    bool rolling;  ///< some pair of materials resists rolling or twisting
-    bool rescaled; ///< hertz_mindlin: springs that stiffen keep their force, not their displacement
 } variant;
 
-/// Constants of the pair of materials, one value a lane: model/model.h, scree_pair_constants.
+/// Constants of the pair of materials, one value a lane: model/law.h, scree_pair_constants. Those of the second half
+/// are there with the trait `rolling` only.
 typedef struct law_constants {
-    lanes normal_stiffness, tangential_stiffness, friction, damping;
-    lanes rolling_friction, twisting_friction;
+    lanes value[SCREE_PAIR_CONSTANTS];
 } law_constants;
 
 /// Numbers of the whole run.
 typedef struct law_settings {
-    double step;                       ///< s; 0 evaluates without advancing histories (contact table)
-    double damping_time;               ///< s
-    double binary_exponent;            ///< 1 / (c log 2)
-    double exponent;                   ///< 1, c
-    double inverse_reference_velocity; ///< s/m, 1 / v_R
+    double step;                      ///< s; 0 evaluates without advancing histories (contact table)
+    double number[SCREE_LAW_NUMBERS]; ///< scree_law_use
 } law_settings;
 
 /// The rows that a contact remembers, in lanes: scree_history, scree_booking, scree_rolling.

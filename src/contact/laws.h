@@ -1,38 +1,48 @@
-/// The list of laws: the only place that maps a scree_law to its code. With a constant `law` the compiler keeps one
-/// branch.
+/// The code of the laws of the table (module/table.h). With a constant `law` the compiler keeps one branch, and traits
+/// are constants.
 #ifndef SCREE_CONTACT_LAWS_H
 #define SCREE_CONTACT_LAWS_H
 
 #include "contact/hertz_brilliantov.h"
 #include "contact/hertz_mindlin.h"
 
+#define LAW_TRAITS(law) [SCREE_SLOT_##law] = law##_traits,
+static const scree_law_traits *const all_law_traits[SCREE_MODULE_COUNT] = {SCREE_LAWS(LAW_TRAITS)};
+
+SCREE_INLINE const scree_law_traits *law_traits(variant v)
+{
+    return &all_law_traits[v.law][v.option];
+}
+
 SCREE_INLINE law_settings law_settings_get(const scree_model *model, double step)
 {
-    return (law_settings){
-        .step = step,
-        .damping_time = model->damping_time,
-        .binary_exponent = model->inverse_exponent * M_LOG2E,
-        .exponent = 1.0 / model->inverse_exponent,
-        .inverse_reference_velocity = 1.0 / model->reference_velocity,
-    };
+    law_settings settings = {.step = step};
+    memcpy(settings.number, model->law.number, sizeof settings.number);
+    return settings;
 }
 
-/// Whether the law reads and writes history rows.
+/// Whether an evaluation reads and writes history rows.
 SCREE_INLINE bool law_remembers(variant v)
 {
-    return v.ledger || v.law != SCREE_LAW_HERTZ_BRILLIANTOV;
+    return v.ledger || law_traits(v)->remembers;
 }
 
-/// Whether the law needs motion_foresee.
+/// Whether it needs motion_foresee.
 SCREE_INLINE bool law_foresees(variant v)
 {
-    return v.law == SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT;
+    return law_traits(v)->looks_ahead;
 }
 
 /// Whether it reads and writes booking rows.
 SCREE_INLINE bool law_books(variant v)
 {
-    return v.ledger && v.dimension == 3 && v.law == SCREE_LAW_HERTZ_MINDLIN;
+    return v.ledger && law_traits(v)->books[v.dimension - 2];
+}
+
+/// Whether it reads and writes rolling rows and the second half of the constants, and gives couples.
+SCREE_INLINE bool law_rolls(variant v)
+{
+    return law_traits(v)->rolling;
 }
 
 /// Without a ledger, what only the ledger needs is not kept, so that histories do not depend on it.
@@ -40,20 +50,20 @@ SCREE_INLINE void law_forget(variant v, law_memory *after)
 {
     if (v.ledger) return;
     const lanes none = lanes_all(0);
-    if (v.dimension == 2) {
-        if (!v.rescaled) after->value[1] = none;
-        after->value[2] = after->value[3] = none;
-    } else if (!v.rescaled) {
-        after->value[3] = none;
-    }
-    for (int k = 0; k < 4 && v.rolling; k++) after->rolling_booked[k] = none;
+    const unsigned forgotten = law_traits(v)->for_ledger[v.dimension - 2];
+    for (unsigned k = 0; k < 4; k++)
+        if (forgotten >> k & 1) after->value[k] = none;
+    for (int k = 0; k < 4 && law_rolls(v); k++) after->rolling_booked[k] = none;
 }
+
+#define LAW_EVALUATE(law_)                                                                                             \
+    if (v.law == SCREE_SLOT_##law_) return law_(v, constants, settings, m, touching, before, after);
 
 SCREE_INLINE law_force law_evaluate(variant v, const law_constants *constants, const law_settings *settings,
                                     const motion *m, lanes_bits touching, const law_memory *before, law_memory *after)
 {
-    if (v.law == SCREE_LAW_HERTZ_MINDLIN) return hertz_mindlin(v, constants, settings, m, touching, before, after);
-    return hertz_brilliantov(v, constants, settings, m, touching, before, after);
+    SCREE_LAWS(LAW_EVALUATE)
+    return (law_force){.normal = lanes_all(0)};
 }
 
 #endif

@@ -142,43 +142,41 @@ SCREE_INLINE void run(contact_job *given, variant v)
 
 /// `run` with a variant as a constant, as a function of its own: one that held them all would be too large for some
 /// of the compiler's optimisations.
-#define VARIANT(name, dimension, law, many_materials, rolling, rescaled)                                               \
+#define VARIANT(name, dimension, law, option, many_materials)                                                          \
     static __attribute__((noinline)) void name(contact_job *job)                                                       \
     {                                                                                                                  \
         if (job->variant.ledger)                                                                                       \
-            run(job, (variant){dimension, law, many_materials, true, rolling, rescaled});                              \
+            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, true});                            \
         else                                                                                                           \
-            run(job, (variant){dimension, law, many_materials, false, rolling, rescaled});                             \
+            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, false});                           \
     }
 
-/// The kernel of a dimension. Rolling resistance, which only hertz_mindlin has, looks its materials up even if there is
-/// only one.
-#define PAIRS_KERNEL(name, dimension)                                                                                  \
-    VARIANT(name##_brilliantov, dimension, SCREE_LAW_HERTZ_BRILLIANTOV, false, false, false)                           \
-    VARIANT(name##_brilliantov_many, dimension, SCREE_LAW_HERTZ_BRILLIANTOV, true, false, false)                       \
-    VARIANT(name##_implicit, dimension, SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT, false, false, false)                     \
-    VARIANT(name##_implicit_many, dimension, SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT, true, false, false)                 \
-    VARIANT(name##_mindlin, dimension, SCREE_LAW_HERTZ_MINDLIN, false, false, false)                                   \
-    VARIANT(name##_mindlin_many, dimension, SCREE_LAW_HERTZ_MINDLIN, true, false, false)                               \
-    VARIANT(name##_mindlin_rolling, dimension, SCREE_LAW_HERTZ_MINDLIN, true, true, false)                             \
-    VARIANT(name##_rescaled, dimension, SCREE_LAW_HERTZ_MINDLIN, false, false, true)                                   \
-    VARIANT(name##_rescaled_many, dimension, SCREE_LAW_HERTZ_MINDLIN, true, false, true)                               \
-    VARIANT(name##_rescaled_rolling, dimension, SCREE_LAW_HERTZ_MINDLIN, true, true, true)                             \
+/// How many materials a kernel is for, as the rows of laws say it.
+enum { OF_one = 0, OF_many = 1 };
+enum { MOST_OPTIONS = 4 };
+
+#define PLANE_KERNEL(law, option, materials)                                                                           \
+    VARIANT(plane_##law##_##option##_##materials, 2, law, option, OF_##materials)
+#define SOLID_KERNEL(law, option, materials)                                                                           \
+    VARIANT(solid_##law##_##option##_##materials, 3, law, option, OF_##materials)
+#define PLANE_ENTRY(law, option, materials)                                                                            \
+    [SCREE_SLOT_##law][option][OF_##materials] = plane_##law##_##option##_##materials,
+#define SOLID_ENTRY(law, option, materials)                                                                            \
+    [SCREE_SLOT_##law][option][OF_##materials] = solid_##law##_##option##_##materials,
+#define PLANE_KERNELS(law) law##_KERNELS(PLANE_KERNEL)
+#define SOLID_KERNELS(law) law##_KERNELS(SOLID_KERNEL)
+#define PLANE_ENTRIES(law) law##_KERNELS(PLANE_ENTRY)
+#define SOLID_ENTRIES(law) law##_KERNELS(SOLID_ENTRY)
+
+/// The kernel of a dimension. One for many materials serves a single one, too.
+#define PAIRS_KERNEL(name, NAME)                                                                                       \
+    SCREE_LAWS(NAME##_KERNELS)                                                                                         \
     void KERNEL_NAME(scree_##name##_pairs_v, SCREE_ISA)(contact_job * job)                                             \
     {                                                                                                                  \
-        static contact_kernel *const kernel[][3] = {                                                                   \
-            {name##_brilliantov, name##_brilliantov_many, name##_brilliantov_many},                                    \
-            {name##_implicit, name##_implicit_many, name##_implicit_many},                                             \
-            {name##_mindlin, name##_mindlin_many, name##_mindlin_rolling},                                             \
-            {name##_rescaled, name##_rescaled_many, name##_rescaled_rolling},                                          \
-        };                                                                                                             \
-        kernel[kernel_row(&job->variant)][job->variant.rolling ? 2 : job->variant.many_materials](job);                \
+        static contact_kernel *const kernels[SCREE_MODULE_COUNT][MOST_OPTIONS][2] = {SCREE_LAWS(NAME##_ENTRIES)};      \
+        const variant *v = &job->variant;                                                                              \
+        contact_kernel *const *kernel = kernels[v->law][v->option];                                                    \
+        (v->many_materials || !kernel[OF_one] ? kernel[OF_many] : kernel[OF_one])(job);                                \
     }
-
-static inline int kernel_row(const variant *v)
-{
-    if (v->law == SCREE_LAW_HERTZ_MINDLIN) return v->rescaled ? 3 : 2;
-    return v->law == SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT ? 1 : 0;
-}
 
 #endif

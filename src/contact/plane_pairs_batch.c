@@ -1,4 +1,4 @@
 /// The kernel of discs: contact/pairs.h with the dimension as a constant.
 #include "contact/pairs.h"
 
-PAIRS_KERNEL(plane, 2)
+PAIRS_KERNEL(plane, PLANE)

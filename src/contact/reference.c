@@ -96,16 +96,16 @@ SCREE_INLINE void evaluate_walls(contact_job *job, variant v, const scree_wall *
     }
 }
 
+#define WALLS_OF_LAW(law_)                                                                                             \
+    if (v.law == SCREE_SLOT_##law_ && v.dimension == 3)                                                                \
+        evaluate_walls(job, (variant){3, SCREE_SLOT_##law_, v.option, true, v.ledger}, wall, pairs, row_begin,         \
+                       row_end);                                                                                       \
+    if (v.law == SCREE_SLOT_##law_ && v.dimension == 2)                                                                \
+        evaluate_walls(job, (variant){2, SCREE_SLOT_##law_, v.option, true, v.ledger}, wall, pairs, row_begin, row_end);
+
 void contact_walls(contact_job *job, const scree_wall *wall, const scree_wall_pair_list *pairs, size_t row_begin,
                    size_t row_end)
 {
     const variant v = job->variant;
-    if (v.dimension == 3 && v.law == SCREE_LAW_HERTZ_MINDLIN)
-        evaluate_walls(job, (variant){3, SCREE_LAW_HERTZ_MINDLIN, true, v.ledger, v.rolling, v.rescaled}, wall, pairs,
-                       row_begin, row_end);
-    else if (v.dimension == 3)
-        evaluate_walls(job, (variant){3, v.law, true, v.ledger, false, false}, wall, pairs, row_begin, row_end);
-    else
-        evaluate_walls(job, (variant){2, v.law, true, v.ledger, v.rolling, v.rescaled}, wall, pairs, row_begin,
-                       row_end);
+    SCREE_LAWS(WALLS_OF_LAW)
 }

@@ -31,8 +31,9 @@ static inline foresight foresight_get(int dimension, const scree_foreseen *f)
 
 static inline law_constants constants_get(const scree_pair_constants *c)
 {
-    return (law_constants){c->normal_stiffness, c->tangential_stiffness, c->friction,
-                           c->damping,          c->rolling_friction,     c->twisting_friction};
+    law_constants constants;
+    for (int k = 0; k < SCREE_PAIR_CONSTANTS; k++) constants.value[k] = c->value[k];
+    return constants;
 }
 
 /// Adds to a sum, modulo 2^64; the third is the torque in two dimensions and the force along z in three.
@@ -64,8 +65,8 @@ static inline law_memory memory_get(variant v, const memory_rows *rows)
     for (int k = 0; k < 4; k++) {
         memory.value[k] = rows->history->value[k];
         if (law_books(v)) memory.booked[k] = (double)rows->booking->value[k];
-        if (v.rolling) memory.rolling[k] = rows->rolling->value[k];
-        if (v.rolling) memory.rolling_booked[k] = (double)rows->rolling->booked[k];
+        if (law_rolls(v)) memory.rolling[k] = rows->rolling->value[k];
+        if (law_rolls(v)) memory.rolling_booked[k] = (double)rows->rolling->booked[k];
     }
     return memory;
 }
@@ -75,8 +76,8 @@ static inline void memory_set(variant v, const memory_rows *rows, const law_memo
     for (int k = 0; k < 4 && law_remembers(v); k++) {
         rows->history->value[k] = memory->value[k];
         if (law_books(v)) rows->booking->value[k] = (float)memory->booked[k];
-        if (v.rolling) rows->rolling->value[k] = memory->rolling[k];
-        if (v.rolling) rows->rolling->booked[k] = (float)memory->rolling_booked[k];
+        if (law_rolls(v)) rows->rolling->value[k] = memory->rolling[k];
+        if (law_rolls(v)) rows->rolling->booked[k] = (float)memory->rolling_booked[k];
     }
 }
 

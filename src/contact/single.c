@@ -1,6 +1,7 @@
 /// With a step of zero the laws advance nothing: a spring gives again the force that it gave when it was advanced. The
 /// motion is that of the last step, with the rates that the force was evaluated with.
-/// A contact slides when its tangential force has reached mu f_n; for hertz_brilliantov that is a slip speed of v_R.
+/// A contact slides when its tangential force has reached mu f_n; where friction follows the slip speed, that is at
+/// v_R.
 #include "contact/single.h"
 #include "state/case_walls.h"
 
@@ -36,17 +37,13 @@ static void describe(const scree_model *model, int dimension, const scree_pair_c
                      const memory_rows *memory, scree_contact *contact)
 {
     motion_hold(m);
-    variant v = {.dimension = dimension,
-                 .law = model->law,
-                 .many_materials = true,
-                 .rolling = model->rolling,
-                 .rescaled = model->rescaled};
+    variant v = {.dimension = dimension, .law = model->law.law, .option = model->law.option, .many_materials = true};
     law_constants c = constants_get(constants);
     law_settings settings = law_settings_get(model, 0);
     law_memory before = memory_get(v, memory), after;
     law_force f = law_evaluate(v, &c, &settings, m, ~UINT64_C(0), &before, &after);
     describe_tangent(dimension, m, &f, contact);
-    double cap = constants->friction * f.normal;
+    double cap = constants->value[SCREE_FRICTION] * f.normal;
     contact->sliding = f.normal > 0 && fabs(contact->tangential_force) >= (1 - SLIDING_TOLERANCE) * cap;
     set_vector(contact->normal, m->normal);
     contact->indentation = m->indentation;

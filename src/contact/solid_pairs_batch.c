@@ -1,4 +1,4 @@
 /// The kernel of spheres: contact/pairs.h with the dimension as a constant.
 #include "contact/pairs.h"
 
-PAIRS_KERNEL(solid, 3)
+PAIRS_KERNEL(solid, SOLID)

@@ -86,7 +86,7 @@ scree_pair_constants contact_surface_constants(const scree_model *model, const s
     const scree_config_wall *wall = surface->config;
     scree_pair_constants constants =
         wall->material ? model->surfaces[wall - model->config->walls][material] : model->walls[material];
-    if (!isnan(wall->friction) && !model->friction_of_stage) constants.friction = wall->friction;
+    if (!isnan(wall->friction) && !model->friction_of_stage) constants.value[SCREE_FRICTION] = wall->friction;
     return constants;
 }
 
@@ -258,7 +258,7 @@ SCREE_INLINE void evaluate_group(contact_job *job, variant v, const scree_state 
         scree_site left;
         if (!touch) scree_element_site(g->container, g->pairs->wall[p], g->place, &left);
         const scree_site *site = touch ? &touch->site : &left;
-        if (v.dimension == 3 && v.law == SCREE_LAW_HERTZ_MINDLIN) turn_stretches(site->normal, &rows);
+        if (v.dimension == 3 && law_traits(v)->displacement) turn_stretches(site->normal, &rows);
         motion m = motion_of_surface(g->container, g->pairs->wall[p], v.dimension, &one, site,
                                      scree_case_walls(state)->moving != 0, job->settings.step);
         if (law_foresees(v)) {
@@ -282,6 +282,11 @@ static bool holds_memory(const group *g)
     return false;
 }
 
+/// In space, where it pays, the law is known.
+#define GROUP_OF_LAW(law_)                                                                                             \
+    if (v.dimension == 3 && v.law == SCREE_SLOT_##law_)                                                                \
+        evaluate_group(job, (variant){3, SCREE_SLOT_##law_, v.option, true, v.ledger}, state, &g);
+
 void contact_surfaces(contact_job *job, const scree_state *state, const scree_work *work, size_t begin, size_t end)
 {
     const variant v = job->variant;
@@ -294,11 +299,8 @@ void contact_surfaces(contact_job *job, const scree_state *state, const scree_wo
         if (g.touches.count == 0 && !holds_memory(&g)) continue;
         place_of(v.dimension, &job->row[row], g.place);
         pass_memory(&g);
-        if (v.dimension == 3 && v.law == SCREE_LAW_HERTZ_MINDLIN)
-            evaluate_group(job, (variant){3, SCREE_LAW_HERTZ_MINDLIN, true, v.ledger, v.rolling, v.rescaled}, state,
-                           &g);
-        else
-            evaluate_group(job, (variant){v.dimension, v.law, true, v.ledger, v.rolling, v.rescaled}, state, &g);
+        SCREE_LAWS(GROUP_OF_LAW)
+        if (v.dimension == 2) evaluate_group(job, (variant){2, v.law, v.option, true, v.ledger}, state, &g);
     }
 }
 

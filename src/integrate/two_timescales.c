@@ -48,11 +48,6 @@ static scree_steps steps(const void *own)
 static void rules(scree_reader *reader, const scree_config *whole)
 {
     const char *const others = "position_verlet, velocity_verlet", *const path = "integrator.scheme";
-    if (whole->contact.law == SCREE_LAW_HERTZ_BRILLIANTOV &&
-        whole->contact.friction_update == SCREE_FRICTION_IMPLICIT && own_config(whole->integrator.own)->small_steps > 0)
-        scree_rule_refuse(reader, path, others,
-                          "an implicit contact.friction_update needs equal steps, and makes small ones needless: "
-                          "choose another scheme, or small_steps: 0");
     for (int64_t i = 0; i < whole->stage_count; i++) {
         scree_boundary_kind kind = scree_config_boundary_of(whole, i);
         // A periodic cell moves bodies by its gradient in every step, whatever its size.

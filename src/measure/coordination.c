@@ -23,7 +23,8 @@ static double largest_friction(const scree_model *model)
 {
     double friction = 0;
     for (int a = 0; a < model->material_count; a++)
-        for (int b = 0; b < model->material_count; b++) friction = fmax(friction, model->pairs[a][b].friction);
+        for (int b = 0; b < model->material_count; b++)
+            friction = fmax(friction, model->pairs[a][b].value[SCREE_FRICTION]);
     return friction;
 }
 

@@ -151,9 +151,9 @@ static double energy_of_rounding(const scree_model *model, const scree_state *st
 {
     double distance = ROUNDING * DBL_EPSILON * largest;
     double weight = body[MASS] * scree_length(model->gravity), bodies = (double)state->count;
-    double stiffness = scree_model_mean_stiffness(model);
+    const scree_pair_constants pair = scree_model_mean_pair(model);
     return distance * (contact_force + weight) +
-           bodies * 0.4 * stiffness * sqrt(model->mean_radius) * pow(distance, 2.5) +
+           bodies * scree_model_law(model)->elastic->energy(&pair, model->mean_radius, distance) +
            0.5 * DBL_EPSILON * bodies * body[MAGNITUDES];
 }
 
@@ -174,6 +174,8 @@ void scree_energy_measure(const scree_model *model, const scree_state *state, co
         (stored - ledger->initial) -
         (ledger->plates + ledger->pressure + ledger->boundary + ledger->periodic + ledger->forced + energy->gravity) +
         ledger->damping + ledger->friction - ledger->stiffness - ledger->scheme;
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
+        if (scree_modules[m]->work) energy->residual -= scree_modules[m]->work(state);
     energy->scale = ledger->initial + ledger->turnover + fabs(energy->gravity) + stored +
                     energy_of_rounding(model, state, body, largest, contact[NORMAL_FORCE]);
     energy->relative = energy->scale > 0 ? fabs(energy->residual) / energy->scale : 0;

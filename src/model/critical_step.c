@@ -31,13 +31,8 @@
 /// hertz_brilliantov at 1.4 times. Not measured under shear, whose higher forces, two- to threefold, would scale to
 /// another 10 to 30 %.
 ///
-/// Tangents at a force f:  f = A sqrt(R_eff) d^1.5,  k_n = 1.5 A sqrt(R_eff d),  k_t = 8 Gbar sqrt(R_eff d);
-///     hertz_brilliantov:  c_n = T A sqrt(R_eff d), no tangential spring
-///     hertz_mindlin:      c_n = c_t = damping sqrt(m_eff k), k = A sqrt(R_eff d) without the 1.5
-///
-/// The friction of hertz_brilliantov, mu f (s/v_R)^(1/c), is bounded and cannot make a run unstable. But slip slower
-/// than s = 3 mu f dt/m (equal discs) is not resolved: it turns its sign every step with about that size, which is of
-/// the order of v_R at P's large step of 1e-5 s (P figure 2.4, scheme I).
+/// The tangents at a force are those of the law (its descriptor's file): elastic ones, and the dashpots that act while
+/// bodies touch. What a law limits, such as friction, cannot make a run unstable and does not count.
 ///
 /// Loads: the largest confining pressure; gravity as the weight of a column of the whole sample; velocities of a gas
 /// and falls through its box as the force of an elastic impact of two smallest discs at six times the root-mean-square
@@ -46,8 +41,9 @@
 /// any load gets that force.
 ///
 /// Several materials: the least over all pairs of them. Contacts of two materials stand between the smallest bodies of
-/// each, and the lattice has everywhere the smaller of the two masses: no row of M^-1 K of any mixture is larger than
-/// the largest of these (Gershgorin). The weight is that of the denser one.
+/// each, and all bodies of the lattice have the smaller of the two masses: lighter than they are, so that the step is
+/// too small rather than too large. In a mixture the row of a body in M^-1 K has contacts of several pairs; the stiffest
+/// of them all around bound it (Gershgorin). The weight is that of the denser one.
 ///
 /// Limits: an estimate. Stresses far above the confining pressure and collapses at high speed are not seen; the guard
 /// on the energy ledger is.
@@ -68,19 +64,7 @@ double scree_expected_solid_fraction(const scree_model *model)
 scree_contact_tangent scree_contact_linearise(const scree_model *model, const scree_pair_constants *pair,
                                               double effective_radius, double effective_mass, double force)
 {
-    double root = sqrt(effective_radius);
-    double indentation = cbrt(force / (pair->normal_stiffness * root));
-    indentation *= indentation;
-    double secant = pair->normal_stiffness * root * sqrt(indentation);
-    scree_contact_tangent tangent = {.normal_stiffness = 1.5 * secant};
-    if (model->law != SCREE_LAW_HERTZ_MINDLIN) {
-        tangent.normal_damping = model->damping_time * secant;
-        return tangent;
-    }
-    tangent.tangential_stiffness = pair->tangential_stiffness * root * sqrt(indentation);
-    tangent.normal_damping = pair->damping * sqrt(effective_mass * secant);
-    tangent.tangential_damping = tangent.normal_damping;
-    return tangent;
+    return scree_model_law(model)->tangent(&model->law, pair, effective_radius, effective_mass, force);
 }
 
 /// Step at which one mode of given stiffness and damping, both per mass, becomes unstable.
@@ -153,12 +137,6 @@ static double strong_static_force(const scree_model *model, double height, doubl
     return STRONG * pressure * diameter * (model->dimension == 3 ? diameter : model->thickness);
 }
 
-/// Largest force of an elastic impact: m v^2 / 2 = (2/5) K d^2.5 and f = K d^1.5.
-static double impact_force(double stiffness, double effective_mass, double speed)
-{
-    return stiffness * pow(1.25 * effective_mass * speed * speed / stiffness, 0.6);
-}
-
 /// Smallest body that there may be of a material. Of those that are not listed as a species' own, any may be.
 static double least_radius(const scree_model *model, int material)
 {
@@ -176,7 +154,7 @@ static double estimate_of(const scree_model *model, int one, int other)
     double mass = scree_model_mass(model, one, a), second = scree_model_mass(model, other, b);
     double effective_radius = a == b ? a / 2 : a * b / (a + b);
     double effective_mass = one == other ? mass / 2 : mass * second / (mass + second);
-    double stiffness = pair->normal_stiffness * sqrt(effective_radius);
+    const scree_elastic *elastic = scree_model_law(model)->elastic;
 
     const scree_config_stage *stage = scree_config_prepare(model->config);
     const scree_preparation *method = scree_config_preparation(model->config);
@@ -186,8 +164,9 @@ static double estimate_of(const scree_model *model, int one, int other)
     double force = strong_static_force(model, height, fmax(model->density[one], model->density[other]));
     double fall = sqrt(2 * scree_model_gravity(model) * height);
     if (method && method->impact_speed)
-        force = fmax(force, impact_force(stiffness, effective_mass, method->impact_speed(model, stage, fall)));
-    double guard = stiffness * pow(model->config->guard.overlap * fmin(a, b), 1.5);
+        force = fmax(force, elastic->impact_force(pair, effective_radius, effective_mass,
+                                                  method->impact_speed(model, stage, fall)));
+    double guard = elastic->force(pair, effective_radius, model->config->guard.overlap * fmin(a, b));
     if (!(force > 0 && force < guard)) force = guard;
 
     scree_contact_tangent tangent = scree_contact_linearise(model, pair, effective_radius, effective_mass, force);

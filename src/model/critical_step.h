@@ -4,12 +4,6 @@
 
 #include "model/model.h"
 
-/// Stiffness [N/m] and viscosity [N s/m] of a contact under small changes of its indentation and its slip.
-typedef struct scree_contact_tangent {
-    double normal_stiffness, normal_damping;
-    double tangential_stiffness, tangential_damping;
-} scree_contact_tangent;
-
 /// Tangent of the model's law at the static normal force `force` [N] between bodies of the effective radius [m] and
 /// mass [kg].
 scree_contact_tangent scree_contact_linearise(const scree_model *model, const scree_pair_constants *pair,

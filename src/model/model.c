@@ -1,16 +1,12 @@
 /// From what the user said to the constants that kernels use.
 ///
-/// Contacts of two materials (Hertz 1882, Mindlin 1949; unlike bodies as in Johnson 1985, eqs. 4.3-4.6 and 7.40):
-///     1/Ebar = (1 - nu1^2)/E1 + (1 - nu2^2)/E2,     normal stiffness      (4/3) Ebar
-///     1/Gbar = (2 - nu1)/G1 + (2 - nu2)/G2,         tangential stiffness  8 Gbar,      G = E / (2 (1 + nu))
-/// A rigid wall has no compliance. The weaker rules where materials have no theory of the pair: the smaller friction
-/// (of any kind) and restitution. Everything here is O(materials^2 + stages).
+/// The constants of two materials are the affair of the law (contact/laws.h). Everything here is O(materials^2 +
+/// stages).
 #include "model/model.h"
 
 #include "model/critical_step.h"
 #include "module/integrator.h"
 #include "theory/quasistatic.h"
-#include "theory/restitution.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -46,35 +42,6 @@ bool scree_model_is_wholly_periodic(const scree_model *model)
     return model->config->boundary.periodic == (1 << model->dimension) - 1;
 }
 
-/// Over (4/3) and 8 the inverse of a body's share of the two stiffnesses; none of a rigid one (NULL).
-static double compliance_of(const scree_config_material *m)
-{
-    return m ? (1 - m->poisson_ratio * m->poisson_ratio) / m->young_modulus : 0;
-}
-
-static double shear_compliance_of(const scree_config_material *m)
-{
-    return m ? (2 - m->poisson_ratio) * 2 * (1 + m->poisson_ratio) / m->young_modulus : 0;
-}
-
-/// b is NULL for something rigid, which leaves the rest to a.
-static scree_pair_constants pair_constants(const scree_config_material *a, const scree_config_material *b,
-                                           scree_law law)
-{
-    double compliance = compliance_of(a) + compliance_of(b);
-    double shear_compliance = shear_compliance_of(a) + shear_compliance_of(b);
-    if (!b) b = a;
-    double restitution = fmin(a->restitution, b->restitution);
-    return (scree_pair_constants){
-        .normal_stiffness = 4.0 / 3.0 / compliance,
-        .tangential_stiffness = 8 / shear_compliance,
-        .friction = fmin(a->friction, b->friction),
-        .damping = law == SCREE_LAW_HERTZ_MINDLIN ? scree_damping_from_restitution(restitution) : 0,
-        .rolling_friction = fmin(a->rolling_friction, b->rolling_friction),
-        .twisting_friction = fmin(a->twisting_friction, b->twisting_friction),
-    };
-}
-
 static scree_status check_materials(const scree_model *model, scree_error *error)
 {
     const scree_config *config = model->config;
@@ -85,10 +52,9 @@ static scree_status check_materials(const scree_model *model, scree_error *error
         for (int j = 0; j < i; j++)
             if (strcmp(config->materials[i].name, config->materials[j].name) == 0)
                 return indexed_error(error, "materials", i, "name", "two materials have the same name");
-        if (model->law == SCREE_LAW_HERTZ_MINDLIN && !(config->materials[i].restitution > 0))
-            return indexed_error(error, "materials", i, "restitution",
-                                 "hertz_mindlin reaches a restitution of zero only with infinite damping; "
-                                 "give a value above 0, such as 0.05");
+        const scree_law *law = scree_model_law(model);
+        const char *key, *problem = law->material_problem ? law->material_problem(&config->materials[i], &key) : NULL;
+        if (problem) return indexed_error(error, "materials", i, key, problem);
     }
     return SCREE_OK;
 }
@@ -134,8 +100,8 @@ static scree_status wall_constants(const scree_model *model, int64_t grain, cons
     int found = material && !rigid ? find_material(model->config, material) : (int)grain;
     if (found < 0) return indexed_error(error, list, index, key, "there is no material of this name");
     wall = rigid ? NULL : &model->config->materials[found];
-    *constants = pair_constants(body, wall, model->law);
-    if (!isnan(body->wall_friction)) constants->friction = body->wall_friction;
+    *constants = scree_model_law(model)->constants(body, wall);
+    if (!isnan(body->wall_friction)) constants->value[SCREE_FRICTION] = body->wall_friction;
     return SCREE_OK;
 }
 
@@ -161,6 +127,7 @@ static scree_status resolve_materials(scree_model *model, scree_error *error)
 {
     const scree_config *config = model->config;
     const scree_config_material *listed = config->materials;
+    const scree_law *law = scree_model_law(model);
     scree_status status = check_materials(model, error);
     if (status) return status;
     model->material_count = 0;
@@ -168,11 +135,9 @@ static scree_status resolve_materials(scree_model *model, scree_error *error)
     for (int i = 0; model->material_count > 0 && i < config->material_count; i++) {
         const scree_config_material *material = &listed[model->listed[i]];
         for (int j = 0; j <= i; j++)
-            model->pairs[i][j] = model->pairs[j][i] = pair_constants(material, &listed[model->listed[j]], model->law);
+            model->pairs[i][j] = model->pairs[j][i] = law->constants(material, &listed[model->listed[j]]);
         model->density[i] = material->density;
-        bool rolls = material->rolling_friction > 0 || material->twisting_friction > 0;
-        if (i < model->material_count && model->law == SCREE_LAW_HERTZ_MINDLIN)
-            model->rolling = model->rolling || rolls;
+        if (i < model->material_count) model->law.option |= law->options(&config->contact, material);
     }
     return resolve_walls(model, error);
 }
@@ -210,14 +175,21 @@ static scree_status resolve_particles(scree_model *model, scree_error *error)
     return SCREE_OK;
 }
 
+double scree_model_stiffness(const scree_model *model, double pressure, double diameter, double depth)
+{
+    const scree_pair_constants pair = scree_model_mean_pair(model);
+    return scree_model_law(model)->elastic->stiffness(&pair, 0.5 * model->mean_radius, pressure, diameter, depth);
+}
+
 double scree_model_largest_radius(const scree_model *model)
 {
     return fmax(model->radius_max, model->membrane_radius);
 }
 
-static void take_friction(scree_pair_constants *pair)
+static void take_friction(const scree_model *model, scree_pair_constants *pair)
 {
-    pair->friction = pair->rolling_friction = pair->twisting_friction = 0;
+    for (int k = 0; k < SCREE_PAIR_CONSTANTS; k++)
+        if (scree_model_law(model)->resistances >> k & 1) pair->value[k] = 0;
 }
 
 /// Takes the friction of a membrane away.
@@ -225,10 +197,10 @@ static void make_frictionless(scree_model *model)
 {
     if (!model->membrane) return;
     int m = model->membrane_material;
-    take_friction(&model->walls[m]);
-    for (int w = 0; w < SCREE_SURFACES; w++) take_friction(&model->surfaces[w][m]);
+    take_friction(model, &model->walls[m]);
+    for (int w = 0; w < SCREE_SURFACES; w++) take_friction(model, &model->surfaces[w][m]);
     for (int i = 0; i < SCREE_MAX_MATERIALS; i++) {
-        take_friction(&model->pairs[i][m]);
+        take_friction(model, &model->pairs[i][m]);
         model->pairs[m][i] = model->pairs[i][m];
     }
 }
@@ -339,10 +311,13 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
     }
     model->reference_velocity = config->contact.reference_velocity;
     if (isnan(model->reference_velocity) && !isnan(rate)) model->reference_velocity = 2 * rate * model->mean_radius;
-    if (model->law != SCREE_LAW_HERTZ_MINDLIN && !(model->reference_velocity > 0))
+    const scree_law *law = scree_model_law(model);
+    if (law->needs_slip_scale && !(model->reference_velocity > 0))
         return FIELD_ERROR(error, "contact.reference_velocity",
-                           "hertz_brilliantov needs a reference slip velocity: without a loading stage (2 rate <R>) "
-                           "give contact.reference_velocity");
+                           "%s needs a reference slip velocity: without a loading stage (2 rate <R>) "
+                           "give contact.reference_velocity",
+                           scree_modules[model->law.law]->name);
+    if (law->resolve) law->resolve(&config->contact, model->reference_velocity, &model->law);
     model->phi = model->psi = NAN;
     if (isnan(rate) || isnan(pressure)) return SCREE_OK;
     double mass = scree_model_mean_mass(model);
@@ -388,21 +363,11 @@ static scree_status resolve_step(scree_model *model, scree_error *error)
     return status;
 }
 
-static scree_law resolve_law(const scree_config_contact *contact)
-{
-    bool implicit = contact->law == SCREE_LAW_HERTZ_BRILLIANTOV && contact->friction_update == SCREE_FRICTION_IMPLICIT;
-    return implicit ? SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT : (scree_law)contact->law;
-}
-
 scree_status scree_model_build(const scree_config *config, scree_model *model, scree_error *error)
 {
     *model = (scree_model){
         .dimension = (int)config->dimension,
-        .law = resolve_law(&config->contact),
-        .rescaled = config->contact.law == SCREE_LAW_HERTZ_MINDLIN &&
-                    config->contact.tangential_history == SCREE_TANGENTIAL_RESCALED,
-        .damping_time = config->contact.damping_time,
-        .inverse_exponent = 1 / config->contact.friction_exponent,
+        .law = {.law = config->contact.law},
         .scheme = config->integrator.scheme,
         .gravity = {config->gravity[0], config->gravity[1], config->gravity[2]},
         .config = config,
@@ -421,9 +386,9 @@ scree_model scree_model_with_friction(const scree_model *model, double friction)
     if (isnan(friction)) return copy;
     copy.friction_of_stage = true;
     for (int i = 0; i < SCREE_MAX_MATERIALS; i++) {
-        copy.walls[i].friction = friction;
-        for (int w = 0; w < SCREE_SURFACES; w++) copy.surfaces[w][i].friction = friction;
-        for (int j = 0; j < SCREE_MAX_MATERIALS; j++) copy.pairs[i][j].friction = friction;
+        copy.walls[i].value[SCREE_FRICTION] = friction;
+        for (int w = 0; w < SCREE_SURFACES; w++) copy.surfaces[w][i].value[SCREE_FRICTION] = friction;
+        for (int j = 0; j < SCREE_MAX_MATERIALS; j++) copy.pairs[i][j].value[SCREE_FRICTION] = friction;
     }
     make_frictionless(&copy);
     return copy;

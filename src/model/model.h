@@ -4,7 +4,7 @@
 #ifndef SCREE_MODEL_MODEL_H
 #define SCREE_MODEL_MODEL_H
 
-#include "case/config.h"
+#include "model/law.h"
 #include "module/module.h"
 
 #include <math.h>
@@ -21,26 +21,10 @@ typedef struct scree_species {
     uint64_t end;    ///< this and all species before it are as many of the particles of a case
 } scree_species;
 
-/// Constants of a contact between two materials (or a grain and a wall). Symmetric in the two materials.
-/// Sources: Hertz 1882; Mindlin 1949; Brilliantov et al. 1996; Tsuji et al. 1992 for the damping coefficient.
-typedef struct scree_pair_constants {
-    double normal_stiffness;     ///< Pa, (4/3) Ebar;  f_n = normal_stiffness sqrt(R_eff) d^1.5
-    double tangential_stiffness; ///< Pa, 8 Gbar;      k_t = tangential_stiffness sqrt(R_eff d)
-    double friction;             ///< 1
-    double damping;           ///< 1, hertz_mindlin: eta = damping sqrt(m_eff k_n), k_n = normal_stiffness sqrt(R_eff d)
-    double rolling_friction;  ///< 1, hertz_mindlin: cap of the rolling resistance over f_n
-    double twisting_friction; ///< 1, hertz_mindlin in 3D: cap of the twisting torque over R_eff f_n
-    double unused[2];         ///< zero; keeps the row at 64 bytes, which kernels load in halves
-} scree_pair_constants;
-
 struct scree_model {
     int dimension;
-    double thickness; ///< m, length of the discs; 1 in 3D
-    scree_law law;
-    bool rolling;              ///< some material resists rolling or twisting (hertz_mindlin)
-    bool rescaled;             ///< springs of hertz_mindlin that stiffen keep their force, not their displacement
-    double damping_time;       ///< s, T of hertz_brilliantov
-    double inverse_exponent;   ///< 1/c of hertz_brilliantov
+    double thickness;          ///< m, length of the discs; 1 in 3D
+    scree_law_use law;         ///< how contacts resist
     double reference_velocity; ///< m/s, v_R
     int scheme;                ///< slot of the integrator's module
     double step;               ///< s, the tick: the small step of two_timescales, the step of all other schemes
@@ -80,11 +64,24 @@ bool scree_model_is_wholly_periodic(const scree_model *model);
 /// Largest normal stress that a stage holds [Pa, compression positive], NAN when it holds none.
 double scree_held_pressure(const scree_config_stage *stage);
 
+static inline const scree_law *scree_model_law(const scree_model *model)
+{
+    return scree_law_get(model->law.law);
+}
+
+static inline const scree_law_traits *scree_model_traits(const scree_model *model)
+{
+    return &scree_model_law(model)->traits[model->law.option];
+}
+
 /// Whether the law looks ahead by a step and needs scree_state_foresee.
 static inline bool scree_model_foresees(const scree_model *model)
 {
-    return model->law == SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT;
+    return scree_model_traits(model)->looks_ahead;
 }
+
+/// Normal stiffness [N/m] of a contact of two mean particles under the force pressure x diameter x depth.
+double scree_model_stiffness(const scree_model *model, double pressure, double diameter, double depth);
 
 /// Largest radius of all bodies [m], those of a membrane included.
 double scree_model_largest_radius(const scree_model *model);
@@ -103,9 +100,8 @@ double scree_model_mean_solid(const scree_model *model);
 /// Density [kg/m3] of all particles together, mass over volume.
 double scree_model_mean_density(const scree_model *model);
 
-/// Normal stiffness [Pa] of a contact of two particles taken at random, and Young's modulus [Pa] of one: means by
-/// number.
-double scree_model_mean_stiffness(const scree_model *model);
+/// Constants of a contact of two particles taken at random, and Young's modulus [Pa] of one: means by number.
+scree_pair_constants scree_model_mean_pair(const scree_model *model);
 double scree_model_mean_modulus(const scree_model *model);
 
 /// Radius [m] that stands for all in estimates of the size of a sample: the mean one where sizes are narrow, else that

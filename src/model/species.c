@@ -120,7 +120,6 @@ double scree_model_mean_mass(const scree_model *model)
 double scree_model_mean_density(const scree_model *model)
 {
     double mass = 0, volume = 0;
-    // Of one species its own, to the last bit.
     if (model->species_count <= 1) return model->density[model->species[0].material];
     for (int s = 0; s < model->species_count; s++) {
         const scree_species *species = &model->species[s];
@@ -131,16 +130,18 @@ double scree_model_mean_density(const scree_model *model)
     return mass / volume;
 }
 
-double scree_model_mean_stiffness(const scree_model *model)
+scree_pair_constants scree_model_mean_pair(const scree_model *model)
 {
     const scree_species *species = model->species;
-    double sum = 0;
-    if (model->species_count <= 1) return model->pairs[species->material][species->material].normal_stiffness;
+    scree_pair_constants mean = {{0}};
+    // Of one species its own, to the last bit.
+    if (model->species_count <= 1) return model->pairs[species->material][species->material];
     for (int s = 0; s < model->species_count; s++)
         for (int t = 0; t < model->species_count; t++)
-            sum += species[s].fraction * species[t].fraction *
-                   model->pairs[species[s].material][species[t].material].normal_stiffness;
-    return sum;
+            for (int k = 0; k < SCREE_PAIR_CONSTANTS; k++)
+                mean.value[k] += species[s].fraction * species[t].fraction *
+                                 model->pairs[species[s].material][species[t].material].value[k];
+    return mean;
 }
 
 double scree_model_mean_modulus(const scree_model *model)

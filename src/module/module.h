@@ -28,6 +28,7 @@ struct scree_module {
     void (*rules)(scree_reader *reader, const scree_config *config);
 
     // ---- faces: what only modules of one kind have ----
+    const struct scree_law *law;                 ///< model/law.h
     const struct scree_integrator *integrator;   ///< module/integrator.h
     const struct scree_preparation *preparation; ///< module/preparation.h
     const struct scree_size_distribution *sizes; ///< module/size_distribution.h
@@ -51,6 +52,9 @@ struct scree_module {
     /// Largest force that its loads may put on one body in this step [N], for the quanta; up to 2^10 times more is
     /// safe. NULL: none.
     double (*bound)(const scree_context *context);
+    /// Work [J] that it has done on the bodies since the begin of the run. NULL: it does none, or has a row of the
+    /// ledger.
+    double (*work)(const scree_state *state);
 };
 
 #define SCREE_MODULE_DECLARE(name) extern const scree_module scree_module_##name;

@@ -8,12 +8,16 @@
     row(plates) row(case_walls) row(periodic_cell) row(delaunay_boundary) row(pressure) row(imposed_gradient)          \
         row(membrane) row(forced_spin) row(loading)
 
+/// Contact laws, each with its header in contact/laws.h.
+#define SCREE_LAWS(row) row(hertz_brilliantov) row(hertz_mindlin)
+
 /// Choices of the case, in the order in which the case reference lists them.
 #define SCREE_CASE_MODULES(row)                                                                                        \
+    SCREE_LAWS(row)                                                                                                    \
     row(position_verlet) row(velocity_verlet) row(two_timescales) row(drop_and_roll) row(hexagonal) row(square)        \
         row(face_centred) row(cubic) row(gas) row(growth) row(pair) row(bodies) row(prepare) row(confine)              \
-            row(compress) row(deform) row(rotate_particle) row(relax) row(collide) row(uniform) row(two_sizes)         \
-                row(equal) row(normal) row(log_normal) row(power_law) row(table)
+            row(compress) row(deform) row(rotate_particle) row(relax) row(collide) row(background_damping)             \
+                row(uniform) row(two_sizes) row(equal) row(normal) row(log_normal) row(power_law) row(table)
 
 #define SCREE_MODULES(row) SCREE_STATE_MODULES(row) SCREE_CASE_MODULES(row)
 

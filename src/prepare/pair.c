@@ -41,9 +41,9 @@ static scree_status place(const scree_model *model, const scree_config_stage *st
     const int first = model->species[packing->species[0]].material, last = model->species[packing->species[1]].material;
     double one = scree_model_mass(model, first, a), other = scree_model_mass(model, last, b);
     double mass = one * other / (one + other);
-    double stiffness = model->pairs[first][last].normal_stiffness * sqrt(a * b / (a + b));
     double gap = own_config(stage)->gap;
-    if (isnan(gap)) gap = pow(mass * speed * speed / stiffness, 0.4);
+    if (isnan(gap))
+        gap = scree_model_law(model)->elastic->impact_length(&model->pairs[first][last], a * b / (a + b), mass, speed);
     packing->box.width = 3 * (a + b) + gap;
     packing->box.height = packing->box.depth = 4 * largest;
     for (int i = 0; i < packing->dimension; i++) packing->place[i][0] = packing->place[i][1] = 2 * largest;

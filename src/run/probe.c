@@ -134,9 +134,10 @@ static void close_cell(const scree_model *model, unsigned periodic, scree_state 
 static void press(const scree_model *model, scree_state *state, double pressure)
 {
     double diameter = 2 * model->mean_radius, width = model->dimension == 3 ? diameter : model->thickness;
-    double force = pressure * diameter * width, root = sqrt(0.5 * model->mean_radius);
-    double overlap = pow(force / (scree_model_mean_stiffness(model) * root), 2.0 / 3.0) / diameter;
-    double scale = 1 - fmin(overlap, 0.05);
+    const scree_pair_constants pair = scree_model_mean_pair(model);
+    double overlap =
+        scree_model_law(model)->elastic->overlap(&pair, 0.5 * model->mean_radius, pressure * diameter * width);
+    double scale = 1 - fmin(overlap / diameter, 0.05);
     for (size_t row = 0; row < state->count; row++) {
         state->row[row].x *= scale;
         state->row[row].y *= scale;

@@ -164,7 +164,7 @@ static double confine_friction(const scree_model *model)
     for (int64_t k = config->stage_count - 1; k >= 0; k--) {
         if (!scree_modules[config->stages[k].kind]->numbers->settles) continue;
         if (!isnan(config->stages[k].friction)) return config->stages[k].friction;
-        return model->material_count == 1 ? model->pairs[0][0].friction : NAN;
+        return model->material_count == 1 ? model->pairs[0][0].value[SCREE_FRICTION] : NAN;
     }
     return NAN;
 }

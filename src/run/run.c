@@ -115,11 +115,12 @@ static void warn_of_springs(scree_recorder *recorder, const scree_simulation *s)
 {
     double share = scree_results_stiffness_share(&s->state);
     if (share <= SCREE_STIFFNESS_SHARE) return;
+    const char *remedy = scree_model_law(&s->model)->against_stiffening;
     scree_log_write(&recorder->log, SCREE_LOG_WARNING,
                     "%.2g %% of the energy turned over was given to tangential springs by the stiffening of their "
-                    "contacts, which nothing paid for (stiffness_share; more than %g %%): "
-                    "contact.tangential_history=rescaled keeps springs from that",
-                    100 * share, 100 * SCREE_STIFFNESS_SHARE);
+                    "contacts, which nothing paid for (stiffness_share; more than %g %%)%s%s%s",
+                    100 * share, 100 * SCREE_STIFFNESS_SHARE, remedy ? ": " : "", remedy ? remedy : "",
+                    remedy ? " keeps springs from that" : "");
 }
 
 /// The end of a run that has reached it. `done` is the last thing that is written: what ends before is gone through

@@ -4,14 +4,13 @@
 /// Stop rule, at a sample: the force between them has fallen to zero again; or `duration` has passed. P fig. 2.1: the
 /// restitution is the relative speed after over that before, the relaxation time lasts from the first touch (the gap
 /// over the speed: before it nothing acts) until the force is gone, which is found to half a step. Automatic duration:
-/// the approach and twice the relaxation time of the closed form; with hertz_mindlin ten times that of an elastic
-/// impact.
+/// the approach and twice the relaxation time of the law's theory; ten times that of an elastic impact where the law
+/// has none.
 #include "run/stage_collide.h"
 
 #include "module/key_rows.h"
 
 #include "base/vectors.h"
-#include "theory/restitution.h"
 
 #include <math.h>
 
@@ -87,7 +86,7 @@ static bool is_pushed(const scree_state *state)
     return sum->fx != 0 || sum->fy != 0 || (state->dimension == 3 && sum->fz != 0);
 }
 
-/// The impact as theory has it. hertz_mindlin: elastic, with the restitution of its own closed form.
+/// The impact as the law's theory has it.
 static scree_status theory_of(const scree_simulation *s, double speed, scree_impact *impact, scree_error *error)
 {
     const scree_state *state = &s->state;
@@ -95,18 +94,14 @@ static scree_status theory_of(const scree_simulation *s, double speed, scree_imp
     int material = scree_body_material(state, state->row_of_id[0]);
     const scree_pair_constants *pair = &s->model.pairs[material][scree_body_material(state, state->row_of_id[1])];
     double mass = first->mass * second->mass / (first->mass + second->mass);
-    double stiffness = pair->normal_stiffness * sqrt(first->radius * second->radius / (first->radius + second->radius));
-    bool history = s->model.law == SCREE_LAW_HERTZ_MINDLIN;
-    scree_status status =
-        scree_impact_viscoelastic(speed, stiffness, mass, history ? 0 : s->model.damping_time, impact, error);
-    if (history) impact->restitution = scree_restitution_from_damping(pair->damping);
-    return status;
+    double radius = first->radius * second->radius / (first->radius + second->radius);
+    return scree_model_law(&s->model)->impact(&s->model.law, pair, radius, mass, speed, impact, error);
 }
 
 /// The automatic duration in those of the closed form.
 static double patience(const scree_model *model)
 {
-    return model->law == SCREE_LAW_HERTZ_MINDLIN ? 10 : 2;
+    return scree_model_law(model)->impact_duration ? 2 : 10;
 }
 
 static scree_status begin(scree_simulation *s, scree_error *error)
@@ -173,7 +168,7 @@ scree_status scree_collide_results(const scree_simulation *s, scree_summary *sum
     scree_summary_set_number(summary, "restitution", -approach(&s->state) / own->speed);
     scree_summary_set_number(summary, "restitution_theory", impact.restitution);
     scree_summary_set_number(summary, "relaxation_time", own->last_force + half - own->touch);
-    if (s->model.law != SCREE_LAW_HERTZ_MINDLIN)
+    if (scree_model_law(&s->model)->impact_duration)
         scree_summary_set_number(summary, "relaxation_time_theory", impact.duration);
     return SCREE_OK;
 }

@@ -21,10 +21,11 @@ enum { CALM = 5, SAMPLES_A_WAVE = 4 };
 
 /// Duration of a confinement after its ramp, in times that a wave needs from grain to grain: it does not grow with the
 /// sample. Quick forms: biaxial 680 (2000 discs 630, 60 discs 930), biaxial-boundaries 770, biaxial-timescales 710,
-/// rotation-length 900, minimal-shear-circle 1090, minimal-size-effect 1700; periodic-shear 460; triaxial 1070.
+/// rotation-length 900, minimal-shear-circle 1090, minimal-size-effect 1700; periodic-shear 460; triaxial 1070. That of
+/// discs between plates depends on the law (confine_grains of its descriptor).
 static const struct {
-    double mindlin, other, periodic, solid;
-} confine_grains = {.mindlin = 700, .other = 900, .periodic = 460, .solid = 1070};
+    double periodic, solid;
+} confine_grains = {.periodic = 460, .solid = 1070};
 
 typedef scree_confine_config config;
 static const scree_key keys[] = {
@@ -147,7 +148,7 @@ static double planned(const scree_model *model, const void *own, double wave)
     const config *stage = own;
     double density = scree_model_mean_density(model), modulus = scree_confined_modulus(model, stage->pressure);
     double grain = 2 * model->mean_radius / scree_wave_speed(modulus, density, scree_expected_solid_fraction(model));
-    double grains = model->law == SCREE_LAW_HERTZ_MINDLIN ? confine_grains.mindlin : confine_grains.other;
+    double grains = scree_model_law(model)->confine_grains;
     if (model->dimension == 3) grains = confine_grains.solid;
     if (scree_model_is_wholly_periodic(model)) grains = confine_grains.periodic;
     return (isnan(stage->ramp_time) ? RAMP_WAVES * wave : stage->ramp_time) + grains * grain;

@@ -331,7 +331,7 @@ static scree_status assemble(const scree_model *model, scree_state *state, scree
     pairs->count = pairs->touching_count = walls->count = elements->count = 0;
     const list_arrays of_pairs = arrays_of_pairs(pairs), of_walls = arrays_of_wall_pairs(walls);
     const list_arrays of_elements = arrays_of_wall_pairs(elements);
-    bool books = scree_contacts_book(model, state->dimension), rolls = model->rolling;
+    bool books = scree_contacts_book(model, state->dimension), rolls = scree_contacts_roll(model);
     scree_status status = reserve_list(&of_pairs, touching + near, books, rolls, error);
     if (!status) status = reserve_list(&of_walls, wall, books, rolls, error);
     if (!status && work->container) status = reserve_list(&of_elements, element, books, rolls, error);

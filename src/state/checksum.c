@@ -13,10 +13,8 @@
 static uint64_t material_word(const scree_model *model, int material)
 {
     const scree_pair_constants *pair = &model->pairs[material][material];
-    const double constants[] = {model->density[material], pair->normal_stiffness, pair->tangential_stiffness,
-                                pair->friction,           pair->damping,          pair->rolling_friction,
-                                pair->twisting_friction};
-    return scree_checksum_numbers(0, constants, sizeof constants / sizeof *constants);
+    uint64_t word = scree_checksum_number(0, model->density[material]);
+    return scree_checksum_numbers(word, pair->value, (size_t)scree_model_law(model)->constant_count);
 }
 
 /// Force and torque [N, N m] on a body.

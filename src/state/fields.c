@@ -86,7 +86,7 @@ static const scree_field fields[] = {
         "of the case"),
     CONTACT("history", SCREE_FIELD_DOUBLE, SCREE_HISTORY, "1", history, "memory of the contact law, in its own units"),
     BESIDE_CONTACT("booking", SCREE_FIELD_FLOAT, booking, scree_booking, "N", value,
-                   "damping force and dashpot x, y, z that the ledger needs again (hertz_mindlin in 3D)",
+                   "damping force and dashpot x, y, z that the ledger needs again, where the history row has no room",
                    SCREE_ROWS_BOOKING),
     BESIDE_CONTACT("rolling", SCREE_FIELD_DOUBLE, rolling, scree_rolling, "1", value,
                    "stretch of rolling and angle of twist: x, y, z [m] and [rad]; 2D: stretch [m]", SCREE_ROWS_ROLLING),

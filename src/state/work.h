@@ -19,7 +19,7 @@ typedef struct scree_pair_list {
     uint32_t *first, *second; ///< rows; id[first] < id[second]
     scree_history *history;   ///< one a pair, seen from `first`
     scree_booking *booking;   ///< with scree_contacts_book: one a pair; else NULL
-    scree_rolling *rolling;   ///< with rolling resistance: one a pair; else NULL
+    scree_rolling *rolling;   ///< with scree_contacts_roll: one a pair; else NULL
     size_t count, capacity;
     size_t touching_count;
 } scree_pair_list;
@@ -46,10 +46,16 @@ typedef struct scree_ghost_list {
     double lattice_inverse[9]; ///< 1/m, at the last rebuild
     double largest_radius;     ///< m, of all bodies
 } scree_ghost_list;
-/// Whether contacts of this law have booking rows: those of hertz_mindlin in 3D, where the history row has no room.
+
+/// Whether contacts have booking rows, and rolling rows: what the law says.
 static inline bool scree_contacts_book(const scree_model *model, int dimension)
 {
-    return dimension == 3 && model->law == SCREE_LAW_HERTZ_MINDLIN;
+    return scree_model_traits(model)->books[dimension - 2];
+}
+
+static inline bool scree_contacts_roll(const scree_model *model)
+{
+    return scree_model_traits(model)->rolling;
 }
 
 typedef struct scree_search scree_search;       ///< cell grid and scratch, private to search/

@@ -25,7 +25,16 @@ for folder in src/*/; do
         fi
     done < <(grep -nHE '^#include "[a-z]+/' "$folder"*.[ch])
 done
-mapfile -t modules < <(sed -n '/define SCREE_CASE_MODULES/,/^$/p' src/module/table.h | grep -oE 'row\([a-z_]+\)' | sed -E 's/row\((.*)\)/\1/')
+# A law is known to its own two files, its row, and its header in contact/laws.h; else it may only be a default of the schema.
+mapfile -t laws < <(grep 'define SCREE_LAWS' src/module/table.h | grep -oE 'row\([a-z_]+\)' | sed -E 's/row\((.*)\)/\1/')
+[ ${#laws[@]} -ge 2 ] || complain "the laws of src/module/table.h were not found"
+for law in "${laws[@]}"; do
+    for own in src/contact/$law.h src/contact/$law.c; do [ -f "$own" ] || complain "law $law has no $own"; done
+    while IFS= read -r hit; do complain "${hit%%:*} knows the law $law"; done \
+        < <(find src -name '*.[ch]' ! -path "src/contact/$law.*" ! -path src/contact/laws.h ! -path src/module/table.h -exec \
+            awk -v law="$law" '{ sub(/\/\/.*/, "") } index($0, law) && !/\.standard = / { print FILENAME ":" FNR }' {} +)
+done
+mapfile -t modules < <(sed -n '/define SCREE_LAWS/,/^$/p; /define SCREE_CASE_MODULES/,/^$/p' src/module/table.h | grep -oE 'row\([a-z_]+\)' | sed -E 's/row\((.*)\)/\1/')
 [ ${#modules[@]} -ge 12 ] || complain "the rows of src/module/table.h were not found"
 mapfile -t makers < <(grep -rl 'scree_module_##[a-z]* = {' src) # files that make descriptors by a macro
 for name in "${modules[@]}"; do

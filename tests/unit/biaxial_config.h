@@ -2,6 +2,7 @@
 #ifndef SCREE_TEST_BIAXIAL_CONFIG_H
 #define SCREE_TEST_BIAXIAL_CONFIG_H
 
+#include "law_choice.h"
 #include "own_config.h"
 #include "prepare/gas.h"
 #include "prepare/growth.h"
@@ -19,7 +20,14 @@ typedef struct biaxial_config {
     own_block own[3]; ///< of the stages
     own_block sizes;  ///< of the particles
     char quartz[8], steel[8];
+    own_block contact, of_material[2];
 } biaxial_config;
+
+/// What law hertz_mindlin reads of a material.
+static inline scree_mindlin_material *biaxial_material(biaxial_config *c, int material)
+{
+    return OWN(c->of_material[material].bytes, scree_mindlin_material, hertz_mindlin, "materials");
+}
 
 static inline scree_prepare_config *biaxial_prepare(biaxial_config *c)
 {
@@ -67,14 +75,18 @@ static inline void biaxial_config_set(biaxial_config *c, int64_t count)
                                              .density = 2.675e8,
                                              .friction = 0.45,
                                              .wall_friction = NAN,
-                                             .restitution = 0.2};
+                                             .own = c->of_material[0].bytes};
     c->material[1] = (scree_config_material){.name = c->steel,
                                              .young_modulus = 200e9,
                                              .poisson_ratio = 0.25,
                                              .density = 8e3,
                                              .friction = 0.3,
                                              .wall_friction = 0.1,
-                                             .restitution = 0.6};
+                                             .own = c->of_material[1].bytes};
+    biaxial_material(c, 0)->restitution = 0.2;
+    biaxial_material(c, 1)->restitution = 0.6;
+    *OWN(c->contact.bytes, scree_brilliantov_config, hertz_brilliantov, "contact") =
+        (scree_brilliantov_config){.damping_time = 0.002, .friction_exponent = 50};
     c->stage[0] = (scree_config_stage){.kind = SCREE_SLOT_prepare, .own = &c->own[0]};
     *biaxial_prepare(c) =
         (scree_prepare_config){.method = SCREE_SLOT_drop_and_roll, .aspect_ratio = 2, .width = NAN, .depth = NAN};
@@ -90,10 +102,7 @@ static inline void biaxial_config_set(biaxial_config *c, int64_t count)
         .materials = c->material,
         .material_count = 2,
         .particles = {.shape = SCREE_SHAPE_DISC, .material = c->quartz, .count = count, .thickness = NAN},
-        .contact = {.law = SCREE_LAW_HERTZ_BRILLIANTOV,
-                    .damping_time = 0.002,
-                    .friction_exponent = 50,
-                    .reference_velocity = NAN},
+        .contact = {.law = SCREE_SLOT_hertz_brilliantov, .reference_velocity = NAN, .own = c->contact.bytes},
         .integrator = {.scheme = SCREE_SLOT_position_verlet, .step = NAN, .step_fraction = 0.5},
         .stages = c->stage,
         .stage_count = 3,

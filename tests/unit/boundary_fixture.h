@@ -3,6 +3,7 @@
 #ifndef SCREE_TESTS_BOUNDARY_FIXTURE_H
 #define SCREE_TESTS_BOUNDARY_FIXTURE_H
 
+#include "law_choice.h"
 #include "state/plates.h"
 #include "testing.h"
 
@@ -47,7 +48,7 @@ static inline void bench_begin(bench *b, int dimension, size_t count, double ste
     b->config.guard.overlap = 0.2;
     b->model = (scree_model){.dimension = dimension,
                              .thickness = dimension == 3 ? 1 : THICKNESS,
-                             .law = SCREE_LAW_HERTZ_MINDLIN,
+                             .law = {.law = SCREE_SLOT_hertz_mindlin},
                              .scheme = SCREE_SLOT_position_verlet,
                              .largest_step = 1,
                              .mean_radius = RADIUS,
@@ -56,9 +57,7 @@ static inline void bench_begin(bench *b, int dimension, size_t count, double ste
                              .material_count = 1,
                              .density = {2.675e8, 2.675e8},
                              .config = &b->config};
-    for (int k = 0; k < 4; k++)
-        b->model.pairs[k / 2][k % 2] = (scree_pair_constants){
-            .normal_stiffness = 2e10, .tangential_stiffness = 2e10, .friction = k == 0 ? 0.45 : 0, .damping = 1};
+    for (int k = 0; k < 4; k++) b->model.pairs[k / 2][k % 2] = hertz_pair(2e10, 2e10, k == 0 ? 0.45 : 0, 1);
     b->model.walls[0] = b->model.pairs[0][0];
     b->model.walls[1] = b->model.pairs[1][1];
     assert_int_equal(scree_state_create(&b->state, dimension, count, NULL), SCREE_OK);

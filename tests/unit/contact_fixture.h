@@ -2,6 +2,7 @@
 #ifndef SCREE_TESTS_CONTACT_FIXTURE_H
 #define SCREE_TESTS_CONTACT_FIXTURE_H
 
+#include "law_choice.h"
 #include "state/plates.h"
 #include "testing.h"
 
@@ -19,24 +20,15 @@ typedef struct fixture {
     scree_work work;
 } fixture;
 
-#define FIXTURE_PAIR(normal, tangential, friction_, damping_)                                                          \
-    (scree_pair_constants)                                                                                             \
-    {                                                                                                                  \
-        .normal_stiffness = (normal), .tangential_stiffness = (tangential), .friction = (friction_),                   \
-        .damping = (damping_)                                                                                          \
-    }
-
 /// Quartz-like grains of 1 mm, and a softer second material.
-static inline scree_model fixture_model(scree_law law)
+static inline scree_model fixture_model(law_choice law)
 {
     scree_model model;
     memset(&model, 0, sizeof model);
     model.dimension = 2;
-    model.law = law;
     model.thickness = 2e-3;
-    model.damping_time = 2e-6;
-    model.inverse_exponent = 1.0 / 50;
     model.reference_velocity = 1e-2;
+    law_choose(&model, law);
     model.scheme = SCREE_SLOT_position_verlet;
     model.mean_radius = 1e-3;
     model.radius_min = 0.5e-3;
@@ -44,9 +36,9 @@ static inline scree_model fixture_model(scree_law law)
     model.material_count = 1;
     model.density[0] = 2650;
     model.density[1] = 1200;
-    model.pairs[0][0] = model.walls[0] = FIXTURE_PAIR(4e9, 5e9, 0.5, 0.3);
-    model.pairs[1][1] = model.walls[1] = FIXTURE_PAIR(1e9, 1.2e9, 0.2, 0.6);
-    model.pairs[0][1] = model.pairs[1][0] = FIXTURE_PAIR(1.6e9, 2e9, 0.3, 0.4);
+    model.pairs[0][0] = model.walls[0] = hertz_pair(4e9, 5e9, 0.5, 0.3);
+    model.pairs[1][1] = model.walls[1] = hertz_pair(1e9, 1.2e9, 0.2, 0.6);
+    model.pairs[0][1] = model.pairs[1][0] = hertz_pair(1.6e9, 2e9, 0.3, 0.4);
     return model;
 }
 
@@ -70,13 +62,13 @@ static inline void fixture_reserve(fixture *f, size_t pairs)
     assert_int_equal(scree_allocate(&list->history, pairs, sizeof *list->history, &error), SCREE_OK);
     if (f->state.dimension == 3)
         assert_int_equal(scree_allocate(&list->booking, pairs, sizeof *list->booking, &error), SCREE_OK);
-    if (f->model.rolling)
+    if (scree_contacts_roll(&f->model))
         assert_int_equal(scree_allocate(&list->rolling, pairs, sizeof *list->rolling, &error), SCREE_OK);
     list->capacity = pairs;
 }
 
 /// `count` bodies at rest at the origin, one thread, ledger on, no pairs.
-static inline void fixture_create_in(fixture *f, int dimension, scree_law law, size_t count, double step)
+static inline void fixture_create_in(fixture *f, int dimension, law_choice law, size_t count, double step)
 {
     scree_error error;
     memset(f, 0, sizeof *f);
@@ -95,7 +87,7 @@ static inline void fixture_create_in(fixture *f, int dimension, scree_law law, s
         f->state.row[k] = (scree_row){.radius = 1e-3, .mass = fixture_mass(&f->model, 0, 1e-3)};
 }
 
-static inline void fixture_create(fixture *f, scree_law law, size_t count, double step)
+static inline void fixture_create(fixture *f, law_choice law, size_t count, double step)
 {
     fixture_create_in(f, 2, law, count, step);
 }
@@ -167,7 +159,7 @@ static inline void fixture_find_walls(fixture *f)
     assert_int_equal(scree_allocate(&list->history, most, sizeof *list->history, &error), SCREE_OK);
     if (f->state.dimension == 3)
         assert_int_equal(scree_allocate(&list->booking, most, sizeof *list->booking, &error), SCREE_OK);
-    if (f->model.rolling)
+    if (scree_contacts_roll(&f->model))
         assert_int_equal(scree_allocate(&list->rolling, most, sizeof *list->rolling, &error), SCREE_OK);
     list->capacity = most;
     for (uint32_t w = 0; w < SCREE_WALL_COUNT; w++)
@@ -231,7 +223,7 @@ static inline void fixture_step(fixture *f)
 }
 
 /// A pressed, jostling assembly of `side` x `side` discs of random radii on a disturbed hexagonal lattice.
-static inline void fixture_create_assembly(fixture *f, scree_law law, size_t side, int materials)
+static inline void fixture_create_assembly(fixture *f, law_choice law, size_t side, int materials)
 {
     fixture_create(f, law, side * side, 1e-7);
     f->model.material_count = materials;

@@ -2,6 +2,7 @@
 #ifndef SCREE_TESTS_PERIODIC_FIXTURE_H
 #define SCREE_TESTS_PERIODIC_FIXTURE_H
 
+#include "law_choice.h"
 #include "testing.h"
 
 #include "base/fixed.h"
@@ -26,15 +27,12 @@ typedef struct periodic_sample {
 
 /// Grains of about 1 mm at the origin, at rest, in a cell of the given lattice (columns; unit vector: not periodic).
 static inline void periodic_create(periodic_sample *s, int dimension, size_t count, const double lattice[9],
-                                   scree_law law)
+                                   law_choice law)
 {
     scree_error error;
     memset(s, 0, sizeof *s);
     s->model = (scree_model){.dimension = dimension,
-                             .law = law,
                              .thickness = dimension == 2 ? 2e-3 : 1,
-                             .damping_time = 2e-6,
-                             .inverse_exponent = 1.0 / 50,
                              .reference_velocity = 1e-2,
                              .scheme = SCREE_SLOT_velocity_verlet,
                              .step = 2e-7,
@@ -47,8 +45,8 @@ static inline void periodic_create(periodic_sample *s, int dimension, size_t cou
     s->config.guard.overlap = 0.5;
     s->config.boundary.servo_gain = 1;
     s->config.boundary.servo_velocity = NAN;
-    s->model.pairs[0][0] = s->model.walls[0] =
-        (scree_pair_constants){.normal_stiffness = 4e9, .tangential_stiffness = 5e9, .friction = 0.5, .damping = 0.3};
+    s->model.pairs[0][0] = s->model.walls[0] = hertz_pair(4e9, 5e9, 0.5, 0.3);
+    law_choose(&s->model, law);
     check(scree_state_create(&s->state, dimension, count, &error), &error);
     if (scree_model_foresees(&s->model)) check(scree_state_foresee(&s->state, &error), &error);
     s->model.largest_step = s->model.large_multiple = 1;
@@ -121,7 +119,7 @@ static inline double periodic_random(uint64_t counter)
 }
 
 /// Grains in contact on a cubic or square net of n places a side, shaken a little, with random velocities and sizes.
-static inline void periodic_fill(periodic_sample *s, int dimension, int n, scree_law law, double speed)
+static inline void periodic_fill(periodic_sample *s, int dimension, int n, law_choice law, double speed)
 {
     const double spacing = 1.97e-3, side = n * spacing;
     const double lattice[9] = {side, 0, 0, 0, side, 0, 0, 0, dimension == 3 ? side : 1};

@@ -53,20 +53,20 @@ static inline void sphere_run(fixture *f, int steps)
     for (int k = 0; k < steps; k++) sphere_step(f);
 }
 
-/// Materials that resist rolling and twisting.
+/// Materials that resist rolling and twisting, under a law that can.
 static inline void sphere_resist_turning(fixture *f)
 {
-    f->model.rolling = true;
+    if (f->model.law.law == SCREE_SLOT_hertz_mindlin) f->model.law.option |= MINDLIN_ROLLING;
     for (int a = 0; a < 2; a++)
         for (int b = 0; b < 2; b++) {
-            f->model.pairs[a][b].rolling_friction = 0.1 + 0.05 * (a + b);
-            f->model.pairs[a][b].twisting_friction = 0.2 - 0.05 * (a + b);
+            f->model.pairs[a][b].value[HERTZ_ROLLING] = 0.1 + 0.05 * (a + b);
+            f->model.pairs[a][b].value[HERTZ_TWISTING] = 0.2 - 0.05 * (a + b);
         }
     for (int a = 0; a < 2; a++) f->model.walls[a] = f->model.pairs[a][a];
 }
 
 /// A pressed, jostling assembly of side^3 spheres of random radii on disturbed, shifted layers.
-static inline void sphere_create_assembly(fixture *f, scree_law law, size_t side, int materials, bool rolling)
+static inline void sphere_create_assembly(fixture *f, law_choice law, size_t side, int materials, bool rolling)
 {
     fixture_create_in(f, 3, law, side * side * side, 1e-7);
     f->model.material_count = materials;

@@ -2,6 +2,7 @@
 #include "base/memory.h"
 #include "case/case.h"
 #include "good_case.h"
+#include "law_choice.h"
 #include "own_config.h"
 #include "run/stage_compress.h"
 #include "run/stage_confine.h"
@@ -79,7 +80,7 @@ static void defaults_are_filled_in(void **state)
     assert_true(config->materials[0].poisson_ratio == 0.3);
     assert_true(isnan(config->materials[0].wall_friction));
     assert_true(limits_of(config)->radius_min == 1e-3);
-    assert_int_equal(config->contact.law, SCREE_LAW_HERTZ_MINDLIN);
+    assert_int_equal(config->contact.law, SCREE_SLOT_hertz_mindlin);
     assert_true(isnan(config->integrator.step));
     assert_int_equal(config->stage_count, 1);
     assert_string_equal(config->stages[0].name, "prepare");
@@ -281,9 +282,10 @@ static void overrides_may_choose(void **state)
     (void)state;
     const char *text = good_case();
     scree_case *c = right(text, SET("contact.law=hertz_brilliantov"), false);
-    assert_int_equal(c->config.contact.law, SCREE_LAW_HERTZ_BRILLIANTOV);
-    assert_true(c->config.contact.damping_time == 2e-3);
-    assert_true(c->config.materials[0].restitution == 0);
+    assert_int_equal(c->config.contact.law, SCREE_SLOT_hertz_brilliantov);
+    assert_true(OWN(c->config.contact.own, scree_brilliantov_config, hertz_brilliantov, "contact")->damping_time ==
+                2e-3);
+    assert_true(OWN(c->config.materials[0].own, scree_mindlin_material, hertz_mindlin, "materials")->restitution == 0);
     scree_case_free(c);
     c = right(text, SET("particles.distribution=equal", "particles.radius=2 mm"), false);
     assert_true(((const scree_equal_config *)scree_config_sizes(&c->config.particles, 0))->radius == 2e-3);

@@ -22,8 +22,8 @@ static const scree_config config = {.measure = {.cells = true, .band_window = 0.
 static scree_model model_of(int dimension)
 {
     return (scree_model){.config = &config,
-                         .scheme = SCREE_SLOT_position_verlet,
                          .dimension = dimension,
+                         .scheme = SCREE_SLOT_position_verlet,
                          .thickness = 1e-3,
                          .mean_radius = SPACING / 2,
                          .density = {1}};

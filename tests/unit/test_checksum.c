@@ -1,5 +1,6 @@
 /// The state checksum against its definition in docs/architecture.md: numbers worked out by another program from the
 /// text alone; what belongs to the physics shows, and what is bookkeeping does not.
+#include "law_choice.h"
 #include "measure/delaunay_boundary.h"
 #include "measure/imposed_gradient.h"
 #include "state/case_walls.h"
@@ -27,14 +28,12 @@ static void create(sample *s, int dimension)
     s->config.walls = &s->wall;
     s->model.config = &s->config;
     s->model.dimension = dimension;
+    s->model.law.law = SCREE_SLOT_hertz_mindlin;
     s->model.material_count = 2;
     for (int m = 0; m < 2; m++) {
         s->model.density[m] = 2000 + 500 * m;
-        s->model.pairs[m][m] = (scree_pair_constants){.normal_stiffness = 1e9 + m,
-                                                      .tangential_stiffness = 2e9,
-                                                      .friction = 0.25 + 0.25 * m,
-                                                      .damping = 0.125,
-                                                      .rolling_friction = 0.0625};
+        s->model.pairs[m][m] = hertz_pair(1e9 + m, 2e9, 0.25 + 0.25 * m, 0.125);
+        s->model.pairs[m][m].value[HERTZ_ROLLING] = 0.0625;
     }
     assert_int_equal(scree_state_create(&s->state, dimension, 3, NULL), SCREE_OK);
     scree_state *state = &s->state;
@@ -180,7 +179,7 @@ static void physics_shows(void **unused)
         &state->row[1].radius,
         &state->row[1].mass,
         &s.model.density[1],
-        &s.model.pairs[0][0].friction,
+        &s.model.pairs[0][0].value[SCREE_FRICTION],
         &state->contact[0].history.value[2],
         &state->rolling[2].value[3],
         &scree_plates(state)[SCREE_WALL_TOP].position,

@@ -23,12 +23,13 @@ typedef struct setting {
 static void create(fixture *f, const setting *s)
 {
     const int count = s->plate ? 1 : 2;
-    fixture_create_in(f, s->dimension, SCREE_LAW_HERTZ_MINDLIN, (size_t)count, STEP);
-    f->model.rescaled = s->rescaled;
+    fixture_create_in(f, s->dimension, HERTZ_MINDLIN, (size_t)count, STEP);
+    law_rescale(&f->model, s->rescaled);
     if (s->moved != SLIP) sphere_resist_turning(f);
     scree_pair_constants *constants = s->plate ? &f->model.walls[0] : &f->model.pairs[0][0];
-    constants->damping = 0;
-    constants->friction = constants->rolling_friction = constants->twisting_friction = 1; // nothing slides
+    constants->value[HERTZ_DAMPING] = 0;
+    constants->value[SCREE_FRICTION] = constants->value[HERTZ_ROLLING] = constants->value[HERTZ_TWISTING] =
+        1; // nothing slides
     f->state.row[0].radius = R1;
     if (!s->plate) f->state.row[1].radius = R2;
     for (int k = 0; k < count; k++) f->state.row[k].mass = fixture_mass(&f->model, 0, f->state.row[k].radius);

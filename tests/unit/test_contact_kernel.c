@@ -20,7 +20,7 @@ static void assert_same(const fixture *a, const fixture *b)
 }
 
 /// Walls on two sides, so that wall contacts are part of every comparison.
-static void create(fixture *f, scree_law law, int materials)
+static void create(fixture *f, law_choice law, int materials)
 {
     fixture_create_assembly(f, law, SIDE, materials);
     scree_plates(&f->state)[SCREE_WALL_BOTTOM] = (scree_wall){
@@ -37,12 +37,12 @@ static void run(fixture *f, int steps)
 }
 
 /// Runs the same assembly with the reference and with kernels of every instruction set of this machine.
-static void compare_with_reference(scree_law law, int materials, bool ledger, bool rescaled)
+static void compare_with_reference(law_choice law, int materials, bool ledger, bool rescaled)
 {
     fixture reference, kernel;
     create(&reference, law, materials);
     reference.work.ledger = ledger;
-    reference.model.rescaled = rescaled;
+    law_rescale(&reference.model, rescaled);
     reference.work.reference_kernel = true;
     run(&reference, STEPS);
     assert_true(reference.state.largest_overlap > 0);
@@ -50,7 +50,7 @@ static void compare_with_reference(scree_law law, int materials, bool ledger, bo
     for (int isa = 2; isa <= scree_contact_instruction_set(0); isa++) {
         create(&kernel, law, materials);
         kernel.work.ledger = ledger;
-        kernel.model.rescaled = rescaled;
+        law_rescale(&kernel.model, rescaled);
         kernel.work.instruction_set = isa;
         run(&kernel, STEPS);
         assert_same(&reference, &kernel);
@@ -66,22 +66,22 @@ static void compare_with_reference(scree_law law, int materials, bool ledger, bo
 static void kernels_give_the_bits_of_the_reference(void **unused)
 {
     (void)unused;
-    for (int law = SCREE_LAW_HERTZ_BRILLIANTOV; law <= SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT; law++)
+    for (int law = HERTZ_BRILLIANTOV; law <= HERTZ_BRILLIANTOV_IMPLICIT; law++)
         for (int materials = 1; materials <= 2; materials++)
             for (int ledger = 0; ledger <= 1; ledger++)
-                compare_with_reference((scree_law)law, materials, ledger, false);
-    for (int ledger = 0; ledger <= 1; ledger++) compare_with_reference(SCREE_LAW_HERTZ_MINDLIN, 2, ledger, true);
+                compare_with_reference((law_choice)law, materials, ledger, false);
+    for (int ledger = 0; ledger <= 1; ledger++) compare_with_reference(HERTZ_MINDLIN, 2, ledger, true);
 }
 
 static void threads_do_not_change_a_bit(void **unused)
 {
     (void)unused;
-    for (int law = SCREE_LAW_HERTZ_MINDLIN; law <= SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT; law++) {
+    for (int law = HERTZ_MINDLIN; law <= HERTZ_BRILLIANTOV_IMPLICIT; law++) {
         fixture one, many;
-        create(&one, (scree_law)law, 2);
+        create(&one, (law_choice)law, 2);
         run(&one, STEPS);
         for (int threads = 2; threads <= 4; threads++) {
-            create(&many, (scree_law)law, 2);
+            create(&many, (law_choice)law, 2);
             many.work.threads = threads;
             run(&many, STEPS);
             assert_same(&one, &many);
@@ -104,8 +104,8 @@ static void order_of_the_list_does_not_change_a_bit(void **unused)
 {
     (void)unused;
     fixture ordered, shuffled;
-    create(&ordered, SCREE_LAW_HERTZ_MINDLIN, 1);
-    create(&shuffled, SCREE_LAW_HERTZ_MINDLIN, 1);
+    create(&ordered, HERTZ_MINDLIN, 1);
+    create(&shuffled, HERTZ_MINDLIN, 1);
     scree_pair_list *list = &shuffled.work.pairs;
     for (size_t k = list->count - 1; k > 0; k--)
         exchange(list, k, (size_t)(fixture_random(1000000 + k) * (double)(k + 1)));
@@ -123,8 +123,8 @@ static void rebuild_does_not_change_a_bit(void **unused)
 {
     (void)unused;
     fixture kept, rebuilt;
-    create(&kept, SCREE_LAW_HERTZ_MINDLIN, 1);
-    create(&rebuilt, SCREE_LAW_HERTZ_MINDLIN, 1);
+    create(&kept, HERTZ_MINDLIN, 1);
+    create(&rebuilt, HERTZ_MINDLIN, 1);
     run(&kept, STEPS);
     run(&rebuilt, STEPS / 2);
     scree_pair_list *list = &rebuilt.work.pairs;
@@ -148,8 +148,8 @@ static void rebuild_in_every_step_does_not_change_a_bit(void **unused)
 {
     (void)unused;
     fixture kept, rebuilt;
-    create(&kept, SCREE_LAW_HERTZ_MINDLIN, 1);
-    create(&rebuilt, SCREE_LAW_HERTZ_MINDLIN, 1);
+    create(&kept, HERTZ_MINDLIN, 1);
+    create(&rebuilt, HERTZ_MINDLIN, 1);
     rebuilt.work.pairs.touching_count = 0;
     fixture_forces(&kept);
     fixture_forces(&rebuilt);
@@ -167,7 +167,7 @@ static void momentum_is_conserved_exactly(void **unused)
 {
     (void)unused;
     fixture f;
-    create(&f, SCREE_LAW_HERTZ_MINDLIN, 2);
+    create(&f, HERTZ_MINDLIN, 2);
     run(&f, 10);
     int64_t fx = 0, fy = 0, contacts = 0;
     for (size_t k = 0; k < f.state.count; k++) {
@@ -193,7 +193,7 @@ static void sums_are_exact_to_half_a_quantum_a_contact(void **unused)
     fixture f;
     scree_error error;
     scree_contact_table table = {0};
-    fixture_create_assembly(&f, SCREE_LAW_HERTZ_MINDLIN, SIDE, 2);
+    fixture_create_assembly(&f, HERTZ_MINDLIN, SIDE, 2);
     run(&f, 50);
     assert_int_equal(scree_contact_table_build(&f.model, &f.state, &f.work, &table, &error), SCREE_OK);
     assert_true(table.count > f.state.count);
@@ -232,7 +232,7 @@ static void table_finds_the_forces_of_the_last_evaluation(void **unused)
     fixture f;
     scree_error error;
     scree_contact_table leapfrog = {0}, verlet = {0};
-    create(&f, SCREE_LAW_HERTZ_MINDLIN, 2);
+    create(&f, HERTZ_MINDLIN, 2);
     run(&f, 50);
     assert_int_equal(scree_contact_table_build(&f.model, &f.state, &f.work, &leapfrog, &error), SCREE_OK);
     for (size_t k = 0; k < f.state.count; k++) {
@@ -265,7 +265,7 @@ static void table_is_ordered_by_ids(void **unused)
     fixture f;
     scree_error error;
     scree_contact_table table = {0};
-    create(&f, SCREE_LAW_HERTZ_MINDLIN, 1);
+    create(&f, HERTZ_MINDLIN, 1);
     for (size_t k = 0; k < f.state.count; k++) f.state.id[k] = (uint32_t)((k * 100) % f.state.count);
     for (size_t k = 0; k < f.state.count; k++) f.state.row_of_id[f.state.id[k]] = (uint32_t)k;
     f.work.pairs.count = 0;
@@ -313,7 +313,7 @@ static void saved_contacts_are_the_histories_in_order(void **unused)
     (void)unused;
     fixture f;
     scree_error error;
-    create(&f, SCREE_LAW_HERTZ_MINDLIN, 1);
+    create(&f, HERTZ_MINDLIN, 1);
     run(&f, 20);
     assert_int_equal(scree_contacts_save(&f.state, &f.work, &error), SCREE_OK);
     size_t remembered = 0;
@@ -342,7 +342,7 @@ static void faults_are_flagged(void **unused)
     (void)unused;
     for (int reference = 0; reference <= 1; reference++) {
         fixture f;
-        create(&f, SCREE_LAW_HERTZ_MINDLIN, 1);
+        create(&f, HERTZ_MINDLIN, 1);
         f.work.reference_kernel = reference;
         run(&f, 3);
         assert_int_equal(f.work.flags, 0);
@@ -381,7 +381,7 @@ static void sums_are_made_anew(void **unused)
     (void)unused;
     for (int threads = 0; threads <= 3; threads++) { // 0: the reference
         fixture f;
-        create(&f, SCREE_LAW_HERTZ_BRILLIANTOV, 1);
+        create(&f, HERTZ_BRILLIANTOV, 1);
         f.work.threads = threads > 0 ? threads : 1;
         f.work.reference_kernel = threads == 0;
         f.state.step_size = 0; // histories stay as they are
@@ -407,8 +407,8 @@ static void no_memory_changes_no_bit(void **unused)
 {
     (void)unused;
     fixture plenty, short_of;
-    create(&plenty, SCREE_LAW_HERTZ_MINDLIN, 1);
-    create(&short_of, SCREE_LAW_HERTZ_MINDLIN, 1);
+    create(&plenty, HERTZ_MINDLIN, 1);
+    create(&short_of, HERTZ_MINDLIN, 1);
     short_of.work.threads = 2;
     run(&plenty, 10);
     fixture_forces(&short_of);
@@ -430,7 +430,7 @@ static void quanta_fit_the_forces(void **unused)
 {
     (void)unused;
     fixture f;
-    create(&f, SCREE_LAW_HERTZ_BRILLIANTOV, 2);
+    create(&f, HERTZ_BRILLIANTOV, 2);
     f.state.largest_overlap = 0; // as at the start of a run
     fixture_forces(&f);
     assert_int_equal(f.work.flags, 0);

@@ -44,10 +44,13 @@ static contact_totals evaluate(fixture *f, const variant *v, contact_kernel *ker
 
 static void create(fixture *f, const variant *v)
 {
+    const law_choice law = v->law == SCREE_SLOT_hertz_mindlin ? HERTZ_MINDLIN
+                           : v->option == 0                   ? HERTZ_BRILLIANTOV
+                                                              : HERTZ_BRILLIANTOV_IMPLICIT;
     if (v->dimension == 3)
-        sphere_create_assembly(f, v->law, EDGE, v->many_materials ? 2 : 1, v->rolling);
+        sphere_create_assembly(f, law, EDGE, v->many_materials ? 2 : 1, law_rolls(*v));
     else
-        fixture_create_assembly(f, v->law, SIDE, v->many_materials ? 2 : 1);
+        fixture_create_assembly(f, law, SIDE, v->many_materials ? 2 : 1);
 }
 
 /// Equal numbers; 0 and -0 are the same memory.
@@ -90,16 +93,19 @@ static void compare(const variant *v)
 static void eight_lanes_give_the_bits_of_one(void **unused)
 {
     (void)unused;
+    static const variant variants[] = {{.law = SCREE_SLOT_hertz_brilliantov},
+                                       {.law = SCREE_SLOT_hertz_brilliantov, .option = BRILLIANTOV_IMPLICIT},
+                                       {.law = SCREE_SLOT_hertz_mindlin}};
     for (int dimension = 2; dimension <= 3; dimension++)
-        for (int law = SCREE_LAW_HERTZ_BRILLIANTOV; law <= SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT; law++)
+        for (size_t k = 0; k < sizeof variants / sizeof *variants; k++)
             for (int materials = 1; materials <= 2; materials++)
                 for (int ledger = 0; ledger <= 1; ledger++)
-                    compare(&(variant){dimension, (scree_law)law, materials > 1, ledger, false, false});
+                    compare(&(variant){dimension, variants[k].law, variants[k].option, materials > 1, ledger});
     for (int ledger = 0; ledger <= 1; ledger++) {
-        for (int rescaled = 0; rescaled <= 1; rescaled++)
-            compare(&(variant){3, SCREE_LAW_HERTZ_MINDLIN, true, ledger, true, rescaled});
+        for (unsigned option = MINDLIN_ROLLING; option <= (MINDLIN_ROLLING | MINDLIN_RESCALED); option++)
+            compare(&(variant){3, SCREE_SLOT_hertz_mindlin, option, true, ledger});
         for (int materials = 1; materials <= 2; materials++)
-            compare(&(variant){2, SCREE_LAW_HERTZ_MINDLIN, materials > 1, ledger, false, true});
+            compare(&(variant){2, SCREE_SLOT_hertz_mindlin, MINDLIN_RESCALED, materials > 1, ledger});
     }
 }
 

@@ -4,7 +4,7 @@
 #include "state/plates.h"
 
 /// Five unequal bodies that meet in the middle of a box of four walls, two of which move.
-static void create(fixture *f, scree_law law, double step)
+static void create(fixture *f, law_choice law, double step)
 {
     static const double place[5][2] = {
         {-1.5e-3, 0.1e-3}, {1.4e-3, -0.2e-3}, {0.1e-3, 1.8e-3}, {-0.2e-3, -1.7e-3}, {2.0e-3, 2.2e-3}};
@@ -67,11 +67,11 @@ static double balance(const fixture *f)
 }
 
 /// Largest imbalance over 2 ms, relative to the turnover.
-static double worst_residual(scree_law law, bool rescaled, int steps)
+static double worst_residual(law_choice law, bool rescaled, int steps)
 {
     fixture f;
     create(&f, law, 2e-3 / steps);
-    f.model.rescaled = rescaled;
+    law_rescale(&f.model, rescaled);
     fixture_forces(&f);
     double initial = balance(&f), worst = 0;
     for (int k = 0; k < steps; k++) {
@@ -84,7 +84,7 @@ static double worst_residual(scree_law law, bool rescaled, int steps)
     double before = 0.04;
     assert_true(l->turnover > 0.5 * before && l->damping > 0.1 * before && fabs(l->friction) > 1e-3 * before);
     assert_true(fabs(l->plates) > 1e-3 * before);
-    assert_true((fabs(l->stiffness) > 1e-3 * before) == (law == SCREE_LAW_HERTZ_MINDLIN));
+    assert_true((fabs(l->stiffness) > 1e-3 * before) == (law == HERTZ_MINDLIN));
     worst /= l->turnover;
     fixture_destroy(&f);
     return worst;
@@ -95,7 +95,7 @@ static void ledger_closes_with_the_square_of_the_step(void **unused)
 {
     (void)unused;
     for (int k = 0; k < 3; k++) {
-        const scree_law law = k == 0 ? SCREE_LAW_HERTZ_BRILLIANTOV : SCREE_LAW_HERTZ_MINDLIN;
+        const law_choice law = k == 0 ? HERTZ_BRILLIANTOV : HERTZ_MINDLIN;
         double coarse = worst_residual(law, k == 2, 20000), fine = worst_residual(law, k == 2, 80000);
         assert_true(coarse / fine > 12 && coarse / fine < 20);
         assert_true(worst_residual(law, k == 2, 320000) < 1e-6);
@@ -107,8 +107,8 @@ static void opening_books_the_spring(void **unused)
 {
     (void)unused;
     fixture f;
-    fixture_create(&f, SCREE_LAW_HERTZ_MINDLIN, 2, 1e-7);
-    f.model.pairs[0][0].damping = 0;
+    fixture_create(&f, HERTZ_MINDLIN, 2, 1e-7);
+    f.model.pairs[0][0].value[HERTZ_DAMPING] = 0;
     f.state.row[1].x = -2e-3 + 2e-6;
     f.state.row[0].vy = 1e-2;
     f.state.largest_overlap = 2e-6;

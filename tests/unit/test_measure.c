@@ -37,11 +37,12 @@ static void bench_create(bench *b, size_t count)
     memset(b, 0, sizeof *b);
     b->config.boundary = (scree_config_boundary){.every = 250, .gap_limit = 0.5};
     b->model = (scree_model){.config = &b->config,
+                             .law = {.law = SCREE_SLOT_hertz_mindlin},
+                             .scheme = SCREE_SLOT_position_verlet,
                              .thickness = THICKNESS,
                              .mean_radius = RADIUS,
-                             .material_count = 1,
-                             .scheme = SCREE_SLOT_position_verlet};
-    b->model.pairs[0][0].friction = 0.5;
+                             .material_count = 1};
+    b->model.pairs[0][0].value[SCREE_FRICTION] = 0.5;
     assert_int_equal(scree_state_create(&b->state, 2, count, NULL), SCREE_OK);
     b->state.force_quantum = b->state.torque_quantum = 0x1p-50;
     b->state.step_size = 1e-6;
@@ -407,11 +408,11 @@ static void coordination_and_rattlers(void **user)
     assert_true(near(c.rattler_fraction, 0.5, 1e-15, 1));
     assert_true(near(c.mean_without_rattlers, 9.0 / 4, 1e-15, 1));
     // Without friction three supports are needed, and nothing holds.
-    b.model.pairs[0][0].friction = 0;
+    b.model.pairs[0][0].value[SCREE_FRICTION] = 0;
     assert_int_equal(scree_coordination_measure(&b.model, &b.state, &b.table, &c, NULL), SCREE_OK);
     assert_true(c.rattler_fraction == 1 && c.mean_without_rattlers == 0);
     // The pressure supports the loner and the end of the chain, not more.
-    b.model.pairs[0][0].friction = 0.5;
+    b.model.pairs[0][0].value[SCREE_FRICTION] = 0.5;
     uint32_t id[3] = {3, 6, 7};
     uint8_t loaded[3] = {1, 0, 1};
     scree_loop_of(&b.state)->id = id;

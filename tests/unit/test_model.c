@@ -2,6 +2,7 @@
 /// against the largest eigenvalue of assembled lattices and packings.
 #include "biaxial_config.h"
 #include "integrate/two_timescales.h"
+#include "law_choice.h"
 #include "own_config.h"
 #include "testing.h"
 
@@ -21,23 +22,23 @@ static void test_pair_constants(void **unused)
     biaxial_config c;
     scree_model model;
     biaxial_config_set(&c, 983);
-    c.config.contact.law = SCREE_LAW_HERTZ_MINDLIN;
+    c.config.contact.law = SCREE_SLOT_hertz_mindlin;
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
     // Like bodies: P's plane strain modulus E / (2 (1 - nu^2)) is 16.4835 GPa; 8 Gbar = 4 G / (2 - nu).
     double shear = 30e9 / 2.6;
-    assert_true(fabs(model.pairs[0][0].normal_stiffness * 0.75 / 16.4835e9 - 1) < 1e-5);
-    assert_close(model.pairs[0][0].tangential_stiffness, 4 * shear / 1.7);
-    assert_close(model.pairs[0][0].damping, scree_damping_from_restitution(0.2));
+    assert_true(fabs(model.pairs[0][0].value[HERTZ_NORMAL] * 0.75 / 16.4835e9 - 1) < 1e-5);
+    assert_close(model.pairs[0][0].value[HERTZ_TANGENTIAL], 4 * shear / 1.7);
+    assert_close(model.pairs[0][0].value[HERTZ_DAMPING], scree_damping_from_restitution(0.2));
     // Unlike bodies: compliances add; the smaller friction and restitution; symmetric.
     double steel_shear = 200e9 / 2.5;
-    assert_close(1 / model.pairs[0][1].normal_stiffness, 0.75 * (0.91 / 30e9 + 0.9375 / 200e9));
-    assert_close(1 / model.pairs[0][1].tangential_stiffness, (1.7 / shear + 1.75 / steel_shear) / 8);
-    assert_true(model.pairs[0][1].friction == 0.3);
-    assert_true(model.pairs[0][1].damping == model.pairs[0][0].damping);
+    assert_close(1 / model.pairs[0][1].value[HERTZ_NORMAL], 0.75 * (0.91 / 30e9 + 0.9375 / 200e9));
+    assert_close(1 / model.pairs[0][1].value[HERTZ_TANGENTIAL], (1.7 / shear + 1.75 / steel_shear) / 8);
+    assert_true(model.pairs[0][1].value[SCREE_FRICTION] == 0.3);
+    assert_true(model.pairs[0][1].value[HERTZ_DAMPING] == model.pairs[0][0].value[HERTZ_DAMPING]);
     assert_memory_equal(&model.pairs[0][1], &model.pairs[1][0], sizeof model.pairs[0][1]);
     // Plates: the grain's friction unless the material has another one for them.
-    assert_true(model.walls[0].friction == 0.45 && model.walls[1].friction == 0.1);
-    assert_true(model.walls[0].normal_stiffness == model.pairs[0][0].normal_stiffness);
+    assert_true(model.walls[0].value[SCREE_FRICTION] == 0.45 && model.walls[1].value[SCREE_FRICTION] == 0.1);
+    assert_true(model.walls[0].value[HERTZ_NORMAL] == model.pairs[0][0].value[HERTZ_NORMAL]);
 }
 
 /// Plates and walls of another material, and rigid ones: the closed forms of the pair, and of the grain's compliance
@@ -50,7 +51,7 @@ static void test_walls_have_materials(void **unused)
     scree_error error;
     char rigid[] = "rigid", steel[] = "steel", unknown[] = "stel";
     biaxial_config_set(&c, 983);
-    c.config.contact.law = SCREE_LAW_HERTZ_MINDLIN;
+    c.config.contact.law = SCREE_SLOT_hertz_mindlin;
     scree_config_wall walls[3] = {{.material = steel}, {.material = rigid}, {.material = NULL}};
     c.config.walls = walls;
     c.config.wall_count = 3;
@@ -58,17 +59,19 @@ static void test_walls_have_materials(void **unused)
     assert_int_equal(scree_model_build(&c.config, &model, &error), SCREE_OK);
     const double shear = 30e9 / 2.6;
     const scree_pair_constants *like = &model.pairs[0][0], *on_steel = &model.surfaces[0][0], *plate = &model.walls[0];
-    assert_close(plate->normal_stiffness, 2 * like->normal_stiffness);
-    assert_close(plate->tangential_stiffness, 8 * shear / 1.7);
-    assert_true(plate->damping == like->damping && plate->friction == 0.45);
+    assert_close(plate->value[HERTZ_NORMAL], 2 * like->value[HERTZ_NORMAL]);
+    assert_close(plate->value[HERTZ_TANGENTIAL], 8 * shear / 1.7);
+    assert_true(plate->value[HERTZ_DAMPING] == like->value[HERTZ_DAMPING] && plate->value[SCREE_FRICTION] == 0.45);
     assert_memory_equal(plate, &model.surfaces[1][0], sizeof *plate);
-    assert_true(on_steel->normal_stiffness == model.pairs[0][1].normal_stiffness && on_steel->friction == 0.3);
+    assert_true(on_steel->value[HERTZ_NORMAL] == model.pairs[0][1].value[HERTZ_NORMAL] &&
+                on_steel->value[SCREE_FRICTION] == 0.3);
     // What is said of the friction on plates holds on walls of any material.
     c.config.materials[0].wall_friction = 0.2;
     assert_int_equal(scree_model_build(&c.config, &model, &error), SCREE_OK);
-    assert_true(plate->friction == 0.2 && on_steel->friction == 0.2);
+    assert_true(plate->value[SCREE_FRICTION] == 0.2 && on_steel->value[SCREE_FRICTION] == 0.2);
     scree_model slippery = scree_model_with_friction(&model, 0.01);
-    assert_true(slippery.walls[0].friction == 0.01 && slippery.surfaces[0][0].friction == 0.01);
+    assert_true(slippery.walls[0].value[SCREE_FRICTION] == 0.01 &&
+                slippery.surfaces[0][0].value[SCREE_FRICTION] == 0.01);
     walls[0].material = unknown;
     assert_int_equal(scree_model_build(&c.config, &model, &error), SCREE_ERROR_INPUT);
     assert_string_equal(error.field, "walls.0.material");
@@ -113,9 +116,9 @@ static void test_model_with_friction(void **unused)
     biaxial_config_set(&c, 983);
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
     scree_model slippery = scree_model_with_friction(&model, 0.01), same = scree_model_with_friction(&model, NAN);
-    assert_true(slippery.pairs[0][1].friction == 0.01 && slippery.walls[1].friction == 0.01);
-    assert_true(slippery.pairs[0][1].normal_stiffness == model.pairs[0][1].normal_stiffness);
-    assert_true(same.pairs[0][1].friction == 0.3 && same.walls[1].friction == 0.1);
+    assert_true(slippery.pairs[0][1].value[SCREE_FRICTION] == 0.01 && slippery.walls[1].value[SCREE_FRICTION] == 0.01);
+    assert_true(slippery.pairs[0][1].value[HERTZ_NORMAL] == model.pairs[0][1].value[HERTZ_NORMAL]);
+    assert_true(same.pairs[0][1].value[SCREE_FRICTION] == 0.3 && same.walls[1].value[SCREE_FRICTION] == 0.1);
 }
 
 static void expect_input_error(const biaxial_config *c, const char *field, const char *part)
@@ -144,8 +147,8 @@ static void test_errors_name_their_field(void **unused)
     c.config.material_count = 17;
     expect_input_error(&c, "materials", "17");
     biaxial_config_set(&c, 983);
-    c.config.contact.law = SCREE_LAW_HERTZ_MINDLIN;
-    c.material[1].restitution = 0;
+    c.config.contact.law = SCREE_SLOT_hertz_mindlin;
+    biaxial_material(&c, 1)->restitution = 0;
     expect_input_error(&c, "materials.1.restitution", "above 0");
     biaxial_config_set(&c, 983);
     biaxial_sizes(&c, SCREE_SLOT_uniform, 2e-3, 1e-3);
@@ -168,9 +171,9 @@ static void test_step_against_the_critical_one(void **unused)
     biaxial_config c;
     scree_model model;
     scree_error error;
-    for (int law = SCREE_LAW_HERTZ_BRILLIANTOV; law <= SCREE_LAW_HERTZ_MINDLIN; law++) {
+    for (int law = HERTZ_BRILLIANTOV; law <= HERTZ_MINDLIN; law++) {
         biaxial_config_set(&c, 983);
-        c.config.contact.law = law;
+        c.config.contact.law = law_slot((law_choice)law);
         c.config.integrator.step = 1e-5;
         c.config.integrator.step_fraction = NAN; // as the case language leaves it when a step is given
         assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
@@ -194,7 +197,7 @@ static void test_critical_step_of_other_loads(void **unused)
     biaxial_config c;
     scree_model model;
     biaxial_config_set(&c, 983);
-    c.config.contact.law = SCREE_LAW_HERTZ_MINDLIN;
+    c.config.contact.law = SCREE_SLOT_hertz_mindlin;
     c.config.stage_count = 1;
     c.material[0].density = 2675;
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);

@@ -15,7 +15,7 @@ static void force_on(const periodic_sample *s, uint32_t id, double force[3])
 }
 
 /// Two bodies that touch, the second put away by whole lattice vectors.
-static void place_pair(periodic_sample *s, const double lattice[9], const double shift[3], scree_law law)
+static void place_pair(periodic_sample *s, const double lattice[9], const double shift[3], law_choice law)
 {
     int dimension = lattice[8] == 1 ? 2 : 3;
     periodic_create(s, dimension, 2, lattice, law);
@@ -30,7 +30,7 @@ static void place_pair(periodic_sample *s, const double lattice[9], const double
 }
 
 /// The same pair within reach directly and through every face, edge and corner, from both sides.
-static void contacts_across_faces_are_contacts(int dimension, scree_law law)
+static void contacts_across_faces_are_contacts(int dimension, law_choice law)
 {
     const double lattice[9] = {12e-3, 4e-3, dimension == 3 ? -3e-3 : 0, 0, 11e-3, dimension == 3 ? 2e-3 : 0,
                                0,     0,    dimension == 3 ? 10e-3 : 1};
@@ -69,7 +69,7 @@ static void pairs_touch_through_faces(void **unused)
 {
     (void)unused;
     for (int dimension = 2; dimension <= 3; dimension++)
-        for (int law = 0; law < 2; law++) contacts_across_faces_are_contacts(dimension, (scree_law)law);
+        for (int law = 0; law < 2; law++) contacts_across_faces_are_contacts(dimension, (law_choice)law);
 }
 
 /// The table tells contacts as the evaluation saw them, with the branch to the image, and its virial is that of the
@@ -82,7 +82,7 @@ static void table_agrees_with_the_sums(void **unused)
         scree_error error;
         scree_contact_table table = {0};
         const double gradient[9] = {-2, 5, 0, 0, 1, 0, dimension == 3 ? 3.0 : 0, 0, 0};
-        periodic_fill(&s, dimension, 5, SCREE_LAW_HERTZ_MINDLIN, 0.02);
+        periodic_fill(&s, dimension, 5, HERTZ_MINDLIN, 0.02);
         periodic_run(&s, gradient, 300);
         check(scree_contact_table_build(&s.model, &s.state, &s.work, &table, &error), &error);
         double stress[9], virial[9], scale = 0;
@@ -112,7 +112,7 @@ static void momentum_is_conserved(void **unused)
     for (int dimension = 2; dimension <= 3; dimension++) {
         periodic_sample s;
         const double still[9] = {0};
-        periodic_fill(&s, dimension, 5, SCREE_LAW_HERTZ_MINDLIN, 0.1);
+        periodic_fill(&s, dimension, 5, HERTZ_MINDLIN, 0.1);
         periodic_run(&s, still, 500);
         int64_t sum[3] = {0};
         for (size_t k = 0; k < s.state.count; k++) {
@@ -126,7 +126,7 @@ static void momentum_is_conserved(void **unused)
 }
 
 /// Stress after a while of shear and compression, of a sample moved by `shift` in its cell.
-static void stress_after(int dimension, scree_law law, const double shift[3], int remap, double stress[9])
+static void stress_after(int dimension, law_choice law, const double shift[3], int remap, double stress[9])
 {
     periodic_sample s;
     const double gradient[9] = {-3, 8, 0, 1, 0, 0, 0, dimension == 3 ? 4.0 : 0, 0};
@@ -148,7 +148,7 @@ static void stress_after(int dimension, scree_law law, const double shift[3], in
 static void faces_may_lie_anywhere(void **unused)
 {
     (void)unused;
-    static const scree_law laws[2] = {SCREE_LAW_HERTZ_MINDLIN, SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT};
+    static const law_choice laws[2] = {HERTZ_MINDLIN, HERTZ_BRILLIANTOV_IMPLICIT};
     for (int dimension = 2; dimension <= 3; dimension++)
         for (int law = 0; law < 2; law++) {
             const double here[3] = {0, 0, 0}, there[3] = {3.3e-3, -5.1e-3, dimension == 3 ? 4.7e-3 : 0};
@@ -173,7 +173,7 @@ static void lattices_are_reduced(void **unused)
     for (int dimension = 2; dimension <= 3; dimension++) {
         periodic_sample s;
         const double gradient[9] = {0, 2000, 0, 0, 0, dimension == 3 ? 700.0 : 0};
-        periodic_fill(&s, dimension, 4, SCREE_LAW_HERTZ_MINDLIN, 0);
+        periodic_fill(&s, dimension, 4, HERTZ_MINDLIN, 0);
         double volume = scree_periodic_extent(&s.state), longest = 0;
         // Far apart: nothing but the lattice moves.
         for (size_t k = 0; k < s.state.count; k++) s.state.row[k].radius *= 0.2;
@@ -195,7 +195,7 @@ static double residual(int dimension, const double gradient[9], int scheme, doub
     scree_error error;
     scree_contact_table table = {0};
     scree_energy begin, end;
-    periodic_fill(&s, dimension, 5, SCREE_LAW_HERTZ_MINDLIN, 0.3);
+    periodic_fill(&s, dimension, 5, HERTZ_MINDLIN, 0.3);
     s.model.scheme = scheme;
     s.state.step_size = s.model.step = step;
     // Contacts that exist have no history; the first evaluation gives the elastic energy to begin with.
@@ -243,8 +243,8 @@ static void power_is_volume_times_stress_times_rate(void **unused)
         scree_contact_table table = {0};
         const double flows[2][9] = {{-40, 200, 0, 30, 20}, {-40, 200, -70, 30, 20, 60, -50, 90, 10}};
         const double *gradient = flows[dimension - 2];
-        double before[9], motion[9], now[9], work = 0, size = 0;
-        periodic_fill(&s, dimension, 5, SCREE_LAW_HERTZ_MINDLIN, 0.2);
+        double before[9], moved[9], now[9], work = 0, size = 0;
+        periodic_fill(&s, dimension, 5, HERTZ_MINDLIN, 0.2);
         periodic_run(&s, gradient, 50);
         memcpy(before, scree_cell(&s.state)->virial, sizeof before);
         double booked = s.state.ledger.periodic;
@@ -252,7 +252,7 @@ static void power_is_volume_times_stress_times_rate(void **unused)
             periodic_run(&s, gradient, 1);
             check(scree_contact_table_build(&s.model, &s.state, &s.work, &table, &error), &error);
             scree_stress_from_contacts(&table, -1, now);
-            memset(motion, 0, sizeof motion);
+            memset(moved, 0, sizeof moved);
             for (size_t k = 0; k < s.state.count; k++) {
                 scree_vector velocity, spin, middle;
                 double back[9], matrix[9];
@@ -260,12 +260,12 @@ static void power_is_volume_times_stress_times_rate(void **unused)
                 scree_matrix_unit_plus(-0.5 * s.state.step_size, gradient, matrix);
                 scree_matrix_invert(matrix, back);
                 scree_matrix_apply(back, velocity, middle);
-                for (int i = 0; i < 9; i++) motion[i] += s.state.row[k].mass * middle[i / 3] * middle[i % 3];
+                for (int i = 0; i < 9; i++) moved[i] += s.state.row[k].mass * middle[i / 3] * middle[i % 3];
             }
             double dt = s.state.step_size,
                    contacts = 0.5 * (scree_matrix_contract(before, gradient) + scree_matrix_contract(now, gradient));
-            work -= dt * (contacts + scree_matrix_contract(motion, gradient));
-            size += dt * (fabs(contacts) + fabs(scree_matrix_contract(motion, gradient)));
+            work -= dt * (contacts + scree_matrix_contract(moved, gradient));
+            size += dt * (fabs(contacts) + fabs(scree_matrix_contract(moved, gradient)));
             memcpy(before, now, sizeof before);
         }
         // Round-off of some 1e-13 a term; the table computes forces again, as above.
@@ -284,7 +284,7 @@ static void displacements_go_across_faces(void **unused)
     periodic_sample s;
     const double side = 12e-3, lattice[9] = {side, 0, 0, 0, side, 0, 0, 0, 1}, gradient[9] = {0, 40};
     const double place[3] = {5e-3, 6e-3, 0}, velocity[3] = {0, 3, 0};
-    periodic_create(&s, 2, 1, lattice, SCREE_LAW_HERTZ_MINDLIN);
+    periodic_create(&s, 2, 1, lattice, HERTZ_MINDLIN);
     periodic_place(&s, 0, place, velocity, 1e-3);
     s.state.step_size = 1e-5;
     int steps = 2000;
@@ -311,7 +311,7 @@ static void stresses_are_held(void **unused)
     for (int dimension = 2; dimension <= 3; dimension++) {
         periodic_sample s;
         scree_periodic_drive drive = {.rate = {0}};
-        periodic_fill(&s, dimension, 5, SCREE_LAW_HERTZ_MINDLIN, 0);
+        periodic_fill(&s, dimension, 5, HERTZ_MINDLIN, 0);
         double stress[9], wanted[9] = {-1e6, 5e4, 0, 0, -1.3e6, 0, 0, 0, -1.1e6};
         for (int k = 0; k < 9; k++) drive.stress[k] = NAN;
         for (int i = 0; i < dimension; i++) drive.stress[4 * i] = wanted[4 * i];
@@ -337,7 +337,7 @@ static void lasting_rates_are_not_resisted(void **unused)
     for (int lasting = 0; lasting < 2; lasting++) {
         periodic_sample s;
         scree_periodic_drive drive = {.rate = {0}};
-        periodic_fill(&s, 3, 5, SCREE_LAW_HERTZ_MINDLIN, 0);
+        periodic_fill(&s, 3, 5, HERTZ_MINDLIN, 0);
         scree_periodic_cell *cell = scree_cell(&s.state);
         for (int k = 0; k < 9; k++) drive.stress[k] = k % 4 == 0 ? -1e6 : NAN;
         scree_periodic_fit(&s.model, &s.state, 1e6);
@@ -368,7 +368,7 @@ static void rates_and_stresses_are_mixed(void **unused)
         periodic_sample s;
         scree_periodic_drive drive = {.rate = {0}};
         double stress[9], begin[9], mean[9] = {0}, wanted[9] = {-1e6, 0, 0, 0, -1.2e6, 5e4, 0, 0, -1e6};
-        periodic_fill(&s, dimension, 5, SCREE_LAW_HERTZ_MINDLIN, 0);
+        periodic_fill(&s, dimension, 5, HERTZ_MINDLIN, 0);
         for (int k = 0; k < 9; k++) drive.stress[k] = k % 4 == 0 && k / 4 < dimension ? wanted[k] : NAN;
         scree_periodic_fit(&s.model, &s.state, 1e6);
         for (int step = 0; step < confining; step++) {
@@ -415,7 +415,7 @@ static uint64_t flow_checksum(int dimension, int threads, int discard)
     periodic_sample s;
     scree_error error;
     const double gradient[9] = {-40, 900, 0, 0, 30, 0, 0, dimension == 3 ? 500.0 : 0, 0};
-    periodic_fill(&s, dimension, 5, SCREE_LAW_HERTZ_MINDLIN, 2);
+    periodic_fill(&s, dimension, 5, HERTZ_MINDLIN, 2);
     scree_contact_scratch_destroy(&s.work);
     scree_work_destroy(&s.work);
     check(scree_work_create(&s.work, &s.model, threads, &error), &error);
@@ -448,7 +448,7 @@ static void the_flow_alone_brings_contacts(void **unused)
     for (int dimension = 2; dimension <= 3; dimension++) {
         periodic_sample s;
         const double gradient[9] = {-1000, 0, 0, 0, -1000, 0, 0, 0, dimension == 3 ? -1000 : 0};
-        periodic_fill(&s, dimension, 6, SCREE_LAW_HERTZ_MINDLIN, 0);
+        periodic_fill(&s, dimension, 6, HERTZ_MINDLIN, 0);
         for (size_t k = 0; k < s.state.count; k++) s.state.row[k].radius *= 0.7;
         s.model.radius_max *= 0.7;
         periodic_forces(&s);
@@ -468,7 +468,7 @@ static void narrow_cells_are_refused(void **unused)
     periodic_sample s;
     scree_error error;
     const double lattice[9] = {12e-3, 0, 0, 0, 4.1e-3, 0, 0, 0, 1}, place[3] = {1e-3, 1e-3, 0};
-    periodic_create(&s, 2, 1, lattice, SCREE_LAW_HERTZ_MINDLIN);
+    periodic_create(&s, 2, 1, lattice, HERTZ_MINDLIN);
     periodic_place(&s, 0, place, at_rest, 1e-3);
     assert_int_equal(scree_neighbours_refresh(&s.model, &s.state, &s.work, &error), SCREE_ERROR_GUARD);
     assert_non_null(strstr(error.message, "only 0.0041 m wide"));

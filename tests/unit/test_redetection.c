@@ -86,13 +86,13 @@ static void check_memory(int dimension)
             rule.facet_count = count;
             assert_int_equal(find_facets(&b[(begin + turn) % 2], &rule, found), count);
             // The diagonals of a cell that is drawn apart may turn; the bodies stay.
-            size_t bodies = 0, same = 0;
+            size_t held = 0, same = 0;
             for (uint32_t id = 0; id < b[0].count; id++) {
                 bool now = has_body(found, count * d, id);
-                bodies += now;
+                held += now;
                 same += now == has_body(first, count * d, id);
             }
-            assert_true(bodies > 0);
+            assert_true(held > 0);
             assert_int_equal(same, b[0].count);
         }
     }

@@ -30,12 +30,12 @@ static void turn(const double axis[3], double angle, const double v[3], double t
     for (int k = 0; k < 3; k++) turned[k] = v[k] * c + part[k] * s + axis[k] * along * (1 - c);
 }
 
-static void create_pair(fixture *f, int dimension, scree_law law, double dt)
+static void create_pair(fixture *f, int dimension, law_choice law, double dt)
 {
     fixture_create_in(f, dimension, law, 2, dt);
     sphere_resist_turning(f);
-    f->model.pairs[0][0].friction = f->model.pairs[0][0].rolling_friction = 1e6; // no cap
-    f->model.pairs[0][0].twisting_friction = 1e6;
+    f->model.pairs[0][0].value[SCREE_FRICTION] = f->model.pairs[0][0].value[HERTZ_ROLLING] = 1e6; // no cap
+    f->model.pairs[0][0].value[HERTZ_TWISTING] = 1e6;
     f->state.row[0].radius = R1;
     f->state.row[1].radius = R2;
     for (int k = 0; k < 2; k++) f->state.row[k].mass = fixture_mass(&f->model, 0, f->state.row[k].radius);
@@ -108,7 +108,7 @@ static leftover turn_once(int dimension, int steps, const inner_motion *inner, c
     const double dt = PI2 / RATE / steps, reduced = R1 * R2 / (R1 + R2);
     double rolled = 0, expected[3], torque = 0;
     leftover left = {0};
-    create_pair(&f, dimension, SCREE_LAW_HERTZ_MINDLIN, dt);
+    create_pair(&f, dimension, HERTZ_MINDLIN, dt);
     memcpy(f.work.pairs.history[0].value, spring, 3 * sizeof *spring);
     for (int n = 1; n <= steps; n++) {
         set_step(&f, n, steps, inner);
@@ -147,7 +147,7 @@ static void assert_second_order(const char *what, double coarse, double fine, do
 }
 
 /// Largest slip that the contact table shows during a turn [m/s].
-static double largest_slip(int dimension, scree_law law, int steps)
+static double largest_slip(int dimension, law_choice law, int steps)
 {
     static const inner_motion quiet = {0, 0};
     fixture f;
@@ -172,9 +172,9 @@ static void the_slip_of_a_rigid_turn_is_of_second_order(void **unused)
 {
     (void)unused;
     for (int dimension = 2; dimension <= 3; dimension++)
-        for (int law = SCREE_LAW_HERTZ_BRILLIANTOV; law <= SCREE_LAW_HERTZ_MINDLIN; law++) {
-            double coarse = largest_slip(dimension, (scree_law)law, 500);
-            double fine = largest_slip(dimension, (scree_law)law, 1000), way = RATE * (R1 + R2);
+        for (int law = HERTZ_BRILLIANTOV; law <= HERTZ_MINDLIN; law++) {
+            double coarse = largest_slip(dimension, (law_choice)law, 500);
+            double fine = largest_slip(dimension, (law_choice)law, 1000), way = RATE * (R1 + R2);
             assert_second_order("slip of the table", coarse / way, fine / way, PI2 * PI2 / 1000 / 1000);
         }
 }
@@ -185,8 +185,8 @@ static double roll_on_plate(int dimension, int steps)
     fixture f;
     const double dt = 1e-3 / steps, spin = 400;
     double expected[3] = {0};
-    fixture_create_in(&f, dimension, SCREE_LAW_HERTZ_MINDLIN, 1, dt);
-    f.model.walls[0].friction = 1e6;
+    fixture_create_in(&f, dimension, HERTZ_MINDLIN, 1, dt);
+    f.model.walls[0].value[SCREE_FRICTION] = 1e6;
     scree_plates(&f.state)[SCREE_WALL_BOTTOM] =
         (scree_wall){.normal = {0, 1, 0}, .tangential_velocity = {0.2, 0, 0}, .active = 1};
     fixture_find_walls(&f);
@@ -305,9 +305,9 @@ static double carry(const carried *c, int steps)
     const double duration = 0.05, dt = duration / steps;
     world w = {0};
     scree_config_wall *wall = make_wall(&w, c);
-    world_start(&w, c->dimension, SCREE_LAW_HERTZ_MINDLIN, SCREE_SLOT_position_verlet, 1, dt);
+    world_start(&w, c->dimension, HERTZ_MINDLIN, SCREE_SLOT_position_verlet, 1, dt);
     scree_case_walls(&w.f.state)->moving = 1;
-    w.f.model.walls[0].friction = 1e6; // no cap
+    w.f.model.walls[0].value[SCREE_FRICTION] = 1e6; // no cap
     double largest = 0;
     for (int n = 1; n <= steps; n++) {
         double at[3], normal[3], before[3], now[3], velocity[3], inner[3], spin[3];

@@ -40,7 +40,7 @@ static bench *bench_create(void)
     b->model.thickness = 1;
     b->model.mean_radius = RADIUS;
     b->model.material_count = 1;
-    b->model.pairs[0][0].friction = 0.45;
+    b->model.pairs[0][0].value[SCREE_FRICTION] = 0.45;
     b->table.contact = b->contact;
     assert_int_equal(scree_state_create(&b->state, 3, 225, NULL), SCREE_OK);
     scree_pressure_set(&b->state, PRESSURE);
@@ -154,7 +154,7 @@ static bool is_rattler(double friction, const scree_vector *normal, size_t count
     bench *b = bench_create();
     memset(scree_hull_of(&b->state)->force, 0,
            scree_hull_of(&b->state)->node_count * sizeof *scree_hull_of(&b->state)->force);
-    b->model.pairs[0][0].friction = friction;
+    b->model.pairs[0][0].value[SCREE_FRICTION] = friction;
     scree_coordination before, after;
     // Bodies 1 .. 6 each rest between three pairs of walls; all the rest are rattlers anyway.
     static const scree_vector axes[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};

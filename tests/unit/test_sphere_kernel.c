@@ -19,7 +19,7 @@ static void assert_same(const fixture *a, const fixture *b)
 }
 
 /// Walls on two sides, so that wall contacts are part of every comparison.
-static void create(fixture *f, scree_law law, int materials, bool rolling)
+static void create(fixture *f, law_choice law, int materials, bool rolling)
 {
     sphere_create_assembly(f, law, EDGE, materials, rolling);
     scree_plates(&f->state)[SCREE_WALL_BOTTOM] = (scree_wall){
@@ -29,12 +29,12 @@ static void create(fixture *f, scree_law law, int materials, bool rolling)
     fixture_find_walls(f);
 }
 
-static void compare_with_reference(scree_law law, int materials, bool ledger, bool rolling, bool rescaled)
+static void compare_with_reference(law_choice law, int materials, bool ledger, bool rolling, bool rescaled)
 {
     fixture reference, kernel;
     create(&reference, law, materials, rolling);
     reference.work.ledger = ledger;
-    reference.model.rescaled = rescaled;
+    law_rescale(&reference.model, rescaled);
     reference.work.reference_kernel = true;
     sphere_run(&reference, STEPS);
     assert_true(reference.state.largest_overlap > 0);
@@ -42,7 +42,7 @@ static void compare_with_reference(scree_law law, int materials, bool ledger, bo
     for (int isa = 2; isa <= scree_contact_instruction_set(0); isa++) {
         create(&kernel, law, materials, rolling);
         kernel.work.ledger = ledger;
-        kernel.model.rescaled = rescaled;
+        law_rescale(&kernel.model, rescaled);
         kernel.work.instruction_set = isa;
         sphere_run(&kernel, STEPS);
         assert_same(&reference, &kernel);
@@ -54,14 +54,14 @@ static void compare_with_reference(scree_law law, int materials, bool ledger, bo
 static void kernels_give_the_bits_of_the_reference(void **unused)
 {
     (void)unused;
-    for (int law = SCREE_LAW_HERTZ_BRILLIANTOV; law <= SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT; law++)
+    for (int law = HERTZ_BRILLIANTOV; law <= HERTZ_BRILLIANTOV_IMPLICIT; law++)
         for (int materials = 1; materials <= 2; materials++)
             for (int ledger = 0; ledger <= 1; ledger++)
-                compare_with_reference((scree_law)law, materials, ledger, false, false);
+                compare_with_reference((law_choice)law, materials, ledger, false, false);
     for (int ledger = 0; ledger <= 1; ledger++) {
-        compare_with_reference(SCREE_LAW_HERTZ_MINDLIN, 2, ledger, true, false);
-        compare_with_reference(SCREE_LAW_HERTZ_MINDLIN, 2, ledger, true, true);
-        compare_with_reference(SCREE_LAW_HERTZ_MINDLIN, 1, ledger, false, true);
+        compare_with_reference(HERTZ_MINDLIN, 2, ledger, true, false);
+        compare_with_reference(HERTZ_MINDLIN, 2, ledger, true, true);
+        compare_with_reference(HERTZ_MINDLIN, 1, ledger, false, true);
     }
 }
 
@@ -69,10 +69,10 @@ static void threads_do_not_change_a_bit(void **unused)
 {
     (void)unused;
     fixture one, many;
-    create(&one, SCREE_LAW_HERTZ_MINDLIN, 2, true);
+    create(&one, HERTZ_MINDLIN, 2, true);
     sphere_run(&one, STEPS);
     for (int threads = 2; threads <= 3; threads++) {
-        create(&many, SCREE_LAW_HERTZ_MINDLIN, 2, true);
+        create(&many, HERTZ_MINDLIN, 2, true);
         many.work.threads = threads;
         sphere_run(&many, STEPS);
         assert_same(&one, &many);
@@ -92,8 +92,8 @@ static void order_of_the_list_does_not_change_a_bit(void **unused)
 {
     (void)unused;
     fixture ordered, shuffled;
-    create(&ordered, SCREE_LAW_HERTZ_MINDLIN, 1, true);
-    create(&shuffled, SCREE_LAW_HERTZ_MINDLIN, 1, true);
+    create(&ordered, HERTZ_MINDLIN, 1, true);
+    create(&shuffled, HERTZ_MINDLIN, 1, true);
     scree_pair_list *list = &shuffled.work.pairs;
     for (size_t k = list->count - 1; k > 0; k--) {
         size_t l = (size_t)(fixture_random(1000000 + k) * (double)(k + 1));
@@ -114,7 +114,7 @@ static void momentum_is_conserved_exactly(void **unused)
 {
     (void)unused;
     fixture f;
-    create(&f, SCREE_LAW_HERTZ_MINDLIN, 2, true);
+    create(&f, HERTZ_MINDLIN, 2, true);
     sphere_run(&f, 10);
     int64_t sum[3] = {0}, contacts = 0;
     for (size_t k = 0; k < f.state.count; k++) {
@@ -140,7 +140,7 @@ static void table_says_what_the_sums_hold(void **unused)
     fixture f;
     scree_error error;
     scree_contact_table table = {0};
-    sphere_create_assembly(&f, SCREE_LAW_HERTZ_MINDLIN, EDGE, 2, false);
+    sphere_create_assembly(&f, HERTZ_MINDLIN, EDGE, 2, false);
     sphere_run(&f, 50);
     assert_int_equal(scree_contact_table_build(&f.model, &f.state, &f.work, &table, &error), SCREE_OK);
     assert_true(table.count > f.state.count);
@@ -180,7 +180,7 @@ static void all_rows_of_the_memory_are_saved(void **unused)
     (void)unused;
     fixture f;
     scree_error error;
-    create(&f, SCREE_LAW_HERTZ_MINDLIN, 1, true);
+    create(&f, HERTZ_MINDLIN, 1, true);
     sphere_run(&f, 20);
     assert_int_equal(scree_contacts_save(&f.state, &f.work, &error), SCREE_OK);
     assert_true(f.state.contact_count > f.state.count && f.state.booking && f.state.rolling);
@@ -208,7 +208,7 @@ static void faults_are_flagged(void **unused)
     (void)unused;
     for (int reference = 0; reference <= 1; reference++) {
         fixture f;
-        create(&f, SCREE_LAW_HERTZ_MINDLIN, 1, false);
+        create(&f, HERTZ_MINDLIN, 1, false);
         f.work.reference_kernel = reference;
         sphere_run(&f, 3);
         assert_int_equal(f.work.flags, 0);

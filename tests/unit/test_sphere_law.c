@@ -33,7 +33,7 @@ static void assert_vector(const double value[3], const double expected[3], doubl
 }
 
 /// Two spheres of 1 and 1.3 mm that touch along `direction` with indentation d.
-static void create_pair(fixture *f, scree_law law, double d)
+static void create_pair(fixture *f, law_choice law, double d)
 {
     fixture_create_in(f, 3, law, 2, 1e-7);
     sphere first = {.radius = 1e-3}, second = {.radius = 1.3e-3};
@@ -81,10 +81,10 @@ static geometry geometry_of(const fixture *f)
 static void normal_force_is_hertz(void **unused)
 {
     (void)unused;
-    for (int law = SCREE_LAW_HERTZ_BRILLIANTOV; law <= SCREE_LAW_HERTZ_MINDLIN; law++) {
+    for (int law = HERTZ_BRILLIANTOV; law <= HERTZ_MINDLIN; law++) {
         fixture f;
         double force[3], torque[3], expected[3];
-        create_pair(&f, (scree_law)law, 2e-6);
+        create_pair(&f, (law_choice)law, 2e-6);
         fixture_forces(&f);
         sphere_force(&f, 0, force, torque);
         geometry g = geometry_of(&f);
@@ -104,7 +104,7 @@ static void tangential_spring_is_mindlin(void **unused)
     fixture f;
     double force[3], torque[3], slip[3], expected[3], turning[3];
     const double axis[3] = {3.0 / 7, 6.0 / 7, 2.0 / 7}; // normal to `direction`
-    create_pair(&f, SCREE_LAW_HERTZ_MINDLIN, 2e-6);
+    create_pair(&f, HERTZ_MINDLIN, 2e-6);
     for (int k = 0; k < 3; k++) slip[k] = 1e-2 * axis[k];
     set_slip(&f, slip);
     geometry g = geometry_of(&f);
@@ -129,11 +129,11 @@ static void tangential_spring_is_mindlin(void **unused)
 static void friction_is_capped(void **unused)
 {
     (void)unused;
-    for (int law = SCREE_LAW_HERTZ_BRILLIANTOV; law <= SCREE_LAW_HERTZ_MINDLIN; law++) {
+    for (int law = HERTZ_BRILLIANTOV; law <= HERTZ_MINDLIN; law++) {
         fixture f;
         double force[3], torque[3], velocity[3] = {0.06, 0.12, 0.04}, expected[3];
-        create_pair(&f, (scree_law)law, 2e-6);
-        f.model.inverse_exponent = 0;
+        create_pair(&f, (law_choice)law, 2e-6);
+        law_numbers(&f.model, 2e-6, INFINITY);
         set_slip(&f, velocity);
         for (int n = 0; n < 200; n++) fixture_forces(&f);
         sphere_force(&f, 0, force, torque);
@@ -142,8 +142,7 @@ static void friction_is_capped(void **unused)
         for (int k = 0; k < 3; k++) expected[k] = normal * (direction[k] - 0.5 * velocity[k] / 0.14);
         assert_vector(force, expected, 1e-11);
         const double *h = f.work.pairs.history[0].value;
-        if (law == SCREE_LAW_HERTZ_MINDLIN)
-            assert_true(fabs(5e9 * g.radius * sqrt(dot(h, h)) - 0.5 * normal) < 1e-11 * normal);
+        if (law == HERTZ_MINDLIN) assert_true(fabs(5e9 * g.radius * sqrt(dot(h, h)) - 0.5 * normal) < 1e-11 * normal);
         fixture_destroy(&f);
     }
 }
@@ -156,7 +155,7 @@ static void rolling_and_rigid_rotation_do_not_slip(void **unused)
     double force[3], torque[3], velocity[3], relative[3];
     const double first[3] = {31, -52, 17}, rigid[3] = {120, 45, -80};
     double second[3];
-    create_pair(&f, SCREE_LAW_HERTZ_MINDLIN, 2e-6);
+    create_pair(&f, HERTZ_MINDLIN, 2e-6);
     f.state.step_size = 0; // finite steps: test_rigid_motion.c
     geometry g = geometry_of(&f);
     // rolling: a1 w1 = -a2 w2
@@ -191,8 +190,8 @@ static void rotate(const double axis[3], double angle, const double v[3], double
 static void turn_pair(const double axis[3], int steps)
 {
     fixture f;
-    create_pair(&f, SCREE_LAW_HERTZ_MINDLIN, 2e-6);
-    f.model.pairs[0][0].friction = 1e6;
+    create_pair(&f, HERTZ_MINDLIN, 2e-6);
+    f.model.pairs[0][0].value[SCREE_FRICTION] = 1e6;
     const double rate = 1000, dt = 1 / rate / steps, h[3] = {3e-6, 6e-6, 2e-6};
     double spin[3], expected[3];
     scree_vector start, centre;
@@ -236,10 +235,10 @@ static void rolling_is_resisted(void **unused)
     (void)unused;
     fixture f;
     double force[3], torque[3], other[3], axis[3] = {3.0 / 7, 6.0 / 7, 2.0 / 7}, spin[3], second[3], expected[3];
-    create_pair(&f, SCREE_LAW_HERTZ_MINDLIN, 2e-6);
+    create_pair(&f, HERTZ_MINDLIN, 2e-6);
     fixture_destroy(&f);
     for (int capped = 0; capped <= 1; capped++) {
-        create_pair(&f, SCREE_LAW_HERTZ_MINDLIN, 2e-6);
+        create_pair(&f, HERTZ_MINDLIN, 2e-6);
         sphere_resist_turning(&f);
         scree_error error;
         assert_int_equal(scree_allocate(&f.work.pairs.rolling, f.work.pairs.capacity, sizeof(scree_rolling), &error),
@@ -274,7 +273,7 @@ static void twisting_is_resisted(void **unused)
     fixture f;
     double force[3], torque[3], spin[3], expected[3];
     for (int capped = 0; capped <= 1; capped++) {
-        create_pair(&f, SCREE_LAW_HERTZ_MINDLIN, 2e-6);
+        create_pair(&f, HERTZ_MINDLIN, 2e-6);
         sphere_resist_turning(&f);
         scree_error error;
         assert_int_equal(scree_allocate(&f.work.pairs.rolling, f.work.pairs.capacity, sizeof(scree_rolling), &error),
@@ -299,11 +298,11 @@ static void twisting_is_resisted(void **unused)
 
 /// Two spheres of two materials that touch obliquely, approach, slide, roll and twist. Velocities are multiples of
 /// 2^-3.
-static void create_oblique(fixture *f, scree_law law)
+static void create_oblique(fixture *f, law_choice law)
 {
     fixture_create_in(f, 3, law, 2, 2e-6);
     f->model.material_count = 2;
-    if (law == SCREE_LAW_HERTZ_MINDLIN) sphere_resist_turning(f);
+    if (law == HERTZ_MINDLIN) sphere_resist_turning(f);
     sphere first = {{0.0009765625, 0.00123, 0.00142}, {0.25, -0.5, -0.125}, {50, -30, 80}, 1e-3, 0};
     sphere second = {{-0.000732421875, 0.0004, 0.00027}, {0.75, 0.375, 0.25}, {-20, 10, 40}, 1.3e-3, 1};
     sphere_set(f, 0, &first);
@@ -332,11 +331,11 @@ static result evaluate(fixture *f)
 static void exchanging_the_spheres_changes_nothing(void **unused)
 {
     (void)unused;
-    for (int law = SCREE_LAW_HERTZ_BRILLIANTOV; law <= SCREE_LAW_HERTZ_MINDLIN; law++) {
+    for (int law = HERTZ_BRILLIANTOV; law <= HERTZ_MINDLIN; law++) {
         fixture f;
-        create_oblique(&f, (scree_law)law);
+        create_oblique(&f, (law_choice)law);
         result one = evaluate(&f);
-        create_oblique(&f, (scree_law)law);
+        create_oblique(&f, (law_choice)law);
         f.work.pairs.first[0] = 1, f.work.pairs.second[0] = 0;
         result other = evaluate(&f);
         assert_memory_equal(&one, &other, sizeof one);
@@ -358,7 +357,7 @@ static void turn_everything(fixture *f, double m[3][3])
     }
 }
 
-static void compare_turned(scree_law law, double m[3][3], double tolerance)
+static void compare_turned(law_choice law, double m[3][3], double tolerance)
 {
     fixture f;
     double expected[3];
@@ -382,11 +381,11 @@ static void turning_the_axes_turns_the_forces(void **unused)
     double half[3][3] = {{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}}, quarter[3][3] = {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
     double cyclic[3][3] = {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
     double any[3][3] = {{2.0 / 7, 3.0 / 7, 6.0 / 7}, {3.0 / 7, -6.0 / 7, 2.0 / 7}, {6.0 / 7, 2.0 / 7, -3.0 / 7}};
-    for (int law = SCREE_LAW_HERTZ_BRILLIANTOV; law <= SCREE_LAW_HERTZ_MINDLIN; law++) {
-        compare_turned((scree_law)law, half, 0);
-        compare_turned((scree_law)law, quarter, 0);
-        compare_turned((scree_law)law, cyclic, ROUND_OFF);
-        compare_turned((scree_law)law, any, ROUND_OFF);
+    for (int law = HERTZ_BRILLIANTOV; law <= HERTZ_MINDLIN; law++) {
+        compare_turned((law_choice)law, half, 0);
+        compare_turned((law_choice)law, quarter, 0);
+        compare_turned((law_choice)law, cyclic, ROUND_OFF);
+        compare_turned((law_choice)law, any, ROUND_OFF);
     }
 }
 
@@ -395,9 +394,9 @@ static void a_boost_changes_nothing(void **unused)
 {
     (void)unused;
     fixture f;
-    create_oblique(&f, SCREE_LAW_HERTZ_MINDLIN);
+    create_oblique(&f, HERTZ_MINDLIN);
     result rest = evaluate(&f);
-    create_oblique(&f, SCREE_LAW_HERTZ_MINDLIN);
+    create_oblique(&f, HERTZ_MINDLIN);
     for (int k = 0; k < 2; k++) f.state.row[k].vx += 4, f.state.row[k].vy -= 2, f.state.row[k].vz += 1;
     result moving = evaluate(&f);
     assert_memory_equal(&rest, &moving, sizeof rest);
@@ -412,7 +411,7 @@ static void wall_is_a_body_of_infinite_radius_and_mass(void **unused)
         double force[3], torque[3], expected[3], normal[3] = {0}, slip[3] = {0}, turning[3];
         normal[axis / 2] = axis % 2 ? -1 : 1;
         slip[(axis / 2 + 1) % 3] = 3e-3, slip[(axis / 2 + 2) % 3] = -4e-3;
-        fixture_create_in(&f, 3, SCREE_LAW_HERTZ_MINDLIN, 1, 1e-7);
+        fixture_create_in(&f, 3, HERTZ_MINDLIN, 1, 1e-7);
         scree_wall *wall = &scree_plates(&f.state)[SCREE_WALL_BOTTOM];
         *wall = (scree_wall){.position = 0.1, .velocity = 0.01, .active = 1};
         sphere s = {.radius = 1e-3};
@@ -446,8 +445,8 @@ static void restitution_is_that_of_theory(void **unused)
 {
     (void)unused;
     fixture f;
-    create_pair(&f, SCREE_LAW_HERTZ_MINDLIN, -1e-9);
-    f.model.pairs[0][0].damping = scree_damping_from_restitution(0.6);
+    create_pair(&f, HERTZ_MINDLIN, -1e-9);
+    f.model.pairs[0][0].value[HERTZ_DAMPING] = scree_damping_from_restitution(0.6);
     double velocity[3];
     for (int k = 0; k < 3; k++) velocity[k] = -1.0 * direction[k];
     set_motion(&f, 0, velocity, none);

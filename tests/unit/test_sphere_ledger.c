@@ -4,7 +4,7 @@
 #include "state/plates.h"
 
 /// Five unequal spheres that meet in the middle of a box of six walls, three of which move.
-static void create(fixture *f, scree_law law, bool rolling, double step)
+static void create(fixture *f, law_choice law, bool rolling, double step)
 {
     static const sphere spheres[5] = {
         {{-1.5e-3, 0.1e-3, 0.2e-3}, {3, 0.5, -0.3}, {800, 300, -900}, 0.8e-3, 0},
@@ -66,11 +66,11 @@ static double balance(const fixture *f)
 }
 
 /// Largest imbalance over 2 ms, relative to the turnover.
-static double worst_residual(scree_law law, bool rolling, bool rescaled, int steps)
+static double worst_residual(law_choice law, bool rolling, bool rescaled, int steps)
 {
     fixture f;
     create(&f, law, rolling, 2e-3 / steps);
-    f.model.rescaled = rescaled;
+    law_rescale(&f.model, rescaled);
     fixture_forces(&f);
     double initial = balance(&f), worst = 0;
     for (int k = 0; k < steps; k++) {
@@ -82,14 +82,14 @@ static double worst_residual(scree_law law, bool rolling, bool rescaled, int ste
     // Everything happened: impacts, sliding, springs of changing stiffness, work of the walls.
     assert_true(l->turnover > 0.5 * initial && l->damping > 0.1 * initial && fabs(l->friction) > 1e-3 * initial);
     assert_true(fabs(l->plates) > 1e-3 * initial);
-    assert_true((fabs(l->stiffness) > 1e-3 * initial) == (law == SCREE_LAW_HERTZ_MINDLIN));
+    assert_true((fabs(l->stiffness) > 1e-3 * initial) == (law == HERTZ_MINDLIN));
     worst /= l->turnover;
     fixture_destroy(&f);
     return worst;
 }
 
 /// Halving the step divides the residual by four, within what the few samples of the worst case leave.
-static void check_order(scree_law law, bool rolling, bool rescaled)
+static void check_order(law_choice law, bool rolling, bool rescaled)
 {
     double coarse = worst_residual(law, rolling, rescaled, 20000), fine = worst_residual(law, rolling, rescaled, 80000);
     double finest = worst_residual(law, rolling, rescaled, 320000);
@@ -100,16 +100,16 @@ static void check_order(scree_law law, bool rolling, bool rescaled)
 static void ledger_closes_with_the_square_of_the_step(void **unused)
 {
     (void)unused;
-    check_order(SCREE_LAW_HERTZ_BRILLIANTOV, false, false);
-    check_order(SCREE_LAW_HERTZ_MINDLIN, false, false);
-    check_order(SCREE_LAW_HERTZ_MINDLIN, false, true);
+    check_order(HERTZ_BRILLIANTOV, false, false);
+    check_order(HERTZ_MINDLIN, false, false);
+    check_order(HERTZ_MINDLIN, false, true);
 }
 
 static void ledger_closes_with_rolling_and_twisting(void **unused)
 {
     (void)unused;
-    check_order(SCREE_LAW_HERTZ_MINDLIN, true, false);
-    check_order(SCREE_LAW_HERTZ_MINDLIN, true, true);
+    check_order(HERTZ_MINDLIN, true, false);
+    check_order(HERTZ_MINDLIN, true, true);
 }
 
 int main(void)

@@ -7,7 +7,7 @@
 enum { SIDE = 15, STEPS = 400 };
 
 /// The discs of `plane` as spheres on the plane z = 0.
-static void create_solid(fixture *solid, const fixture *plane, scree_law law)
+static void create_solid(fixture *solid, const fixture *plane, law_choice law)
 {
     fixture_create_in(solid, 3, law, plane->state.count, plane->state.step_size);
     solid->model.material_count = plane->model.material_count;
@@ -81,10 +81,10 @@ static void compare(const fixture *plane, const fixture *solid)
 static void spheres_in_a_plane_are_discs(void **unused)
 {
     (void)unused;
-    for (int law = SCREE_LAW_HERTZ_BRILLIANTOV; law <= SCREE_LAW_HERTZ_MINDLIN; law++) {
+    for (int law = HERTZ_BRILLIANTOV; law <= HERTZ_MINDLIN; law++) {
         fixture plane, solid;
-        fixture_create_assembly(&plane, (scree_law)law, SIDE, 2);
-        create_solid(&solid, &plane, (scree_law)law);
+        fixture_create_assembly(&plane, (law_choice)law, SIDE, 2);
+        create_solid(&solid, &plane, (law_choice)law);
         put_walls(&plane);
         put_walls(&solid);
         fixture_forces(&plane);

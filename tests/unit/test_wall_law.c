@@ -34,7 +34,7 @@ static void put(world *w, const double place[3], const double velocity[3], const
 enum { STEPS = 400, VALUES = 18 };
 
 /// A body is thrown at a wall that moves and drags. Row, force, and load of the wall after every step.
-static void throw(int dimension, scree_law law, bool built_in, double seen[STEPS][VALUES])
+static void throw(int dimension, law_choice law, bool built_in, double seen[STEPS][VALUES])
 {
     const bool solid = dimension == 3;
     const double normal[2][3] = {{0.6, 0.8, 0}, {2.0 / 7, 3.0 / 7, 6.0 / 7}}, *n = normal[solid];
@@ -83,8 +83,7 @@ static void planes_are_built_in_walls(void **unused)
 {
     (void)unused;
     static double one[STEPS][VALUES], other[STEPS][VALUES];
-    static const scree_law laws[3] = {SCREE_LAW_HERTZ_BRILLIANTOV, SCREE_LAW_HERTZ_MINDLIN,
-                                      SCREE_LAW_HERTZ_BRILLIANTOV_IMPLICIT};
+    static const law_choice laws[3] = {HERTZ_BRILLIANTOV, HERTZ_MINDLIN, HERTZ_BRILLIANTOV_IMPLICIT};
     for (int dimension = 2; dimension <= 3; dimension++)
         for (int law = 0; law < 3; law++) {
             double size[VALUES / 3] = {0};
@@ -108,6 +107,7 @@ static void expected_force(const world *w, const double place[3], const double v
 {
     const scree_pair_constants *pair = &w->f.model.walls[0];
     const scree_config_wall *wall = &w->wall[0];
+    const double *number = w->f.model.law.number;
     const double d = R - distance, arm = R - 0.5 * d;
     double lever[3], turning[3], rolling[3], u[3], slip[3], speed = 0;
     double time = (double)scree_case_walls(&w->f.state)->ticks * w->f.state.tick;
@@ -116,11 +116,12 @@ static void expected_force(const world *w, const double place[3], const double v
     for (int k = 0; k < 3; k++) lever[k] = -arm * normal[k];
     scree_cross(spin, lever, rolling);
     for (int k = 0; k < 3; k++) u[k] = velocity[k] - wall->velocity[k] - turning[k];
-    double parting = scree_dot(u, normal), stiffness = pair->normal_stiffness * sqrt(R * d);
+    double parting = scree_dot(u, normal), stiffness = pair->value[HERTZ_NORMAL] * sqrt(R * d);
     for (int k = 0; k < 3; k++) slip[k] = u[k] - parting * normal[k] + rolling[k];
     speed = sqrt(scree_dot(slip, slip));
-    double f = fmax(stiffness * (d - w->f.model.damping_time * parting), 0);
-    double mobilised = pair->friction * pow(speed / w->f.model.reference_velocity, w->f.model.inverse_exponent);
+    double f = fmax(stiffness * (d - number[BRILLIANTOV_TIME] * parting), 0);
+    double mobilised =
+        pair->value[SCREE_FRICTION] * pow(speed / number[BRILLIANTOV_VELOCITY], number[BRILLIANTOV_INVERSE_EXPONENT]);
     for (int k = 0; k < 3; k++) slip[k] *= speed > 0 ? -f * mobilised / speed : 0;
     scree_cross(lever, slip, torque);
     for (int k = 0; k < 3; k++) force[k] = f * normal[k] + slip[k];
@@ -160,12 +161,12 @@ static const double START[3] = {0.003, -0.002, 0.001}, AXIS[3] = {2.0 / 7, 3.0 /
 static const double LENGTH = 0.02;
 
 /// From the half-plane of (along the axis, away from it) at an angle about the axis into space.
-static void lift(double angle, double s, double r, double vector[3])
+static void lift(double angle, double s, double r, double given[3])
 {
     const double across[3] = {3 / sqrt(13), -2 / sqrt(13), 0};
     double third[3];
     scree_cross(AXIS, across, third);
-    for (int k = 0; k < 3; k++) vector[k] = s * AXIS[k] + r * (cos(angle) * across[k] + sin(angle) * third[k]);
+    for (int k = 0; k < 3; k++) given[k] = s * AXIS[k] + r * (cos(angle) * across[k] + sin(angle) * third[k]);
 }
 
 /// Opens a world with a cone that spins about its axis.
@@ -181,7 +182,7 @@ static void make_cone(world *w, double radius_start, double radius_end, scree_si
         wall->end[k] = START[k] + LENGTH * AXIS[k];
         wall->spin[k] = 7 * AXIS[k];
     }
-    world_start(w, 3, SCREE_LAW_HERTZ_BRILLIANTOV, SCREE_SLOT_velocity_verlet, 1, 1e-7);
+    world_start(w, 3, HERTZ_BRILLIANTOV, SCREE_SLOT_velocity_verlet, 1, 1e-7);
     scree_case_walls(&w->f.state)->moving = 1;
 }
 
@@ -257,7 +258,7 @@ static void speeds_are_bounded(void **unused)
         }
         memcpy(wall->spin, spin, sizeof spin);
         memcpy(wall->velocity, velocity, sizeof velocity);
-        world_start(&w, 3, SCREE_LAW_HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-6);
+        world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-6);
         const scree_surface *surface = &w.f.work.container->surface[0];
         double bound = scree_container_speed(w.f.work.container), fastest = 0;
         double time = 1e-4, way = scree_container_way(w.f.work.container, time, 0);
@@ -315,13 +316,13 @@ static void walls_have_their_own_material(void **unused)
         scree_config_wall *plane = world_wall(&w, SCREE_SHAPE_OF_PLANE);
         plane->normal[1] = 1;
         plane->material = own ? name : NULL;
-        world_start(&w, 2, SCREE_LAW_HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-7);
+        world_start(&w, 2, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-7);
         w.f.model.surfaces[0][0] = w.f.model.walls[0];
-        w.f.model.surfaces[0][0].normal_stiffness *= 2;
+        w.f.model.surfaces[0][0].value[HERTZ_NORMAL] *= 2;
         const double place[3] = {0, R - 2e-6, 0}, still[3] = {0};
         put(&w, place, still, still);
         world_forces(&w);
-        const double k = w.f.model.walls[0].normal_stiffness * (own ? 2 : 1);
+        const double k = w.f.model.walls[0].value[HERTZ_NORMAL] * (own ? 2 : 1);
         const double expected = k * sqrt(R) * pow(2e-6, 1.5);
         scree_vector force, torque;
         scree_body_force(&w.f.model, &w.f.state, 0, force, torque);
@@ -346,7 +347,7 @@ static void walls_have_another_side(void **unused)
             for (int i = 0; i < 3; i++) wall->lower[i] = -0.02;
             for (int i = 0; i < 3; i++) wall->upper[i] = 0.02;
             wall->point[2] = wall->end[2] = wall->radius = 0.02;
-            world_start(&w, 3, SCREE_LAW_HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-6);
+            world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-6);
             const scree_container *container = w.f.work.container;
             int touching = 0;
             for (size_t e = 0; e < container->elements; e++) {
@@ -376,7 +377,7 @@ static void rigid_motion_meets_no_resistance(void **unused)
             for (int k = 0; k < 3; k++) wall->lower[k] = -0.01;
             for (int k = 0; k < 3; k++) wall->upper[k] = 0.01;
             memcpy(wall->spin, spin, sizeof spin);
-            world_start(&w, dimension, SCREE_LAW_HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-7);
+            world_start(&w, dimension, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-7);
             sphere_resist_turning(&w.f);
             scree_case_walls(&w.f.state)->moving = 1;
             w.f.state.step_size = 0; // finite steps: test_rigid_motion.c
@@ -411,7 +412,7 @@ static void make_square(world *w, scree_side side)
     wall->centre[0] = 0.002;
     wall->spin[2] = 11;
     wall->velocity[1] = 0.07;
-    world_start(w, 2, SCREE_LAW_HERTZ_BRILLIANTOV, SCREE_SLOT_velocity_verlet, 1, 1e-3);
+    world_start(w, 2, HERTZ_BRILLIANTOV, SCREE_SLOT_velocity_verlet, 1, 1e-3);
     scree_case_walls(&w->f.state)->moving = 1;
 }
 
@@ -462,12 +463,12 @@ static void squares_touch_discs(void **unused)
 static void discs_roll(void **unused)
 {
     (void)unused;
-    for (int law = SCREE_LAW_HERTZ_BRILLIANTOV; law <= SCREE_LAW_HERTZ_MINDLIN; law++) {
+    for (int law = HERTZ_BRILLIANTOV; law <= HERTZ_MINDLIN; law++) {
         const double gravity = 10, angle = 0.3, still[3] = {0};
         const int steps = 20000;
         world w = {0};
         world_wall(&w, SCREE_SHAPE_OF_PLANE)->normal[1] = 1;
-        world_start(&w, 2, (scree_law)law, SCREE_SLOT_velocity_verlet, 1, 2e-6);
+        world_start(&w, 2, (law_choice)law, SCREE_SLOT_velocity_verlet, 1, 2e-6);
         w.f.model.gravity[0] = gravity * sin(angle);
         w.f.model.gravity[1] = -gravity * cos(angle);
         const double place[3] = {0, R - world_rest(&w, R, gravity * cos(angle)), 0};

@@ -58,7 +58,7 @@ static size_t make_box(triangle_corners *triangle, const double low[3], const do
 /// A sphere settles on `wall` from the given place; the wall then bears its weight, and nothing else.
 static void check_rest(world *w, double x, double y, double z, double above)
 {
-    world_start(w, 3, SCREE_LAW_HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 2e-6);
+    world_start(w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 2e-6);
     double weight = fixture_mass(&w->f.model, 0, R) * G, d = world_rest(w, R, G);
     set_gravity(w, 0, 0, -G);
     put(w, x, y, z + above - 0.5 * d);
@@ -129,7 +129,7 @@ static void check_direction(world *w, const double place[3], const double from[3
     put(w, place[0], place[1], place[2]);
     world_forces(w);
     sphere_force(&w->f, 0, force, torque);
-    double expected = w->f.model.walls[0].normal_stiffness * sqrt(R) * pow(R - distance, 1.5);
+    double expected = w->f.model.walls[0].value[HERTZ_NORMAL] * sqrt(R) * pow(R - distance, 1.5);
     assert_int_equal(w->f.state.sum[0].contacts, 1);
     // Indentations are differences of numbers of the size of a centimetre: 1e-16 x 1e-2 / 1e-5, and quanta.
     for (int k = 0; k < 3; k++) assert_near(force[k], expected * direction[k] / distance, 1e-9 * expected);
@@ -138,7 +138,7 @@ static void check_direction(world *w, const double place[3], const double from[3
 /// On a face, an edge and a vertex of a cube: one contact each, with the force from the closest point.
 static void check_cube(world *w)
 {
-    world_start(w, 3, SCREE_LAW_HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-6);
+    world_start(w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-6);
     const double h = 0.01, d = 0.99 * R;
     const double on_face[3] = {0.003, 0.001, h + d}, face[3] = {0.003, 0.001, h};
     check_direction(w, on_face, face);
@@ -185,10 +185,10 @@ static void test_deep_contact(void **state)
     scree_config_wall *wall =
         world_mesh(&w, (const triangle_corners *)triangle, make_floor(triangle, 4, 1.2e-3, 0.0078125));
     char *file = wall->file;
-    world_start(&w, 3, SCREE_LAW_HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-6);
+    world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-6);
     for (uint64_t k = 0; k < 500; k++) {
         double x = 2e-3 * (fixture_random(2 * k) - 0.5), y = 2e-3 * (fixture_random(2 * k + 1) - 0.5), depth = 0.15 * R;
-        double force[3], torque[3], expected = w.f.model.walls[0].normal_stiffness * sqrt(R) * pow(depth, 1.5);
+        double force[3], torque[3], expected = w.f.model.walls[0].value[HERTZ_NORMAL] * sqrt(R) * pow(depth, 1.5);
         w.f.work.valid = false;
         put(&w, x, y, 0.0078125 + R - depth);
         world_forces(&w);
@@ -210,14 +210,14 @@ static void test_concave_corner(void **state)
     static triangle_corners triangle[12];
     const double low[3] = {0, 0, 0}, high[3] = {0.0625, 0.0625, 0.0625};
     (void)world_mesh(&w, (const triangle_corners *)triangle, make_box(triangle, low, high));
-    world_start(&w, 3, SCREE_LAW_HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-7);
+    world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-7);
     double d = 0.99 * R, force[3], torque[3];
     put(&w, d, 0.03, d);
     w.f.state.row[0].vy = 1e-3; // along both faces
     world_begin(&w);
     assert_int_equal(w.f.state.sum[0].contacts, 2);
     sphere_force(&w.f, 0, force, torque);
-    double expected = w.f.model.walls[0].normal_stiffness * sqrt(R) * pow(R - d, 1.5);
+    double expected = w.f.model.walls[0].value[HERTZ_NORMAL] * sqrt(R) * pow(R - d, 1.5);
     assert_near(force[0], expected, 1e-9 * expected);
     assert_near(force[2], expected, 1e-9 * expected);
     int springs = 0;
@@ -234,10 +234,10 @@ static void test_concave_corner(void **state)
 
 /// Trajectory of a sphere on an inclined plane, as a plane or as triangles; friction decides whether it rolls or
 /// slides.
-static void roll(world *w, scree_law law, double friction, int steps, double end[8])
+static void roll(world *w, law_choice law, double friction, int steps, double end[8])
 {
     world_start(w, 3, law, SCREE_SLOT_velocity_verlet, 1, 2e-6);
-    w->f.model.walls[0].friction = friction;
+    w->f.model.walls[0].value[SCREE_FRICTION] = friction;
     set_gravity(w, G * sin(0.3) * cos(0.5), G * sin(0.3) * sin(0.5), -G * cos(0.3));
     put(w, -0.0031, -0.0017, R - world_rest(w, R, G * cos(0.3)));
     world_begin(w);
@@ -254,14 +254,14 @@ static void roll(world *w, scree_law law, double friction, int steps, double end
 
 /// Velocity after a time in which a sphere slid down the plane: friction is mu N (slip / v_R)^(1/c) with
 /// hertz_brilliantov, without the power else; slip' = g sin a - 7/2 friction / m.
-static double slide(const scree_model *model, scree_law law, double friction, double time)
+static double slide(const scree_model *model, law_choice law, double friction, double time)
 {
     const int steps = 10000;
     double slip = 0, velocity = 0;
     for (int k = 0; k < steps; k++) {
-        double power = law == SCREE_LAW_HERTZ_MINDLIN || slip == 0
+        double power = law == HERTZ_MINDLIN || slip == 0
                            ? 1
-                           : pow(slip / model->reference_velocity, model->inverse_exponent);
+                           : pow(slip / model->reference_velocity, model->law.number[BRILLIANTOV_INVERSE_EXPONENT]);
         double held = friction * G * cos(0.3) * power;
         velocity += time / steps * (G * sin(0.3) - held);
         slip += time / steps * (G * sin(0.3) - 3.5 * held);
@@ -278,7 +278,7 @@ static void test_triangulated_plane(void **state)
     const double friction[2] = {0.5, 0.05};
     const int steps = 40000;
     for (int k = 0; k < 4; k++) {
-        scree_law law = k / 2 ? SCREE_LAW_HERTZ_BRILLIANTOV : SCREE_LAW_HERTZ_MINDLIN;
+        law_choice law = k / 2 ? HERTZ_BRILLIANTOV : HERTZ_MINDLIN;
         double plane[8], mesh[8], time = steps * 2e-6;
         world w = {0};
         world_wall(&w, SCREE_SHAPE_OF_PLANE)->normal[2] = 1;
@@ -306,7 +306,7 @@ static void test_oscillation(void **state)
         scree_config_wall *wall = world_wall(&w, SCREE_SHAPE_OF_CYLINDER);
         wall->start[1] = -0.02, wall->end[1] = 0.02, wall->radius = 0.01;
         wall->friction = rolls ? 1 : 0;
-        world_start(&w, 3, SCREE_LAW_HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 2e-6);
+        world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 2e-6);
         set_gravity(&w, 0, 0, -G);
         double length = 0.01 - R + world_rest(&w, R, G), angle = 0.05;
         put(&w, length * sin(angle), 0, -length * cos(angle));
@@ -344,7 +344,7 @@ static void test_moving_wall(void **state)
         wall->velocity[2] = 0.05;
         wall->velocity[0] = 0.02; // drags, too
         char *file = wall->file;
-        world_start(&w, 3, SCREE_LAW_HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 2e-7);
+        world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 2e-7);
         scree_case_walls(&w.f.state)->moving = 1;
         put(&w, 0.001, 0.002, R + 1e-6);
         world_begin(&w);
@@ -373,7 +373,7 @@ static void test_spinning_drum(void **state)
     scree_config_wall *wall = world_wall(&w, SCREE_SHAPE_OF_CYLINDER);
     wall->start[1] = -0.02, wall->end[1] = 0.02, wall->radius = 0.01;
     wall->spin[1] = 3;
-    world_start(&w, 3, SCREE_LAW_HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 2e-7);
+    world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 2e-7);
     scree_case_walls(&w.f.state)->moving = 1;
     put(&w, 0, 0, -0.01 + R - 1e-6);
     world_begin(&w);
@@ -417,7 +417,7 @@ static void test_faceted_drum(void **state)
     scree_config_wall *wall = world_mesh(&w, (const triangle_corners *)triangle, 2 * PIECES);
     char *file = wall->file;
     wall->spin[1] = -5;
-    world_start(&w, 3, SCREE_LAW_HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 2e-6);
+    world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 2e-6);
     set_gravity(&w, 0, 0, -G);
     scree_case_walls(&w.f.state)->moving = 1;
     put(&w, 0, 0.001, -0.01 * cos(M_PI / PIECES) + R - world_rest(&w, R, G));

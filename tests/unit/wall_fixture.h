@@ -40,7 +40,7 @@ static inline scree_config_wall *world_wall(world *w, scree_surface_shape shape)
     return wall;
 }
 
-static inline void world_start(world *w, int dimension, scree_law law, int scheme, size_t count, double step)
+static inline void world_start(world *w, int dimension, law_choice law, int scheme, size_t count, double step)
 {
     scree_error error = {0};
     w->config.walls = w->wall;
@@ -127,7 +127,7 @@ static inline scree_energy world_energy(world *w, size_t *contacts)
 static inline double world_rest(const world *w, double radius, double gravity)
 {
     double weight = fixture_mass(&w->f.model, 0, radius) * gravity;
-    double root = cbrt(weight / (w->f.model.walls[0].normal_stiffness * sqrt(radius)));
+    double root = cbrt(weight / (w->f.model.walls[0].value[HERTZ_NORMAL] * sqrt(radius)));
     return root * root;
 }
 

@@ -1,0 +1,125 @@
+/// Module of law hertz_brilliantov (hertz_brilliantov.h).
+///
+/// Tangent: c_n = T A sqrt(R_eff d), A the normal stiffness; no tangential spring. The friction, mu f (s/v_R)^(1/c), is
+/// bounded and cannot make a run unstable. But slip slower than s = 3 mu f dt/m (equal discs) is not resolved: it turns
+/// its sign every step with about that size, which is of the order of v_R at P's large step of 1e-5 s (P figure 2.4,
+/// scheme I).
+///
+/// Bounds, for an overlap d and a relative velocity u: f_n <= k_n d + T k_n u with k_n = A sqrt(R d), f <= f_n (1 + mu
+/// max(1, (u / v_R)^(1/c))); energies of one contact and step: damping 2 (T k_n u) (u dt), friction f (u dt).
+#include "contact/hertz_brilliantov.h"
+
+#include "case/check.h"
+#include "module/integrator.h"
+#include "module/key_rows.h"
+
+/// The slip that an implicit friction sees holds what one step may change: so many times the largest now.
+static const double FORESEEN = 64;
+
+static const scree_choice friction_updates[] = {
+    {"explicit", SCREE_FRICTION_EXPLICIT, "from the slip of the step before; needs small steps"},
+    {"implicit", SCREE_FRICTION_IMPLICIT,
+     "from the slip that the coming step will have, solved contact by contact; stable at the large step"},
+    {0},
+};
+
+typedef scree_brilliantov_config contact;
+static const scree_key keys[] = {
+    NUMBER(contact, damping_time, "s", .standard = "2 ms", FROM("0 s"), TO("1000 s"), .when = "law=hertz_brilliantov",
+           .meaning = "Time T of the viscous part T K d^0.5 d'."),
+    NUMBER(contact, friction_exponent, "1", .standard = "50", FROM("1"), TO("1e6"), .when = "law=hertz_brilliantov",
+           .meaning = "Exponent c of the regularised friction mu f_n (s/v_R)^(1/c)."),
+    CHOICE(contact, friction_update, friction_updates, .standard = "explicit", .when = "law=hertz_brilliantov",
+           .meaning = "How the stiff friction law is integrated."),
+};
+
+static const contact *own_config(const scree_config_contact *section)
+{
+    return scree_config_own(&scree_module_hertz_brilliantov, "contact", section->own);
+}
+
+static bool is_implicit(const scree_config_contact *section)
+{
+    return own_config(section)->friction_update == SCREE_FRICTION_IMPLICIT;
+}
+
+/// The implicit update reckons with a kick of the size of the last step, and cannot stand steps of two sizes.
+static void rules(scree_reader *reader, const scree_config *config)
+{
+    const scree_config_integrator *integrator = &config->integrator;
+    if (!is_implicit(&config->contact) || integrator->scheme < 0) return;
+    scree_steps (*lengths)(const void *own) = scree_integrator_get(integrator->scheme)->steps;
+    if (lengths && lengths(integrator->own).small > 0)
+        scree_rule_refuse(reader, "integrator.scheme", "position_verlet, velocity_verlet",
+                          "an implicit contact.friction_update needs equal steps, and makes small ones needless: "
+                          "choose another scheme, or small_steps: 0");
+}
+
+static unsigned options(const scree_config_contact *section, const scree_config_material *material)
+{
+    (void)material;
+    return is_implicit(section) ? BRILLIANTOV_IMPLICIT : 0;
+}
+
+static void resolve(const scree_config_contact *section, double reference_velocity, scree_law_use *use)
+{
+    const contact *c = own_config(section);
+    brilliantov_numbers(c->damping_time, c->friction_exponent, reference_velocity, use->number);
+}
+
+static scree_law_bounds bound(const scree_law_use *use, const scree_pair_constants *most, const scree_law_extent *e)
+{
+    double stiffness = most->value[HERTZ_NORMAL] * sqrt(e->radius * e->overlap);
+    double damping = use->number[BRILLIANTOV_TIME] * stiffness * e->speed, normal = stiffness * e->overlap + damping;
+    double slip = use->option & BRILLIANTOV_IMPLICIT ? FORESEEN * e->speed : e->speed;
+    double mobilised =
+        fmax(1.0, pow(slip / use->number[BRILLIANTOV_VELOCITY], use->number[BRILLIANTOV_INVERSE_EXPONENT]));
+    double force = normal * (1 + most->value[SCREE_FRICTION] * mobilised);
+    return (scree_law_bounds){
+        .force = force, .damping = 2 * damping * e->speed * e->step, .friction = force * e->speed * e->step};
+}
+
+static scree_contact_tangent tangent(const scree_law_use *use, const scree_pair_constants *pair,
+                                     double effective_radius, double effective_mass, double force)
+{
+    (void)effective_mass;
+    double secant = pair->value[HERTZ_NORMAL] * sqrt(effective_radius) *
+                    sqrt(scree_elastic_hertz.overlap(pair, effective_radius, force));
+    return (scree_contact_tangent){.normal_stiffness = 1.5 * secant,
+                                   .normal_damping = use->number[BRILLIANTOV_TIME] * secant};
+}
+
+static scree_status impact(const scree_law_use *use, const scree_pair_constants *pair, double effective_radius,
+                           double effective_mass, double speed, scree_impact *impact_, scree_error *error)
+{
+    return scree_impact_viscoelastic(speed, pair->value[HERTZ_NORMAL] * sqrt(effective_radius), effective_mass,
+                                     use->number[BRILLIANTOV_TIME], impact_, error);
+}
+
+static const scree_law law = {
+    .traits = hertz_brilliantov_traits,
+    .elastic = &scree_elastic_hertz,
+    .constant_count = HERTZ_TWISTING + 1,
+    .resistances = 1U << SCREE_FRICTION,
+    .needs_slip_scale = true,
+    .options = options,
+    .resolve = resolve,
+    .constants = scree_hertz_constants,
+    .bound = bound,
+    .tangent = tangent,
+    .impact = impact,
+    .impact_duration = true,
+    .confine_grains = 900,
+};
+
+const scree_module scree_module_hertz_brilliantov = {
+    .name = "hertz_brilliantov",
+    .meaning =
+        "Hertz with the viscous damping of Brilliantov et al. (1996) and friction regularised by the slip speed; no "
+        "history",
+    .choice_of = CHOICE_OF(IS("contact.law")),
+    .keys = (const scree_keys[]){KEYS_OF("contact", keys, contact)},
+    .keys_count = 1,
+    .rules = rules,
+    .law = &law,
+};

@@ -1,0 +1,151 @@
+/// Module of law hertz_mindlin (hertz_mindlin.h).
+///
+/// Damping is that of the smaller restitution of two materials (Tsuji et al. 1992; theory/restitution.h); caps of
+/// rolling and twisting are the smaller ones, as of friction.
+///
+/// Tangent: k_t = 8 Gbar sqrt(R_eff d), c_n = c_t = damping sqrt(m_eff k), k = A sqrt(R_eff d) without the 1.5, A the
+/// normal stiffness. Resistance to rolling adds too little to matter.
+///
+/// Bounds, for an overlap d and a relative velocity u: f_n <= k_n d + eta u, f <= f_n (1 + mu + mu_r + mu_tw), with k_n
+/// = A sqrt(R d), eta = damping sqrt(m k_n). Energies of one contact and step: damping 2 (eta u) (u dt); friction f (u
+/// dt) plus what a tangential spring may hold, S^2 / k_t with S <= mu f_n + eta u, and for rolling alike. A twisting
+/// spring slides at an angle of 2 mu_tw k_n / k_t or so (its cap over its stiffness), so it holds no more than twice
+/// that times mu_tw R_max f_n.
+#include "contact/hertz_mindlin.h"
+
+#include "case/check.h"
+#include "module/key_rows.h"
+
+static const scree_choice tangential_histories[] = {
+    {"displacement", SCREE_TANGENTIAL_DISPLACEMENT,
+     "the tangential displacement stays as it is; cycles of indentation and slip may deliver energy"},
+    {"rescaled", SCREE_TANGENTIAL_RESCALED,
+     "the tangential force stays as it is while the contact stiffens, the displacement while it softens (Thornton et "
+     "al. 2013); no cycle delivers energy"},
+    {0},
+};
+
+typedef scree_mindlin_config contact;
+static const scree_key contact_keys[] = {
+    CHOICE(contact, tangential_history, tangential_histories, .standard = "displacement", .when = "law=hertz_mindlin",
+           .meaning = "What a tangential spring keeps when its stiffness changes with the overlap."),
+};
+
+typedef scree_mindlin_material material;
+static const scree_key material_keys[] = {
+    NUMBER(material, restitution, "1", .standard = "0.2", ABOVE("0"), TO("1"), .when = "contact.law=hertz_mindlin",
+           .meaning = "Coefficient of restitution of a normal impact; sets the damping."),
+    NUMBER(material, rolling_friction, "1", .standard = "0", FROM("0"), TO("10"), .when = "contact.law=hertz_mindlin",
+           .meaning = "Limit of the rolling resistance over the normal force; its torque is that times R_eff."),
+    NUMBER(material, twisting_friction, "1", .standard = "0", FROM("0"), TO("10"), .when = "contact.law=hertz_mindlin",
+           .meaning = "Limit of the torque about the normal over R_eff times the normal force; spheres only."),
+};
+
+static const material *own_material(const scree_config_material *section)
+{
+    return scree_config_own(&scree_module_hertz_mindlin, "materials", section->own);
+}
+
+/// Discs turn about one axis, which no contact twists.
+static void rules(scree_reader *reader, const scree_config *config)
+{
+    for (int64_t i = 0; i < config->material_count && config->dimension == 2; i++) {
+        if (!(own_material(&config->materials[i])->twisting_friction > 0)) continue;
+        char path[SCREE_PATH_BYTES];
+        (void)snprintf(path, sizeof path, "materials.%lld.twisting_friction", (long long)i);
+        scree_rule_refuse(reader, path, "0", "discs do not twist: twisting_friction is for spheres");
+    }
+}
+
+static const char *material_problem(const scree_config_material *section, const char **key)
+{
+    *key = "restitution";
+    if (own_material(section)->restitution > 0) return NULL;
+    return "hertz_mindlin reaches a restitution of zero only with infinite damping; give a value above 0, such as 0.05";
+}
+
+static unsigned options(const scree_config_contact *section, const scree_config_material *of)
+{
+    const contact *c = scree_config_own(&scree_module_hertz_mindlin, "contact", section->own);
+    const material *m = own_material(of);
+    bool rolls = m->rolling_friction > 0 || m->twisting_friction > 0;
+    return (c->tangential_history == SCREE_TANGENTIAL_RESCALED ? MINDLIN_RESCALED : 0) | (rolls ? MINDLIN_ROLLING : 0);
+}
+
+static scree_pair_constants constants(const scree_config_material *a, const scree_config_material *b)
+{
+    scree_pair_constants pair = scree_hertz_constants(a, b);
+    const material *one = own_material(a), *other = own_material(b ? b : a);
+    pair.value[HERTZ_DAMPING] = scree_damping_from_restitution(fmin(one->restitution, other->restitution));
+    pair.value[HERTZ_ROLLING] = fmin(one->rolling_friction, other->rolling_friction);
+    pair.value[HERTZ_TWISTING] = fmin(one->twisting_friction, other->twisting_friction);
+    return pair;
+}
+
+static scree_law_bounds bound(const scree_law_use *use, const scree_pair_constants *most, const scree_law_extent *e)
+{
+    (void)use;
+    const double friction = most->value[SCREE_FRICTION], rolling = most->value[HERTZ_ROLLING],
+                 twisting = most->value[HERTZ_TWISTING], ratio = most->value[HERTZ_RATIO];
+    double stiffness = most->value[HERTZ_NORMAL] * sqrt(e->radius * e->overlap);
+    double damping = most->value[HERTZ_DAMPING] * sqrt(e->mass * stiffness) * e->speed;
+    double normal = stiffness * e->overlap + damping, force = normal * (1 + friction + rolling + twisting);
+    // S^2 / k_t is largest at the largest overlap for its frictional part, and does not depend on it for the viscous
+    // part: (eta u)^2 / k_n = damping^2 m u^2.
+    double slide = (friction + rolling) * (normal + damping), work = force * e->speed * e->step;
+    work += 2 * ratio * (slide * slide / stiffness + damping * damping / stiffness);
+    work += 4 * ratio * twisting * twisting * e->radius * normal;
+    work += force * e->speed * e->step;
+    return (scree_law_bounds){.force = force, .damping = 2 * damping * e->speed * e->step, .friction = work};
+}
+
+static scree_contact_tangent tangent(const scree_law_use *use, const scree_pair_constants *pair,
+                                     double effective_radius, double effective_mass, double force)
+{
+    (void)use;
+    double root = sqrt(effective_radius), depth = sqrt(scree_elastic_hertz.overlap(pair, effective_radius, force));
+    double secant = pair->value[HERTZ_NORMAL] * root * depth,
+           damping = pair->value[HERTZ_DAMPING] * sqrt(effective_mass * secant);
+    return (scree_contact_tangent){.normal_stiffness = 1.5 * secant,
+                                   .normal_damping = damping,
+                                   .tangential_stiffness = pair->value[HERTZ_TANGENTIAL] * root * depth,
+                                   .tangential_damping = damping};
+}
+
+/// The restitution is exact, the duration that of an elastic impact.
+static scree_status impact(const scree_law_use *use, const scree_pair_constants *pair, double effective_radius,
+                           double effective_mass, double speed, scree_impact *impact_, scree_error *error)
+{
+    (void)use;
+    scree_status status = scree_impact_viscoelastic(speed, pair->value[HERTZ_NORMAL] * sqrt(effective_radius),
+                                                    effective_mass, 0, impact_, error);
+    impact_->restitution = scree_restitution_from_damping(pair->value[HERTZ_DAMPING]);
+    return status;
+}
+
+static const scree_law law = {
+    .traits = hertz_mindlin_traits,
+    .elastic = &scree_elastic_hertz,
+    .constant_count = HERTZ_TWISTING + 1,
+    .resistances = 1U << SCREE_FRICTION | 1U << HERTZ_ROLLING | 1U << HERTZ_TWISTING,
+    .material_problem = material_problem,
+    .options = options,
+    .constants = constants,
+    .bound = bound,
+    .tangent = tangent,
+    .impact = impact,
+    .confine_grains = 700,
+    .against_stiffening = "contact.tangential_history=rescaled",
+};
+
+const scree_module scree_module_hertz_mindlin = {
+    .name = "hertz_mindlin",
+    .meaning =
+        "Hertz with the tangential spring of Mindlin (with history), Coulomb limit, damping from the restitution",
+    .choice_of = CHOICE_OF(IS("contact.law")),
+    .keys = (const scree_keys[]){KEYS_OF("contact", contact_keys, contact, .after = "law"),
+                                 KEYS_OF("materials", material_keys, material)},
+    .keys_count = 2,
+    .rules = rules,
+    .law = &law,
+};

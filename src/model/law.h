@@ -1,0 +1,112 @@
+/// The face of a contact law. A law is a header with its always-inline function (contact/law.h), a file with its module
+/// and this descriptor, and a row in module/table.h (its header is included by contact/laws.h); nothing else knows its
+/// name. The model asks it for the constants of two materials and for closed forms, the kernels are specialised by its
+/// traits as constants, and the search keeps the rows that it remembers.
+#ifndef SCREE_MODEL_LAW_H
+#define SCREE_MODEL_LAW_H
+
+#include "case/config.h"
+#include "theory/restitution.h"
+
+enum {
+    SCREE_PAIR_CONSTANTS = 8,
+    SCREE_LAW_NUMBERS = 8,
+    SCREE_FRICTION = 2, ///< which of the constants of a pair is Coulomb's coefficient, in every law
+};
+
+/// Constants of a contact between two materials (or a grain and a wall), symmetric in the two. What they mean is the
+/// law's affair, but for SCREE_FRICTION, which walls, stages and membranes may replace. Kernels load them in halves,
+/// the second one where the law's traits say so.
+typedef struct scree_pair_constants {
+    double value[SCREE_PAIR_CONSTANTS];
+} scree_pair_constants;
+
+/// A law as a case uses it.
+typedef struct scree_law_use {
+    int law;                          ///< slot of its module
+    unsigned option;                  ///< bits whose meaning the law declares; kernels are specialised by them
+    double number[SCREE_LAW_NUMBERS]; ///< of the whole run; their meaning is the law's affair, too
+} scree_law_use;
+
+/// What the rest of the program must know of a law under one of its options. All of it is constant in the kernels.
+typedef struct scree_law_traits {
+    bool remembers;              ///< history rows live from step to step; else the ledger alone needs them
+    unsigned char for_ledger[2]; ///< in 2D, 3D: bits of the values of the history that nothing but the ledger reads
+    bool books[2];               ///< in 2D, 3D: booking rows beside the history, for the ledger
+    bool displacement;           ///< the history begins with a displacement in the tangent plane (else with a force)
+    bool rolling;                ///< passes couples on: rolling rows, the second half of the constants
+    bool looks_ahead;            ///< needs motion_foresee
+    bool pulls;                  ///< the normal force may be negative
+} scree_law_traits;
+
+/// The elastic part of the normal force of two bodies of an effective radius [m]: closed forms of a static or undamped
+/// contact.
+typedef struct scree_elastic {
+    double (*force)(const scree_pair_constants *pair, double effective_radius, double overlap);     ///< N, of m
+    double (*overlap)(const scree_pair_constants *pair, double effective_radius, double force);     ///< m, of N
+    double (*energy)(const scree_pair_constants *pair, double effective_radius, double overlap);    ///< J, of m
+    double (*stiffness)(const scree_pair_constants *pair, double effective_radius, double pressure, ///< N/m, under the
+                        double diameter, double depth); ///< force of all three
+    double (*impact_force)(const scree_pair_constants *pair, double effective_radius, double effective_mass,
+                           double speed); ///< N, the largest
+    double (*impact_length)(const scree_pair_constants *pair, double effective_radius, double effective_mass,
+                            double speed); ///< m, by which lengths of the impact can be scaled
+} scree_elastic;
+
+/// Stiffness [N/m] and viscosity [N s/m] of a contact under small changes of its overlap and its slip.
+typedef struct scree_contact_tangent {
+    double normal_stiffness, normal_damping;
+    double tangential_stiffness, tangential_damping;
+} scree_contact_tangent;
+
+/// Extremes of what may meet in the next evaluation.
+typedef struct scree_law_extent {
+    double speed;   ///< m/s, relative
+    double overlap; ///< m
+    double radius;  ///< m
+    double mass;    ///< kg
+    double step;    ///< s
+} scree_law_extent;
+
+/// Bounds of what one contact can contribute in one evaluation.
+typedef struct scree_law_bounds {
+    double force;    ///< N
+    double damping;  ///< J, dissipated by damping
+    double friction; ///< J, the same for friction and for the stiffness channel
+} scree_law_bounds;
+
+typedef struct scree_law {
+    const scree_law_traits *traits; ///< one for each value of `option`
+    const scree_elastic *elastic;
+    int constant_count;    ///< constants of a pair that enter the state checksum
+    unsigned resistances;  ///< bits of the constants that vanish with the friction of a body
+    bool needs_slip_scale; ///< does not work without model->reference_velocity
+    /// What is wrong with a material under this law: a message, and in `key` which; NULL: nothing.
+    const char *(*material_problem)(const scree_config_material *material, const char **key);
+    /// Options that the case, or one of the materials in use, asks for.
+    unsigned (*options)(const scree_config_contact *contact, const scree_config_material *material);
+    /// Numbers of the whole run. reference_velocity [m/s]: v_R. NULL: none.
+    void (*resolve)(const scree_config_contact *contact, double reference_velocity, scree_law_use *use);
+    /// Constants of two materials; b is NULL for something rigid.
+    scree_pair_constants (*constants)(const scree_config_material *a, const scree_config_material *b);
+    /// Strict bounds; most: the largest of each constant over all pairs.
+    scree_law_bounds (*bound)(const scree_law_use *use, const scree_pair_constants *most,
+                              const scree_law_extent *extent);
+    /// Tangent at a static normal force [N].
+    scree_contact_tangent (*tangent)(const scree_law_use *use, const scree_pair_constants *pair,
+                                     double effective_radius, double effective_mass, double force);
+    /// Theory of a central impact.
+    scree_status (*impact)(const scree_law_use *use, const scree_pair_constants *pair, double effective_radius,
+                           double effective_mass, double speed, scree_impact *impact, scree_error *error);
+    bool impact_duration;           ///< its duration is this law's; else that of the same impact without damping
+    double confine_grains;          ///< duration of a confinement, see run/stage_confine.c
+    const char *against_stiffening; ///< key=value that keeps springs from energy that nobody spent; NULL: none does
+} scree_law;
+
+/// That of a module's slot.
+static inline const scree_law *scree_law_get(int slot)
+{
+    return scree_modules[slot]->law;
+}
+
+#endif

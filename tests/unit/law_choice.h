@@ -1,0 +1,43 @@
+/// Laws of contacts as tests choose them: each with its usual option.
+#ifndef SCREE_TESTS_LAW_CHOICE_H
+#define SCREE_TESTS_LAW_CHOICE_H
+
+#include "contact/laws.h"
+
+typedef enum law_choice { HERTZ_BRILLIANTOV, HERTZ_MINDLIN, HERTZ_BRILLIANTOV_IMPLICIT } law_choice;
+
+/// Slot of its module.
+static inline int law_slot(law_choice law)
+{
+    return law == HERTZ_MINDLIN ? SCREE_SLOT_hertz_mindlin : SCREE_SLOT_hertz_brilliantov;
+}
+
+/// Numbers of hertz_brilliantov: T [s], c, and v_R of the model; options stay.
+static inline void law_numbers(scree_model *model, double damping_time, double friction_exponent)
+{
+    brilliantov_numbers(damping_time, friction_exponent, model->reference_velocity, model->law.number);
+}
+
+/// For a model that was not built from a case; its v_R is set.
+static inline void law_choose(scree_model *model, law_choice law)
+{
+    model->law = (scree_law_use){.law = law_slot(law)};
+    if (law == HERTZ_BRILLIANTOV_IMPLICIT) model->law.option = BRILLIANTOV_IMPLICIT;
+    law_numbers(model, 2e-6, 50);
+}
+
+static inline void law_rescale(scree_model *model, bool rescaled)
+{
+    if (rescaled) model->law.option |= MINDLIN_RESCALED;
+}
+
+static inline scree_pair_constants hertz_pair(double normal, double tangential, double friction, double damping)
+{
+    return (scree_pair_constants){{[HERTZ_NORMAL] = normal,
+                                   [HERTZ_TANGENTIAL] = tangential,
+                                   [SCREE_FRICTION] = friction,
+                                   [HERTZ_DAMPING] = damping,
+                                   [HERTZ_RATIO] = normal / tangential}};
+}
+
+#endif
