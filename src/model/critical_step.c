@@ -42,8 +42,8 @@
 ///
 /// Several materials: the least over all pairs of them. Contacts of two materials stand between the smallest bodies of
 /// each, and all bodies of the lattice have the smaller of the two masses: lighter than they are, so that the step is
-/// too small rather than too large. In a mixture the row of a body in M^-1 K has contacts of several pairs; the stiffest
-/// of them all around bound it (Gershgorin). The weight is that of the denser one.
+/// too small rather than too large. In a mixture the row of a body in M^-1 K has contacts of several pairs; the
+/// stiffest of them all around bound it (Gershgorin). The weight is that of the denser one.
 ///
 /// Limits: an estimate. Stresses far above the confining pressure and collapses at high speed are not seen; the guard
 /// on the energy ledger is.
