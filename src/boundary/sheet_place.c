@@ -131,6 +131,7 @@ static void place_bodies(const scree_model *model, scree_state *state, double (*
                                           .radius = radius,
                                           .mass = scree_model_mass(model, model->membrane_material, radius)};
             state->turn[row] = (scree_turn_row){.material = model->membrane_material};
+            state->species[row] = SCREE_NO_SPECIES;
             scree_body_place(state, row, state->reference[row]);
         }
         if (pass == 0) level_out(depth, around, count, 2 * SLOPE * radius);

@@ -150,9 +150,9 @@ static double energy_of_rounding(const scree_model *model, const scree_state *st
 {
     double distance = ROUNDING * DBL_EPSILON * largest;
     double weight = body[MASS] * scree_length(model->gravity), bodies = (double)state->count;
-    const scree_pair_constants *pair = &model->pairs[SCREE_PARTICLE_MATERIAL][SCREE_PARTICLE_MATERIAL];
+    const scree_pair_constants pair = scree_model_mean_pair(model);
     return distance * (contact_force + weight) +
-           bodies * scree_model_law(model)->elastic->energy(pair, model->mean_radius, distance) +
+           bodies * scree_model_law(model)->elastic->energy(&pair, model->mean_radius, distance) +
            0.5 * DBL_EPSILON * bodies * body[MAGNITUDES];
 }
 

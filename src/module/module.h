@@ -31,6 +31,7 @@ struct scree_module {
     const struct scree_law *law;                 ///< model/law.h
     const struct scree_integrator *integrator;   ///< module/integrator.h
     const struct scree_preparation *preparation; ///< module/preparation.h
+    const struct scree_size_distribution *sizes; ///< module/size_distribution.h
     const struct scree_stage_numbers *numbers;   ///< module/stage.h
     const struct scree_stage *stage;             ///< run/stage.h
 
@@ -55,7 +56,8 @@ struct scree_module {
     /// Largest force that its loads may put on one body in this step [N], for the quanta; up to 2^10 times more is
     /// safe. NULL: none.
     double (*bound)(const scree_context *context);
-    /// Work [J] that it has done on the bodies since the begin of the run. NULL: it does none, or has a row of the ledger.
+    /// Work [J] that it has done on the bodies since the begin of the run. NULL: it does none, or has a row of the
+    /// ledger.
     double (*work)(const scree_state *state);
 };
 

@@ -133,10 +133,10 @@ static void close_cell(const scree_model *model, unsigned periodic, scree_state 
 /// Everything comes closer by the overlap [mean diameters] of a contact under `pressure`.
 static void press(const scree_model *model, scree_state *state, double pressure)
 {
-    const int material = SCREE_PARTICLE_MATERIAL;
     double diameter = 2 * model->mean_radius, width = model->dimension == 3 ? diameter : model->thickness;
-    double overlap = scree_model_law(model)->elastic->overlap(&model->pairs[material][material],
-                                                              0.5 * model->mean_radius, pressure * diameter * width);
+    const scree_pair_constants pair = scree_model_mean_pair(model);
+    double overlap =
+        scree_model_law(model)->elastic->overlap(&pair, 0.5 * model->mean_radius, pressure * diameter * width);
     double scale = 1 - fmin(overlap / diameter, 0.05);
     for (size_t row = 0; row < state->count; row++) {
         state->row[row].x *= scale;

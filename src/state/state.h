@@ -80,6 +80,9 @@ typedef struct scree_torque_row {
     int64_t unused; ///< zero; keeps the row at 32 bytes, which kernels move at once
 } scree_torque_row;
 
+/// In the place of a species: a body of a membrane.
+#define SCREE_NO_SPECIES UINT8_MAX
+
 /// A vector of cold data; z is zero in 2D.
 typedef double scree_vector[3];
 
@@ -173,6 +176,7 @@ struct scree_state {
     // cold
     uint32_t *id;                   ///< count
     uint8_t *mark;                  ///< count, scree_mark
+    uint8_t *species;               ///< count; SCREE_NO_SPECIES: no particle
     double *angle;                  ///< 2D: rad, orientation; NULL in 3D
     scree_vector *reference;        ///< m, positions at the start of the loading stage
     scree_vector *sampled_velocity; ///< m/s, at `sampled_step`: the mean unbalanced force is from them
