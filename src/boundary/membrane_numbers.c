@@ -1,5 +1,6 @@
-/// What a membrane's keys become. It is made of the particles' material without friction, as one more material. Its
-/// springs must not swing faster than the step can follow, and in 3D no grain may slip through.
+/// What a membrane's keys become. It is made of the material of the particles (of the first species) without friction,
+/// as one more material. Its springs must not swing faster than the step can follow, and in 3D no grain may slip
+/// through.
 #include "boundary/membrane.h"
 
 #include <math.h>
@@ -66,7 +67,7 @@ scree_status scree_membrane_resolve(scree_model *model, scree_error *error)
         return FIELD_ERROR(error, "materials", "a case with a membrane has at most %d materials",
                            SCREE_MAX_MATERIALS - 1);
     model->membrane_material = model->material_count;
-    copy_material(model, SCREE_PARTICLE_MATERIAL, model->membrane_material);
+    copy_material(model, model->species[0].material, model->membrane_material);
     scree_model_make_membrane_frictionless(model);
     resolve_radius(model);
     double limit = resolve_springs(model), step = (double)model->large_multiple * model->step;

@@ -6,6 +6,8 @@
 #include "case/schema_walls.h"
 #include "module/key_rows.h"
 
+#include <math.h>
+
 // ---- choices -----------------------------------------------------------------------------------------------------
 
 static const scree_choice shapes[] = {
@@ -13,12 +15,13 @@ static const scree_choice shapes[] = {
     {"sphere", SCREE_SHAPE_SPHERE, "in three dimensions"},
     {0},
 };
-static const scree_choice distributions[] = {
-    {"uniform", SCREE_SIZE_UNIFORM, "every radius between the smallest and the largest is equally likely"},
-    {"two_sizes", SCREE_SIZE_TWO_SIZES, "the smallest and the largest radius, in equal numbers"},
-    {"equal", SCREE_SIZE_EQUAL, "one radius for all"},
+static const scree_choice share_kinds[] = {
+    {"number", SCREE_SHARE_BY_NUMBER, "`share` is of the number of particles"},
+    {"mass", SCREE_SHARE_BY_MASS, "`share` is of the mass of the particles"},
+    {"count", SCREE_SHARE_BY_COUNT, "each species has its `count`"},
     {0},
 };
+static const scree_choice listed[] = {{"given", 1, "the list has elements"}, {0}};
 static const scree_choice periodics[] = {
     {"no", SCREE_PERIODIC_NONE, "not periodic: plates and what `lateral` says"},
     {"x", SCREE_PERIODIC_X, "2D: periodic in x, between plates below and above"},
@@ -47,26 +50,39 @@ static const scree_key material_keys[] = {
         .meaning = "What plates and walls that it touches are made of: a material, or `rigid`; auto: the same as it."),
 };
 
+typedef scree_config_species species;
+static const scree_key species_keys[] = {
+    KEY(species, name, SCREE_KEY_WORD, FROM("1"), TO("63"), .meaning = "Name, unique among the species."),
+    KEY(species, material, SCREE_KEY_WORD, FROM("1"), TO("63"), .meaning = "Name of one of the materials."),
+    NUMBER(species, share, "1", ABOVE("0"), TO("100 %"), .when = "particles.share_by=number|mass",
+           .meaning = "Share of all particles; those of all species add up to 100 %."),
+    INTEGER(species, count, FROM("1"), TO("1e8"), .when = "particles.share_by=count",
+            .meaning = "Number of particles; those of all species add up to particles.count."),
+    CHOICE(species, distribution, NULL, .standard = "uniform", .meaning = "Distribution of the radii."),
+    MODULE_KEYS,
+};
+static const species unknown_species = {.share = NAN, .distribution = SCREE_CHOICE_WRONG};
+static const scree_section species_table[] = {
+    OPEN_TABLE("species", "Particles of one kind.", species_keys, scree_config_species)};
+
 typedef scree_config_particles particles;
 static const scree_key particles_keys[] = {
     CHOICE(particles, shape, shapes, .standard = "disc", .meaning = "Shape of the particles."),
-    KEY(particles, material, SCREE_KEY_WORD, FROM("1"), TO("63"), .meaning = "Name of one of the materials."),
+    KEY(particles, material, SCREE_KEY_WORD, FROM("1"), TO("63"), .when = "species=[]",
+        .meaning = "Name of one of the materials."),
     INTEGER(particles, count, FROM("1"), TO("1e8"), .meaning = "Number of particles."),
-    CHOICE(particles, distribution, distributions, .standard = "uniform", .meaning = "Distribution of the radii."),
-    {.name = "radius",
-     .type = SCREE_KEY_NUMBER,
-     .unit = "m",
-     FROM("1 nm"),
-     TO("100 m"),
-     .when = "distribution=equal",
-     .offset = offsetof(particles, radius_min),
-     .meaning = "Radius of all particles."},
-    NUMBER(particles, radius_min, "m", FROM("1 nm"), TO("100 m"), .when = "distribution=uniform|two_sizes",
-           .meaning = "Smallest radius."),
-    NUMBER(particles, radius_max, "m", FROM("1 nm"), TO("100 m"), .when = "distribution=uniform|two_sizes",
-           .meaning = "Largest radius."),
+    CHOICE(particles, distribution, NULL, .standard = "uniform", .when = "species=[]",
+           .meaning = "Distribution of the radii."),
+    MODULE_KEYS,
     NUMBER(particles, thickness, "m", .standard = "auto", FROM("1 nm"), TO("1 km"), .when = "shape=disc",
            .meaning = "Length of a disc along its axis; auto: twice the mean radius."),
+    CHOICE(particles, share_by, share_kinds, .standard = "number", .when = "species=given",
+           .meaning = "What the shares of the species are of."),
+    KEY(particles, species, SCREE_KEY_LIST, .standard = "[]", FROM("0"), TO("16"), .sections = species_table,
+        .section_count = 1, .count_offset = offsetof(particles, species_count), .element_size = sizeof(species),
+        .initial = &unknown_species, .choices = listed,
+        .meaning = "Particles of several kinds, each with its own material and sizes, at random places among each "
+                   "other."),
 };
 
 typedef scree_config_contact contact;
@@ -172,7 +188,8 @@ static const scree_key guard_keys[] = {
 
 static const scree_section material_table[] = {
     OPEN_TABLE("materials", "What particles and plates are made of.", material_keys, scree_config_material)};
-static const scree_section particles_table[] = {TABLE("particles", "Shape, number and sizes.", particles_keys)};
+static const scree_section particles_table[] = {
+    OPEN_TABLE("particles", "Shape, number and sizes.", particles_keys, particles)};
 static const scree_section contact_table[] = {
     OPEN_TABLE("contact", "Forces between touching particles.", contact_keys, contact)};
 static const scree_section integrator_table[] = {

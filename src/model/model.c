@@ -31,7 +31,7 @@ static scree_status indexed_error(scree_error *error, const char *list, int64_t 
 
 int scree_model_material(const scree_model *model, const char *name)
 {
-    if (!name) return SCREE_PARTICLE_MATERIAL;
+    if (!name) return model->species[0].material;
     for (int i = 0; i < model->material_count; i++)
         if (strcmp(model->config->materials[model->listed[i]].name, name) == 0) return i;
     return -1;
@@ -59,11 +59,13 @@ static scree_status check_materials(const scree_model *model, scree_error *error
     return SCREE_OK;
 }
 
-/// Materials in the order of their use: that of the particles, others that something is made of, and the rest, which
-/// has constants but counts in nothing.
+/// Materials in the order of their use: that of the particles (of the first species), others that something is made of,
+/// and the rest, which has constants but counts in nothing.
 static int rank_of(const scree_config *config, const scree_config_material *material)
 {
-    if (strcmp(material->name, config->particles.material) == 0) return 0;
+    const scree_config_particles *particles = &config->particles;
+    for (int64_t s = 0; s < scree_config_species_count(particles); s++)
+        if (strcmp(material->name, scree_config_species_at(particles, s).material) == 0) return s > 0;
     const scree_preparation *method = scree_config_preparation(config);
     return method && method->uses && method->uses(scree_config_prepare(config), material->name) ? 1 : 2;
 }
@@ -140,35 +142,43 @@ static scree_status resolve_materials(scree_model *model, scree_error *error)
     return resolve_walls(model, error);
 }
 
-static scree_status resolve_particles(scree_model *model, scree_error *error)
+/// Every species is made of something.
+static scree_status check_species(const scree_model *model, scree_error *error)
 {
-    const scree_config_particles *particles = &model->config->particles;
-    if (model->material_count == 0) {
+    const scree_config *config = model->config;
+    const scree_config_particles *particles = &config->particles;
+    for (int64_t s = 0; s < scree_config_species_count(particles); s++) {
+        const char *material = scree_config_species_at(particles, s).material;
+        if (find_material(config, material) >= 0) continue;
+        if (particles->species_count > 0)
+            return indexed_error(error, "particles.species", s, "material", "there is no such material in this case");
         scree_status status =
-            FIELD_ERROR(error, "particles.material", "there is no material '%s' in this case", particles->material);
-        for (int i = 0; error && i < model->config->material_count; i++) {
+            FIELD_ERROR(error, "particles.material", "there is no material '%s' in this case", material);
+        for (int i = 0; error && i < config->material_count; i++) {
             size_t used = strlen(error->accepted);
             (void)snprintf(error->accepted + used, sizeof error->accepted - used, "%s%s", i ? ", " : "",
-                           model->config->materials[i].name);
+                           config->materials[i].name);
         }
         return status;
     }
-    if (particles->radius_min > particles->radius_max)
-        return FIELD_ERROR(error, "particles.radius_min", "radius_min (%g m) is above radius_max (%g m)",
-                           particles->radius_min, particles->radius_max);
-    model->mean_radius = (particles->radius_min + particles->radius_max) / 2;
-    bool equal = particles->distribution == SCREE_SIZE_EQUAL;
-    model->radius_min = equal ? model->mean_radius : particles->radius_min;
-    model->radius_max = equal ? model->mean_radius : particles->radius_max;
-    model->thickness = isnan(particles->thickness) ? 2 * model->mean_radius : particles->thickness;
+    return SCREE_OK;
+}
+
+static scree_status resolve_particles(scree_model *model, scree_error *error)
+{
+    scree_status status = check_species(model, error);
+    if (!status) status = scree_model_resolve_species(model, error);
+    if (status) return status;
+    double thickness = model->config->particles.thickness;
+    model->thickness = isnan(thickness) ? 2 * model->mean_radius : thickness;
     if (model->dimension == 3) model->thickness = 1;
     return SCREE_OK;
 }
 
 double scree_model_stiffness(const scree_model *model, double pressure, double diameter, double depth)
 {
-    const scree_pair_constants *pair = &model->pairs[SCREE_PARTICLE_MATERIAL][SCREE_PARTICLE_MATERIAL];
-    return scree_model_law(model)->elastic->stiffness(pair, 0.5 * model->mean_radius, pressure, diameter, depth);
+    const scree_pair_constants pair = scree_model_mean_pair(model);
+    return scree_model_law(model)->elastic->stiffness(&pair, 0.5 * model->mean_radius, pressure, diameter, depth);
 }
 
 double scree_model_largest_radius(const scree_model *model)
@@ -225,17 +235,6 @@ static scree_status check_prepare(const scree_model *model, int64_t index, scree
         return indexed_error(error, "stages", index, shallow ? "depth" : "width", text);
     }
     return SCREE_OK;
-}
-
-// Two sizes are equally frequent.
-double scree_model_mean_mass(const scree_model *model)
-{
-    int material = SCREE_PARTICLE_MATERIAL;
-    double a = model->radius_min, b = model->radius_max;
-    double at_ends = (scree_model_mass(model, material, a) + scree_model_mass(model, material, b)) / 2;
-    if (model->config->particles.distribution != SCREE_SIZE_UNIFORM) return at_ends;
-    // Simpson's rule is exact for the square and the cube.
-    return at_ends / 3 + scree_model_mass(model, material, (a + b) / 2) * 2 / 3;
 }
 
 double scree_held_pressure(const scree_config_stage *stage)

@@ -45,8 +45,8 @@ static contact_totals evaluate(fixture *f, const variant *v, contact_kernel *ker
 static void create(fixture *f, const variant *v)
 {
     const law_choice law = v->law == SCREE_SLOT_hertz_mindlin ? HERTZ_MINDLIN
-                           : v->option == 0            ? HERTZ_BRILLIANTOV
-                                                       : HERTZ_BRILLIANTOV_IMPLICIT;
+                           : v->option == 0                   ? HERTZ_BRILLIANTOV
+                                                              : HERTZ_BRILLIANTOV_IMPLICIT;
     if (v->dimension == 3)
         sphere_create_assembly(f, law, EDGE, v->many_materials ? 2 : 1, law_rolls(*v));
     else
