@@ -10,7 +10,7 @@ typedef struct scree_membrane_config {
     double membrane_radius;    ///< m, of its bodies; auto: 1.25 mean radii of the grains, 3D: 0.75
 } scree_membrane_config;
 
-/// State of the module. Its bodies have the mark SCREE_MARK_MEMBRANE and ids one after the other from
+/// State of the module `membrane`. Its bodies have the mark SCREE_MARK_MEMBRANE and ids one after the other from
 /// first_id on; none of them can be taken out. count = 0: there is no membrane. 2D: two chains of discs, the right side
 /// from bottom to top, then the left side from top to bottom. 3D: a triangulated tube of spheres (boundary/sheet.h),
 /// ring by ring from bottom to top.
