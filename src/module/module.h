@@ -43,6 +43,10 @@ struct scree_module {
     scree_status (*check)(const scree_state *state, const scree_model *model, scree_error *error);
     /// Continues the state checksum with what physics depends on (docs/architecture.md). NULL: nothing.
     uint64_t (*checksum)(const scree_model *model, const scree_state *state, uint64_t checksum);
+    /// Why this body may not be taken out; NULL: it may. NULL: all may.
+    const char *(*keeps)(const scree_state *state, uint32_t id);
+    /// A body is about to be taken out: what refers to it by its id ends. Its row is still there. NULL: nothing does.
+    void (*forget)(scree_state *state, uint32_t id);
 
     // ---- passes: what it does in a step ----
     const scree_pass *passes;

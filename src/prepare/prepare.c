@@ -3,6 +3,7 @@
 /// Positions and radii are pure functions of (case, seed), by arithmetic that is exact to the same bit on every
 /// machine.
 #include "prepare/methods.h"
+#include "state/body.h"
 #include "state/plates.h"
 
 #include "state/periodic.h"

@@ -250,7 +250,7 @@ scree_status scree_probe_measure(const scree_case *c, int64_t stage, scree_probe
     double begin = processor_time();
     status = stand(&small, stage, error);
     probe->preparation = processor_time() - begin;
-    probe->count = (double)small.s.state.grains;
+    probe->count = (double)scree_grain_count(&small.s.state);
     double (*expected)(const scree_simulation *s) = scree_modules[c->config.stages[stage].kind]->stage->expected;
     if (!status && expected) probe->collision = expected(&small.s);
     if (!status) status = time_all(&small, probe, error);
