@@ -44,6 +44,7 @@ static void mark_section(const scree_section *section, const part *p, bool used[
     for (size_t i = 0; i < section->count; i++) {
         const scree_key *key = &section->keys[i];
         if (scree_key_usage(p->root, section, p->mapping, key).use != SCREE_USED) continue;
+        if (!scree_key_block(key, p->base)) continue; // the section could not be read, and that has been noted
         part inner = {p->root, scree_node_find(p->mapping, key->name), scree_key_member(key, p->base)};
         const scree_module *module = key->type == SCREE_KEY_CHOICE ? chosen_module(key, p) : NULL;
         for (size_t m = 0; module && m < SCREE_MODULE_COUNT; m++) used[m] = used[m] || scree_modules[m] == module;

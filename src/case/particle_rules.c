@@ -70,6 +70,7 @@ static void check_sizes(scree_reader *reader, const scree_config *config, int64_
     const scree_config_particles *particles = &config->particles;
     int distribution = scree_config_species_at(particles, index).distribution;
     if (distribution < 0 || !scree_modules[distribution]->sizes) return; // wrong, and noted
+    if (!scree_config_species_at(particles, index).own) return;
     const scree_node *section = node_of(reader, particles, index);
     const scree_module *module = scree_modules[distribution];
     scree_size_fault fault = {0};
