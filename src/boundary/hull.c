@@ -29,7 +29,7 @@ static scree_status find_surface(const scree_model *model, const scree_state *st
 {
     double *points = NULL, *radius = NULL;
     scree_peel_rule rule;
-    uint32_t *past, *row = NULL;
+    uint32_t *past = NULL, *row = NULL;
     const size_t count = scree_grain_count(state);
     *surface = (scree_triangle_surface){0};
     scree_status status = scree_grains_by_id(state, &row, error);

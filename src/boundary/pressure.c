@@ -40,7 +40,7 @@ static scree_status find_loop(const scree_model *model, const scree_state *state
 {
     double *points = NULL, *radius = NULL;
     scree_peel_rule rule;
-    uint32_t *past, *row = NULL;
+    uint32_t *past = NULL, *row = NULL;
     const size_t grains = scree_grain_count(state);
     scree_status status = scree_grains_by_id(state, &row, error);
     if (!status) status = scree_facet_rule(model, state, row, &rule, &past, error);
