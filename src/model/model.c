@@ -89,6 +89,11 @@ static int find_material(const scree_config *config, const char *name)
     return -1;
 }
 
+static scree_contact_space space_of(const scree_model *model)
+{
+    return (scree_contact_space){.dimension = model->dimension, .thickness = model->thickness};
+}
+
 /// Material `grain` of the list on a wall of `material` (NULL: like the grain); at LIST.INDEX.KEY the user said so.
 static scree_status wall_constants(const scree_model *model, int64_t grain, const char *material, const char *list,
                                    int64_t index, const char *key, scree_pair_constants *constants, scree_error *error)
@@ -98,7 +103,8 @@ static scree_status wall_constants(const scree_model *model, int64_t grain, cons
     int found = material && !rigid ? find_material(model->config, material) : (int)grain;
     if (found < 0) return indexed_error(error, list, index, key, "there is no material of this name");
     wall = rigid ? NULL : &model->config->materials[found];
-    *constants = scree_model_law(model)->constants(body, wall);
+    const scree_contact_space space = space_of(model);
+    *constants = scree_model_law(model)->constants(&space, body, wall);
     if (!isnan(body->wall_friction)) constants->value[SCREE_FRICTION] = body->wall_friction;
     return SCREE_OK;
 }
@@ -126,6 +132,7 @@ static scree_status resolve_materials(scree_model *model, scree_error *error)
     const scree_config *config = model->config;
     const scree_config_material *listed = config->materials;
     const scree_law *law = scree_model_law(model);
+    const scree_contact_space space = space_of(model);
     scree_status status = check_materials(model, error);
     if (status) return status;
     model->material_count = 0;
@@ -133,14 +140,26 @@ static scree_status resolve_materials(scree_model *model, scree_error *error)
     for (int i = 0; model->material_count > 0 && i < config->material_count; i++) {
         const scree_config_material *material = &listed[model->listed[i]];
         for (int j = 0; j <= i; j++)
-            model->pairs[i][j] = model->pairs[j][i] = law->constants(material, &listed[model->listed[j]]);
+            model->pairs[i][j] = model->pairs[j][i] = law->constants(&space, material, &listed[model->listed[j]]);
         model->density[i] = material->density;
         if (i < model->material_count) model->law.option |= law->options(&config->contact, material);
     }
     return resolve_walls(model, error);
 }
 
-static scree_status resolve_particles(scree_model *model, scree_error *error)
+/// Radii and thickness, which constants of materials may depend on.
+static void resolve_sizes(scree_model *model)
+{
+    const scree_config_particles *particles = &model->config->particles;
+    model->mean_radius = (particles->radius_min + particles->radius_max) / 2;
+    bool equal = particles->distribution == SCREE_SIZE_EQUAL;
+    model->radius_min = equal ? model->mean_radius : particles->radius_min;
+    model->radius_max = equal ? model->mean_radius : particles->radius_max;
+    model->thickness = isnan(particles->thickness) ? 2 * model->mean_radius : particles->thickness;
+    if (model->dimension == 3) model->thickness = 1;
+}
+
+static scree_status check_particles(const scree_model *model, scree_error *error)
 {
     const scree_config_particles *particles = &model->config->particles;
     if (model->material_count == 0) {
@@ -156,12 +175,6 @@ static scree_status resolve_particles(scree_model *model, scree_error *error)
     if (particles->radius_min > particles->radius_max)
         return FIELD_ERROR(error, "particles.radius_min", "radius_min (%g m) is above radius_max (%g m)",
                            particles->radius_min, particles->radius_max);
-    model->mean_radius = (particles->radius_min + particles->radius_max) / 2;
-    bool equal = particles->distribution == SCREE_SIZE_EQUAL;
-    model->radius_min = equal ? model->mean_radius : particles->radius_min;
-    model->radius_max = equal ? model->mean_radius : particles->radius_max;
-    model->thickness = isnan(particles->thickness) ? 2 * model->mean_radius : particles->thickness;
-    if (model->dimension == 3) model->thickness = 1;
     return SCREE_OK;
 }
 
@@ -373,8 +386,9 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
         .gravity = {config->gravity[0], config->gravity[1], config->gravity[2]},
         .config = config,
     };
+    resolve_sizes(model);
     scree_status status = resolve_materials(model, error);
-    if (!status) status = resolve_particles(model, error);
+    if (!status) status = check_particles(model, error);
     if (!status) status = resolve_loading(model, error);
     if (!status) status = resolve_step(model, error);
     if (!status) status = resolve_membrane(model, error);
