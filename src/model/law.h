@@ -108,6 +108,7 @@ typedef struct scree_law {
                            double effective_mass, double speed, scree_impact *impact, scree_error *error);
     bool impact_duration;           ///< its duration is this law's; else that of the same impact without damping
     double confine_grains;          ///< duration of a confinement, see run/stage_confine.c
+    double confine_falls;           ///< the same where springs do not stiffen under pressure; 0: confine_grains counts
     const char *against_stiffening; ///< key=value that keeps springs from energy that nobody spent; NULL: none does
 } scree_law;
 
