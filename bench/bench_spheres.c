@@ -17,6 +17,7 @@
 #include "integrate/integrate.h"
 #include "measure/measure.h"
 #include "search/neighbours.h"
+#include "size/limits.h"
 #include "state/periodic.h"
 
 #include <math.h>
@@ -38,6 +39,7 @@ typedef struct options {
 typedef struct sample {
     scree_config config;
     scree_config_material material;
+    _Alignas(16) unsigned char sizes[1024]; ///< of the particles
     scree_model model;
     scree_state state;
     scree_work work;
@@ -72,7 +74,9 @@ static void open_model(sample *s)
     mindlin_of(s)->restitution = 0.3;
     s->config = (scree_config){.dimension = 3, .materials = &s->material, .material_count = 1};
     s->config.particles = (scree_config_particles){
-        .material = name, .count = 1, .radius_min = 0.5e-3, .radius_max = 1e-3, .thickness = NAN};
+        .material = name, .count = 1, .distribution = SCREE_SLOT_uniform, .thickness = NAN, .own = s->sizes};
+    *(scree_size_limits *)(uintptr_t)scree_config_own(&scree_module_uniform, "particles", s->sizes) =
+        (scree_size_limits){0.5e-3, 1e-3};
     s->config.contact = (scree_config_contact){.law = SCREE_SLOT_hertz_mindlin, .own = own[1]};
     s->config.integrator =
         (scree_config_integrator){.scheme = SCREE_SLOT_velocity_verlet, .step = NAN, .step_fraction = 0.5};

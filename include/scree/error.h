@@ -2,6 +2,8 @@
 #ifndef SCREE_ERROR_H
 #define SCREE_ERROR_H
 
+#include <scree/api.h>
+
 #include <stddef.h>
 
 #ifdef __cplusplus
@@ -31,7 +33,7 @@ typedef struct scree_error {
 
 /// Writes "file:line:column: field: message (accepted: ...)", without what the message itself suggests in quotes, into
 /// `text` (NUL-terminated, truncated to `size`). Returns the length that the whole text would have.
-size_t scree_error_format(const scree_error *error, char *text, size_t size);
+SCREE_API size_t scree_error_format(const scree_error *error, char *text, size_t size);
 
 #ifdef __cplusplus
 }

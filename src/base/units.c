@@ -257,7 +257,7 @@ scree_status scree_units_parse(const char *text, const char *unit, double *value
     size_t end = strlen(unit_text);
     while (end > 0 && unit_text[end - 1] == ' ') unit_text[--end] = 0;
     if (end > 0 && strcmp(unit_text, unit) != 0) {
-        const char *noun;
+        const char *noun = NULL;
         lookup result = find_factor_alone(unit_text, unit, &factor, &noun);
         if (result != FOUND) return refuse_unit(text, unit_text, unit, result, noun, error);
     }

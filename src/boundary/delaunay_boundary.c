@@ -1,9 +1,10 @@
 /// The Delaunay boundary of the sample as a module: what is stored of it, and when it is found anew.
 #include "measure/delaunay_boundary.h"
 
-#include "boundary/boundary.h"
-#include "boundary/pressure.h"
 #include "base/checksum.h"
+#include "boundary/boundary.h"
+#include "boundary/boundary_forget.h"
+#include "boundary/pressure.h"
 #include "state/plates.h"
 
 typedef scree_delaunay_boundary own;
@@ -23,7 +24,7 @@ const scree_group scree_hull_triangles = {"triangle", "t", offsetof(own, hull.tr
 
 static const scree_field fields[] = {
     LOOP(id, uint32_t, "id", SCREE_FIELD_UINT32, "1", "bodies along the closed boundary, counter-clockwise, by id",
-         SCREE_RANGE_TO(SCREE_LIMIT_LAST_BODY)),
+         SCREE_RANGE_TO(SCREE_LIMIT_BODY)),
     LOOP(loaded, uint8_t, "loaded", SCREE_FIELD_UINT8, "1",
          "1: the edge from this body to the next carries the lateral pressure", SCREE_RANGE(0, 1)),
     LOOP(x, double, "x", SCREE_FIELD_DOUBLE, "m", "x when the boundary was last found",
@@ -34,7 +35,7 @@ static const scree_field fields[] = {
     LOOP(fy, double, "force_y", SCREE_FIELD_DOUBLE, "N", "y component of the force of the pressure on this body"),
 
     HULL(scree_hull_nodes, id, uint32_t, "id", SCREE_FIELD_UINT32, 1, "1", "bodies on the hull, by id, ascending",
-         SCREE_RANGE_TO(SCREE_LIMIT_LAST_BODY)),
+         SCREE_RANGE_TO(SCREE_LIMIT_BODY)),
     HULL(scree_hull_nodes, place, scree_vector, "place", SCREE_FIELD_DOUBLE, 3, "m",
          "centre when the hull was last found", SCREE_RANGE_TO(SCREE_LIMIT_FARTHEST)),
     HULL(scree_hull_nodes, force, scree_vector, "force", SCREE_FIELD_DOUBLE, 3, "N",
@@ -49,6 +50,8 @@ static const scree_field fields[] = {
         "step at which the boundary was last found", SCREE_RANGE_TO(SCREE_LIMIT_STEP)),
     ONE(hull.updated, "scalars/hull_updated", SCREE_FIELD_UINT64, 1, "1", "step at which the hull was last found",
         SCREE_RANGE_TO(SCREE_LIMIT_STEP)),
+    ONE(stale, "scalars/boundary_stale", SCREE_FIELD_UINT64, 1, "1",
+        "1: a body of the boundary was taken out; it is found anew at the next search", SCREE_RANGE(0, 1)),
     ONE(strain.gradient, "strain/gradient", SCREE_FIELD_DOUBLE, 9, "1",
         "displacement gradient accumulated from the boundary, 3 x 3 by rows, extension positive"),
     ONE(strain.redetected, "strain/redetected", SCREE_FIELD_DOUBLE, 1, "1",
@@ -96,6 +99,7 @@ const scree_module scree_module_delaunay_boundary = {
     .field_count = sizeof fields / sizeof *fields,
     .check = check,
     .checksum = checksum,
+    .forget = scree_boundary_forget,
     .passes = passes,
     .pass_count = 1,
 };

@@ -9,6 +9,7 @@
 /// the pressure, and so does the gap between its rim and the plate (measure/hull.h). With an active side plate nothing
 /// is loaded: the sides are not free. Cost: O(triangles).
 #include "boundary/facing.h"
+#include "state/body.h"
 #include "state/plates.h"
 
 #include "base/integer_sum.h"

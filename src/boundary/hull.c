@@ -29,19 +29,23 @@ static scree_status find_surface(const scree_model *model, const scree_state *st
 {
     double *points = NULL, *radius = NULL;
     scree_peel_rule rule;
-    uint32_t *past;
+    uint32_t *past, *row = NULL;
+    const size_t count = scree_grain_count(state);
     *surface = (scree_triangle_surface){0};
-    scree_status status = scree_facet_rule(model, state, &rule, &past, error);
-    if (!status) status = scree_allocate(&points, 3 * state->grains, sizeof *points, error);
-    if (!status) status = scree_allocate(&radius, state->grains, sizeof *radius, error);
+    scree_status status = scree_grains_by_id(state, &row, error);
+    if (!status) status = scree_facet_rule(model, state, row, &rule, &past, error);
+    if (!status) status = scree_allocate(&points, 3 * count, sizeof *points, error);
+    if (!status) status = scree_allocate(&radius, count, sizeof *radius, error);
     if (!status) {
-        for (size_t id = 0; id < state->grains; id++) {
-            size_t row = state->row_of_id[id];
-            scree_body_place(state, row, points + 3 * id);
-            radius[id] = state->row[row].radius;
+        for (size_t k = 0; k < count; k++) {
+            scree_body_place(state, row[k], points + 3 * k);
+            radius[k] = scree_body_bounding_radius(state, row[k]);
         }
-        status = scree_outer_surface(points, radius, state->grains, 2 * model->mean_radius, &rule, surface, error);
+        status = scree_outer_surface(points, radius, count, 2 * model->mean_radius, &rule, surface, error);
     }
+    for (size_t k = 0; k < 3 * surface->count && !status; k++)
+        surface->triangle[k / 3][k % 3] = state->id[row[surface->triangle[k / 3][k % 3]]];
+    scree_release(&row);
     scree_release(&past);
     scree_release(&points);
     scree_release(&radius);
@@ -74,10 +78,10 @@ static scree_status fill_hull(const scree_state *state, const scree_triangle_sur
 {
     size_t nodes = 0;
     for (size_t k = 0; k < 3 * surface->count; k++) node_of[surface->triangle[k / 3][k % 3]] = 1;
-    for (size_t id = 0; id < state->grains; id++) nodes += node_of[id];
+    for (size_t id = 0; id < state->id_count; id++) nodes += node_of[id];
     scree_status status = hull_create(hull, nodes, surface->count, error);
     if (status) return status;
-    for (size_t id = 0; id < state->grains; id++) {
+    for (size_t id = 0; id < state->id_count; id++) {
         if (!node_of[id]) continue;
         scree_body_place(state, state->row_of_id[id], hull->place[hull->node_count]);
         hull->id[hull->node_count] = (uint32_t)id;
@@ -96,13 +100,14 @@ scree_status scree_hull_renew(const scree_model *model, scree_state *state, scre
     scree_hull fresh = {0};
     uint32_t *node_of = NULL;
     scree_status status = find_surface(model, state, &surface, error);
-    if (!status) status = scree_allocate(&node_of, state->grains, sizeof *node_of, error);
+    if (!status) status = scree_allocate(&node_of, state->id_count, sizeof *node_of, error);
     if (!status) status = fill_hull(state, &surface, node_of, &fresh, error);
     if (!status) status = scree_hull_mark_loaded(model, state, &fresh, error);
     if (!status) {
         double enclosed = scree_strain_close(state);
         hull_destroy(scree_hull_of(state));
         *scree_hull_of(state) = fresh;
+        scree_delaunay_boundary_of(state)->stale = 0;
         scree_strain_redetected(state, enclosed);
     } else {
         hull_destroy(&fresh);

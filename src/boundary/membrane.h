@@ -5,19 +5,21 @@
 #include "state/plates.h"
 #include "state/state.h"
 
-/// State of the module `membrane`. Its bodies have the ids from state.grains on; count =
-/// 0: there is no membrane. 2D: two chains of discs, the right side from bottom to top, then the left side from top to
-/// bottom. 3D: a triangulated tube of spheres (boundary/sheet.h), ring by ring from bottom to top.
+/// State of the module `membrane`. Its bodies have the mark SCREE_MARK_MEMBRANE and ids one after the other from
+/// first_id on; none of them can be taken out. count = 0: there is no membrane. 2D: two chains of discs, the right side
+/// from bottom to top, then the left side from top to bottom. 3D: a triangulated tube of spheres (boundary/sheet.h),
+/// ring by ring from bottom to top.
 typedef struct scree_membrane {
     scree_vector *rest; ///< count, m, unstressed lengths of the springs that begin at this body; 0: no spring. 2D: one,
                         ///< to the next body; 3D: to the next of its ring and to two of the ring above
     scree_vector *press; ///< count, N, force of the pressure at n
     scree_vector *force; ///< count, N, force of the springs, and of the plates on its ends, at n
     size_t count, capacity;
-    uint64_t right;   ///< 2D: bodies of the right side
-    uint64_t around;  ///< 3D: bodies of a ring
-    double radius;    ///< m
-    double ramp_time; ///< s, in which the membrane takes the pressure over
+    uint64_t first_id; ///< of its bodies
+    uint64_t right;    ///< 2D: bodies of the right side
+    uint64_t around;   ///< 3D: bodies of a ring
+    double radius;     ///< m
+    double ramp_time;  ///< s, in which the membrane takes the pressure over
 } scree_membrane;
 
 extern const scree_group scree_membrane_bodies;
@@ -49,7 +51,7 @@ double scree_membrane_volume(const scree_model *model, const scree_state *state)
 /// Row of the k-th body of the membrane.
 static inline size_t scree_membrane_row(const scree_state *state, size_t k)
 {
-    return state->row_of_id[state->grains + k];
+    return state->row_of_id[scree_membrane_of(state)->first_id + k];
 }
 
 /// The plate of an end; -1 for the bodies between.

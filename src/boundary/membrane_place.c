@@ -4,6 +4,7 @@
 /// The unstressed lengths of the chain are the distances that this gives. Cost: O(grains x bodies of the membrane),
 /// once.
 #include "boundary/membrane.h"
+#include "state/body.h"
 
 #include "boundary/sheet.h"
 #include "state/fields.h"
@@ -16,8 +17,9 @@
 static double touching_place(const scree_state *state, double radius, double y, double side)
 {
     double outermost = -INFINITY;
-    for (size_t id = 0; id < state->grains; id++) {
-        const scree_row *grain = &state->row[state->row_of_id[id]];
+    for (size_t row = 0; row < state->count; row++) {
+        if (!scree_body_is_grain(state, row)) continue;
+        const scree_row *grain = &state->row[row];
         double reach = grain->radius + radius, dy = y - grain->y;
         if (fabs(dy) < reach) outermost = fmax(outermost, side * grain->x + sqrt(reach * reach - dy * dy));
     }
@@ -54,6 +56,7 @@ static void place_side(const scree_model *model, scree_state *state, size_t firs
                                       .material = model->membrane_material,
                                       .radius = membrane->radius,
                                       .mass = scree_model_mass(model, model->membrane_material, membrane->radius)};
+        state->species[row] = SCREE_NO_SPECIES;
         scree_body_place(state, row, state->reference[row]);
         membrane->rest[first + k][0] =
             k + 1 < count ? sqrt(spacing * spacing + (x[k + 1] - x[k]) * (x[k + 1] - x[k])) : 0;
@@ -64,9 +67,12 @@ scree_status scree_membrane_make_room(scree_state *state, size_t count, scree_er
 {
     scree_membrane *membrane = scree_membrane_of(state);
     scree_status status = scree_group_reserve(state, &scree_module_membrane, &scree_membrane_bodies, count, error);
-    if (!status) status = scree_state_append(state, count, error);
-    if (!status) membrane->count = count;
-    return status;
+    size_t first = state->next_id;
+    if (!status) status = scree_state_append(state, SCREE_MARK_MEMBRANE, count, error);
+    if (status) return status;
+    membrane->first_id = first;
+    membrane->count = count;
+    return SCREE_OK;
 }
 
 /// The chains of 2D.

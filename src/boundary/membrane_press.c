@@ -12,6 +12,7 @@
 /// the integral over the sides alone. Hence the forces are -p dV / dx of the bodies, those along the axis of the rims
 /// excepted, which the plates prescribe. Cost: O(bodies).
 #include "boundary/membrane.h"
+#include "state/body.h"
 
 #include "base/fixed.h"
 #include "boundary/pressed_facet.h"

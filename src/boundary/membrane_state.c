@@ -19,6 +19,8 @@ static const scree_field fields[] = {
          SCREE_RANGE(0, DBL_MAX)),
     BODY(press, "pressure_force", "N", "force of the pressure on this body of the membrane"),
     BODY(force, "chain_force", "N", "force of the springs on this body of the membrane, and of the plate on an end"),
+    ONE(first_id, "scalars/membrane_first_id", SCREE_FIELD_UINT64, 1, "1",
+        "id of the first body of the membrane; the others follow it", SCREE_RANGE_TO(SCREE_LIMIT_IDS)),
     ONE(right, "scalars/membrane_right", SCREE_FIELD_UINT64, 1, "1", "2D: bodies of the membrane's right side"),
     ONE(around, "scalars/membrane_around", SCREE_FIELD_UINT64, 1, "1", "3D: bodies of a ring of the membrane"),
     ONE(radius, "scalars/membrane_radius", SCREE_FIELD_DOUBLE, 1, "m", "radius of the membrane's bodies",
@@ -33,16 +35,31 @@ static scree_status refuse(const char *name, size_t value, const char *accepted,
                            wanted);
 }
 
-/// The membrane has the bodies that are no grains, in chains or rings.
+/// All of its bodies are here, with its mark, and no others have it.
+static scree_status check_bodies(const scree_state *state, scree_error *error)
+{
+    const scree_membrane *m = scree_membrane_of(state);
+    size_t bodies = state->marked[SCREE_MARK_MEMBRANE];
+    if (m->count != bodies)
+        return refuse("membrane/rest", m->count, "as many rows as there are bodies with its mark,", bodies, error);
+    for (size_t k = 0; k < m->count; k++) {
+        size_t row = scree_state_row_of(state, m->first_id + k);
+        if (row == SCREE_NO_ROW || state->mark[row] != SCREE_MARK_MEMBRANE)
+            return refuse("scalars/membrane_first_id", m->first_id, "the first of bodies of the membrane, as many as",
+                          m->count, error);
+    }
+    return SCREE_OK;
+}
+
+/// The membrane has the bodies with its mark, in chains or rings.
 static scree_status check(const scree_state *state, const scree_model *model, scree_error *error)
 {
     const scree_stage_state *stage = &state->stage;
     bool began = stage->index < model->config->stage_count && stage->counter >= 0;
     scree_boundary_kind kind = began ? scree_config_boundary_of(model->config, stage->index) : SCREE_BOUNDARY_AUTO;
     const scree_membrane *m = scree_membrane_of(state);
-    size_t bodies = state->count - state->grains;
-    if (m->count != bodies)
-        return refuse("membrane/rest", m->count, "as many rows as there are bodies beside the grains,", bodies, error);
+    scree_status status = check_bodies(state, error);
+    if (status) return status;
     if (kind == SCREE_BOUNDARY_MEMBRANE && m->count == 0) return refuse("membrane/rest", 0, "more rows than", 0, error);
     if (m->count == 0) return SCREE_OK;
     if (state->dimension == 2 && (m->right < 2 || m->right + 2 > m->count))
@@ -52,6 +69,13 @@ static scree_status check(const scree_state *state, const scree_model *model, sc
     return SCREE_OK;
 }
 
+/// Springs hold its bodies together.
+static const char *keeps(const scree_state *state, uint32_t id)
+{
+    const scree_membrane *m = scree_membrane_of(state);
+    return id >= m->first_id && id < m->first_id + m->count ? "it is of the membrane" : NULL;
+}
+
 const scree_module scree_module_membrane = {
     .name = "membrane",
     .meaning = "bodies with springs around the sides of the sample",
@@ -59,4 +83,5 @@ const scree_module scree_module_membrane = {
     .fields = fields,
     .field_count = sizeof fields / sizeof *fields,
     .check = check,
+    .keeps = keeps,
 };

@@ -40,19 +40,22 @@ static scree_status find_loop(const scree_model *model, const scree_state *state
 {
     double *points = NULL, *radius = NULL;
     scree_peel_rule rule;
-    uint32_t *past;
-    scree_status status = scree_facet_rule(model, state, &rule, &past, error);
-    if (!status) status = scree_allocate(&points, 2 * state->grains, sizeof *points, error);
-    if (!status) status = scree_allocate(&radius, state->grains, sizeof *radius, error);
+    uint32_t *past, *row = NULL;
+    const size_t grains = scree_grain_count(state);
+    scree_status status = scree_grains_by_id(state, &row, error);
+    if (!status) status = scree_facet_rule(model, state, row, &rule, &past, error);
+    if (!status) status = scree_allocate(&points, 2 * grains, sizeof *points, error);
+    if (!status) status = scree_allocate(&radius, grains, sizeof *radius, error);
     if (!status) {
-        for (size_t id = 0; id < state->grains; id++) {
-            const scree_row *row = &state->row[state->row_of_id[id]];
-            points[2 * id] = row->x;
-            points[2 * id + 1] = row->y;
-            radius[id] = row->radius;
+        for (size_t k = 0; k < grains; k++) {
+            points[2 * k] = state->row[row[k]].x;
+            points[2 * k + 1] = state->row[row[k]].y;
+            radius[k] = scree_body_bounding_radius(state, row[k]);
         }
-        status = scree_outer_loop(points, radius, state->grains, 2 * model->mean_radius, &rule, ids, count, error);
+        status = scree_outer_loop(points, radius, grains, 2 * model->mean_radius, &rule, ids, count, error);
     }
+    for (size_t k = 0; k < *count && !status; k++) (*ids)[k] = state->id[row[(*ids)[k]]];
+    scree_release(&row);
     scree_release(&past);
     scree_release(&points);
     scree_release(&radius);
@@ -91,6 +94,7 @@ static bool is_fresh(const scree_model *model, const scree_state *state)
     bool solid = state->dimension == 3;
     size_t count = solid ? scree_hull_of(state)->node_count : scree_loop_of(state)->count;
     uint64_t updated = solid ? scree_hull_of(state)->updated : scree_loop_of(state)->updated;
+    if (scree_delaunay_boundary_of(state)->stale) return false;
     return count > 0 && state->step - updated < (uint64_t)model->config->boundary.every * model->largest_step;
 }
 
@@ -103,6 +107,7 @@ scree_status scree_boundary_refresh(const scree_model *model, scree_state *state
     scree_status status = find_loop(model, state, &ids, &count, error);
     if (!status) status = scree_group_reserve(state, &scree_module_delaunay_boundary, &scree_loop_group, count, error);
     if (!status) replace_loop(model, state, ids, count);
+    if (!status) scree_delaunay_boundary_of(state)->stale = 0;
     scree_release(&ids);
     return status;
 }

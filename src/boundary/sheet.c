@@ -4,6 +4,7 @@
 /// between two ends of radius R, which touch the plate, at the distance l when (l / 2)^2 + (R - r)^2 > (R + r)^2, so
 /// when r < l^2 / (16 R).
 #include "boundary/sheet.h"
+#include "state/body.h"
 
 #include "boundary/membrane.h"
 

@@ -10,6 +10,7 @@
 /// pressure pulls it on. Nothing is indented, since less deep is always free. The unstressed lengths of the springs are
 /// the distances that this gives. A grain must not be able to slip through. Cost: O(grains x bodies), once.
 #include "boundary/sheet.h"
+#include "state/body.h"
 
 #include "boundary/membrane.h"
 #include "state/plates.h"
@@ -30,8 +31,10 @@ static double find_outline(const scree_state *state, double radius, double (*cor
     double length = 0;
     for (int d = 0; d < DIRECTIONS; d++) {
         double normal[2] = {cos(2 * M_PI * d / DIRECTIONS), sin(2 * M_PI * d / DIRECTIONS)}, farthest = -INFINITY;
-        for (size_t id = 0; id < state->grains; id++) {
-            const scree_row *grain = &state->row[state->row_of_id[id]];
+        size_t id = 0; // of two that reach as far, the one with the lower id
+        for (uint32_t row; (row = scree_next_by_id(state, &id)) != SCREE_NO_ROW;) {
+            if (!scree_body_is_grain(state, row)) continue;
+            const scree_row *grain = &state->row[row];
             double reach = grain->radius + radius, along = grain->x * normal[0] + grain->y * normal[1] + reach;
             if (!(along > farthest)) continue;
             farthest = along;
@@ -61,8 +64,9 @@ static station find_station(double (*corner)[2], double at)
 static double free_depth(const scree_state *state, double radius, const station *from, double height, double deepest)
 {
     double depth = deepest;
-    for (size_t id = 0; id < state->grains; id++) {
-        const scree_row *grain = &state->row[state->row_of_id[id]];
+    for (size_t row = 0; row < state->count; row++) {
+        if (!scree_body_is_grain(state, row)) continue;
+        const scree_row *grain = &state->row[row];
         double dx = grain->x - from->place[0], dy = grain->y - from->place[1], dz = grain->z - height;
         double inwards = -(dx * from->normal[0] + dy * from->normal[1]), reach = grain->radius + radius;
         double beside = dx * dx + dy * dy + dz * dz - inwards * inwards;
@@ -127,6 +131,7 @@ static void place_bodies(const scree_model *model, scree_state *state, double (*
                                           .radius = radius,
                                           .mass = scree_model_mass(model, model->membrane_material, radius)};
             state->turn[row] = (scree_turn_row){.material = model->membrane_material};
+            state->species[row] = SCREE_NO_SPECIES;
             scree_body_place(state, row, state->reference[row]);
         }
         if (pass == 0) level_out(depth, around, count, 2 * SLOPE * radius);

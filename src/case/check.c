@@ -78,6 +78,12 @@ static void refuse_unused(const scope *s, scree_node *child, const scree_usage *
     child->unused = usage->choice && usage->choice->place.origin > child->place.origin;
     if (child->unused) return;
     size_t equals = strcspn(usage->when, "=");
+    if (usage->chooser->type == SCREE_KEY_LIST) {
+        bool without = usage->choice && usage->choice->count > 0;
+        scree_problem_add(s->reader, child->key_place, path, child->text, NULL, "not used with%s %s%s",
+                          without ? "" : "out", usage->chooser->name, without ? ": each element says its own" : "");
+        return;
+    }
     char accepted[256];
     int length = snprintf(accepted, sizeof accepted, "only with %.*s: ", (int)equals, usage->when);
     for (const char *c = usage->when + equals + 1; *c && *c != '&' && (size_t)length + 5 < sizeof accepted; c++)

@@ -68,6 +68,9 @@ void scree_rules_check_modules(scree_reader *reader, scree_config *config);
 void scree_rule_refuse(scree_reader *reader, const char *path, const char *accepted, const char *format, ...)
     SCREE_PRINTF(4, 5);
 
+/// Those of the particles: materials, sizes and shares of the species (particle_rules.c).
+void scree_rules_check_particles(scree_reader *reader, const scree_config *config);
+
 /// Those of the boundaries of stages, and of the velocity gradients that they impose (boundary_rules.c).
 void scree_rules_check_boundaries(scree_reader *reader, const scree_config *config);
 

@@ -5,6 +5,7 @@
 #define SCREE_CASE_CONFIG_H
 
 #include "module/preparation.h"
+#include "module/size_distribution.h"
 #include "module/stage.h"
 
 #include <math.h>
@@ -26,20 +27,32 @@ typedef struct scree_config_material {
 } scree_config_material;
 
 typedef enum scree_shape_kind { SCREE_SHAPE_DISC, SCREE_SHAPE_SPHERE } scree_shape_kind;
-typedef enum scree_size_distribution {
-    SCREE_SIZE_UNIFORM,
-    SCREE_SIZE_TWO_SIZES,
-    SCREE_SIZE_EQUAL
-} scree_size_distribution;
+/// What shares of species are of.
+typedef enum scree_share_by { SCREE_SHARE_BY_NUMBER, SCREE_SHARE_BY_MASS, SCREE_SHARE_BY_COUNT } scree_share_by;
 
+enum { SCREE_MOST_SPECIES = 16 };
+
+/// Particles of one kind.
+typedef struct scree_config_species {
+    char *name;
+    char *material;   ///< name in `materials`
+    double share;     ///< 1, of the number or of the mass of all particles
+    int64_t count;    ///< with SCREE_SHARE_BY_COUNT
+    int distribution; ///< slot of a module with sizes (module/size_distribution.h)
+    void *own;        ///< structs of modules (scree_config_own)
+} scree_config_species;
+
+/// Either one kind of particles, which material, distribution and own describe, or several species.
 typedef struct scree_config_particles {
     int shape;      ///< scree_shape_kind
     char *material; ///< name in `materials`
     int64_t count;
-    int distribution;  ///< scree_size_distribution of radii
-    double radius_min; ///< m; equal to radius_max with SCREE_SIZE_EQUAL
-    double radius_max; ///< m
-    double thickness;  ///< m, length of a disc (a cylinder), not used by spheres; auto: twice the mean radius
+    int distribution; ///< slot of a module with sizes
+    double thickness; ///< m, length of a disc (a cylinder), not used by spheres; auto: twice the mean radius
+    int share_by;     ///< scree_share_by
+    scree_config_species *species;
+    int64_t species_count; ///< 0: one kind
+    void *own;             ///< structs of modules
 } scree_config_particles;
 
 typedef struct scree_config_contact {
@@ -96,6 +109,12 @@ typedef struct scree_prepare_config {
     double width;        ///< m; auto: from count, sizes and aspect ratio
     double depth;        ///< m, 3D only; auto: the width
 } scree_prepare_config;
+
+/// What acts on the bodies beside contacts and the boundary. What stands in `own` is said by the module of its kind.
+typedef struct scree_config_load {
+    int kind;  ///< slot of a module that is a load
+    void *own; ///< its struct
+} scree_config_load;
 
 /// One stage. What stands in `own` is said by the module of its kind.
 typedef struct scree_config_stage {
@@ -182,6 +201,8 @@ struct scree_config {
     scree_config_boundary boundary;
     scree_config_wall *walls;
     int64_t wall_count;
+    scree_config_load *loads;
+    int64_t load_count;
     scree_config_stage *stages;
     int64_t stage_count;
     scree_config_measure measure;
@@ -196,6 +217,31 @@ scree_status scree_config_copy_stages(const scree_config *config, scree_config_s
 /// The struct of `module` among those of modules that a section's `own` points to. section: its path ("integrator"), as
 /// the module's `keys` have it. NULL: there are none.
 const void *scree_config_own(const scree_module *module, const char *section, const void *own);
+
+/// Particles of one kind, by number: the species, or all of them where none are listed.
+static inline scree_config_species scree_config_species_at(const scree_config_particles *particles, int64_t index)
+{
+    if (particles->species_count > 0) return particles->species[index];
+    return (scree_config_species){.material = particles->material,
+                                  .share = 1,
+                                  .count = particles->count,
+                                  .distribution = particles->distribution,
+                                  .own = particles->own};
+}
+
+/// How many there are, at least one.
+static inline int64_t scree_config_species_count(const scree_config_particles *particles)
+{
+    return particles->species_count > 0 ? particles->species_count : 1;
+}
+
+/// What the distribution of sizes of species `index` reads: the struct of its module.
+static inline const void *scree_config_sizes(const scree_config_particles *particles, int64_t index)
+{
+    scree_config_species species = scree_config_species_at(particles, index);
+    return scree_config_own(scree_modules[species.distribution],
+                            particles->species_count > 0 ? "particles.species" : "particles", species.own);
+}
 
 /// What a stage says that places the particles.
 static inline const scree_prepare_config *scree_config_prepared(const scree_config_stage *stage)

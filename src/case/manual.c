@@ -33,6 +33,10 @@ static void write_when(FILE *file, const scree_key *key)
 {
     for (const char *when = key->when; when; when = scree_next_condition(when)) {
         size_t equals = strcspn(when, "=");
+        if (strncmp(when + equals, "=[]", 3) == 0 || strcmp(when + equals, "=given") == 0) {
+            (void)fprintf(file, " Only with%s `%.*s", when[equals + 1] == '[' ? "out" : "", (int)equals, when);
+            continue;
+        }
         (void)fprintf(file, "%s `%.*s: ", when == key->when ? " Only with" : "` and", (int)equals, when);
         for (const char *c = when + equals + 1; *c && *c != '&'; c++)
             (void)(*c == '|' ? fputs("` or `", file) : fputc(*c, file));

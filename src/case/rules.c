@@ -48,8 +48,8 @@ static void check_wall_material(scree_reader *reader, const scree_config *config
 static void check_materials(scree_reader *reader, const scree_config *config)
 {
     const char *names[MOST_MATERIALS] = {0}, *text;
-    char path[SCREE_PATH_BYTES], list[256] = "";
-    size_t count = 0, length = 0;
+    char path[SCREE_PATH_BYTES];
+    size_t count = 0;
     for (int64_t i = 0; i < config->material_count; i++) {
         const char *name = config->materials[i].name;
         if (!name) return; // wrong, and noted
@@ -59,8 +59,6 @@ static void check_materials(scree_reader *reader, const scree_config *config)
             scree_place place = place_of(element(reader, "materials", i), "name", &text);
             scree_problem_add(reader, place, path, name, NULL, "materials.%zu has the name '%s' too", k, name);
         }
-        if (length < sizeof list)
-            length += (size_t)snprintf(list + length, sizeof list - length, "%s%s", i > 0 ? ", " : "", name);
         names[count++] = name;
         if (strcmp(name, SCREE_RIGID) != 0) continue;
         (void)snprintf(path, sizeof path, "materials.%lld.name", (long long)i);
@@ -71,28 +69,6 @@ static void check_materials(scree_reader *reader, const scree_config *config)
         check_wall_material(reader, config, "materials", i, "wall_material", config->materials[i].wall_material);
     for (int64_t i = 0; i < config->wall_count; i++)
         check_wall_material(reader, config, "walls", i, "material", config->walls[i].material);
-    const char *wanted = config->particles.material;
-    if (!wanted || count == 0) return;
-    for (size_t k = 0; k < count; k++)
-        if (strcmp(names[k], wanted) == 0) return;
-    scree_place place = place_of(scree_node_find(reader->root, "particles"), "material", &text);
-    const char *nearest = scree_nearest(wanted, names, count);
-    scree_problem_add(reader, place, "particles.material", wanted, list, "there is no material '%s'%s%s%s", wanted,
-                      nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
-}
-
-static void check_radii(scree_reader *reader, scree_config *config)
-{
-    scree_config_particles *particles = &config->particles;
-    if (particles->distribution == SCREE_SIZE_EQUAL) particles->radius_max = particles->radius_min;
-    if (!(particles->radius_min > particles->radius_max)) return;
-    const scree_node *section = scree_node_find(reader->root, "particles");
-    const char *text, *largest;
-    scree_place place = place_of(section, "radius_min", &text);
-    (void)place_of(section, "radius_max", &largest);
-    if (!text || !largest) return; // one of the two is missing, and noted
-    scree_problem_add(reader, place, "particles.radius_min", text, NULL, "'%s' is larger than radius_max, '%s'", text,
-                      largest);
 }
 
 /// Names the stages, and notes names that occur twice.
@@ -255,7 +231,7 @@ static void check_windows(scree_reader *reader, const scree_config *config)
 void scree_rules_check(scree_reader *reader, scree_config *config)
 {
     check_materials(reader, config);
-    check_radii(reader, config);
+    scree_rules_check_particles(reader, config);
     name_stages(reader, config);
     check_stage_order(reader, config);
     check_dimension(reader, config);

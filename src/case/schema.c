@@ -6,6 +6,8 @@
 #include "case/schema_walls.h"
 #include "module/key_rows.h"
 
+#include <math.h>
+
 // ---- choices -----------------------------------------------------------------------------------------------------
 
 static const scree_choice shapes[] = {
@@ -13,12 +15,13 @@ static const scree_choice shapes[] = {
     {"sphere", SCREE_SHAPE_SPHERE, "in three dimensions"},
     {0},
 };
-static const scree_choice distributions[] = {
-    {"uniform", SCREE_SIZE_UNIFORM, "every radius between the smallest and the largest is equally likely"},
-    {"two_sizes", SCREE_SIZE_TWO_SIZES, "the smallest and the largest radius, in equal numbers"},
-    {"equal", SCREE_SIZE_EQUAL, "one radius for all"},
+static const scree_choice share_kinds[] = {
+    {"number", SCREE_SHARE_BY_NUMBER, "`share` is of the number of particles"},
+    {"mass", SCREE_SHARE_BY_MASS, "`share` is of the mass of the particles"},
+    {"count", SCREE_SHARE_BY_COUNT, "each species has its `count`"},
     {0},
 };
+static const scree_choice listed[] = {{"given", 1, "the list has elements"}, {0}};
 static const scree_choice periodics[] = {
     {"no", SCREE_PERIODIC_NONE, "not periodic: plates and what `lateral` says"},
     {"x", SCREE_PERIODIC_X, "2D: periodic in x, between plates below and above"},
@@ -62,26 +65,39 @@ static const scree_key material_keys[] = {
         .meaning = "What plates and walls that it touches are made of: a material, or `rigid`; auto: the same as it."),
 };
 
+typedef scree_config_species species;
+static const scree_key species_keys[] = {
+    KEY(species, name, SCREE_KEY_WORD, FROM("1"), TO("63"), .meaning = "Name, unique among the species."),
+    KEY(species, material, SCREE_KEY_WORD, FROM("1"), TO("63"), .meaning = "Name of one of the materials."),
+    NUMBER(species, share, "1", ABOVE("0"), TO("100 %"), .when = "particles.share_by=number|mass",
+           .meaning = "Share of all particles; those of all species add up to 100 %."),
+    INTEGER(species, count, FROM("1"), TO("1e8"), .when = "particles.share_by=count",
+            .meaning = "Number of particles; those of all species add up to particles.count."),
+    CHOICE(species, distribution, NULL, .standard = "uniform", .meaning = "Distribution of the radii."),
+    MODULE_KEYS,
+};
+static const species unknown_species = {.share = NAN, .distribution = SCREE_CHOICE_WRONG};
+static const scree_section species_table[] = {
+    OPEN_TABLE("species", "Particles of one kind.", species_keys, scree_config_species)};
+
 typedef scree_config_particles particles;
 static const scree_key particles_keys[] = {
     CHOICE(particles, shape, shapes, .standard = "disc", .meaning = "Shape of the particles."),
-    KEY(particles, material, SCREE_KEY_WORD, FROM("1"), TO("63"), .meaning = "Name of one of the materials."),
+    KEY(particles, material, SCREE_KEY_WORD, FROM("1"), TO("63"), .when = "species=[]",
+        .meaning = "Name of one of the materials."),
     INTEGER(particles, count, FROM("1"), TO("1e8"), .meaning = "Number of particles."),
-    CHOICE(particles, distribution, distributions, .standard = "uniform", .meaning = "Distribution of the radii."),
-    {.name = "radius",
-     .type = SCREE_KEY_NUMBER,
-     .unit = "m",
-     FROM("1 nm"),
-     TO("100 m"),
-     .when = "distribution=equal",
-     .offset = offsetof(particles, radius_min),
-     .meaning = "Radius of all particles."},
-    NUMBER(particles, radius_min, "m", FROM("1 nm"), TO("100 m"), .when = "distribution=uniform|two_sizes",
-           .meaning = "Smallest radius."),
-    NUMBER(particles, radius_max, "m", FROM("1 nm"), TO("100 m"), .when = "distribution=uniform|two_sizes",
-           .meaning = "Largest radius."),
+    CHOICE(particles, distribution, NULL, .standard = "uniform", .when = "species=[]",
+           .meaning = "Distribution of the radii."),
+    MODULE_KEYS,
     NUMBER(particles, thickness, "m", .standard = "auto", FROM("1 nm"), TO("1 km"), .when = "shape=disc",
            .meaning = "Length of a disc along its axis; auto: twice the mean radius."),
+    CHOICE(particles, share_by, share_kinds, .standard = "number", .when = "species=given",
+           .meaning = "What the shares of the species are of."),
+    KEY(particles, species, SCREE_KEY_LIST, .standard = "[]", FROM("0"), TO("16"), .sections = species_table,
+        .section_count = 1, .count_offset = offsetof(particles, species_count), .element_size = sizeof(species),
+        .initial = &unknown_species, .choices = listed,
+        .meaning = "Particles of several kinds, each with its own material and sizes, at random places among each "
+                   "other."),
 };
 
 typedef scree_config_contact contact;
@@ -151,6 +167,12 @@ static const scree_key stage_keys[] = {
            .meaning = "Friction in this stage, e.g. less while confining for a denser sample; auto: the material's."),
 };
 
+typedef scree_config_load load;
+static const scree_key load_keys[] = {
+    {.name = "load", .type = SCREE_KEY_CHOICE, .offset = offsetof(load, kind), .meaning = "Kind of the load."},
+    MODULE_KEYS,
+};
+
 typedef scree_config_measure measure;
 static const scree_key measure_keys[] = {
     INTEGER(measure, samples, .standard = "200", FROM("1"), TO("1e6"),
@@ -188,13 +210,15 @@ static const scree_key guard_keys[] = {
 
 static const scree_section material_table[] = {
     OPEN_TABLE("materials", "What particles and plates are made of.", material_keys, scree_config_material)};
-static const scree_section particles_table[] = {TABLE("particles", "Shape, number and sizes.", particles_keys)};
+static const scree_section particles_table[] = {
+    OPEN_TABLE("particles", "Shape, number and sizes.", particles_keys, particles)};
 static const scree_section contact_table[] = {
     OPEN_TABLE("contact", "Forces between touching particles.", contact_keys, contact)};
 static const scree_section integrator_table[] = {
     OPEN_TABLE("integrator", "Motion in time.", integrator_keys, integrator)};
 static const scree_section boundary_table[] = {TABLE("boundary", "What surrounds the sample.", boundary_keys)};
 static const scree_section stage_table[] = {OPEN_TABLE("stages", "What happens.", stage_keys, stage)};
+static const scree_section load_table[] = {OPEN_TABLE("loads", "What acts on the bodies.", load_keys, load)};
 static const scree_section measure_table[] = {TABLE("measure", "What is recorded.", measure_keys)};
 static const scree_section output_table[] = {TABLE("output", "What is written, and how often.", output_keys)};
 static const scree_section guard_table[] = {TABLE("guard", "Limits that stop a run that went wrong.", guard_keys)};
@@ -235,6 +259,9 @@ static const scree_key root_keys[] = {
         .section_count = SCREE_WALL_SECTIONS, .count_offset = offsetof(scree_config, wall_count),
         .element_size = sizeof(scree_config_wall),
         .meaning = "Rigid walls beside the plates, fixed or moving; for `relax`."),
+    KEY(scree_config, loads, SCREE_KEY_LIST, .standard = "[]", FROM("0"), TO("16"), .sections = load_table,
+        .section_count = 1, .count_offset = offsetof(scree_config, load_count), .element_size = sizeof(load),
+        .meaning = "What acts on the bodies in all stages, beside contacts, boundary and gravity."),
     KEY(scree_config, stages, SCREE_KEY_LIST, FROM("1"), TO("100"), .sections = stage_table, .section_count = 1,
         .count_offset = offsetof(scree_config, stage_count), .element_size = sizeof(stage),
         .meaning = "What happens, one stage after the other."),

@@ -35,7 +35,10 @@ static scree_usage condition_usage(const scree_node *root, const scree_section *
     if (chooser.use == SCREE_UNUSED) return chooser;
     usage.choice = scree_node_find(mapping, usage.chooser->name);
     const char *text = usage.choice ? usage.choice->text : usage.chooser->standard;
-    bool known = text && text[0] && (!usage.chooser->choices || scree_choice_find(usage.chooser->choices, text));
+    if (usage.chooser->type == SCREE_KEY_LIST) text = usage.choice && usage.choice->count > 0 ? "given" : "[]";
+    bool known = text && text[0] &&
+                 (!usage.chooser->choices || usage.chooser->type == SCREE_KEY_LIST ||
+                  scree_choice_find(usage.chooser->choices, text));
     if (!known)
         usage.use = SCREE_USE_UNKNOWN;
     else if (!is_among(text, when + equals + 1))

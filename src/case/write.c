@@ -129,23 +129,29 @@ static void write_values(writer *w, const scree_section *section, const scree_no
     }
 }
 
+/// The lists of a section, behind its values.
+static void write_lists(writer *w, const scree_section *section, const scree_node *mapping, int depth)
+{
+    for (size_t i = 0; i < section->count; i++) {
+        const scree_key *key = &section->keys[i];
+        const scree_node *node = scree_node_find(mapping, key->name);
+        bool used = key->type == SCREE_KEY_LIST && scree_key_usage(w->root, section, mapping, key).use == SCREE_USED;
+        if (!used || !node || !node->first) continue;
+        for (int k = 0; k < depth; k++) put(w, " ");
+        put(w, key->name);
+        put(w, ":");
+        end_line(w, key->meaning);
+        write_elements(w, key, node, depth);
+    }
+}
+
 /// An element of a list, with the lists in it after its values.
 static void write_element(writer *w, const scree_section *section, const scree_node *mapping, int depth, bool explained)
 {
     char first[32];
     (void)snprintf(first, sizeof first, "%*s- ", depth + 2, "");
     write_values(w, section, mapping, first, depth + 4, explained);
-    for (size_t i = 0; i < section->count; i++) {
-        const scree_key *key = &section->keys[i];
-        const scree_node *node = scree_node_find(mapping, key->name);
-        bool used = key->type == SCREE_KEY_LIST && scree_key_usage(w->root, section, mapping, key).use == SCREE_USED;
-        if (!used || !node) continue;
-        for (int k = 0; k < depth + 4; k++) put(w, " ");
-        put(w, key->name);
-        put(w, ":");
-        end_line(w, key->meaning);
-        write_elements(w, key, node, depth + 4);
-    }
+    write_lists(w, section, mapping, depth + 4);
 }
 
 static void write_key(writer *w, const scree_key *key)
@@ -157,9 +163,10 @@ static void write_key(writer *w, const scree_key *key)
     put(w, key->name);
     put(w, ":");
     end_line(w, key->meaning);
-    if (key->type == SCREE_KEY_SECTION)
+    if (key->type == SCREE_KEY_SECTION) {
         write_values(w, key->sections, node, NULL, 2, true);
-    else
+        write_lists(w, key->sections, node, 2);
+    } else
         write_elements(w, key, node, 0);
 }
 

@@ -30,7 +30,7 @@ void scree_contact_scratch_destroy(scree_work *work);
 typedef struct scree_contact {
     uint32_t first, second; ///< rows (not ids)
     bool wall;
-    bool image; ///< across a face of the periodic cell: of `first` and `second` one is where its image is
+    bool image;    ///< across a face of the periodic cell: of `first` and `second` one is where its image is
     bool membrane; ///< one of the two is a body of a membrane
     bool sliding;
     scree_vector normal;       ///< from second to first
@@ -71,6 +71,11 @@ void scree_contact_table_destroy(scree_contact_table *table);
 
 /// Copies the histories of touching pairs into state->contact, sorted by (first id, second id).
 scree_status scree_contacts_save(scree_state *state, const scree_work *work, scree_error *error) SCREE_MUST_USE;
+
+/// Takes the forces and torques that bodies which are about to go (going, by row: 1) exert on others out of the sums of
+/// these. The list must be valid. Errors: memory, nothing has changed then. Cost: a pass over the list.
+scree_status scree_contacts_take_out(const scree_model *model, scree_state *state, const scree_work *work,
+                                     const uint8_t *going, scree_error *error) SCREE_MUST_USE;
 
 /// Sets the quanta of forces and torques (powers of two, base/fixed.h) from a bound of any single contact force in the
 /// next evaluation, K (d + 2 v dt)^1.5 + damping with the largest overlap and speed (bounds.c), and from `extra`, a

@@ -44,7 +44,7 @@ scree_status contact_order(const scree_state *state, const scree_work *work, con
     size_t *begin;
     uint8_t *touching = NULL;
     *list = NULL;
-    scree_status status = scree_allocate(&begin, state->count + 2, sizeof *begin, error);
+    scree_status status = scree_allocate(&begin, state->id_count + 2, sizeof *begin, error);
     if (!status) status = scree_allocate(&touching, work->element_pairs.count, sizeof *touching, error);
     if (status) {
         scree_release(&begin);
@@ -55,12 +55,12 @@ scree_status contact_order(const scree_state *state, const scree_work *work, con
     // begin[id + 2] counts, begin[id + 1] becomes the place where the contacts of id are put, and in the end their end.
     for (size_t k = 0; k < candidates; k++)
         if (reference_get(state, work, touching, k, &r)) begin[r.first + 2]++;
-    for (size_t id = 0; id < state->count; id++) begin[id + 2] += begin[id + 1];
-    *count = begin[state->count + 1];
+    for (size_t id = 0; id < state->id_count; id++) begin[id + 2] += begin[id + 1];
+    *count = begin[state->id_count + 1];
     if (!(status = scree_allocate(list, *count, sizeof **list, error)))
         for (size_t k = 0; k < candidates; k++)
             if (reference_get(state, work, touching, k, &r)) (*list)[begin[r.first + 1]++] = r;
-    for (size_t id = 0; id < state->count && !status; id++)
+    for (size_t id = 0; id < state->id_count && !status; id++)
         for (size_t k = begin[id]; k < begin[id + 1]; k++) insert(*list, begin[id], k);
     scree_release(&begin);
     scree_release(&touching);

@@ -21,6 +21,11 @@ static inline contact_body contact_body_get(const scree_state *state, size_t row
     return body;
 }
 
+/// A body or an image with v(n - 1/2), with which the forces at n were evaluated; in a periodic cell with the affine
+/// field, and an image where it is.
+contact_body contact_body_at_half_step(const scree_model *model, const scree_state *state, const scree_work *work,
+                                       uint32_t k);
+
 /// Memory of number `k` of a list.
 static inline memory_rows contact_memory_of(const scree_work *work, contact_list list, size_t k)
 {

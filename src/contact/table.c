@@ -29,10 +29,8 @@ static contact_body stored_body_at_half_step(const scree_model *model, const scr
     return body;
 }
 
-/// A body or an image with v(n - 1/2), with which the forces at n were evaluated; in a periodic cell with the affine
-/// field, and an image where it is.
-static contact_body body_at_half_step(const scree_model *model, const scree_state *state, const scree_work *work,
-                                      uint32_t k)
+contact_body contact_body_at_half_step(const scree_model *model, const scree_state *state, const scree_work *work,
+                                       uint32_t k)
 {
     contact_body body = stored_body_at_half_step(model, state, scree_parent_row(state, work, k));
     if (!scree_cell(state)->directions) return body;
@@ -83,7 +81,7 @@ static void fill(const scree_model *model, const scree_state *state, const scree
     contact->second = list == CONTACT_PAIR ? scree_parent_row(state, work, other) : other;
     contact->image = one != contact->first || (list == CONTACT_PAIR && other != contact->second);
     contact->membrane = !scree_body_is_grain(state, contact->first);
-    contact_body first = body_at_half_step(model, state, work, one);
+    contact_body first = contact_body_at_half_step(model, state, work, one);
     if (list == CONTACT_PLATE) {
         contact_of_wall(model, state, &first, &scree_plates(state)[other], &memory, contact);
         return;
@@ -93,7 +91,7 @@ static void fill(const scree_model *model, const scree_state *state, const scree
         contact->second += SCREE_ELEMENT_ID;
         return;
     }
-    contact_body second = body_at_half_step(model, state, work, other);
+    contact_body second = contact_body_at_half_step(model, state, work, other);
     contact_of_pair(model, state, &first, &second, &memory, contact);
     if (one != contact->first) move_point(state, one, contact);
     contact->membrane = contact->membrane || !scree_body_is_grain(state, contact->second);

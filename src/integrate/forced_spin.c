@@ -7,6 +7,7 @@
 #include "integrate/forced_spin.h"
 
 #include "base/fixed.h"
+#include "state/body.h"
 
 static double rotation_energy(const scree_state *state, size_t row)
 {
@@ -78,11 +79,28 @@ typedef scree_forced_spin own;
 #define ONE(member, type, components, unit, meaning, ...)                                                              \
     SCREE_FIELD_ONE(forced_spin, own, member, "forced/" #member, type, components, unit, meaning, __VA_ARGS__)
 static const scree_field fields[] = {
-    ONE(id, SCREE_FIELD_INT64, 1, "1", "body whose spin is prescribed", SCREE_RANGE_TO(SCREE_LIMIT_LAST_BODY)),
+    ONE(id, SCREE_FIELD_INT64, 1, "1", "body whose spin is prescribed"),
     ONE(active, SCREE_FIELD_INT64, 1, "1", "0: there is none", SCREE_RANGE(0, 1)),
     ONE(spin, SCREE_FIELD_DOUBLE, 3, "rad/s", "its spin"),
     ONE(torque, SCREE_FIELD_DOUBLE, 3, "N m", "torque of its contacts on it"),
 };
+
+/// While there is one, it is a body that is here.
+static scree_status check(const scree_state *state, const scree_model *model, scree_error *error)
+{
+    (void)model;
+    const scree_forced_spin *forced = scree_forced(state);
+    if (!forced->active || (forced->id >= 0 && scree_state_row_of(state, (size_t)forced->id) != SCREE_NO_ROW))
+        return SCREE_OK;
+    return scree_error_set(error, SCREE_ERROR_IO, "dataset 'forced/id': %lld (accepted: the id of a body that is here)",
+                           (long long)forced->id);
+}
+
+/// A body that is taken out turns as it does.
+static void forget(scree_state *state, uint32_t id)
+{
+    if (scree_forced(state)->id == id) scree_forced_spin_end(state);
+}
 
 static bool in_use(const scree_context *c)
 {
@@ -104,6 +122,8 @@ const scree_module scree_module_forced_spin = {
     .state_size = sizeof(own),
     .fields = fields,
     .field_count = sizeof fields / sizeof *fields,
+    .check = check,
+    .forget = forget,
     .passes = passes,
     .pass_count = 1,
     .in_use = in_use,

@@ -34,8 +34,9 @@ scree_status scree_array_from_field(const scree_state *state, const scree_field 
     by_id = by_id && field->rows == SCREE_ROWS_BODIES;
     const size_t size = (size_t)array->components * scree_field_size(array->type);
     unsigned char *target = array->data;
+    size_t id = 0;
     for (size_t k = 0; k < array->rows; k++, target += size)
-        memcpy(target, scree_field_get(state, field, by_id ? state->row_of_id[k] : k), size);
+        memcpy(target, scree_field_get(state, field, by_id ? scree_next_by_id(state, &id) : k), size);
     return SCREE_OK;
 }
 
@@ -150,8 +151,9 @@ scree_status scree_body_array(const scree_model *model, const scree_state *state
     scree_status status = scree_array_allocate(array, error);
     if (status) return status;
     double *value = array->data;
-    for (size_t id = 0; id < state->count; id++, value += array->components)
-        result->evaluate(model, state, state->row_of_id[id], value);
+    size_t id = 0;
+    for (uint32_t row; (row = scree_next_by_id(state, &id)) != SCREE_NO_ROW; value += array->components)
+        result->evaluate(model, state, row, value);
     return SCREE_OK;
 }
 
@@ -224,4 +226,17 @@ scree_status scree_contact_array(const scree_state *state, const scree_contact_t
         memcpy(target, source, size);
     }
     return SCREE_OK;
+}
+
+size_t scree_place_of_id(const uint32_t *ids, size_t count, uint32_t id)
+{
+    size_t low = 0, high = count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (ids[middle] < id)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < count && ids[low] == id ? low : count;
 }

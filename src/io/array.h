@@ -45,4 +45,7 @@ size_t scree_contact_array_count(void);
 scree_status scree_contact_array(const scree_state *state, const scree_contact_table *table, size_t index,
                                  scree_array *array, scree_error *error) SCREE_MUST_USE;
 
+/// Place of an id among ids that ascend, as files have those of bodies; `count` when it is none of them.
+size_t scree_place_of_id(const uint32_t *ids, size_t count, uint32_t id);
+
 #endif

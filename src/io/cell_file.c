@@ -64,6 +64,12 @@ static unsigned char *place_of(const cell_member *member, const scree_cells *cel
     return base + cell * member->stride + (size_t)at * scree_field_size(member->type);
 }
 
+/// Corners are places in the assembly in memory, ids of bodies in files.
+static bool is_node(const cell_member *member)
+{
+    return member->offset == offsetof(scree_cells, node);
+}
+
 scree_status scree_cell_array(const scree_cells *cells, size_t index, scree_array *array, scree_error *error)
 {
     const cell_member *member = &members[index];
@@ -74,6 +80,9 @@ scree_status scree_cell_array(const scree_cells *cells, size_t index, scree_arra
     unsigned char *target = array->data;
     for (size_t k = 0; k < cells->count; k++)
         for (int c = 0; c < array->components; c++, target += size) memcpy(target, place_of(member, cells, k, c), size);
+    uint32_t *node = array->data;
+    const size_t numbers = array->rows * (size_t)array->components;
+    for (size_t k = 0; k < numbers && is_node(member) && cells->id; k++) node[k] = cells->id[node[k]];
     return SCREE_OK;
 }
 
@@ -112,13 +121,15 @@ static void read_member(scree_hdf5 *run, const char *group, const cell_member *m
     scree_array_destroy(&array);
 }
 
-/// Every number names a body or a cell, so that a reader may index with them.
-static void check_numbers(scree_hdf5 *run, scree_cells *cells)
+/// Every number names a body or a cell, so that a reader may index with them; corners become places in the assembly.
+static void check_numbers(scree_hdf5 *run, const scree_assembly *assembly, scree_cells *cells)
 {
     size_t bad = 0;
     for (size_t k = 0; k < cells->count && !run->status; k++)
-        for (int n = 0; n <= cells->dimension; n++)
-            bad += cells->node[k][n] >= cells->bodies || cells->neighbour[k][n] >= (int64_t)cells->count;
+        for (int n = 0; n <= cells->dimension; n++) {
+            cells->node[k][n] = (uint32_t)scree_place_of_id(assembly->id, assembly->count, cells->node[k][n]);
+            bad += cells->node[k][n] >= assembly->count || cells->neighbour[k][n] >= (int64_t)cells->count;
+        }
     for (size_t k = 0; k < cells->count && cells->dimension == 2 && !run->status; k++) {
         cells->node[k][3] = UINT32_MAX;
         cells->neighbour[k][3] = -1;
@@ -131,22 +142,25 @@ static void read_bodies(scree_hdf5 *run, const char *group, scree_assembly *asse
     size_t d = (size_t)assembly->dimension;
     scree_array place = {.name = "position", .type = SCREE_FIELD_DOUBLE, .components = assembly->dimension};
     scree_array radius = {.name = "radius", .type = SCREE_FIELD_DOUBLE, .components = 1};
-    scree_hdf5_read(run, group, &place);
-    scree_hdf5_read(run, group, &radius);
-    uint64_t grains = 0;
-    scree_hdf5_get_integer(run, group, "grains", &grains);
-    if (!run->status && (place.rows != radius.rows || grains > place.rows))
-        scree_hdf5_damaged(run, "arrays of one group have different lengths");
-    if (!run->status) run->status = scree_allocate(&assembly->place, 3 * place.rows, sizeof(double), run->error);
-    if (!run->status) {
-        const double *source = place.data;
-        for (size_t i = 0; i < grains; i++) memcpy(assembly->place + 3 * i, source + d * i, d * sizeof *source);
-        assembly->count = (size_t)grains;
-        assembly->radius = radius.data;
-        radius.data = NULL;
+    scree_array id = {.name = "id", .type = SCREE_FIELD_UINT32, .components = 1};
+    scree_array mark = {.name = "mark", .type = SCREE_FIELD_UINT8, .components = 1};
+    scree_array *const all[] = {&place, &radius, &id, &mark};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        scree_hdf5_read(run, group, all[k]);
+        if (!run->status && all[k]->rows != place.rows)
+            scree_hdf5_damaged(run, "arrays of one group have different lengths");
     }
-    scree_array_destroy(&place);
-    scree_array_destroy(&radius);
+    if (!run->status) run->status = scree_allocate(&assembly->place, 3 * place.rows, sizeof(double), run->error);
+    if (!run->status) run->status = scree_allocate(&assembly->radius, place.rows, sizeof(double), run->error);
+    if (!run->status) run->status = scree_allocate(&assembly->id, place.rows, sizeof(uint32_t), run->error);
+    for (size_t i = 0; i < place.rows && !run->status; i++) {
+        if (((const uint8_t *)mark.data)[i] != SCREE_MARK_GRAIN) continue;
+        size_t k = assembly->count++;
+        memcpy(assembly->place + 3 * k, (const double *)place.data + d * i, d * sizeof(double));
+        assembly->radius[k] = ((const double *)radius.data)[i];
+        assembly->id[k] = ((const uint32_t *)id.data)[i];
+    }
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) scree_array_destroy(all[k]);
 }
 
 static void read_group(scree_hdf5 *run, const char *group, scree_cell_snapshot *snapshot)
@@ -169,7 +183,7 @@ static void read_group(scree_hdf5 *run, const char *group, scree_cell_snapshot *
     snapshot->cells.bodies = snapshot->assembly.count;
     for (size_t k = 0; k < scree_cell_array_count() && !run->status; k++)
         read_member(run, group, &members[k], &snapshot->cells, k == 0);
-    check_numbers(run, &snapshot->cells);
+    check_numbers(run, &snapshot->assembly, &snapshot->cells);
 }
 
 scree_status scree_cell_snapshot_read(const char *directory, size_t which, scree_cell_snapshot *snapshot,
@@ -201,4 +215,10 @@ void scree_cell_snapshot_destroy(scree_cell_snapshot *snapshot)
 {
     scree_cells_destroy(&snapshot->cells);
     scree_assembly_destroy(&snapshot->assembly);
+}
+
+bool scree_cell_snapshots_agree(const scree_cell_snapshot *one, const scree_cell_snapshot *other)
+{
+    const scree_assembly *a = &one->assembly, *b = &other->assembly;
+    return a->count == b->count && (a->count == 0 || memcmp(a->id, b->id, a->count * sizeof *a->id) == 0);
 }

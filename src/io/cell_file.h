@@ -29,4 +29,7 @@ scree_status scree_cell_snapshot_read(const char *directory, size_t which, scree
                                       scree_error *error) SCREE_MUST_USE;
 void scree_cell_snapshot_destroy(scree_cell_snapshot *snapshot);
 
+/// Whether two snapshots have the same grains, so that motions can be told from one to the other.
+bool scree_cell_snapshots_agree(const scree_cell_snapshot *one, const scree_cell_snapshot *other);
+
 #endif

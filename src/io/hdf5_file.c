@@ -6,10 +6,15 @@
 #include "io/seal.h"
 
 #include <errno.h>
+#include <pthread.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+/// Debian's HDF5 is not for several threads at once: whoever has a file open holds this, from begin to close. The
+/// thread that holds it may open another one.
+static pthread_mutex_t in_use = PTHREAD_RECURSIVE_MUTEX_INITIALIZER_NP;
 
 /// Growth of a file in memory.
 enum { MEMORY_STEP = 1 << 20 };
@@ -63,6 +68,7 @@ void scree_hdf5_refuse(scree_hdf5 *hdf5, const char *format, ...)
 static void begin(scree_hdf5 *hdf5, const char *path, scree_error *error)
 {
     *hdf5 = (scree_hdf5){.file = H5I_INVALID_HID, .path = path, .error = error};
+    (void)pthread_mutex_lock(&in_use);
     // Every file is closed here; at exit HDF5 (1.10) would complain of what it lost in damaged ones itself.
     (void)H5dont_atexit();
     (void)H5Eget_auto2(H5E_DEFAULT, &hdf5->printing, &hdf5->printing_data);
@@ -188,6 +194,7 @@ scree_status scree_hdf5_close(scree_hdf5 *hdf5)
     hdf5->file = H5I_INVALID_HID;
     (void)H5Eclear2(H5E_DEFAULT);
     (void)H5Eset_auto2(H5E_DEFAULT, hdf5->printing, hdf5->printing_data);
+    (void)pthread_mutex_unlock(&in_use);
     return hdf5->status;
 }
 

@@ -39,16 +39,23 @@ typedef struct scene {
 
 // ---- the scenes ---------------------------------------------------------------------------------------------------
 
+/// One point a body, in the order of ids.
+static void place_bodies(scree_vtp *vtp, const scree_state *state)
+{
+    size_t point = 0, id = 0;
+    for (uint32_t row; (row = scree_next_by_id(state, &id)) != SCREE_NO_ROW; point++) {
+        scree_vector place;
+        scree_body_place(state, row, place);
+        scree_vtp_place(vtp, point, place);
+    }
+}
+
 static scree_status build_bodies(scree_vtp *vtp, const scene *from, scree_error *error)
 {
     const scree_state *state = from->state;
     scree_status status = scree_vtp_create(vtp, state->count, SCREE_VTP_POINTS, state->count, error);
     if (status) return status;
-    for (size_t id = 0; id < state->count; id++) {
-        scree_vector place;
-        scree_body_place(state, state->row_of_id[id], place);
-        scree_vtp_place(vtp, id, place);
-    }
+    place_bodies(vtp, state);
     for (size_t k = 0; k < scree_body_array_count(state) && !status; k++) {
         scree_array array;
         status = scree_body_array(from->model, state, k, &array, error);
@@ -279,12 +286,12 @@ static scree_status build_cells(scree_vtp *vtp, const scene *from, scree_error *
 {
     const scree_state *state = from->state;
     const scree_cells *cells = from->cells;
-    scree_status status = scree_vtu_create(vtp, state->count, cells->dimension, cells->count, error);
+    scree_status status = scree_vtu_create(vtp, cells->bodies, cells->dimension, cells->count, error);
     if (status) return status;
-    for (size_t id = 0; id < state->count; id++) {
+    for (size_t k = 0; k < cells->bodies; k++) {
         scree_vector place;
-        scree_body_place(state, state->row_of_id[id], place);
-        scree_vtp_place(vtp, id, place);
+        scree_body_place(state, scree_state_row_of(state, cells->id ? cells->id[k] : k), place);
+        scree_vtp_place(vtp, k, place);
     }
     for (size_t k = 0; k < cells->count; k++)
         for (int n = 0; n <= cells->dimension; n++) scree_vtp_join(vtp, k, (size_t)n, cells->node[k][n]);

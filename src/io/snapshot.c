@@ -94,7 +94,7 @@ static void write_sheet(scree_hdf5 *part, const char *group, const scree_state *
     for (size_t t = 0; t < array.rows && !part->status; t++) {
         size_t corner[3];
         scree_sheet_triangle(membrane->around, membrane->count, t, corner);
-        for (size_t c = 0; c < 3; c++) ((uint32_t *)array.data)[3 * t + c] = (uint32_t)(state->grains + corner[c]);
+        for (size_t c = 0; c < 3; c++) ((uint32_t *)array.data)[3 * t + c] = (uint32_t)(membrane->first_id + corner[c]);
     }
     scree_hdf5_write(part, group, &array);
     scree_array_destroy(&array);
@@ -123,7 +123,7 @@ scree_status scree_snapshot_write(const char *directory, const scree_model *mode
     scree_hdf5_set_number(&part, group, "time", info->time);
     scree_hdf5_set_text(&part, group, "stage", info->stage);
     scree_hdf5_set_number(&part, group, "axial_strain", info->axial_strain);
-    scree_hdf5_set_integer(&part, group, "grains", state->grains);
+    scree_hdf5_set_integer(&part, group, "grains", scree_grain_count(state));
     scree_hdf5_set_number(&part, group, "pressure", scree_pressure_now(state));
     scree_hdf5_set_text(&part, group, "attribute_units",
                         "step 1, dimension 1, grains 1, time s, axial_strain 1, pressure Pa, wall_triangles 1");
@@ -207,6 +207,8 @@ static void read_bodies(scree_hdf5 *run, const char *group, scree_snapshot *snap
     scree_hdf5_get_integer(run, group, "dimension", &dimension);
     if (!run->status && dimension != 2 && dimension != 3) scree_hdf5_damaged(run, "it is neither plane nor solid");
     snapshot->dimension = run->status ? 2 : (int)dimension;
+    snapshot->id = read_column(run, group, "id", SCREE_FIELD_UINT32, 1, rows);
+    snapshot->mark = read_column(run, group, "mark", SCREE_FIELD_UINT8, 1, rows);
     snapshot->radius = read_column(run, group, "radius", SCREE_FIELD_DOUBLE, 1, rows);
     read_vectors(run, group, "position", snapshot->dimension, rows, place);
     read_vectors(run, group, "velocity", snapshot->dimension, rows, velocity);
@@ -277,17 +279,31 @@ static void read_sheet(scree_hdf5 *run, const char *group, scree_snapshot *snaps
     if (run->status) snapshot->triangle_count = 0;
 }
 
-/// Every id names a body or a wall, so that a reader may index with them.
-static void check_ids(scree_hdf5 *run, const scree_snapshot *snapshot)
+/// Turns ids into places in the snapshot; the number of those that name no body.
+static size_t find_places(const scree_snapshot *snapshot, uint32_t *ids, size_t count)
 {
     size_t bad = 0;
-    for (size_t k = 0; k < snapshot->contact_count && !run->status; k++) {
-        bool wall = snapshot->second[k] >= SCREE_ELEMENT_ID && snapshot->second[k] < SCREE_WALL_ID + SCREE_WALL_COUNT;
-        bad += snapshot->first[k] >= snapshot->count || (snapshot->second[k] >= snapshot->count && !wall);
+    for (size_t k = 0; k < count; k++) {
+        ids[k] = (uint32_t)scree_place_of_id(snapshot->id, snapshot->count, ids[k]);
+        bad += ids[k] >= snapshot->count;
     }
-    for (size_t k = 0; k < snapshot->loop_count && !run->status; k++) bad += snapshot->loop[k] >= snapshot->count;
-    for (size_t k = 0; k < 3 * snapshot->triangle_count && !run->status; k++)
-        bad += snapshot->triangle[k / 3][k % 3] >= snapshot->count;
+    return bad;
+}
+
+/// Every id names a body or a wall; those of bodies become places, with which a reader may index.
+static void resolve_ids(scree_hdf5 *run, scree_snapshot *snapshot)
+{
+    if (run->status) return;
+    size_t bad = 0;
+    for (size_t k = 1; k < snapshot->count; k++) bad += snapshot->id[k] <= snapshot->id[k - 1];
+    if (bad > 0) scree_hdf5_damaged(run, "ids of bodies do not ascend");
+    bad = find_places(snapshot, snapshot->first, snapshot->contact_count);
+    for (size_t k = 0; k < snapshot->contact_count; k++) {
+        bool wall = snapshot->second[k] >= SCREE_ELEMENT_ID && snapshot->second[k] < SCREE_WALL_ID + SCREE_WALL_COUNT;
+        if (!wall) bad += find_places(snapshot, &snapshot->second[k], 1);
+    }
+    bad += find_places(snapshot, snapshot->loop, snapshot->loop_count);
+    for (size_t t = 0; t < snapshot->triangle_count; t++) bad += find_places(snapshot, snapshot->triangle[t], 3);
     if (bad > 0) scree_hdf5_damaged(run, "a contact, the boundary or a membrane names a body that does not exist");
 }
 
@@ -322,7 +338,7 @@ scree_status scree_snapshot_read(const char *directory, size_t which, scree_snap
     read_members(&run, group, snapshot);
     read_wall_triangles(&run, group, snapshot);
     read_sheet(&run, group, snapshot);
-    check_ids(&run, snapshot);
+    resolve_ids(&run, snapshot);
     status = scree_hdf5_close(&run);
     if (status) scree_snapshot_destroy(snapshot);
     return status;
@@ -330,28 +346,14 @@ scree_status scree_snapshot_read(const char *directory, size_t which, scree_snap
 
 void scree_snapshot_destroy(scree_snapshot *snapshot)
 {
-    void *const arrays[] = {&snapshot->x,
-                            &snapshot->y,
-                            &snapshot->radius,
-                            &snapshot->angle,
-                            &snapshot->vx,
-                            &snapshot->vy,
-                            &snapshot->spin,
-                            &snapshot->first,
-                            &snapshot->second,
-                            &snapshot->loop,
-                            &snapshot->triangle,
-                            &snapshot->normal_force,
-                            &snapshot->tangential_force,
-                            &snapshot->contact_x,
-                            &snapshot->contact_y,
-                            &snapshot->z,
-                            &snapshot->vz,
-                            &snapshot->contact_z,
-                            &snapshot->wall_triangle,
-                            &snapshot->wall_line,
-                            &snapshot->branch_x,
-                            &snapshot->branch_y,
+    void *const arrays[] = {&snapshot->id,        &snapshot->mark,         &snapshot->x,
+                            &snapshot->y,         &snapshot->radius,       &snapshot->angle,
+                            &snapshot->vx,        &snapshot->vy,           &snapshot->spin,
+                            &snapshot->first,     &snapshot->second,       &snapshot->loop,
+                            &snapshot->triangle,  &snapshot->normal_force, &snapshot->tangential_force,
+                            &snapshot->contact_x, &snapshot->contact_y,    &snapshot->z,
+                            &snapshot->vz,        &snapshot->contact_z,    &snapshot->wall_triangle,
+                            &snapshot->wall_line, &snapshot->branch_x,     &snapshot->branch_y,
                             &snapshot->branch_z};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
     *snapshot = (scree_snapshot){0};

@@ -106,19 +106,21 @@ typedef struct scree_snapshot {
     char stage[32];
     int dimension;
     size_t count;
-    uint64_t grains;                                 ///< bodies from it on belong to a membrane
+    uint64_t grains;                                 ///< number of bodies with the mark of a grain
+    uint32_t *id;                                    ///< ascending
+    uint8_t *mark;                                   ///< scree_mark
     double *x, *y, *radius, *angle, *vx, *vy, *spin; ///< in 3D no angle (NULL), and spin is the magnitude
     double *z, *vz;                                  ///< 3D only, else NULL
     size_t contact_count;
-    uint32_t *first, *second;                ///< ids; second >= SCREE_ELEMENT_ID is a wall
+    uint32_t *first, *second;                ///< places in these arrays; second >= SCREE_ELEMENT_ID is a wall
     double *normal_force, *tangential_force; ///< N
     double *contact_x, *contact_y;           ///< m
     double *contact_z;                       ///< m, 3D only, else NULL
     double *branch_x, *branch_y, *branch_z; ///< m, from the second (its image in a periodic cell) to the first; z in 3D
     size_t loop_count;
-    uint32_t *loop;
+    uint32_t *loop;          ///< places
     size_t triangle_count;   ///< of the membrane in 3D
-    uint32_t (*triangle)[3]; ///< ids, counter-clockwise seen from outside
+    uint32_t (*triangle)[3]; ///< places, counter-clockwise seen from outside
     scree_wall wall[SCREE_WALL_COUNT];
     size_t wall_triangle_count;
     double *wall_triangle; ///< m, walls of the case: 9 each, three corners; in 2D lines, the last two corners the same
@@ -130,5 +132,11 @@ scree_status scree_snapshot_count(const char *directory, size_t *count, scree_er
 scree_status scree_snapshot_read(const char *directory, size_t which, scree_snapshot *snapshot,
                                  scree_error *error) SCREE_MUST_USE;
 void scree_snapshot_destroy(scree_snapshot *snapshot);
+
+/// Body k is a grain; without marks all of them are.
+static inline bool scree_snapshot_is_grain(const scree_snapshot *snapshot, size_t k)
+{
+    return !snapshot->mark || snapshot->mark[k] == SCREE_MARK_GRAIN;
+}
 
 #endif

@@ -81,6 +81,8 @@ static void check_origin(scree_hdf5 *file, const char *group, int dimension, uin
 static scree_status make_room(scree_state *state, const scree_field *field, size_t rows, scree_error *error)
 {
     if (field->rows == SCREE_ROWS_BODIES && !state->row) return scree_state_make_bodies(state, rows, error);
+    if (field->rows == SCREE_ROWS_BODIES && field->optional && rows > 0)
+        return scree_state_begin_field(state, field, error);
     if (field->rows == SCREE_ROWS_GROUP && scree_field_rows_count(state, field) == 0) {
         scree_status status = scree_group_reserve(state, field->owner, field->group, rows, error);
         if (!status) scree_group_set_count(state, field->owner, field->group, rows);
@@ -108,14 +110,13 @@ static void read_field(scree_hdf5 *file, const char *group, const scree_field *f
 /// Finds the row of each id.
 static void find_rows(scree_hdf5 *file, scree_state *state)
 {
+    scree_error reason = {0};
     if (file->status) return;
-    memset(state->row_of_id, 0xff, state->count * sizeof *state->row_of_id);
-    for (size_t row = 0; row < state->count && !file->status; row++)
-        if (state->id[row] < state->count && state->row_of_id[state->id[row]] == UINT32_MAX)
-            state->row_of_id[state->id[row]] = (uint32_t)row;
-        else
-            scree_hdf5_refuse(file, "dataset 'id', row %zu: %u (accepted: each of 0 to %zu once)", row, state->id[row],
-                              state->count - 1);
+    scree_status status = scree_state_find_rows(state, &reason);
+    if (status == SCREE_ERROR_INPUT)
+        scree_hdf5_refuse(file, "dataset 'id', %s", reason.message);
+    else if (status)
+        file->status = scree_error_set(file->error, status, "%s", reason.message);
 }
 
 void scree_state_read(scree_hdf5 *file, const char *group, const char *shared, int dimension, uint64_t case_checksum,

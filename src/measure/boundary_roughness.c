@@ -35,12 +35,13 @@ static void pull_back(pulled *p, const double gradient[4])
 
 static void fill(const scree_state *state, pulled *p)
 {
-    for (size_t id = 0; id < p->count; id++) {
-        size_t row = state->row_of_id[id];
-        p->x0[id] = state->reference[row][0];
-        p->y0[id] = state->reference[row][1];
-        p->x1[id] = state->row[row].x;
-        p->y1[id] = state->row[row].y;
+    size_t id = 0, k = 0;
+    for (uint32_t row; (row = scree_next_by_id(state, &id)) != SCREE_NO_ROW;) {
+        if (!scree_body_is_grain(state, row)) continue;
+        p->x0[k] = state->reference[row][0];
+        p->y0[k] = state->reference[row][1];
+        p->x1[k] = state->row[row].x;
+        p->y1[k++] = state->row[row].y;
     }
     centre(p->x0, p->count);
     centre(p->y0, p->count);
@@ -64,7 +65,7 @@ scree_status scree_boundary_roughness(const scree_model *model, const scree_stat
 {
     *roughness = NAN;
     if (state->dimension != 2) return SCREE_OK;
-    size_t n = state->grains;
+    size_t n = scree_grain_count(state);
     double *room = NULL, *reach = NULL, gradient[4], square = 0, sum = 0, used = 0;
     scree_status status = scree_allocate(&room, 6 * n, sizeof *room, error);
     if (status) return status;

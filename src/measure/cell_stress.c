@@ -145,11 +145,23 @@ static void add_contact(const scree_contact *contact, const sharing *s, double (
                 stress[s->cell[k]][3 * i + j] -= s->share[k] / s->sum * force[i] * contact->branch[j];
 }
 
-static scree_status places_by_id(const scree_state *state, double **place, scree_error *error)
+/// Where grains are, in the order of their ids, and of each row its place in that order.
+typedef struct places {
+    double *place; ///< m, 3 a grain
+    uint32_t *of_row;
+} places;
+
+static scree_status places_by_id(const scree_state *state, places *p, scree_error *error)
 {
-    scree_status status = scree_allocate(place, 3 * state->grains, sizeof **place, error);
-    for (size_t id = 0; id < state->grains && !status; id++)
-        scree_body_place(state, state->row_of_id[id], *place + 3 * id);
+    uint32_t *row = NULL;
+    scree_status status = scree_grains_by_id(state, &row, error);
+    if (!status) status = scree_allocate(&p->place, 3 * scree_grain_count(state), sizeof *p->place, error);
+    if (!status) status = scree_allocate(&p->of_row, state->count, sizeof *p->of_row, error);
+    for (size_t k = 0; k < scree_grain_count(state) && !status; k++) {
+        scree_body_place(state, row[k], p->place + 3 * k);
+        p->of_row[row[k]] = (uint32_t)k;
+    }
+    scree_release(&row);
     return status;
 }
 
@@ -157,10 +169,10 @@ scree_status scree_cells_stress(scree_cells *cells, const scree_state *state, co
                                 double (*stress)[9], scree_error *error)
 {
     scree_node_cells list;
-    double *place = NULL;
+    places p = {0};
     scree_status status = scree_node_cells_build(cells, &list, error);
     if (status) return status;
-    status = places_by_id(state, &place, error);
+    status = places_by_id(state, &p, error);
     cells->crossing = cells->unassigned = 0;
     for (size_t k = 0; k < cells->count && !status; k++)
         for (int i = 0; i < 9; i++) stress[k][i] = 0;
@@ -169,12 +181,12 @@ scree_status scree_cells_stress(scree_cells *cells, const scree_state *state, co
         if (contact->wall || !scree_body_is_grain(state, contact->first) ||
             !scree_body_is_grain(state, contact->second))
             continue;
-        uint32_t a = state->id[contact->first], b = state->id[contact->second];
+        uint32_t a = p.of_row[contact->first], b = p.of_row[contact->second];
         sharing s = {.count = 0};
         share_edge(cells, &list, a, b, &s);
         if (s.count == 0) {
             cells->crossing++;
-            share_crossing(cells, &list, place, a, b, &s);
+            share_crossing(cells, &list, p.place, a, b, &s);
         }
         if (s.count == 0) {
             cells->unassigned++;
@@ -185,6 +197,7 @@ scree_status scree_cells_stress(scree_cells *cells, const scree_state *state, co
     for (size_t k = 0; k < cells->count && !status; k++)
         for (int i = 0; i < 9; i++) stress[k][i] /= cells->volume[k];
     scree_node_cells_destroy(&list);
-    scree_release(&place);
+    scree_release(&p.place);
+    scree_release(&p.of_row);
     return status;
 }

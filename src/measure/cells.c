@@ -21,22 +21,25 @@ scree_status scree_assembly_of_state(const scree_model *model, const scree_state
 {
     bool solid = state->dimension == 3;
     *assembly = (scree_assembly){
-        .dimension = state->dimension, .thickness = solid ? 1 : model->thickness, .count = state->grains};
-    scree_status status = scree_allocate(&assembly->place, 3 * state->grains, sizeof *assembly->place, error);
-    if (!status) status = scree_allocate(&assembly->radius, state->grains, sizeof *assembly->radius, error);
-    if (status) {
-        scree_assembly_destroy(assembly);
-        return status;
+        .dimension = state->dimension, .thickness = solid ? 1 : model->thickness, .count = scree_grain_count(state)};
+    uint32_t *row = NULL;
+    scree_status status = scree_grains_by_id(state, &row, error);
+    if (!status) status = scree_allocate(&assembly->id, assembly->count, sizeof *assembly->id, error);
+    if (!status) status = scree_allocate(&assembly->place, 3 * assembly->count, sizeof *assembly->place, error);
+    if (!status) status = scree_allocate(&assembly->radius, assembly->count, sizeof *assembly->radius, error);
+    for (size_t k = 0; k < assembly->count && !status; k++) {
+        assembly->id[k] = state->id[row[k]];
+        scree_body_place(state, row[k], assembly->place + 3 * k);
+        assembly->radius[k] = scree_body_equivalent_radius(state, row[k]);
     }
-    for (size_t id = 0; id < state->grains; id++) {
-        scree_body_place(state, state->row_of_id[id], assembly->place + 3 * id);
-        assembly->radius[id] = state->row[state->row_of_id[id]].radius;
-    }
-    return SCREE_OK;
+    scree_release(&row);
+    if (status) scree_assembly_destroy(assembly);
+    return status;
 }
 
 void scree_assembly_destroy(scree_assembly *assembly)
 {
+    scree_release(&assembly->id);
     scree_release(&assembly->place);
     scree_release(&assembly->radius);
     assembly->count = 0;
@@ -226,8 +229,8 @@ scree_status scree_cells_build(const scree_assembly *assembly, double gap_limit,
 
 void scree_cells_destroy(scree_cells *cells)
 {
-    void *const arrays[] = {&cells->node,   &cells->neighbour,  &cells->volume,  &cells->gradient,
-                            &cells->stress, &cells->distortion, &cells->pressure};
+    void *const arrays[] = {&cells->id,       &cells->node,   &cells->neighbour,  &cells->volume,
+                            &cells->gradient, &cells->stress, &cells->distortion, &cells->pressure};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
     cells->count = 0;
 }
@@ -239,10 +242,10 @@ static scree_status measure_motion(const scree_model *model, const scree_state *
 {
     double *velocity = NULL;
     scree_vector spin;
-    scree_status status = scree_allocate(&velocity, 3 * state->grains, sizeof *velocity, error);
+    scree_status status = scree_allocate(&velocity, 3 * assembly->count, sizeof *velocity, error);
     if (status) return status;
-    for (size_t id = 0; id < state->grains; id++)
-        scree_body_velocity(model, state, state->row_of_id[id], velocity + 3 * id, spin);
+    for (size_t k = 0; k < assembly->count; k++)
+        scree_body_velocity(model, state, scree_state_row_of(state, cells->id[k]), velocity + 3 * k, spin);
     scree_cells_gradient(cells, assembly->place, velocity, cells->gradient);
     scree_release(&velocity);
     return SCREE_OK;
@@ -257,6 +260,10 @@ scree_status scree_cells_measure(const scree_model *model, const scree_state *st
     if (status) return status;
     double gap_limit = model->config->boundary.gap_limit * 2 * model->mean_radius;
     status = scree_cells_build(&assembly, gap_limit, cells, error);
+    if (!status) {
+        cells->id = assembly.id;
+        assembly.id = NULL;
+    }
     if (!status) status = scree_allocate(&cells->gradient, cells->count, sizeof *cells->gradient, error);
     if (!status) status = scree_allocate(&cells->stress, cells->count, sizeof *cells->stress, error);
     if (!status) status = scree_allocate(&cells->distortion, cells->count, sizeof *cells->distortion, error);

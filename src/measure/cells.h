@@ -18,8 +18,9 @@ typedef struct scree_assembly {
     int dimension;
     double thickness; ///< m, of discs; 1 in 3D
     size_t count;
+    uint32_t *id;   ///< ascending; NULL: 0 .. count - 1
     double *place;  ///< m, count x 3; z = 0 in 2D
-    double *radius; ///< m
+    double *radius; ///< m, equivalent
 } scree_assembly;
 
 /// Positions and radii of the grains of a state; free with scree_assembly_destroy. Errors: memory.
@@ -31,7 +32,8 @@ typedef struct scree_cells {
     int dimension;
     size_t count;
     size_t bodies;               ///< of the assembly
-    uint32_t (*node)[4];         ///< ids, positively oriented; in 2D the fourth is UINT32_MAX
+    uint32_t *id;                ///< of these bodies; NULL: 0 .. bodies - 1
+    uint32_t (*node)[4];         ///< places in the assembly, positively oriented; in 2D the fourth is UINT32_MAX
     int32_t (*neighbour)[4];     ///< cell across the face opposite to each node; -1: none
     double *volume;              ///< m3; in 2D area times thickness
     double (*gradient)[9];       ///< 1/s, velocity gradient d v_row / d x_column; NULL until measured

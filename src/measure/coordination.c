@@ -180,7 +180,8 @@ scree_status scree_coordination_measure(const scree_model *model, const scree_st
         out->mean = mean_contacts(&s, state->count, &bodies);
         while (mark_rattlers(&s, state->count)) count_contacts(table, &s, state->count);
         out->mean_without_rattlers = mean_contacts(&s, state->count, &bodies);
-        out->rattler_fraction = state->grains > 0 ? 1 - (double)bodies / (double)state->grains : 0;
+        size_t grains = scree_grain_count(state);
+        out->rattler_fraction = grains > 0 ? 1 - (double)bodies / (double)grains : 0;
     }
     scree_release(&s.contacts);
     scree_release(&s.rattler);

@@ -20,12 +20,13 @@ typedef struct columns {
 
 static void fill(const scree_state *state, columns *c)
 {
-    for (size_t id = 0; id < c->count; id++) {
-        size_t row = state->row_of_id[id];
-        c->x0[id] = state->reference[row][0];
-        c->y0[id] = state->reference[row][1];
-        c->x1[id] = state->row[row].x;
-        c->y1[id] = state->row[row].y;
+    size_t id = 0, k = 0;
+    for (uint32_t row; (row = scree_next_by_id(state, &id)) != SCREE_NO_ROW;) {
+        if (!scree_body_is_grain(state, row)) continue;
+        c->x0[k] = state->reference[row][0];
+        c->y0[k] = state->reference[row][1];
+        c->x1[k] = state->row[row].x;
+        c->y1[k++] = state->row[row].y;
     }
 }
 
@@ -59,7 +60,7 @@ scree_status scree_corner_distortion(const scree_model *model, const scree_state
 {
     *distortion = NAN;
     if (state->dimension != 2) return SCREE_OK;
-    size_t n = state->grains;
+    size_t n = scree_grain_count(state);
     double *room = NULL, gradient[4], x[2], y[2], largest = 0;
     scree_status status = scree_allocate(&room, 6 * n, sizeof *room, error);
     if (status) return status;

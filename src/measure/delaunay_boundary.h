@@ -48,6 +48,7 @@ typedef struct scree_delaunay_boundary {
     scree_loop loop; ///< 2D
     scree_hull hull; ///< 3D
     scree_strain strain;
+    uint64_t stale;    ///< 1: a body of the boundary was taken out, so it is found anew at the next search
     double taken_over; ///< 1, fraction of the time passed in which a membrane takes the pressure over; 0 without one
 } scree_delaunay_boundary;
 

@@ -5,9 +5,8 @@
 ///     T(n+1) - T(n) = sum 1/2 (F(n) + F(n+1)) . v(n+1/2) dt,
 /// the trapezoidal work of the forces over the very displacement x(n+1) - x(n) = v(n+1/2) dt. The ledger books every
 /// force by the same rule, so the residual
-///     (kinetic + elastic - initial) - (plates + pressure + boundary + periodic + gravity) + damping + friction -
-///     stiffness
-///     - scheme
+///     (kinetic + elastic - initial) - (plates + pressure + boundary + periodic + forced + outside + gravity) +
+///     damping + friction - stiffness - scheme + removed
 /// holds no error of the integrator, only that of the trapezoidal rule along the elastic force laws: third order in the
 /// step. Work done on the bodies is positive, dissipation is positive; `stiffness` is what the change of the tangential
 /// stiffness puts into (positive) or takes out of the tangential springs.
@@ -151,9 +150,9 @@ static double energy_of_rounding(const scree_model *model, const scree_state *st
 {
     double distance = ROUNDING * DBL_EPSILON * largest;
     double weight = body[MASS] * scree_length(model->gravity), bodies = (double)state->count;
-    const scree_pair_constants *pair = &model->pairs[SCREE_PARTICLE_MATERIAL][SCREE_PARTICLE_MATERIAL];
+    const scree_pair_constants pair = scree_model_mean_pair(model);
     return distance * (contact_force + weight) +
-           bodies * scree_model_law(model)->elastic->energy(pair, model->mean_radius, distance) +
+           bodies * scree_model_law(model)->elastic->energy(&pair, model->mean_radius, distance) +
            0.5 * DBL_EPSILON * bodies * body[MAGNITUDES];
 }
 
@@ -170,11 +169,13 @@ void scree_energy_measure(const scree_model *model, const scree_state *state, co
                              .elastic_tangential = contact[ELASTIC_TANGENTIAL],
                              .gravity = body[POTENTIAL] - ledger->gravity};
     double stored = energy->kinetic + energy->kinetic_rotation + energy->elastic_normal + energy->elastic_tangential;
-    energy->residual =
-        (stored - ledger->initial) -
-        (ledger->plates + ledger->pressure + ledger->boundary + ledger->periodic + ledger->forced + energy->gravity) +
-        ledger->damping + ledger->friction - ledger->stiffness - ledger->scheme;
-    energy->scale = ledger->initial + ledger->turnover + fabs(energy->gravity) + stored +
+    energy->residual = (stored - ledger->initial) -
+                       (ledger->plates + ledger->pressure + ledger->boundary + ledger->periodic + ledger->forced +
+                        ledger->outside + energy->gravity) +
+                       ledger->damping + ledger->friction - ledger->stiffness - ledger->scheme + ledger->removed;
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
+        if (scree_modules[m]->work) energy->residual -= scree_modules[m]->work(state);
+    energy->scale = ledger->initial + ledger->turnover + fabs(ledger->removed) + fabs(energy->gravity) + stored +
                     energy_of_rounding(model, state, body, largest, contact[NORMAL_FORCE]);
     energy->relative = energy->scale > 0 ? fabs(energy->residual) / energy->scale : 0;
 }

@@ -6,6 +6,7 @@
 /// 62 bits less those of their number are left for a share.
 #include "measure/facets.h"
 #include "measure/delaunay_boundary.h"
+#include "state/body.h"
 
 #include <math.h>
 #include <string.h>
@@ -34,24 +35,36 @@ scree_facet scree_facet_get(const scree_state *state, size_t index)
     return facet;
 }
 
-scree_status scree_facet_rule(const scree_model *model, const scree_state *state, scree_peel_rule *rule, uint32_t **ids,
-                              scree_error *error)
+/// Place of the body in `row` among the grains in the order of their ids.
+static uint32_t place_of(const scree_state *state, const uint32_t *grains, size_t row)
+{
+    size_t low = 0, high = scree_grain_count(state);
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        *(state->id[grains[middle]] <= state->id[row] ? &low : &high) = middle;
+    }
+    return (uint32_t)low;
+}
+
+scree_status scree_facet_rule(const scree_model *model, const scree_state *state, const uint32_t *grains,
+                              scree_peel_rule *rule, uint32_t **places, scree_error *error)
 {
     const scree_config_boundary *boundary = &model->config->boundary;
     size_t d = (size_t)state->dimension, count = scree_facet_count(state);
-    *ids = NULL;
+    *places = NULL;
     *rule = (scree_peel_rule){.gap_limit = boundary->gap_limit * 2 * model->mean_radius,
                               .hysteresis = boundary->gap_hysteresis,
                               .facet_count = count};
     if (count == 0) return SCREE_OK;
-    scree_status status = scree_allocate(ids, count * d, sizeof **ids, error);
+    scree_status status = scree_allocate(places, count * d, sizeof **places, error);
     if (status) return status;
     for (size_t k = 0; k < count; k++) {
         scree_facet facet = scree_facet_get(state, k);
-        for (size_t c = 0; c < d; c++) (*ids)[k * d + c] = state->id[scree_boundary_row(state, facet.node[c])];
+        for (size_t c = 0; c < d; c++)
+            (*places)[k * d + c] = place_of(state, grains, scree_boundary_row(state, facet.node[c]));
     }
-    scree_peel_rule_sort(*ids, count, state->dimension);
-    rule->facet = *ids;
+    scree_peel_rule_sort(*places, count, state->dimension);
+    rule->facet = *places;
     return SCREE_OK;
 }
 

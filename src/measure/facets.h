@@ -29,10 +29,11 @@ typedef struct scree_facet {
 size_t scree_facet_count(const scree_state *state);
 scree_facet scree_facet_get(const scree_state *state, size_t index);
 
-/// By what rule the boundary that follows the present one is found, in ids. *ids: the memory of the rule's facets,
+/// By what rule the boundary that follows the present one is found among the grains, which stand in the rows `grains`
+/// in the order of their ids (scree_grains_by_id). *places: the memory of the rule's facets, in places of that order,
 /// which the caller releases; NULL where there is no boundary yet. Errors: memory.
-scree_status scree_facet_rule(const scree_model *model, const scree_state *state, scree_peel_rule *rule, uint32_t **ids,
-                              scree_error *error) SCREE_MUST_USE;
+scree_status scree_facet_rule(const scree_model *model, const scree_state *state, const uint32_t *grains,
+                              scree_peel_rule *rule, uint32_t **places, scree_error *error) SCREE_MUST_USE;
 
 /// Area vectors of all nodes [m2] (in 2D length times thickness); `area` has one element a node.
 void scree_boundary_areas(const scree_model *model, const scree_state *state, scree_vector *area);

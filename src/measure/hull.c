@@ -2,6 +2,7 @@
 /// O(triangles).
 #include "measure/hull.h"
 #include "measure/delaunay_boundary.h"
+#include "state/body.h"
 #include "state/plates.h"
 
 #include "base/integer_sum.h"

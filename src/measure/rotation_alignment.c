@@ -115,8 +115,8 @@ static bool is_behind(const scene *s, size_t row, const scree_vector place, cons
 /// The bodies that count within `limit` [mean diameters]; excess is the logarithm of the amount still.
 static void find_witnesses(scene *s, double diameter, double limit, const scree_rotation_network *network)
 {
-    for (size_t id = 0; id < s->state->grains; id++) {
-        size_t row = s->state->row_of_id[id];
+    size_t id = 0;
+    for (uint32_t row; (row = scree_next_by_id(s->state, &id)) != SCREE_NO_ROW;) {
         double own = scree_rotation_amount(s->state, row);
         if (row == s->forced || !scree_rotation_counts(s->state, row) || !(s->weight[row] > 0 && own > 0)) continue;
         scree_vector place, outward;

@@ -59,8 +59,8 @@ static double distance_between(const scree_model *model, const scree_state *stat
 static void fill_bins(const scree_model *model, const scree_state *state, size_t forced, scree_rotation_decay *decay)
 {
     double square[SCREE_ROTATION_BINS] = {0}, driven = scree_rotation_amount(state, forced);
-    for (size_t id = 0; id < state->grains; id++) {
-        size_t row = state->row_of_id[id];
+    size_t id = 0;
+    for (uint32_t row; (row = scree_next_by_id(state, &id)) != SCREE_NO_ROW;) {
         if (row == forced || !scree_rotation_counts(state, row)) continue;
         double ratio = scree_rotation_amount(state, row) / driven;
         double distance = distance_between(model, state, forced, row);

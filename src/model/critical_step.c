@@ -37,10 +37,16 @@
 /// Loads: the largest confining pressure; gravity as the weight of a column of the whole sample; velocities of a gas
 /// and falls through its box as the force of an elastic impact of two smallest discs at six times the root-mean-square
 /// velocity component; listed bodies as that of an impact at their largest relative velocity, with the fall from the
-/// highest, in each of their materials. None of them counts above the force at the indentation where the guard would
-/// stop the run; a case without any load gets that force. Limits: an estimate. Grains of another material than the
-/// smallest ones, stresses far above the confining pressure and collapses at high speed are not seen; the guard on the
-/// energy ledger is.
+/// highest. None of them counts above the force at the indentation where the guard would stop the run; a case without
+/// any load gets that force.
+///
+/// Several materials: the least over all pairs of them. Contacts of two materials stand between the smallest bodies of
+/// each, and all bodies of the lattice have the smaller of the two masses: lighter than they are, so that the step is
+/// too small rather than too large. In a mixture the row of a body in M^-1 K has contacts of several pairs; the
+/// stiffest of them all around bound it (Gershgorin). The weight is that of the denser one.
+///
+/// Limits: an estimate. Stresses far above the confining pressure and collapses at high speed are not seen; the guard
+/// on the energy ledger is.
 #include "model/critical_step.h"
 
 #include "base/vectors.h"
@@ -84,7 +90,7 @@ double scree_expected_height(const scree_model *model, double phi)
     const scree_config *config = model->config;
     const scree_config_stage *stage = scree_config_prepare(config);
     const scree_preparation *method = scree_config_preparation(config);
-    double radius = model->mean_radius;
+    double radius = scree_model_filling_radius(model);
     if (method && method->height) return method->height(model, stage);
     const scree_prepare_config *prepare = stage ? scree_config_prepared(stage) : NULL;
     bool box = prepare && prepare->outline == SCREE_SAMPLE_BOX;
@@ -121,23 +127,33 @@ double scree_expected_fast_speed(const scree_model *model, double velocity)
 }
 
 /// Force of a strong contact under pressure and weight.
-static double strong_static_force(const scree_model *model, double height, int material)
+static double strong_static_force(const scree_model *model, double height, double density)
 {
     const scree_config *config = model->config;
-    double pressure =
-        scree_model_gravity(model) * model->density[material] * scree_expected_solid_fraction(model) * height;
+    double pressure = scree_model_gravity(model) * density * scree_expected_solid_fraction(model) * height;
     for (int64_t i = 0; i < config->stage_count; i++)
         pressure = fmax(pressure, scree_held_pressure(&config->stages[i]));
     double diameter = 2 * model->mean_radius;
     return STRONG * pressure * diameter * (model->dimension == 3 ? diameter : model->thickness);
 }
 
-/// The estimate for particles of one material.
-static double estimate_of(const scree_model *model, int material)
+/// Smallest body that there may be of a material. Of those that are not listed as a species' own, any may be.
+static double least_radius(const scree_model *model, int material)
 {
-    const scree_pair_constants *pair = &model->pairs[material][material];
-    double mass = scree_model_mass(model, material, model->radius_min);
-    double effective_radius = model->radius_min / 2, effective_mass = mass / 2;
+    double least = INFINITY;
+    for (int s = 0; s < model->species_count; s++)
+        if (model->species[s].material == material) least = fmin(least, model->species[s].radius.least);
+    return isinf(least) ? model->radius_min : least;
+}
+
+/// The estimate for contacts of two materials.
+static double estimate_of(const scree_model *model, int one, int other)
+{
+    const scree_pair_constants *pair = &model->pairs[one][other];
+    double a = least_radius(model, one), b = least_radius(model, other);
+    double mass = scree_model_mass(model, one, a), second = scree_model_mass(model, other, b);
+    double effective_radius = a == b ? a / 2 : a * b / (a + b);
+    double effective_mass = one == other ? mass / 2 : mass * second / (mass + second);
     const scree_elastic *elastic = scree_model_law(model)->elastic;
 
     const scree_config_stage *stage = scree_config_prepare(model->config);
@@ -145,22 +161,22 @@ static double estimate_of(const scree_model *model, int material)
     double phi =
         method && method->solid_fraction ? method->solid_fraction(model, stage) : scree_expected_solid_fraction(model);
     double height = scree_expected_height(model, phi);
-    double force = strong_static_force(model, height, material);
+    double force = strong_static_force(model, height, fmax(model->density[one], model->density[other]));
     double fall = sqrt(2 * scree_model_gravity(model) * height);
     if (method && method->impact_speed)
         force = fmax(force, elastic->impact_force(pair, effective_radius, effective_mass,
                                                   method->impact_speed(model, stage, fall)));
-    double guard = elastic->force(pair, effective_radius, model->config->guard.overlap * model->radius_min);
+    double guard = elastic->force(pair, effective_radius, model->config->guard.overlap * fmin(a, b));
     if (!(force > 0 && force < guard)) force = guard;
 
     scree_contact_tangent tangent = scree_contact_linearise(model, pair, effective_radius, effective_mass, force);
-    return scree_critical_step_lattice(model->dimension, &tangent, mass);
+    return scree_critical_step_lattice(model->dimension, &tangent, fmin(mass, second));
 }
 
 double scree_critical_step_estimate(const scree_model *model)
 {
     double least = INFINITY;
-    for (int material = 0; material < model->material_count; material++)
-        least = fmin(least, estimate_of(model, material));
+    for (int one = 0; one < model->material_count; one++)
+        for (int other = 0; other <= one; other++) least = fmin(least, estimate_of(model, one, other));
     return least;
 }

@@ -31,7 +31,7 @@ static scree_status indexed_error(scree_error *error, const char *list, int64_t 
 
 int scree_model_material(const scree_model *model, const char *name)
 {
-    if (!name) return SCREE_PARTICLE_MATERIAL;
+    if (!name) return model->species[0].material;
     for (int i = 0; i < model->material_count; i++)
         if (strcmp(model->config->materials[model->listed[i]].name, name) == 0) return i;
     return -1;
@@ -59,11 +59,13 @@ static scree_status check_materials(const scree_model *model, scree_error *error
     return SCREE_OK;
 }
 
-/// Materials in the order of their use: that of the particles, others that something is made of, and the rest, which
-/// has constants but counts in nothing.
+/// Materials in the order of their use: that of the particles (of the first species), others that something is made of,
+/// and the rest, which has constants but counts in nothing.
 static int rank_of(const scree_config *config, const scree_config_material *material)
 {
-    if (strcmp(material->name, config->particles.material) == 0) return 0;
+    const scree_config_particles *particles = &config->particles;
+    for (int64_t s = 0; s < scree_config_species_count(particles); s++)
+        if (strcmp(material->name, scree_config_species_at(particles, s).material) == 0) return s > 0;
     const scree_preparation *method = scree_config_preparation(config);
     return method && method->uses && method->uses(scree_config_prepare(config), material->name) ? 1 : 2;
 }
@@ -130,58 +132,68 @@ static scree_status resolve_walls(scree_model *model, scree_error *error)
 static scree_status resolve_materials(scree_model *model, scree_error *error)
 {
     const scree_config *config = model->config;
-    const scree_config_material *listed = config->materials;
-    const scree_law *law = scree_model_law(model);
-    const scree_contact_space space = space_of(model);
     scree_status status = check_materials(model, error);
     if (status) return status;
     model->material_count = 0;
     number_materials(model);
-    for (int i = 0; model->material_count > 0 && i < config->material_count; i++) {
+    for (int i = 0; model->material_count > 0 && i < config->material_count; i++)
+        model->density[i] = config->materials[model->listed[i]].density;
+    return SCREE_OK;
+}
+
+/// Constants of all pairs, which may depend on sizes.
+static scree_status resolve_pairs(scree_model *model, scree_error *error)
+{
+    const scree_config *config = model->config;
+    const scree_config_material *listed = config->materials;
+    const scree_law *law = scree_model_law(model);
+    const scree_contact_space space = space_of(model);
+    for (int i = 0; i < config->material_count; i++) {
         const scree_config_material *material = &listed[model->listed[i]];
         for (int j = 0; j <= i; j++)
             model->pairs[i][j] = model->pairs[j][i] = law->constants(&space, material, &listed[model->listed[j]]);
-        model->density[i] = material->density;
         if (i < model->material_count) model->law.option |= law->options(&config->contact, material);
     }
     return resolve_walls(model, error);
 }
 
-/// Radii and thickness, which constants of materials may depend on.
-static void resolve_sizes(scree_model *model)
+/// Every species is made of something.
+static scree_status check_species(const scree_model *model, scree_error *error)
 {
-    const scree_config_particles *particles = &model->config->particles;
-    model->mean_radius = (particles->radius_min + particles->radius_max) / 2;
-    bool equal = particles->distribution == SCREE_SIZE_EQUAL;
-    model->radius_min = equal ? model->mean_radius : particles->radius_min;
-    model->radius_max = equal ? model->mean_radius : particles->radius_max;
-    model->thickness = isnan(particles->thickness) ? 2 * model->mean_radius : particles->thickness;
-    if (model->dimension == 3) model->thickness = 1;
-}
-
-static scree_status check_particles(const scree_model *model, scree_error *error)
-{
-    const scree_config_particles *particles = &model->config->particles;
-    if (model->material_count == 0) {
+    const scree_config *config = model->config;
+    const scree_config_particles *particles = &config->particles;
+    for (int64_t s = 0; s < scree_config_species_count(particles); s++) {
+        const char *material = scree_config_species_at(particles, s).material;
+        if (find_material(config, material) >= 0) continue;
+        if (particles->species_count > 0)
+            return indexed_error(error, "particles.species", s, "material", "there is no such material in this case");
         scree_status status =
-            FIELD_ERROR(error, "particles.material", "there is no material '%s' in this case", particles->material);
-        for (int i = 0; error && i < model->config->material_count; i++) {
+            FIELD_ERROR(error, "particles.material", "there is no material '%s' in this case", material);
+        for (int i = 0; error && i < config->material_count; i++) {
             size_t used = strlen(error->accepted);
             (void)snprintf(error->accepted + used, sizeof error->accepted - used, "%s%s", i ? ", " : "",
-                           model->config->materials[i].name);
+                           config->materials[i].name);
         }
         return status;
     }
-    if (particles->radius_min > particles->radius_max)
-        return FIELD_ERROR(error, "particles.radius_min", "radius_min (%g m) is above radius_max (%g m)",
-                           particles->radius_min, particles->radius_max);
+    return SCREE_OK;
+}
+
+static scree_status resolve_particles(scree_model *model, scree_error *error)
+{
+    scree_status status = check_species(model, error);
+    if (!status) status = scree_model_resolve_species(model, error);
+    if (status) return status;
+    double thickness = model->config->particles.thickness;
+    model->thickness = isnan(thickness) ? 2 * model->mean_radius : thickness;
+    if (model->dimension == 3) model->thickness = 1;
     return SCREE_OK;
 }
 
 double scree_model_stiffness(const scree_model *model, double pressure, double diameter, double depth)
 {
-    const scree_pair_constants *pair = &model->pairs[SCREE_PARTICLE_MATERIAL][SCREE_PARTICLE_MATERIAL];
-    return scree_model_law(model)->elastic->stiffness(pair, 0.5 * model->mean_radius, pressure, diameter, depth);
+    const scree_pair_constants pair = scree_model_mean_pair(model);
+    return scree_model_law(model)->elastic->stiffness(&pair, 0.5 * model->mean_radius, pressure, diameter, depth);
 }
 
 double scree_model_largest_radius(const scree_model *model)
@@ -230,8 +242,8 @@ static scree_status check_membrane_radius(const scree_model *model, scree_error 
                        model->membrane_radius, hole, model->radius_min);
 }
 
-/// A membrane is made of the particles' material without friction, as one more material. Its springs must not swing
-/// faster than the step can follow.
+/// A membrane is made of the material of the particles (of the first species) without friction, as one more material.
+/// Its springs must not swing faster than the step can follow.
 static scree_status resolve_membrane(scree_model *model, scree_error *error)
 {
     const scree_config *config = model->config;
@@ -242,7 +254,7 @@ static scree_status resolve_membrane(scree_model *model, scree_error *error)
     if (model->material_count == SCREE_MAX_MATERIALS)
         return FIELD_ERROR(error, "materials", "a case with a membrane has at most %d materials",
                            SCREE_MAX_MATERIALS - 1);
-    const int grains = SCREE_PARTICLE_MATERIAL, m = model->membrane_material = model->material_count;
+    const int grains = model->species[0].material, m = model->membrane_material = model->material_count;
     for (int i = 0; i < m; i++) model->pairs[m][i] = model->pairs[i][m] = model->pairs[grains][i];
     model->pairs[m][m] = model->pairs[grains][grains];
     model->walls[m] = model->walls[grains];
@@ -283,17 +295,6 @@ static scree_status check_prepare(const scree_model *model, int64_t index, scree
         return indexed_error(error, "stages", index, shallow ? "depth" : "width", text);
     }
     return SCREE_OK;
-}
-
-// Two sizes are equally frequent.
-double scree_model_mean_mass(const scree_model *model)
-{
-    int material = SCREE_PARTICLE_MATERIAL;
-    double a = model->radius_min, b = model->radius_max;
-    double at_ends = (scree_model_mass(model, material, a) + scree_model_mass(model, material, b)) / 2;
-    if (model->config->particles.distribution != SCREE_SIZE_UNIFORM) return at_ends;
-    // Simpson's rule is exact for the square and the cube.
-    return at_ends / 3 + scree_model_mass(model, material, (a + b) / 2) * 2 / 3;
 }
 
 double scree_held_pressure(const scree_config_stage *stage)
@@ -386,9 +387,9 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
         .gravity = {config->gravity[0], config->gravity[1], config->gravity[2]},
         .config = config,
     };
-    resolve_sizes(model);
     scree_status status = resolve_materials(model, error);
-    if (!status) status = check_particles(model, error);
+    if (!status) status = resolve_particles(model, error);
+    if (!status) status = resolve_pairs(model, error);
     if (!status) status = resolve_loading(model, error);
     if (!status) status = resolve_step(model, error);
     if (!status) status = resolve_membrane(model, error);

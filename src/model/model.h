@@ -11,22 +11,32 @@
 
 #define SCREE_MAX_MATERIALS 16
 
-/// Number of the material that the particles are made of.
-enum { SCREE_PARTICLE_MATERIAL = 0 };
+/// Particles of one kind, resolved.
+typedef struct scree_species {
+    int material;                                ///< number of what they are made of
+    const scree_size_distribution *distribution; ///< of their radii
+    const void *sizes;                           ///< its keys, in the config
+    scree_size_moments radius;
+    double fraction; ///< of the number of all particles
+    uint64_t end;    ///< this and all species before it are as many of the particles of a case
+} scree_species;
 
 struct scree_model {
     int dimension;
-    double thickness;              ///< m, length of the discs; 1 in 3D
-    scree_law_use law;             ///< how contacts resist
-    double reference_velocity;     ///< m/s, v_R
-    int scheme;                    ///< slot of the integrator's module
-    double step;                   ///< s, the tick: the small step of two_timescales, the step of all other schemes
-    uint64_t largest_step;         ///< ticks, N_S of two_timescales (the step before loading), else 1
-    uint64_t large_multiple;       ///< ticks, n of two_timescales, else 1
-    uint64_t small_steps;          ///< q of two_timescales, else 0
-    double critical_step;          ///< s, estimate at the confining pressure (see model.c)
-    double gravity[3];             ///< m/s2
-    double mean_radius;            ///< m, of the distribution
+    double thickness;          ///< m, length of the discs; 1 in 3D
+    scree_law_use law;         ///< how contacts resist
+    double reference_velocity; ///< m/s, v_R
+    int scheme;                ///< slot of the integrator's module
+    double step;               ///< s, the tick: the small step of two_timescales, the step of all other schemes
+    uint64_t largest_step;     ///< ticks, N_S of two_timescales (the step before loading), else 1
+    uint64_t large_multiple;   ///< ticks, n of two_timescales, else 1
+    uint64_t small_steps;      ///< q of two_timescales, else 0
+    double critical_step;      ///< s, estimate at the confining pressure (see model.c)
+    double gravity[3];         ///< m/s2
+    scree_species species[SCREE_MOST_SPECIES];
+    int species_count;
+    double mean_radius;            ///< m, of all particles, by number
+    double mean_square, mean_cube; ///< m2, m3, of R^2 and R^3
     double radius_min, radius_max; ///< m
     double phi, psi;           ///< quasistatic and size coefficients (P 2.13, 2.14, B1), NAN without a loading stage
     bool membrane;             ///< some stage has one
@@ -83,13 +93,33 @@ static inline double scree_model_mass(const scree_model *model, int material, do
     return model->density[material] * M_PI * radius * radius * length;
 }
 
-/// Mean mass [kg] of the particles, over the distribution of radii.
+/// Means over all particles, by number: mass [kg]; area [m2] in 2D, volume [m3] in 3D.
 double scree_model_mean_mass(const scree_model *model);
+double scree_model_mean_solid(const scree_model *model);
+
+/// Density [kg/m3] of all particles together, mass over volume.
+double scree_model_mean_density(const scree_model *model);
+
+/// Constants of a contact of two particles taken at random, and Young's modulus [Pa] of one: means by number.
+scree_pair_constants scree_model_mean_pair(const scree_model *model);
+double scree_model_mean_modulus(const scree_model *model);
+
+/// Radius [m] that stands for all in estimates of the size of a sample: the mean one where sizes are narrow, else that
+/// of the mean area (volume).
+double scree_model_filling_radius(const scree_model *model);
+
+/// Species and radius [m] of body `number` as they are drawn: pure functions of the seed and this number, whatever else
+/// is drawn and in which order (model/species.c).
+int scree_model_drawn_species(const scree_model *model, uint64_t number);
+double scree_model_drawn_radius(const scree_model *model, uint64_t number);
+
+/// Moments, fractions and numbers of the species, once the materials are numbered. Errors: sizes that are not.
+scree_status scree_model_resolve_species(scree_model *model, scree_error *error) SCREE_MUST_USE;
 
 /// Strain rate that a stage imposes [1/s]; of a deform stage the largest component. NAN: it loads nothing.
 double scree_model_loading_rate(const scree_config_stage *stage);
 
-/// Number of the material of this name, NULL that of the particles; -1: the case has none of that name.
+/// Number of the material of this name, NULL that of the first species; -1: the case has none of that name.
 int scree_model_material(const scree_model *model, const char *name);
 
 /// A copy with every friction coefficient replaced by `friction` (used while preparing dense samples), but a membrane's

@@ -6,21 +6,13 @@
 #ifndef SCREE_MODULE_FIELD_H
 #define SCREE_MODULE_FIELD_H
 
+#include <scree/view.h>
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
 typedef struct scree_module scree_module;
-
-typedef enum scree_field_type {
-    SCREE_FIELD_DOUBLE,
-    SCREE_FIELD_INT64,
-    SCREE_FIELD_UINT64,
-    SCREE_FIELD_FLOAT,
-    SCREE_FIELD_INT32,
-    SCREE_FIELD_UINT32,
-    SCREE_FIELD_UINT8
-} scree_field_type;
 
 typedef enum scree_field_role {
     SCREE_FIELD_STATE,
@@ -32,7 +24,8 @@ typedef enum scree_field_rows {
     SCREE_ROWS_ONE,      ///< the run: the value lies in its owner's struct
     SCREE_ROWS_FIXED,    ///< an array of `fixed` elements in its owner's struct
     SCREE_ROWS_GROUP,    ///< an array of its owner's, which as many rows as `group` says
-    SCREE_ROWS_BODIES,   ///< bodies: arrays of the state
+    SCREE_ROWS_BODIES,   ///< bodies: arrays of the state or of a module, which follow the bodies as they come, go and
+                         ///< change rows (state/store.h)
     SCREE_ROWS_CONTACTS, ///< contacts: arrays of the state
     SCREE_ROWS_BOOKING,  ///< as many as contacts where the law books them beside the history, else none
     SCREE_ROWS_ROLLING,  ///< as many as contacts where there is resistance to rolling, else none
@@ -47,10 +40,10 @@ typedef struct scree_group {
 
 /// Upper ends of a range that are not numbers but follow from the state or the model.
 typedef enum scree_field_limit {
-    SCREE_LIMIT_ANY,    ///< no range is said: numbers must be finite, integers may be any
-    SCREE_LIMIT_NUMBER, ///< `most`
-    SCREE_LIMIT_LAST_BODY,
-    SCREE_LIMIT_BODIES,
+    SCREE_LIMIT_ANY,           ///< no range is said: numbers must be finite, integers may be any
+    SCREE_LIMIT_NUMBER,        ///< `most`
+    SCREE_LIMIT_BODY,          ///< the id of a body that is here
+    SCREE_LIMIT_IDS,           ///< as many as there may be ids
     SCREE_LIMIT_LAST_MATERIAL, ///< a whole number
     SCREE_LIMIT_LARGEST_RADIUS,
     SCREE_LIMIT_FARTHEST, ///< far beyond any sample, on both sides of zero
@@ -88,6 +81,8 @@ typedef struct scree_field {
     const scree_group *group;
     size_t fixed;
     int only_dimension; ///< 2 or 3: exists in this dimension only; 0: in both
+    bool images;        ///< of bodies: images in a periodic cell have rows of it, behind those of the bodies
+    bool optional;      ///< of bodies: there is no array until scree_state_begin_field asks for it
 } scree_field;
 
 /// Ends of ranges, for the rows of declarations.
@@ -117,6 +112,13 @@ typedef struct scree_field {
     {                                                                                                                  \
         SCREE_FIELD_OF(module, SCREE_ROWS_GROUP, name_, type_, components_, unit_, meaning_),                          \
             .group = &(group_), .array_offset = offsetof(struct_, array), .stride = sizeof(element), __VA_ARGS__       \
+    }
+
+/// An element of an array with one element a body, whose pointer lies in the module's struct.
+#define SCREE_FIELD_BODY(module, struct_, array, element, name_, type_, components_, unit_, meaning_, ...)             \
+    {                                                                                                                  \
+        SCREE_FIELD_OF(module, SCREE_ROWS_BODIES, name_, type_, components_, unit_, meaning_),                         \
+            .array_offset = offsetof(struct_, array), .stride = sizeof(element), __VA_ARGS__                           \
     }
 
 /// Number of components in a dimension: resolves SCREE_VECTOR and SCREE_AXIAL_VECTOR.

@@ -31,6 +31,7 @@ struct scree_module {
     const struct scree_law *law;                 ///< model/law.h
     const struct scree_integrator *integrator;   ///< module/integrator.h
     const struct scree_preparation *preparation; ///< module/preparation.h
+    const struct scree_size_distribution *sizes; ///< module/size_distribution.h
     const struct scree_stage_numbers *numbers;   ///< module/stage.h
     const struct scree_stage *stage;             ///< run/stage.h
 
@@ -42,6 +43,10 @@ struct scree_module {
     scree_status (*check)(const scree_state *state, const scree_model *model, scree_error *error);
     /// Continues the state checksum with what physics depends on (docs/architecture.md). NULL: nothing.
     uint64_t (*checksum)(const scree_model *model, const scree_state *state, uint64_t checksum);
+    /// Why this body may not be taken out; NULL: it may. NULL: all may.
+    const char *(*keeps)(const scree_state *state, uint32_t id);
+    /// A body is about to be taken out: what refers to it by its id ends. Its row is still there. NULL: nothing does.
+    void (*forget)(scree_state *state, uint32_t id);
 
     // ---- passes: what it does in a step ----
     const scree_pass *passes;
@@ -51,6 +56,9 @@ struct scree_module {
     /// Largest force that its loads may put on one body in this step [N], for the quanta; up to 2^10 times more is
     /// safe. NULL: none.
     double (*bound)(const scree_context *context);
+    /// Work [J] that it has done on the bodies since the begin of the run. NULL: it does none, or has a row of the
+    /// ledger.
+    double (*work)(const scree_state *state);
 };
 
 #define SCREE_MODULE_DECLARE(name) extern const scree_module scree_module_##name;

@@ -18,6 +18,7 @@ typedef enum scree_phase {
     SCREE_PHASE_CONTACTS,    ///< quanta from the bounds, then contact forces; sums hold nothing else
     SCREE_PHASE_BODIES,      ///< from contacts to bodies: forces on ghosts are added back
     SCREE_PHASE_LOADS,       ///< all other forces, each on top of those before it; first half of their work
+    SCREE_PHASE_RESULTANTS,  ///< loads that depend on the resultant of all others on a body: damping of its motion
     SCREE_PHASE_SECOND_HALF, ///< velocities with the forces at n + 1
     SCREE_PHASE_GUARD,
     SCREE_PHASE_COUNT

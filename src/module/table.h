@@ -1,12 +1,13 @@
 /// The one table of modules: each row is the name of a module, whose descriptor `scree_module_NAME` stands in its own
 /// file. Its place in the table is its slot (SCREE_SLOT_NAME), by which its state is found; the checksum of the state
-/// takes what modules declare in the order of the rows, so new ones come behind (docs/architecture.md).
+/// takes what modules declare in the order of the rows, so new ones with words in it come behind
+/// (docs/architecture.md).
 #ifndef SCREE_MODULE_TABLE_H
 #define SCREE_MODULE_TABLE_H
 
 #define SCREE_STATE_MODULES(row)                                                                                       \
-    row(plates) row(case_walls) row(periodic_cell) row(delaunay_boundary) row(pressure) row(imposed_gradient)          \
-        row(membrane) row(forced_spin) row(loading)
+    row(plates) row(case_walls) row(periodic_cell) row(delaunay_boundary) row(pressure) row(own_force)                 \
+        row(imposed_gradient) row(membrane) row(forced_spin) row(loading)
 
 /// Contact laws, each with its header in contact/laws.h.
 #define SCREE_LAWS(row) row(hertz_brilliantov) row(hertz_mindlin) row(linear)
@@ -16,7 +17,8 @@
     SCREE_LAWS(row)                                                                                                    \
     row(position_verlet) row(velocity_verlet) row(two_timescales) row(drop_and_roll) row(hexagonal) row(square)        \
         row(face_centred) row(cubic) row(gas) row(growth) row(pair) row(bodies) row(prepare) row(confine)              \
-            row(compress) row(deform) row(rotate_particle) row(relax) row(collide)
+            row(compress) row(deform) row(rotate_particle) row(relax) row(collide) row(background_damping)             \
+                row(uniform) row(two_sizes) row(equal) row(normal) row(log_normal) row(power_law) row(table)
 
 #define SCREE_MODULES(row) SCREE_STATE_MODULES(row) SCREE_CASE_MODULES(row)
 

@@ -24,10 +24,28 @@ static inline const scree_bodies_config *scree_bodies_of(const scree_config_stag
     return scree_config_own(&scree_module_bodies, "stages.prepare", stage->own);
 }
 
+/// Sizes of the particles of a case; all zero where the case does not say which.
+static inline scree_size_moments scree_listed_sizes(const scree_config *config)
+{
+    const scree_config_species species = scree_config_species_at(&config->particles, 0);
+    const scree_size_distribution *sizes =
+        species.distribution >= 0 && species.own ? scree_modules[species.distribution]->sizes : NULL;
+    if (!sizes) return (scree_size_moments){0};
+    return sizes->moments(scree_config_sizes(&config->particles, 0), (int)config->dimension);
+}
+
+/// Whether all particles have one radius.
+static inline bool scree_listed_equal(const scree_config *config)
+{
+    const int distribution = scree_config_species_at(&config->particles, 0).distribution;
+    const scree_size_distribution *sizes = distribution >= 0 ? scree_modules[distribution]->sizes : NULL;
+    return sizes && sizes->equal;
+}
+
 /// Radius [m] of a listed body.
 static inline double scree_listed_radius(const scree_config *config, const scree_listed_body *body)
 {
-    return isnan(body->radius) ? config->particles.radius_min : body->radius;
+    return isnan(body->radius) ? scree_listed_sizes(config).least : body->radius;
 }
 
 /// Notes what is wrong with the list: as many bodies as the case says, of its dimension, materials and sizes, inside of

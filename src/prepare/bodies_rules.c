@@ -37,7 +37,7 @@ static shown show(const listed *l, int64_t index)
 {
     const scree_listed_body *body = &l->own->bodies[index];
     const scree_node *node = scree_node_at(l->nodes, (size_t)index);
-    bool common = has_common_radius(node) && l->config->particles.distribution == SCREE_SIZE_EQUAL;
+    bool common = has_common_radius(node) && scree_listed_equal(l->config);
     double radius = common ? scree_listed_radius(l->config, body) : body->radius;
     return (shown){body, node, radius, scree_node_find(node, "position") != NULL};
 }
@@ -95,18 +95,18 @@ static void check_material(const listed *l, int64_t index, const char *name)
 
 static void check_radius(const listed *l, int64_t index, const shown *s)
 {
-    const scree_config_particles *particles = &l->config->particles;
-    const bool equal = particles->distribution == SCREE_SIZE_EQUAL;
+    const scree_size_moments sizes = scree_listed_sizes(l->config);
+    const bool equal = scree_listed_equal(l->config);
     char message[200];
     if (has_common_radius(s->node) && !equal)
         refuse(l, index, "radius", "a length",
                "the particles of this case have no radius in common: give one, or particles.distribution: equal");
-    if (!(s->radius < particles->radius_min || s->radius > particles->radius_max)) return;
+    if (!(s->radius < sizes.least || s->radius > sizes.most)) return;
     (void)snprintf(message, sizeof message,
                    equal ? "%.6g m is not the radius of the particles, %.6g m: set particles.distribution to uniform, "
                            "and radius_min and radius_max around all radii"
                          : "%.6g m is not between particles.radius_min, %.6g m, and radius_max, %.6g m",
-                   s->radius, particles->radius_min, particles->radius_max);
+                   s->radius, sizes.least, sizes.most);
     refuse(l, index, "radius", NULL, message);
 }
 
@@ -196,6 +196,12 @@ void scree_bodies_rules(scree_reader *reader, const scree_config *config)
         scree_problem_add(reader, outline->place, "stages.0.outline", outline->text, "box",
                           "bodies that are listed are not cut out of a larger packing");
         return; // a round sample has no sides
+    }
+    if (config->particles.species_count > 0) {
+        scree_rule_refuse(reader, "particles.species", NULL,
+                          "bodies that are listed have their own materials and sizes: give particles.material and the "
+                          "sizes in place of species");
+        return;
     }
     check_count(&l);
     for (int64_t i = 0; i < l.own->body_count; i++) {

@@ -143,7 +143,7 @@ static void keep_lowest(const drop *d, double *sorted, scree_packing *packing)
     for (size_t i = 0; i < from->count; i++) {
         if (d->level[i] > last || (d->level[i] == last && equal == 0)) continue;
         equal -= d->level[i] == last;
-        packing->radius[kept] = from->radius[i];
+        scree_packing_take(packing, kept, from, i);
         for (int c = 0; c < packing->dimension; c++) packing->place[c][kept] = from->place[c][i];
         packing->box.height = fmax(packing->box.height, from->place[up][i] + from->radius[i]);
         kept++;
@@ -160,7 +160,7 @@ static scree_status fill(const scree_model *model, scree_packing *packing, scree
     status = scree_allocate(&d.level, 2 * dropped, sizeof *d.level, error);
     if (!status) {
         d.packing.box = packing->box;
-        scree_draw_radii(model, d.packing.radius, dropped);
+        scree_packing_draw(model, &d.packing);
         status = drop_all(&d, error);
     }
     if (!status) keep_lowest(&d, d.level + dropped, packing);

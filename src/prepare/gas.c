@@ -157,10 +157,8 @@ static double solid_fraction_of(const scree_model *model, const scree_config_sta
 static void gas_sides(const scree_model *model, const scree_config_stage *stage, double side[3])
 {
     const scree_prepare_config *prepare = scree_config_prepared(stage);
-    const int material = SCREE_PARTICLE_MATERIAL;
-    double depth = model->dimension == 3 ? 1 : model->thickness;
-    double solid = (double)model->config->particles.count * scree_model_mean_mass(model) / model->density[material];
-    double room = solid / depth / solid_fraction_of(model, stage);
+    double solid = (double)model->config->particles.count * scree_model_mean_solid(model);
+    double room = solid / solid_fraction_of(model, stage);
     side[0] = prepare->width;
     side[1] = prepare->depth;
     side[2] = INFINITY;

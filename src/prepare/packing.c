@@ -16,6 +16,7 @@ scree_status scree_packing_create(scree_packing *packing, int dimension, size_t 
 {
     *packing = (scree_packing){.dimension = dimension, .count = count, .aspect_ratio = 1};
     scree_status status = scree_allocate(&packing->radius, count, sizeof(double), error);
+    if (!status) status = scree_allocate(&packing->species, count, sizeof *packing->species, error);
     for (int c = 0; c < dimension && !status; c++)
         status = scree_allocate(&packing->place[c], count, sizeof(double), error);
     if (status) scree_packing_destroy(packing);
@@ -25,8 +26,17 @@ scree_status scree_packing_create(scree_packing *packing, int dimension, size_t 
 void scree_packing_destroy(scree_packing *packing)
 {
     scree_release(&packing->radius);
+    scree_release(&packing->species);
     for (int c = 0; c < 3; c++) scree_release(&packing->place[c]);
     *packing = (scree_packing){.dimension = packing->dimension};
+}
+
+void scree_packing_draw(const scree_model *model, scree_packing *packing)
+{
+    for (size_t i = 0; i < packing->count; i++) {
+        packing->species[i] = (uint8_t)scree_model_drawn_species(model, i);
+        packing->radius[i] = scree_model_drawn_radius(model, i);
+    }
 }
 
 double scree_packing_solid(const scree_packing *packing)
@@ -110,7 +120,7 @@ static bool keep_middle(const scree_packing *larger, candidate *of, scree_packin
     // The order of placement stays.
     qsort(of, packing->count, sizeof *of, by_index);
     for (size_t i = 0; i < packing->count; i++) {
-        packing->radius[i] = larger->radius[of[i].index];
+        scree_packing_take(packing, i, larger, of[i].index);
         for (int c = 0; c < packing->dimension; c++)
             packing->place[c][i] = larger->place[c][of[i].index] - centre[c] + reach;
     }
@@ -131,7 +141,7 @@ scree_status scree_packing_cut_round(const scree_model *model, const scree_confi
         if (!status) status = scree_allocate(&of, count, sizeof *of, error);
         if (!status) {
             larger.box = (scree_box){.width = NAN, .depth = NAN};
-            scree_draw_radii(model, larger.radius, count);
+            scree_packing_draw(model, &larger);
             status = method->place(model, stage, &larger, error);
         }
         if (!status) cut = keep_middle(&larger, of, packing);

@@ -38,13 +38,12 @@ static scree_status place(const scree_model *model, const scree_config_stage *st
         return scree_prepare_error(error, model, stage, "speed",
                                    "without a reference velocity auto is no speed: give one, or "
                                    "contact.reference_velocity");
-    const int material = SCREE_PARTICLE_MATERIAL;
-    double one = scree_model_mass(model, material, a), other = scree_model_mass(model, material, b);
+    const int first = model->species[packing->species[0]].material, last = model->species[packing->species[1]].material;
+    double one = scree_model_mass(model, first, a), other = scree_model_mass(model, last, b);
     double mass = one * other / (one + other);
     double gap = own_config(stage)->gap;
     if (isnan(gap))
-        gap = scree_model_law(model)->elastic->impact_length(&model->pairs[material][material], a * b / (a + b), mass,
-                                                             speed);
+        gap = scree_model_law(model)->elastic->impact_length(&model->pairs[first][last], a * b / (a + b), mass, speed);
     packing->box.width = 3 * (a + b) + gap;
     packing->box.height = packing->box.depth = 4 * largest;
     for (int i = 0; i < packing->dimension; i++) packing->place[i][0] = packing->place[i][1] = 2 * largest;

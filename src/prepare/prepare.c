@@ -3,9 +3,9 @@
 /// Positions and radii are pure functions of (case, seed), by arithmetic that is exact to the same bit on every
 /// machine.
 #include "prepare/methods.h"
+#include "state/body.h"
 #include "state/plates.h"
 
-#include "base/random.h"
 #include "state/periodic.h"
 
 #include <math.h>
@@ -27,22 +27,12 @@ scree_status scree_prepare_error(scree_error *error, const scree_model *model, c
     return status;
 }
 
-void scree_draw_radii(const scree_model *model, double *radius, size_t count)
-{
-    uint64_t seed = (uint64_t)model->config->seed;
-    double least = model->radius_min, span = model->radius_max - model->radius_min;
-    bool two_sizes = model->config->particles.distribution == SCREE_SIZE_TWO_SIZES;
-    for (size_t i = 0; i < count; i++) {
-        double u = scree_random_uniform(seed, SCREE_RANDOM_RADIUS, i);
-        radius[i] = least + span * (two_sizes ? u >= 0.5 : u);
-    }
-}
-
 static void fill_rows(const scree_model *model, const scree_config_stage *stage, const scree_preparation *method,
                       const scree_packing *packing, scree_state *state)
 {
     for (size_t i = 0; i < state->count; i++) {
-        int material = method->material_of ? method->material_of(model, stage, i) : SCREE_PARTICLE_MATERIAL;
+        int material =
+            method->material_of ? method->material_of(model, stage, i) : model->species[packing->species[i]].material;
         double radius = packing->radius[i];
         state->row[i] = (scree_row){
             .x = packing->place[0][i],
@@ -55,19 +45,20 @@ static void fill_rows(const scree_model *model, const scree_config_stage *stage,
             state->turn[i].material = material;
         } else
             state->row[i].material = material;
+        state->species[i] = packing->species[i];
         scree_body_place(state, i, state->reference[i]);
     }
 }
 
 /// Walls of the box. Those of a round sample say where it is, but do not exist.
-static void stand_walls(const scree_box *box, bool active, scree_state *state)
+static void stand_walls(const scree_model *model, const scree_box *box, bool active, scree_state *state)
 {
     const int axis[SCREE_WALL_COUNT] = {state->dimension - 1, state->dimension - 1, 0, 0, 1, 1};
     const double far[SCREE_WALL_COUNT / 2] = {box->height, box->width, box->depth};
     for (int w = 0; w < 2 * state->dimension; w++) {
         scree_wall *wall = &scree_plates(state)[w];
         *wall =
-            (scree_wall){.position = w % 2 ? -far[w / 2] : 0, .active = active, .material = SCREE_PARTICLE_MATERIAL};
+            (scree_wall){.position = w % 2 ? -far[w / 2] : 0, .active = active, .material = model->species[0].material};
         wall->normal[axis[w]] = w % 2 ? -1 : 1;
         // No walls where the sample repeats itself.
         if (box->periodic >> axis[w] & 1) wall->active = 0;
@@ -99,12 +90,12 @@ scree_status scree_prepare(const scree_model *model, const scree_config_stage *s
     else if (!status) {
         packing.box = (scree_box){.width = prepare->width, .depth = prepare->depth, .periodic = periodic};
         packing.aspect_ratio = prepare->aspect_ratio;
-        scree_draw_radii(model, packing.radius, count);
+        scree_packing_draw(model, &packing);
         status = method->place(model, stage, &packing, error);
     }
     if (!status) {
         fill_rows(model, stage, method, &packing, state);
-        stand_walls(&packing.box, !round, state);
+        stand_walls(model, &packing.box, !round, state);
         state->tick = model->step;
         state->step_size = state->kick_size = (double)model->largest_step * model->step;
         if (method->set_moving) method->set_moving(model, stage, state);

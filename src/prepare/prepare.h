@@ -11,23 +11,31 @@ typedef struct scree_box {
     unsigned periodic; ///< mask of axes along which the box repeats itself: 1 x, 2 y, 4 z
 } scree_box;
 
-/// A packing in the making: radii, and centres in the box, in the order of placement.
+/// A packing in the making: species, radii, and centres in the box, in the order of placement.
 typedef struct scree_packing {
     int dimension; ///< 2 or 3
     size_t count;
-    double *radius;      ///< m
+    double *radius; ///< m
+    uint8_t *species;
     double *place[3];    ///< m, x, y, z; z is NULL in 2D
     double aspect_ratio; ///< 1, height over width where the width is auto
     scree_box box;
 } scree_packing;
 
-/// Draws `count` radii from the case's distribution (stream SCREE_RANDOM_RADIUS, counter = index).
-void scree_draw_radii(const scree_model *model, double *radius, size_t count);
-
 /// Makes room for `count` bodies. Errors: memory; nothing is kept then.
 scree_status scree_packing_create(scree_packing *packing, int dimension, size_t count,
                                   scree_error *error) SCREE_MUST_USE;
 void scree_packing_destroy(scree_packing *packing);
+
+/// Draws species and radii of all bodies, each by its index.
+void scree_packing_draw(const scree_model *model, scree_packing *packing);
+
+/// Body `index` becomes what body `other` of another packing is, place excepted.
+static inline void scree_packing_take(scree_packing *packing, size_t index, const scree_packing *from, size_t other)
+{
+    packing->radius[index] = from->radius[other];
+    packing->species[index] = from->species[other];
+}
 
 /// Area (2D) or volume (3D) of the bodies.
 double scree_packing_solid(const scree_packing *packing);

@@ -215,7 +215,7 @@ static void begin_window(walk *w, scree_cell_snapshot *snapshot)
 
 static scree_status follow(walk *w, scree_cell_snapshot *snapshot, scree_error *error)
 {
-    bool same = w->first.assembly.count == snapshot->assembly.count &&
+    bool same = scree_cell_snapshots_agree(&w->first, snapshot) &&
                 !scree_snapshot_begins_stage(w->first.stage, snapshot->stage, snapshot->axial_strain);
     if (!same) scree_cell_averages_begin(&w->averages, w->config, w->series);
     w->dimension = snapshot->assembly.dimension;

@@ -59,18 +59,19 @@ static scree_status stop_escaped(const scree_simulation *s, scree_error *error)
 {
     const scree_state *state = &s->state;
     const scree_wall *bottom = &scree_plates(state)[SCREE_WALL_BOTTOM], *top = &scree_plates(state)[SCREE_WALL_TOP];
-    for (size_t id = 0; id < state->count; id++) {
+    size_t next = 0;
+    for (uint32_t row; (row = scree_next_by_id(state, &next)) != SCREE_NO_ROW;) {
         scree_vector place;
-        scree_body_place(state, state->row_of_id[id], place);
+        scree_body_place(state, row, place);
         double height = place[state->dimension - 1];
         bool below = bottom->active && height < bottom->position;
         bool above = top->active && -height < top->position;
         if (below || above)
-            return scree_error_set(
-                error, SCREE_ERROR_GUARD,
-                "step %llu: the centre of particle %zu is behind the %s plate, at (%.4g, %.4g, %.4g) "
-                "m: the plate moves too fast or the step is too large",
-                (unsigned long long)state->step, id, below ? "bottom" : "top", place[0], place[1], place[2]);
+            return scree_error_set(error, SCREE_ERROR_GUARD,
+                                   "step %llu: the centre of particle %u is behind the %s plate, at (%.4g, %.4g, %.4g) "
+                                   "m: the plate moves too fast or the step is too large",
+                                   (unsigned long long)state->step, state->id[row], below ? "bottom" : "top", place[0],
+                                   place[1], place[2]);
     }
     return SCREE_OK;
 }

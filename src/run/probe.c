@@ -133,10 +133,10 @@ static void close_cell(const scree_model *model, unsigned periodic, scree_state 
 /// Everything comes closer by the overlap [mean diameters] of a contact under `pressure`.
 static void press(const scree_model *model, scree_state *state, double pressure)
 {
-    const int material = SCREE_PARTICLE_MATERIAL;
     double diameter = 2 * model->mean_radius, width = model->dimension == 3 ? diameter : model->thickness;
-    double overlap = scree_model_law(model)->elastic->overlap(&model->pairs[material][material],
-                                                              0.5 * model->mean_radius, pressure * diameter * width);
+    const scree_pair_constants pair = scree_model_mean_pair(model);
+    double overlap =
+        scree_model_law(model)->elastic->overlap(&pair, 0.5 * model->mean_radius, pressure * diameter * width);
     double scale = 1 - fmin(overlap / diameter, 0.05);
     for (size_t row = 0; row < state->count; row++) {
         state->row[row].x *= scale;
@@ -250,7 +250,7 @@ scree_status scree_probe_measure(const scree_case *c, int64_t stage, scree_probe
     double begin = processor_time();
     status = stand(&small, stage, error);
     probe->preparation = processor_time() - begin;
-    probe->count = (double)small.s.state.grains;
+    probe->count = (double)scree_grain_count(&small.s.state);
     double (*expected)(const scree_simulation *s) = scree_modules[c->config.stages[stage].kind]->stage->expected;
     if (!status && expected) probe->collision = expected(&small.s);
     if (!status) status = time_all(&small, probe, error);

@@ -39,20 +39,18 @@ double scree_confining_pressure(const scree_config *config, int64_t index)
 
 double scree_expected_wave_time(const scree_model *model, double pressure)
 {
-    double fraction = scree_expected_solid_fraction(model), radius = model->mean_radius;
+    double fraction = scree_expected_solid_fraction(model), radius = scree_model_filling_radius(model);
     double height = scree_expected_height(model, fraction), count = (double)model->config->particles.count;
     double section = count * M_PI * radius * radius / (fraction * height);
     double width = model->dimension == 3 ? sqrt(4.0 / 3.0 * radius * section) : section;
-    double speed =
-        scree_wave_speed(scree_confined_modulus(model, pressure), model->density[SCREE_PARTICLE_MATERIAL], fraction);
+    double speed = scree_wave_speed(scree_confined_modulus(model, pressure), scree_model_mean_density(model), fraction);
     return fmax(height, width) / speed;
 }
 
 static double inertial_number(const scree_model *model, double rate, double pressure)
 {
-    int material = SCREE_PARTICLE_MATERIAL;
     return scree_inertial_number(model->dimension, scree_model_mean_mass(model), model->mean_radius,
-                                 model->density[material], model->thickness, rate, pressure);
+                                 scree_model_mean_density(model), model->thickness, rate, pressure);
 }
 
 scree_quasistatic scree_quasistatic_expect(const scree_model *model, int64_t index)
@@ -63,11 +61,10 @@ scree_quasistatic scree_quasistatic_expect(const scree_model *model, int64_t ind
                            .pressure = scree_confining_pressure(model->config, index)};
     for (int k = 0; k < SCREE_QUASISTATIC_COUNT; k++) q.value[k] = NAN;
     if (!means_to_be_quasistatic(stage) || isnan(q.pressure)) return q;
-    int material = SCREE_PARTICLE_MATERIAL;
     double fraction = scree_expected_solid_fraction(model), height = scree_expected_height(model, fraction);
-    double weight = scree_model_gravity(model) * model->density[material] * fraction * height;
+    double weight = scree_model_gravity(model) * scree_model_mean_density(model) * fraction * height;
     q.value[SCREE_QUASISTATIC_INERTIAL] = inertial_number(model, q.rate, q.pressure);
-    q.value[SCREE_QUASISTATIC_MODULUS] = model->config->materials[model->listed[material]].young_modulus / q.pressure;
+    q.value[SCREE_QUASISTATIC_MODULUS] = scree_model_mean_modulus(model) / q.pressure;
     q.value[SCREE_QUASISTATIC_WEIGHT] = weight / q.pressure;
     q.value[SCREE_QUASISTATIC_SOUND] = q.rate * scree_expected_wave_time(model, q.pressure);
     return q;

@@ -222,7 +222,7 @@ static void summarise_run(const scree_recorder *recorder, scree_simulation *s, s
     scree_summary_set_text(summary, "version", scree_version());
     scree_summary_set_text(summary, "commit", scree_commit());
     scree_summary_set_integer(summary, "seed", config->seed);
-    scree_summary_set_integer(summary, "particles", (int64_t)s->state.grains);
+    scree_summary_set_integer(summary, "particles", (int64_t)scree_grain_count(&s->state));
     scree_summary_set_integer(summary, "steps", (int64_t)s->state.step);
     scree_summary_set_integer(summary, "force_evaluations", (int64_t)s->state.evaluations);
     scree_summary_set_integer(summary, "n_s", (int64_t)s->model.largest_step);

@@ -69,11 +69,12 @@ static void write_bodies(FILE *file, const scree_simulation *s, const findings *
     scree_body_place(state, f->forced, centre);
     double driven = scree_rotation_amount(state, f->forced), diameter = 2 * s->model.mean_radius;
     fputs("id [1],distance [1],rotation_ratio [1],rotation_with [1],counts [1]\n", file);
-    for (size_t id = 0; id < state->grains; id++) {
-        size_t row = state->row_of_id[id];
+    size_t next = 0;
+    for (uint32_t row; (row = scree_next_by_id(state, &next)) != SCREE_NO_ROW;) {
+        if (!scree_body_is_grain(state, row)) continue;
         scree_body_place(state, row, place);
         for (int i = 0; i < 3; i++) place[i] -= centre[i];
-        fprintf(file, "%zu,%.9g,%.9g,%.9g,%d\n", id, scree_length(place) / diameter,
+        fprintf(file, "%u,%.9g,%.9g,%.9g,%d\n", state->id[row], scree_length(place) / diameter,
                 scree_rotation_amount(state, row) / driven, turned_with(state, row, f->forced),
                 scree_rotation_counts(state, row));
     }

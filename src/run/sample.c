@@ -247,5 +247,6 @@ scree_status scree_sample_take(scree_simulation *s, scree_error *error)
     sample_quasistatic(s, value);
     value[SCREE_SAMPLE_RATE_RATIO] = scree_drive_take_ratio(&s->state);
     remember_velocities(s);
+    s->has_sample = true;
     return scree_guard_sample(s, value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE], error);
 }

@@ -1,4 +1,4 @@
-/// Stages one after the other, a step at a time; the public simulation handle.
+/// Stages one after the other, a step at a time.
 #include "run/simulation.h"
 
 #include "base/processor.h"
@@ -13,14 +13,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// state.stage.counter of a stage that has not begun, and of one that has ended. It stays the present one, for whoever
-/// looks at it or stores it, until the next step.
-enum { NOT_BEGUN = -1, ENDED = -2 };
 #define BODIES_A_THREAD 4000
 
 scree_status scree_simulation_open(const scree_case *c, int threads, scree_simulation *s, scree_error *error)
 {
     memset(s, 0, sizeof *s);
+    s->magic = SCREE_SIMULATION_MAGIC;
     s->c = c;
     scree_status status = scree_model_build(&c->config, &s->model, error);
     if (status) {
@@ -28,7 +26,7 @@ scree_status scree_simulation_open(const scree_case *c, int threads, scree_simul
         return status;
     }
     if ((status = scree_state_open(&s->state, s->model.dimension, error))) return status;
-    s->state.stage.counter = NOT_BEGUN;
+    s->state.stage.counter = SCREE_STAGE_NOT_BEGUN;
     s->stage_model = s->model;
     s->integrator = scree_integrator_get(s->model.scheme);
     // A thread pays from a few thousand bodies on; below, its barriers cost more than it does (docs/performance.md).
@@ -42,6 +40,9 @@ scree_status scree_simulation_open(const scree_case *c, int threads, scree_simul
 
 void scree_simulation_close(scree_simulation *s)
 {
+    s->magic = 0;
+    scree_own_force_list_destroy(&s->forces);
+    scree_release(&s->points);
     scree_contact_table_destroy(&s->table);
     scree_contact_scratch_destroy(&s->work);
     scree_work_destroy(&s->work);
@@ -94,7 +95,7 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
     s->stage = scree_modules[config->kind]->stage;
     s->boundary = scree_boundary_get(scree_config_boundary_of(s->model.config, stage->index));
     s->stage_model = scree_model_with_friction(&s->model, config->friction);
-    if (!restart || stage->counter == NOT_BEGUN) {
+    if (!restart || stage->counter == SCREE_STAGE_NOT_BEGUN) {
         stage->first_time = scree_state_time(&s->state);
         stage->first_step = s->state.step;
         stage->first_evaluations = s->state.evaluations;
@@ -114,13 +115,13 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
 static void end_stage(scree_simulation *s)
 {
     s->stage_ended = true;
-    s->state.stage.counter = ENDED;
+    s->state.stage.counter = SCREE_STAGE_ENDED;
 }
 
 static void leave_stage(scree_simulation *s)
 {
     s->state.stage.index++;
-    s->state.stage.counter = NOT_BEGUN;
+    s->state.stage.counter = SCREE_STAGE_NOT_BEGUN;
 }
 
 /// Begins the next stage; a loading stage is sampled at zero strain.
@@ -141,8 +142,8 @@ static scree_status begin_next(scree_simulation *s, scree_error *error)
 scree_status scree_simulation_step(scree_simulation *s, scree_error *error)
 {
     s->sampled = s->stage_ended = false;
-    if (s->state.stage.counter == ENDED) leave_stage(s);
-    if (s->state.stage.counter == NOT_BEGUN) return begin_next(s, error);
+    if (s->state.stage.counter == SCREE_STAGE_ENDED) leave_stage(s);
+    if (s->state.stage.counter == SCREE_STAGE_NOT_BEGUN) return begin_next(s, error);
     scree_status status = scree_step(s, error);
     if (status) return status;
     uint64_t done = s->state.step - s->state.stage.first_step;
@@ -153,43 +154,4 @@ scree_status scree_simulation_step(scree_simulation *s, scree_error *error)
     if ((status = s->stage->finished(s, &finished, error))) return status;
     if (finished) end_stage(s);
     return SCREE_OK;
-}
-
-scree_status scree_simulation_create(const scree_case *c, int threads, scree_simulation **out, scree_error *error)
-{
-    scree_status status = scree_allocate(out, 1, sizeof **out, error);
-    if (status) return status;
-    status = scree_simulation_open(c, threads, *out, error);
-    if (status) {
-        scree_simulation_close(*out);
-        scree_release(out);
-    }
-    return status;
-}
-
-scree_status scree_simulation_advance(scree_simulation *s, uint64_t steps, bool *done, scree_error *error)
-{
-    uint64_t target = s->state.evaluations + steps;
-    scree_status status = SCREE_OK;
-    *done = s->state.stage.index >= s->model.config->stage_count;
-    // What follows a stage that has ended is no step.
-    while (!status && !*done && (s->state.evaluations < target || s->stage_ended)) {
-        status = scree_simulation_step(s, error);
-        *done = s->state.stage.index >= s->model.config->stage_count;
-    }
-    return status;
-}
-
-uint64_t scree_simulation_checksum(scree_simulation *s)
-{
-    scree_error error;
-    if (scree_contacts_save(&s->state, &s->work, &error)) return 0;
-    return scree_state_checksum(&s->model, &s->state);
-}
-
-void scree_simulation_free(scree_simulation *s)
-{
-    if (!s) return;
-    scree_simulation_close(s);
-    scree_release(&s);
 }

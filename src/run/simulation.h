@@ -6,6 +6,7 @@
 #include "case/case.h"
 #include "contact/contact.h"
 #include "integrate/integrate.h"
+#include "run/own_force.h"
 #include "run/stage.h"
 
 /// One row of series.csv; the columns are in sample.c.
@@ -16,7 +17,15 @@ typedef struct scree_sample {
 
 enum { SCREE_PASSES = 64 }; ///< most passes of a step
 
+/// state.stage.counter of a stage that has not begun, and of one that has ended. It stays the present one, for whoever
+/// looks at it or stores it, until the next step.
+enum { SCREE_STAGE_NOT_BEGUN = -1, SCREE_STAGE_ENDED = -2 };
+
+/// What `magic` is in a simulation that is open.
+#define SCREE_SIMULATION_MAGIC UINT64_C(0x7363726565736d31)
+
 struct scree_simulation {
+    uint64_t magic;
     const scree_case *c;
     scree_model model;       ///< of the case
     scree_model stage_model; ///< with the friction of the present stage; what the kernels see
@@ -30,9 +39,14 @@ struct scree_simulation {
     size_t pass_count;
     scree_stage_plan plan;
     scree_sample sample; ///< the last one
+    bool has_sample;     ///< there is a last one
     bool sampled;        ///< the last step made a sample
     bool stage_ended;    ///< the last step ended a stage
     char reason[192];    ///< why it ended
+    scree_own_force_list forces;
+    scree_contact_point *points; ///< what the library has handed out
+    size_t point_capacity;
+    scree_error stopped; ///< why no further step can be taken; its status is 0 while there is no reason
 };
 
 /// Builds model and work; the first stage has not begun. Errors: model_build's, memory.

@@ -35,7 +35,7 @@ static const struct {
 /// 0 where waves count.
 static double settling_time(const scree_model *model, double pressure)
 {
-    double fall = 2 * model->mean_radius * sqrt(model->density[SCREE_PARTICLE_MATERIAL] / pressure);
+    double fall = 2 * model->mean_radius * sqrt(scree_model_mean_density(model) / pressure);
     return scree_model_law(model)->confine_falls * fall;
 }
 
@@ -159,7 +159,7 @@ static double fraction(const scree_simulation *s)
 static double planned(const scree_model *model, const void *own, double wave)
 {
     const config *stage = own;
-    double density = model->density[SCREE_PARTICLE_MATERIAL], modulus = scree_confined_modulus(model, stage->pressure);
+    double density = scree_model_mean_density(model), modulus = scree_confined_modulus(model, stage->pressure);
     double grain = 2 * model->mean_radius / scree_wave_speed(modulus, density, scree_expected_solid_fraction(model));
     double grains = scree_model_law(model)->confine_grains;
     if (model->dimension == 3) grains = confine_grains.solid;

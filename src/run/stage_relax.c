@@ -46,21 +46,23 @@ static scree_status check_room(const scree_simulation *s, scree_error *error)
 {
     const scree_container *container = s->work.container;
     const scree_state *state = &s->state;
-    for (int k = 0; container && k < container->count; k++)
-        for (size_t id = 0; id < state->count; id++) {
-            size_t row = state->row_of_id[id];
+    for (int k = 0; container && k < container->count; k++) {
+        size_t next = 0;
+        for (uint32_t row; (row = scree_next_by_id(state, &next)) != SCREE_NO_ROW;) {
             scree_vector place;
             scree_body_place(state, row, place);
-            double radius = state->row[row].radius;
+            double radius = scree_body_bounding_radius(state, row);
             double clearance = scree_surface_clearance(container, k, place, radius);
             if (clearance >= radius * (1 - s->model.config->guard.overlap)) continue;
             return scree_error_set(error, SCREE_ERROR_INPUT,
-                                   "particle %zu at (%.4g, %.4g, %.4g) m, radius %.4g m, is %s wall '%s': its centre "
+                                   "particle %u at (%.4g, %.4g, %.4g) m, radius %.4g m, is %s wall '%s': its centre "
                                    "is %.4g m from it; move the wall, or change the box of the prepare stage (it "
                                    "begins at the origin)",
-                                   id, place[0], place[1], place[2], radius, clearance < 0 ? "behind" : "in",
-                                   container->surface[k].config->name, fabs(clearance));
+                                   state->id[row], place[0], place[1], place[2], radius,
+                                   clearance < 0 ? "behind" : "in", container->surface[k].config->name,
+                                   fabs(clearance));
         }
+    }
     return SCREE_OK;
 }
 

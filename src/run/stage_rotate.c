@@ -82,7 +82,7 @@ static void find_centre(const scree_state *state, scree_vector centre)
             scree_body_place(state, row, place);
             for (int i = 0; i < 3; i++) scree_integer_sum_add(&sum[i], place[i]);
         }
-    for (int i = 0; i < 3; i++) centre[i] = scree_integer_sum_total(&sum[i]) / (double)state->grains;
+    for (int i = 0; i < 3; i++) centre[i] = scree_integer_sum_total(&sum[i]) / (double)scree_grain_count(state);
 }
 
 /// Id of the particle that bears most of those within CENTRE mean diameters of the centre of the assembly that touch
@@ -124,10 +124,11 @@ static scree_status choose(scree_simulation *s, uint32_t *id, scree_error *error
     if (found < 0)
         return scree_error_set(error, SCREE_ERROR_GUARD,
                                "stage %lld (rotate_particle): no particle near the centre is held by others", stage);
-    if ((size_t)found >= s->state.grains)
+    size_t row = scree_state_row_of(&s->state, (size_t)found);
+    if (row == SCREE_NO_ROW || !scree_body_is_grain(&s->state, row))
         return scree_error_set(error, SCREE_ERROR_GUARD,
-                               "stage %lld (rotate_particle): there is no particle %lld, they are 0 to %zu", stage,
-                               (long long)found, s->state.grains - 1);
+                               "stage %lld (rotate_particle): there is no particle %lld; ids are below %zu", stage,
+                               (long long)found, s->state.next_id);
     *id = (uint32_t)found;
     return SCREE_OK;
 }

@@ -128,7 +128,10 @@ scree_status scree_ghosts_make(scree_state *state, scree_work *work, scree_error
         list->count = 0;
         return status;
     }
-    for (size_t k = 0; k < list->count; k++) state->id[state->count + k] = state->id[list->ghost[k].parent];
+    for (size_t k = 0; k < list->count; k++) {
+        state->id[state->count + k] = state->id[list->ghost[k].parent];
+        state->mark[state->count + k] = state->mark[list->ghost[k].parent];
+    }
     scree_ghosts_place(state, work);
     return SCREE_OK;
 }

@@ -117,11 +117,11 @@ scree_status scree_histories_collect(scree_state *state, scree_work *work, scree
 /// Lower row of the pair of an entry; `count` for an entry that belongs to no pair.
 static uint32_t lower_row(const scree_state *state, const scree_contact_memory *memory)
 {
-    if (memory->first >= state->count) return (uint32_t)state->count;
-    uint32_t first = state->row_of_id[memory->first];
+    uint32_t first = scree_state_row_of(state, memory->first);
+    if (first == SCREE_NO_ROW) return (uint32_t)state->count;
     if (memory->second >= SCREE_ELEMENT_ID) return first;
-    if (memory->second >= state->count) return (uint32_t)state->count;
-    uint32_t second = state->row_of_id[memory->second];
+    uint32_t second = scree_state_row_of(state, memory->second);
+    if (second == SCREE_NO_ROW) return (uint32_t)state->count;
     return first < second ? first : second;
 }
 

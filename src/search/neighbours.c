@@ -183,7 +183,7 @@ static void pairs_share(void *argument, int index, int count)
     task->failed[index] =
         task->find(&task->search->grid, state, begin, end, chunk, NULL) ||
         scree_elements_search(task->work->container, state, begin, end, task->work->skin, &chunk->element, NULL);
-    if (state->grains == state->count) return;
+    if (state->marked[SCREE_MARK_MEMBRANE] == 0) return;
     drop_membrane_pairs(state, &chunk->touching);
     drop_membrane_pairs(state, &chunk->near);
 }
@@ -388,16 +388,23 @@ static void release_scratch(scree_search *search, scree_state *state)
     scree_state_release_contacts(state);
 }
 
+/// No body has come or gone since the list was made.
+static bool is_of_these_bodies(const scree_search *search, const scree_state *state)
+{
+    return search->bodies == state->count && search->changes == state->changes;
+}
+
 static scree_status rebuild(const scree_model *model, scree_state *state, scree_work *work, scree_error *error)
 {
     scree_search *search = work->search;
     scree_status status = SCREE_OK;
     work->valid = false;
     // Until the new list is whole, state->contact holds the histories: a rebuild that fails can be repeated.
-    if (search->listed && search->bodies == state->count) status = scree_histories_collect(state, work, error);
+    if (search->listed && is_of_these_bodies(search, state)) status = scree_histories_collect(state, work, error);
     if (status) return status;
     search->listed = false;
     search->bodies = state->count;
+    search->changes = state->changes;
     work->pairs.count = work->pairs.touching_count = work->wall_pairs.count = work->element_pairs.count = 0;
     work->ghosts.count = 0;
     if (state->count >= LARGE) scree_pair_lists_destroy(work);
@@ -452,7 +459,7 @@ scree_status scree_neighbours_refresh(const scree_model *model, scree_state *sta
         scree_container_place(work->container, surface_time(state, scree_case_walls(state)->ticks));
         scree_case_walls(state)->speed = scree_case_walls(state)->moving ? scree_container_speed(work->container) : 0;
     }
-    if (!work->valid || work->search->bodies != state->count || walls_need_rebuild(model, state, work))
+    if (!work->valid || !is_of_these_bodies(work->search, state) || walls_need_rebuild(model, state, work))
         return rebuild(model, state, work, error);
     scree_status status = work->budget >= 0 ? SCREE_OK : check_list(model, state, work, error);
     if (!status && work->ghosts.count > 0) scree_ghosts_place(state, work);

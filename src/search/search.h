@@ -16,6 +16,7 @@ struct scree_search {
     scree_pair_chunk images;           ///< pairs with images of a periodic cell
     bool listed;                       ///< the list in `work` is whole and holds the contact histories
     size_t bodies;                     ///< in the list
+    uint64_t changes;                  ///< of the state, when it was made
     scree_wall wall[SCREE_WALL_COUNT]; ///< as they were at the last rebuild
     uint64_t surface_ticks;            ///< of the walls of the case, then
     // histories on their way to the new list: entries of state->contact by the lower of their two rows

@@ -16,10 +16,10 @@
 static double most_of(const scree_field_range *range, const scree_state *state, const scree_model *model)
 {
     switch (range->limit) {
-    case SCREE_LIMIT_LAST_BODY:
-        return (double)state->count - 1;
-    case SCREE_LIMIT_BODIES:
-        return (double)state->count;
+    case SCREE_LIMIT_BODY:
+        return (double)state->next_id - 1;
+    case SCREE_LIMIT_IDS:
+        return SCREE_ELEMENT_ID;
     case SCREE_LIMIT_LAST_MATERIAL:
         return fmax(model->material_count - 1, model->membrane ? model->membrane_material : 0);
     case SCREE_LIMIT_LARGEST_RADIUS:
@@ -138,10 +138,13 @@ static scree_status check_field(const scree_state *state, const scree_model *mod
         const unsigned char *at = scree_field_get(state, field, row);
         for (int k = 0; k < components; k++, at += scree_field_size(field->type)) {
             double value = number_of(field->type, at);
-            if (is_inside(range, most, value)) continue;
+            bool gone = range->limit == SCREE_LIMIT_BODY && value >= 0 && value <= most &&
+                        scree_state_row_of(state, (size_t)value) == SCREE_NO_ROW;
+            if (is_inside(range, most, value) && !gone) continue;
             char accepted[96];
             describe(range, most, accepted, sizeof accepted);
-            return refuse(state, field, row, value, accepted, error);
+            return gone ? refuse(state, field, row, value, "the id of a body that is here", error)
+                        : refuse(state, field, row, value, accepted, error);
         }
     }
     return SCREE_OK;
@@ -163,7 +166,8 @@ static scree_status check_contacts(const scree_state *state, const scree_model *
             return refuse_contact(state, k, "is no plate", error);
         if (element && model->config->wall_count == 0)
             return refuse_contact(state, k, "is of a wall that the case does not have", error);
-        if (!plate && !element && (c->second >= state->count || c->second < c->first))
+        bool gone = scree_state_row_of(state, c->second) == SCREE_NO_ROW;
+        if (!plate && !element && (gone || c->second < c->first))
             return refuse_contact(state, k, "is no body, or one with a lower id", error);
         if (k == 0) continue;
         const scree_contact_memory *before = c - 1;

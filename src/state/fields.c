@@ -32,30 +32,36 @@
 
 static const scree_field fields[] = {
     {"id", SCREE_FIELD_UINT32, 1, "1", SCREE_FIELD_STATE, true, "number of the body, never changes",
-     PLAIN_ARRAY(id, uint32_t), .rows = SCREE_ROWS_BODIES},
+     PLAIN_ARRAY(id, uint32_t), .rows = SCREE_ROWS_BODIES, .images = true},
+    {"mark", SCREE_FIELD_UINT8, 1, "1", SCREE_FIELD_STATE, true, "0: grain, 1: of a membrane",
+     PLAIN_ARRAY(mark, uint8_t), .rows = SCREE_ROWS_BODIES, .images = true, SCREE_RANGE(0, SCREE_MARKS - 1)},
     {"position", SCREE_FIELD_DOUBLE, SCREE_VECTOR, "m", SCREE_FIELD_STATE, true, "centre", IN_ARRAY(row, scree_row, x),
-     .rows = SCREE_ROWS_BODIES, SCREE_RANGE_TO(SCREE_LIMIT_FARTHEST)},
+     .rows = SCREE_ROWS_BODIES, .images = true, SCREE_RANGE_TO(SCREE_LIMIT_FARTHEST)},
     {"radius", SCREE_FIELD_DOUBLE, 1, "m", SCREE_FIELD_STATE, true, "radius", IN_ARRAY(row, scree_row, radius),
-     .rows = SCREE_ROWS_BODIES, .range = {.limit = SCREE_LIMIT_LARGEST_RADIUS, .open = true}},
+     .rows = SCREE_ROWS_BODIES, .images = true, .range = {.limit = SCREE_LIMIT_LARGEST_RADIUS, .open = true}},
     {"mass", SCREE_FIELD_DOUBLE, 1, "kg", SCREE_FIELD_STATE, true, "mass", IN_ARRAY(row, scree_row, mass),
-     .rows = SCREE_ROWS_BODIES, SCREE_RANGE_ABOVE(0, DBL_MAX)},
+     .rows = SCREE_ROWS_BODIES, .images = true, SCREE_RANGE_ABOVE(0, DBL_MAX)},
     {"material", SCREE_FIELD_DOUBLE, 1, "1", SCREE_FIELD_STATE, true,
-     "number of the material; 0 is that of the particles", IN_ARRAY(row, scree_row, material),
-     .rows = SCREE_ROWS_BODIES, .only_dimension = 2, SCREE_RANGE_TO(SCREE_LIMIT_LAST_MATERIAL)},
+     "number of the material; 0 is that of the particles, or of the first species", IN_ARRAY(row, scree_row, material),
+     .rows = SCREE_ROWS_BODIES, .images = true, .only_dimension = 2, SCREE_RANGE_TO(SCREE_LIMIT_LAST_MATERIAL)},
     {"material", SCREE_FIELD_DOUBLE, 1, "1", SCREE_FIELD_STATE, true,
-     "number of the material; 0 is that of the particles", IN_ARRAY(turn, scree_turn_row, material),
-     .rows = SCREE_ROWS_BODIES, .only_dimension = 3, SCREE_RANGE_TO(SCREE_LIMIT_LAST_MATERIAL)},
+     "number of the material; 0 is that of the particles, or of the first species",
+     IN_ARRAY(turn, scree_turn_row, material), .rows = SCREE_ROWS_BODIES, .images = true, .only_dimension = 3,
+     SCREE_RANGE_TO(SCREE_LIMIT_LAST_MATERIAL)},
+    {"species", SCREE_FIELD_UINT8, 1, "1", SCREE_FIELD_STATE, true,
+     "number of the species among those of the case; 255: a body of a membrane", PLAIN_ARRAY(species, uint8_t),
+     .rows = SCREE_ROWS_BODIES, SCREE_RANGE(0, 255)},
     {"angle", SCREE_FIELD_DOUBLE, 1, "rad", SCREE_FIELD_STATE, true, "rotation since the start, counter-clockwise",
      PLAIN_ARRAY(angle, double), .rows = SCREE_ROWS_BODIES, .only_dimension = 2},
     {"scheme_velocity", SCREE_FIELD_DOUBLE, SCREE_VECTOR, "m/s", SCREE_FIELD_STATE, false,
      "velocity that the integrator keeps: half a step behind the position in position_verlet",
-     IN_ARRAY(row, scree_row, vx), .rows = SCREE_ROWS_BODIES},
+     IN_ARRAY(row, scree_row, vx), .rows = SCREE_ROWS_BODIES, .images = true},
     {"scheme_spin", SCREE_FIELD_DOUBLE, 1, "rad/s", SCREE_FIELD_STATE, false,
      "angular velocity that the integrator keeps, counter-clockwise", IN_ARRAY(row, scree_row, spin),
-     .rows = SCREE_ROWS_BODIES, .only_dimension = 2},
+     .rows = SCREE_ROWS_BODIES, .images = true, .only_dimension = 2},
     {"scheme_spin", SCREE_FIELD_DOUBLE, 3, "rad/s", SCREE_FIELD_STATE, false,
      "angular velocity that the integrator keeps", IN_ARRAY(turn, scree_turn_row, wx), .rows = SCREE_ROWS_BODIES,
-     .only_dimension = 3},
+     .images = true, .only_dimension = 3},
     {"reference", SCREE_FIELD_DOUBLE, SCREE_VECTOR, "m", SCREE_FIELD_STATE, false,
      "centre at the start of the loading stage", PLAIN_ARRAY(reference, scree_vector), .rows = SCREE_ROWS_BODIES,
      SCREE_RANGE_TO(SCREE_LIMIT_FARTHEST)},
@@ -63,19 +69,23 @@ static const scree_field fields[] = {
      "velocity at the last sample", PLAIN_ARRAY(sampled_velocity, scree_vector), .rows = SCREE_ROWS_BODIES},
     {"force_sum", SCREE_FIELD_INT64, SCREE_VECTOR, "1", SCREE_FIELD_STATE, false,
      "sum of the contact and boundary forces, in units of scalars/force_quantum", IN_ARRAY(sum, scree_sum_row, fx),
-     .rows = SCREE_ROWS_BODIES, SCREE_RANGE(-SUM, SUM)},
+     .rows = SCREE_ROWS_BODIES, .images = true, SCREE_RANGE(-SUM, SUM)},
     {"torque_sum", SCREE_FIELD_INT64, 1, "1", SCREE_FIELD_STATE, false,
      "sum of the contact torques, in units of scalars/torque_quantum", IN_ARRAY(sum, scree_sum_row, torque),
-     .rows = SCREE_ROWS_BODIES, .only_dimension = 2, SCREE_RANGE(-SUM, SUM)},
+     .rows = SCREE_ROWS_BODIES, .images = true, .only_dimension = 2, SCREE_RANGE(-SUM, SUM)},
     {"torque_sum", SCREE_FIELD_INT64, 3, "1", SCREE_FIELD_STATE, false,
      "sum of the contact torques, in units of scalars/torque_quantum", IN_ARRAY(torque, scree_torque_row, x),
-     .rows = SCREE_ROWS_BODIES, .only_dimension = 3, SCREE_RANGE(-SUM, SUM)},
+     .rows = SCREE_ROWS_BODIES, .images = true, .only_dimension = 3, SCREE_RANGE(-SUM, SUM)},
     {"coordination", SCREE_FIELD_INT64, 1, "1", SCREE_FIELD_STATE, true, "number of touching neighbours and walls",
-     IN_ARRAY(sum, scree_sum_row, contacts), .rows = SCREE_ROWS_BODIES, SCREE_RANGE_TO(SCREE_LIMIT_MANY)},
+     IN_ARRAY(sum, scree_sum_row, contacts), .rows = SCREE_ROWS_BODIES, .images = true,
+     SCREE_RANGE_TO(SCREE_LIMIT_MANY)},
     {"rebuild", SCREE_FIELD_DOUBLE, SCREE_VECTOR, "m", SCREE_FIELD_DERIVED, false,
      "centre at the last rebuild of the neighbour list", PLAIN_ARRAY(rebuild, scree_vector), .rows = SCREE_ROWS_BODIES},
+    {"foreseen", SCREE_FIELD_DOUBLE, 8, "1", SCREE_FIELD_DERIVED, false,
+     "increments of velocity and spin by the forces of the last step", PLAIN_ARRAY(foreseen, scree_foreseen),
+     .rows = SCREE_ROWS_BODIES, .images = true, .optional = true},
 
-    CONTACT("first", SCREE_FIELD_UINT32, 1, "1", first, "id of the first body", SCREE_RANGE_TO(SCREE_LIMIT_LAST_BODY)),
+    CONTACT("first", SCREE_FIELD_UINT32, 1, "1", first, "id of the first body", SCREE_RANGE_TO(SCREE_LIMIT_BODY)),
     CONTACT(
         "second", SCREE_FIELD_UINT32, 1, "1", second,
         "id of the second body, larger than the first; 4294967280 + index for a plate, 2147483648 + element for a wall "
@@ -88,8 +98,8 @@ static const scree_field fields[] = {
                    "stretch of rolling and angle of twist: x, y, z [m] and [rad]; 2D: stretch [m]", SCREE_ROWS_ROLLING),
     BESIDE_CONTACT("rolling_booked", SCREE_FIELD_FLOAT, rolling, scree_rolling, "1", booked,
                    "dashpots of rolling [N] and twisting [N m] that the ledger needs again", SCREE_ROWS_ROLLING),
-    ONE("scalars/grains", SCREE_FIELD_UINT64, 1, "1", grains, "number of grains: ids from it on are of the membrane",
-        SCREE_RANGE_TO(SCREE_LIMIT_BODIES)),
+    ONE("scalars/next_id", SCREE_FIELD_UINT64, 1, "1", next_id, "id of the next body that comes; none is given again",
+        SCREE_RANGE_TO(SCREE_LIMIT_IDS)),
     ONE("scalars/step", SCREE_FIELD_UINT64, 1, "1", step, "time since the start of the run, in ticks",
         SCREE_RANGE_TO(SCREE_LIMIT_MANY)),
     ONE("scalars/evaluations", SCREE_FIELD_UINT64, 1, "1", evaluations,
@@ -121,12 +131,16 @@ static const scree_field fields[] = {
         "work of the other forces of the boundary on the bodies"),
     ONE("ledger/forced", SCREE_FIELD_DOUBLE, 1, "J", ledger.forced,
         "work of the torque that keeps a body at its prescribed spin"),
+    ONE("ledger/outside", SCREE_FIELD_DOUBLE, 1, "J", ledger.outside,
+        "work of own forces of a program that uses the library, and of its changes of bodies"),
     ONE("ledger/gravity", SCREE_FIELD_DOUBLE, 1, "J", ledger.gravity, "work of gravity on the bodies"),
     ONE("ledger/initial", SCREE_FIELD_DOUBLE, 1, "J", ledger.initial, "energy when the ledger was opened"),
     ONE("ledger/scheme", SCREE_FIELD_DOUBLE, 1, "J", ledger.scheme,
         "put into the kinetic energy of the scheme by changes of its step"),
     ONE("ledger/turnover", SCREE_FIELD_DOUBLE, 1, "J", ledger.turnover, "sum of the magnitudes of all work increments",
         SCREE_RANGE(0, DBL_MAX)),
+    ONE("ledger/removed", SCREE_FIELD_DOUBLE, 1, "J", ledger.removed,
+        "energy that left with bodies that were taken out"),
     ONE("stage/index", SCREE_FIELD_INT64, 1, "1", stage.index, "number of the stage in the case",
         SCREE_RANGE_TO(SCREE_LIMIT_STAGES)),
     ONE("stage/first_step", SCREE_FIELD_UINT64, 1, "1", stage.first_step, "step at which the stage began",
@@ -143,6 +157,12 @@ static const scree_field fields[] = {
         .range = {.least = -2, .limit = SCREE_LIMIT_MANY}),
 };
 enum { OWN_FIELDS = sizeof fields / sizeof *fields };
+
+const scree_field *scree_own_fields(size_t *count)
+{
+    *count = OWN_FIELDS;
+    return fields;
+}
 
 size_t scree_field_total(void)
 {
@@ -179,6 +199,14 @@ static unsigned char *owner_of(const scree_state *state, const scree_field *fiel
     return state->own[slot];
 }
 
+/// The array that a field of bodies lies in; NULL: there is none.
+static const void *array_of(const scree_state *state, const scree_field *field)
+{
+    const void *array;
+    memcpy(&array, owner_of(state, field) + field->array_offset, sizeof array);
+    return array;
+}
+
 size_t scree_field_rows_count(const scree_state *state, const scree_field *field)
 {
     size_t count = 1;
@@ -191,7 +219,7 @@ size_t scree_field_rows_count(const scree_state *state, const scree_field *field
         memcpy(&count, owner_of(state, field) + field->group->count_offset, sizeof count);
         break;
     case SCREE_ROWS_BODIES:
-        return state->count;
+        return field->optional && !array_of(state, field) ? 0 : state->count;
     case SCREE_ROWS_CONTACTS:
         return state->contact_count;
     case SCREE_ROWS_BOOKING:

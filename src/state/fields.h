@@ -9,6 +9,9 @@
 size_t scree_field_total(void);
 const scree_field *scree_field_at(size_t index);
 
+/// Those of the state itself, as an array.
+const scree_field *scree_own_fields(size_t *count);
+
 /// Whether states of this dimension have it.
 bool scree_field_exists(const scree_field *field, int dimension);
 

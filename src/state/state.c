@@ -4,36 +4,6 @@
 #include <stddef.h>
 #include <string.h>
 
-/// An array with one element a body.
-typedef struct body_array {
-    void *array; ///< address of the pointer
-    size_t size; ///< bytes of an element
-} body_array;
-
-enum { BODY_ARRAYS = 9 };
-
-/// The arrays that bodies of the state's dimension have; those that move with the rows.
-static size_t body_arrays(scree_state *state, body_array arrays[BODY_ARRAYS])
-{
-    const body_array both[] = {
-        {&state->row, sizeof *state->row},
-        {&state->sum, sizeof *state->sum},
-        {&state->id, sizeof *state->id},
-        {&state->reference, sizeof *state->reference},
-        {&state->sampled_velocity, sizeof *state->sampled_velocity},
-        {&state->rebuild, sizeof *state->rebuild},
-    };
-    size_t count = sizeof both / sizeof *both;
-    memcpy(arrays, both, sizeof both);
-    if (state->dimension == 3) {
-        arrays[count++] = (body_array){&state->turn, sizeof *state->turn};
-        arrays[count++] = (body_array){&state->torque, sizeof *state->torque};
-    } else {
-        arrays[count++] = (body_array){&state->angle, sizeof *state->angle};
-    }
-    return count;
-}
-
 scree_status scree_state_open(scree_state *state, int dimension, scree_error *error)
 {
     memset(state, 0, sizeof *state);
@@ -49,32 +19,53 @@ scree_status scree_state_create(scree_state *state, int dimension, size_t count,
     return status ? status : scree_state_make_bodies(state, count, error);
 }
 
+/// Makes row_of_id reach to `count` ids; new ones are of no body yet.
+static scree_status reserve_ids(scree_state *state, size_t count, bool exactly, scree_error *error)
+{
+    size_t wanted = count + 1, more = state->id_capacity + state->id_capacity / 8 + 16;
+    if (!exactly && wanted < more) wanted = more;
+    if (count + 1 > state->id_capacity) {
+        scree_status status =
+            scree_reallocate(&state->row_of_id, state->id_count, wanted, sizeof *state->row_of_id, error);
+        if (status) return status;
+        state->id_capacity = wanted;
+    }
+    for (; state->id_count < count; state->id_count++) state->row_of_id[state->id_count] = SCREE_NO_ROW;
+    return SCREE_OK;
+}
+
+/// Bodies with the next ids in the rows from state->count on, for which there is room.
+static void add_rows(scree_state *state, scree_mark mark, size_t more)
+{
+    for (size_t k = 0; k < more; k++) {
+        size_t row = state->count++, id = state->next_id++;
+        state->id[row] = (uint32_t)id;
+        state->row_of_id[id] = (uint32_t)row;
+        state->mark[row] = (uint8_t)mark;
+    }
+    state->marked[mark] += more;
+    state->changes++;
+}
+
 scree_status scree_state_make_bodies(scree_state *state, size_t count, scree_error *error)
 {
-    scree_status status = SCREE_OK;
-    body_array arrays[BODY_ARRAYS];
-    size_t array_count = body_arrays(state, arrays);
-    // One element more than there are bodies, so that an empty state has arrays too.
-    for (size_t k = 0; k < array_count && !status; k++)
-        status = scree_allocate(arrays[k].array, count + 1, arrays[k].size, error);
-    if (!status) status = scree_allocate(&state->row_of_id, count + 1, sizeof *state->row_of_id, error);
+    scree_status status = scree_store_reserve_bodies(state, count, true, error);
+    if (!status) status = reserve_ids(state, count, true, error);
     if (status) {
         scree_state_destroy(state);
         return status;
     }
-    state->count = state->grains = count;
-    state->row_capacity = count + 1;
     state->force_quantum = state->torque_quantum = 1.0;
-    for (size_t row = 0; row < count; row++) state->id[row] = state->row_of_id[row] = (uint32_t)row;
+    add_rows(state, SCREE_MARK_GRAIN, count);
     return SCREE_OK;
 }
 
 void scree_state_destroy(scree_state *state)
 {
-    void *const others[] = {&state->row_of_id, &state->contact, &state->booking, &state->rolling, &state->foreseen};
-    body_array arrays[BODY_ARRAYS];
-    size_t array_count = body_arrays(state, arrays);
-    for (size_t k = 0; k < array_count; k++) scree_release(arrays[k].array);
+    void *const others[] = {&state->row_of_id, &state->contact, &state->booking, &state->rolling};
+    scree_body_array list[SCREE_BODY_ARRAYS];
+    size_t arrays = scree_body_arrays(state, list);
+    for (size_t k = 0; k < arrays; k++) scree_release(list[k].pointer);
     for (size_t k = 0; k < sizeof others / sizeof *others; k++) scree_release(others[k]);
     scree_store_close(state);
     memset(state, 0, sizeof *state);
@@ -86,20 +77,137 @@ scree_status scree_state_foresee(scree_state *state, scree_error *error)
     return scree_allocate(&state->foreseen, state->row_capacity, sizeof *state->foreseen, error);
 }
 
-scree_status scree_state_append(scree_state *state, size_t more, scree_error *error)
+scree_status scree_state_append(scree_state *state, scree_mark mark, size_t more, scree_error *error)
 {
-    body_array arrays[BODY_ARRAYS];
-    size_t array_count = body_arrays(state, arrays), old = state->count, count = old + more;
-    scree_status status = SCREE_OK;
-    for (size_t k = 0; k < array_count && !status; k++)
-        status = scree_reallocate(arrays[k].array, old, count + 1, arrays[k].size, error);
-    if (!status) status = scree_reallocate(&state->row_of_id, old, count + 1, sizeof *state->row_of_id, error);
+    scree_body_array list[SCREE_BODY_ARRAYS];
+    if (state->next_id >= SCREE_ELEMENT_ID || more >= SCREE_ELEMENT_ID - state->next_id)
+        return scree_error_set(error, SCREE_ERROR_INPUT, "%zu bodies were there so far: there can be no %zu more",
+                               state->next_id, more);
+    scree_status status = scree_store_reserve_bodies(state, state->count + more, false, error);
+    if (!status) status = reserve_ids(state, state->next_id + more, false, error);
     if (status) return status;
-    for (size_t row = old; row < count; row++) state->id[row] = state->row_of_id[row] = (uint32_t)row;
-    state->count = count;
-    state->row_capacity = count + 1;
-    scree_release(&state->foreseen);
+    // Bodies that were there before, and images, may have left something behind.
+    size_t arrays = scree_body_arrays(state, list);
+    for (size_t k = 0; k < arrays; k++)
+        memset(*(unsigned char **)list[k].pointer + state->count * list[k].size, 0, more * list[k].size);
+    add_rows(state, mark, more);
     return SCREE_OK;
+}
+
+/// Why the body with this id cannot be taken out; NULL: it can.
+static const char *why_not(const scree_state *state, uint32_t id)
+{
+    if (scree_state_row_of(state, id) == SCREE_NO_ROW) return "there is none with this id";
+    const char *why = NULL;
+    for (int m = 0; m < SCREE_MODULE_COUNT && !why; m++)
+        if (scree_modules[m]->keeps) why = scree_modules[m]->keeps(state, id);
+    return why;
+}
+
+/// Marks in row_of_id the bodies that are about to go: rows stay below it.
+#define GOING UINT32_C(0x80000000)
+
+static bool is_going(const scree_state *state, size_t id)
+{
+    uint32_t row = scree_state_row_of(state, id);
+    return row != SCREE_NO_ROW && (row & GOING);
+}
+
+scree_status scree_state_check_removal(scree_state *state, const uint32_t *ids, size_t count, scree_error *error)
+{
+    const char *why = NULL;
+    size_t seen = 0, named = 0;
+    for (; seen < count; seen++)
+        if ((why = why_not(state, ids[seen]))) break;
+    for (; !why && named < count; named++) {
+        if (is_going(state, ids[named])) why = "it is named twice";
+        if (why) break;
+        state->row_of_id[ids[named]] |= GOING;
+    }
+    for (size_t k = 0; k < named; k++) state->row_of_id[ids[k]] &= ~GOING;
+    if (!why) return SCREE_OK;
+    uint32_t id = ids[seen < count ? seen : named];
+    return scree_error_set(error, SCREE_ERROR_INPUT, "body %u cannot be taken out: %s", id, why);
+}
+
+/// Drops what the contact memory has of bodies that are going; the order stays.
+static void forget_contacts(scree_state *state)
+{
+    size_t kept = 0;
+    for (size_t k = 0; k < state->contact_count; k++) {
+        if (is_going(state, state->contact[k].first) || is_going(state, state->contact[k].second)) continue;
+        state->contact[kept] = state->contact[k];
+        if (state->booking) state->booking[kept] = state->booking[k];
+        if (state->rolling) state->rolling[kept] = state->rolling[k];
+        kept++;
+    }
+    state->contact_count = kept;
+}
+
+/// Takes one row out; the last one moves into it.
+static void remove_row(scree_state *state, const scree_body_array *list, size_t arrays, size_t row)
+{
+    size_t last = --state->count;
+    uint32_t id = state->id[row], moved = state->id[last];
+    state->marked[state->mark[row]]--;
+    for (size_t k = 0; k < arrays; k++) {
+        unsigned char *array = *(unsigned char **)list[k].pointer, *from = array + last * list[k].size;
+        if (row != last) memcpy(array + row * list[k].size, from, list[k].size);
+        memset(from, 0, list[k].size); // the sums of an image that takes this row are clear
+    }
+    state->row_of_id[moved] = (uint32_t)row | (state->row_of_id[moved] & GOING);
+    state->row_of_id[id] = SCREE_NO_ROW;
+}
+
+scree_status scree_state_remove(scree_state *state, const uint32_t *ids, size_t count, scree_error *error)
+{
+    scree_status status = scree_state_check_removal(state, ids, count, error);
+    if (status || count == 0) return status;
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
+        for (size_t k = 0; k < count && scree_modules[m]->forget; k++) scree_modules[m]->forget(state, ids[k]);
+    for (size_t k = 0; k < count; k++) state->row_of_id[ids[k]] |= GOING;
+    forget_contacts(state);
+    scree_body_array list[SCREE_BODY_ARRAYS];
+    size_t arrays = scree_body_arrays(state, list);
+    for (size_t k = 0; k < count; k++) remove_row(state, list, arrays, state->row_of_id[ids[k]] & ~GOING);
+    state->changes++;
+    return SCREE_OK;
+}
+
+static scree_status refuse_id(const scree_state *state, size_t row, size_t limit, scree_error *error)
+{
+    return scree_error_set(error, SCREE_ERROR_INPUT, "row %zu: %u (accepted: ids below %zu, each at most once)", row,
+                           state->id[row], limit);
+}
+
+scree_status scree_state_find_rows(scree_state *state, scree_error *error)
+{
+    const size_t limit = state->next_id < SCREE_ELEMENT_ID ? state->next_id : SCREE_ELEMENT_ID;
+    size_t bad = 0, ids = 0;
+    for (; bad < state->count && state->id[bad] < limit; bad++)
+        if (state->id[bad] >= ids) ids = (size_t)state->id[bad] + 1;
+    if (bad < state->count) return refuse_id(state, bad, limit, error);
+    state->id_count = 0;
+    scree_status status = reserve_ids(state, ids, true, error);
+    if (status) return status;
+    memset(state->marked, 0, sizeof state->marked);
+    for (size_t row = 0; row < state->count; row++) {
+        uint32_t id = state->id[row];
+        if (state->row_of_id[id] != SCREE_NO_ROW) return refuse_id(state, row, limit, error);
+        state->row_of_id[id] = (uint32_t)row;
+        if (state->mark[row] < SCREE_MARKS) state->marked[state->mark[row]]++;
+    }
+    state->changes++;
+    return SCREE_OK;
+}
+
+scree_status scree_grains_by_id(const scree_state *state, uint32_t **rows, scree_error *error)
+{
+    scree_status status = scree_allocate(rows, scree_grain_count(state), sizeof **rows, error);
+    size_t count = 0, id = 0;
+    for (uint32_t row; !status && (row = scree_next_by_id(state, &id)) != SCREE_NO_ROW;)
+        if (state->mark[row] == SCREE_MARK_GRAIN) (*rows)[count++] = row;
+    return status;
 }
 
 double scree_state_time(const scree_state *state)
@@ -117,11 +225,10 @@ static void permute_array(void *array, size_t size, const uint32_t *order, size_
 
 size_t scree_state_widest(const scree_state *state)
 {
-    scree_state view = *state;
-    body_array arrays[BODY_ARRAYS];
-    size_t widest = sizeof *state->foreseen, array_count = body_arrays(&view, arrays);
-    for (size_t k = 0; k < array_count; k++)
-        if (arrays[k].size > widest) widest = arrays[k].size;
+    scree_body_array list[SCREE_BODY_ARRAYS];
+    size_t widest = sizeof *state->foreseen, arrays = scree_body_arrays(state, list);
+    for (size_t k = 0; k < arrays; k++)
+        if (list[k].size > widest) widest = list[k].size;
     return widest;
 }
 
@@ -131,11 +238,10 @@ scree_status scree_state_permute(scree_state *state, const uint32_t *order, scre
     if (state->count == 0) return SCREE_OK;
     scree_status status = scree_allocate(&scratch, state->count, scree_state_widest(state), error);
     if (status) return status;
-    body_array arrays[BODY_ARRAYS];
-    size_t array_count = body_arrays(state, arrays);
-    for (size_t k = 0; k < array_count; k++)
-        permute_array(*(void **)arrays[k].array, arrays[k].size, order, state->count, scratch);
-    if (state->foreseen) permute_array(state->foreseen, sizeof *state->foreseen, order, state->count, scratch);
+    scree_body_array list[SCREE_BODY_ARRAYS];
+    size_t arrays = scree_body_arrays(state, list);
+    for (size_t k = 0; k < arrays; k++)
+        permute_array(*(void **)list[k].pointer, list[k].size, order, state->count, scratch);
     scree_release(&scratch);
     for (size_t row = 0; row < state->count; row++) state->row_of_id[state->id[row]] = (uint32_t)row;
     return SCREE_OK;
@@ -151,24 +257,6 @@ scree_status scree_state_reserve_contacts(scree_state *state, size_t count, scre
     if (!status && state->rolling)
         status = scree_reallocate(&state->rolling, old, capacity, sizeof *state->rolling, error);
     if (!status) state->contact_capacity = capacity;
-    return status;
-}
-
-scree_status scree_state_reserve_rows(scree_state *state, size_t count, scree_error *error)
-{
-    if (count <= state->row_capacity) return SCREE_OK;
-    size_t before = state->row_capacity, capacity = count + count / 8 + 16;
-    scree_status status = scree_reallocate(&state->row, before, capacity, sizeof *state->row, error);
-    if (!status) status = scree_reallocate(&state->sum, before, capacity, sizeof *state->sum, error);
-    if (!status) status = scree_reallocate(&state->id, before, capacity, sizeof *state->id, error);
-    if (!status && state->dimension == 3) {
-        status = scree_reallocate(&state->turn, before, capacity, sizeof *state->turn, error);
-        if (!status) status = scree_reallocate(&state->torque, before, capacity, sizeof *state->torque, error);
-    }
-    if (!status && state->foreseen)
-        status = scree_reallocate(&state->foreseen, before, capacity, sizeof *state->foreseen, error);
-    // After a failure some arrays are larger than the capacity says, and the next call copies no more than it says.
-    if (!status) state->row_capacity = capacity;
     return status;
 }
 

@@ -3,8 +3,10 @@
 ///
 /// Hot data. One 64-byte row a body (`scree_row`) holds what the contact kernels read, so that a contact touches one
 /// cache line a body; the integer force sums are a second, 32-byte row. Cold data lies in separate arrays. Rows are
-/// re-sorted along a space-filling curve when neighbour lists are rebuilt; `id` never changes and `row_of_id` finds a
-/// body.
+/// re-sorted along a space-filling curve when neighbour lists are rebuilt; `id` never changes, and scree_state_row_of
+/// finds a body. Bodies come and go in mid-run. An id is never given again, so ids have holes: what needs an order of
+/// bodies goes through them with scree_next_by_id, all else through rows. State: scree_row and the other arrays with
+/// one element a body are declared in fields.c, those of modules in their own files (store.h).
 #ifndef SCREE_STATE_STATE_H
 #define SCREE_STATE_STATE_H
 
@@ -20,7 +22,7 @@
 /// integrate.h gives the physical velocity at n.
 ///
 /// A row serves both dimensions. In 2D the material lies in the slot of z and the spin in the slot of vz; in 3D both
-/// lie in `scree_turn_row`. Outside the kernels use scree_body_place, scree_body_motion, scree_body_material.
+/// lie in `scree_turn_row`. Outside the kernels use the functions of state/body.h.
 typedef struct scree_row {
     double x, y; ///< m
     union {
@@ -35,6 +37,13 @@ typedef struct scree_row {
     };
     double mass; ///< kg
 } scree_row;
+
+/// What a body is there for. More kinds follow: fixed, driven.
+typedef enum scree_mark {
+    SCREE_MARK_GRAIN,    ///< of the assembly
+    SCREE_MARK_MEMBRANE, ///< of a membrane around it
+    SCREE_MARKS
+} scree_mark;
 
 /// 3D only: angular velocity and material.
 typedef struct scree_turn_row {
@@ -71,6 +80,9 @@ typedef struct scree_torque_row {
     int64_t unused; ///< zero; keeps the row at 32 bytes, which kernels move at once
 } scree_torque_row;
 
+/// In the place of a species: a body of a membrane.
+#define SCREE_NO_SPECIES UINT8_MAX
+
 /// A vector of cold data; z is zero in 2D.
 typedef double scree_vector[3];
 
@@ -103,8 +115,8 @@ typedef struct scree_contact_memory {
 } scree_contact_memory;
 
 /// Energy ledger, J. Work is done ON the bodies; dissipation is positive. Residual of the balance:
-/// kinetic + elastic - initial - (plates + pressure + boundary + periodic + gravity) + damping + friction - stiffness -
-/// scheme: measure/energy.c.
+/// kinetic + elastic - initial - (plates + pressure + boundary + periodic + forced + outside + gravity) + damping +
+/// friction - stiffness - scheme + removed: measure/energy.c.
 typedef struct scree_ledger {
     double damping;   ///< dissipated by contact damping, normal and tangential
     double friction;  ///< dissipated by sliding
@@ -118,6 +130,8 @@ typedef struct scree_ledger {
     double initial;   ///< kinetic + elastic energy when the ledger was opened
     double scheme;    ///< put into the kinetic energy of the scheme by changes of its step (measure/energy.c)
     double turnover;  ///< sum of |work| increments, the scale of the residual
+    double outside;   ///< work from outside of the program: own forces, changes of bodies (include/scree/simulation.h)
+    double removed;   ///< energy that left with bodies that were taken out (measure/removal.c)
 } scree_ledger;
 
 typedef struct scree_stage_state {
@@ -137,16 +151,20 @@ typedef struct scree_time_spent {
 } scree_time_spent;
 
 struct scree_state {
-    int dimension; ///< 2 or 3
-    size_t count;
-    size_t grains;            ///< bodies with ids below it are the assembly, those from it on belong to a membrane
+    int dimension;              ///< 2 or 3
+    size_t count;               ///< bodies that are here
+    size_t next_id;             ///< ids that were ever given: 0 .. next_id - 1
+    size_t id_count;            ///< of row_of_id: ids from it on are of no body that is here (derived)
+    size_t marked[SCREE_MARKS]; ///< bodies with each mark (derived)
+    uint64_t changes;           ///< appends and removals in this process: lists of rows made before are void (derived)
     uint64_t step;            ///< time of the run in ticks; time = stage.first_time + (step - stage.first_step) * tick
     uint64_t evaluations;     ///< steps taken since the start of the run, one force evaluation each
     double tick;              ///< s, the small step of two_timescales, the step of all other schemes
     double step_size;         ///< s, the last step, from n - 1 to n
     double kick_size;         ///< s, what leapfrog velocities were advanced by in it: the mean of it and the one before
-    size_t row_capacity;      ///< of row, turn, sum, torque, id, foreseen: room for the images of a periodic cell
-                              ///< (state/work.h)
+    size_t body_capacity;     ///< of the arrays with one element a body
+    size_t row_capacity;      ///< of those that have room for the images of a periodic cell, too (state/work.h)
+    size_t id_capacity;       ///< of row_of_id
     scree_row *row;           ///< count
     scree_turn_row *turn;     ///< 3D: count; NULL in 2D
     scree_sum_row *sum;       ///< count, forces at `step`
@@ -157,12 +175,14 @@ struct scree_state {
     double largest_speed;     ///< m/s, bound of |v| + radius |spin| over all bodies
     // cold
     uint32_t *id;                   ///< count
+    uint8_t *mark;                  ///< count, scree_mark
+    uint8_t *species;               ///< count; SCREE_NO_SPECIES: no particle
     double *angle;                  ///< 2D: rad, orientation; NULL in 3D
     scree_vector *reference;        ///< m, positions at the start of the loading stage
     scree_vector *sampled_velocity; ///< m/s, at `sampled_step`: the mean unbalanced force is from them
     uint64_t sampled_step;          ///< step of the last sample
     scree_vector *rebuild;          ///< m, positions at the last neighbour rebuild (derived, kept sorted with rows)
-    uint32_t *row_of_id;            ///< derived
+    uint32_t *row_of_id;            ///< id_count (derived); SCREE_NO_ROW: taken out
     scree_foreseen *foreseen;       ///< derived, sorted with rows; NULL unless the law looks ahead
     // contacts: filled from `work` by scree_contacts_save, consumed by scree_contacts_load (contact/contact.h)
     scree_contact_memory *contact;
@@ -184,57 +204,64 @@ scree_status scree_state_create(scree_state *state, int dimension, size_t count,
 scree_status scree_state_make_bodies(scree_state *state, size_t count, scree_error *error) SCREE_MUST_USE;
 void scree_state_destroy(scree_state *state);
 
-/// Grows the arrays that contacts read and write (row, turn, sum, torque, id, foreseen) to hold `count` rows. Errors:
-/// memory.
+/// Grows the arrays of bodies that images have rows of, too, to hold `count` rows. Errors: memory.
 scree_status scree_state_reserve_rows(scree_state *state, size_t count, scree_error *error) SCREE_MUST_USE;
 
-/// Position of the body in `row` [m]; z = 0 in 2D.
-static inline void scree_body_place(const scree_state *state, size_t row, scree_vector place)
+/// Not the row of a body.
+#define SCREE_NO_ROW UINT32_MAX
+
+/// Row of the body with this id; SCREE_NO_ROW when there is none, or none any more.
+static inline uint32_t scree_state_row_of(const scree_state *state, size_t id)
 {
-    const scree_row *body = &state->row[row];
-    place[0] = body->x;
-    place[1] = body->y;
-    place[2] = state->dimension == 3 ? body->z : 0;
+    return id < state->id_count ? state->row_of_id[id] : SCREE_NO_ROW;
 }
 
-/// Velocity [m/s] and spin [rad/s] that the scheme keeps; in 2D vz = 0 and the spin is about z.
-static inline void scree_body_motion(const scree_state *state, size_t row, scree_vector velocity, scree_vector spin)
+/// Bodies in the order of their ids: row of the first one from *id on, and puts *id behind it; SCREE_NO_ROW when there
+/// is none any more. Begin with *id = 0.
+static inline uint32_t scree_next_by_id(const scree_state *state, size_t *id)
 {
-    const scree_row *body = &state->row[row];
-    bool solid = state->dimension == 3;
-    velocity[0] = body->vx;
-    velocity[1] = body->vy;
-    velocity[2] = solid ? body->vz : 0;
-    spin[0] = solid ? state->turn[row].wx : 0;
-    spin[1] = solid ? state->turn[row].wy : 0;
-    spin[2] = solid ? state->turn[row].wz : body->spin;
+    while (*id < state->id_count) {
+        uint32_t row = state->row_of_id[(*id)++];
+        if (row != SCREE_NO_ROW) return row;
+    }
+    return SCREE_NO_ROW;
 }
 
-/// Index of the material of the body in `row`.
-static inline int scree_body_material(const scree_state *state, size_t row)
+/// Number of grains: bodies of the assembly.
+static inline size_t scree_grain_count(const scree_state *state)
 {
-    return (int)(state->dimension == 3 ? state->turn[row].material : state->row[row].material);
+    return state->marked[SCREE_MARK_GRAIN];
 }
 
-/// Moment of inertia [kg m2] of the body in `row`: m R^2 / 2 of a disc (a cylinder), 2 m R^2 / 5 of a sphere.
-static inline double scree_body_inertia(const scree_state *state, size_t row)
-{
-    const scree_row *body = &state->row[row];
-    return (state->dimension == 3 ? 0.4 : 0.5) * body->mass * body->radius * body->radius;
-}
+/// Rows of the grains in the order of their ids, scree_grain_count of them; to be released. Errors: memory.
+scree_status scree_grains_by_id(const scree_state *state, uint32_t **rows, scree_error *error) SCREE_MUST_USE;
+
+/// Makes the array of an optional field of bodies, all zero, if there is none yet. Errors: memory.
+scree_status scree_state_begin_field(scree_state *state, const scree_field *field, scree_error *error) SCREE_MUST_USE;
 
 /// Makes room for what laws that look ahead need, if there is none yet.
 scree_status scree_state_foresee(scree_state *state, scree_error *error) SCREE_MUST_USE;
 
-/// The body in `row` is of the assembly, not of a membrane.
-static inline bool scree_body_is_grain(const scree_state *state, size_t row)
-{
-    return state->id[row] < state->grains;
-}
+/// Adds `more` bodies with a mark behind those that there are, with ids that were never given, all else zero. What
+/// refers to bodies by id stays valid, what refers to rows does not reach the new ones; the neighbour list is made anew
+/// at its next refresh, with the contacts that are in the state: save them before (scree_contacts_save). Errors:
+/// memory, the state is unchanged then. Cost: amortised constant a body.
+scree_status scree_state_append(scree_state *state, scree_mark mark, size_t more, scree_error *error) SCREE_MUST_USE;
 
-/// Adds `more` bodies behind those that there are, with the ids that follow, all zero. Everything that refers to rows
-/// stays valid, neighbour lists excepted: save the contacts before. Errors: memory, the state is unchanged then.
-scree_status scree_state_append(scree_state *state, size_t more, scree_error *error) SCREE_MUST_USE;
+/// Takes the bodies with these ids out; the last rows move into theirs. What the contact memory and the modules say of
+/// them is forgotten. The neighbour list is made anew at its next refresh: save the contacts before. Forces that gone
+/// bodies exerted are still in the sums of the others, and their energy in the balance: scree_bodies_remove
+/// (measure/removal.h) sees to both. Errors: SCREE_ERROR_INPUT: no such body, one twice, or one that a module keeps;
+/// the state is unchanged then. Cost: amortised constant a body, and a pass over the saved contacts.
+scree_status scree_state_remove(scree_state *state, const uint32_t *ids, size_t count,
+                                scree_error *error) SCREE_MUST_USE;
+/// The errors of scree_state_remove alone.
+scree_status scree_state_check_removal(scree_state *state, const uint32_t *ids, size_t count,
+                                       scree_error *error) SCREE_MUST_USE;
+
+/// Finds the row of each id, and counts the marks, after id, mark and next_id were set from outside. Errors: memory;
+/// SCREE_ERROR_INPUT with the row of an id that is there twice or was never given.
+scree_status scree_state_find_rows(scree_state *state, scree_error *error) SCREE_MUST_USE;
 
 /// s; never accumulated.
 double scree_state_time(const scree_state *state);

@@ -1,8 +1,12 @@
-/// The store of the state: the structs of the modules and the arrays that they declare.
+/// The store of the state: the structs of the modules, the arrays that they declare, and those of bodies.
+///
+/// Growth. Arrays of bodies are made as large as they must be. When one more does not fit they grow by an eighth, so a
+/// body that is appended costs a constant number of copies, eight, however many there are.
 #include "state/store.h"
 
 #include "state/fields.h"
 
+#include <assert.h>
 #include <string.h>
 
 static int slot_of(const scree_module *module)
@@ -31,6 +35,77 @@ void scree_store_close(scree_state *state)
                 scree_release(scree_field_array(state, &scree_modules[m]->fields[k]));
         scree_release(&state->own[m]);
     }
+}
+
+/// Puts the array that a field lies in on the list, unless another field of it is there.
+static size_t list_array(const scree_state *state, const scree_field *field, scree_body_array *list, size_t count)
+{
+    if (field->rows != SCREE_ROWS_BODIES || !scree_field_exists(field, state->dimension)) return count;
+    if (field->owner && !state->own[slot_of(field->owner)]) return count;
+    void *pointer = scree_field_array(state, field), *array;
+    for (size_t k = 0; k < count; k++)
+        if (list[k].pointer == pointer) return count;
+    memcpy(&array, pointer, sizeof array);
+    if (field->optional && !array) return count;
+    assert(count < SCREE_BODY_ARRAYS);
+    list[count] = (scree_body_array){pointer, field->stride, field->images, field->optional};
+    return count + 1;
+}
+
+size_t scree_body_arrays(const scree_state *state, scree_body_array list[SCREE_BODY_ARRAYS])
+{
+    size_t count = 0, fields;
+    const scree_field *own = scree_own_fields(&fields);
+    for (size_t k = 0; k < fields; k++) count = list_array(state, &own[k], list, count);
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
+        for (size_t k = 0; k < scree_modules[m]->field_count; k++)
+            count = list_array(state, &scree_modules[m]->fields[k], list, count);
+    return count;
+}
+
+/// Grows the arrays with or without room for images from their capacity to `wanted`.
+static scree_status grow(scree_state *state, bool images, size_t capacity, size_t wanted, scree_error *error)
+{
+    scree_body_array list[SCREE_BODY_ARRAYS];
+    size_t arrays = scree_body_arrays(state, list);
+    scree_status status = SCREE_OK;
+    for (size_t k = 0; k < arrays && !status; k++)
+        if (list[k].images == images) status = scree_reallocate(list[k].pointer, capacity, wanted, list[k].size, error);
+    // After a failure some arrays are larger than the capacity says, and the next call copies no more than it says.
+    return status;
+}
+
+scree_status scree_store_reserve_bodies(scree_state *state, size_t count, bool exactly, scree_error *error)
+{
+    size_t wanted = count + 1, more = state->body_capacity + state->body_capacity / 8 + 16;
+    if (!exactly && wanted < more) wanted = more;
+    scree_status status = SCREE_OK;
+    if (count + 1 > state->body_capacity) {
+        status = grow(state, false, state->body_capacity, wanted, error);
+        if (!status) state->body_capacity = wanted;
+    }
+    if (!status && count + 1 > state->row_capacity) {
+        status = grow(state, true, state->row_capacity, wanted, error);
+        if (!status) state->row_capacity = wanted;
+    }
+    return status;
+}
+
+scree_status scree_state_reserve_rows(scree_state *state, size_t count, scree_error *error)
+{
+    if (count <= state->row_capacity) return SCREE_OK;
+    size_t wanted = count + count / 8 + 16;
+    scree_status status = grow(state, true, state->row_capacity, wanted, error);
+    if (!status) state->row_capacity = wanted;
+    return status;
+}
+
+scree_status scree_state_begin_field(scree_state *state, const scree_field *field, scree_error *error)
+{
+    void *array, *pointer = scree_field_array(state, field);
+    memcpy(&array, pointer, sizeof array);
+    if (array) return SCREE_OK;
+    return scree_allocate(pointer, field->images ? state->row_capacity : state->body_capacity, field->stride, error);
 }
 
 scree_status scree_group_reserve(scree_state *state, const scree_module *module, const scree_group *group, size_t rows,

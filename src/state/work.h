@@ -3,7 +3,7 @@
 #define SCREE_STATE_WORK_H
 
 #include "base/team_size.h"
-#include "state/state.h"
+#include "state/body.h"
 
 /// Flags that kernels and integrators raise; the guard looks once a step.
 enum {

@@ -94,8 +94,8 @@ scree_status scree_plot_distortion(const scree_plot_run *run, const scree_snapsh
     scree_status status = scree_path_join(path, sizeof path, run->figures, name, error);
     if (!status) status = scree_cell_snapshot_read(run->directory, first, &a, error);
     if (!status) status = scree_cell_snapshot_read(run->directory, second, &b, error);
-    if (!status && a.assembly.count != b.assembly.count)
-        status = scree_error_set(error, SCREE_ERROR_INPUT, "the snapshots have different numbers of grains");
+    if (!status && !scree_cell_snapshots_agree(&a, &b))
+        status = scree_error_set(error, SCREE_ERROR_INPUT, "the snapshots are not of the same grains");
     if (!status) status = find_distortion(&a, &b, &distortion, &band, error);
     if (!status) {
         scree_scene scene = {.title = title,

@@ -4,6 +4,7 @@
 #include "view/plot_parts.h"
 
 #include "base/memory.h"
+#include "io/array.h"
 #include "io/run_directory.h"
 #include "view/chart.h"
 #include "view/page.h"
@@ -326,12 +327,13 @@ static scree_status draw_map(const scree_plot_run *run, const scree_series *bodi
         scree_release(&field);
         return status;
     }
-    if (now.count != bodies->row_count || !(forced >= 0 && forced < (double)now.count)) {
+    size_t marked = now.count;
+    if (forced >= 0) marked = scree_place_of_id(now.id, now.count, (uint32_t)forced);
+    if (now.count != bodies->row_count || marked == now.count) {
         status = scree_error_set(error, SCREE_ERROR_INPUT, "%s is not of the last snapshot", FILE_BODIES);
     } else {
         bool solid = now.dimension == 3;
         if (solid) status = scree_section_create(&now, &plane, error);
-        size_t marked = (size_t)forced;
         scree_scene scene = {.title = solid ? "Rotations around the forced sphere, section"
                                             : "Rotations around the forced disc and the force network",
                              .field = field,

@@ -9,6 +9,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /// Axial strain, as in run/results.c.
 
@@ -170,9 +171,9 @@ static scree_status read_two(const scree_plot_run *run, size_t first, size_t sec
     scree_status status = scree_snapshot_read(run->directory, first, a, error);
     if (status) return status;
     status = scree_snapshot_read(run->directory, second, b, error);
-    if (!status && a->count != b->count) {
-        status = scree_error_set(error, SCREE_ERROR_INPUT, "snapshots %zu and %zu have different numbers of particles",
-                                 first, second);
+    if (!status && (a->count != b->count || memcmp(a->id, b->id, a->count * sizeof *a->id) != 0)) {
+        status = scree_error_set(error, SCREE_ERROR_INPUT, "snapshots %zu and %zu are not of the same particles", first,
+                                 second);
         scree_snapshot_destroy(b);
     }
     if (status) scree_snapshot_destroy(a);
@@ -189,17 +190,41 @@ static void percent_text(char *text, size_t size, double strain, bool name)
 }
 
 /// Fluctuations of the grains, one component after the other.
-static void find_fluctuations(const scree_snapshot *from, const scree_snapshot *to, double *value)
+static scree_status find_fluctuations(const scree_snapshot *from, const scree_snapshot *to, double *value,
+                                      scree_error *error)
 {
     const int n = from->dimension;
     const size_t count = from->count;
     const double *const begin[] = {from->x, from->y, from->z}, *const end[] = {to->x, to->y, to->z};
     double *const fluctuation[] = {value, value + count, value + 2 * count};
-    double gradient[9];
-    if (from->periodic.directions == (1u << n) - 1)
+    if (from->periodic.directions == (1u << n) - 1) {
         (void)scree_periodic_fluctuations(&from->periodic, &to->periodic, n, begin, end, count, fluctuation);
-    else
-        (void)scree_fluctuations(n, begin, end, from->grains, fluctuation, gradient);
+        return SCREE_OK;
+    }
+    // The grains one behind the other, without the bodies of a membrane between them.
+    double *room = NULL, *column[9], gradient[9];
+    scree_status status = scree_allocate(&room, 9 * count, sizeof *room, error);
+    if (status) return status;
+    for (int c = 0; c < 9; c++) column[c] = room + (size_t)c * count;
+    size_t grains = 0;
+    for (size_t k = 0; k < count; k++) {
+        if (!scree_snapshot_is_grain(from, k)) continue;
+        for (int i = 0; i < n; i++) {
+            column[i][grains] = begin[i][k];
+            column[3 + i][grains] = end[i][k];
+        }
+        grains++;
+    }
+    (void)scree_fluctuations(n, (const double *const *)column, (const double *const *)(column + 3), grains, column + 6,
+                             gradient);
+    grains = 0;
+    for (size_t k = 0; k < count; k++) {
+        if (!scree_snapshot_is_grain(from, k)) continue;
+        for (int i = 0; i < n; i++) fluctuation[i][k] = column[6 + i][grains];
+        grains++;
+    }
+    scree_release(&room);
+    return SCREE_OK;
 }
 
 static scree_status draw_fluctuations(const scree_plot_run *run, const scree_snapshot *from, const scree_snapshot *to,
@@ -216,14 +241,15 @@ static scree_status draw_fluctuations(const scree_plot_run *run, const scree_sna
     scree_status status = scree_path_join(path, sizeof path, run->figures, name, error);
     if (!status) status = scree_allocate(&arrow, (size_t)from->dimension * count, sizeof *arrow, error);
     if (!status) {
-        find_fluctuations(from, to, arrow);
+        status = find_fluctuations(from, to, arrow, error);
         scree_scene scene = {.title = title,
                              .arrow_x = arrow,
                              .arrow_y = arrow + (solid ? 2 : 1) * count,
                              .of_cell = run->of_cell,
                              .plates = true};
-        status = solid ? draw_in_space(path, from, VIEW_SECTION, &scene, error)
-                       : scree_scene_draw(path, from, &scene, error);
+        if (!status)
+            status = solid ? draw_in_space(path, from, VIEW_SECTION, &scene, error)
+                           : scree_scene_draw(path, from, &scene, error);
     }
     scree_release(&arrow);
     return status;

@@ -93,6 +93,8 @@ static scree_status start_plane(const scree_snapshot *solid, scree_snapshot *pla
     scree_status status = scree_allocate(&plane->x, solid->count, sizeof *plane->x, error);
     if (!status) status = scree_allocate(&plane->y, solid->count, sizeof *plane->y, error);
     if (!status) status = scree_allocate(&plane->radius, solid->count, sizeof *plane->radius, error);
+    if (!status && solid->mark) status = scree_allocate(&plane->mark, solid->count, sizeof *plane->mark, error);
+    if (!status && solid->mark) memcpy(plane->mark, solid->mark, solid->count * sizeof *plane->mark);
     return status;
 }
 

@@ -226,7 +226,7 @@ static void write_caption(scree_scene_view *view)
         (void)snprintf(left_out, sizeof left_out, ", %zu without a position", s->count - view->disc_count);
     // The bodies of a membrane are drawn too, but are no grains.
     size_t grains = 0;
-    for (size_t k = 0; k < (s->grains > 0 ? s->grains : s->count); k++) grains += scree_scene_drawn(s, k);
+    for (size_t k = 0; k < s->count; k++) grains += scree_snapshot_is_grain(s, k) && scree_scene_drawn(s, k);
     (void)snprintf(view->caption, sizeof view->caption, "%s%zu %s%s%s%s%s", view->scene->section ? "section, " : "",
                    grains, view->scene->depth || view->scene->section ? "sphere" : "disc", grains == 1 ? "" : "s",
                    left_out, strain, time);

@@ -34,7 +34,7 @@ static void draw_spheres(const scree_scene_view *view, cairo_t *cairo)
     for (size_t k = 0; k < view->disc_count; k++) {
         uint32_t disc = view->order[k];
         // A membrane is drawn as a net, through which the grains are seen.
-        if (s->triangle_count > 0 && disc >= s->grains) continue;
+        if (s->triangle_count > 0 && !scree_snapshot_is_grain(s, disc)) continue;
         double radius = s->radius[disc] * view->scale;
         double x = scree_scene_x(view, s->x[disc]), y = scree_scene_y(view, s->y[disc]);
         scree_colour colour = scree_scene_disc_colour(view, disc);
@@ -121,8 +121,8 @@ static void draw_discs(const scree_scene_view *view, cairo_t *cairo)
 static void draw_membrane(const scree_scene_view *view, cairo_t *cairo)
 {
     const scree_snapshot *s = view->snapshot;
-    if (s->grains == 0) return;
-    for (size_t k = s->grains; k < s->count; k++) {
+    for (size_t k = 0; k < s->count; k++) {
+        if (scree_snapshot_is_grain(s, k)) continue;
         cairo_new_sub_path(cairo);
         cairo_arc(cairo, scree_scene_x(view, s->x[k]), scree_scene_y(view, s->y[k]), s->radius[k] * view->scale, 0,
                   2 * M_PI);

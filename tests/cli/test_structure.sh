@@ -36,8 +36,9 @@ for law in "${laws[@]}"; do
 done
 mapfile -t modules < <(sed -n '/define SCREE_LAWS/,/^$/p; /define SCREE_CASE_MODULES/,/^$/p' src/module/table.h | grep -oE 'row\([a-z_]+\)' | sed -E 's/row\((.*)\)/\1/')
 [ ${#modules[@]} -ge 12 ] || complain "the rows of src/module/table.h were not found"
+mapfile -t makers < <(grep -rl 'scree_module_##[a-z]* = {' src) # files that make descriptors by a macro
 for name in "${modules[@]}"; do
-    mapfile -t owner < <(grep -rlE "scree_module_$name = \{|[A-Z]+\($name, \"" src)
+    mapfile -t owner < <({ grep -rl "scree_module_$name = {" src; grep -lE "^[A-Z]+\($name, \"" "${makers[@]}"; } | sort -u)
     [ ${#owner[@]} -eq 1 ] || complain "module $name has ${#owner[@]} descriptors"
     while IFS= read -r file; do
         case $file in "${owner[0]%.c}"*) ;; *) complain "$file knows the module $name of ${owner[0]}" ;; esac

@@ -1,6 +1,7 @@
 """The state checksum of the states of tests/unit/test_checksum.c, from the text of docs/architecture.md alone.
 
-Prints the four numbers that the test holds: without and with a periodic cell and a wall of the case, in 2D and 3D.
+Prints the six numbers that the test holds, in 2D and 3D each: without and with a periodic cell and a wall of the case;
+and the first again with body 1 taken out, of which the contacts go.
 """
 import struct
 
@@ -28,9 +29,15 @@ def material(m):
     return numbers(0, [2000 + 500 * m, 1e9 + m, 2e9, 0.25 + 0.25 * m, 0.125, 0.0625, 0])
 
 
-def bodies(c, d):
-    c = word(c, 3)
+def bodies(c, d, holes):
+    c = word(c, 2 if holes else 3)
+    if holes:
+        c = word(c, 3)
     for k in range(3):
+        if holes and k == 1:
+            continue
+        if holes:
+            c = word(c, k)
         n = k + 1
         c = numbers(c, [n, -n, 4 * n][:d])
         c = numbers(c, [0.1 * n, 0.2 * n, 0.3 * n][:d])
@@ -42,12 +49,14 @@ def bodies(c, d):
     return c
 
 
-def contacts(c, d):
+def contacts(c, d, holes):
     memory = [  # first, kind of the second (body, element, plate), its number, slip, rolling; the second remembers nothing
         (0, 0, 1, [0.5, 0.25, 0.125], [1.5, 0, 0, 0]),
         (1, 1, 3, [-1, -2, -3], [3.5, 0, -2, 4]),
         (1, 2, 1, [4, 5, 6], [4.5, 0, -3, 6]),
     ]
+    if holes:
+        memory = []
     for first, kind, second, slip, rolling in memory:
         for w in (first, kind, second):
             c = word(c, w)
@@ -66,18 +75,18 @@ def walls(c, full):
     return c
 
 
-def state(d, full):
+def state(d, full, holes):
     c = word(word(0, d), 1234)
     c = number(c, 0.5)
-    c = walls(contacts(bodies(c, d), d), full)
+    c = walls(contacts(bodies(c, d, holes), d, holes), full)
     if full:
         c = word(c, 1)
         c = numbers(c, [k + 1 for k in range(9)])
         c = numbers(c, [0.25 * k for k in range(9)])
         c = numbers(c, [0.5 * k for k in range(9)])
     c = numbers(c, [0.001 * k for k in range(9)])
-    return numbers(c, range(1, 13))
+    return numbers(c, range(1, 14 if holes else 13))
 
 
-for full in (False, True):
-    print(*(f"0x{state(d, full):016x}" for d in (2, 3)))
+for full, holes in ((False, False), (True, False), (False, True)):
+    print(*(f"0x{state(d, full, holes):016x}" for d in (2, 3)))

@@ -8,6 +8,8 @@
 #include "prepare/growth.h"
 #include "run/stage_compress.h"
 #include "run/stage_confine.h"
+#include "size/equal.h"
+#include "size/limits.h"
 
 #include <math.h>
 
@@ -16,6 +18,7 @@ typedef struct biaxial_config {
     scree_config_material material[2];
     scree_config_stage stage[3];
     own_block own[3]; ///< of the stages
+    own_block sizes;  ///< of the particles
     char quartz[8], steel[8];
     own_block contact, of_material[2];
 } biaxial_config;
@@ -49,6 +52,17 @@ static inline scree_gas_config *biaxial_gas(biaxial_config *c)
 static inline scree_growth_config *biaxial_growth(biaxial_config *c)
 {
     return OWN(&c->own[0], scree_growth_config, growth, "stages.prepare");
+}
+
+/// Radii of the particles: slot of the distribution, least and largest; equal ones have the mean of both.
+static inline void biaxial_sizes(biaxial_config *c, int distribution, double least, double most)
+{
+    const scree_size_limits limits = {least, most};
+    c->config.particles.distribution = distribution;
+    c->config.particles.own = &c->sizes;
+    *OWN(&c->sizes, scree_size_limits, uniform, "particles") = limits;
+    *OWN(&c->sizes, scree_size_limits, two_sizes, "particles") = limits;
+    OWN(&c->sizes, scree_equal_config, equal, "particles")->radius = (least + most) / 2;
 }
 
 /// 30 GPa, 0.3, 2.675e8 kg/m3, friction 0.45; radii uniform in 0.5 to 1 mm; 100 kPa, 0.005 1/s; every `auto` left open.
@@ -87,19 +101,14 @@ static inline void biaxial_config_set(biaxial_config *c, int64_t count)
         .seed = 1,
         .materials = c->material,
         .material_count = 2,
-        .particles = {.shape = SCREE_SHAPE_DISC,
-                      .material = c->quartz,
-                      .count = count,
-                      .distribution = SCREE_SIZE_UNIFORM,
-                      .radius_min = 0.5e-3,
-                      .radius_max = 1e-3,
-                      .thickness = NAN},
+        .particles = {.shape = SCREE_SHAPE_DISC, .material = c->quartz, .count = count, .thickness = NAN},
         .contact = {.law = SCREE_SLOT_hertz_brilliantov, .reference_velocity = NAN, .own = c->contact.bytes},
         .integrator = {.scheme = SCREE_SLOT_position_verlet, .step = NAN, .step_fraction = 0.5},
         .stages = c->stage,
         .stage_count = 3,
         .guard = {.overlap = 0.1, .energy_growth = 1e-3},
     };
+    biaxial_sizes(c, SCREE_SLOT_uniform, 0.5e-3, 1e-3);
 }
 
 #endif

@@ -13,8 +13,9 @@ static inline uint64_t field_bits(const scree_state *state, const scree_field *f
     size_t size = (size_t)scree_components(field->components, state->dimension) * scree_field_size(field->type);
     if (!scree_field_exists(field, state->dimension) || field->role == SCREE_FIELD_DERIVED) return bits;
     bits = scree_checksum_word(bits, rows);
+    size_t id = 0;
     for (size_t k = 0; k < rows; k++) {
-        size_t row = field->rows == SCREE_ROWS_BODIES ? state->row_of_id[k] : k;
+        size_t row = field->rows == SCREE_ROWS_BODIES ? scree_next_by_id(state, &id) : k;
         bits = scree_checksum_bytes(bits, scree_field_get(state, field, row), size);
     }
     return bits;

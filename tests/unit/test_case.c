@@ -1,12 +1,13 @@
 /// Reading cases: what is accepted, every kind of mistake with its message and place, --set, quick, lost memory.
-#include "law_choice.h"
-#include "own_config.h"
 #include "base/memory.h"
 #include "case/case.h"
 #include "good_case.h"
+#include "law_choice.h"
 #include "own_config.h"
 #include "run/stage_compress.h"
 #include "run/stage_confine.h"
+#include "size/equal.h"
+#include "size/limits.h"
 
 #include <dirent.h>
 #include <math.h>
@@ -20,6 +21,12 @@
 #include <unistd.h>
 
 #include <cmocka.h>
+
+/// Limits of radii that have some.
+static const scree_size_limits *limits_of(const scree_config *config)
+{
+    return scree_config_sizes(&config->particles, 0);
+}
 
 static const char minimal[] = "materials: [{name: steel, young_modulus: 200 GPa, density: 7800, friction: 0.1}]\n"
                               "particles: {material: steel, count: 10, radius_min: 1 mm, radius_max: 1 mm}\n"
@@ -72,7 +79,7 @@ static void defaults_are_filled_in(void **state)
     assert_true(config->materials[0].young_modulus == 200e9);
     assert_true(config->materials[0].poisson_ratio == 0.3);
     assert_true(isnan(config->materials[0].wall_friction));
-    assert_true(config->particles.radius_min == 1e-3);
+    assert_true(limits_of(config)->radius_min == 1e-3);
     assert_int_equal(config->contact.law, SCREE_SLOT_hertz_mindlin);
     assert_true(isnan(config->integrator.step));
     assert_int_equal(config->stage_count, 1);
@@ -107,7 +114,7 @@ static void values_mean_what_they_say(void **state)
     scree_case *c = right(good_case(), NULL, false);
     const scree_config *config = &c->config;
     assert_true(config->materials[0].density == 2.675e8);
-    assert_true(config->particles.radius_max == 1e-3);
+    assert_true(limits_of(config)->radius_max == 1e-3);
     assert_true(STAGE(config, 1, confine)->pressure == 1e5);
     assert_true(STAGE(config, 2, compress)->strain == 0.15);
     assert_true(STAGE(config, 2, compress)->rate == 1e-2);
@@ -265,7 +272,7 @@ static void overrides_change_the_case(void **state)
     c = right("materials: [{name: a, young_modulus: 1 GPa, density: 1000, friction: 0}]\nstages: [{stage: prepare}]\n",
               SET("particles.material=a", "particles.count=3", "particles.radius_min=1", "particles.radius_max=2"),
               false);
-    assert_true(c->config.particles.radius_max == 2);
+    assert_true(limits_of(&c->config)->radius_max == 2);
     scree_case_free(c);
 }
 
@@ -276,11 +283,12 @@ static void overrides_may_choose(void **state)
     const char *text = good_case();
     scree_case *c = right(text, SET("contact.law=hertz_brilliantov"), false);
     assert_int_equal(c->config.contact.law, SCREE_SLOT_hertz_brilliantov);
-    assert_true(OWN(c->config.contact.own, scree_brilliantov_config, hertz_brilliantov, "contact")->damping_time == 2e-3);
+    assert_true(OWN(c->config.contact.own, scree_brilliantov_config, hertz_brilliantov, "contact")->damping_time ==
+                2e-3);
     assert_true(OWN(c->config.materials[0].own, scree_mindlin_material, hertz_mindlin, "materials")->restitution == 0);
     scree_case_free(c);
     c = right(text, SET("particles.distribution=equal", "particles.radius=2 mm"), false);
-    assert_true(c->config.particles.radius_min == 2e-3 && c->config.particles.radius_max == 2e-3);
+    assert_true(((const scree_equal_config *)scree_config_sizes(&c->config.particles, 0))->radius == 2e-3);
     scree_case_free(c);
     c = right(text, SET("stages.1.stage=prepare", "stages=[{stage: prepare, width: 3 cm}]", "measure.windows=[]"),
               false);

@@ -72,7 +72,7 @@ static void create(sample *s, int dimension)
         .position = -9, .normal = {0, -1, 0}, .velocity = 0.75, .tangential_velocity = {1, 2, 3}, .active = 1};
     scree_plates(state)[SCREE_WALL_LEFT] = (scree_wall){.position = 5, .velocity = 6};
     for (int k = 0; k < 9; k++) scree_strain_of(state)->gradient[k] = 0.001 * k;
-    state->ledger = (scree_ledger){1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+    state->ledger = (scree_ledger){1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 0, 13};
 }
 
 /// With a cell and a moving wall of the case.
@@ -109,6 +109,34 @@ static void the_definition_holds(void **unused)
             assert_true(checksum_of(&s) == expected[full][dimension - 2]);
             scree_state_destroy(&s.state);
         }
+}
+
+/// What a program did from outside is the last word, where it did something.
+static void work_from_outside_is_a_word(void **unused)
+{
+    (void)unused;
+    sample s;
+    create(&s, 2);
+    uint64_t before = checksum_of(&s);
+    s.state.ledger.outside = -0.0;
+    assert_true(checksum_of(&s) == before);
+    s.state.ledger.outside = 13;
+    assert_true(checksum_of(&s) == scree_checksum_number(before, 13));
+    scree_state_destroy(&s.state);
+}
+
+/// With a body taken out the ids of the others enter, the number of ids, and the energy that left.
+static void holes_show(void **unused)
+{
+    (void)unused;
+    static const uint64_t expected[2] = {UINT64_C(0x3a77cf4429fb0944), UINT64_C(0xceb00cfca87f29ea)};
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        sample s;
+        create(&s, dimension);
+        assert_int_equal(scree_state_remove(&s.state, (const uint32_t[]){1}, 1, NULL), SCREE_OK);
+        assert_true(checksum_of(&s) == expected[dimension - 2]);
+        scree_state_destroy(&s.state);
+    }
 }
 
 /// Bookkeeping of stages, samples, boundaries and quanta, materials that nothing is made of, signs of zeros.
@@ -222,6 +250,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_definition_holds),
+        cmocka_unit_test(work_from_outside_is_a_word),
+        cmocka_unit_test(holes_show),
         cmocka_unit_test(bookkeeping_does_not_show),
         cmocka_unit_test(rows_do_not_show),
         cmocka_unit_test(physics_shows),

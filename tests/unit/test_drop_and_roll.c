@@ -33,11 +33,11 @@ typedef struct box {
 } box;
 
 static const sizes all_sizes[] = {
-    {"uniform", SCREE_SIZE_UNIFORM, 0.5e-3},
-    {"narrow", SCREE_SIZE_UNIFORM, 0.999999e-3},
-    {"equal", SCREE_SIZE_EQUAL, 1e-3},
-    {"two sizes 1:2", SCREE_SIZE_TWO_SIZES, 0.5e-3},
-    {"two sizes 1:5", SCREE_SIZE_TWO_SIZES, 0.2e-3},
+    {"uniform", SCREE_SLOT_uniform, 0.5e-3},
+    {"narrow", SCREE_SLOT_uniform, 0.999999e-3},
+    {"equal", SCREE_SLOT_equal, 1e-3},
+    {"two sizes 1:2", SCREE_SLOT_two_sizes, 0.5e-3},
+    {"two sizes 1:5", SCREE_SLOT_two_sizes, 0.2e-3},
 };
 /// By aspect ratio; a few radii wide; as wide as the largest body; so wide that all find a place on the floor.
 static const box boxes[] = {{1, NAN, NAN},   {3, NAN, NAN},   {1, 8e-3, 4e-3}, {1, 10.2e-3, 7e-3},
@@ -140,8 +140,7 @@ static void check_deposits(int dimension)
                 c.config.seed = seed;
                 c.config.dimension = dimension;
                 if (dimension == 3) c.config.particles.shape = SCREE_SHAPE_SPHERE;
-                c.config.particles.distribution = all_sizes[s].distribution;
-                c.config.particles.radius_min = all_sizes[s].smallest;
+                biaxial_sizes(&c, all_sizes[s].distribution, all_sizes[s].smallest, 1e-3);
                 biaxial_prepare(&c)->aspect_ratio = boxes[b].aspect_ratio;
                 biaxial_prepare(&c)->width = boxes[b].width;
                 biaxial_prepare(&c)->depth = boxes[b].depth;

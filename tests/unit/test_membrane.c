@@ -29,8 +29,8 @@ static void it_touches_and_does_not_press(void **unused)
     bench_create(&b);
     scree_state *state = &b.state;
     size_t count = scree_membrane_of(state)->count, side = scree_membrane_of(state)->right;
-    assert_int_equal(state->grains, COLUMNS * ROWS);
-    assert_int_equal(state->count, state->grains + count);
+    assert_int_equal(scree_grain_count(state), COLUMNS * ROWS);
+    assert_int_equal(state->count, scree_grain_count(state) + count);
     assert_int_equal(count, 2 * side);
     size_t touching = 0;
     for (size_t k = 0; k < count; k++) {

@@ -94,10 +94,10 @@ static void test_resolved_defaults(void **unused)
 
     // Two sizes are equally frequent: <R^2> = (0.25 + 1) / 2 mm^2 instead of 7/12; equal discs have the mean radius.
     double phi = model.phi;
-    c.config.particles.distribution = SCREE_SIZE_TWO_SIZES;
+    c.config.particles.distribution = SCREE_SLOT_two_sizes;
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
     assert_close(model.phi / phi, 0.625 / (7.0 / 12.0));
-    c.config.particles.distribution = SCREE_SIZE_EQUAL;
+    c.config.particles.distribution = SCREE_SLOT_equal;
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
     assert_close(model.phi / phi, 0.5625 / (7.0 / 12.0));
     assert_true(model.radius_min == model.radius_max && model.radius_min == model.mean_radius);
@@ -151,7 +151,7 @@ static void test_errors_name_their_field(void **unused)
     biaxial_material(&c, 1)->restitution = 0;
     expect_input_error(&c, "materials.1.restitution", "above 0");
     biaxial_config_set(&c, 983);
-    c.config.particles.radius_min = 2e-3;
+    biaxial_sizes(&c, SCREE_SLOT_uniform, 2e-3, 1e-3);
     expect_input_error(&c, "particles.radius_min", "above radius_max");
     biaxial_config_set(&c, 983);
     c.config.stage_count = 2;
@@ -350,7 +350,7 @@ static void prepare_assembly(int method, int64_t count, scree_state *state)
     biaxial_config_set(&c, count);
     biaxial_prepare(&c)->method = method;
     biaxial_prepare(&c)->aspect_ratio = 1;
-    if (method != SCREE_SLOT_drop_and_roll) c.config.particles.distribution = SCREE_SIZE_EQUAL;
+    if (method != SCREE_SLOT_drop_and_roll) c.config.particles.distribution = SCREE_SLOT_equal;
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
     assert_int_equal(scree_prepare(&model, &c.stage[0], state, NULL), SCREE_OK);
 }
@@ -435,10 +435,10 @@ static void test_membrane(void **unused)
     assert_close(model.membrane_radius, 0.75 * 0.75e-3);
     assert_close(2 / sqrt(3) * model.membrane_stiffness, 1e4);
     // Not smaller than every grain.
-    c.config.particles.radius_min = 0.9e-3;
+    biaxial_sizes(&c, SCREE_SLOT_uniform, 0.9e-3, 1e-3);
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
     assert_close(model.membrane_radius, 0.9e-3);
-    c.config.particles.radius_min = 0.5e-3;
+    biaxial_sizes(&c, SCREE_SLOT_uniform, 0.5e-3, 1e-3);
     // A quarter of the radius of spheres that touch each other and a plate passes between them.
     c.config.boundary.membrane_radius = 1.99e-3;
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);

@@ -21,7 +21,7 @@ static void sample_set(sample *s, int method, int64_t count)
     biaxial_config_set(&s->c, count);
     biaxial_prepare(&s->c)->method = (int)method;
     if (method == SCREE_SLOT_hexagonal || method == SCREE_SLOT_square)
-        s->c.config.particles.distribution = SCREE_SIZE_EQUAL;
+        s->c.config.particles.distribution = SCREE_SLOT_equal;
 }
 
 static void sample_prepare(sample *s)
@@ -121,8 +121,7 @@ static void test_drop_and_roll_is_stable(void **unused)
             sample s;
             sample_set(&s, SCREE_SLOT_drop_and_roll, 2500);
             s.c.config.seed = seed;
-            s.c.config.particles.radius_min = smallest[k];
-            if (k == 1) s.c.config.particles.distribution = SCREE_SIZE_TWO_SIZES;
+            biaxial_sizes(&s.c, k == 1 ? SCREE_SLOT_two_sizes : SCREE_SLOT_uniform, smallest[k], 1e-3);
             check_deposit(&s);
             scree_state_destroy(&s.state);
         }
@@ -135,7 +134,7 @@ static void test_drop_and_roll_in_awkward_boxes(void **unused)
     (void)unused;
     sample s;
     sample_set(&s, SCREE_SLOT_drop_and_roll, 2500);
-    s.c.config.particles.distribution = SCREE_SIZE_EQUAL;
+    s.c.config.particles.distribution = SCREE_SLOT_equal;
     check_deposit(&s);
     scree_state_destroy(&s.state);
     const double widths[] = {2.0e-3, 2.2e-3, 4.1e-3};
@@ -239,7 +238,7 @@ static void test_state_is_complete(void **unused)
     for (size_t i = 0; i < s.state.count; i++) {
         const scree_row *p = &s.state.row[i];
         highest = fmax(highest, p->y + p->radius);
-        assert_true(p->material == SCREE_PARTICLE_MATERIAL && p->vx == 0 && p->vy == 0 && p->spin == 0);
+        assert_true(p->material == 0 && p->vx == 0 && p->vy == 0 && p->spin == 0);
         assert_true(fabs(p->mass / (8e3 * M_PI * p->radius * p->radius * 1.5e-3) - 1) < 1e-14);
         assert_true(s.state.reference[i][0] == p->x && s.state.reference[i][1] == p->y && s.state.id[i] == i);
     }
@@ -247,7 +246,7 @@ static void test_state_is_complete(void **unused)
     assert_true(s.state.step_size == s.model.step);
     const double normals[][2] = {{0, 1}, {0, -1}, {1, 0}, {-1, 0}};
     for (int w = 0; w <= SCREE_WALL_RIGHT; w++) {
-        assert_true(scree_plates(&s.state)[w].active && scree_plates(&s.state)[w].material == SCREE_PARTICLE_MATERIAL &&
+        assert_true(scree_plates(&s.state)[w].active && scree_plates(&s.state)[w].material == 0 &&
                     scree_plates(&s.state)[w].velocity == 0);
         assert_true(scree_plates(&s.state)[w].normal[0] == normals[w][0] &&
                     scree_plates(&s.state)[w].normal[1] == normals[w][1]);
@@ -255,29 +254,6 @@ static void test_state_is_complete(void **unused)
     assert_true(scree_plates(&s.state)[SCREE_WALL_BOTTOM].position == 0 &&
                 scree_plates(&s.state)[SCREE_WALL_LEFT].position == 0);
     scree_state_destroy(&s.state);
-}
-
-static void test_radii_follow_their_distribution(void **unused)
-{
-    (void)unused;
-    enum { COUNT = 40000 };
-    static double radius[COUNT];
-    sample s;
-    // Mean and mean square in units of radius_max; five standard errors of the larger spread, 0.25 / sqrt(COUNT).
-    const double mean[] = {0.75, 0.75, 0.75}, square[] = {7.0 / 12, 0.625, 0.5625}, tolerance = 5 * 0.4 / 200;
-    for (int distribution = SCREE_SIZE_UNIFORM; distribution <= SCREE_SIZE_EQUAL; distribution++) {
-        sample_set(&s, SCREE_SLOT_drop_and_roll, COUNT);
-        s.c.config.particles.distribution = distribution;
-        assert_int_equal(scree_model_build(&s.c.config, &s.model, NULL), SCREE_OK);
-        scree_draw_radii(&s.model, radius, COUNT);
-        double sum = 0, sum2 = 0;
-        for (int i = 0; i < COUNT; i++) {
-            assert_true(radius[i] >= s.model.radius_min && radius[i] <= s.model.radius_max);
-            sum += radius[i] / 1e-3 / COUNT;
-            sum2 += radius[i] * radius[i] / 1e-6 / COUNT;
-        }
-        assert_true(fabs(sum - mean[distribution]) < tolerance && fabs(sum2 - square[distribution]) < tolerance);
-    }
 }
 
 static void test_lattices(void **unused)
@@ -407,7 +383,6 @@ int main(void)
         cmocka_unit_test(test_drop_and_roll_aspect_ratio),
         cmocka_unit_test(test_same_seed_same_packing_on_any_machine),
         cmocka_unit_test(test_state_is_complete),
-        cmocka_unit_test(test_radii_follow_their_distribution),
         cmocka_unit_test(test_lattices),
         cmocka_unit_test(test_gas),
         cmocka_unit_test(test_gas_that_does_not_fit),

@@ -25,7 +25,7 @@ static void sample_set(sample *s, int dimension, int method, int64_t count)
     biaxial_gas(&s->c)->solid_fraction = biaxial_growth(&s->c)->solid_fraction = NAN;
     biaxial_prepare(&s->c)->aspect_ratio = 1;
     if (method == SCREE_SLOT_face_centred || method == SCREE_SLOT_cubic)
-        s->c.config.particles.distribution = SCREE_SIZE_EQUAL;
+        s->c.config.particles.distribution = SCREE_SLOT_equal;
 }
 
 static void sample_prepare(sample *s)
@@ -131,7 +131,7 @@ static void spheres_drop_and_roll_to_stable_places(void **unused)
     for (int k = 0; k < 3; k++) {
         sample s;
         sample_set(&s, 3, SCREE_SLOT_drop_and_roll, 1500);
-        s.c.config.particles.radius_min = smallest[k];
+        biaxial_sizes(&s.c, SCREE_SLOT_uniform, smallest[k], 1e-3);
         s.c.config.seed = k + 1;
         sample_prepare(&s);
         contacts *each = calloc(s.state.count, sizeof *each);
@@ -180,7 +180,7 @@ static void dropped_spheres_are_as_dense_as_published(void **unused)
     (void)unused;
     sample s;
     sample_set(&s, 3, SCREE_SLOT_drop_and_roll, 4000);
-    s.c.config.particles.distribution = SCREE_SIZE_EQUAL;
+    s.c.config.particles.distribution = SCREE_SLOT_equal;
     sample_prepare(&s);
     // 500 spheres in the middle: one standard error of the fraction is about 0.005.
     double inside = solid_fraction_inside(&s);
@@ -310,7 +310,7 @@ static void states_of_spheres_are_complete(void **unused)
     sample_prepare(&s);
     for (size_t i = 0; i < s.state.count; i++) {
         const scree_row *p = &s.state.row[i];
-        assert_true(s.state.turn[i].material == SCREE_PARTICLE_MATERIAL && s.state.id[i] == i);
+        assert_true(s.state.turn[i].material == 0 && s.state.id[i] == i);
         assert_true(fabs(p->mass / (8e3 * 4 / 3 * M_PI * p->radius * p->radius * p->radius) - 1) < 1e-14);
         const double *x = s.state.reference[i];
         assert_true(x[0] == p->x && x[1] == p->y && x[2] == p->z);
@@ -319,8 +319,7 @@ static void states_of_spheres_are_complete(void **unused)
         const double *n = scree_plates(&s.state)[w].normal;
         const int axis = w < 2 ? 2 : w < 4 ? 0 : 1;
         for (int c = 0; c < 3; c++) assert_true(n[c] == (c != axis ? 0 : w % 2 ? -1 : 1));
-        assert_true(scree_plates(&s.state)[w].active == 1 &&
-                    scree_plates(&s.state)[w].material == SCREE_PARTICLE_MATERIAL);
+        assert_true(scree_plates(&s.state)[w].active == 1 && scree_plates(&s.state)[w].material == 0);
     }
     scree_state_destroy(&s.state);
 }

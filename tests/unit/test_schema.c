@@ -3,6 +3,7 @@
 #include "case/case.h"
 #include "case/check.h"
 #include "good_case.h"
+#include "size/limits.h"
 
 #include <locale.h>
 #include <math.h>
@@ -44,7 +45,11 @@ static void check_default(const scree_key *key)
 /// `when` must name a key that exists, and values that this key can have.
 static void check_when(const scree_section *section, const scree_key *key)
 {
-    scree_node root = {.kind = SCREE_NODE_MAPPING};
+    // Keys of species are used where there are some.
+    scree_node one_species = {.kind = SCREE_NODE_MAPPING};
+    scree_node species = {.kind = SCREE_NODE_LIST, .key = "species", .first = &one_species, .count = 1};
+    scree_node particles = {.kind = SCREE_NODE_MAPPING, .key = "particles", .first = &species, .count = 1};
+    scree_node root = {.kind = SCREE_NODE_MAPPING, .first = &particles, .count = 1};
     for (const char *when = key->when; when; when = scree_next_condition(when)) {
         char *condition = strndup(when, strcspn(when, "&"));
         scree_key one = *key;
@@ -324,7 +329,7 @@ static void locales_do_not_matter(void **state)
     if (!setlocale(LC_ALL, "de_DE.UTF-8") && !setlocale(LC_ALL, "fr_FR.UTF-8")) skip();
     check_round_trip(good_case(), NULL, 0);
     scree_case *c = parsed(good_case(), NULL, 0);
-    assert_true(c->config.particles.radius_min == 0.5e-3);
+    assert_true(((const scree_size_limits *)scree_config_sizes(&c->config.particles, 0))->radius_min == 0.5e-3);
     scree_case_free(c);
     setlocale(LC_ALL, "C");
 }

@@ -219,7 +219,7 @@ static void a_sample_is_held_by_its_membrane(void **unused)
     double hole = scree_sheet_hole(&s.state);
     assert_true(hole < s.model.radius_min);
     size_t inside = 0;
-    for (size_t id = 0; id < s.state.grains; id++) {
+    for (size_t id = 0; id < scree_grain_count(&s.state); id++) {
         scree_vector place;
         scree_body_place(&s.state, s.state.row_of_id[id], place);
         double turns = 0;
@@ -240,7 +240,7 @@ static void a_sample_is_held_by_its_membrane(void **unused)
         }
         inside += fabs(turns - 1) < 1e-9;
     }
-    assert_int_equal(inside, s.state.grains);
+    assert_int_equal(inside, scree_grain_count(&s.state));
     scree_simulation_close(&s);
     scree_case_free(c);
 }

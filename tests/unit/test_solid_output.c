@@ -238,7 +238,9 @@ static void spheres_are_drawn(void **unused)
 static void wrap(solid *s)
 {
     scree_membrane *membrane = scree_membrane_of(&s->state);
-    s->state.grains = COUNT - 30;
+    for (uint32_t id = COUNT - 30; id < COUNT; id++) s->state.mark[s->state.row_of_id[id]] = SCREE_MARK_MEMBRANE;
+    assert_int_equal(scree_state_find_rows(&s->state, NULL), SCREE_OK);
+    membrane->first_id = COUNT - 30;
     membrane->around = 10;
     membrane->count = membrane->capacity = 30;
     assert_int_equal(scree_allocate(&membrane->rest, 30, sizeof *membrane->rest, NULL), SCREE_OK);

@@ -1,0 +1,80 @@
+/// Runs: a case into a folder of files, and what is in such a folder.
+#ifndef SCREE_RUN_H
+#define SCREE_RUN_H
+
+#include <scree/case.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct scree_progress {
+    const char *stage; ///< name of the stage
+    double fraction;   ///< of the stage, 0 to 1; NAN when not known in advance
+    double time;       ///< s, simulated
+    double strain;     ///< axial, NAN outside loading stages
+    double particle_steps_per_second;
+    double seconds_left; ///< wall, of the whole run; NAN when not known
+} scree_progress;
+
+typedef struct scree_run_options {
+    const char *output;       ///< run directory
+    int threads;              ///< at most; 0: one for every 4000 bodies, at most all cores. Fewer work while other
+                              ///< programs hold the cores and fewer are faster
+    bool force;               ///< write into a directory that holds another run (replaces it)
+    const char *from;         ///< scree_restart: number of the snapshot to go on from, or "latest"; NULL: a checkpoint
+    bool figures;             ///< draw figures at the end
+    const volatile int *stop; ///< becomes non-zero (signal number) to ask for a checkpoint and an orderly end
+    void (*progress)(void *user, const scree_progress *progress); ///< about twice a second; may be NULL
+    void (*message)(void *user, int level, const char *line);     ///< lines of log.txt (level 0 information, 1 warning,
+                                                                  ///< 2 error) as they are written; may be NULL
+    void *user;
+} scree_run_options;
+
+/// Runs a case into a new run directory. Errors: SCREE_ERROR_INPUT (directory in use), _GUARD, _IO, SCREE_INTERRUPTED.
+SCREE_API scree_status scree_run(const scree_case *c, const scree_run_options *options, scree_error *error);
+
+/// Continues the run in `directory` from its newest checkpoint, or from a snapshot, bit for bit. What came after it is
+/// dropped; what is damaged and not needed is set aside, with a line in log.txt. Errors: as scree_run;
+/// SCREE_ERROR_INPUT while another process writes there.
+SCREE_API scree_status scree_restart(const char *directory, const scree_run_options *options, scree_error *error);
+
+/// One thing in the folder of a run (`scree check DIR`).
+typedef struct scree_folder_item {
+    const char *name;  ///< "series.csv", "checkpoint 5", "snapshot 12"
+    const char *state; ///< "whole", "damaged", or "left over": something that nothing needs
+    const char *text;  ///< what it holds, or what is wrong with it
+    bool restart;      ///< the run can go on from it
+    bool snapshot;     ///< it is one, and `index` is its number
+    int64_t index;
+} scree_folder_item;
+
+/// Looks at everything in the folder of a run and tells `visit` of it, without changing anything. Errors:
+/// SCREE_ERROR_INPUT when it is none of a run, SCREE_ERROR_IO when something is damaged (the message says how much) or
+/// cannot be read; memory.
+SCREE_API scree_status scree_folder_check(const char *directory,
+                                          void (*visit)(void *user, const scree_folder_item *item), void *user,
+                                          scree_error *error);
+
+// ---- results -----------------------------------------------------------------------------------------------------
+
+/// Value of `name` in summary.json as text into `value` (cut to `size`). Numbers have the fewest digits that read back
+/// as the same double; a value that does not exist is `nan`. Errors: SCREE_ERROR_IO (no run there), SCREE_ERROR_INPUT
+/// (no such name; `accepted` holds the nearest).
+SCREE_API scree_status scree_result_get(const char *directory, const char *name, char *value, size_t size,
+                                        scree_error *error);
+
+/// Calls `visit` for every name in summary.json.
+SCREE_API scree_status scree_result_visit(const char *directory,
+                                          void (*visit)(void *user, const char *name, const char *value), void *user,
+                                          scree_error *error);
+
+/// Draws all figures of a run into `directory`/figures. `message` tells which; may be NULL. Errors: SCREE_ERROR_IO,
+/// SCREE_ERROR_INPUT while a run goes on there.
+SCREE_API scree_status scree_plot(const char *directory, void (*message)(void *user, const char *path), void *user,
+                                  scree_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

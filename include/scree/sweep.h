@@ -1,0 +1,97 @@
+/// Sweeps: many runs of one case; and the report that compares runs with what sources state.
+#ifndef SCREE_SWEEP_H
+#define SCREE_SWEEP_H
+
+#include <scree/case.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct scree_sweep scree_sweep; ///< a checked sweep: a grid of parameters and realisations of one case
+
+typedef struct scree_sweep_read_options {
+    const char *const *overrides; ///< "key.path=value" texts that all members get, after everything else
+    size_t override_count;
+    bool quick;          ///< as `quick: yes` in the file
+    size_t realisations; ///< 0: as the file says
+} scree_sweep_read_options;
+
+/// Reads and checks a sweep file, or the built-in sweep of that name, and the case of every point of its grid. On
+/// failure *problems holds every error found (free it). Errors: SCREE_ERROR_INPUT, SCREE_ERROR_IO.
+SCREE_API scree_status scree_sweep_read(const char *name, const scree_sweep_read_options *options, scree_sweep **out,
+                                        scree_problems **problems);
+SCREE_API void scree_sweep_free(scree_sweep *sweep);
+
+/// The sweeps that repeat the published experiments. NULL when the index does not exist.
+SCREE_API size_t scree_sweep_builtin_count(void);
+SCREE_API const char *scree_sweep_builtin_name(size_t index);
+SCREE_API const char *scree_sweep_builtin_meaning(size_t index);
+
+/// Members are numbered from 0. Folder of a member below OUTPUT/members, and what it sets as a command line of `scree
+/// run` (cut to `size`).
+SCREE_API size_t scree_sweep_member_count(const scree_sweep *sweep);
+SCREE_API const char *scree_sweep_member_folder(const scree_sweep *sweep, size_t member);
+SCREE_API void scree_sweep_member_command(const scree_sweep *sweep, size_t member, char *text, size_t size);
+
+typedef struct scree_sweep_progress {
+    size_t members, done, failed, running;
+    double seconds_left; ///< wall; NAN when not known
+} scree_sweep_progress;
+
+typedef struct scree_sweep_options {
+    const char *program;      ///< that runs a member: `PROGRAM run CASE -o DIR`
+    const char *output;       ///< sweep directory
+    int jobs;                 ///< members at the same time; 0: as many as there are cores for their threads
+    int threads;              ///< of each member; 0: one
+    bool retry;               ///< run members anew that failed
+    bool force;               ///< run members anew whose directory holds another case
+    bool figures;             ///< of the members, and comparison figures of the sweep
+    const volatile int *stop; ///< becomes non-zero (signal number): members stop after a checkpoint
+    void (*progress)(void *user, const scree_sweep_progress *progress); ///< when something changes; may be NULL
+    void (*message)(void *user, int level, const char *line); ///< what became of each member; levels as in runs
+    void *user;
+} scree_sweep_options;
+
+/// Runs what is missing of a sweep, each member as a process of its own, then collects. A finished member whose case is
+/// the same is left as it is; an interrupted one is continued; a failed one stays so unless `retry`. The processes are
+/// asked to stop when the thread that called this ends. Errors:
+/// SCREE_ERROR_GUARD when members failed (the others are there), SCREE_ERROR_INPUT (another case in a directory),
+/// SCREE_ERROR_IO, SCREE_INTERRUPTED.
+SCREE_API scree_status scree_sweep_run(const scree_sweep *sweep, const scree_sweep_options *options,
+                                       scree_error *error);
+
+/// The same for one member, without collecting: for job arrays. Errors: as above.
+SCREE_API scree_status scree_sweep_run_member(const scree_sweep *sweep, size_t member,
+                                              const scree_sweep_options *options, scree_error *error);
+
+/// Tables, averaged curves and figures from the members that are there. Errors: SCREE_ERROR_GUARD when some failed.
+SCREE_API scree_status scree_sweep_collect(const scree_sweep *sweep, const scree_sweep_options *options,
+                                           scree_error *error);
+
+/// Writes a SLURM script: a job array with a task for each member. `name` and the read options are what `sweep` was
+/// read from. Errors: SCREE_ERROR_IO.
+SCREE_API scree_status scree_sweep_write_slurm(const scree_sweep *sweep, const scree_sweep_read_options *read,
+                                               const scree_sweep_options *options, const char *path,
+                                               scree_error *error);
+
+// ---- the reproduction report -------------------------------------------------------------------------------------
+
+typedef struct scree_report_options {
+    const char *const *directory; ///< of runs and sweeps, or folders with such, up to two levels deep
+    size_t directory_count;
+    const char *const *statements; ///< files, or names of built-in tables
+    size_t statement_count;        ///< 0: all built-in tables
+} scree_report_options;
+
+/// Compares what sources state with the results of runs and sweeps, and writes the page as Markdown. Statements whose
+/// runs are not there are `not run`, those whose results a run does not have `not measured`. Errors:
+/// SCREE_ERROR_INPUT with everything that is wrong with the statements in *problems (may be NULL; to be freed);
+/// SCREE_ERROR_IO.
+SCREE_API scree_status scree_report_write(const scree_report_options *options, FILE *file, scree_problems **problems,
+                                          scree_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

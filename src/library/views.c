@@ -1,0 +1,106 @@
+/// Views of the declared fields (state/fields.h), and copies of what is mostly wanted by id.
+#include "library/handle.h"
+
+#include "state/fields.h"
+
+#include <string.h>
+
+/// The field of this name that states of this dimension have.
+static const scree_field *find(const scree_simulation *s, const char *name)
+{
+    for (size_t k = 0; k < scree_field_total(); k++) {
+        const scree_field *field = scree_field_at(k);
+        if (scree_field_exists(field, s->model.dimension) && strcmp(field->name, name) == 0) return field;
+    }
+    return NULL;
+}
+
+const char *scree_simulation_view_name(const scree_simulation *s, size_t index)
+{
+    handle_assert(s);
+    for (size_t k = 0; k < scree_field_total(); k++) {
+        const scree_field *field = scree_field_at(k);
+        if (scree_field_exists(field, s->model.dimension) && index-- == 0) return field->name;
+    }
+    return NULL;
+}
+
+/// A name that ends in `text` behind its last word: "scheme_velocity" for "velocity".
+static const char *longer(const scree_simulation *s, const char *text)
+{
+    size_t length = strlen(text);
+    const char *name;
+    for (size_t k = 0; length > 0 && (name = scree_simulation_view_name(s, k)); k++) {
+        size_t whole = strlen(name);
+        if (whole > length && strchr("_/", name[whole - length - 1]) && strcmp(name + whole - length, text) == 0)
+            return name;
+    }
+    return NULL;
+}
+
+/// There is no such field; says which is the nearest.
+static scree_status refuse(const scree_simulation *s, const char *name, scree_error *error)
+{
+    enum { MOST = 512 };
+    const char *names[MOST];
+    size_t count = 0;
+    while (count < MOST && (names[count] = scree_simulation_view_name(s, count))) count++;
+    const char *nearest = scree_nearest(name, names, count);
+    if (!nearest) nearest = longer(s, name);
+    scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "there is no field '%s' in %d dimensions%s%s%s",
+                                          name, s->model.dimension, nearest ? "; did you mean '" : "",
+                                          nearest ? nearest : "", nearest ? "'?" : "");
+    if (error && nearest) (void)snprintf(error->accepted, sizeof error->accepted, "%s", nearest);
+    if (error) (void)snprintf(error->value, sizeof error->value, "%s", name);
+    return status;
+}
+
+static bool is_of_contacts(const scree_field *field)
+{
+    return field->rows == SCREE_ROWS_CONTACTS || field->rows == SCREE_ROWS_BOOKING || field->rows == SCREE_ROWS_ROLLING;
+}
+
+/// How far behind the present time the values of a field are [s].
+static double lag_of(const scree_simulation *s, const scree_field *field)
+{
+    if (strcmp(field->name, "scheme_velocity") != 0 && strcmp(field->name, "scheme_spin") != 0) return 0;
+    double lead = s->forces.called ? 0 : s->integrator->velocity_lead;
+    return (0.5 - lead) * s->state.step_size;
+}
+
+scree_status scree_simulation_view(scree_simulation *s, const char *name, scree_view *view, scree_error *error)
+{
+    handle_assert(s);
+    *view = (scree_view){0};
+    const scree_field *field = find(s, name);
+    if (!field) return refuse(s, name, error);
+    if (is_of_contacts(field)) {
+        scree_status status = scree_contacts_save(&s->state, &s->work, error);
+        if (status) return status;
+    }
+    *view = (scree_view){.count = scree_field_rows_count(&s->state, field),
+                         .components = scree_components(field->components, s->model.dimension),
+                         .type = field->type,
+                         .stride = field->stride,
+                         .time = scree_state_time(&s->state) - lag_of(s, field),
+                         .unit = field->unit,
+                         .meaning = field->meaning};
+    if (view->count > 0) view->data = scree_field_get(&s->state, field, 0);
+    return SCREE_OK;
+}
+
+void scree_simulation_copy(const scree_simulation *s, double *position, double *velocity, double *spin)
+{
+    handle_assert(s);
+    const scree_state *state = &s->state;
+    const size_t components = (size_t)state->dimension, turns = state->dimension == 3 ? 3 : 1;
+    for (size_t id = 0; id < state->count; id++) {
+        scree_vector place, speed, turn;
+        size_t row = state->row_of_id[id];
+        scree_body_place(state, row, place);
+        scree_body_velocity(&s->stage_model, state, row, speed, turn);
+        if (position) memcpy(position + components * id, place, components * sizeof *place);
+        if (velocity) memcpy(velocity + components * id, speed, components * sizeof *speed);
+        if (spin) memcpy(spin + turns * id, turn + 3 - turns, turns * sizeof *turn);
+    }
+}

@@ -1,0 +1,23 @@
+/// A normal variable z that is cut at two limits, and radii that follow from it: what the normal and the log-normal
+/// distribution share.
+#ifndef SCREE_SIZE_GAUSSIAN_H
+#define SCREE_SIZE_GAUSSIAN_H
+
+#include "size/limits.h"
+
+/// Radius R = middle + z spread, or middle exp(z spread), between the limits.
+typedef struct scree_gaussian {
+    scree_size_limits limits; ///< m
+    double middle;            ///< m
+    double spread;            ///< m, logarithmic: 1
+    bool logarithmic;
+} scree_gaussian;
+
+/// Moments to 1e-10, by quadrature; radius of the body with this random number.
+scree_size_moments scree_gaussian_moments(const scree_gaussian *g);
+double scree_gaussian_radius(const scree_gaussian *g, double uniform);
+
+/// The limits hold too little of it. key: what the fault is said of.
+bool scree_gaussian_wrong(const scree_gaussian *g, const char *key, scree_size_fault *fault);
+
+#endif

@@ -1,0 +1,46 @@
+/// Normal distribution of radii, cut at two limits.
+#include "size/normal.h"
+
+typedef scree_normal_config config;
+static const scree_key keys[] = {
+    SIZE_LIMITS(config, "normal"),
+    NUMBER(config, mean, "m", FROM("1 nm"), TO("100 m"), .when = "distribution=normal",
+           .meaning = "Mean radius before the limits cut the distribution."),
+    NUMBER(config, deviation, "m", FROM("1e-3 nm"), TO("100 m"), .when = "distribution=normal",
+           .meaning = "Standard deviation of the radius before the limits cut the distribution."),
+};
+
+static scree_gaussian gaussian(const void *own)
+{
+    const config *c = own;
+    return (scree_gaussian){{c->radius_min, c->radius_max}, c->mean, c->deviation, false};
+}
+
+static scree_size_moments moments(const void *own, int dimension)
+{
+    (void)dimension;
+    scree_gaussian g = gaussian(own);
+    return scree_gaussian_moments(&g);
+}
+
+static double radius(const void *own, int dimension, double uniform)
+{
+    (void)dimension;
+    scree_gaussian g = gaussian(own);
+    return scree_gaussian_radius(&g, uniform);
+}
+
+static bool wrong(const void *own, scree_size_fault *fault)
+{
+    scree_gaussian g = gaussian(own);
+    return scree_gaussian_wrong(&g, "mean", fault);
+}
+
+const scree_module scree_module_normal = {
+    .name = "normal",
+    .meaning = "normal distribution between limits: mean and standard deviation",
+    .choice_of = SIZE_CHOICE,
+    .keys = SIZE_KEYS(keys, config),
+    .keys_count = 2,
+    .sizes = &(const scree_size_distribution){.moments = moments, .radius = radius, .wrong = wrong},
+};

@@ -1,0 +1,94 @@
+/// What a body is, read through one function each: place and motion, mass and inertia, orientation, size, material,
+/// mark. Bodies are discs (cylinders) in 2D, spheres in 3D. Kernels read the rows themselves.
+///
+/// Size has three names, since a radius is not the same thing for all who ask:
+///   bounding radius     of the smallest circle or sphere around the centre that holds the body: what may touch
+///   equivalent radius   of the disc or sphere with its area or volume: what a mean size, a diameter of a sample means
+///   volume              area [m2] in 2D, volume [m3] in 3D: what is filled
+/// They agree for the round bodies that there are; another shape answers each in its own way, here.
+#ifndef SCREE_STATE_BODY_H
+#define SCREE_STATE_BODY_H
+
+#include "state/state.h"
+
+/// Position of the body in `row` [m]; z = 0 in 2D.
+static inline void scree_body_place(const scree_state *state, size_t row, scree_vector place)
+{
+    const scree_row *body = &state->row[row];
+    place[0] = body->x;
+    place[1] = body->y;
+    place[2] = state->dimension == 3 ? body->z : 0;
+}
+
+/// Velocity [m/s] and spin [rad/s] that the scheme keeps; in 2D vz = 0 and the spin is about z.
+static inline void scree_body_motion(const scree_state *state, size_t row, scree_vector velocity, scree_vector spin)
+{
+    const scree_row *body = &state->row[row];
+    bool solid = state->dimension == 3;
+    velocity[0] = body->vx;
+    velocity[1] = body->vy;
+    velocity[2] = solid ? body->vz : 0;
+    spin[0] = solid ? state->turn[row].wx : 0;
+    spin[1] = solid ? state->turn[row].wy : 0;
+    spin[2] = solid ? state->turn[row].wz : body->spin;
+}
+
+/// Index of the material of the body in `row`.
+static inline int scree_body_material(const scree_state *state, size_t row)
+{
+    return (int)(state->dimension == 3 ? state->turn[row].material : state->row[row].material);
+}
+
+/// kg
+static inline double scree_body_mass(const scree_state *state, size_t row)
+{
+    return state->row[row].mass;
+}
+
+/// Moment of inertia [kg m2] about the centre, the same about every axis: m R^2 / 2 of a disc (a cylinder) about its
+/// axis, 2 m R^2 / 5 of a sphere.
+static inline double scree_body_inertia(const scree_state *state, size_t row)
+{
+    const scree_row *body = &state->row[row];
+    return (state->dimension == 3 ? 0.4 : 0.5) * body->mass * body->radius * body->radius;
+}
+
+/// Angle [rad] that the body has turned by since the start, 2D. In 3D no sphere needs an orientation and none is kept:
+/// a shape that does declares a quaternion a body as a field of its module, optional, which its passes turn.
+static inline double scree_body_angle(const scree_state *state, size_t row)
+{
+    return state->angle[row];
+}
+
+/// Radius [m] of the smallest circle or sphere around the centre that holds the body.
+static inline double scree_body_bounding_radius(const scree_state *state, size_t row)
+{
+    return state->row[row].radius;
+}
+
+/// Radius [m] of the disc or sphere with the area or volume of the body.
+static inline double scree_body_equivalent_radius(const scree_state *state, size_t row)
+{
+    return state->row[row].radius;
+}
+
+/// Area [m2] in 2D, volume [m3] in 3D.
+static inline double scree_body_volume(const scree_state *state, size_t row)
+{
+    double radius = scree_body_equivalent_radius(state, row);
+    return M_PI * (radius * radius) * (state->dimension == 2 ? 1 : 4.0 / 3 * radius);
+}
+
+/// What the body is there for. An image has the mark of its body.
+static inline scree_mark scree_body_mark(const scree_state *state, size_t row)
+{
+    return (scree_mark)state->mark[row];
+}
+
+/// The body is of the assembly, not of a membrane or a boundary.
+static inline bool scree_body_is_grain(const scree_state *state, size_t row)
+{
+    return scree_body_mark(state, row) == SCREE_MARK_GRAIN;
+}
+
+#endif
