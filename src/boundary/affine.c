@@ -11,6 +11,7 @@
 #include "boundary/drive.h"
 #include "measure/facets.h"
 #include "measure/imposed_gradient.h"
+#include "module/key_rows.h"
 
 #include <math.h>
 #include <string.h>
@@ -98,10 +99,23 @@ static scree_status load(const scree_context *c, scree_error *error)
 static const scree_pass passes[] = {
     {SCREE_PHASE_FOLLOW, scree_imposed_work}, {SCREE_PHASE_SEARCH, scree_imposed_refresh}, {SCREE_PHASE_LOADS, load}};
 
-const scree_boundary scree_boundary_affine = {.name = "affine",
-                                              .walls = 0,
-                                              .begin = scree_drive_begin,
-                                              .passes = passes,
-                                              .pass_count = sizeof passes / sizeof *passes,
-                                              .bound = bound,
- SCREE_IMPOSED};
+static const scree_boundary face = {
+    .free = true,
+    .round = true,
+    .equal_steps = true,
+    .needs_gradient = "affine needs all components of a velocity gradient: use a deform stage",
+    .needs_all = "affine moves every body of the boundary: all components must be given",
+    .kept = SCREE_IMPOSED_KEPT,
+    .begin = scree_drive_begin,
+    .passes = passes,
+    .pass_count = COUNT(passes),
+    .bound = bound,
+    SCREE_IMPOSED,
+};
+
+const scree_module scree_module_affine = {
+    .name = "affine",
+    .meaning = "no plates: every body of the boundary moves with the velocity gradient",
+    .choice_of = CHOICE_OF(IS("stages.boundary")),
+    .boundary = &face,
+};

@@ -1,4 +1,4 @@
-/// Table of boundaries, and what all of them share: walls that come and go.
+/// What all boundaries share: walls that come and go.
 #include "boundary/boundary.h"
 #include "state/plates.h"
 
@@ -9,34 +9,9 @@
 
 #include <math.h>
 
-enum {
-    AXIAL = 1U << SCREE_WALL_BOTTOM | 1U << SCREE_WALL_TOP,
-    LATERAL = 1U << SCREE_WALL_LEFT | 1U << SCREE_WALL_RIGHT | 1U << SCREE_WALL_FRONT | 1U << SCREE_WALL_BACK
-};
-
-const scree_boundary scree_boundary_pressure = {.name = "pressure", .walls = AXIAL, SCREE_AXIAL_PLATES};
-const scree_boundary scree_boundary_none = {.name = "none", .open = true};
-const scree_boundary scree_boundary_plates = {.name = "plates", .walls = AXIAL | LATERAL, SCREE_AXIAL_PLATES};
-const scree_boundary scree_boundary_walls = {.name = "walls", .open = true};
-
-// A channel is periodic but for its plates.
-const scree_boundary scree_boundary_channel = {.name = "channel", .walls = AXIAL, SCREE_AXIAL_PLATES};
-
-const scree_boundary *scree_boundary_get(scree_boundary_kind kind)
-{
-    static const scree_boundary *const table[] = {
-        [SCREE_BOUNDARY_AUTO] = &scree_boundary_pressure,     [SCREE_BOUNDARY_PRESSURE] = &scree_boundary_pressure,
-        [SCREE_BOUNDARY_PLATES] = &scree_boundary_plates,     [SCREE_BOUNDARY_MEMBRANE] = &scree_boundary_membrane,
-        [SCREE_BOUNDARY_MINIMAL] = &scree_boundary_minimal,   [SCREE_BOUNDARY_AFFINE] = &scree_boundary_affine,
-        [SCREE_BOUNDARY_PERIODIC] = &scree_boundary_periodic, [SCREE_BOUNDARY_CHANNEL] = &scree_boundary_channel,
-        [SCREE_BOUNDARY_WALLS] = &scree_boundary_walls,       [SCREE_BOUNDARY_NONE] = &scree_boundary_none,
-    };
-    return table[kind];
-}
-
 bool scree_boundary_has_plates(const scree_boundary *boundary)
 {
-    return (boundary->walls & AXIAL) == AXIAL;
+    return (boundary->walls & SCREE_AXIAL_WALLS) == SCREE_AXIAL_WALLS;
 }
 
 static double held_by_wall(const scree_contact_table *table, int wall)

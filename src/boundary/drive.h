@@ -44,6 +44,10 @@ void scree_imposed_fit(const scree_context *context, double pressure);
 void scree_imposed_compress(const scree_context *context, const scree_compression *compression);
 void scree_imposed_deform(const scree_context *context, const scree_demand *demand, double rise);
 
+/// What is wrong where one with plates follows it.
+#define SCREE_IMPOSED_KEPT                                                                                             \
+    "plates cannot come back to a sample that has deformed freely: only minimal or affine can follow"
+
 /// The members of such a boundary.
 #define SCREE_IMPOSED                                                                                                  \
     .wave_time = scree_imposed_wave_time, .fit = scree_imposed_fit, .compress = scree_imposed_compress,                \

@@ -25,7 +25,7 @@ void scree_imposed_fit(const scree_context *c, double pressure)
 /// Stress over the error of the rate [Pa s]; `scale` [1/s]: the largest rate.
 static double viscosity(const scree_context *c, double scale)
 {
-    const double rate[9] = {[0] = scale}, penalty = c->model->config->boundary.penalty;
+    const double rate[9] = {[0] = scale}, penalty = scree_minimal_penalty(c->model->config);
     return isnan(penalty) ? scree_minimal_viscosity(scree_pressure_now(c->state), rate) : penalty;
 }
 

@@ -32,8 +32,10 @@
 #include "boundary/axial_plates.h"
 #include "boundary/plates.h"
 #include "boundary/sheet.h"
+#include "module/key_rows.h"
 #include "state/pressure.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -253,10 +255,119 @@ static scree_status load(const scree_context *c, scree_error *error)
 static const scree_pass passes[] = {
     {SCREE_PHASE_FOLLOW, follow}, {SCREE_PHASE_SEARCH, refresh}, {SCREE_PHASE_LOADS, load}};
 
-const scree_boundary scree_boundary_membrane = {.name = "membrane",
-                                                .walls = 1U << SCREE_WALL_BOTTOM | 1U << SCREE_WALL_TOP,
-                                                .begin = begin,
-                                                .passes = passes,
-                                                .pass_count = sizeof passes / sizeof *passes,
-                                                .bound = bound,
-                                                SCREE_AXIAL_PLATES};
+// ---- what is stored ----------------------------------------------------------------------------------------------
+
+typedef scree_membrane own;
+
+const scree_group scree_membrane_bodies = {"body of the membrane", "k", offsetof(own, count), offsetof(own, capacity)};
+
+#define ONE(...) SCREE_FIELD_ONE(membrane, own, __VA_ARGS__)
+#define BODY(member, name, unit, meaning, ...)                                                                         \
+    SCREE_FIELD_GROUP(membrane, own, scree_membrane_bodies, member, scree_vector, "membrane/" name,                    \
+                      SCREE_FIELD_DOUBLE, 3, unit, meaning, __VA_ARGS__)
+static const scree_field fields[] = {
+    BODY(rest, "rest", "m",
+         "unstressed lengths of the springs to the next body of the chain, in 3D of the ring and to two of the ring "
+         "above; "
+         "0: none",
+         SCREE_RANGE(0, DBL_MAX)),
+    BODY(press, "pressure_force", "N", "force of the pressure on this body of the membrane"),
+    BODY(force, "chain_force", "N", "force of the springs on this body of the membrane, and of the plate on an end"),
+    ONE(first_id, "scalars/membrane_first_id", SCREE_FIELD_UINT64, 1, "1",
+        "id of the first body of the membrane; the others follow it", SCREE_RANGE_TO(SCREE_LIMIT_IDS)),
+    ONE(right, "scalars/membrane_right", SCREE_FIELD_UINT64, 1, "1", "2D: bodies of the membrane's right side"),
+    ONE(around, "scalars/membrane_around", SCREE_FIELD_UINT64, 1, "1", "3D: bodies of a ring of the membrane"),
+    ONE(radius, "scalars/membrane_radius", SCREE_FIELD_DOUBLE, 1, "m", "radius of the membrane's bodies",
+        SCREE_RANGE(0, DBL_MAX)),
+    ONE(ramp_time, "scalars/membrane_ramp_time", SCREE_FIELD_DOUBLE, 1, "s",
+        "time in which the membrane takes the pressure over", SCREE_RANGE(0, DBL_MAX)),
+};
+
+static scree_status refuse(const char *name, size_t value, const char *accepted, size_t wanted, scree_error *error)
+{
+    return scree_error_set(error, SCREE_ERROR_IO, "dataset '%s': %zu (accepted: %s %zu)", name, value, accepted,
+                           wanted);
+}
+
+/// All of its bodies are here, with its mark, and no others have it.
+static scree_status check_bodies(const scree_state *state, scree_error *error)
+{
+    const scree_membrane *m = scree_membrane_of(state);
+    size_t bodies = state->marked[SCREE_MARK_MEMBRANE];
+    if (m->count != bodies)
+        return refuse("membrane/rest", m->count, "as many rows as there are bodies with its mark,", bodies, error);
+    for (size_t k = 0; k < m->count; k++) {
+        size_t row = scree_state_row_of(state, m->first_id + k);
+        if (row == SCREE_NO_ROW || state->mark[row] != SCREE_MARK_MEMBRANE)
+            return refuse("scalars/membrane_first_id", m->first_id, "the first of bodies of the membrane, as many as",
+                          m->count, error);
+    }
+    return SCREE_OK;
+}
+
+/// The membrane has the bodies with its mark, in chains or rings.
+static scree_status check(const scree_state *state, const scree_model *model, scree_error *error)
+{
+    const scree_stage_state *stage = &state->stage;
+    bool began = stage->index < model->config->stage_count && stage->counter >= 0;
+    bool present = began && scree_config_boundary_of(model->config, stage->index) == SCREE_SLOT_membrane;
+    const scree_membrane *m = scree_membrane_of(state);
+    scree_status status = check_bodies(state, error);
+    if (status) return status;
+    if (present && m->count == 0) return refuse("membrane/rest", 0, "more rows than", 0, error);
+    if (m->count == 0) return SCREE_OK;
+    if (state->dimension == 2 && (m->right < 2 || m->right + 2 > m->count))
+        return refuse("scalars/membrane_right", m->right, "2 to 2 less than", m->count, error);
+    if (state->dimension == 3 && (m->around < 3 || m->count % m->around))
+        return refuse("scalars/membrane_around", m->around, "3 or more, a divisor of", m->count, error);
+    return SCREE_OK;
+}
+
+/// Springs hold its bodies together.
+static const char *keeps(const scree_state *state, uint32_t id)
+{
+    const scree_membrane *m = scree_membrane_of(state);
+    return id >= m->first_id && id < m->first_id + m->count ? "it is of the membrane" : NULL;
+}
+
+// ---- the module --------------------------------------------------------------------------------------------------
+
+typedef scree_membrane_config config;
+static const scree_key keys[] = {
+    NUMBER(config, membrane_stiffness, "N/m", .standard = "10 N/mm", FROM("0 N/m"), TO("1e12 N/m"),
+           .meaning = "Membrane: axial stiffness between two neighbours; 3D: of the sheet, tension per length over "
+                      "strain. It bears no compression."),
+    NUMBER(config, membrane_radius, "m", .standard = "auto", FROM("1 nm"), TO("100 m"),
+           .meaning =
+               "Membrane: radius of its bodies; auto: 1.25 times the mean radius of the particles; 3D: 0.75 times "
+               "it, at least the smallest."),
+};
+
+static const scree_boundary face = {
+    .walls = SCREE_AXIAL_WALLS,
+    .equal_steps = true,
+    .kept = "a membrane cannot be taken away: the stages after it must keep it",
+    .resolve = scree_membrane_resolve,
+    .begin = begin,
+    .passes = passes,
+    .pass_count = COUNT(passes),
+    .bound = bound,
+    SCREE_AXIAL_PLATES,
+};
+
+const scree_module scree_module_membrane = {
+    .name = "membrane",
+    .meaning = "bodies with springs around the sides of the sample",
+    .choice_of = CHOICE_OF(
+        IS("stages.boundary", .meaning = "plates below and above; at the sides a chain of frictionless discs (3D: a "
+                                         "sheet of spheres) carries the pressure"),
+        IS("boundary.lateral", .meaning = "pressure on a membrane around the assembly")),
+    .keys = (const scree_keys[]){KEYS_OF("boundary", keys, config)},
+    .keys_count = 1,
+    .boundary = &face,
+    .state_size = sizeof(own),
+    .fields = fields,
+    .field_count = COUNT(fields),
+    .check = check,
+    .keeps = keeps,
+};

@@ -1,9 +1,14 @@
-/// Membrane around the sides of a sample; the descriptor is scree_boundary_membrane.
+/// Membrane around the sides of a sample.
 #ifndef SCREE_BOUNDARY_MEMBRANE_H
 #define SCREE_BOUNDARY_MEMBRANE_H
 
 #include "state/plates.h"
 #include "state/state.h"
+
+typedef struct scree_membrane_config {
+    double membrane_stiffness; ///< N/m, 2D: between two neighbours; 3D: of the sheet, tension over strain
+    double membrane_radius;    ///< m, of its bodies; auto: 1.25 mean radii of the grains, 3D: 0.75
+} scree_membrane_config;
 
 /// State of the module `membrane`. Its bodies have the mark SCREE_MARK_MEMBRANE and ids one after the other from
 /// first_id on; none of them can be taken out. count = 0: there is no membrane. 2D: two chains of discs, the right side
@@ -28,6 +33,9 @@ static inline scree_membrane *scree_membrane_of(const scree_state *state)
 {
     return state->own[SCREE_SLOT_membrane];
 }
+
+/// Fills the numbers of the membrane in the model (membrane_numbers.c). Errors: SCREE_ERROR_INPUT with the key.
+scree_status scree_membrane_resolve(scree_model *model, scree_error *error) SCREE_MUST_USE;
 
 /// Places the membrane around the grains between the bottom and the top plate (membrane_place.c, sheet_place.c): the
 /// bodies are appended to the state, unstressed, against the grains without indentation. Errors: memory;

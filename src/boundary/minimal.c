@@ -31,12 +31,26 @@
 #include "boundary/boundary.h"
 #include "boundary/drive.h"
 #include "measure/facets.h"
+#include "module/key_rows.h"
 #include "state/pressure.h"
 
 #include <math.h>
 #include <string.h>
 
 #define RELATIVE_ERROR 0.01
+
+typedef scree_minimal_config config;
+static const scree_key keys[] = {
+    NUMBER(config, penalty, "Pa s", .standard = "auto", ABOVE("0 Pa s"), TO("1e30 Pa s"),
+           .meaning = "Minimal conditions: stress over the error of the rate; auto: the pressure answers an error of "
+                      "1 %."),
+};
+
+double scree_minimal_penalty(const scree_config *whole)
+{
+    const config *own = scree_config_own(&scree_module_minimal, "boundary", whole->boundary.own);
+    return own->penalty;
+}
 
 /// The prescribed components: tensors, and what they shall be [1/s].
 typedef struct conditions {
@@ -206,10 +220,24 @@ static scree_status load(const scree_context *c, scree_error *error)
 static const scree_pass passes[] = {
     {SCREE_PHASE_FOLLOW, scree_imposed_work}, {SCREE_PHASE_SEARCH, scree_imposed_refresh}, {SCREE_PHASE_LOADS, load}};
 
-const scree_boundary scree_boundary_minimal = {.name = "minimal",
-                                               .walls = 0,
-                                               .begin = scree_drive_begin,
-                                               .passes = passes,
-                                               .pass_count = sizeof passes / sizeof *passes,
-                                               .bound = bound,
- SCREE_IMPOSED};
+static const scree_boundary face = {
+    .free = true,
+    .round = true,
+    .equal_steps = true,
+    .full_mirrors = true,
+    .kept = SCREE_IMPOSED_KEPT,
+    .begin = scree_drive_begin,
+    .passes = passes,
+    .pass_count = COUNT(passes),
+    .bound = bound,
+    SCREE_IMPOSED,
+};
+
+const scree_module scree_module_minimal = {
+    .name = "minimal",
+    .meaning = "no plates: pressure on all sides, and minimal kinematic conditions impose the strain rate",
+    .choice_of = CHOICE_OF(IS("stages.boundary")),
+    .keys = (const scree_keys[]){KEYS_OF("boundary", keys, config, .after = "servo_velocity")},
+    .keys_count = 1,
+    .boundary = &face,
+};

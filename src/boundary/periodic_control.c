@@ -2,12 +2,13 @@
 ///
 /// Under pressure all normal stresses are held, and the cell keeps its angles. In compression the last direction is
 /// shortened, the normal stresses of the others stay at the pressure, angles stay. Otherwise every component of the
-/// velocity gradient is what is demanded: a rate, a stress, or zero. Stresses that must be near to the pressure are means
-/// over the steps since they were last asked for: friction that depends on velocity may change its sign in every step,
-/// and the stress with it.
+/// velocity gradient is what is demanded: a rate, a stress, or zero. Stresses that must be near to the pressure are
+/// means over the steps since they were last asked for: friction that depends on velocity may change its sign in every
+/// step, and the stress with it.
 #include "base/matrix.h"
 #include "boundary/boundary.h"
 #include "boundary/periodic.h"
+#include "case/config.h"
 #include "state/periodic.h"
 #include "state/pressure.h"
 
@@ -95,14 +96,29 @@ static double stress_error(const scree_context *c, double pressure, const char *
     return off;
 }
 
-const scree_boundary scree_boundary_periodic = {.name = "periodic",
-                                                .wave_time = wave_time,
-                                                .height = height,
-                                                .fit = fit,
-                                                .mark = mark,
-                                                .hold = hold,
-                                                .compress = compress,
-                                                .deform = deform,
-                                                .stress_error = stress_error,
-                                                .stress_tolerance = 0.002,
-                                                .patience = 1000};
+static bool forced(const scree_config *config, int64_t index)
+{
+    (void)index;
+    return scree_config_is_wholly_periodic(config);
+}
+
+static const scree_boundary face = {
+    .periodic = true,
+    .forced = forced,
+    .wave_time = wave_time,
+    .height = height,
+    .fit = fit,
+    .mark = mark,
+    .hold = hold,
+    .compress = compress,
+    .deform = deform,
+    .stress_error = stress_error,
+    .stress_tolerance = 0.002,
+    .patience = 1000,
+};
+
+const scree_module scree_module_periodic = {
+    .name = "periodic",
+    .meaning = "a cell that repeats itself in all directions",
+    .boundary = &face,
+};

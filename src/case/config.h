@@ -4,6 +4,7 @@
 #ifndef SCREE_CASE_CONFIG_H
 #define SCREE_CASE_CONFIG_H
 
+#include "module/boundary.h"
 #include "module/preparation.h"
 #include "module/size_distribution.h"
 #include "module/stage.h"
@@ -68,34 +69,18 @@ typedef struct scree_config_integrator {
     void *own;            ///< structs of modules (scree_config_own)
 } scree_config_integrator;
 
-/// What holds the sample (boundary/boundary.h).
-typedef enum scree_boundary_kind {
-    SCREE_BOUNDARY_AUTO,     ///< of a stage: as in the stage before
-    SCREE_BOUNDARY_PRESSURE, ///< plates below and above, pressure on the Delaunay boundary of the sides
-    SCREE_BOUNDARY_PLATES,   ///< plates on all sides
-    SCREE_BOUNDARY_MEMBRANE, ///< plates below and above, pressure on a membrane around the sides
-    SCREE_BOUNDARY_MINIMAL,  ///< pressure on all sides, mean velocity gradient imposed (minimal kinematic conditions)
-    SCREE_BOUNDARY_AFFINE,   ///< every body of the boundary moves with the velocity gradient
-    SCREE_BOUNDARY_PERIODIC, ///< a cell that repeats itself in all directions (boundary.periodic)
-    SCREE_BOUNDARY_CHANNEL,  ///< the same in all but the last, with plates below and above
-    SCREE_BOUNDARY_WALLS,    ///< no plates: only the walls of the case
-    SCREE_BOUNDARY_NONE,     ///< nothing stands around two bodies that collide; no choice of a case
-} scree_boundary_kind;
-
 /// Mask of periodic directions.
 enum { SCREE_PERIODIC_NONE = 0, SCREE_PERIODIC_X = 1, SCREE_PERIODIC_XY = 3, SCREE_PERIODIC_XYZ = 7 };
 
 typedef struct scree_config_boundary {
-    int periodic;              ///< SCREE_PERIODIC_...
-    int lateral;               ///< scree_boundary_kind, of what holds the sides until a stage chooses its own boundary
-    int64_t every;             ///< steps between two updates of the Delaunay boundary
-    double gap_limit;          ///< 1, boundary edges with a free gap above this many mean diameters are cut
-    double gap_hysteresis;     ///< 1, share of the limits by which a facet stays, or stays away (search/peel_rule.h)
-    double servo_gain;         ///< 1, admittance of a plate under servo over that of the sample (1: absorbs waves)
-    double servo_velocity;     ///< m/s, largest plate velocity under servo; auto
-    double penalty;            ///< Pa s, stress over error of the rate of minimal conditions; auto
-    double membrane_stiffness; ///< N/m, 2D: between two neighbours; 3D: of the sheet, tension over strain
-    double membrane_radius;    ///< m, of its bodies; auto: 1.25 mean radii of the grains, 3D: 0.75
+    int periodic;          ///< SCREE_PERIODIC_...
+    int lateral;           ///< slot of what holds the sides until a stage chooses its own boundary
+    int64_t every;         ///< steps between two updates of the Delaunay boundary
+    double gap_limit;      ///< 1, boundary edges with a free gap above this many mean diameters are cut
+    double gap_hysteresis; ///< 1, share of the limits by which a facet stays, or stays away (search/peel_rule.h)
+    double servo_gain;     ///< 1, admittance of a plate under servo over that of the sample (1: absorbs waves)
+    double servo_velocity; ///< m/s, largest plate velocity under servo; auto
+    void *own;             ///< structs of modules (scree_config_own)
 } scree_config_boundary;
 
 /// What the sample looks like: it fills its box, or has been cut out of a larger packing.
@@ -120,7 +105,7 @@ typedef struct scree_config_load {
 typedef struct scree_config_stage {
     int kind;        ///< slot of a module with a stage
     char *name;      ///< unique among the stages: the kind, numbered (compress_1, compress_2) if there are several
-    int boundary;    ///< scree_boundary_kind
+    int boundary;    ///< slot of a module with a boundary; SCREE_CHOICE_AUTO: as in the stage before
     double friction; ///< 1, friction during this stage; auto: the material's
     void *own;       ///< struct of its kind, and of what else adds keys to it (scree_config_own)
 } scree_config_stage;
@@ -264,20 +249,22 @@ static inline const scree_preparation *scree_config_preparation(const scree_conf
     return stage ? scree_modules[scree_config_prepared(stage)->method]->preparation : NULL;
 }
 
-/// The boundary of stage `index`: periodic as the case says, else its own choice, or that of the last stage before it
-/// that made one, or the walls of the case, or `lateral`.
-static inline scree_boundary_kind scree_config_boundary_of(const scree_config *config, int64_t index)
+/// Slot of the boundary of stage `index`: the one that the case leaves it, else its own choice, or that of the last
+/// stage before it that made one, or the walls of the case, or `lateral`. SCREE_CHOICE_WRONG: that was wrong, and
+/// noted.
+int scree_config_boundary_of(const scree_config *config, int64_t index);
+
+/// Its face; NULL: it was wrong.
+static inline const scree_boundary *scree_config_held_by(const scree_config *config, int64_t index)
 {
-    const int stage = config->stages[index].kind;
-    if (stage >= 0 && scree_modules[stage]->numbers->collides) return SCREE_BOUNDARY_NONE;
-    if (config->boundary.periodic > 0) {
-        bool whole = config->boundary.periodic == (1 << config->dimension) - 1;
-        return whole ? SCREE_BOUNDARY_PERIODIC : SCREE_BOUNDARY_CHANNEL;
-    }
-    while (index >= 0 && config->stages[index].boundary == SCREE_BOUNDARY_AUTO) index--;
-    int kind = index >= 0 ? config->stages[index].boundary : config->boundary.lateral;
-    if (config->wall_count > 0 && index < 0) return SCREE_BOUNDARY_WALLS;
-    return kind == SCREE_BOUNDARY_AUTO ? SCREE_BOUNDARY_PRESSURE : (scree_boundary_kind)kind;
+    int slot = scree_config_boundary_of(config, index);
+    return slot >= 0 ? scree_modules[slot]->boundary : NULL;
+}
+
+/// The sample is periodic in all directions of space.
+static inline bool scree_config_is_wholly_periodic(const scree_config *config)
+{
+    return config->boundary.periodic > 0 && config->boundary.periodic == (1 << config->dimension) - 1;
 }
 
 #endif

@@ -29,24 +29,9 @@ static const scree_choice periodics[] = {
     {"xyz", SCREE_PERIODIC_XYZ, "periodic in all directions of space"},
     {0},
 };
-static const scree_choice laterals[] = {
-    {"pressure", SCREE_BOUNDARY_PRESSURE, "traction on the Delaunay boundary of the assembly"},
-    {"plates", SCREE_BOUNDARY_PLATES, "rigid side plates that a servo holds at the pressure"},
-    {"membrane", SCREE_BOUNDARY_MEMBRANE, "pressure on a membrane around the assembly"},
-    {0},
-};
 static const scree_choice boundaries[] = {
-    {"auto", SCREE_BOUNDARY_AUTO,
+    {"auto", SCREE_CHOICE_AUTO,
      "that of the stage before, at first the `walls` of the case, or as `boundary.lateral` says"},
-    {"pressure", SCREE_BOUNDARY_PRESSURE, "plates below and above, pressure on the Delaunay boundary of the sides"},
-    {"plates", SCREE_BOUNDARY_PLATES, "rigid plates on all sides, those beside the sample under servo"},
-    {"membrane", SCREE_BOUNDARY_MEMBRANE,
-     "plates below and above; at the sides a chain of frictionless discs (3D: a sheet of spheres) carries the "
-     "pressure"},
-    {"minimal", SCREE_BOUNDARY_MINIMAL,
-     "no plates: pressure on all sides, and minimal kinematic conditions impose the strain rate"},
-    {"affine", SCREE_BOUNDARY_AFFINE, "no plates: every body of the boundary moves with the velocity gradient"},
-    {"walls", SCREE_BOUNDARY_WALLS, "no plates: only the `walls` of the case"},
     {0},
 };
 // ---- sections ----------------------------------------------------------------------------------------------------
@@ -122,7 +107,7 @@ static const scree_key integrator_keys[] = {
 typedef scree_config_boundary boundary;
 static const scree_key boundary_keys[] = {
     CHOICE(boundary, periodic, periodics, .standard = "no", .meaning = "Directions in which the sample repeats."),
-    CHOICE(boundary, lateral, laterals, .standard = "pressure",
+    CHOICE(boundary, lateral, NULL, .standard = "pressure",
            .meaning = "What holds the sides, beside plates below and above, until a stage chooses its `boundary`. Not "
                       "asked for where the sample is periodic."),
     INTEGER(boundary, every, .standard = "250", FROM("1"), TO("1e9"),
@@ -138,16 +123,6 @@ static const scree_key boundary_keys[] = {
            .meaning = "Admittance of a plate under servo over that of the sample; 1 absorbs waves."),
     NUMBER(boundary, servo_velocity, "m/s", .standard = "auto", ABOVE("0 m/s"), TO("1000 m/s"),
            .meaning = "Largest velocity of a plate under servo."),
-    NUMBER(boundary, penalty, "Pa s", .standard = "auto", ABOVE("0 Pa s"), TO("1e30 Pa s"),
-           .meaning = "Minimal conditions: stress over the error of the rate; auto: the pressure answers an error of "
-                      "1 %."),
-    NUMBER(boundary, membrane_stiffness, "N/m", .standard = "10 N/mm", FROM("0 N/m"), TO("1e12 N/m"),
-           .meaning = "Membrane: axial stiffness between two neighbours; 3D: of the sheet, tension per length over "
-                      "strain. It bears no compression."),
-    NUMBER(boundary, membrane_radius, "m", .standard = "auto", FROM("1 nm"), TO("100 m"),
-           .meaning =
-               "Membrane: radius of its bodies; auto: 1.25 times the mean radius of the particles; 3D: 0.75 times "
-               "it, at least the smallest."),
 };
 
 typedef scree_config_stage stage;
@@ -166,6 +141,9 @@ static const scree_key stage_keys[] = {
     NUMBER(stage, friction, "1", .standard = "auto", FROM("0"), TO("10"), .fits = is_held,
            .meaning = "Friction in this stage, e.g. less while confining for a denser sample; auto: the material's."),
 };
+
+/// Some stages are not held, and have no key of it.
+static const stage stage_before_reading = {.boundary = SCREE_CHOICE_AUTO};
 
 typedef scree_config_load load;
 static const scree_key load_keys[] = {
@@ -216,7 +194,8 @@ static const scree_section contact_table[] = {
     OPEN_TABLE("contact", "Forces between touching particles.", contact_keys, contact)};
 static const scree_section integrator_table[] = {
     OPEN_TABLE("integrator", "Motion in time.", integrator_keys, integrator)};
-static const scree_section boundary_table[] = {TABLE("boundary", "What surrounds the sample.", boundary_keys)};
+static const scree_section boundary_table[] = {
+    OPEN_TABLE("boundary", "What surrounds the sample.", boundary_keys, boundary)};
 static const scree_section stage_table[] = {OPEN_TABLE("stages", "What happens.", stage_keys, stage)};
 static const scree_section load_table[] = {OPEN_TABLE("loads", "What acts on the bodies.", load_keys, load)};
 static const scree_section measure_table[] = {TABLE("measure", "What is recorded.", measure_keys)};
@@ -264,7 +243,7 @@ static const scree_key root_keys[] = {
         .meaning = "What acts on the bodies in all stages, beside contacts, boundary and gravity."),
     KEY(scree_config, stages, SCREE_KEY_LIST, FROM("1"), TO("100"), .sections = stage_table, .section_count = 1,
         .count_offset = offsetof(scree_config, stage_count), .element_size = sizeof(stage),
-        .meaning = "What happens, one stage after the other."),
+        .initial = &stage_before_reading, .meaning = "What happens, one stage after the other."),
     SECTION(measure, measure_table, .meaning = "What is recorded."),
     SECTION(output, output_table, .meaning = "What is written."),
     SECTION(guard, guard_table, .meaning = "When a run is stopped."),

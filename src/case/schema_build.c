@@ -200,6 +200,17 @@ static void build_inner(scree_key *key, const char *path)
     key->section_count = count;
 }
 
+/// Path of a key of a section. Keys of the core that all elements of a list have stand once, in the list:
+/// "stages.name".
+static void key_path(char out[SCREE_PATH_BYTES], const draft *d, const scree_key *key)
+{
+    char list[SCREE_PATH_BYTES];
+    const char *kind = d->module && !key->own ? strrchr(d->path, '.') : NULL;
+    size_t length = kind ? (size_t)(kind - d->path) : strlen(d->path);
+    (void)snprintf(list, sizeof list, "%.*s", (int)length, d->path);
+    scree_key_join(out, list, key->name);
+}
+
 /// kinds: choices of the first key, where that says of which module the section is; else NULL.
 static void build_section(scree_section *section, const scree_section *plan, const scree_module *module,
                           const scree_choice *kinds, const char *path)
@@ -218,7 +229,7 @@ static void build_section(scree_section *section, const scree_section *plan, con
     for (size_t i = 0; i < d.count; i++) {
         scree_key *key = &d.key[i];
         char inner[SCREE_PATH_BYTES];
-        scree_key_join(inner, path, key->name);
+        key_path(inner, &d, key);
         if (key->type == SCREE_KEY_CHOICE) key->choices = build_choices(key->choices, inner);
         if (key->section_count > 0) build_inner(key, inner);
     }

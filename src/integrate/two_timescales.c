@@ -49,11 +49,8 @@ static void rules(scree_reader *reader, const scree_config *whole)
 {
     const char *const others = "position_verlet, velocity_verlet", *const path = "integrator.scheme";
     for (int64_t i = 0; i < whole->stage_count; i++) {
-        scree_boundary_kind kind = scree_config_boundary_of(whole, i);
-        // A periodic cell moves bodies by its gradient in every step, whatever its size.
-        if (whole->boundary.periodic > 0 || kind == SCREE_BOUNDARY_PRESSURE || kind == SCREE_BOUNDARY_PLATES ||
-            kind == SCREE_BOUNDARY_WALLS || kind == SCREE_BOUNDARY_NONE)
-            continue;
+        const scree_boundary *boundary = scree_config_held_by(whole, i);
+        if (!boundary || !boundary->equal_steps) continue;
         scree_rule_refuse(reader, path, others, "the boundary of stages.%lld imposes velocities and needs equal steps",
                           (long long)i);
         return;

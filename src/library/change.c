@@ -79,7 +79,7 @@ static scree_status check_body(const scree_simulation *s, const scree_body_value
 {
     const uint32_t id = values->id[k];
     const size_t dimension = (size_t)s->model.dimension, turns = dimension == 3 ? 3 : 1;
-    if (id >= s->state.count) return refuse_body(error, id, "there is none");
+    if (scree_state_row_of(&s->state, id) == SCREE_NO_ROW) return refuse_body(error, id, "there is none");
     if (values->position && !is_inside(s, values->position + dimension * k))
         return refuse_body(error, id, "its position is not finite, or outside of the periodic cell");
     if (values->velocity && !are_finite(values->velocity + dimension * k, dimension))
@@ -96,7 +96,7 @@ static scree_status check(const scree_simulation *s, const scree_body_values *va
     unsigned char *seen;
     scree_status status = check_moment(s, error);
     for (size_t k = 0; k < values->count && !status; k++) status = check_body(s, values, k, error);
-    if (!status) status = scree_allocate(&seen, s->state.count, 1, error);
+    if (!status) status = scree_allocate(&seen, s->state.id_count, 1, error);
     if (status) return status;
     for (size_t k = 0; k < values->count && !status; k++)
         if (seen[values->id[k]]++) status = refuse_body(error, values->id[k], "is named twice");
@@ -177,7 +177,7 @@ static void move_to(scree_state *state, size_t row, const scree_vector velocity,
     move(state, row, velocity, state->dimension == 3 ? spin : spin + 2);
 }
 
-/// From the velocities that the scheme keeps to those of n - 1/2, with which forces are evaluated. by_id: count.
+/// From the velocities that the scheme keeps to those of n - 1/2, with which forces are evaluated. by_id: one an id.
 static void step_back(scree_simulation *s, former *by_id)
 {
     scree_state *state = &s->state;
@@ -282,7 +282,7 @@ scree_status scree_simulation_set(scree_simulation *s, const scree_body_values *
 {
     former *by_id = NULL;
     scree_status status = check(s, values, error);
-    if (!status) status = scree_allocate(&by_id, s->state.count, sizeof *by_id, error);
+    if (!status) status = scree_allocate(&by_id, s->state.id_count, sizeof *by_id, error);
     if (status) return status;
     status = s->stopped.status = change(s, values, by_id, &s->stopped);
     if (status && error) *error = s->stopped;

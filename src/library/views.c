@@ -94,13 +94,14 @@ void scree_simulation_copy(const scree_simulation *s, double *position, double *
     handle_assert(s);
     const scree_state *state = &s->state;
     const size_t components = (size_t)state->dimension, turns = state->dimension == 3 ? 3 : 1;
-    for (size_t id = 0; id < state->count; id++) {
+    size_t next = 0;
+    for (size_t k = 0; k < state->count; k++) {
         scree_vector place, speed, turn;
-        size_t row = state->row_of_id[id];
+        size_t row = scree_next_by_id(state, &next);
         scree_body_place(state, row, place);
         scree_body_velocity(&s->stage_model, state, row, speed, turn);
-        if (position) memcpy(position + components * id, place, components * sizeof *place);
-        if (velocity) memcpy(velocity + components * id, speed, components * sizeof *speed);
-        if (spin) memcpy(spin + turns * id, turn + 3 - turns, turns * sizeof *turn);
+        if (position) memcpy(position + components * k, place, components * sizeof *place);
+        if (velocity) memcpy(velocity + components * k, speed, components * sizeof *speed);
+        if (spin) memcpy(spin + turns * k, turn + 3 - turns, turns * sizeof *turn);
     }
 }

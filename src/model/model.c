@@ -39,7 +39,7 @@ int scree_model_material(const scree_model *model, const char *name)
 
 bool scree_model_is_wholly_periodic(const scree_model *model)
 {
-    return model->config->boundary.periodic == (1 << model->dimension) - 1;
+    return scree_config_is_wholly_periodic(model->config);
 }
 
 static scree_status check_materials(const scree_model *model, scree_error *error)
@@ -207,10 +207,8 @@ static void take_friction(const scree_model *model, scree_pair_constants *pair)
         if (scree_model_law(model)->resistances >> k & 1) pair->value[k] = 0;
 }
 
-/// Takes the friction of a membrane away.
-static void make_frictionless(scree_model *model)
+void scree_model_make_membrane_frictionless(scree_model *model)
 {
-    if (!model->membrane) return;
     int m = model->membrane_material;
     take_friction(model, &model->walls[m]);
     for (int w = 0; w < SCREE_SURFACES; w++) take_friction(model, &model->surfaces[w][m]);
@@ -220,60 +218,17 @@ static void make_frictionless(scree_model *model)
     }
 }
 
-/// Stiffness of the springs of a membrane and the step that follows them: 2 / omega of the fastest oscillation. A chain
-/// has omega^2 = 4 k / m; a triangular sheet 6 k / m when it is regular, and less than 8 k / m as long as no direction
-/// has more than four thirds of its springs. Boundary/membrane.c has the stiffness of the sheet.
-static double membrane_step(scree_model *model)
-{
-    bool solid = model->dimension == 3;
-    model->membrane_stiffness = (solid ? sqrt(0.75) : 1) * model->config->boundary.membrane_stiffness;
-    double mass = scree_model_mass(model, model->membrane_material, model->membrane_radius);
-    return sqrt(mass / model->membrane_stiffness / (solid ? 2 : 1));
-}
-
-/// Two spheres of the sheet that touch each other and their plate leave a hole of a quarter of their radius (sheet.c).
-static scree_status check_membrane_radius(const scree_model *model, scree_error *error)
-{
-    double hole = 0.25 * model->membrane_radius;
-    if (model->dimension == 2 || hole < model->radius_min) return SCREE_OK;
-    return FIELD_ERROR(error, "boundary.membrane_radius",
-                       "between spheres of a membrane of radius %.3g m a sphere of %.3g m slips through, and the "
-                       "smallest has %.3g m: give a smaller radius",
-                       model->membrane_radius, hole, model->radius_min);
-}
-
-/// A membrane is made of the material of the particles (of the first species) without friction, as one more material.
-/// Its springs must not swing faster than the step can follow.
-static scree_status resolve_membrane(scree_model *model, scree_error *error)
+/// Numbers of the boundaries that the stages have.
+static scree_status resolve_boundaries(scree_model *model, scree_error *error)
 {
     const scree_config *config = model->config;
+    bool used[SCREE_MODULE_COUNT] = {0};
     for (int64_t i = 0; i < config->stage_count; i++)
-        if (!scree_modules[config->stages[i].kind]->numbers->places)
-            model->membrane = model->membrane || scree_config_boundary_of(config, i) == SCREE_BOUNDARY_MEMBRANE;
-    if (!model->membrane) return SCREE_OK;
-    if (model->material_count == SCREE_MAX_MATERIALS)
-        return FIELD_ERROR(error, "materials", "a case with a membrane has at most %d materials",
-                           SCREE_MAX_MATERIALS - 1);
-    const int grains = model->species[0].material, m = model->membrane_material = model->material_count;
-    for (int i = 0; i < m; i++) model->pairs[m][i] = model->pairs[i][m] = model->pairs[grains][i];
-    model->pairs[m][m] = model->pairs[grains][grains];
-    model->walls[m] = model->walls[grains];
-    for (int w = 0; w < SCREE_SURFACES; w++) model->surfaces[w][m] = model->surfaces[w][grains];
-    model->density[m] = model->density[grains];
-    make_frictionless(model);
-    double radius = config->boundary.membrane_radius;
-    // A sheet needs no large bodies to be tight; a finer one lies closer to the grains and bears more stretch. But
-    // bodies smaller than every grain would need a smaller step.
-    double usual =
-        model->dimension == 3 ? fmax(0.75 * model->mean_radius, model->radius_min) : 1.25 * model->mean_radius;
-    model->membrane_radius = isnan(radius) ? usual : radius;
-    double limit = membrane_step(model), step = (double)model->large_multiple * model->step;
-    if (step <= limit) return check_membrane_radius(model, error);
-    return FIELD_ERROR(
-        error, "boundary.membrane_stiffness",
-        "the springs of the membrane need a step of at most %.2g s, this case has %.2g s: give a smaller "
-        "stiffness or step",
-        limit, step);
+        if (!scree_modules[config->stages[i].kind]->numbers->places) used[scree_config_boundary_of(config, i)] = true;
+    scree_status status = SCREE_OK;
+    for (int m = 0; m < SCREE_MODULE_COUNT && !status; m++)
+        if (used[m] && scree_modules[m]->boundary->resolve) status = scree_modules[m]->boundary->resolve(model, error);
+    return status;
 }
 
 /// Does the packing of a prepare stage exist?
@@ -392,7 +347,7 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
     if (!status) status = resolve_pairs(model, error);
     if (!status) status = resolve_loading(model, error);
     if (!status) status = resolve_step(model, error);
-    if (!status) status = resolve_membrane(model, error);
+    if (!status) status = resolve_boundaries(model, error);
     return status;
 }
 
@@ -406,6 +361,6 @@ scree_model scree_model_with_friction(const scree_model *model, double friction)
         for (int w = 0; w < SCREE_SURFACES; w++) copy.surfaces[w][i].value[SCREE_FRICTION] = friction;
         for (int j = 0; j < SCREE_MAX_MATERIALS; j++) copy.pairs[i][j].value[SCREE_FRICTION] = friction;
     }
-    make_frictionless(&copy);
+    if (copy.membrane) scree_model_make_membrane_frictionless(&copy);
     return copy;
 }

@@ -122,6 +122,9 @@ double scree_model_loading_rate(const scree_config_stage *stage);
 /// Number of the material of this name, NULL that of the first species; -1: the case has none of that name.
 int scree_model_material(const scree_model *model, const char *name);
 
+/// Takes the friction of the membrane's material away.
+void scree_model_make_membrane_frictionless(scree_model *model);
+
 /// A copy with every friction coefficient replaced by `friction` (used while preparing dense samples), but a membrane's
 /// zero. NAN copies only.
 scree_model scree_model_with_friction(const scree_model *model, double friction);

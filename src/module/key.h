@@ -99,7 +99,8 @@ typedef struct scree_keys {
 
 /// A choice that a module is.
 typedef struct scree_choice_of {
-    const char *key;     ///< path of the key: "integrator.scheme"; of a list whose elements it is: "stages". NULL ends
+    const char *key;     ///< path of the key: "integrator.scheme"; of one that all elements of a list have
+                         ///< "stages.boundary"; of a list whose elements it is "stages". NULL ends
     const char *meaning; ///< NULL: that of the module
 } scree_choice_of;
 

@@ -34,6 +34,7 @@ struct scree_module {
     const struct scree_size_distribution *sizes; ///< module/size_distribution.h
     const struct scree_stage_numbers *numbers;   ///< module/stage.h
     const struct scree_stage *stage;             ///< run/stage.h
+    const struct scree_boundary *boundary;       ///< module/boundary.h
 
     // ---- state: what it remembers ----
     size_t state_size;         ///< bytes of its struct in the store of the state, zero at first; 0: none

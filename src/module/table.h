@@ -7,7 +7,15 @@
 
 #define SCREE_STATE_MODULES(row)                                                                                       \
     row(plates) row(case_walls) row(periodic_cell) row(delaunay_boundary) row(pressure) row(own_force)                 \
-        row(imposed_gradient) row(membrane) row(forced_spin) row(loading)
+        row(imposed_gradient)
+
+/// Boundaries, in the order in which the case reference lists them; then those that no key chooses.
+#define SCREE_BOUNDARY_MODULES(row)                                                                                    \
+    row(pressure_boundary) row(plates_boundary) row(membrane) row(minimal) row(affine) row(walls) row(none)            \
+        row(periodic) row(channel)
+
+/// What stages remember.
+#define SCREE_STAGE_STATE_MODULES(row) row(forced_spin) row(loading)
 
 /// Contact laws, each with its header in contact/laws.h.
 #define SCREE_LAWS(row) row(hertz_brilliantov) row(hertz_mindlin) row(linear)
@@ -20,6 +28,7 @@
             row(compress) row(deform) row(rotate_particle) row(relax) row(collide) row(background_damping)             \
                 row(uniform) row(two_sizes) row(equal) row(normal) row(log_normal) row(power_law) row(table)
 
-#define SCREE_MODULES(row) SCREE_STATE_MODULES(row) SCREE_CASE_MODULES(row)
+#define SCREE_MODULES(row)                                                                                             \
+    SCREE_STATE_MODULES(row) SCREE_BOUNDARY_MODULES(row) SCREE_STAGE_STATE_MODULES(row) SCREE_CASE_MODULES(row)
 
 #endif

@@ -114,8 +114,8 @@ static void check_radius(const listed *l, int64_t index, const shown *s)
 static bool has_box(const scree_config *config)
 {
     if (config->stage_count < 2) return true;
-    scree_boundary_kind kind = scree_config_boundary_of(config, 1);
-    return kind != SCREE_BOUNDARY_WALLS && kind != SCREE_BOUNDARY_NONE;
+    const scree_boundary *boundary = scree_config_held_by(config, 1);
+    return !boundary || !boundary->open;
 }
 
 /// No deeper in a wall of the box than the guard allows; in a periodic cell the centre lies within it.

@@ -85,7 +85,7 @@ void scree_loads_add(scree_loads *loads, uint32_t id, const double force[3], con
 {
     own *sums = scree_own_loads_of(loads->state);
     if (loads->status) return;
-    if (id >= sums->count) {
+    if (id >= sums->count || scree_state_row_of(loads->state, id) == SCREE_NO_ROW) {
         loads->status = scree_error_set(loads->error, SCREE_ERROR_INPUT, "own force '%s': there is no body %u",
                                         loads->force->name, id);
         return;
@@ -177,9 +177,9 @@ static scree_status load(const scree_context *c, scree_error *error)
     sums->registered = (int64_t)c->simulation->forces.count;
     sums->count = 0;
     if (sums->registered == 0) return SCREE_OK;
-    scree_status status = scree_group_reserve(state, &scree_module_own_force, &group, state->count, error);
+    scree_status status = scree_group_reserve(state, &scree_module_own_force, &group, state->id_count, error);
     if (status) return status;
-    sums->count = state->count;
+    sums->count = state->id_count;
     memset(sums->force, 0, sums->count * sizeof *sums->force);
     memset(sums->torque, 0, sums->count * sizeof *sums->torque);
     if ((status = call(c, error))) return status;

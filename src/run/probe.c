@@ -65,6 +65,16 @@ static void shrink_box(scree_config *config, scree_prepare_config *prepare, doub
     prepare->depth *= scale;
 }
 
+/// The boundary that stands on all sides without walls of the case.
+static int box_boundary(void)
+{
+    int m = 0;
+    while (!scree_modules[m]->boundary || !scree_modules[m]->boundary->stands ||
+           scree_modules[m]->boundary->needs_walls)
+        m++;
+    return m;
+}
+
 /// Limits that belong to the true case do not stop the probe, and what is measured apart does not happen in its steps.
 static scree_status make_case(const scree_case *c, probe_case *probe, scree_error *error)
 {
@@ -79,7 +89,7 @@ static scree_status make_case(const scree_case *c, probe_case *probe, scree_erro
     for (int64_t k = 0; k < config->stage_count; k++) {
         void (*fit)(void *own, int64_t count) = scree_modules[config->stages[k].kind]->stage->shrink;
         if (fit) fit(config->stages[k].own, config->particles.count);
-        if (config->wall_count > 0) config->stages[k].boundary = SCREE_BOUNDARY_PLATES;
+        if (config->wall_count > 0) config->stages[k].boundary = box_boundary();
     }
     config->wall_count = 0;
     config->guard.overlap = fmax(config->guard.overlap, DEEP);

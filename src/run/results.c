@@ -300,7 +300,7 @@ static scree_status summarise_stage(const scree_simulation *s, scree_summary *su
     int64_t last = config->stage_count - 1, present = s->state.stage.index < last ? s->state.stage.index : last;
     if (s->state.count == 0 || loading_stage(s, present) != present) return SCREE_OK;
     summarise_cost(s, summary);
-    bool plates = scree_boundary_has_plates(scree_boundary_get(scree_config_boundary_of(config, present)));
+    bool plates = scree_boundary_has_plates(scree_config_held_by(config, present));
     bool strained = !isnan(scree_model_loading_rate(&config->stages[present]));
     bool cornered = strained && !plates && !scree_cell(&s->state)->directions;
     return cornered ? summarise_shape(s, summary, error) : SCREE_OK;

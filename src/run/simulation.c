@@ -93,7 +93,7 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
     }
     const scree_config_stage *config = scree_stage_config(s);
     s->stage = scree_modules[config->kind]->stage;
-    s->boundary = scree_boundary_get(scree_config_boundary_of(s->model.config, stage->index));
+    s->boundary = scree_config_held_by(s->model.config, stage->index);
     s->stage_model = scree_model_with_friction(&s->model, config->friction);
     if (!restart || stage->counter == SCREE_STAGE_NOT_BEGUN) {
         stage->first_time = scree_state_time(&s->state);

@@ -166,11 +166,11 @@ static const char *wrong(const scree_config *whole, int64_t index, const char **
 {
     const config *stage = whole->stages[index].own;
     const int dimension = (int)whole->dimension;
-    const scree_boundary_kind kind = scree_config_boundary_of(whole, index);
+    const scree_boundary *boundary = scree_config_held_by(whole, index);
     const double *full = stage->velocity_gradient, *symmetric = stage->strain_rate;
     double largest = 0;
     *key = "stage";
-    if (kind == SCREE_BOUNDARY_CHANNEL)
+    if (!boundary->deform)
         return "only a cell that is periodic in all directions can be deformed: set boundary.periodic";
     for (int c = 0; c < 9; c++) {
         int mirror = 3 * (c % 3) + c / 3;
@@ -179,19 +179,18 @@ static const char *wrong(const scree_config *whole, int64_t index, const char **
         if (outside && (is_given(full, c) || is_given(symmetric, c))) return "there is no z in two dimensions";
         if (is_given(symmetric, c) && (is_given(full, c) || is_given(full, mirror)))
             return "a component is prescribed twice, by velocity_gradient and by strain_rate";
-        if (kind == SCREE_BOUNDARY_MINIMAL && c != mirror && is_given(full, c) && !is_given(full, mirror))
+        if (boundary->full_mirrors && c != mirror && is_given(full, c) && !is_given(full, mirror))
             return "a rigid rotation would satisfy one component beside the diagonal without any strain: give its "
                    "mirror too (0 for simple shear), or the strain_rate";
         *key = "stress";
         if (is_given(stage->stress, c)) {
-            if (kind != SCREE_BOUNDARY_PERIODIC) return "only a periodic cell can hold stresses: set boundary.periodic";
+            if (!boundary->periodic) return "only a periodic cell can hold stresses: set boundary.periodic";
             if (outside) return "there is no z in two dimensions";
             if (is_given(full, c) || is_given(symmetric, c))
                 return "the same component has a rate: give one of the two";
         }
         *key = "velocity_gradient";
-        if (kind == SCREE_BOUNDARY_AFFINE && !outside && !is_given(full, c))
-            return "affine moves every body of the boundary: all components must be given";
+        if (boundary->needs_all && !outside && !is_given(full, c)) return boundary->needs_all;
         if (is_given(full, c)) largest = fmax(largest, fabs(full[c]));
         if (is_given(symmetric, c)) largest = fmax(largest, fabs(symmetric[c]));
     }

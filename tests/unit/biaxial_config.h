@@ -87,14 +87,14 @@ static inline void biaxial_config_set(biaxial_config *c, int64_t count)
     biaxial_material(c, 1)->restitution = 0.6;
     *OWN(c->contact.bytes, scree_brilliantov_config, hertz_brilliantov, "contact") =
         (scree_brilliantov_config){.damping_time = 0.002, .friction_exponent = 50};
-    c->stage[0] = (scree_config_stage){.kind = SCREE_SLOT_prepare, .own = &c->own[0]};
+    c->stage[0] = (scree_config_stage){.kind = SCREE_SLOT_prepare, .boundary = SCREE_CHOICE_AUTO, .own = &c->own[0]};
     *biaxial_prepare(c) =
         (scree_prepare_config){.method = SCREE_SLOT_drop_and_roll, .aspect_ratio = 2, .width = NAN, .depth = NAN};
     *biaxial_gas(c) = (scree_gas_config){.solid_fraction = 0.4, .velocity = 0.1};
     *biaxial_growth(c) = (scree_growth_config){.solid_fraction = 0.4};
-    c->stage[1] = (scree_config_stage){.kind = SCREE_SLOT_confine, .own = &c->own[1]};
+    c->stage[1] = (scree_config_stage){.kind = SCREE_SLOT_confine, .boundary = SCREE_CHOICE_AUTO, .own = &c->own[1]};
     *biaxial_confine(c) = (scree_confine_config){.pressure = 100e3};
-    c->stage[2] = (scree_config_stage){.kind = SCREE_SLOT_compress, .own = &c->own[2]};
+    c->stage[2] = (scree_config_stage){.kind = SCREE_SLOT_compress, .boundary = SCREE_CHOICE_AUTO, .own = &c->own[2]};
     *biaxial_compress(c) = (scree_compress_config){.strain = 0.1, .rate = 5e-3};
     c->config = (scree_config){
         .dimension = 2,
@@ -104,6 +104,7 @@ static inline void biaxial_config_set(biaxial_config *c, int64_t count)
         .particles = {.shape = SCREE_SHAPE_DISC, .material = c->quartz, .count = count, .thickness = NAN},
         .contact = {.law = SCREE_SLOT_hertz_brilliantov, .reference_velocity = NAN, .own = c->contact.bytes},
         .integrator = {.scheme = SCREE_SLOT_position_verlet, .step = NAN, .step_fraction = 0.5},
+        .boundary = {.lateral = SCREE_SLOT_pressure_boundary},
         .stages = c->stage,
         .stage_count = 3,
         .guard = {.overlap = 0.1, .energy_growth = 1e-3},

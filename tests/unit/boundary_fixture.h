@@ -116,7 +116,7 @@ static inline scree_row *member(bench *b, size_t k)
 static inline void membrane_forces(bench *b)
 {
     memset(b->state.sum, 0, b->state.count * sizeof *b->state.sum);
-    boundary_load(scree_boundary_get(SCREE_BOUNDARY_MEMBRANE), &b->model, &b->state, &b->work);
+    boundary_load(scree_module_membrane.boundary, &b->model, &b->state, &b->work);
 }
 
 #endif

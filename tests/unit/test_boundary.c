@@ -203,7 +203,7 @@ static void the_power_of_a_stress_is_volume_stress_rate(void **unused)
 static void minimal_conditions_meet_their_rates(void **unused)
 {
     (void)unused;
-    const scree_boundary *minimal = scree_boundary_get(SCREE_BOUNDARY_MINIMAL);
+    const scree_boundary *minimal = scree_module_minimal.boundary;
     const double target[9] = {0.5, -0.3, 0.1, 0.7, -1, 0, 0.2, 0, 0.4};
     static const int prescribed[4][9] = {
         {0, 0, 0, 0, SCREE_FULL, 0, 0, 0, 0},
@@ -239,7 +239,7 @@ static void minimal_conditions_meet_their_rates(void **unused)
 static void a_multiplier_out_of_range_stops_the_run(void **unused)
 {
     (void)unused;
-    const scree_boundary *minimal = scree_boundary_get(SCREE_BOUNDARY_MINIMAL);
+    const scree_boundary *minimal = scree_module_minimal.boundary;
     for (int k = 0; k < 4; k++) {
         bench b;
         bench_create(&b, 2 + k / 2);
@@ -264,7 +264,7 @@ static void a_multiplier_out_of_range_stops_the_run(void **unused)
 static void a_strain_rate_has_no_moment(void **unused)
 {
     (void)unused;
-    const scree_boundary *minimal = scree_boundary_get(SCREE_BOUNDARY_MINIMAL);
+    const scree_boundary *minimal = scree_module_minimal.boundary;
     for (int k = 0; k < 2; k++) {
         bench b;
         bench_create(&b, 2);
@@ -291,7 +291,7 @@ static void a_strain_rate_has_no_moment(void **unused)
 static void penalty_is_stable_and_booked(void **unused)
 {
     (void)unused;
-    const scree_boundary *minimal = scree_boundary_get(SCREE_BOUNDARY_MINIMAL);
+    const scree_boundary *minimal = scree_module_minimal.boundary;
     for (int k = 0; k < 12; k++) {
         bench b;
         bench_create(&b, 2 + k / 6);
@@ -326,7 +326,7 @@ static void penalty_is_stable_and_booked(void **unused)
 static void affine_bodies_move_with_the_gradient(void **unused)
 {
     (void)unused;
-    const scree_boundary *affine = scree_boundary_get(SCREE_BOUNDARY_AFFINE);
+    const scree_boundary *affine = scree_module_affine.boundary;
     const double target[9] = {0.5, -0.3, 0.1, 0.7, -1, 0, 0.2, 0, 0.4};
     for (int dimension = 2; dimension <= 3; dimension++) {
         bench b;
@@ -374,13 +374,13 @@ static void walls_come_and_go(void **unused)
                                 {.wall = true, .second = SCREE_WALL_LEFT, .elastic_normal = 8},
                                 {.wall = false, .second = SCREE_WALL_TOP, .elastic_normal = 64}};
     scree_contact_table table = {.contact = contact, .count = 3};
-    const scree_boundary *pressure = scree_boundary_get(SCREE_BOUNDARY_PRESSURE);
+    const scree_boundary *pressure = scree_module_pressure_boundary.boundary;
     assert_int_equal(scree_boundary_begin(pressure, &b.model, state, &table, &changed, NULL), SCREE_OK);
     assert_true(changed && state->ledger.plates == -8);
     assert_true(scree_plates(state)[SCREE_WALL_TOP].active && !scree_plates(state)[SCREE_WALL_LEFT].active);
     assert_int_equal(scree_boundary_begin(pressure, &b.model, state, &table, &changed, NULL), SCREE_OK);
     assert_true(!changed && state->ledger.plates == -8 && scree_plates(state)[SCREE_WALL_TOP].velocity == 3);
-    const scree_boundary *minimal = scree_boundary_get(SCREE_BOUNDARY_MINIMAL);
+    const scree_boundary *minimal = scree_module_minimal.boundary;
     assert_int_equal(scree_boundary_begin(minimal, &b.model, state, &table, &changed, NULL), SCREE_OK);
     assert_true(changed && state->ledger.plates == -11 && scree_plates(state)[SCREE_WALL_TOP].velocity == 0);
     assert_true(scree_boundary_has_plates(pressure) && !scree_boundary_has_plates(minimal));

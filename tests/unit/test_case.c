@@ -403,6 +403,41 @@ static void later_errors_find_their_place(void **state)
     scree_case_free(c);
 }
 
+static const char loaded[] = "materials: [{name: steel, young_modulus: 200 GPa, density: 7800, friction: 0.1}]\n"
+                             "particles: {material: steel, count: 10, radius_min: 1 mm, radius_max: 1 mm}\n"
+                             "stages: [{stage: prepare, method: gas}, {stage: confine, pressure: 1 kPa}, "
+                             "{stage: compress, rate: 1 1/s, strain: 1 %}]\n";
+
+/// The boundary of stage `index` of a case with these overrides, and of the stage before it, by name.
+static void assert_held_by(const char *const overrides[], int64_t index, const char *before, const char *present)
+{
+    scree_case *c = right(loaded, overrides, false);
+    const char *const names[2] = {before, present};
+    for (int64_t k = 0; k < 2; k++) {
+        int slot = scree_config_boundary_of(&c->config, index - 1 + k);
+        assert_in_range(slot, 0, SCREE_MODULE_COUNT - 1);
+        assert_string_equal(scree_modules[slot]->name, names[k]);
+        assert_ptr_equal(scree_config_held_by(&c->config, index - 1 + k), scree_modules[slot]->boundary);
+    }
+    scree_case_free(c);
+}
+
+/// What the case leaves no choice of, then what a stage or one before it chooses, then `lateral`.
+static void stages_have_boundaries(void **state)
+{
+    (void)state;
+    assert_held_by(NULL, 1, "pressure", "pressure");
+    assert_held_by((const char *const[]){"boundary.lateral=plates", NULL}, 2, "plates", "plates");
+    assert_held_by((const char *const[]){"boundary.lateral=plates", "stages.2.boundary=membrane", NULL}, 2, "plates",
+                   "membrane");
+    assert_held_by((const char *const[]){"stages.1.boundary=minimal", NULL}, 2, "minimal", "minimal");
+    assert_held_by((const char *const[]){"boundary.periodic=xy", NULL}, 1, "periodic", "periodic");
+    assert_held_by((const char *const[]){"boundary.periodic=x", NULL}, 2, "channel", "channel");
+    // Of one that was wrong nobody else says anything.
+    wrong(loaded, (const char *const[]){"integrator.scheme=two_timescales", "stages.2.boundary=foo", NULL},
+          "there is no boundary 'foo'");
+}
+
 static void nearest_names(void **state)
 {
     (void)state;
@@ -478,6 +513,7 @@ int main(void)
         cmocka_unit_test(stages_of_one_kind_are_numbered),
         cmocka_unit_test(many_problems_are_counted),
         cmocka_unit_test(later_errors_find_their_place),
+        cmocka_unit_test(stages_have_boundaries),
         cmocka_unit_test(nearest_names),
         cmocka_unit_test(lost_memory_is_survived),
     };

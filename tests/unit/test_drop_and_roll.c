@@ -9,6 +9,7 @@
 
 #include "base/vectors.h"
 #include "prepare/prepare.h"
+#include "state/body.h"
 
 #include <string.h>
 

@@ -96,7 +96,7 @@ static void the_chain_stores_what_it_takes(void **unused)
     bench b;
     bench_create(&b);
     scree_state *state = &b.state;
-    const scree_boundary *membrane = scree_boundary_get(SCREE_BOUNDARY_MEMBRANE);
+    const scree_boundary *membrane = scree_module_membrane.boundary;
     scree_pressure_set(state, 0);
     for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
         member(&b, k)->x += 2e-4 * uniform(1000 + k);

@@ -1,6 +1,7 @@
 /// The model: constants against closed forms, resolved defaults, errors with their fields, and the critical step
 /// against the largest eigenvalue of assembled lattices and packings.
 #include "biaxial_config.h"
+#include "boundary/membrane.h"
 #include "integrate/two_timescales.h"
 #include "law_choice.h"
 #include "own_config.h"
@@ -423,9 +424,11 @@ static void test_membrane(void **unused)
     scree_model model;
     scree_error error;
     biaxial_config_set(&c, 983);
-    c.stage[2].boundary = SCREE_BOUNDARY_MEMBRANE;
-    c.config.boundary.membrane_radius = NAN;
-    c.config.boundary.membrane_stiffness = 1e4;
+    c.stage[2].boundary = SCREE_SLOT_membrane;
+    own_block of_boundary = {0};
+    c.config.boundary.own = &of_boundary;
+    scree_membrane_config *membrane = OWN(&of_boundary, scree_membrane_config, membrane, "boundary");
+    *membrane = (scree_membrane_config){.membrane_radius = NAN, .membrane_stiffness = 1e4};
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
     assert_close(model.membrane_radius, 1.25 * 0.75e-3);
     assert_close(model.membrane_stiffness, 1e4);
@@ -440,21 +443,21 @@ static void test_membrane(void **unused)
     assert_close(model.membrane_radius, 0.9e-3);
     biaxial_sizes(&c, SCREE_SLOT_uniform, 0.5e-3, 1e-3);
     // A quarter of the radius of spheres that touch each other and a plate passes between them.
-    c.config.boundary.membrane_radius = 1.99e-3;
+    membrane->membrane_radius = 1.99e-3;
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
-    c.config.boundary.membrane_radius = 2.01e-3;
+    membrane->membrane_radius = 2.01e-3;
     assert_int_equal(scree_model_build(&c.config, &model, &error), SCREE_ERROR_INPUT);
     assert_string_equal(error.field, "boundary.membrane_radius");
     // The fastest oscillation; the large step of two timescales counts.
-    c.config.boundary.membrane_radius = NAN;
+    membrane->membrane_radius = NAN;
     c.config.integrator.step = 1e-6;
     double mass = model.density[0] * 4 / 3 * M_PI * pow(0.5625e-3, 3), limit = mass / 2 / (1e-6 * 1e-6);
-    c.config.boundary.membrane_stiffness = 0.99 * limit * 2 / sqrt(3);
+    membrane->membrane_stiffness = 0.99 * limit * 2 / sqrt(3);
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
-    c.config.boundary.membrane_stiffness *= 1.02;
+    membrane->membrane_stiffness *= 1.02;
     assert_int_equal(scree_model_build(&c.config, &model, &error), SCREE_ERROR_INPUT);
     assert_string_equal(error.field, "boundary.membrane_stiffness");
-    c.config.boundary.membrane_stiffness /= 1.02;
+    membrane->membrane_stiffness /= 1.02;
     c.config.integrator.scheme = SCREE_SLOT_two_timescales;
     own_block block = {0};
     c.config.integrator.own = &block;

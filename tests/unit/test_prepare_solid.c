@@ -5,6 +5,7 @@
 #include "testing.h"
 
 #include "prepare/prepare.h"
+#include "state/body.h"
 
 #include <stdlib.h>
 #include <string.h>

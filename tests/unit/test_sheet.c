@@ -290,7 +290,7 @@ static void tube_step(bench *b, double keep)
         m->y += state->step_size * m->vy;
         m->z += state->step_size * m->vz;
     }
-    boundary_follow(scree_boundary_get(SCREE_BOUNDARY_MEMBRANE), &b->model, state);
+    boundary_follow(scree_module_membrane.boundary, &b->model, state);
     membrane_forces(b);
 }
 
@@ -526,7 +526,7 @@ static void failures_are_told(void **unused)
     scree_error error;
     b.model.radius_min = 0.1 * SHEET;
     scree_hull_of(state)->updated = state->step;
-    const scree_boundary *membrane = scree_boundary_get(SCREE_BOUNDARY_MEMBRANE);
+    const scree_boundary *membrane = scree_module_membrane.boundary;
     assert_int_equal(boundary_pass(membrane, SCREE_PHASE_SEARCH, &b.model, state, &b.work, &error), SCREE_ERROR_GUARD);
     assert_non_null(strstr(error.message, "slip through"));
     scree_hull_of(state)->updated = state->step + 1; // not looked at between two updates

@@ -199,7 +199,7 @@ static void plates_and_membranes(void **unused)
     simulation_open(c, 1, &s);
     simulation_finish(&s);
     assert_true(s.model.walls[0].value[SCREE_FRICTION] == 0.45 && s.model.walls[1].value[SCREE_FRICTION] == 0.07);
-    assert_true(s.state.count > s.state.grains);
+    assert_true(s.state.count > scree_grain_count(&s.state));
     for (size_t row = 0; row < s.state.count; row++)
         assert_true(scree_body_is_grain(&s.state, row) == (s.state.species[row] != SCREE_NO_SPECIES));
     (void)simulation_close(&s);

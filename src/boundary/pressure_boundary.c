@@ -1,0 +1,13 @@
+/// The boundary `pressure`: plates below and above, the pressure on the Delaunay boundary of the sides (pressure.c).
+#include "boundary/axial_plates.h"
+#include "module/key_rows.h"
+
+static const scree_boundary face = {.walls = SCREE_AXIAL_WALLS, SCREE_AXIAL_PLATES};
+
+const scree_module scree_module_pressure_boundary = {
+    .name = "pressure",
+    .meaning = "plates below and above, pressure on the Delaunay boundary of the sides",
+    .choice_of = CHOICE_OF(IS("stages.boundary"),
+                           IS("boundary.lateral", .meaning = "traction on the Delaunay boundary of the assembly")),
+    .boundary = &face,
+};
