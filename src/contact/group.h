@@ -89,7 +89,7 @@ SCREE_INLINE lanes_bits group_touches(int dimension, const bodies *first, const 
 SCREE_INLINE law_constants load_constants(const contact_job *job, variant v, lanes first, lanes second)
 {
     law_constants constants = {0};
-    const int count = law_rolls(v) ? 8 : 4;
+    const int count = law_is_wide(v) ? 8 : 4;
     if (!v.many_materials) {
         for (int k = 0; k < count; k++) constants.value[k] = lanes_all(job->model->pairs[0][0].value[k]);
         return constants;
@@ -98,7 +98,7 @@ SCREE_INLINE law_constants load_constants(const contact_job *job, variant v, lan
     LANE_LOOP row[k] = job->model->pairs[(int)first[k]][(int)second[k]].value;
     columns c = columns_load(row);
     constants = (law_constants){{c.c0, c.c1, c.c2, c.c3}};
-    if (!law_rolls(v)) return constants;
+    if (!law_is_wide(v)) return constants;
     LANE_LOOP row[k] += 4;
     columns more = columns_load(row);
     return (law_constants){{c.c0, c.c1, c.c2, c.c3, more.c0, more.c1, more.c2, more.c3}};

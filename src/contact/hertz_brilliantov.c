@@ -67,6 +67,13 @@ static void resolve(const scree_config_contact *section, double reference_veloci
     brilliantov_numbers(c->damping_time, c->friction_exponent, reference_velocity, use->number);
 }
 
+static scree_pair_constants constants(const scree_contact_space *space, const scree_config_material *a,
+                                      const scree_config_material *b)
+{
+    (void)space;
+    return scree_hertz_constants(a, b);
+}
+
 static scree_law_bounds bound(const scree_law_use *use, const scree_pair_constants *most, const scree_law_extent *e)
 {
     double stiffness = most->value[HERTZ_NORMAL] * sqrt(e->radius * e->overlap);
@@ -104,7 +111,7 @@ static const scree_law law = {
     .needs_slip_scale = true,
     .options = options,
     .resolve = resolve,
-    .constants = scree_hertz_constants,
+    .constants = constants,
     .bound = bound,
     .tangent = tangent,
     .impact = impact,

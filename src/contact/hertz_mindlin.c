@@ -72,8 +72,10 @@ static unsigned options(const scree_config_contact *section, const scree_config_
     return (c->tangential_history == SCREE_TANGENTIAL_RESCALED ? MINDLIN_RESCALED : 0) | (rolls ? MINDLIN_ROLLING : 0);
 }
 
-static scree_pair_constants constants(const scree_config_material *a, const scree_config_material *b)
+static scree_pair_constants constants(const scree_contact_space *space, const scree_config_material *a,
+                                      const scree_config_material *b)
 {
+    (void)space;
     scree_pair_constants pair = scree_hertz_constants(a, b);
     const material *one = own_material(a), *other = own_material(b ? b : a);
     pair.value[HERTZ_DAMPING] = scree_damping_from_restitution(fmin(one->restitution, other->restitution));

@@ -70,10 +70,18 @@ typedef struct scree_mindlin_material {
 static const scree_law_traits hertz_mindlin_traits[] = {
     [0] = {.remembers = true, .for_ledger = {0xe, 0x8}, .books = {false, true}, .displacement = true},
     [MINDLIN_RESCALED] = {.remembers = true, .for_ledger = {0xc, 0}, .books = {false, true}, .displacement = true},
-    [MINDLIN_ROLLING] =
-        {.remembers = true, .for_ledger = {0xe, 0x8}, .books = {false, true}, .displacement = true, .rolling = true},
-    [MINDLIN_ROLLING | MINDLIN_RESCALED] =
-        {.remembers = true, .for_ledger = {0xc, 0}, .books = {false, true}, .displacement = true, .rolling = true},
+    [MINDLIN_ROLLING] = {.remembers = true,
+                         .for_ledger = {0xe, 0x8},
+                         .books = {false, true},
+                         .displacement = true,
+                         .rolling = true,
+                         .wide = true},
+    [MINDLIN_ROLLING | MINDLIN_RESCALED] = {.remembers = true,
+                                            .for_ledger = {0xc, 0},
+                                            .books = {false, true},
+                                            .displacement = true,
+                                            .rolling = true,
+                                            .wide = true},
 };
 
 SCREE_INLINE bool is_rescaled(variant v)

@@ -20,7 +20,7 @@ typedef struct variant {
 } variant;
 
 /// Constants of the pair of materials, one value a lane: model/law.h, scree_pair_constants. Those of the second half
-/// are there with the trait `rolling` only.
+/// are there with the trait `wide` only.
 typedef struct law_constants {
     lanes value[SCREE_PAIR_CONSTANTS];
 } law_constants;

@@ -5,6 +5,7 @@
 
 #include "contact/hertz_brilliantov.h"
 #include "contact/hertz_mindlin.h"
+#include "contact/linear.h"
 
 #define LAW_TRAITS(law) [SCREE_SLOT_##law] = law##_traits,
 static const scree_law_traits *const all_law_traits[SCREE_MODULE_COUNT] = {SCREE_LAWS(LAW_TRAITS)};
@@ -39,10 +40,16 @@ SCREE_INLINE bool law_books(variant v)
     return v.ledger && law_traits(v)->books[v.dimension - 2];
 }
 
-/// Whether it reads and writes rolling rows and the second half of the constants, and gives couples.
+/// Whether it reads and writes rolling rows, and gives couples.
 SCREE_INLINE bool law_rolls(variant v)
 {
     return law_traits(v)->rolling;
+}
+
+/// Whether it reads the second half of the constants.
+SCREE_INLINE bool law_is_wide(variant v)
+{
+    return law_traits(v)->wide;
 }
 
 /// Without a ledger, what only the ledger needs is not kept, so that histories do not depend on it.

@@ -16,10 +16,16 @@ enum {
 
 /// Constants of a contact between two materials (or a grain and a wall), symmetric in the two. What they mean is the
 /// law's affair, but for SCREE_FRICTION, which walls, stages and membranes may replace. Kernels load them in halves,
-/// the second one where the law's traits say so.
+/// the second one where the law's traits say so (`wide`).
 typedef struct scree_pair_constants {
     double value[SCREE_PAIR_CONSTANTS];
 } scree_pair_constants;
+
+/// What bodies have in common beside their materials and radii, where a law makes stiffnesses of them.
+typedef struct scree_contact_space {
+    int dimension;
+    double thickness; ///< m, of discs; 1 in space
+} scree_contact_space;
 
 /// A law as a case uses it.
 typedef struct scree_law_use {
@@ -34,9 +40,10 @@ typedef struct scree_law_traits {
     unsigned char for_ledger[2]; ///< in 2D, 3D: bits of the values of the history that nothing but the ledger reads
     bool books[2];               ///< in 2D, 3D: booking rows beside the history, for the ledger
     bool displacement;           ///< the history begins with a displacement in the tangent plane (else with a force)
-    bool rolling;                ///< passes couples on: rolling rows, the second half of the constants
+    bool rolling;                ///< passes couples on: rolling rows
     bool looks_ahead;            ///< needs motion_foresee
     bool pulls;                  ///< the normal force may be negative
+    bool wide;                   ///< reads the second half of the constants
 } scree_law_traits;
 
 /// The elastic part of the normal force of two bodies of an effective radius [m]: closed forms of a static or undamped
@@ -88,7 +95,8 @@ typedef struct scree_law {
     /// Numbers of the whole run. reference_velocity [m/s]: v_R. NULL: none.
     void (*resolve)(const scree_config_contact *contact, double reference_velocity, scree_law_use *use);
     /// Constants of two materials; b is NULL for something rigid.
-    scree_pair_constants (*constants)(const scree_config_material *a, const scree_config_material *b);
+    scree_pair_constants (*constants)(const scree_contact_space *space, const scree_config_material *a,
+                                      const scree_config_material *b);
     /// Strict bounds; most: the largest of each constant over all pairs.
     scree_law_bounds (*bound)(const scree_law_use *use, const scree_pair_constants *most,
                               const scree_law_extent *extent);
@@ -100,6 +108,7 @@ typedef struct scree_law {
                            double effective_mass, double speed, scree_impact *impact, scree_error *error);
     bool impact_duration;           ///< its duration is this law's; else that of the same impact without damping
     double confine_grains;          ///< duration of a confinement, see run/stage_confine.c
+    double confine_falls;           ///< the same where springs do not stiffen under pressure; 0: confine_grains counts
     const char *against_stiffening; ///< key=value that keeps springs from energy that nobody spent; NULL: none does
 } scree_law;
 

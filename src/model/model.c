@@ -91,6 +91,11 @@ static int find_material(const scree_config *config, const char *name)
     return -1;
 }
 
+static scree_contact_space space_of(const scree_model *model)
+{
+    return (scree_contact_space){.dimension = model->dimension, .thickness = model->thickness};
+}
+
 /// Material `grain` of the list on a wall of `material` (NULL: like the grain); at LIST.INDEX.KEY the user said so.
 static scree_status wall_constants(const scree_model *model, int64_t grain, const char *material, const char *list,
                                    int64_t index, const char *key, scree_pair_constants *constants, scree_error *error)
@@ -100,7 +105,8 @@ static scree_status wall_constants(const scree_model *model, int64_t grain, cons
     int found = material && !rigid ? find_material(model->config, material) : (int)grain;
     if (found < 0) return indexed_error(error, list, index, key, "there is no material of this name");
     wall = rigid ? NULL : &model->config->materials[found];
-    *constants = scree_model_law(model)->constants(body, wall);
+    const scree_contact_space space = space_of(model);
+    *constants = scree_model_law(model)->constants(&space, body, wall);
     if (!isnan(body->wall_friction)) constants->value[SCREE_FRICTION] = body->wall_friction;
     return SCREE_OK;
 }
@@ -126,17 +132,26 @@ static scree_status resolve_walls(scree_model *model, scree_error *error)
 static scree_status resolve_materials(scree_model *model, scree_error *error)
 {
     const scree_config *config = model->config;
-    const scree_config_material *listed = config->materials;
-    const scree_law *law = scree_model_law(model);
     scree_status status = check_materials(model, error);
     if (status) return status;
     model->material_count = 0;
     number_materials(model);
-    for (int i = 0; model->material_count > 0 && i < config->material_count; i++) {
+    for (int i = 0; model->material_count > 0 && i < config->material_count; i++)
+        model->density[i] = config->materials[model->listed[i]].density;
+    return SCREE_OK;
+}
+
+/// Constants of all pairs, which may depend on sizes.
+static scree_status resolve_pairs(scree_model *model, scree_error *error)
+{
+    const scree_config *config = model->config;
+    const scree_config_material *listed = config->materials;
+    const scree_law *law = scree_model_law(model);
+    const scree_contact_space space = space_of(model);
+    for (int i = 0; i < config->material_count; i++) {
         const scree_config_material *material = &listed[model->listed[i]];
         for (int j = 0; j <= i; j++)
-            model->pairs[i][j] = model->pairs[j][i] = law->constants(material, &listed[model->listed[j]]);
-        model->density[i] = material->density;
+            model->pairs[i][j] = model->pairs[j][i] = law->constants(&space, material, &listed[model->listed[j]]);
         if (i < model->material_count) model->law.option |= law->options(&config->contact, material);
     }
     return resolve_walls(model, error);
@@ -329,6 +344,7 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
     };
     scree_status status = resolve_materials(model, error);
     if (!status) status = resolve_particles(model, error);
+    if (!status) status = resolve_pairs(model, error);
     if (!status) status = resolve_loading(model, error);
     if (!status) status = resolve_step(model, error);
     if (!status) status = resolve_boundaries(model, error);

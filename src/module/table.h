@@ -18,7 +18,7 @@
 #define SCREE_STAGE_STATE_MODULES(row) row(forced_spin) row(loading)
 
 /// Contact laws, each with its header in contact/laws.h.
-#define SCREE_LAWS(row) row(hertz_brilliantov) row(hertz_mindlin)
+#define SCREE_LAWS(row) row(hertz_brilliantov) row(hertz_mindlin) row(linear)
 
 /// Choices of the case, in the order in which the case reference lists them.
 #define SCREE_CASE_MODULES(row)                                                                                        \

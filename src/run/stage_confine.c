@@ -27,6 +27,18 @@ static const struct {
     double periodic, solid;
 } confine_grains = {.periodic = 460, .solid = 1070};
 
+/// Under a law whose springs do not stiffen (its confine_falls), the stiffer they are the more waves pass while grains
+/// find their places: the duration is that of so many times 2R sqrt(density / pressure), in which the pressure moves a
+/// grain by its size. A run is stopped after PATIENCE of it.
+#define PATIENCE 5.0
+
+/// 0 where waves count.
+static double settling_time(const scree_model *model, double pressure)
+{
+    double fall = 2 * model->mean_radius * sqrt(scree_model_mean_density(model) / pressure);
+    return scree_model_law(model)->confine_falls * fall;
+}
+
 typedef scree_confine_config config;
 static const scree_key keys[] = {
     NUMBER(config, pressure, "Pa", FROM("1e-3 Pa"), TO("1000 GPa"), .meaning = "Confining pressure."),
@@ -74,10 +86,11 @@ static void plan(scree_simulation *s)
 {
     const config *stage = own_config(s);
     double wave = own_state(s)->wave_time;
+    double longest = fmax(s->boundary->patience * wave, PATIENCE * settling_time(&s->model, stage->pressure));
     s->plan = (scree_stage_plan){
         .interval = scree_stage_ticks(s, wave / SAMPLES_A_WAVE),
         .ramp_time = isnan(stage->ramp_time) ? RAMP_WAVES * wave : stage->ramp_time,
-        .time_limit = isnan(stage->time_limit) ? s->boundary->patience * wave : stage->time_limit,
+        .time_limit = isnan(stage->time_limit) ? longest : stage->time_limit,
     };
 }
 
@@ -151,7 +164,9 @@ static double planned(const scree_model *model, const void *own, double wave)
     double grains = scree_model_law(model)->confine_grains;
     if (model->dimension == 3) grains = confine_grains.solid;
     if (scree_model_is_wholly_periodic(model)) grains = confine_grains.periodic;
-    return (isnan(stage->ramp_time) ? RAMP_WAVES * wave : stage->ramp_time) + grains * grain;
+    double settling = settling_time(model, stage->pressure);
+    return (isnan(stage->ramp_time) ? RAMP_WAVES * wave : stage->ramp_time) +
+           (settling > 0 ? settling : grains * grain);
 }
 
 static double pressure_of(const void *own)

@@ -39,6 +39,10 @@ static inline scree_model fixture_model(law_choice law)
     model.pairs[0][0] = model.walls[0] = hertz_pair(4e9, 5e9, 0.5, 0.3);
     model.pairs[1][1] = model.walls[1] = hertz_pair(1e9, 1.2e9, 0.2, 0.6);
     model.pairs[0][1] = model.pairs[1][0] = hertz_pair(1.6e9, 2e9, 0.3, 0.4);
+    if (law != LINEAR) return model;
+    model.pairs[0][0] = model.walls[0] = linear_pair(4e5, 0, 0.8, 0.5, 0.1, 0.2);
+    model.pairs[1][1] = model.walls[1] = linear_pair(0, 3e8, 0.5, 0.2, 0.3, 0.3);
+    model.pairs[0][1] = model.pairs[1][0] = linear_pair(1e5, 2e8, 0.6, 0.3, 0.2, 0.1);
     return model;
 }
 

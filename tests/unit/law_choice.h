@@ -4,11 +4,12 @@
 
 #include "contact/laws.h"
 
-typedef enum law_choice { HERTZ_BRILLIANTOV, HERTZ_MINDLIN, HERTZ_BRILLIANTOV_IMPLICIT } law_choice;
+typedef enum law_choice { HERTZ_BRILLIANTOV, HERTZ_MINDLIN, HERTZ_BRILLIANTOV_IMPLICIT, LINEAR } law_choice;
 
 /// Slot of its module.
 static inline int law_slot(law_choice law)
 {
+    if (law == LINEAR) return SCREE_SLOT_linear;
     return law == HERTZ_MINDLIN ? SCREE_SLOT_hertz_mindlin : SCREE_SLOT_hertz_brilliantov;
 }
 
@@ -38,6 +39,19 @@ static inline scree_pair_constants hertz_pair(double normal, double tangential, 
                                    [SCREE_FRICTION] = friction,
                                    [HERTZ_DAMPING] = damping,
                                    [HERTZ_RATIO] = normal / tangential}};
+}
+
+/// k_n = normal [N/m] + by_radius [N/m2] R_eff, k_t = ratio k_n, damping ratios of both dashpots.
+static inline scree_pair_constants linear_pair(double normal, double by_radius, double ratio, double friction,
+                                               double damping, double tangential_damping)
+{
+    return (scree_pair_constants){{[LINEAR_NORMAL] = normal,
+                                   [LINEAR_RATIO] = ratio,
+                                   [SCREE_FRICTION] = friction,
+                                   [LINEAR_DAMPING] = 2 * damping,
+                                   [LINEAR_BY_RADIUS] = by_radius,
+                                   [LINEAR_TANGENTIAL_DAMPING] = 2 * tangential_damping * sqrt(ratio),
+                                   [LINEAR_INVERSE_RATIO] = ratio > 0 ? 1 / ratio : 0}};
 }
 
 #endif

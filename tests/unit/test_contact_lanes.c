@@ -45,6 +45,7 @@ static contact_totals evaluate(fixture *f, const variant *v, contact_kernel *ker
 static void create(fixture *f, const variant *v)
 {
     const law_choice law = v->law == SCREE_SLOT_hertz_mindlin ? HERTZ_MINDLIN
+                           : v->law == SCREE_SLOT_linear      ? LINEAR
                            : v->option == 0                   ? HERTZ_BRILLIANTOV
                                                               : HERTZ_BRILLIANTOV_IMPLICIT;
     if (v->dimension == 3)
@@ -95,7 +96,8 @@ static void eight_lanes_give_the_bits_of_one(void **unused)
     (void)unused;
     static const variant variants[] = {{.law = SCREE_SLOT_hertz_brilliantov},
                                        {.law = SCREE_SLOT_hertz_brilliantov, .option = BRILLIANTOV_IMPLICIT},
-                                       {.law = SCREE_SLOT_hertz_mindlin}};
+                                       {.law = SCREE_SLOT_hertz_mindlin},
+                                       {.law = SCREE_SLOT_linear}};
     for (int dimension = 2; dimension <= 3; dimension++)
         for (size_t k = 0; k < sizeof variants / sizeof *variants; k++)
             for (int materials = 1; materials <= 2; materials++)

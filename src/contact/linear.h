@@ -1,0 +1,99 @@
+/// Law linear: springs of constant stiffness along the normal and in the tangent plane, each with a dashpot beside it,
+/// and Coulomb's cap (Madan 2019, "M", 2.20-2.40 without bonds; Cundall and Strack 1979).
+///   k_n = the pair's own, or E A / L    c_n = 2 z_n sqrt(m_eff k_n)    f_n = max(k_n d + c_n d', 0)      M 2.25-2.37
+///   k_t = ratio k_n                     c_t = 2 z_t sqrt(m_eff k_t)                                      M 2.27-2.37
+///   stretch h [m], rate s:  h <- h + s dt, |k_t h| <= mu f_n,  f_t = -(k_t h + c_t s), |f_t| <= mu f_n   M 2.40
+/// (slider.h). M prints d' with the opposite sign (his overlap is negative). A contact without a bond presses only: M's
+/// text at 2.40, and the max here also while a dashpot would pull the parting bodies back.
+///
+/// E A / L: the bar from centre to centre, L = R_1 + R_2. Of discs of thickness t, A = t (R_1 + R_2), so k_n = E t
+/// whatever the radii; of spheres A = pi R_1 R_2, so k_n = pi E R_eff: for equal bodies the section through the centre.
+///
+/// History row in 2D: h [m], then for the ledger, at n - 1: normal damping force, dashpot's part of the tangential
+/// force [N]. In 3D: h and the normal damping force; scree_booking has the dashpot's part.
+///
+/// Ledger: damping <f_n - k_n d> d' dt with the rate of the middle of the step (motion.h), the rest by slider.h. k_t
+/// does not change, so springs are given no energy: `stiffness` is zero.
+/// Limits: the dashpot jumps to c_n v where an impact begins, so a damped impact is of first order in the step.
+/// Cost: one root, one division a contact in 2D; one and one in 3D, 3 and 2 in a group of lanes where one slides.
+#ifndef SCREE_CONTACT_LINEAR_H
+#define SCREE_CONTACT_LINEAR_H
+
+#include "contact/law.h"
+#include "contact/slider.h"
+#include "model/law.h"
+
+/// Constants of a pair, beside SCREE_FRICTION.
+enum {
+    LINEAR_NORMAL = 0,             ///< N/m; k_n = normal + by_radius R_eff
+    LINEAR_RATIO = 1,              ///< 1, k_t / k_n
+    LINEAR_DAMPING = 3,            ///< 1, c_n = damping sqrt(m_eff k_n)
+    LINEAR_BY_RADIUS = 4,          ///< N/m2
+    LINEAR_TANGENTIAL_DAMPING = 5, ///< 1, c_t = tangential_damping sqrt(m_eff k_n)
+    LINEAR_INVERSE_RATIO = 6,      ///< 1, 0 without a tangential spring; for bounds
+};
+
+/// What a case says of a material. Not numbers: auto.
+typedef struct scree_linear_material {
+    double restitution;              ///< 1, where there is no damping ratio
+    double normal_stiffness;         ///< N/m, on its like; auto: E A / L
+    double tangential_stiffness;     ///< N/m, on its like; auto: by the ratio
+    double stiffness_ratio;          ///< 1; auto: 1
+    double damping_ratio;            ///< 1, of the normal dashpot; auto: of the restitution
+    double tangential_damping_ratio; ///< 1; auto: the normal one
+} scree_linear_material;
+
+#define linear_KERNELS(row) row(linear, 0, one) row(linear, 0, many)
+
+static const scree_law_traits linear_traits[] = {
+    {.remembers = true, .for_ledger = {0xe, 0x8}, .books = {false, true}, .displacement = true, .wide = true},
+};
+
+/// What the slider remembers; a spring that has lost its contact still holds what it held.
+SCREE_INLINE slider_memory linear_remembered(int dimension, const motion *m, const law_memory *before,
+                                             lanes tangential_stiffness)
+{
+    if (dimension == 2) {
+        lanes spring = tangential_stiffness * before->value[0];
+        return (slider_memory){{.x = before->value[0]}, {.x = spring}, {.x = before->value[2]}};
+    }
+    vector displacement = {before->value[0], before->value[1], before->value[2]};
+    vector dashpot = {before->booked[0], before->booked[1], before->booked[2]};
+    vector stretch = motion_carry_whole(3, m, displacement);
+    return (slider_memory){stretch, vector_times(3, stretch, tangential_stiffness), motion_carry(3, m, dashpot)};
+}
+
+SCREE_INLINE law_force linear(variant v, const law_constants *constants, const law_settings *settings, const motion *m,
+                              lanes_bits touching, const law_memory *before, law_memory *after)
+{
+    const int dimension = v.dimension, count = tangential_count(dimension);
+    const lanes *constant = constants->value, none = lanes_all(0);
+    lanes d = lanes_keep(touching, m->indentation);
+    lanes whole = constant[LINEAR_NORMAL] + constant[LINEAR_BY_RADIUS] * m->reduced_radius;
+    lanes stiffness = lanes_keep(touching, whole);
+    lanes root = lanes_root(m->reduced_mass * stiffness);
+    lanes elastic = stiffness * d;
+    lanes normal = lanes_at_least(elastic + constant[LINEAR_DAMPING] * root * m->approach, none);
+    lanes damping = normal - elastic, damping_before = before->value[dimension == 2 ? 1 : 3];
+
+    slider_memory slipped = linear_remembered(dimension, m, before, constant[LINEAR_RATIO] * whole);
+    slider slip = slider_move(count, &slipped, m->slip, settings->step, constant[LINEAR_RATIO] * stiffness,
+                              constant[LINEAR_TANGENTIAL_DAMPING] * root, constant[SCREE_FRICTION] * normal, touching);
+    vector stretch = slip.now.stretch, dashpot = slip.now.dashpot;
+    *after = (law_memory){.value = {stretch.x, damping, dashpot.x, none}};
+    if (dimension == 3)
+        *after = (law_memory){.value = {stretch.x, stretch.y, stretch.z, damping},
+                              .booked = {dashpot.x, dashpot.y, dashpot.z, none}};
+    return (law_force){
+        .normal = normal,
+        .tangential = vector_opposite(count, slip.resistance),
+        .couple = vector_none(),
+        .damping = 0.5 * ((damping + damping_before) * (m->approach * settings->step) + slip.damping),
+        .friction = 0.5 * slip.friction,
+        .stiffness = none,
+        .elastic_normal = 0.5 * (elastic * d),
+        .elastic_tangential = slip.elastic,
+    };
+}
+
+#endif
