@@ -28,13 +28,14 @@ struct scree_module {
     void (*rules)(scree_reader *reader, const scree_config *config);
 
     // ---- faces: what only modules of one kind have ----
-    const struct scree_law *law;                 ///< model/law.h
-    const struct scree_integrator *integrator;   ///< module/integrator.h
-    const struct scree_preparation *preparation; ///< module/preparation.h
-    const struct scree_size_distribution *sizes; ///< module/size_distribution.h
-    const struct scree_stage_numbers *numbers;   ///< module/stage.h
-    const struct scree_stage *stage;             ///< run/stage.h
-    const struct scree_boundary *boundary;       ///< module/boundary.h
+    const struct scree_law *law;                  ///< model/law.h
+    const struct scree_integrator *integrator;    ///< module/integrator.h
+    const struct scree_preparation *preparation;  ///< module/preparation.h
+    const struct scree_size_distribution *sizes;  ///< module/size_distribution.h
+    const struct scree_stage_numbers *numbers;    ///< module/stage.h
+    const struct scree_stage *stage;              ///< run/stage.h
+    const struct scree_boundary *boundary;        ///< module/boundary.h
+    const struct scree_selection_kind *selection; ///< selection/selection.h
 
     // ---- state: what it remembers ----
     size_t state_size;         ///< bytes of its struct in the store of the state, zero at first; 0: none

@@ -7,7 +7,7 @@
 
 #define SCREE_STATE_MODULES(row)                                                                                       \
     row(plates) row(case_walls) row(periodic_cell) row(delaunay_boundary) row(pressure) row(own_force)                 \
-        row(imposed_gradient)
+        row(imposed_gradient) row(selections)
 
 /// Boundaries, in the order in which the case reference lists them; then those that no key chooses.
 #define SCREE_BOUNDARY_MODULES(row)                                                                                    \
@@ -20,6 +20,11 @@
 /// Contact laws, each with its header in contact/laws.h.
 #define SCREE_LAWS(row) row(hertz_brilliantov) row(hertz_mindlin) row(linear)
 
+/// Kinds of selections, in the order in which the case reference lists them.
+#define SCREE_SELECTION_MODULES(row)                                                                                   \
+    row(select_all) row(select_box) row(select_circle) row(select_sphere) row(select_band) row(select_layer)           \
+        row(select_side) row(select_ids) row(select_species) row(select_and) row(select_or) row(select_not)
+
 /// Choices of the case, in the order in which the case reference lists them.
 #define SCREE_CASE_MODULES(row)                                                                                        \
     SCREE_LAWS(row)                                                                                                    \
@@ -29,6 +34,7 @@
                 row(uniform) row(two_sizes) row(equal) row(normal) row(log_normal) row(power_law) row(table)
 
 #define SCREE_MODULES(row)                                                                                             \
-    SCREE_STATE_MODULES(row) SCREE_BOUNDARY_MODULES(row) SCREE_STAGE_STATE_MODULES(row) SCREE_CASE_MODULES(row)
+    SCREE_STATE_MODULES(row) SCREE_BOUNDARY_MODULES(row) SCREE_STAGE_STATE_MODULES(row) SCREE_SELECTION_MODULES(row)  \
+        SCREE_CASE_MODULES(row)
 
 #endif
