@@ -40,14 +40,15 @@ const scree_result_name scree_result_names[] = {
     {"solid_fraction_at_start", "1", "solid fraction at the begin of the last stage"},
     // its last sample
     {"energy_residual", "1", "largest residual of the energy balance over the energy turned over"},
-    {"stiffness_share", "1", "energy put into tangential springs by the stiffening of contacts over all that there was"},
+    {"stiffness_share", "1",
+     "energy put into tangential springs by the stiffening of contacts over all that there was"},
     {"coordination", "1", "coordination number at the end"},
     {"coordination_without_rattlers", "1", "the same without rattlers"},
     {"rattler_fraction", "1", "share of rattlers at the end"},
     {"solid_fraction", "1", "solid fraction at the end"},
     {"unbalanced_ratio", "1", "unbalanced force ratio at the end"},
     // walls of the case
-    {"_work", "J", "work of the wall on the bodies"},
+    {"_work", "J", "work of the wall (or of a prescribed motion or force) on the bodies"},
     {"_force", "N", "magnitude of the last force on the wall"},
     {"_torque", "N m", "magnitude of the last torque on the wall"},
     // the last loading stage
@@ -123,6 +124,18 @@ const scree_result_name scree_result_names[] = {
 };
 const size_t scree_result_names_count = sizeof scree_result_names / sizeof *scree_result_names;
 
+/// The row among `count` whose name is that of what has a result, without it.
+static const scree_result_name *find_ending(const scree_result_name *row, size_t count, const char *name, size_t *wall)
+{
+    for (size_t i = 0; i < count; i++) {
+        size_t length = strlen(name), tail = strlen(row[i].name);
+        if (row[i].name[0] != '_' || length <= tail || strcmp(name + length - tail, row[i].name) != 0) continue;
+        *wall = length - tail;
+        return &row[i];
+    }
+    return NULL;
+}
+
 const scree_result_name *scree_result_name_find(const char *name, size_t *wall)
 {
     size_t none;
@@ -131,14 +144,11 @@ const scree_result_name *scree_result_name_find(const char *name, size_t *wall)
     for (size_t i = 0; i < scree_result_names_count; i++)
         if (scree_result_names[i].name[0] != '_' && strcmp(scree_result_names[i].name, name) == 0)
             return &scree_result_names[i];
-    for (size_t i = 0; i < scree_result_names_count; i++) {
-        const char *ending = scree_result_names[i].name;
-        size_t length = strlen(name), tail = strlen(ending);
-        if (ending[0] != '_' || length <= tail || strcmp(name + length - tail, ending) != 0) continue;
-        *wall = length - tail;
-        return &scree_result_names[i];
-    }
-    return NULL;
+    const scree_result_name *found = find_ending(scree_result_names, scree_result_names_count, name, wall);
+    for (int m = 0; m < SCREE_MODULE_COUNT && !found; m++)
+        if (scree_modules[m]->columns)
+            found = find_ending(scree_modules[m]->columns->column, scree_modules[m]->columns->count, name, wall);
+    return found;
 }
 
 const char *scree_result_name_nearest(const char *name)

@@ -15,6 +15,25 @@
 typedef struct scree_config scree_config;
 typedef struct scree_reader scree_reader;
 
+/// What a module adds to series.csv, and its last value to summary.json.
+typedef struct scree_column {
+    const char *name; ///< "_work": behind the name of what has it
+    const char *unit; ///< SI unit
+    const char *meaning;
+} scree_column;
+
+enum { SCREE_COLUMN_OWNERS = 16 }; ///< most of a module
+
+typedef struct scree_columns {
+    const scree_column *column; ///< those of each owner
+    size_t count;
+    /// Name of owner `index`, below SCREE_COLUMN_OWNERS, unique among all that have columns of these names; NULL: there
+    /// is none.
+    const char *(*owner)(const scree_model *model, int64_t index);
+    /// Its present values.
+    void (*values)(const scree_state *state, int64_t index, double *value);
+} scree_columns;
+
 struct scree_module {
     const char *name;
     const char *meaning; ///< one line
@@ -50,6 +69,10 @@ struct scree_module {
     /// A body is about to be taken out: what refers to it by its id ends. Its row is still there. NULL: nothing does.
     void (*forget)(scree_state *state, uint32_t id);
 
+    /// A stage begins that takes steps (not: is taken up again), and its boundary stands. An error of the user's input
+    /// has its field. NULL: nothing to do.
+    scree_status (*begin)(const scree_context *context, scree_error *error);
+
     // ---- passes: what it does in a step ----
     const scree_pass *passes;
     size_t pass_count;
@@ -61,6 +84,9 @@ struct scree_module {
     /// Work [J] that it has done on the bodies since the begin of the run. NULL: it does none, or has a row of the
     /// ledger.
     double (*work)(const scree_state *state);
+
+    // ---- results ----
+    const scree_columns *columns; ///< NULL: none
 };
 
 #define SCREE_MODULE_DECLARE(name) extern const scree_module scree_module_##name;

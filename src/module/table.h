@@ -31,10 +31,11 @@
     row(position_verlet) row(velocity_verlet) row(two_timescales) row(drop_and_roll) row(hexagonal) row(square)        \
         row(face_centred) row(cubic) row(gas) row(growth) row(pair) row(bodies) row(prepare) row(confine)              \
             row(compress) row(deform) row(rotate_particle) row(relax) row(collide) row(background_damping)             \
-                row(uniform) row(two_sizes) row(equal) row(normal) row(log_normal) row(power_law) row(table)
+                row(prescribed) row(uniform) row(two_sizes) row(equal) row(normal) row(log_normal) row(power_law)      \
+                    row(table)
 
 #define SCREE_MODULES(row)                                                                                             \
-    SCREE_STATE_MODULES(row) SCREE_BOUNDARY_MODULES(row) SCREE_STAGE_STATE_MODULES(row) SCREE_SELECTION_MODULES(row)  \
-        SCREE_CASE_MODULES(row)
+    SCREE_STATE_MODULES(row)                                                                                           \
+    SCREE_BOUNDARY_MODULES(row) SCREE_STAGE_STATE_MODULES(row) SCREE_SELECTION_MODULES(row) SCREE_CASE_MODULES(row)
 
 #endif

@@ -7,7 +7,7 @@
 #include "io/paraview.h"
 #include "io/run_directory.h"
 #include "io/snapshot.h"
-#include "run/sample.h"
+#include "run/module_series.h"
 #include "run/wall_series.h"
 
 #include <math.h>
@@ -49,8 +49,7 @@ scree_status scree_recorder_open(scree_recorder *recorder, const scree_simulatio
     memcpy(&recorder->log.user, &options, sizeof options);
     if (!recorder->log.file) return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot open '%s'", path);
     if ((status = scree_path_join(path, sizeof path, directory, SCREE_FILE_SERIES, error))) return status;
-    status = scree_series_open(&recorder->series, path, scree_sample_columns, SCREE_SAMPLE_COUNT,
-                               restart ? s->state.stage.samples : -1, error);
+    status = scree_module_series_open(&recorder->series, s, path, restart ? s->state.stage.samples : -1, error);
     if (!status) status = scree_wall_series_open(&recorder->walls, s, directory, restart, error);
     // Names of files that checkpoints count on.
     if (!status) status = scree_folder_sync(directory, error);
@@ -221,7 +220,7 @@ scree_status scree_recorder_follow(scree_recorder *recorder, scree_simulation *s
 {
     scree_status status = SCREE_OK;
     if (s->sampled) {
-        if ((status = scree_series_append(&recorder->series, s->sample.value, error))) return status;
+        if ((status = scree_module_series_append(&recorder->series, s, error))) return status;
         if ((status = scree_wall_series_append(&recorder->walls, s, error))) return status;
         s->state.stage.samples++;
         scree_quasistatic_follow(&recorder->watch, s, &recorder->log);

@@ -12,7 +12,7 @@
 /// and `boundary_roughness` (files of these names in measure/), as long as no other stage has begun; in a case that
 /// strains nothing the cost is that of the last stage. Over the whole run: largest residual of the energy balance over
 /// the scale of the guard (measure/energy.c) at the end (`energy_residual`). Of each wall of the case `NAME_work`,
-/// `NAME_force`, `NAME_torque`.
+/// `NAME_force`, `NAME_torque`; of what modules have columns for, the last values of these.
 /// What springs were given by the change of their stiffness, over the energy at the begin and the work turned over, is
 /// `stiffness_share`.
 #include "run/results.h"
@@ -24,6 +24,7 @@
 #include "io/summary.h"
 #include "measure/measure.h"
 #include "run/cell_results.h"
+#include "run/module_series.h"
 #include "run/quasistatic.h"
 #include "run/rotation_results.h"
 #include "run/sample.h"
@@ -323,6 +324,7 @@ scree_status scree_results_collect(const scree_recorder *recorder, scree_simulat
         scree_summary_set_number(*summary, "stiffness_share", scree_results_stiffness_share(&s->state));
         scree_quasistatic_results(&s->model, &series, *summary);
         summarise_walls(s, *summary);
+        scree_module_series_summarise(s, *summary);
         status = summarise_energy(&series, s, *summary, error);
     }
     if (!status) status = summarise_stage(s, *summary, error);

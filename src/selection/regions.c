@@ -164,7 +164,8 @@ static void check_band(scree_reader *reader, const scree_config *config)
     }
 }
 
-static const scree_choice axes[] = {{"x", 0, "along x"}, {"y", 1, "along y"}, {"z", 2, "along z"}, {0}};
+static const scree_choice axes[] = {
+    {"x", 0, "a band across x"}, {"y", 1, "a band across y"}, {"z", 2, "a band across z"}, {0}};
 static const scree_choice measures[] = {
     {"origin", FROM_ORIGIN, "coordinates themselves"},
     {"low", FROM_LOW, "from the lowest surface of a particle upwards"},

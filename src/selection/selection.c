@@ -5,6 +5,8 @@
 #include "case/check.h"
 #include "state/body.h"
 
+#include <stdio.h>
+
 typedef scree_selections own;
 
 /// What acts on a selection must have something to act on.

@@ -132,8 +132,8 @@ static void rules(scree_reader *reader, const scree_config *config)
 }
 
 static const scree_choice sides[] = {
-    {"left", SIDE_LEFT, "least x"},
-    {"right", SIDE_RIGHT, "largest x"},
+    {"left", SIDE_LEFT, "where x is least"},
+    {"right", SIDE_RIGHT, "where x is largest"},
     {"bottom", SIDE_BOTTOM, "least y, in 3D least z"},
     {"top", SIDE_TOP, "largest y, in 3D largest z"},
     {"front", SIDE_FRONT, "least y, in 3D"},

@@ -174,10 +174,11 @@ struct scree_state {
     double largest_overlap;   ///< m, over all contacts at `step`
     double largest_speed;     ///< m/s, bound of |v| + radius |spin| over all bodies
     // cold
-    uint32_t *id;                   ///< count
-    uint8_t *mark;                  ///< count, scree_mark
-    uint8_t *species;               ///< count; SCREE_NO_SPECIES: no particle
-    double *angle;                  ///< 2D: rad, orientation; NULL in 3D
+    uint32_t *id;     ///< count
+    uint8_t *mark;    ///< count, scree_mark
+    uint8_t *species; ///< count; SCREE_NO_SPECIES: no particle
+    uint8_t *held; ///< count; bits 0 to 2: velocity x, y, z, bits 3 to 5: spin is prescribed; NULL: nothing is anywhere
+    double *angle; ///< 2D: rad, orientation; NULL in 3D
     scree_vector *reference;        ///< m, positions at the start of the loading stage
     scree_vector *sampled_velocity; ///< m/s, at `sampled_step`: the mean unbalanced force is from them
     uint64_t sampled_step;          ///< step of the last sample
