@@ -32,7 +32,7 @@ static const scree_choice attacks[] = {
 #define COMPONENT(key, member, index, si, limit, text)                                                                 \
     {                                                                                                                  \
         .name = key, .type = SCREE_KEY_SCHEDULE, .unit = si, .standard = "auto", FROM("-" limit), TO(limit),           \
-        .offset = offsetof(config, member) + index * sizeof(scree_schedule), .meaning = text                           \
+        .offset = offsetof(config, member) + (index) * sizeof(scree_schedule), .meaning = text                           \
     }
 #define VELOCITY(axis, index)                                                                                          \
     COMPONENT("velocity_" axis, motion, index, "m/s", "1e6 m/s", "Velocity along " axis "; 0: held; auto: free.")
