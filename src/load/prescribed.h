@@ -42,7 +42,7 @@ typedef struct scree_exerted {
 
 /// Before the first half of a step. Derived.
 typedef struct scree_departure {
-    double place[3];                       ///< m
+    double position[3];                       ///< m
     double angle;                          ///< rad, 2D
     double acceleration[SCREE_COMPONENTS]; ///< m/s2, rad/s2
 } scree_departure;

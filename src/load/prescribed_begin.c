@@ -123,7 +123,7 @@ static scree_status begin_fields(scree_state *state, scree_error *error)
 /// Bodies that come to be driven now have their place as reference.
 static void refer(scree_state *state, size_t row, uint8_t before)
 {
-    if (state->held[row] && !before) scree_body_place(state, row, scree_prescribed_of(state)->reference[row]);
+    if (state->held[row] && !before) scree_body_position(state, row, scree_prescribed_of(state)->reference[row]);
 }
 
 scree_status scree_prescribed_begin(const scree_context *c, scree_error *error)

@@ -205,7 +205,7 @@ scree_status scree_prescribed_depart(const scree_context *c, scree_error *error)
         scree_vector force, torque;
         if (!state->held[row]) continue;
         scree_body_force(c->model, state, row, force, torque);
-        scree_body_place(state, row, departure->place);
+        scree_body_position(state, row, departure->position);
         if (state->dimension == 2) departure->angle = scree_body_angle(state, row);
         for (int k = 0; k < 3; k++) {
             departure->acceleration[k] = force[k] / scree_body_mass(state, row);
@@ -233,12 +233,12 @@ static double move_body(scree_state *state, size_t row, const order *list)
 {
     const scree_prescribed *all = scree_prescribed_of(state);
     const scree_departure *from = &all->departure[row];
-    double *const place[] = {&state->row[row].x, &state->row[row].y, &state->row[row].z};
+    double *const position[] = {&state->row[row].x, &state->row[row].y, &state->row[row].z};
     for (int d = 0; d < SCREE_COMPONENTS; d++) {
         if (!drives(state, row, d)) continue;
         double velocity = *velocity_of(state, row, d) = wanted(state, row, d, &list[all->owner[row][d] - 1]);
         if (d < 3)
-            *place[d] = from->place[d] + state->step_size * velocity;
+            *position[d] = from->position[d] + state->step_size * velocity;
         else if (state->dimension == 2)
             state->angle[row] = from->angle + state->step_size * velocity;
     }

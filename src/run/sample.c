@@ -2,7 +2,7 @@
 #include "run/sample.h"
 #include "measure/delaunay_boundary.h"
 
-#include "boundary/drive.h"
+#include "boundary/imposed_gradient.h"
 #include "boundary/membrane.h"
 #include "measure/facets.h"
 #include "measure/measure.h"
@@ -245,7 +245,7 @@ scree_status scree_sample_take(scree_simulation *s, scree_error *error)
     sample_volume(s, value);
     sample_energy(s, value);
     sample_quasistatic(s, value);
-    value[SCREE_SAMPLE_RATE_RATIO] = scree_drive_take_ratio(&s->state);
+    value[SCREE_SAMPLE_RATE_RATIO] = scree_imposed_take_ratio(&s->state);
     remember_velocities(s);
     s->has_sample = true;
     return scree_guard_sample(s, value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE], error);

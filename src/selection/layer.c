@@ -41,7 +41,7 @@ static scree_status choose(const scree_model *model, const scree_state *state, c
     for (size_t row = 0; row < state->count; row++) {
         scree_vector place;
         if (!scree_body_is_grain(state, row)) continue;
-        scree_body_place(state, row, place);
+        scree_body_position(state, row, place);
         body[count++] = (depth){layer->high ? -place[layer->axis] : place[layer->axis], row};
     }
     qsort(body, count, sizeof *body, compare);

@@ -31,7 +31,7 @@ static scree_status choose_box(const scree_model *model, const scree_state *stat
     (void)model, (void)error;
     for (size_t row = 0; row < state->count; row++) {
         scree_vector place;
-        scree_body_place(state, row, place);
+        scree_body_position(state, row, place);
         chosen[row] = 1;
         for (int k = 0; k < state->dimension; k++)
             if (!(place[k] >= box->lower[k] && place[k] <= box->upper[k])) chosen[row] = 0;
@@ -77,7 +77,7 @@ static scree_status choose_circle(const scree_model *model, const scree_state *s
     (void)model, (void)error;
     for (size_t row = 0; row < state->count; row++) {
         scree_vector place, way;
-        scree_body_place(state, row, place);
+        scree_body_position(state, row, place);
         scree_subtract(place, circle->centre, way);
         if (state->dimension == 2) way[2] = 0;
         chosen[row] = scree_length(way) <= circle->radius;
@@ -88,14 +88,14 @@ static scree_status choose_circle(const scree_model *model, const scree_state *s
 /// Each exists in one dimension.
 static void check_round(scree_reader *reader, const scree_config *config)
 {
-    const bool solid = config->dimension == 3;
-    const int wrong = solid ? SCREE_SLOT_select_circle : SCREE_SLOT_select_sphere;
-    const char *other = solid ? "sphere" : "circle";
+    const bool in_3d = config->dimension == 3;
+    const int wrong = in_3d ? SCREE_SLOT_select_circle : SCREE_SLOT_select_sphere;
+    const char *other = in_3d ? "sphere" : "circle";
     for (int64_t i = 0; i < config->selection_count; i++) {
         char path[SCREE_PATH_BYTES];
         (void)snprintf(path, sizeof path, "selections.%lld.select", (long long)i);
         if (config->selections[i].kind == wrong)
-            scree_rule_refuse(reader, path, other, "in %s dimensions choose '%s'", solid ? "three" : "two", other);
+            scree_rule_refuse(reader, path, other, "in %s dimensions choose '%s'", in_3d ? "three" : "two", other);
     }
 }
 
@@ -127,7 +127,7 @@ static void find_extent(const scree_state *state, int axis, double extent[2])
     for (size_t row = 0; row < state->count; row++) {
         scree_vector place;
         if (!scree_body_is_grain(state, row)) continue;
-        scree_body_place(state, row, place);
+        scree_body_position(state, row, place);
         extent[0] = fmin(extent[0], place[axis] - scree_body_bounding_radius(state, row));
         extent[1] = fmax(extent[1], place[axis] + scree_body_bounding_radius(state, row));
     }
@@ -142,7 +142,7 @@ static scree_status choose_band(const scree_model *model, const scree_state *sta
     find_extent(state, band->axis, extent);
     for (size_t row = 0; row < state->count; row++) {
         scree_vector place;
-        scree_body_place(state, row, place);
+        scree_body_position(state, row, place);
         double depth = band->measured == FROM_LOW    ? place[band->axis] - extent[0]
                        : band->measured == FROM_HIGH ? extent[1] - place[band->axis]
                                                      : place[band->axis];

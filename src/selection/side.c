@@ -46,7 +46,7 @@ static scree_status gather(const scree_state *state, sample *s, scree_error *err
     if (!status) status = scree_allocate(&s->outer, s->count + 1, sizeof *s->outer, error);
     for (size_t k = 0; k < s->count && !status; k++) {
         scree_vector place;
-        scree_body_place(state, s->row[k], place);
+        scree_body_position(state, s->row[k], place);
         for (size_t i = 0; i < axes; i++) s->points[axes * k + i] = place[i];
         s->radius[k] = scree_body_bounding_radius(state, s->row[k]);
     }

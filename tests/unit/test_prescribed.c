@@ -137,7 +137,7 @@ static void a_held_body_stays(void **unused)
     "stages:\n  - {stage: prepare, method: " method ", aspect_ratio: 1}\n"                                             \
     "  - {stage: relax, boundary: plates, duration: 1 ms}\n"
 
-/// All bodies driven linearly in their places keep an affine image of where they were.
+/// All bodies driven linearly in their places keep an affine ghost of where they were.
 static void a_gradient_moves_affinely(void **unused)
 {
     (void)unused;
@@ -160,7 +160,7 @@ static void a_gradient_moves_affinely(void **unused)
         scree_vector *begin, place;
         assert_int_equal(scree_allocate(&begin, s.state.count, sizeof *begin, NULL), SCREE_OK);
         for (size_t id = 0; id < s.state.count; id++)
-            scree_body_place(&s.state, scree_state_row_of(&s.state, id), begin[id]);
+            scree_body_position(&s.state, scree_state_row_of(&s.state, id), begin[id]);
         (void)simulation_finish(&s);
         const double gradient[9] = {-0.5, 0.7, 0, 0.2, -0.3, 0, k / 3 ? 0.4 : 0, 0, k / 3 ? 0.1 : 0};
         const double origin[3] = {1e-3, 2e-3, 0};
@@ -168,7 +168,7 @@ static void a_gradient_moves_affinely(void **unused)
         double time = scree_state_time(&s.state), factor = time - 0.2e-3, worst = 0;
         double step = s.state.step_size, bend = step * step / 8 / 0.4e-3;
         for (size_t id = 0; id < s.state.count; id++) {
-            scree_body_place(&s.state, scree_state_row_of(&s.state, id), place);
+            scree_body_position(&s.state, scree_state_row_of(&s.state, id), place);
             for (int i = 0; i < s.state.dimension; i++) {
                 double wanted = begin[id][i] + (i == 0 ? 1e-3 * time : 0), slope = 0;
                 for (int j = 0; j < s.state.dimension; j++) slope += gradient[3 * i + j] * (begin[id][j] - origin[j]);
