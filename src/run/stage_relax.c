@@ -92,7 +92,7 @@ static scree_status finished(scree_simulation *s, bool *done, scree_error *error
     (void)error;
     const config *stage = own_config(s);
     scree_stage_state *state = &s->state.stage;
-    double unbalanced = s->sample.value[SCREE_SAMPLE_UNBALANCED_RATIO];
+    double unbalanced = s->sample[SCREE_SAMPLE_UNBALANCED_RATIO];
     bool calm = unbalanced < stage->unbalanced_limit;
     state->counter = calm ? state->counter + 1 : 0;
     bool over = s->state.step - state->first_step >= s->plan.expected;
