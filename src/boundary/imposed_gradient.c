@@ -107,14 +107,6 @@ void scree_imposed_record(scree_state *state, const double rate[9])
     }
 }
 
-double scree_imposed_take_ratio(scree_state *state)
-{
-    scree_imposed_gradient *imposed = scree_imposed(state);
-    double ratio = imposed->wanted > 0 ? imposed->achieved / imposed->wanted : NAN;
-    imposed->achieved = imposed->wanted = 0;
-    return ratio;
-}
-
 /// stress . vector / quantum, rounded.
 static void round_force(const double stress[9], const scree_vector vector, double scale, int64_t quanta[3])
 {

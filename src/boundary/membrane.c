@@ -20,9 +20,9 @@
 /// Hand-over. The pressure passes from the grains of the Delaunay boundary to the membrane smoothly within RAMP_WAVES
 /// wave times (scree_direct_pressure), so that a sample confined directly can be wrapped at any time.
 ///
-/// Accumulates. Pressure in ledger.pressure; springs and ends, which are the boundary's own, as work in ledger.boundary. The
-/// energy that the springs store is the negative of their part of it, up to the third order in the step.
-/// Cost: O(bodies of the membrane) a step.
+/// Accumulates. Pressure in ledger.pressure; springs and ends, which are the boundary's own, as work in
+/// ledger.boundary. The energy that the springs store is the negative of their part of it, up to the third order in the
+/// step. Cost: O(bodies of the membrane) a step.
 #include "boundary/membrane.h"
 #include "measure/delaunay_boundary.h"
 #include "state/plates.h"
@@ -355,6 +355,20 @@ static const scree_boundary face = {
     SCREE_AXIAL_PLATES,
 };
 
+static const scree_result columns[] = {
+    {"elastic_membrane", "J", "stored in the springs of a membrane"},
+    {"membrane_volume", "m3",
+     "volume between the plates inside a membrane, through the centres of its bodies; not a number without one"},
+};
+
+static scree_status sample(const scree_context *c, size_t index, double *value, scree_error *error)
+{
+    (void)index, (void)error;
+    value[0] = scree_membrane_energy(c->model, c->state);
+    value[1] = scree_membrane_of(c->state)->count > 0 ? scree_membrane_volume(c->model, c->state) : NAN;
+    return SCREE_OK;
+}
+
 const scree_module scree_module_membrane = {
     .name = "membrane",
     .meaning = "bodies with springs around the sides of the sample",
@@ -370,4 +384,5 @@ const scree_module scree_module_membrane = {
     .field_count = COUNT(fields),
     .check = check,
     .keeps = keeps,
+    .columns = SCREE_RESULTS(columns, sample),
 };

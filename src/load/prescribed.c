@@ -7,6 +7,8 @@
 #include "base/wide_sum.h"
 #include "module/key_rows.h"
 
+#include <stdio.h>
+
 typedef scree_prescribed own;
 typedef scree_prescribed_config config;
 
@@ -32,7 +34,7 @@ static const scree_choice attacks[] = {
 #define COMPONENT(key, member, index, si, limit, text)                                                                 \
     {                                                                                                                  \
         .name = key, .type = SCREE_KEY_SCHEDULE, .unit = si, .standard = "auto", FROM("-" limit), TO(limit),           \
-        .offset = offsetof(config, member) + (index) * sizeof(scree_schedule), .meaning = text                           \
+        .offset = offsetof(config, member) + (index) * sizeof(scree_schedule), .meaning = text                         \
     }
 #define VELOCITY(axis, index)                                                                                          \
     COMPONENT("velocity_" axis, motion, index, "m/s", "1e6 m/s", "Velocity along " axis "; 0: held; auto: free.")
@@ -171,48 +173,65 @@ static const scree_pass passes[] = {{SCREE_PHASE_DECIDE, depart},
                                     {SCREE_PHASE_LOADS, scree_prescribed_push},
                                     {SCREE_PHASE_RESULTANTS, scree_prescribed_hold}};
 
-// ---- columns -----------------------------------------------------------------------------------------------------
+// ---- what each tells ---------------------------------------------------------------------------------------------
 
-static const scree_column columns[] = {
-    {"_force_x", "N", "force that it exerts on its bodies: applied, or the reaction that drives them"},
+/// Number among the loads of the one with this number among those of this kind; -1: there are fewer.
+static int64_t load_of(const scree_config *whole, size_t index)
+{
+    for (int64_t i = 0; i < whole->load_count; i++)
+        if (scree_prescribed_config_of(whole, i) && index-- == 0) return i;
+    return -1;
+}
+
+static bool told(const scree_config *whole, size_t index, char name[SCREE_RESULT_NAME])
+{
+    int64_t load = load_of(whole, index);
+    if (load < 0) return false;
+    (void)snprintf(name, SCREE_RESULT_NAME, "%s", scree_prescribed_name(scree_prescribed_config_of(whole, load)));
+    return true;
+}
+
+/// Columns at every sample, and results at the end.
+static const scree_result rows[] = {
+    {"_force_x", "N", "force of the load of this name on its bodies: applied, or the reaction that drives them"},
     {"_force_y", "N", "the same along y"},
     {"_force_z", "N", "the same along z"},
-    {"_torque_x", "N m", "torque that it exerts on them, each about its own centre"},
+    {"_torque_x", "N m", "torque of the load of this name on its bodies, about their own centres"},
     {"_torque_y", "N m", "the same about y"},
     {"_torque_z", "N m", "the same about z"},
-    {"_work", "J", "its work on them since the begin of the run"},
-    {"_bodies", "1", "particles that it acts on now"},
+    {"_work", "J", "work of the load of this name on its bodies since the begin of the run"},
+    {"_bodies", "1", "bodies that it acts on now"},
 };
-enum { WORK = 6, BODIES = 7 };
+enum { WORK = SCREE_COMPONENTS, BODIES };
 
-static const char *column_owner(const scree_model *model, int64_t load)
-{
-    const config *c = load < model->config->load_count ? scree_prescribed_config_of(model->config, load) : NULL;
-    return c ? scree_prescribed_name(c) : NULL;
-}
-
-static void column_values(const scree_state *state, int64_t load, double *value)
+static void sum_forces(const scree_state *state, int64_t load, double sum[SCREE_COMPONENTS])
 {
     const own *all = scree_prescribed_of(state);
-    scree_wide_integer sum[SCREE_COMPONENTS] = {0};
-    int64_t bodies = 0;
-    for (size_t row = 0; row < state->count && all->owner; row++) {
-        bool belongs = false;
+    scree_wide_integer quanta[SCREE_COMPONENTS] = {0};
+    for (size_t row = 0; row < state->count && all->by; row++)
         for (int d = 0; d < SCREE_COMPONENTS; d++) {
-            belongs = belongs || all->owner[row][d] == load + 1;
-            if (all->by[row][d] == load + 1) sum[d] += all->exerted[row].quanta[d];
-            if (d >= 3 && all->by[row][SCREE_LEVER] == load + 1) sum[d] += all->exerted[row].lever[d - 3];
+            if (all->by[row][d] == load + 1) quanta[d] += all->exerted[row].quanta[d];
+            if (d >= 3 && all->by[row][SCREE_LEVER] == load + 1) quanta[d] += all->exerted[row].lever[d - 3];
         }
-        bodies += belongs;
-    }
     for (int d = 0; d < SCREE_COMPONENTS; d++)
-        value[d] = (double)sum[d] * (d < 3 ? state->force_quantum : state->torque_quantum);
-    value[WORK] = all->work[load];
-    value[BODIES] = (double)bodies;
+        sum[d] = (double)quanta[d] * (d < 3 ? state->force_quantum : state->torque_quantum);
 }
 
-static const scree_columns series = {
-    .column = columns, .count = COUNT(columns), .owner = column_owner, .values = column_values};
+static scree_status measure(const scree_context *c, size_t index, double *value, scree_error *error)
+{
+    const own *all = scree_prescribed_of(c->state);
+    int64_t load = load_of(c->model->config, index), bodies = 0;
+    (void)error;
+    sum_forces(c->state, load, value);
+    for (size_t row = 0; row < c->state->count && all->owner; row++) {
+        bool belongs = false;
+        for (int d = 0; d < SCREE_COMPONENTS; d++) belongs = belongs || all->owner[row][d] == load + 1;
+        bodies += belongs;
+    }
+    value[WORK] = all->work[load];
+    value[BODIES] = (double)bodies;
+    return SCREE_OK;
+}
 
 const scree_module scree_module_prescribed = {
     .name = "prescribed",
@@ -232,5 +251,7 @@ const scree_module scree_module_prescribed = {
     .in_use = in_use,
     .bound = scree_prescribed_bound,
     .work = work,
-    .columns = &series,
+    .columns = SCREE_RESULTS(rows, measure),
+    .results = SCREE_RESULTS(rows, measure),
+    .told = told,
 };

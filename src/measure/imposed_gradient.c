@@ -3,6 +3,8 @@
 
 #include "measure/facets.h"
 
+#include <math.h>
+
 typedef scree_imposed_gradient own;
 
 const scree_group scree_imposed_nodes = {"node", "b", offsetof(own, count), offsetof(own, capacity)};
@@ -17,7 +19,8 @@ static const scree_field fields[] = {
         SCREE_RANGE(0, SCREE_SYMMETRIC)),
     ONE(viscosity, "imposed_gradient/viscosity", SCREE_FIELD_DOUBLE, 1, "Pa s", "stress over the error of the rate",
         SCREE_RANGE(0, INFINITY)),
-    ONE(rate, "imposed_gradient/rate", SCREE_FIELD_DOUBLE, 9, "1/s", "velocity gradient of the boundary, 3 x 3 by rows"),
+    ONE(rate, "imposed_gradient/rate", SCREE_FIELD_DOUBLE, 9, "1/s",
+        "velocity gradient of the boundary, 3 x 3 by rows"),
     ONE(stress, "imposed_gradient/stress", SCREE_FIELD_DOUBLE, 9, "Pa",
         "stress that the boundary applies besides the pressure, 3 x 3 by rows, tension positive"),
     ONE(achieved, "imposed_gradient/achieved", SCREE_FIELD_DOUBLE, 1, "1/s",
@@ -34,7 +37,23 @@ static scree_status check(const scree_state *state, const scree_model *model, sc
     if (count == 0 || count == wanted) return SCREE_OK;
     return scree_error_set(
         error, SCREE_ERROR_IO,
-        "dataset 'imposed_gradient/force': %zu (accepted: none, or as many rows as the boundary has bodies, %zu)", count, wanted);
+        "dataset 'imposed_gradient/force': %zu (accepted: none, or as many rows as the boundary has bodies, %zu)",
+        count, wanted);
+}
+
+static const scree_result columns[] = {
+    {"rate_ratio", "1", "actual over imposed strain rate since the last sample, of minimal conditions"},
+};
+
+/// Integral of target : rate since the last sample over that of target : target, both over the prescribed components;
+/// NAN when nothing was wanted. The next interval begins.
+static scree_status take_ratio(const scree_context *c, size_t index, double *value, scree_error *error)
+{
+    own *imposed = scree_imposed(c->state);
+    (void)index, (void)error;
+    *value = imposed->wanted > 0 ? imposed->achieved / imposed->wanted : NAN;
+    imposed->achieved = imposed->wanted = 0;
+    return SCREE_OK;
 }
 
 const scree_module scree_module_imposed_gradient = {
@@ -44,4 +63,5 @@ const scree_module scree_module_imposed_gradient = {
     .fields = fields,
     .field_count = sizeof fields / sizeof *fields,
     .check = check,
+    .columns = SCREE_RESULTS(columns, take_ratio),
 };

@@ -8,31 +8,14 @@
 #include "module/field.h"
 #include "module/key.h"
 #include "module/pass.h"
+#include "module/result.h"
 #include "module/table.h"
 
 #include <stdint.h>
 
 typedef struct scree_config scree_config;
 typedef struct scree_reader scree_reader;
-
-/// What a module adds to series.csv, and its last value to summary.json.
-typedef struct scree_column {
-    const char *name; ///< "_work": behind the name of what has it
-    const char *unit; ///< SI unit
-    const char *meaning;
-} scree_column;
-
-enum { SCREE_COLUMN_OWNERS = 16 }; ///< most of a module
-
-typedef struct scree_columns {
-    const scree_column *column; ///< those of each owner
-    size_t count;
-    /// Name of owner `index`, below SCREE_COLUMN_OWNERS, unique among all that have columns of these names; NULL: there
-    /// is none.
-    const char *(*owner)(const scree_model *model, int64_t index);
-    /// Its present values.
-    void (*values)(const scree_state *state, int64_t index, double *value);
-} scree_columns;
+struct scree_conclusion;
 
 struct scree_module {
     const char *name;
@@ -85,8 +68,15 @@ struct scree_module {
     /// ledger.
     double (*work)(const scree_state *state);
 
-    // ---- results ----
-    const scree_columns *columns; ///< NULL: none
+    // ---- results: what it tells ----
+    scree_results columns; ///< of series.csv, at every sample
+    scree_results results; ///< of summary.json, at the end of a run or when it is stopped
+    /// Whether there is something with this index that the rows are about, and its name: each then has all rows, and
+    /// with a name in front. NULL: they are about the run, once.
+    bool (*told)(const scree_config *config, size_t index, char name[SCREE_RESULT_NAME]);
+    /// Results that come from the whole series, that are texts, or with files of their own (run/conclusion.h). Those
+    /// that do not apply are left out. NULL: none.
+    scree_status (*conclude)(const struct scree_conclusion *run, scree_error *error);
 };
 
 #define SCREE_MODULE_DECLARE(name) extern const scree_module scree_module_##name;

