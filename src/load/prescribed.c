@@ -193,13 +193,13 @@ static bool told(const scree_config *whole, size_t index, char name[SCREE_RESULT
 
 /// Columns at every sample, and results at the end.
 static const scree_result rows[] = {
-    {"_force_x", "N", "force of the load of this name on its bodies: applied, or the reaction that drives them"},
-    {"_force_y", "N", "the same along y"},
-    {"_force_z", "N", "the same along z"},
-    {"_torque_x", "N m", "torque of the load of this name on its bodies, about their own centres"},
-    {"_torque_y", "N m", "the same about y"},
-    {"_torque_z", "N m", "the same about z"},
-    {"_work", "J", "work of the load of this name on its bodies since the begin of the run"},
+    {"_exerted_force_x", "N", "force of the load of this name on its bodies: applied, or the reaction that drives them"},
+    {"_exerted_force_y", "N", "the same along y"},
+    {"_exerted_force_z", "N", "the same along z"},
+    {"_exerted_torque_x", "N m", "torque of the load of this name on its bodies, about their own centres"},
+    {"_exerted_torque_y", "N m", "the same about y"},
+    {"_exerted_torque_z", "N m", "the same about z"},
+    {"_exerted_work", "J", "work of the load of this name on its bodies since the begin of the run"},
     {"_bodies", "1", "bodies that it acts on now"},
 };
 enum { WORK = SCREE_COMPONENTS, BODIES };

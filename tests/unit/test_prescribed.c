@@ -390,10 +390,10 @@ static void results_are_written(void **unused)
     scree_series series;
     (void)snprintf(path, sizeof path, "%s/series.csv", scratch);
     check(scree_series_read(&series, path, &error), &error);
-    const double *work = scree_series_get(&series, "high_work"), *low = scree_series_get(&series, "low_bodies");
+    const double *work = scree_series_get(&series, "high_exerted_work"), *low = scree_series_get(&series, "low_bodies");
     assert_true(work && low && series.row_count > 10);
-    assert_true(number(scratch, "high_work") == work[series.row_count - 1]);
-    assert_true(low[0] >= 7 && number(scratch, "low_bodies") == low[0] && fabs(number(scratch, "low_force_x")) > 0);
+    assert_true(number(scratch, "high_exerted_work") == work[series.row_count - 1]);
+    assert_true(low[0] >= 7 && number(scratch, "low_bodies") == low[0] && fabs(number(scratch, "low_exerted_force_x")) > 0);
     scree_series_destroy(&series);
     scree_case_free(c);
 }
