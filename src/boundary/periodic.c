@@ -226,6 +226,16 @@ static void move_share(void *argument, int index, int count)
         move_body(task->state, task->maps, row, task->work->relative[row]);
 }
 
+/// A task whose sums, which the shares fill, are not cleared: they are large.
+static void begin_task(bodies_task *task, scree_state *state, const scree_work *work)
+{
+    task->state = state;
+    task->work = work;
+    task->maps = NULL;
+    task->inverse = NULL;
+    task->quantum = 0;
+}
+
 static void run_shares(scree_work *work, scree_team_task *share, bodies_task *task)
 {
     scree_team_run(&work->team, scree_work_shares(work), share, task);
@@ -282,7 +292,10 @@ static void motion_share(void *argument, int index, int count)
 static void measure_motion(const scree_model *model, scree_state *state, scree_work *work, const step_maps *maps)
 {
     const double bound = mass_bound(model) * state->largest_speed * state->largest_speed;
-    bodies_task task = {.state = state, .maps = maps, .quantum = scree_fixed_quantum(4 * bound)};
+    bodies_task task;
+    begin_task(&task, state, work);
+    task.maps = maps;
+    task.quantum = scree_fixed_quantum(4 * bound);
     run_shares(work, motion_share, &task);
     scree_wide_total(task.sum, scree_work_shares(work), task.quantum, scree_cell(state)->motion);
 }
@@ -350,8 +363,10 @@ static void outside_share(void *argument, int index, int count)
 /// Largest distance [m] of a body from the cell it should be in.
 static double farthest_outside(scree_state *state, scree_work *work, const double inverse[9])
 {
-    bodies_task task = {.state = state, .inverse = inverse};
+    bodies_task task;
     double largest = 0;
+    begin_task(&task, state, work);
+    task.inverse = inverse;
     run_shares(work, outside_share, &task);
     for (int k = 0; k < scree_work_shares(work); k++) largest = fmax(largest, task.largest[k]);
     return largest;
@@ -442,7 +457,10 @@ scree_status scree_periodic_move(const scree_model *model, scree_state *state, s
             book_work(state, scree_cell(state)->motion, 1);
             book_work(state, scree_cell(state)->virial, 0.5);
             move_lattice(state, &maps);
-            run_shares(work, move_share, &(bodies_task){.state = state, .work = work, .maps = &maps});
+            bodies_task task;
+            begin_task(&task, state, work);
+            task.maps = &maps;
+            run_shares(work, move_share, &task);
             allow_for_gradient(model, state, work, &maps);
         }
     }
@@ -461,6 +479,8 @@ static void settle_share(void *argument, int index, int count)
 void scree_periodic_settle(scree_state *state, scree_work *work)
 {
     if (!scree_periodic_is_whole(state) || !deforms(scree_cell(state))) return;
-    run_shares(work, settle_share, &(bodies_task){.state = state, .work = work});
+    bodies_task task;
+    begin_task(&task, state, work);
+    run_shares(work, settle_share, &task);
     book_work(state, scree_cell(state)->virial, 0.5);
 }

@@ -126,7 +126,8 @@ scree_status scree_solid_fraction(const scree_state *state, double *fraction, sc
     *fraction = NAN;
     double solid = 0;
     scree_status status = SCREE_OK;
-    if (scree_cell(state)->directions) *fraction = solid_of_all(state) / scree_periodic_extent(state);
+    if (scree_cell(state)->directions && scree_periodic_is_closed(state))
+        *fraction = solid_of_all(state) / scree_periodic_extent(state);
     if (state->dimension == 2 && scree_loop_of(state)->count > 0)
         *fraction = solid_in_loop(state) / scree_loop_area(state);
     if (state->dimension == 3 && scree_hull_of(state)->node_count > 0) {
