@@ -183,7 +183,7 @@ static int lift(void *user, scree_simulation *s, scree_loads *loads)
 
 /// A body that a force lifts through a sheared cell keeps the velocity along x of the place that it comes from: forces
 /// act on bodies, not on the flow. Its own velocity, relative to the flow, is taken along: the ledger has the work of
-/// the force on it and that of the cell. It goes through the upper face and through images beside it.
+/// the force on it and that of the cell. It goes through the upper face and through ghosts beside it.
 static void lifted_in_a_sheared_cell(const char *text, const char *periodic)
 {
     enum { STEPS = 4000 };

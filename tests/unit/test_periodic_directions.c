@@ -25,7 +25,7 @@
     "output: {snapshots: 2, paraview: no, figures: no}\n"
 #define STAGES(fraction)                                                                                               \
     "stages:\n"                                                                                                        \
-    "  - {stage: prepare, method: gas, aspect_ratio: 1, solid_fraction: " fraction ", velocity: 0.5 m/s}\n"              \
+    "  - {stage: prepare, method: gas, aspect_ratio: 1, solid_fraction: " fraction ", velocity: 0.5 m/s}\n"            \
     "  - {stage: relax, duration: 30 ms}\n"
 static const char *const texts[] = {
     HEAD "dimension: 2\n"
@@ -152,8 +152,8 @@ static double difference(const scree_simulation *one, const scree_simulation *ot
     double largest = 0;
     for (size_t id = 0; id < one->state.count; id++) {
         scree_vector a, b;
-        scree_body_place(&one->state, scree_state_row_of(&one->state, id), a);
-        scree_body_place(&other->state, scree_state_row_of(&other->state, id), b);
+        scree_body_position(&one->state, scree_state_row_of(&one->state, id), a);
+        scree_body_position(&other->state, scree_state_row_of(&other->state, id), b);
         for (int k = 0; k < one->state.dimension; k++) {
             double away = b[k] - a[k], side = scree_cell(&one->state)->lattice[4 * k] / 2;
             if (scree_periodic_repeats(scree_cell(&one->state), k)) away -= side * rint(away / side);
