@@ -23,10 +23,10 @@ static const scree_choice share_kinds[] = {
 };
 static const scree_choice listed[] = {{"given", 1, "the list has elements"}, {0}};
 static const scree_choice periodics[] = {
-    {"no", SCREE_PERIODIC_NONE, "in none"},
-    {"x", SCREE_PERIODIC_X, "along x"},
-    {"y", SCREE_PERIODIC_Y, "along y"},
-    {"z", SCREE_PERIODIC_Z, "along z, 3D"},
+    {"no", SCREE_PERIODIC_NONE, "in no direction"},
+    {"x", SCREE_PERIODIC_X, "along the x axis"},
+    {"y", SCREE_PERIODIC_Y, "along the y axis"},
+    {"z", SCREE_PERIODIC_Z, "along the z axis, 3D"},
     {"xy", SCREE_PERIODIC_XY, "along x and y: in 2D a cell without any boundary, which can be deformed"},
     {"xz", SCREE_PERIODIC_XZ, "along x and z, 3D"},
     {"yz", SCREE_PERIODIC_YZ, "along y and z, 3D"},
