@@ -49,6 +49,7 @@
 #include "base/integer_sum.h"
 #include "base/matrix.h"
 #include "base/wide_sum.h"
+#include "comm/comm.h"
 #include "search/neighbours.h"
 #include "state/periodic.h"
 
@@ -72,7 +73,7 @@ static bool deforms(const scree_periodic_cell *cell)
 static double density(const scree_model *model, const scree_state *state)
 {
     scree_integer_sum mass = {0};
-    while (scree_integer_sum_next(&mass, 1))
+    while (scree_comm_sum_next(state, &mass, 1))
         for (size_t row = 0; row < state->count; row++) scree_integer_sum_add(&mass, state->row[row].mass);
     return scree_integer_sum_total(&mass) / (scree_periodic_extent(state) * model->thickness);
 }
@@ -370,6 +371,7 @@ static double farthest_outside(scree_state *state, scree_work *work, const doubl
     task.inverse = inverse;
     run_shares(work, outside_share, &task);
     for (int k = 0; k < scree_work_shares(work); k++) largest = fmax(largest, task.largest[k]);
+    scree_comm_maximum(state, &largest, 1);
     return largest;
 }
 
@@ -391,7 +393,7 @@ static bool find_shift(const scree_state *state, const double inverse[9], size_t
 static double change_of_gravity(const scree_model *model, const scree_state *state, const double inverse[9])
 {
     scree_integer_sum sum = {0};
-    while (scree_integer_sum_next(&sum, 1))
+    while (scree_comm_sum_next(state, &sum, 1))
         for (size_t row = 0; row < state->count; row++) {
             scree_vector shift, by;
             if (!find_shift(state, inverse, row, shift)) continue;
