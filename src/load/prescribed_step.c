@@ -22,6 +22,7 @@
 #include "base/fixed.h"
 #include "base/integer_sum.h"
 #include "base/vectors.h"
+#include "comm/comm.h"
 #include "integrate/integrate.h"
 #include "load/prescribed.h"
 
@@ -101,7 +102,7 @@ static bool drives(const scree_state *state, size_t row, int component)
 // ---- what is said now --------------------------------------------------------------------------------------------
 
 /// Bodies of each load that shares its forces among them.
-static void count_bodies(const scree_state *state, size_t count[SCREE_LOADS])
+static void count_bodies(const scree_state *state, int64_t count[SCREE_LOADS])
 {
     const scree_prescribed *all = scree_prescribed_of(state);
     memset(count, 0, SCREE_LOADS * sizeof *count);
@@ -113,13 +114,14 @@ static void count_bodies(const scree_state *state, size_t count[SCREE_LOADS])
             counted[load] = true;
         }
     }
+    scree_comm_add(state, count, SCREE_LOADS);
 }
 
 /// Forces at the present time, velocities at `middle` [s].
 static void read_orders(const scree_context *c, double middle, order list[SCREE_LOADS])
 {
     const scree_prescribed *all = scree_prescribed_of(c->state);
-    size_t bodies[SCREE_LOADS];
+    int64_t bodies[SCREE_LOADS];
     bool counted = false;
     double now = scree_state_time(c->state);
     for (int64_t k = 0; k < SCREE_LOADS; k++) {
@@ -188,7 +190,7 @@ static void add_power(scree_state *state, size_t row, scree_integer_sum power[SC
 static void take_half_work(scree_state *state)
 {
     scree_integer_sum power[SCREE_LOADS] = {0};
-    while (scree_integer_sum_next(power, SCREE_LOADS))
+    while (scree_comm_sum_next(state, power, SCREE_LOADS))
         for (size_t row = 0; row < state->count; row++)
             if (!is_free(scree_prescribed_of(state)->by[row])) add_power(state, row, power);
     keep_work(state, power, 0.5 * state->step_size);
@@ -255,7 +257,7 @@ scree_status scree_prescribed_move(const scree_context *c, scree_error *error)
     double before = state->largest_speed;
     (void)error;
     read_orders(c, scree_state_time(state) + 0.5 * state->step_size, list);
-    while (scree_integer_sum_next(shock, SCREE_LOADS))
+    while (scree_comm_sum_next(state, shock, SCREE_LOADS))
         for (size_t row = 0; row < state->count; row++)
             if (state->held[row]) add_shocks(state, row, list, shock);
     keep_work(state, shock, 0.5);
