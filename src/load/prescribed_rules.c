@@ -1,5 +1,6 @@
 /// What prescriptions must fulfil before a run: names that are there, components that exist, nothing said twice.
 /// Whether two that act on different selections meet in a body shows when a stage begins (prescribed_begin.c).
+#include "base/vectors.h"
 #include "case/check.h"
 #include "load/prescribed.h"
 
@@ -86,14 +87,16 @@ static void check_use(judged *j)
         push = push || scree_prescribed_pushes(j->own, d);
         force = force || (d < 3 && scree_prescribed_pushes(j->own, d));
     }
-    static const char *const of_gradient[] = {"gradient_factor", "origin"};
-    for (int k = 0; k < 2; k++)
-        if (!gradient && gives(j, of_gradient[k]))
-            scree_rule_refuse(j->reader, path_of(j, of_gradient[k]), NULL, "not used without gradient");
+    // A resolved case gives the defaults, too.
+    bool scaled = !scree_schedule_is_constant(&j->own->factor) || scree_schedule_at(&j->own->factor, 0) != 1;
+    if (!gradient && scaled)
+        scree_rule_refuse(j->reader, path_of(j, "gradient_factor"), "1", "not used without gradient");
+    if (!gradient && scree_length(j->own->origin) > 0)
+        scree_rule_refuse(j->reader, path_of(j, "origin"), "[0, 0]", "not used without gradient");
     if (!force && j->own->attack == SCREE_ATTACK_SURFACE)
         scree_rule_refuse(j->reader, path_of(j, "attack"), "centre", "there is no force that acts on the surface");
-    if (!push && gives(j, "per"))
-        scree_rule_refuse(j->reader, path_of(j, "per"), NULL, "not used without a force or a torque");
+    if (!push && j->own->per == SCREE_PER_SELECTION)
+        scree_rule_refuse(j->reader, path_of(j, "per"), "body", "not used without a force or a torque");
 }
 
 /// Names of columns and results are told apart.
