@@ -29,6 +29,9 @@ struct scree_module {
     /// been noted: of such nothing is said. NULL: nothing.
     void (*rules)(scree_reader *reader, const scree_config *config);
 
+    // ---- numbers: what its keys become, once, with the model at hand (scree_model_numbers); no `auto` is left ----
+    size_t numbers_size;
+
     // ---- faces: what only modules of one kind have ----
     const struct scree_law *law;                 ///< model/law.h
     const struct scree_integrator *integrator;   ///< module/integrator.h

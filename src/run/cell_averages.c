@@ -1,11 +1,11 @@
 /// Circles and regions are averaged over the snapshots in the first strain window of measure.windows (P: 7 - 8.5 %);
 /// cells and sample are compared over the whole stage.
 ///
-/// Strain: between two consecutive snapshots, at x and x + u, the mean gradient of the cells on the middle configuration
-/// x + u/2, weighted with their volumes there. Sums over them are logarithmic strains up to the square of their
-/// distance, as those of the boundary in series.csv are. The boundary is renewed between snapshots while the cells stay:
-/// what that makes falls with their distance (400 spheres, every 1.3, 0.17, 0.04 % of strain: 3.8, 0.63, 0.21 %).
-/// Stress: means over the same instants.
+/// Strain: between two consecutive snapshots, at x and x + u, the mean gradient of the cells on the middle
+/// configuration x + u/2, weighted with their volumes there. Sums over them are logarithmic strains up to the square of
+/// their distance, as those of the boundary in series.csv are. The boundary is renewed between snapshots while the
+/// cells stay: what that makes falls with their distance (400 spheres, every 1.3, 0.17, 0.04 % of strain: 3.8, 0.63,
+/// 0.21 %). Stress: means over the same instants.
 #include "run/cell_averages.h"
 
 #include <math.h>
@@ -15,12 +15,13 @@
 /// Instants in series.csv and run.h5 are the same bits but for the printed digits.
 #define SAME_TIME 1e-9
 
-void scree_cell_averages_begin(scree_cell_averages *averages, const scree_config *config, const scree_series *series)
+void scree_cell_averages_begin(scree_cell_averages *averages, const scree_config_measure *config,
+                               const scree_series *series)
 {
-    bool window = config->measure.window_count > 0;
+    bool window = config->window_count > 0;
     *averages = (scree_cell_averages){.series = series,
-                                      .from = window ? config->measure.windows[0].from : 0,
-                                      .to = window ? config->measure.windows[0].to : INFINITY,
+                                      .from = window ? config->windows[0].from : 0,
+                                      .to = window ? config->windows[0].to : INFINITY,
                                       .begin = NAN,
                                       .end = NAN};
 }

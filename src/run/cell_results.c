@@ -61,7 +61,7 @@ static const scree_series_column band_columns[BAND_COLUMNS] = {
 
 /// The state of the walk through the snapshots.
 typedef struct walk {
-    const scree_config *config;
+    const scree_config_measure *config;
     scree_series_writer circles, bands;
     scree_cell_snapshot first; ///< begin of the present window; no bodies: none
     scree_cell_snapshot last;  ///< the last snapshot of it; no bodies: `first`
@@ -229,7 +229,7 @@ static scree_status follow(walk *w, scree_cell_snapshot *snapshot, scree_error *
     const scree_cell_snapshot *previous = w->last.assembly.count > 0 ? &w->last : &w->first;
     status = scree_cell_averages_strain(&w->averages, previous, snapshot, error);
     // Snapshots lie on samples: a window may miss its length by a little.
-    if (snapshot->axial_strain - w->first.axial_strain < 0.99 * w->config->measure.band_window) {
+    if (snapshot->axial_strain - w->first.axial_strain < 0.99 * w->config->band_window) {
         if (!status) keep(&w->last, snapshot);
         return status;
     }
@@ -290,8 +290,8 @@ static void summarise(const walk *w, scree_summary *summary)
     scree_summary_set_number(summary, "band_percolation", found ? last->band.percolation : NAN);
 }
 
-scree_status scree_cell_results_write(const char *directory, const scree_config *config, const scree_series *series,
-                                      scree_summary *summary, scree_error *error)
+scree_status scree_cell_results_write(const char *directory, const scree_config_measure *config,
+                                      const scree_series *series, scree_summary *summary, scree_error *error)
 {
     walk w = {.config = config, .series = series};
     scree_status status = open_files(&w, directory, error);
