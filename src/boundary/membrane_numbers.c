@@ -24,10 +24,10 @@ static const scree_membrane_config *own_config(const scree_model *model)
 /// has more than four thirds of its springs. membrane.c has the stiffness of the sheet.
 static double resolve_springs(const scree_model *model, scree_membrane_numbers *own)
 {
-    bool solid = model->dimension == 3;
-    own->stiffness = (solid ? sqrt(0.75) : 1) * own_config(model)->membrane_stiffness;
+    bool in_3d = model->dimension == 3;
+    own->stiffness = (in_3d ? sqrt(0.75) : 1) * own_config(model)->membrane_stiffness;
     double mass = scree_model_mass(model, own->material, own->radius);
-    return sqrt(mass / own->stiffness / (solid ? 2 : 1));
+    return sqrt(mass / own->stiffness / (in_3d ? 2 : 1));
 }
 
 /// A sheet needs no large bodies to be tight; a finer one lies closer to the grains and bears more stretch. But bodies

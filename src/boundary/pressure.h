@@ -9,7 +9,7 @@
 #include "state/state.h"
 
 /// Re-finds the boundary loop if it is due (every config->boundary.every steps, or none yet): triangulates, cleans,
-/// marks which edges carry the lateral pressure (those not facing an active top or bottom plate: rule in corners.c),
+/// marks which edges carry the lateral pressure (those not facing an active top or bottom plate: rule in loaded_edges.c),
 /// closes the strain increment of the old loop (measure of Bagi) before replacing it. Errors: memory; SCREE_ERROR_GUARD
 /// when the bodies cannot be triangulated (fewer than three, all on a line, two in one place). The state is unchanged
 /// then.
@@ -20,7 +20,7 @@ scree_status scree_boundary_refresh(const scree_model *model, scree_state *state
 scree_status scree_boundary_mark_loaded(const scree_model *model, scree_state *state,
                                         scree_error *error) SCREE_MUST_USE;
 
-/// Adds the pressure forces at the present positions to state->sum, keeps them in loop.fx, loop.fy, and books the half
+/// Adds the pressure forces at the present positions to state->sum, keeps them in loop.fx, loop.fy, and accumulates the half
 /// 1/2 F(n) . v(n-1/2) dt of their work. Call after scree_contact_forces and scree_boundary_refresh, before `second`,
 /// with the quantum of this step set: rows then hold v(n-1/2) in both schemes. Nothing when there is no loop; zeros the
 /// kept forces when scree_pressure_now(state) is zero.

@@ -68,7 +68,7 @@ struct scree_model {
     double density[SCREE_MAX_MATERIALS];
     scree_upkeep upkeep;
     scree_servo_limits servo;
-    double overlap_limit; ///< 1, largest indentation over the smaller radius
+    double overlap_limit; ///< 1, largest overlap over the smaller radius
     double energy_growth; ///< 1, largest residual of the ledger over all energy that there is and was
     scree_config_measure measure;
     scree_config_output output;
@@ -112,8 +112,8 @@ static inline const scree_law_traits *scree_model_traits(const scree_model *mode
     return &scree_model_law(model)->traits[model->law.option];
 }
 
-/// Whether the law looks ahead by a step and needs scree_state_foresee.
-static inline bool scree_model_foresees(const scree_model *model)
+/// Whether the law looks ahead by a step and needs scree_state_predict.
+static inline bool scree_model_predicts(const scree_model *model)
 {
     return scree_model_traits(model)->looks_ahead;
 }

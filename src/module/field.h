@@ -27,7 +27,7 @@ typedef enum scree_field_rows {
     SCREE_ROWS_BODIES,   ///< bodies: arrays of the state or of a module, which follow the bodies as they come, go and
                          ///< change rows (state/store.h)
     SCREE_ROWS_CONTACTS, ///< contacts: arrays of the state
-    SCREE_ROWS_BOOKING,  ///< as many as contacts where the law books them beside the history, else none
+    SCREE_ROWS_LAST_FORCE,  ///< as many as contacts where the law accumulates them beside the history, else none
     SCREE_ROWS_ROLLING,  ///< as many as contacts where there is resistance to rolling, else none
 } scree_field_rows;
 

@@ -100,8 +100,8 @@ void scree_cell_averages_add(scree_cell_averages *averages, const scree_cell_sna
     add_stress(averages, snapshot);
     if (!(snapshot->axial_strain >= averages->from && snapshot->axial_strain <= averages->to)) return;
     double distortion[SCREE_REGION_COUNT], pressure[SCREE_REGION_COUNT];
-    scree_cells_region_means(cells, snapshot->assembly.place, cells->distortion, distortion);
-    scree_cells_region_means(cells, snapshot->assembly.place, cells->pressure, pressure);
+    scree_cells_region_means(cells, snapshot->assembly.position, cells->distortion, distortion);
+    scree_cells_region_means(cells, snapshot->assembly.position, cells->pressure, pressure);
     for (int r = 0; r < SCREE_REGION_COUNT; r++) {
         averages->distortion[r] += distortion[r];
         averages->pressure[r] += pressure[r];
@@ -121,8 +121,8 @@ scree_status scree_cell_averages_strain(scree_cell_averages *averages, const scr
     if (!status) {
         double *moved = middle + n;
         for (size_t i = 0; i < n; i++) {
-            moved[i] = second->assembly.place[i] - first->assembly.place[i];
-            middle[i] = first->assembly.place[i] + 0.5 * moved[i];
+            moved[i] = second->assembly.position[i] - first->assembly.position[i];
+            middle[i] = first->assembly.position[i] + 0.5 * moved[i];
         }
         scree_cells_gradient(cells, middle, moved, gradient);
         for (size_t k = 0; k < cells->count; k++) {
