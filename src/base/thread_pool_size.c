@@ -16,8 +16,8 @@ static double read_clock(clockid_t which)
 
 static void start(scree_thread_pool_size *size, int most)
 {
-    *size =
-        (scree_thread_pool_size){.most = most, .now = most, .kept = most, .rest_more = least_rest, .rest_less = least_rest};
+    *size = (scree_thread_pool_size){
+        .most = most, .now = most, .kept = most, .rest_more = least_rest, .rest_less = least_rest};
 }
 
 /// After the last window of a comparison: the faster number stays.
@@ -58,7 +58,7 @@ static void consider(scree_thread_pool_size *size, double rate, double lost, dou
 }
 
 int scree_thread_pool_size_choose(scree_thread_pool_size *size, int most, double now, double (*lost)(const void *user),
-                           const void *user)
+                                  const void *user)
 {
     if (size->now == 0 || size->most != most) start(size, most);
     if (most <= 1) return 1;

@@ -1,8 +1,9 @@
-/// How many threads of a thread pool are worth while now: fewer than there may be while other programs hold the processors.
+/// How many threads of a thread pool are worth while now: fewer than there may be while other programs hold the
+/// processors.
 ///
-/// A thread pool of n threads on processors that it shares with others waits for the thread that has just lost its processor,
-/// for milliseconds each time, and is soon slower than fewer threads would be. Results have the same bits for any
-/// number, so the number may change between any two steps.
+/// A thread pool of n threads on processors that it shares with others waits for the thread that has just lost its
+/// processor, for milliseconds each time, and is soon slower than fewer threads would be. Results have the same bits
+/// for any number, so the number may change between any two steps.
 ///
 /// Method. Steps are counted over windows of some 30 ms. Where more than a tenth of a window was lost (the caller
 /// waited for others, or had no processor), the next window is done with one thread less, then one as before and one
@@ -37,6 +38,6 @@ int scree_thread_pool_size_follow(scree_thread_pool_size *size, const scree_thre
 /// The same with given clocks, for tests: `now` [s] and a function that returns the time lost so far [s], which is
 /// called at the ends of windows only.
 int scree_thread_pool_size_choose(scree_thread_pool_size *size, int most, double now, double (*lost)(const void *user),
-                           const void *user);
+                                  const void *user);
 
 #endif

@@ -30,8 +30,8 @@ double scree_imposed_measure(const scree_state *state, scree_vector *area, doubl
 /// Accumulates the rate of this step for the recorded ratio of actual and wanted rate.
 void scree_imposed_record(scree_state *state, const double rate[9]);
 
-/// Forces f = stress . a on all nodes, whose integers add up to zero exactly (facets.h; imposed_gradient.c tells how), added to
-/// the sums and to force. stress [Pa], tension positive. quantum: that of the present step.
+/// Forces f = stress . a on all nodes, whose integers add up to zero exactly (facets.h; imposed_gradient.c tells how),
+/// added to the sums and to force. stress [Pa], tension positive. quantum: that of the present step.
 void scree_imposed_apply_stress(const scree_model *model, scree_state *state, const double stress[9]);
 
 /// What stages ask of a boundary that imposes a velocity gradient (imposed_control.c).

@@ -20,9 +20,9 @@
 /// Hand-over. The pressure passes from the grains of the Delaunay boundary to the membrane smoothly within RAMP_WAVES
 /// wave times (scree_direct_pressure), so that a sample confined directly can be wrapped at any time.
 ///
-/// Accumulates. Pressure in ledger.pressure; springs and ends, which are the boundary's own, as work in ledger.boundary. The
-/// energy that the springs store is the negative of their part of it, up to the third order in the step.
-/// Cost: O(bodies of the membrane) a step.
+/// Accumulates. Pressure in ledger.pressure; springs and ends, which are the boundary's own, as work in
+/// ledger.boundary. The energy that the springs store is the negative of their part of it, up to the third order in the
+/// step. Cost: O(bodies of the membrane) a step.
 #include "boundary/membrane.h"
 #include "measure/delaunay_boundary.h"
 #include "state/plates.h"

@@ -7,7 +7,8 @@
 /// target_C. P's functional Phi = 1/2 K sum e_C^2 gives F_k = - dPhi/dv_k = Lambda a_k with the uniform stress
 ///     Lambda = sum lambda_C C,     lambda_C = - kappa e_C,     kappa = K / V.
 /// So the conditions are a uniform traction that adjusts itself; kappa is a viscosity [Pa s]. The forces add up to zero
-/// (to the last bit: imposed_gradient.c), those of symmetric tensors C have no moment, and their power is V Lambda : L exactly.
+/// (to the last bit: imposed_gradient.c), those of symmetric tensors C have no moment, and their power is V Lambda : L
+/// exactly.
 ///
 /// Integration. Explicitly the penalty would demand kappa h M < 2 with M_CC' = (1/V) C : (C' B), B = sum a (x) a /
 /// m_k: light boundary bodies. Instead lambda is taken at the end of the kick h, e = e_0 + h M lambda, where e_0 is

@@ -66,7 +66,8 @@ static bool deforms(const scree_periodic_cell *cell)
     return scree_matrix_contract(cell->gradient, cell->gradient) > 0;
 }
 
-// ---- the imposed velocity gradient ---------------------------------------------------------------------------------------------------
+// ---- the imposed velocity gradient
+// ---------------------------------------------------------------------------------------------------
 
 static double density(const scree_model *model, const scree_state *state)
 {

@@ -22,8 +22,8 @@ void scree_periodic_control(const scree_model *model, scree_state *state, const 
                             double rise);
 
 /// Right after the integrator's `first`: moves lattice and bodies with the gradient, puts bodies back that have left
-/// the cell, and gives rows whole velocities for the evaluation of contacts. Accumulates the first half of the work. Errors:
-/// memory. Nothing without a periodic cell.
+/// the cell, and gives rows whole velocities for the evaluation of contacts. Accumulates the first half of the work.
+/// Errors: memory. Nothing without a periodic cell.
 scree_status scree_periodic_move(const scree_model *model, scree_state *state, scree_work *work,
                                  scree_error *error) SCREE_MUST_USE;
 

@@ -9,8 +9,8 @@
 /// rot(H(b) - H(a)); over a closed outline they telescope. So, to the last bit, the forces on a closed loop add up to
 /// zero, and with plates the two sides press against each other with equal forces p t (distance of the plates).
 ///
-/// Work. Trapezoidal as for all forces (measure/energy.c): each force is accumulated half with v(n-1/2), which the rows hold
-/// for both schemes between `first` and `second`, and half with v(n+1/2), which they hold after the next `first`.
+/// Work. Trapezoidal as for all forces (measure/energy.c): each force is accumulated half with v(n-1/2), which the rows
+/// hold for both schemes between `first` and `second`, and half with v(n+1/2), which they hold after the next `first`.
 ///
 /// Bodies are handed to the triangulation in the order of their ids: neither the order of rows nor the number of
 /// threads shows. Cost: O(length of the loop) a step; a refresh 5 ms for 4000 bodies, 0.5 s for a million
@@ -21,9 +21,9 @@
 
 #include "base/fixed.h"
 #include "base/integer_sum.h"
+#include "boundary/hull.h"
 #include "boundary/loaded_edges.h"
 #include "boundary/loaded_triangles.h"
-#include "boundary/hull.h"
 #include "measure/facets.h"
 #include "measure/measure.h"
 #include "measure/outline.h"

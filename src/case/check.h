@@ -38,7 +38,7 @@ const scree_section *scree_primitive_section(const scree_key *list, const scree_
 /// Name of an element of a list: its `name`; of a stage without one its kind, numbered from 1 when several such stages
 /// are of the same kind. False when it has none.
 bool scree_primitive_name(const scree_key *list, const scree_node *parent, const scree_node *element, char *name,
-                        size_t size);
+                          size_t size);
 
 /// Reads the whole tree along `section` into the struct at `base` (zeroed before), and notes all problems. False when
 /// there are no keys at all.

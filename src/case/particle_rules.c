@@ -79,8 +79,8 @@ static void check_sizes(scree_reader *reader, const scree_config *config, int64_
     const scree_node *key = scree_node_find(section, problem.key);
     const scree_node *above = problem.above ? scree_node_find(section, problem.above) : NULL;
     if (key && above)
-        (void)snprintf(message, sizeof message, "'%s' is larger than %s, '%s'", scree_show(key->text).text, problem.above,
-                       scree_show(above->text).text);
+        (void)snprintf(message, sizeof message, "'%s' is larger than %s, '%s'", scree_show(key->text).text,
+                       problem.above, scree_show(above->text).text);
     else
         (void)snprintf(message, sizeof message, "%s", problem.text);
     refuse(reader, particles, index, problem.key, NULL, message);

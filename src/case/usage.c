@@ -79,7 +79,7 @@ static const char *given_text(const scree_node *element, const char *key)
 }
 
 bool scree_primitive_name(const scree_key *list, const scree_node *parent, const scree_node *element, char *name,
-                        size_t size)
+                          size_t size)
 {
     const char *own = given_text(element, "name");
     const char *kind_key = list->sections[0].keys[0].name;

@@ -27,7 +27,8 @@ static void send_share(void *argument, int index, int count)
 {
     const send_task *task = argument;
     unsigned char message[BLOCK_BYTES];
-    const size_t block = block_of(task->state, task->kind), end = scree_thread_pool_begin(task->list->count, index + 1, count);
+    const size_t block = block_of(task->state, task->kind),
+                 end = scree_thread_pool_begin(task->list->count, index + 1, count);
     for (size_t k = scree_thread_pool_begin(task->list->count, index, count); k < end;) {
         size_t many = end - k < block ? end - k : block;
         scree_message_pack(task->state, task->kind, &task->list->ghost[k], many, &task->shift, message);

@@ -25,8 +25,8 @@ int scree_contact_instruction_set(int wanted);
 /// Frees what scree_contact_forces keeps in work->contact_scratch. Call before scree_work_destroy.
 void scree_contact_scratch_destroy(scree_work *work);
 
-/// One touching contact, everything a measure needs. With `wall` second is the index of a plate, or SCREE_PRIMITIVE_ID +
-/// element of the walls of the case.
+/// One touching contact, everything a measure needs. With `wall` second is the index of a plate, or SCREE_PRIMITIVE_ID
+/// + element of the walls of the case.
 typedef struct scree_contact {
     uint32_t first, second; ///< rows (not ids)
     bool wall;
@@ -37,7 +37,7 @@ typedef struct scree_contact {
     scree_vector tangent;      ///< 2D: (-n_y, n_x); 3D: direction of the tangential force on first, zero without one
     scree_vector point;        ///< m
     scree_vector branch;       ///< m, x_first - x_second; for a wall x_first - contact point
-    double overlap;        ///< m
+    double overlap;            ///< m
     double normal_force;       ///< N, >= 0
     double tangential_force;   ///< N, along t, on first; in 3D >= 0
     double slip;               ///< m/s along t in 2D, magnitude in 3D

@@ -24,10 +24,8 @@ int scree_contact_instruction_set(int wanted)
 static contact_kernel *choose_kernel(int dimension, int wanted)
 {
 #if defined(__x86_64__)
-    static contact_kernel *const plane[] = {
-        [2] = scree_pairs_2d_v2, [3] = scree_pairs_2d_v3, [4] = scree_pairs_2d_v4};
-    static contact_kernel *const solid[] = {
-        [2] = scree_pairs_3d_v2, [3] = scree_pairs_3d_v3, [4] = scree_pairs_3d_v4};
+    static contact_kernel *const plane[] = {[2] = scree_pairs_2d_v2, [3] = scree_pairs_2d_v3, [4] = scree_pairs_2d_v4};
+    static contact_kernel *const solid[] = {[2] = scree_pairs_3d_v2, [3] = scree_pairs_3d_v3, [4] = scree_pairs_3d_v4};
 #else
     static contact_kernel *const plane[] = {scree_pairs_2d_v0}, *const solid[] = {scree_pairs_3d_v0};
 #endif

@@ -21,9 +21,10 @@
 /// spring is set to mu f_n - eta s, which in a fast slide stretches it backwards and charges it with energy that no
 /// body has spent. It also leaves out that the spring turns with the pair about n.
 ///
-/// In space the tangential displacement is kept in the axes of space and brought into the present tangent plane in each step, with its
-/// length (kinematics_carry_whole): what the rotation of n leaves out is of second order in the angle of one step, and only
-/// concerns the direction. Two bodies that turn at different rates about n take the spring along at the mean.
+/// In space the tangential displacement is kept in the axes of space and brought into the present tangent plane in each
+/// step, with its length (kinematics_carry_whole): what the rotation of n leaves out is of second order in the angle of
+/// one step, and only concerns the direction. Two bodies that turn at different rates about n take the spring along at
+/// the mean.
 ///
 /// History row in 2D: h [m], k_t(n - 1) [N/m], and at n - 1 for the ledger: normal damping force, dashpot's part of the
 /// tangential force [N]. In 3D: h and k_t(n - 1); scree_last_force has the normal damping force and the dashpot's part.
@@ -69,7 +70,10 @@ typedef struct scree_mindlin_material {
 /// In 2D the history holds what the ledger reads, too; k_t is for the ledger alone where springs are not rescaled.
 static const scree_law_traits hertz_mindlin_traits[] = {
     [0] = {.remembers = true, .for_ledger = {0xe, 0x8}, .keeps_last_force = {false, true}, .displacement = true},
-    [MINDLIN_RESCALED] = {.remembers = true, .for_ledger = {0xc, 0}, .keeps_last_force = {false, true}, .displacement = true},
+    [MINDLIN_RESCALED] = {.remembers = true,
+                          .for_ledger = {0xc, 0},
+                          .keeps_last_force = {false, true},
+                          .displacement = true},
     [MINDLIN_ROLLING] = {.remembers = true,
                          .for_ledger = {0xe, 0x8},
                          .keeps_last_force = {false, true},
@@ -109,7 +113,8 @@ SCREE_INLINE slider_memory remembered(int dimension, const kinematics *m, const 
     if (dimension == 2)
         return (slider_memory){{.x = displacement[0]}, {.x = displacement[0] * stiffness}, {.x = dashpot[0]}};
     vector tangential_displacement = kinematics_carry_whole(3, m, row_vector(displacement));
-    return (slider_memory){tangential_displacement, vector_times(3, tangential_displacement, stiffness), kinematics_carry(3, m, row_vector(dashpot))};
+    return (slider_memory){tangential_displacement, vector_times(3, tangential_displacement, stiffness),
+                           kinematics_carry(3, m, row_vector(dashpot))};
 }
 
 /// min(1, k_t(n-1) / k_t): what stiffening springs keep of their displacement. 1 where nothing touches.
@@ -169,12 +174,14 @@ SCREE_INLINE void resist_turning(variant v, const law_constants *constants, cons
     slider_work(f, &twist);
     vector tangential_displacement = roll.now.displacement, dashpot = roll.now.dashpot;
     lanes *value = after->rolling, *last = after->rolling_last;
-    value[0] = tangential_displacement.x, value[1] = tangential_displacement.y, value[2] = tangential_displacement.z, value[3] = twist.now.displacement.x;
+    value[0] = tangential_displacement.x, value[1] = tangential_displacement.y, value[2] = tangential_displacement.z,
+    value[3] = twist.now.displacement.x;
     last[0] = dashpot.x, last[1] = dashpot.y, last[2] = dashpot.z, last[3] = twist.now.dashpot.x;
 }
 
 SCREE_INLINE law_force hertz_mindlin(variant v, const law_constants *constants, const law_settings *settings,
-                                     const kinematics *m, lanes_bits touching, const law_memory *before, law_memory *after)
+                                     const kinematics *m, lanes_bits touching, const law_memory *before,
+                                     law_memory *after)
 {
     const int dimension = v.dimension, count = tangential_count(dimension);
     lanes d = lanes_keep(touching, m->overlap);
@@ -196,7 +203,8 @@ SCREE_INLINE law_force hertz_mindlin(variant v, const law_constants *constants, 
     *after = (law_memory){.value = {tangential_displacement.x, tangential_stiffness, damping, dashpot.x}};
     if (dimension == 3) {
         damping_before = before->last[0];
-        *after = (law_memory){.value = {tangential_displacement.x, tangential_displacement.y, tangential_displacement.z, tangential_stiffness},
+        *after = (law_memory){.value = {tangential_displacement.x, tangential_displacement.y, tangential_displacement.z,
+                                        tangential_stiffness},
                               .last = {damping, dashpot.x, dashpot.y, dashpot.z}};
     }
     law_force f = {

@@ -28,13 +28,13 @@ typedef struct contact_job {
     const scree_model *model;
     variant variant;
     const scree_row *row;
-    const scree_turn_row *turn;     ///< 3D
+    const scree_turn_row *turn;       ///< 3D
     const scree_predicted *predicted; ///< one a row, with law_predicts
-    scree_sum_row *sum;             ///< the sum of row r is sum[r]; this thread's own
-    scree_torque_row *torque;       ///< 3D, in the same way
-    const uint32_t *first, *second; ///< the whole pair list
+    scree_sum_row *sum;               ///< the sum of row r is sum[r]; this thread's own
+    scree_torque_row *torque;         ///< 3D, in the same way
+    const uint32_t *first, *second;   ///< the whole pair list
     scree_history *history;
-    scree_last_force *last_force;              ///< with law_keeps_last_force
+    scree_last_force *last_force;        ///< with law_keeps_last_force
     scree_rolling *rolling;              ///< with law_rolls
     size_t near;                         ///< number of the first near pair; touching pairs come before it
     size_t touching_begin, touching_end; ///< pairs of this job

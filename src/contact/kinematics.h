@@ -13,8 +13,8 @@
 ///
 /// What the contact remembers turns with it: from n - 1 to n, n turns by phi = P u dt / L, and the pair about its
 /// normal by psi = (w_first + w_second) . (n - phi / 2) dt / 2 (the mean of both surfaces: a pair that turns rigidly
-/// takes its spring along). kinematics_carry projects into the present tangent plane, which is that turn up to second order
-/// in phi; kinematics_carry_whole also gives back the length that the projection takes, up to fourth order,
+/// takes its spring along). kinematics_carry projects into the present tangent plane, which is that turn up to second
+/// order in phi; kinematics_carry_whole also gives back the length that the projection takes, up to fourth order,
 ///   a <- (1 - psi^2 / 2) b + psi n x b,    b = a - (n - phi L / (2 L(n-1))) (a . n)
 ///
 /// Rates in the middle of the step. Velocities and spins are those of n - 1/2, normal, distance and arms those of n.
@@ -49,7 +49,7 @@ typedef struct bodies {
 /// Rates are those of the middle of the step.
 typedef struct kinematics {
     vector normal;               ///< n, from second to first
-    lanes overlap;           ///< m, negative when apart
+    lanes overlap;               ///< m, negative when apart
     lanes approach;              ///< m/s, d'
     vector slip;                 ///< m/s, s
     vector roll;                 ///< m/s
@@ -61,8 +61,8 @@ typedef struct kinematics {
     lanes half;                  ///< 1, half of L / L(n - 1), of pairs in space
     vector turned;               ///< rad, psi n, in space
     lanes turn;                  ///< rad, psi, in space
-    vector predicted_slip;        ///< m/s, slip after the coming kick if all forces stay as they are (kinematics_predict)
-    lanes mobility;              ///< 1/kg, slip per tangential impulse of the contact's share of the bodies
+    vector predicted_slip; ///< m/s, slip after the coming kick if all forces stay as they are (kinematics_predict)
+    lanes mobility;        ///< 1/kg, slip per tangential impulse of the contact's share of the bodies
 } kinematics;
 
 /// scree_predicted in lanes.
@@ -122,7 +122,7 @@ SCREE_INLINE void kinematics_turn(kinematics *m, vector spins, vector relative, 
 /// Everything that depends on velocities; normal, overlap, arms, reduced radius and `tilted` are set.
 /// along: P u. lever: a_first w_first + a_second w_second.
 SCREE_INLINE void kinematics_advance(int dimension, kinematics *m, vector velocity, vector along, vector lever,
-                                 vector spin_first, vector spin_second, double step)
+                                     vector spin_first, vector spin_second, double step)
 {
     const int count = tangential_count(dimension);
     vector n = m->normal;
@@ -150,7 +150,7 @@ SCREE_INLINE lanes body_mobility(int dimension, const bodies *body, const predic
 
 /// For laws that look ahead. Against a wall, `second` is NULL.
 SCREE_INLINE void kinematics_predict(int dimension, kinematics *m, const bodies *first, const prediction *ahead,
-                                 const bodies *second, const prediction *ahead_second)
+                                     const bodies *second, const prediction *ahead_second)
 {
     const int count = tangential_count(dimension);
     vector velocity = ahead->velocity, lever = vector_times(count, ahead->spin, m->arm_first);

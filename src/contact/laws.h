@@ -67,7 +67,8 @@ SCREE_INLINE void law_forget(variant v, law_memory *after)
     if (v.law == SCREE_SLOT_##law_) return law_(v, constants, settings, m, touching, before, after);
 
 SCREE_INLINE law_force law_evaluate(variant v, const law_constants *constants, const law_settings *settings,
-                                    const kinematics *m, lanes_bits touching, const law_memory *before, law_memory *after)
+                                    const kinematics *m, lanes_bits touching, const law_memory *before,
+                                    law_memory *after)
 {
     SCREE_LAWS(LAW_EVALUATE)
     return (law_force){.normal = lanes_all(0)};

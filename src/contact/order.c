@@ -19,8 +19,8 @@ static bool reference_get(const scree_state *state, const scree_work *work, cons
     k -= pairs->count;
     if (k >= work->wall_pairs.count) {
         k -= work->wall_pairs.count;
-        *r = (contact_reference){state->id[work->primitive_pairs.body[k]], SCREE_PRIMITIVE_ID + work->primitive_pairs.wall[k],
-                                 (uint32_t)k};
+        *r = (contact_reference){state->id[work->primitive_pairs.body[k]],
+                                 SCREE_PRIMITIVE_ID + work->primitive_pairs.wall[k], (uint32_t)k};
         return touching[k];
     }
     uint32_t body = work->wall_pairs.body[k], wall = work->wall_pairs.wall[k];

@@ -14,7 +14,9 @@ typedef enum contact_list { CONTACT_PAIR, CONTACT_PLATE, CONTACT_ELEMENT } conta
 
 static inline contact_list contact_reference_list(const contact_reference *r)
 {
-    return r->second >= SCREE_WALL_ID ? CONTACT_PLATE : r->second >= SCREE_PRIMITIVE_ID ? CONTACT_ELEMENT : CONTACT_PAIR;
+    return r->second >= SCREE_WALL_ID        ? CONTACT_PLATE
+           : r->second >= SCREE_PRIMITIVE_ID ? CONTACT_ELEMENT
+                                             : CONTACT_PAIR;
 }
 
 /// All pairs, wall pairs and element pairs that touch at the present positions, ordered by (first, second): walls come

@@ -155,13 +155,13 @@ SCREE_INLINE void run(contact_job *given, variant v)
 enum { OF_one = 0, OF_many = 1 };
 enum { MOST_OPTIONS = 4 };
 
-#define PAIRS_2D_KERNEL(law, option, materials)                                                                           \
+#define PAIRS_2D_KERNEL(law, option, materials)                                                                        \
     VARIANT(pairs_2d_##law##_##option##_##materials, 2, law, option, OF_##materials)
-#define PAIRS_3D_KERNEL(law, option, materials)                                                                           \
+#define PAIRS_3D_KERNEL(law, option, materials)                                                                        \
     VARIANT(pairs_3d_##law##_##option##_##materials, 3, law, option, OF_##materials)
-#define PAIRS_2D_ENTRY(law, option, materials)                                                                            \
+#define PAIRS_2D_ENTRY(law, option, materials)                                                                         \
     [SCREE_SLOT_##law][option][OF_##materials] = pairs_2d_##law##_##option##_##materials,
-#define PAIRS_3D_ENTRY(law, option, materials)                                                                            \
+#define PAIRS_3D_ENTRY(law, option, materials)                                                                         \
     [SCREE_SLOT_##law][option][OF_##materials] = pairs_3d_##law##_##option##_##materials,
 #define PAIRS_2D_KERNELS(law) law##_KERNELS(PAIRS_2D_KERNEL)
 #define PAIRS_3D_KERNELS(law) law##_KERNELS(PAIRS_3D_KERNEL)
@@ -171,7 +171,7 @@ enum { MOST_OPTIONS = 4 };
 /// The kernel of a dimension. One for many materials serves a single one, too.
 #define PAIRS_KERNEL(name, NAME)                                                                                       \
     SCREE_LAWS(NAME##_KERNELS)                                                                                         \
-    void KERNEL_NAME(scree_##name##_v, SCREE_ISA)(contact_job * job)                                             \
+    void KERNEL_NAME(scree_##name##_v, SCREE_ISA)(contact_job * job)                                                   \
     {                                                                                                                  \
         static contact_kernel *const kernels[SCREE_MODULE_COUNT][MOST_OPTIONS][2] = {SCREE_LAWS(NAME##_ENTRIES)};      \
         const variant *v = &job->variant;                                                                              \

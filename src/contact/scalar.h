@@ -130,7 +130,8 @@ SCREE_INLINE kinematics kinematics_of_wall(int dimension, const bodies *body, co
 {
     const double *slide = wall->tangential_velocity;
     vector normal = {wall->normal[0], wall->normal[1], wall->normal[2]};
-    kinematics m = kinematics_beside(body, wall->normal, vector_dot(dimension, normal, body->position) - wall->position);
+    kinematics m =
+        kinematics_beside(body, wall->normal, vector_dot(dimension, normal, body->position) - wall->position);
     vector moving = {wall->velocity * normal.x + slide[0], wall->velocity * normal.y + slide[1],
                      wall->velocity * normal.z + slide[2]};
     kinematics_past(dimension, &m, vector_minus(dimension, body->velocity, moving), body->spin, step);

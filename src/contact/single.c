@@ -97,15 +97,17 @@ bool contact_of_wall(const scree_model *model, const scree_state *state, const c
 }
 
 void contact_of_primitive(const scree_model *model, const scree_state *state, const scree_work *work,
-                        const contact_body *body, uint32_t primitive, const memory_rows *memory, scree_contact *contact)
+                          const contact_body *body, uint32_t primitive, const memory_rows *memory,
+                          scree_contact *contact)
 {
     const int dimension = state->dimension;
     bodies one = body_get(dimension, &body->row, &body->turn);
     scree_closest_point closest;
-    scree_primitive_closest_point(work->wall_set, primitive, (const double[3]){one.position.x, one.position.y, one.position.z}, &closest);
+    scree_primitive_closest_point(work->wall_set, primitive,
+                                  (const double[3]){one.position.x, one.position.y, one.position.z}, &closest);
     const scree_surface *surface = contact_surface_of(work->wall_set, primitive);
-    kinematics m = kinematics_of_surface(work->wall_set, primitive, dimension, &one, &closest, scree_case_walls(state)->moving != 0,
-                                 state->step_size);
+    kinematics m = kinematics_of_surface(work->wall_set, primitive, dimension, &one, &closest,
+                                         scree_case_walls(state)->moving != 0, state->step_size);
     scree_pair_constants constants = contact_surface_constants(model, surface, (int)one.material);
     describe_wall(model, dimension, &constants, &one, &m, memory, contact);
 }

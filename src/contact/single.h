@@ -45,6 +45,7 @@ bool contact_of_wall(const scree_model *model, const scree_state *state, const c
 
 /// A body and an element of the walls of the case that it touches, as the state has them now.
 void contact_of_primitive(const scree_model *model, const scree_state *state, const scree_work *work,
-                        const contact_body *body, uint32_t primitive, const memory_rows *memory, scree_contact *contact);
+                          const contact_body *body, uint32_t primitive, const memory_rows *memory,
+                          scree_contact *contact);
 
 #endif

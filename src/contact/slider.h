@@ -21,8 +21,8 @@
 /// What a slider remembers of step n - 1, in the directions of step n.
 typedef struct slider_memory {
     vector displacement; ///< h
-    vector spring;  ///< k h, for the ledger
-    vector dashpot; ///< the dashpot's part of -f, for the ledger
+    vector spring;       ///< k h, for the ledger
+    vector dashpot;      ///< the dashpot's part of -f, for the ledger
 } slider_memory;
 
 /// Shortens the displacement by `factor`, without work. Twice the energy that goes, to be taken from `stiffness`.
@@ -56,7 +56,8 @@ SCREE_INLINE void slider_limit(int count, slider *s, vector viscous, lanes stiff
     vector trial = s->now.spring, displacement = s->now.displacement;
     if (count == 1) {
         s->now.spring = vector_at_most(1, trial, cap);
-        displacement.x = lanes_select(lanes_differ(s->now.spring.x, trial.x), s->now.spring.x / stiffness, displacement.x);
+        displacement.x =
+            lanes_select(lanes_differ(s->now.spring.x, trial.x), s->now.spring.x / stiffness, displacement.x);
     } else {
         lanes factor = vector_limit_factor(trial, cap);
         s->now.spring = vector_times(3, trial, factor);
@@ -87,7 +88,8 @@ SCREE_INLINE slider slider_move(int count, const slider_memory *before, vector r
 
     vector dashpots = vector_plus(count, s.now.dashpot, before->dashpot);
     s.damping = vector_dot(count, dashpots, moved);
-    s.stiffness = vector_dot(count, s.now.spring, before->displacement) - vector_dot(count, before->spring, s.now.displacement);
+    s.stiffness =
+        vector_dot(count, s.now.spring, before->displacement) - vector_dot(count, before->spring, s.now.displacement);
     s.elastic = 0.5 * vector_dot(count, s.now.spring, s.now.displacement);
     return s;
 }

@@ -53,7 +53,8 @@ static void merge(const scree_wall_set *wall_set, primitive_touches *touches)
 }
 
 void contact_primitives_touching(const scree_wall_set *wall_set, int dimension, const scree_row *body,
-                               const scree_wall_pair_list *pairs, size_t begin, size_t end, primitive_touches *touches)
+                                 const scree_wall_pair_list *pairs, size_t begin, size_t end,
+                                 primitive_touches *touches)
 {
     scree_vector position;
     place_of(dimension, body, position);
@@ -61,7 +62,8 @@ void contact_primitives_touching(const scree_wall_set *wall_set, int dimension, 
     for (size_t p = begin; p < end; p++) {
         primitive_touch touch = {.pair = p, .surface = scree_primitive_surface(wall_set, pairs->wall[p])};
         scree_primitive_closest_point(wall_set, pairs->wall[p], position, &touch.closest);
-        if (scree_closest_point_touches(wall_set, pairs->wall[p], &touch.closest, body->radius)) insert(touches, &touch);
+        if (scree_closest_point_touches(wall_set, pairs->wall[p], &touch.closest, body->radius))
+            insert(touches, &touch);
     }
     merge(wall_set, touches);
 }
@@ -73,8 +75,8 @@ void contact_primitives_mark(const scree_state *state, const scree_work *work, u
     for (size_t begin = 0, end; begin < pairs->count; begin = end) {
         end = contact_group_end(pairs, begin);
         for (size_t p = begin; p < end; p++) touching[p] = 0;
-        contact_primitives_touching(work->wall_set, state->dimension, &state->row[pairs->body[begin]], pairs, begin, end,
-                                  &touches);
+        contact_primitives_touching(work->wall_set, state->dimension, &state->row[pairs->body[begin]], pairs, begin,
+                                    end, &touches);
         for (int k = 0; k < touches.count; k++) touching[touches.touch[k].pair] = 1;
     }
 }
@@ -126,13 +128,14 @@ static vector tilt_of(const scree_wall_set *wall_set, size_t primitive, int dime
 }
 
 kinematics kinematics_of_surface(const scree_wall_set *wall_set, size_t primitive, int dimension, const bodies *body,
-                         const scree_closest_point *closest, bool moving, double step)
+                                 const scree_closest_point *closest, bool moving, double step)
 {
     const scree_surface *surface = contact_surface_of(wall_set, primitive);
     kinematics m = kinematics_beside(body, closest->normal, closest->distance);
     vector velocity = body->velocity, spin = body->spin;
     if (moving) see_from_wall(dimension, surface, body, step, &velocity, &spin);
-    if (!scree_surface_is_flat(surface)) m.tilted = tilt_of(wall_set, primitive, dimension, body, closest, velocity, step);
+    if (!scree_surface_is_flat(surface))
+        m.tilted = tilt_of(wall_set, primitive, dimension, body, closest, velocity, step);
     kinematics_past(dimension, &m, velocity, spin, step);
     if (dimension == 3 && moving) {
         // What the contact remembers turns with the wall, too.
@@ -143,10 +146,12 @@ kinematics kinematics_of_surface(const scree_wall_set *wall_set, size_t primitiv
     return m;
 }
 
-/// Turns a tangential displacement into the tangent plane, with its length: the normal of a wall turns by more than kinematics.h knows of.
+/// Turns a tangential displacement into the tangent plane, with its length: the normal of a wall turns by more than
+/// kinematics.h knows of.
 static void turn_displacement(const scree_vector normal, double tangential_displacement[3])
 {
-    double along = cosine(tangential_displacement, normal), square = cosine(tangential_displacement, tangential_displacement), left = square - along * along;
+    double along = cosine(tangential_displacement, normal),
+           square = cosine(tangential_displacement, tangential_displacement), left = square - along * along;
     if (!(left > 0)) return;
     double factor = sqrt(square / left);
     for (int k = 0; k < 3; k++) tangential_displacement[k] = factor * (tangential_displacement[k] - along * normal[k]);
@@ -230,7 +235,8 @@ static void add_to_surface(contact_job *job, int surface, const scree_vector hub
     const bool in_3d = job->variant.dimension == 3;
     const double f[3] = {scree_fixed_to((int64_t)q->force.x, quantum), scree_fixed_to((int64_t)q->force.y, quantum),
                          in_3d ? scree_fixed_to((int64_t)q->force.z, quantum) : 0};
-    const double lever[3] = {body->position.x - hub[0], body->position.y - hub[1], in_3d ? body->position.z - hub[2] : 0};
+    const double lever[3] = {body->position.x - hub[0], body->position.y - hub[1],
+                             in_3d ? body->position.z - hub[2] : 0};
     const int64_t couple[3] = {in_3d ? (int64_t)q->torque_first.x : 0, in_3d ? (int64_t)q->torque_first.y : 0,
                                (int64_t)(in_3d ? q->torque_first.z : q->torque_first.x)};
     const uint64_t force[3] = {q->force.x, q->force.y, in_3d ? q->force.z : 0};
@@ -256,7 +262,7 @@ SCREE_INLINE void evaluate_group(contact_job *job, variant v, const scree_state 
         const scree_closest_point *closest = touch ? &touch->closest : &left;
         if (v.dimension == 3 && law_traits(v)->displacement) turn_displacements(closest->normal, &rows);
         kinematics m = kinematics_of_surface(g->wall_set, g->pairs->wall[p], v.dimension, &one, closest,
-                                     scree_case_walls(state)->moving != 0, job->settings.step);
+                                             scree_case_walls(state)->moving != 0, job->settings.step);
         if (law_predicts(v)) {
             prediction ahead = prediction_get(v.dimension, &job->predicted[row]);
             kinematics_predict(v.dimension, &m, &one, &ahead, NULL, NULL);

@@ -11,10 +11,10 @@
 /// a body is a continuous function of its place wherever faces meet at a smaller angle than `smooth` or at convex
 /// edges.
 ///
-/// What contacts remember goes with their primitive. When a body touches a primitive anew and has just left another one of
-/// the same wall whose normal is nearly the same, it takes the memory along: a spring survives the change of the
-/// triangle, and the ledger accumulates what it would have accumulated on one plane. In space a tangential displacement is brought into the plane
-/// of its primitive in every step, with its length.
+/// What contacts remember goes with their primitive. When a body touches a primitive anew and has just left another one
+/// of the same wall whose normal is nearly the same, it takes the memory along: a spring survives the change of the
+/// triangle, and the ledger accumulates what it would have accumulated on one plane. In space a tangential displacement
+/// is brought into the plane of its primitive in every step, with its length.
 #ifndef SCREE_CONTACT_SURFACES_H
 #define SCREE_CONTACT_SURFACES_H
 
@@ -52,7 +52,8 @@ static inline size_t contact_group_end(const scree_wall_pair_list *pairs, size_t
 
 /// Which of the pairs [begin, end) of one body touch.
 void contact_primitives_touching(const scree_wall_set *wall_set, int dimension, const scree_row *body,
-                               const scree_wall_pair_list *pairs, size_t begin, size_t end, primitive_touches *touches);
+                                 const scree_wall_pair_list *pairs, size_t begin, size_t end,
+                                 primitive_touches *touches);
 
 /// Sets touching[k] to 1 for each of work->primitive_pairs that touches, else to 0.
 void contact_primitives_mark(const scree_state *state, const scree_work *work, uint8_t *touching);
@@ -62,7 +63,7 @@ scree_pair_constants contact_surface_constants(const scree_model *model, const s
 
 /// Motion of a body against the primitive of a wall at `closest point`.
 kinematics kinematics_of_surface(const scree_wall_set *wall_set, size_t primitive, int dimension, const bodies *body,
-                         const scree_closest_point *closest, bool moving, double step);
+                                 const scree_closest_point *closest, bool moving, double step);
 
 /// All contacts of bodies in rows [begin, end) with the walls of the case: memory, sums, totals.
 void contact_surfaces(contact_job *job, const scree_state *state, const scree_work *work, size_t begin, size_t end);

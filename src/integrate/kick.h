@@ -26,15 +26,15 @@ typedef struct scree_kick_scale {
 
 /// Adds to velocity and spin; returns what it has added, and the number of contacts.
 KICK_INLINE scree_predicted scree_kick_velocity(int dimension, scree_state *state, size_t i,
-                                               const scree_kick_scale *scale)
+                                                const scree_kick_scale *scale)
 {
     scree_row *row = &state->row[i];
     const scree_sum_row *sum = &state->sum[i];
     // One division for mass and inertia.
     double square = row->radius * row->radius, inverse = 1.0 / (row->mass * square), inverse_mass = inverse * square;
     scree_predicted added = {.vx = (double)sum->fx * scale->force * inverse_mass + scale->gravity[0],
-                            .vy = (double)sum->fy * scale->force * inverse_mass + scale->gravity[1],
-                            .contacts = (double)sum->contacts};
+                             .vy = (double)sum->fy * scale->force * inverse_mass + scale->gravity[1],
+                             .contacts = (double)sum->contacts};
     row->vx += added.vx;
     row->vy += added.vy;
     if (dimension == 2) {

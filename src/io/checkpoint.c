@@ -1,10 +1,10 @@
 /// Checkpoints: whole states (state_file.h) as parts of run.h5, the newest two of them.
 ///
-/// The checksum of the file (checksum.h) tells whether it is whole; when it is not, or what it holds cannot be used, the older
-/// of the two is read, or else a snapshot, which holds a state, too.
+/// The checksum of the file (checksum.h) tells whether it is whole; when it is not, or what it holds cannot be used,
+/// the older of the two is read, or else a snapshot, which holds a state, too.
 #include "io/disk.h"
-#include "io/run_file.h"
 #include "io/file_checksum.h"
+#include "io/run_file.h"
 #include "io/snapshot.h"
 #include "io/state_file.h"
 

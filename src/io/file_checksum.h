@@ -1,7 +1,7 @@
 /// A checksum behind the last byte of a file: 16 bytes, a mark and the checksum of everything before it. HDF5 ignores
-/// what follows its own data. A file whose checksum is whole is whole; others are refused before HDF5 (1.10) parses them,
-/// whose error paths crash in H5Ocopy and leave complaints at exit. Any flipped bit and any cut is found, with a chance
-/// of 2^-64 to miss one. Cost: one pass, about 4 GB/s.
+/// what follows its own data. A file whose checksum is whole is whole; others are refused before HDF5 (1.10) parses
+/// them, whose error paths crash in H5Ocopy and leave complaints at exit. Any flipped bit and any cut is found, with a
+/// chance of 2^-64 to miss one. Cost: one pass, about 4 GB/s.
 #ifndef SCREE_IO_FILE_CHECKSUM_H
 #define SCREE_IO_FILE_CHECKSUM_H
 

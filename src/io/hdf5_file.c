@@ -2,8 +2,8 @@
 #include "io/hdf5_file.h"
 
 #include "base/memory.h"
-#include "io/run_directory.h"
 #include "io/file_checksum.h"
+#include "io/run_directory.h"
 
 #include <errno.h>
 #include <pthread.h>

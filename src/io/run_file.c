@@ -2,9 +2,9 @@
 #include "io/run_file.h"
 
 #include "io/disk.h"
+#include "io/file_checksum.h"
 #include "io/manifest.h"
 #include "io/run_directory.h"
-#include "io/file_checksum.h"
 #include "io/snapshot.h"
 
 #include <scree/scree.h>

@@ -57,7 +57,8 @@ static scree_status refuse(const scree_simulation *s, const char *name, scree_er
 
 static bool is_of_contacts(const scree_field *field)
 {
-    return field->rows == SCREE_ROWS_CONTACTS || field->rows == SCREE_ROWS_LAST_FORCE || field->rows == SCREE_ROWS_ROLLING;
+    return field->rows == SCREE_ROWS_CONTACTS || field->rows == SCREE_ROWS_LAST_FORCE ||
+           field->rows == SCREE_ROWS_ROLLING;
 }
 
 /// How far behind the present time the values of a field are [s].

@@ -7,9 +7,9 @@
 /// v is v(n - 1/2), as rows hold it: the force is explicit, and dissipates for a < 1 whenever |v| exceeds what the step
 /// changes; near rest it may turn about within a step, by no more than a share of the kick itself.
 ///
-/// Work. F_d(n) does 1/2 F_d . v(n-1/2) h(n) in the step before, which is accumulated at once, and 1/2 F_d . v(n+1/2) h(n+1)
-/// in the one after, which is known, too, since nothing is added behind this phase: it waits until the next step has
-/// begun. Work is a sum in integers (base/fixed.h). Cost: one pass over the bodies, some 5 ns each.
+/// Work. F_d(n) does 1/2 F_d . v(n-1/2) h(n) in the step before, which is accumulated at once, and 1/2 F_d . v(n+1/2)
+/// h(n+1) in the one after, which is known, too, since nothing is added behind this phase: it waits until the next step
+/// has begun. Work is a sum in integers (base/fixed.h). Cost: one pass over the bodies, some 5 ns each.
 #include "base/checksum.h"
 #include "base/fixed.h"
 #include "base/integer_sum.h"

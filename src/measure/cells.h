@@ -18,9 +18,9 @@ typedef struct scree_assembly {
     int dimension;
     double thickness; ///< m, of discs; 1 in 3D
     size_t count;
-    uint32_t *id;   ///< ascending; NULL: 0 .. count - 1
-    double *position;  ///< m, count x 3; z = 0 in 2D
-    double *radius; ///< m, equivalent
+    uint32_t *id;     ///< ascending; NULL: 0 .. count - 1
+    double *position; ///< m, count x 3; z = 0 in 2D
+    double *radius;   ///< m, equivalent
 } scree_assembly;
 
 /// Positions and radii of the grains of a state; free with scree_assembly_destroy. Errors: memory.

@@ -3,8 +3,8 @@
 /// The schemes conserve the discrete kinetic energy T(n) = sum 1/2 m v(n-1/2) . v(n+1/2) + 1/2 J w(n-1/2) w(n+1/2):
 /// from v(n+1/2) - v(n-1/2) = F(n)/m dt follows, without error,
 ///     T(n+1) - T(n) = sum 1/2 (F(n) + F(n+1)) . v(n+1/2) dt,
-/// the trapezoidal work of the forces over the very displacement x(n+1) - x(n) = v(n+1/2) dt. The ledger accumulates every
-/// force by the same rule, so the residual
+/// the trapezoidal work of the forces over the very displacement x(n+1) - x(n) = v(n+1/2) dt. The ledger accumulates
+/// every force by the same rule, so the residual
 ///     (kinetic + elastic - initial) - (plates + pressure + boundary + periodic + forced + outside + gravity) +
 ///     damping + friction - stiffness - scheme + removed
 /// holds no error of the integrator, only that of the trapezoidal rule along the elastic force laws: third order in the

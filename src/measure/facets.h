@@ -23,7 +23,7 @@ static inline size_t scree_boundary_row(const scree_state *state, size_t node)
 typedef struct scree_facet {
     size_t node[3];
     scree_vector position[3]; ///< m, relative to the first node of the boundary
-    int corners;           ///< 2 in 2D, 3 in 3D
+    int corners;              ///< 2 in 2D, 3 in 3D
 } scree_facet;
 
 size_t scree_facet_count(const scree_state *state);

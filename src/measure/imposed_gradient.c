@@ -19,7 +19,8 @@ static const scree_field fields[] = {
         SCREE_RANGE(0, SCREE_SYMMETRIC)),
     ONE(viscosity, "imposed_gradient/viscosity", SCREE_FIELD_DOUBLE, 1, "Pa s", "stress over the error of the rate",
         SCREE_RANGE(0, INFINITY)),
-    ONE(rate, "imposed_gradient/rate", SCREE_FIELD_DOUBLE, 9, "1/s", "velocity gradient of the boundary, 3 x 3 by rows"),
+    ONE(rate, "imposed_gradient/rate", SCREE_FIELD_DOUBLE, 9, "1/s",
+        "velocity gradient of the boundary, 3 x 3 by rows"),
     ONE(stress, "imposed_gradient/stress", SCREE_FIELD_DOUBLE, 9, "Pa",
         "stress that the boundary applies besides the pressure, 3 x 3 by rows, tension positive"),
     ONE(achieved, "imposed_gradient/achieved", SCREE_FIELD_DOUBLE, 1, "1/s",
@@ -36,7 +37,8 @@ static scree_status check(const scree_state *state, const scree_model *model, sc
     if (count == 0 || count == wanted) return SCREE_OK;
     return scree_error_set(
         error, SCREE_ERROR_IO,
-        "dataset 'imposed_gradient/force': %zu (accepted: none, or as many rows as the boundary has bodies, %zu)", count, wanted);
+        "dataset 'imposed_gradient/force': %zu (accepted: none, or as many rows as the boundary has bodies, %zu)",
+        count, wanted);
 }
 
 static const scree_result columns[] = {

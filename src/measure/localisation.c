@@ -250,7 +250,8 @@ scree_status scree_localisation_measure(const scree_cells *cells, const double *
         status = measure_random(cells, &list, position, distortion, diameter, scratch, out, error);
     }
     scree_band *band = &out->band;
-    if (!status) status = scree_band_fit(cells, position, field, THINNEST * diameter, BIN * diameter, true, band, error);
+    if (!status)
+        status = scree_band_fit(cells, position, field, THINNEST * diameter, BIN * diameter, true, band, error);
     if (!status) status = measure_percolation(cells, position, field, band, error);
     if (!status) {
         out->localised = out->index >= LOCALISED && out->significance >= SIGNIFICANT;

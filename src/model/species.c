@@ -59,7 +59,8 @@ static void share_out(scree_model *model)
     for (int s = 0; s < model->species_count; s++) model->species[s].end = end += count[s];
 }
 
-static scree_status refuse_sizes(const scree_model *model, int index, const scree_size_problem *problem, scree_error *error)
+static scree_status refuse_sizes(const scree_model *model, int index, const scree_size_problem *problem,
+                                 scree_error *error)
 {
     scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "%s", problem->text);
     if (!error) return status;

@@ -59,8 +59,7 @@ scree_status scree_drop_2d_create(scree_drop_2d *drop, const double *radius, siz
     drop->cell = 2 * drop->largest;
     drop->columns = (size_t)(width / drop->cell) + 1;
     drop->rows = 4;
-    scree_status status =
-        scree_allocate(&drop->head, drop->rows * drop->columns, sizeof *drop->head, error);
+    scree_status status = scree_allocate(&drop->head, drop->rows * drop->columns, sizeof *drop->head, error);
     if (!status) status = scree_allocate(&drop->next, count, sizeof *drop->next, error);
     if (!status) status = scree_allocate(&drop->filled, drop->columns, sizeof *drop->filled, error);
     if (status) scree_drop_2d_destroy(drop);
@@ -79,8 +78,8 @@ static scree_status insert(scree_drop_2d *drop, size_t index, point at, scree_er
     size_t row = (size_t)(at.y / drop->cell), column = scree_cell_within(at.x, drop->cell, drop->columns);
     if (row >= drop->rows) {
         size_t rows = 2 * row;
-        scree_status status = scree_reallocate(&drop->head, drop->rows * drop->columns,
-                                               rows * drop->columns, sizeof *drop->head, error);
+        scree_status status =
+            scree_reallocate(&drop->head, drop->rows * drop->columns, rows * drop->columns, sizeof *drop->head, error);
         if (status) return status;
         drop->rows = rows;
     }
@@ -157,8 +156,7 @@ static void meet_box(const scree_drop_2d *drop, const mover *disc, meeting *near
     double wall = disc->side > 0 ? drop->width - disc->radius : disc->radius;
     double across = wall - x, up = disc->radius - y;
     if (fabs(across) < reach)
-        consider(drop, disc, (point){wall, y + sqrt((reach - across) * (reach + across))}, MEET_REST, NOTHING,
-                 nearest);
+        consider(drop, disc, (point){wall, y + sqrt((reach - across) * (reach + across))}, MEET_REST, NOTHING, nearest);
     if (up > 0)
         consider(drop, disc, (point){x + disc->side * sqrt((reach - up) * (reach + up)), disc->radius}, MEET_REST,
                  NOTHING, nearest);

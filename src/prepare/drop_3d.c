@@ -50,15 +50,15 @@ typedef struct meeting {
 } meeting;
 
 scree_status scree_drop_3d_create(scree_drop_3d *drop, const double *radius, size_t count, const double floor_sides[2],
-                               double *const place[3], double *level, scree_error *error)
+                                  double *const place[3], double *level, scree_error *error)
 {
     *drop = (scree_drop_3d){.radius = radius,
-                         .x = place[0],
-                         .y = place[1],
-                         .z = place[2],
-                         .level = level,
-                         .width = floor_sides[0],
-                         .depth = floor_sides[1]};
+                            .x = place[0],
+                            .y = place[1],
+                            .z = place[2],
+                            .level = level,
+                            .width = floor_sides[0],
+                            .depth = floor_sides[1]};
     for (size_t i = 0; i < count; i++) drop->largest = fmax(drop->largest, radius[i]);
     drop->cell = 2 * drop->largest;
     drop->columns = (size_t)(drop->width / drop->cell) + 1;
@@ -205,7 +205,8 @@ bool scree_drop_3d_sees_floor(const scree_drop_3d *drop, size_t index, double x,
 }
 
 /// Takes surface `name` into account if the arc enters it before the meeting already known.
-static void consider(const scree_drop_3d *drop, const mover *sphere, const scree_arc *arc, uint32_t name, meeting *nearest)
+static void consider(const scree_drop_3d *drop, const mover *sphere, const scree_arc *arc, uint32_t name,
+                     meeting *nearest)
 {
     scree_arc_surface surface = surface_of(drop, sphere->radius, name);
     meeting met = {.name = name};
@@ -225,8 +226,8 @@ static void consider_parting(const scree_arc *arc, uint32_t name, double height,
 }
 
 /// First surface that the arc enters, or holder that lets go. `lowest`: height below which the path does not go.
-static meeting look_ahead(const scree_drop_3d *drop, const mover *sphere, const scree_arc *arc, const contact_set *holders,
-                          double lowest, meeting nearest)
+static meeting look_ahead(const scree_drop_3d *drop, const mover *sphere, const scree_arc *arc,
+                          const contact_set *holders, double lowest, meeting nearest)
 {
     double reach = drop->largest + sphere->radius, low[3], high[3];
     for (int c = 0; c < 3; c++) {

@@ -23,7 +23,7 @@ typedef struct scree_drop_3d {
 
 /// An empty box; the arrays have room for `count` spheres.
 scree_status scree_drop_3d_create(scree_drop_3d *drop, const double *radius, size_t count, const double floor_sides[2],
-                               double *const place[3], double *level, scree_error *error) SCREE_MUST_USE;
+                                  double *const place[3], double *level, scree_error *error) SCREE_MUST_USE;
 void scree_drop_3d_destroy(scree_drop_3d *drop);
 
 /// Would sphere `index`, let fall at (x, y), reach the floor without touching another sphere?
@@ -32,6 +32,7 @@ bool scree_drop_3d_sees_floor(const scree_drop_3d *drop, size_t index, double x,
 /// Lets sphere `index` fall from above at (x, y), at least its radius from all walls, and roll to its place of rest,
 /// which it fills in. Errors: memory; the sphere finds no rest (does not happen unless radii or positions are not
 /// numbers).
-scree_status scree_drop_3d_add(scree_drop_3d *drop, size_t index, double x, double y, scree_error *error) SCREE_MUST_USE;
+scree_status scree_drop_3d_add(scree_drop_3d *drop, size_t index, double x, double y,
+                               scree_error *error) SCREE_MUST_USE;
 
 #endif

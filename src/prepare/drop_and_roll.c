@@ -36,8 +36,8 @@ typedef struct drop {
     scree_packing packing;
     double *level; ///< m, highest centre among a body and all that it rests on
     union {
-        scree_drop_2d discs; ///< 2D
-        scree_drop_3d spheres;  ///< 3D
+        scree_drop_2d discs;   ///< 2D
+        scree_drop_3d spheres; ///< 3D
     } pile;
 } drop;
 

@@ -1,7 +1,7 @@
 /// What is whole in the folder of a run, what is damaged or left over, and from where the run can go on.
+#include "io/file_checksum.h"
 #include "io/run_directory.h"
 #include "io/run_file.h"
-#include "io/file_checksum.h"
 #include "io/series.h"
 #include "run/restart.h"
 

@@ -56,8 +56,7 @@ static scree_status check_room(const scree_simulation *s, scree_error *error)
                                    "is %.4g m from it; move the wall, or change the box of the prepare stage (it "
                                    "begins at the origin)",
                                    state->id[row], place[0], place[1], place[2], radius,
-                                   clearance < 0 ? "behind" : "in", wall_set->surface[k].config->name,
-                                   fabs(clearance));
+                                   clearance < 0 ? "behind" : "in", wall_set->surface[k].config->name, fabs(clearance));
         }
     }
     return SCREE_OK;

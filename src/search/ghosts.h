@@ -7,8 +7,8 @@
 #include "state/work.h"
 
 /// Chooses the ghosts that may come closer than R_i + R_j + skin to a body while the list lives, and makes rows for
-/// them, which messages fill (comm/comm.h). Rows of bodies have their final order. Errors: memory; SCREE_ERROR_GUARD when the cell is narrower
-/// than two pairs of its largest bodies side by side (a pair could touch twice).
+/// them, which messages fill (comm/comm.h). Rows of bodies have their final order. Errors: memory; SCREE_ERROR_GUARD
+/// when the cell is narrower than two pairs of its largest bodies side by side (a pair could touch twice).
 scree_status scree_ghosts_make(scree_state *state, scree_work *work, scree_error *error) SCREE_MUST_USE;
 
 /// Refills `chunk` with the pairs of a body and a ghost, each physical pair once. Errors: memory.

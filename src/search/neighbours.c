@@ -179,7 +179,8 @@ static void pairs_share(void *argument, int index, int count)
     pairs_task *task = argument;
     const scree_state *state = task->state;
     scree_pair_chunk *chunk = &task->search->chunk[index];
-    size_t begin = scree_thread_pool_begin(state->count, index, count), end = scree_thread_pool_begin(state->count, index + 1, count);
+    size_t begin = scree_thread_pool_begin(state->count, index, count),
+           end = scree_thread_pool_begin(state->count, index + 1, count);
     chunk->element.count = 0;
     task->failed[index] =
         task->find(&task->search->grid, state, begin, end, chunk, NULL) ||
@@ -263,7 +264,8 @@ static void attach_rows(const scree_state *state, const list_arrays *list, size_
 {
     bool known = from < state->contact_count;
     (*list->history)[k] = known ? state->contact[from].history : (scree_history){{0}};
-    if (*list->last_force) (*list->last_force)[k] = known && state->last_force ? state->last_force[from] : (scree_last_force){{0}};
+    if (*list->last_force)
+        (*list->last_force)[k] = known && state->last_force ? state->last_force[from] : (scree_last_force){{0}};
     if (*list->rolling)
         (*list->rolling)[k] = known && state->rolling ? state->rolling[from] : (scree_rolling){{0}, {0}};
 }

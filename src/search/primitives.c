@@ -28,7 +28,7 @@ static scree_status collect(void *context, size_t primitive)
 }
 
 scree_status scree_primitives_search(const scree_wall_set *wall_set, const scree_state *state, size_t begin, size_t end,
-                                   double skin, scree_pair_buffer *buffer, scree_error *error)
+                                     double skin, scree_pair_buffer *buffer, scree_error *error)
 {
     scree_status status = SCREE_OK;
     for (size_t row = begin; wall_set && row < end && !status; row++) {

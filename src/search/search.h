@@ -28,7 +28,7 @@ struct scree_search {
 /// Appends the bodies of rows [begin, end) with the elements of the walls of the case that are closer than R + skin, by
 /// row, then element. `wall_set` may be NULL. Errors: memory.
 scree_status scree_primitives_search(const scree_wall_set *wall_set, const scree_state *state, size_t begin, size_t end,
-                                   double skin, scree_pair_buffer *buffer, scree_error *error) SCREE_MUST_USE;
+                                     double skin, scree_pair_buffer *buffer, scree_error *error) SCREE_MUST_USE;
 
 /// Frees the lists of pairs and of wall pairs.
 void scree_pair_lists_destroy(scree_work *work);

@@ -72,7 +72,8 @@ static void leave_frame(const scree_surface *surface, double direction[3])
 
 // ---- shapes ------------------------------------------------------------------------------------------------------
 
-static void closest_on_plane(const scree_surface *surface, size_t k, const double place[3], scree_closest_point *closest)
+static void closest_on_plane(const scree_surface *surface, size_t k, const double place[3],
+                             scree_closest_point *closest)
 {
     memcpy(closest->normal, surface->normal[k], sizeof closest->normal);
     closest->distance = scree_dot(surface->normal[k], place) - surface->offset[k];
@@ -80,7 +81,8 @@ static void closest_on_plane(const scree_surface *surface, size_t k, const doubl
 }
 
 /// A solid box: its nearest face, edge or corner; inside it the nearest face.
-static void closest_on_solid_box(int dimension, const scree_config_wall *config, const double place[3], scree_closest_point *closest)
+static void closest_on_solid_box(int dimension, const scree_config_wall *config, const double place[3],
+                                 scree_closest_point *closest)
 {
     double nearest = -INFINITY;
     int face = 0;
@@ -139,7 +141,8 @@ static double solid_profile(const scree_surface *surface, double s, double r, do
     return outside ? nearest : deepest;
 }
 
-static void closest_on_round(const scree_surface *surface, size_t primitive, const double place[3], scree_closest_point *closest)
+static void closest_on_round(const scree_surface *surface, size_t primitive, const double place[3],
+                             scree_closest_point *closest)
 {
     double from[3], radial[3], normal[2];
     bool inner = true,
@@ -158,12 +161,13 @@ static void closest_on_round(const scree_surface *surface, size_t primitive, con
         (void)scree_normalise(radial);
     }
     closest->distance = solid ? solid_profile(surface, s, r, normal)
-                           : profile_distance(&surface->profile[primitive], s, r, normal, &inner);
+                              : profile_distance(&surface->profile[primitive], s, r, normal, &inner);
     closest->minimum = solid || inner || surface->profile[primitive].free_ends;
     for (int i = 0; i < 3; i++) closest->normal[i] = normal[0] * surface->axis[i] + normal[1] * radial[i];
 }
 
-void scree_primitive_closest_point(const scree_wall_set *wall_set, size_t primitive, const scree_vector place, scree_closest_point *closest)
+void scree_primitive_closest_point(const scree_wall_set *wall_set, size_t primitive, const scree_vector place,
+                                   scree_closest_point *closest)
 {
     const scree_surface *surface = &wall_set->surface[scree_primitive_surface(wall_set, primitive)];
     const scree_config_wall *config = surface->config;
@@ -181,7 +185,8 @@ void scree_primitive_closest_point(const scree_wall_set *wall_set, size_t primit
     leave_frame(surface, closest->normal);
 }
 
-bool scree_closest_point_touches(const scree_wall_set *wall_set, size_t primitive, const scree_closest_point *closest, double radius)
+bool scree_closest_point_touches(const scree_wall_set *wall_set, size_t primitive, const scree_closest_point *closest,
+                                 double radius)
 {
     const scree_surface *surface = &wall_set->surface[scree_primitive_surface(wall_set, primitive)];
     bool plane = surface->config->shape == SCREE_SHAPE_OF_PLANE;
@@ -204,7 +209,7 @@ static scree_status pass_on(void *context, size_t primitive)
 }
 
 scree_status scree_wall_set_near(const scree_wall_set *wall_set, const scree_vector place, double reach,
-                                  scree_status (*found)(void *context, size_t primitive), void *context)
+                                 scree_status (*found)(void *context, size_t primitive), void *context)
 {
     scree_status status = SCREE_OK;
     for (int k = 0; k < wall_set->count && !status; k++) {

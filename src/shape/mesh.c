@@ -79,7 +79,7 @@ static void closest_on_face(const scree_mesh *mesh, size_t t, const double place
 
 /// From a point of the mesh to the centre; `triangle` has it in its plane.
 static void closest_on_point(const scree_mesh *mesh, const double point[3], size_t triangle, const double place[3],
-                       scree_closest_point *closest)
+                             scree_closest_point *closest)
 {
     scree_subtract(place, point, closest->normal);
     closest->distance = scree_normalise(closest->normal);
@@ -94,17 +94,18 @@ static void closest_on_edge(const scree_mesh *mesh, size_t e, const double place
     scree_along(a, fraction, side, point);
     closest_on_point(mesh, point, mesh->edge_list[mesh->edge_begin[e]], place, closest);
     closest->minimum = fraction > 0 && fraction < 1 &&
-                    is_minimum(mesh, mesh->edge_list, mesh->edge_begin[e], mesh->edge_begin[e + 1], place, square);
+                       is_minimum(mesh, mesh->edge_list, mesh->edge_begin[e], mesh->edge_begin[e + 1], place, square);
 }
 
 static void closest_on_vertex(const scree_mesh *mesh, size_t v, const double place[3], scree_closest_point *closest)
 {
     closest_on_point(mesh, mesh->vertex[v], mesh->vertex_list[mesh->vertex_begin[v]], place, closest);
     closest->minimum = is_minimum(mesh, mesh->vertex_list, mesh->vertex_begin[v], mesh->vertex_begin[v + 1], place,
-                               closest->distance * closest->distance);
+                                  closest->distance * closest->distance);
 }
 
-void scree_mesh_closest_point(const scree_mesh *mesh, size_t primitive, const scree_vector place, scree_closest_point *closest)
+void scree_mesh_closest_point(const scree_mesh *mesh, size_t primitive, const scree_vector place,
+                              scree_closest_point *closest)
 {
     size_t edge = primitive - mesh->triangle_count, vertex = edge - mesh->edge_count;
     if (primitive < mesh->triangle_count)

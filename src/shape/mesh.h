@@ -58,7 +58,8 @@ static inline size_t scree_mesh_primitives(const scree_mesh *mesh)
 }
 
 /// The closest point of feature `primitive` for a centre at `place`.
-void scree_mesh_closest_point(const scree_mesh *mesh, size_t primitive, const scree_vector place, scree_closest_point *closest);
+void scree_mesh_closest_point(const scree_mesh *mesh, size_t primitive, const scree_vector place,
+                              scree_closest_point *closest);
 
 /// Distance from `place` to feature `primitive`.
 double scree_mesh_distance(const scree_mesh *mesh, size_t primitive, const scree_vector place);

@@ -107,7 +107,7 @@ static void add_mesh(scree_wall_triangles *triangles, const scree_surface *surfa
 }
 
 scree_status scree_wall_set_triangles(const scree_wall_set *wall_set, const double low[3], const double high[3],
-                                       scree_wall_triangles *triangles, scree_error *error)
+                                      scree_wall_triangles *triangles, scree_error *error)
 {
     size_t room = 0;
     *triangles = (scree_wall_triangles){0};

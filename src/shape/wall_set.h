@@ -1,9 +1,9 @@
 /// The walls of a case beside the six plates: planes, boxes, cylinders, cones and triangle meshes, fixed or moving.
 ///
-/// A wall consists of primitives, each of which can touch a sphere at one point at most: a plane is one; a box seen from
-/// inside has six planes, a closed cylinder or cone its side and two ends; what is convex seen from outside (box, rod)
-/// is one; a mesh has its triangles, edges and vertices. Elements of all walls are numbered through. Contacts are the
-/// local minima of the distance to a wall (shape/mesh.h); walls that meet each other do not know of each other.
+/// A wall consists of primitives, each of which can touch a sphere at one point at most: a plane is one; a box seen
+/// from inside has six planes, a closed cylinder or cone its side and two ends; what is convex seen from outside (box,
+/// rod) is one; a mesh has its triangles, edges and vertices. Elements of all walls are numbered through. Contacts are
+/// the local minima of the distance to a wall (shape/mesh.h); walls that meet each other do not know of each other.
 ///
 /// Motion. A wall turns with a constant spin w about a centre that moves with a constant velocity v: with its time t
 /// (scree_case_walls(state)->ticks x tick, never accumulated), x(t) = c + v t + R(w t) (x(0) - c), R a rotation by |w|
@@ -55,7 +55,7 @@ typedef struct scree_wall_set {
 /// Makes the walls of `config`; *wall_set is NULL when it has none. Errors: SCREE_ERROR_INPUT or SCREE_ERROR_IO with
 /// the field (walls.N.key), memory.
 scree_status scree_wall_set_create(const scree_config *config, scree_wall_set **wall_set,
-                                    scree_error *error) SCREE_MUST_USE;
+                                   scree_error *error) SCREE_MUST_USE;
 void scree_wall_set_destroy(scree_wall_set **wall_set);
 
 /// Brings all walls to their poses at `time`.
@@ -83,14 +83,16 @@ static inline bool scree_surface_is_flat(const scree_surface *surface)
 }
 
 /// Where a sphere with its centre at `place` may touch a primitive, now.
-void scree_primitive_closest_point(const scree_wall_set *wall_set, size_t primitive, const scree_vector place, scree_closest_point *closest);
+void scree_primitive_closest_point(const scree_wall_set *wall_set, size_t primitive, const scree_vector place,
+                                   scree_closest_point *closest);
 
 /// Whether a sphere of this radius reaches a closest point. NaN counts as touching, so that it is noticed.
-bool scree_closest_point_touches(const scree_wall_set *wall_set, size_t primitive, const scree_closest_point *closest, double radius);
+bool scree_closest_point_touches(const scree_wall_set *wall_set, size_t primitive, const scree_closest_point *closest,
+                                 double radius);
 
 /// Calls `found(context, primitive)` for the primitives of all walls within `reach` of `place`, each once.
 scree_status scree_wall_set_near(const scree_wall_set *wall_set, const scree_vector place, double reach,
-                                  scree_status (*found)(void *context, size_t primitive), void *context) SCREE_MUST_USE;
+                                 scree_status (*found)(void *context, size_t primitive), void *context) SCREE_MUST_USE;
 
 /// How far a sphere with its centre at `place` stands inside of what wall `k` bounds now: the distance of the centre
 /// from it, negative where it is on the wrong side. A mesh has no sides, and is looked for within `reach` only; an open
@@ -107,7 +109,7 @@ typedef struct scree_wall_triangles {
 /// All walls at their present poses, round ones in facets; planes as far as `low` and `high` (a box that holds all
 /// bodies) reach. wall_set may be NULL: nothing. Errors: memory.
 scree_status scree_wall_set_triangles(const scree_wall_set *wall_set, const double low[3], const double high[3],
-                                       scree_wall_triangles *triangles, scree_error *error) SCREE_MUST_USE;
+                                      scree_wall_triangles *triangles, scree_error *error) SCREE_MUST_USE;
 void scree_wall_triangles_destroy(scree_wall_triangles *triangles);
 
 #endif

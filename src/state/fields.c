@@ -89,16 +89,17 @@ static const scree_field fields[] = {
      .rows = SCREE_ROWS_BODIES, .ghosts = SCREE_GHOSTS_FOLLOW, .optional = true},
 
     CONTACT("first", SCREE_FIELD_UINT32, 1, "1", first, "id of the first body", SCREE_RANGE_TO(SCREE_LIMIT_BODY)),
-    CONTACT(
-        "second", SCREE_FIELD_UINT32, 1, "1", second,
-        "id of the second body, larger than the first; 4294967280 + index for a plate, 2147483648 + primitive for a wall "
-        "of the case"),
+    CONTACT("second", SCREE_FIELD_UINT32, 1, "1", second,
+            "id of the second body, larger than the first; 4294967280 + index for a plate, 2147483648 + primitive for "
+            "a wall "
+            "of the case"),
     CONTACT("history", SCREE_FIELD_DOUBLE, SCREE_HISTORY, "1", history, "memory of the contact law, in its own units"),
     BESIDE_CONTACT("last_force", SCREE_FIELD_FLOAT, last_force, scree_last_force, "N", value,
                    "damping force and dashpot x, y, z that the ledger needs again, where the history row has no room",
                    SCREE_ROWS_LAST_FORCE),
     BESIDE_CONTACT("rolling", SCREE_FIELD_DOUBLE, rolling, scree_rolling, "1", value,
-                   "displacement of rolling and angle of twist: x, y, z [m] and [rad]; 2D: displacement [m]", SCREE_ROWS_ROLLING),
+                   "displacement of rolling and angle of twist: x, y, z [m] and [rad]; 2D: displacement [m]",
+                   SCREE_ROWS_ROLLING),
     BESIDE_CONTACT("rolling_last", SCREE_FIELD_FLOAT, rolling, scree_rolling, "1", last,
                    "dashpots of rolling [N] and twisting [N m] that the ledger needs again", SCREE_ROWS_ROLLING),
     ONE("scalars/next_id", SCREE_FIELD_UINT64, 1, "1", next_id, "id of the next body that comes; none is given again",

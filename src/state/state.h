@@ -89,10 +89,10 @@ typedef double scree_vector[3];
 /// Memory of one contact between the bodies (or body and wall) with ids first < second. Signs are those of the contact
 /// seen from `first` (n from second to first); a wall is always `second`, with id SCREE_WALL_ID + wall index; an
 /// element of the walls of a case (shape/wall_set.h) with id SCREE_PRIMITIVE_ID + its number.
-#define SCREE_WALL_ID    UINT32_C(0xfffffff0)
+#define SCREE_WALL_ID      UINT32_C(0xfffffff0)
 #define SCREE_PRIMITIVE_ID UINT32_C(0x80000000)
 #define SCREE_PRIMITIVES   (SCREE_WALL_ID - SCREE_PRIMITIVE_ID) /* most elements */
-#define SCREE_HISTORY    4
+#define SCREE_HISTORY      4
 typedef struct scree_history {
     double value[SCREE_HISTORY]; ///< meaning depends on the law: see the head of its file in src/contact/
 } scree_history;
@@ -106,7 +106,7 @@ typedef struct scree_last_force {
 /// Memory of rolling and twisting resistance (only with materials that have it), and its last_force.
 typedef struct scree_rolling {
     double value[4]; ///< 2D: rolling displacement; 3D: rolling displacement x, y, z [m], twist [rad]
-    float last[4]; ///< dashpots at n - 1, in the same order
+    float last[4];   ///< dashpots at n - 1, in the same order
 } scree_rolling;
 
 typedef struct scree_contact_memory {
@@ -183,11 +183,11 @@ struct scree_state {
     uint64_t sampled_step;          ///< step of the last sample
     scree_vector *rebuild;          ///< m, positions at the last neighbour rebuild (derived, kept sorted with rows)
     uint32_t *row_of_id;            ///< id_count (derived); SCREE_NO_ROW: taken out
-    scree_predicted *predicted;       ///< derived, sorted with rows; NULL unless the law looks ahead
+    scree_predicted *predicted;     ///< derived, sorted with rows; NULL unless the law looks ahead
     // contacts: filled from `work` by scree_contacts_save, consumed by scree_contacts_load (contact/contact.h)
     scree_contact_memory *contact;
     scree_last_force *last_force; ///< beside `contact` where the law has last_force rows; else NULL
-    scree_rolling *rolling; ///< beside `contact` with rolling resistance; else NULL
+    scree_rolling *rolling;       ///< beside `contact` with rolling resistance; else NULL
     size_t contact_count, contact_capacity;
     void *own[SCREE_MODULE_COUNT]; ///< the struct of each module that has one (module/module.h), by slot
     scree_ledger ledger;

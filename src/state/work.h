@@ -16,10 +16,10 @@ enum {
 /// Neighbour pairs in row indices, along the curve; pairs [0, touching_count) touched at the rebuild (padded groups are
 /// the kernel's own affair). Row indices are valid until the next rebuild.
 typedef struct scree_pair_list {
-    uint32_t *first, *second; ///< rows; id[first] < id[second]
-    scree_history *history;   ///< one a pair, seen from `first`
-    scree_last_force *last_force;   ///< with scree_contacts_add_work: one a pair; else NULL
-    scree_rolling *rolling;   ///< with scree_contacts_roll: one a pair; else NULL
+    uint32_t *first, *second;     ///< rows; id[first] < id[second]
+    scree_history *history;       ///< one a pair, seen from `first`
+    scree_last_force *last_force; ///< with scree_contacts_add_work: one a pair; else NULL
+    scree_rolling *rolling;       ///< with scree_contacts_roll: one a pair; else NULL
     size_t count, capacity;
     size_t touching_count;
 } scree_pair_list;
@@ -58,14 +58,14 @@ static inline bool scree_contacts_roll(const scree_model *model)
     return scree_model_traits(model)->rolling;
 }
 
-typedef struct scree_search scree_search;       ///< cell grid and scratch, private to search/
+typedef struct scree_search scree_search;     ///< cell grid and scratch, private to search/
 typedef struct scree_wall_set scree_wall_set; ///< walls of the case: shape/wall_set.h
 
 typedef struct scree_work {
     scree_pair_list pairs;
     scree_wall_pair_list wall_pairs;
     scree_wall_pair_list primitive_pairs; ///< bodies near the walls of the case, by row, then element
-    scree_wall_set *wall_set;         ///< these walls; NULL: none. Owned; outlives nothing but a rebuild
+    scree_wall_set *wall_set;             ///< these walls; NULL: none. Owned; outlives nothing but a rebuild
     scree_ghost_list ghosts;
     scree_vector *relative; ///< deforming cell: velocities relative to the affine field while rows hold whole ones
     size_t relative_capacity;
@@ -78,15 +78,15 @@ typedef struct scree_work {
     double next_kick;  ///< s, in which the forces of this step will act (integrate.h), for boundaries that predict it
     int threads;       ///< at most
     bool keep_threads; ///< use all of them, however busy the machine is (tests)
-    scree_thread_pool_size size;  ///< how many of them are worth while now
-    scree_thread_pool *pool;      ///< of `threads` members, for loops of some microseconds; made at their first use
-    bool ledger;           ///< dissipated energies are accumulated (default true)
-    bool reference_kernel; ///< use the plain scalar core with runtime arguments (tests)
-    int instruction_set;   ///< 0: best of this machine; 2, 3, 4: x86-64-v2, v3, v4
-    uint32_t flags;        ///< SCREE_FLAG_...
-    uint64_t flagged_id;   ///< a body that raised a flag
-    size_t clear_rows;     ///< rows of state->sum (3D: and of state->torque) from the first on that hold zeros
-    void *contact_scratch; ///< private to contact/ (per-thread slots); freed by scree_contact_scratch_destroy
+    scree_thread_pool_size size; ///< how many of them are worth while now
+    scree_thread_pool *pool;     ///< of `threads` members, for loops of some microseconds; made at their first use
+    bool ledger;                 ///< dissipated energies are accumulated (default true)
+    bool reference_kernel;       ///< use the plain scalar core with runtime arguments (tests)
+    int instruction_set;         ///< 0: best of this machine; 2, 3, 4: x86-64-v2, v3, v4
+    uint32_t flags;              ///< SCREE_FLAG_...
+    uint64_t flagged_id;         ///< a body that raised a flag
+    size_t clear_rows;           ///< rows of state->sum (3D: and of state->torque) from the first on that hold zeros
+    void *contact_scratch;       ///< private to contact/ (per-thread slots); freed by scree_contact_scratch_destroy
 } scree_work;
 
 /// Rows that the pair list may name: bodies and ghosts.

@@ -2,9 +2,9 @@
 #include "sweep/member.h"
 
 #include "case/case.h"
+#include "io/file_checksum.h"
 #include "io/run_directory.h"
 #include "io/run_file.h"
-#include "io/file_checksum.h"
 
 #include <errno.h>
 #include <fcntl.h>

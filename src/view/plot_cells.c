@@ -69,14 +69,14 @@ static scree_status find_distortion(const scree_cell_snapshot *first, const scre
     uint8_t *inside = NULL;
     double *body = NULL, diameter = 0;
     size_t bodies = first->assembly.count;
-    scree_status status =
-        scree_cells_window_distortion(&first->cells, first->assembly.position, second->assembly.position, distortion, error);
+    scree_status status = scree_cells_window_distortion(&first->cells, first->assembly.position,
+                                                        second->assembly.position, distortion, error);
     if (!status) status = scree_allocate(&body, bodies, sizeof *body, error);
     if (!status) status = scree_allocate(&inside, bodies, 1, error);
     for (size_t i = 0; i < bodies; i++) diameter += 2 * first->assembly.radius[i] / (double)bodies;
     if (!status)
-        status = scree_localisation_measure(&first->cells, first->assembly.position, *distortion, diameter, &found, body,
-                                            inside, error);
+        status = scree_localisation_measure(&first->cells, first->assembly.position, *distortion, diameter, &found,
+                                            body, inside, error);
     if (!status) *band = found.band;
     for (size_t k = 0; k < first->cells.count && !status; k++) (*distortion)[k] *= 100;
     scree_release(&body);

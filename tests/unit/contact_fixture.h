@@ -208,9 +208,9 @@ static inline void fixture_step(fixture *f)
         if (f->state.predicted)
             f->state.predicted[k] =
                 (scree_predicted){.vx = dt * (force[0] / row->mass + f->model.gravity[0]),
-                                 .vy = dt * (force[1] / row->mass + f->model.gravity[1]),
-                                 .spin = dt * force[2] / (0.5 * row->mass * row->radius * row->radius),
-                                 .contacts = (double)f->state.sum[k].contacts};
+                                  .vy = dt * (force[1] / row->mass + f->model.gravity[1]),
+                                  .spin = dt * force[2] / (0.5 * row->mass * row->radius * row->radius),
+                                  .contacts = (double)f->state.sum[k].contacts};
         row->vx += dt * (force[0] / row->mass + f->model.gravity[0]);
         row->vy += dt * (force[1] / row->mass + f->model.gravity[1]);
         row->spin += dt * force[2] / (0.5 * row->mass * row->radius * row->radius);

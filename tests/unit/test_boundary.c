@@ -287,7 +287,8 @@ static void a_strain_rate_has_no_moment(void **unused)
     }
 }
 
-/// With any viscosity an error decays without overshoot, and the accumulates hold: free bodies gain what the ledger says.
+/// With any viscosity an error decays without overshoot, and the accumulates hold: free bodies gain what the ledger
+/// says.
 static void penalty_is_stable_and_booked(void **unused)
 {
     (void)unused;

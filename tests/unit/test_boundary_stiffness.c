@@ -146,8 +146,7 @@ static void tangents(int dimension, const double normal[3], double t[2][3])
 static void add_contact(network *n, const scree_simulation *s, const scree_contact *c, size_t one, size_t other)
 {
     const scree_row *row = s->state.row;
-    const double radius[2] = {row[c->first].radius - 0.5 * c->overlap,
-                              row[c->second].radius - 0.5 * c->overlap};
+    const double radius[2] = {row[c->first].radius - 0.5 * c->overlap, row[c->second].radius - 0.5 * c->overlap};
     double a = row[c->first].radius, b = row[c->second].radius, m = row[c->first].mass;
     scree_contact_tangent k =
         scree_contact_linearise(&s->stage_model, &s->model.pairs[0][0], a * b / (a + b), m / 2, c->normal_force);

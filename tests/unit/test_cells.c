@@ -58,7 +58,8 @@ static void touch(sample *s)
     for (size_t i = 0; i < count; i++)
         for (size_t j = i + 1; j < count && s->table.count < capacity; j++) {
             scree_contact c = {.first = (uint32_t)i, .second = (uint32_t)j};
-            for (size_t d = 0; d < 3; d++) c.branch[d] = s->assembly.position[3 * i + d] - s->assembly.position[3 * j + d];
+            for (size_t d = 0; d < 3; d++)
+                c.branch[d] = s->assembly.position[3 * i + d] - s->assembly.position[3 * j + d];
             double length = scree_length(c.branch);
             if (length > s->assembly.radius[i] + s->assembly.radius[j]) continue;
             for (int d = 0; d < 3; d++) c.normal[d] = c.branch[d] / length;

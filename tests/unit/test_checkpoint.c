@@ -1,8 +1,8 @@
 /// Checkpoints: every bit comes back; what is damaged, foreign or missing is recognised and nothing is lost.
 #include "testing.h"
 
-#include "io/run_file.h"
 #include "io/file_checksum.h"
+#include "io/run_file.h"
 #include "io/snapshot.h"
 #include "io_sample.h"
 #include "io_scratch.h"

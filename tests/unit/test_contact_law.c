@@ -3,8 +3,8 @@
 /// Tolerances: ROUND_OFF is that of forces in quanta, 2^-51 of the bound of the step, which in these tests is at most
 /// 2^8 times the force itself, and a few roundings of 2^-53. Others say where they come from.
 ///
-/// Rates are those of the middle of the step (kinematics.h): the closed form of a force of velocities alone is taken with a
-/// step of zero.
+/// Rates are those of the middle of the step (kinematics.h): the closed form of a force of velocities alone is taken
+/// with a step of zero.
 #include "contact_fixture.h"
 #include "state/plates.h"
 
@@ -124,8 +124,7 @@ static void implicit_friction_belongs_to_the_slip_that_it_leaves(void **unused)
                 double ratio = 1 - overlap(&f) / 2 / f.state.row[i].radius;
                 mobility += (1 + 2 * ratio * ratio) / f.state.row[i].mass;
             }
-            double turned = 0.5 * slip[k] * steps[h] / (2.2e-3 - overlap(&f)),
-                   middle = slip[k] * (1 - turned * turned);
+            double turned = 0.5 * slip[k] * steps[h] / (2.2e-3 - overlap(&f)), middle = slip[k] * (1 - turned * turned);
             double left = middle + steps[h] * mobility * force[1], cap = 0.5 * force[0];
             // In sticking contacts what is left is a difference of equal numbers; forces are known to their quanta.
             double quantum = f.state.force_quantum;

@@ -206,7 +206,8 @@ static void two_timescales_are_of_second_order(void **unused)
     }
 }
 
-/// What a change of the step does to the scheme's kinetic energy is accumulated: the balance over the work of the springs.
+/// What a change of the step does to the scheme's kinetic energy is accumulated: the balance over the work of the
+/// springs.
 static void changes_of_the_step_are_booked(void **unused)
 {
     (void)unused;

@@ -80,8 +80,8 @@ static void plant(sample *s, const scree_vector normal, double offset, double th
 
 static void measure(sample *s, scree_localisation *out, int which)
 {
-    assert_int_equal(scree_localisation_measure(&s->cells, s->assembly.position, s->field, DIAMETER, out, s->body[which],
-                                                s->inside[which], NULL),
+    assert_int_equal(scree_localisation_measure(&s->cells, s->assembly.position, s->field, DIAMETER, out,
+                                                s->body[which], s->inside[which], NULL),
                      SCREE_OK);
 }
 

@@ -2,8 +2,8 @@
 /// file, dataset, row and value; and whatever is not refused does no harm.
 #include "run_fixture.h"
 
-#include "io/run_file.h"
 #include "io/file_checksum.h"
+#include "io/run_file.h"
 #include "io_scratch.h"
 #include "restart_cases.h"
 #include "run/restart.h"

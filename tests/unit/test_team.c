@@ -1,5 +1,5 @@
-/// The thread pool of spinning threads: every share of every task is done once, also after members have gone to sleep, when
-/// the number of shares changes and when there are more threads than processors. The choice of how many work, on
+/// The thread pool of spinning threads: every share of every task is done once, also after members have gone to sleep,
+/// when the number of shares changes and when there are more threads than processors. The choice of how many work, on
 /// machines that are made up.
 #include "testing.h"
 

@@ -7,8 +7,8 @@
 
 #include "measure/measure.h"
 #include "search/neighbours.h"
-#include "shape/wall_set.h"
 #include "shape/stl.h"
+#include "shape/wall_set.h"
 
 #include <stdio.h>
 #include <unistd.h>
