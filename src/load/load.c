@@ -11,3 +11,10 @@ const void *scree_load_next(const scree_model *model, const scree_module *module
     }
     return NULL;
 }
+
+bool scree_load_told(const scree_config *config, const scree_module *module, size_t index)
+{
+    for (int64_t i = 0; i < config->load_count && index == 0; i++)
+        if (config->loads[i].kind >= 0 && scree_modules[config->loads[i].kind] == module) return true;
+    return false;
+}

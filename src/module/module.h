@@ -66,6 +66,10 @@ struct scree_module {
     /// ledger.
     double (*work)(const scree_state *state);
 
+    /// Whether it prescribes the rotation of the body in this row: its energy is no part of the balance then. NULL: of
+    /// none.
+    bool (*turns)(const scree_state *state, size_t row);
+
     // ---- results: what it tells ----
     scree_results columns; ///< of series.csv, at every sample
     scree_results results; ///< of summary.json, at the end of a run or when it is stopped

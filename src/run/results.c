@@ -21,7 +21,6 @@
 #include "io/run_directory.h"
 #include "io/summary.h"
 #include "measure/measure.h"
-#include "run/cell_results.h"
 #include "run/conclusion.h"
 #include "run/quasistatic.h"
 #include "run/sample.h"
@@ -303,8 +302,6 @@ scree_status scree_results_collect(const scree_recorder *recorder, scree_simulat
         status = summarise_energy(&series, s, *summary, error);
     }
     if (!status) status = summarise_stage(s, *summary, error);
-    if (!status && s->model.measure.cells && !scree_cell(&s->state)->directions)
-        status = scree_cell_results_write(recorder->directory, &s->model.measure, &series, *summary, error);
     const scree_conclusion run = {recorder->directory, s, &series, *summary};
     if (!status) status = scree_conclude(&run, error);
     const char *unknown = status ? NULL : scree_summary_unknown(*summary);

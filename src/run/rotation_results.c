@@ -2,7 +2,7 @@
 /// degrees.
 #include "run/rotation_results.h"
 #include "integrate/forced_spin.h"
-#include "run/stage_rotate.h"
+#include "run/stage_rotate_config.h"
 
 #include "io/run_directory.h"
 #include "measure/measure.h"

@@ -4,7 +4,7 @@
 
 #include "io_scratch.h"
 #include "measure/rotation.h"
-#include "run/stage_rotate.h"
+#include "run/stage_rotate_config.h"
 
 #include <math.h>
 #include <stdio.h>
