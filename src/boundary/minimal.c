@@ -241,6 +241,7 @@ static const scree_boundary face = {
     .round = true,
     .equal_steps = true,
     .full_mirrors = true,
+    .needs_ends = SCREE_IMPOSED_ENDS,
     .kept = SCREE_IMPOSED_KEPT,
     .resolve = resolve,
     .begin = scree_imposed_begin,
