@@ -308,7 +308,7 @@ static void begin_and_end_are_in_the_balance(void **unused)
         double caught = column(&s, 2, WORK) / (0.5 * mass * (0.04 - 1 + 0.5 * 25e-6));
         print_message("%s: residual %.1g; work %.9f, %.9f, %.9f of the change of energy\n", schemes[k % 3], worst,
                       driven, -stopped, caught);
-        assert_true(worst < 1e-12 && fabs(body(&s, 0)->vy) < 1e-12 && fabs(body(&s, 1)->vx - 0.2) < 1e-12);
+        assert_true(worst < 1e-11 && fabs(body(&s, 0)->vy) < 1e-12 && fabs(body(&s, 1)->vx - 0.2) < 1e-12);
         if (k < 3) { // the closed forms are those of free flight
             assert_true(fabs(driven - 1) < 1e-3 && fabs(stopped + 1) < 1e-9 && fabs(caught - 1) < 1e-9);
             assert_true(fabs(body(&s, 0)->vx - 0.3) < 1e-12);
