@@ -223,8 +223,8 @@ scree_status scree_config_copy_stages(const scree_config *config, scree_config_s
 /// the module's `keys` have it. NULL: there are none.
 const void *scree_config_own(const scree_module *module, const char *section, const void *own);
 
-/// Index of the selection of this name; -1: there is none.
-int64_t scree_config_selection_find(const scree_config *config, const char *name);
+/// Index of the selection of this name among `count`; -1: there is none.
+int64_t scree_config_selection_find(const scree_config_selection *selections, int64_t count, const char *name);
 
 /// Particles of one kind, by number: the species, or all of them where none are listed.
 static inline scree_config_species scree_config_species_at(const scree_config_particles *particles, int64_t index)

@@ -5,10 +5,10 @@
 #include <stdio.h>
 #include <string.h>
 
-int64_t scree_config_selection_find(const scree_config *config, const char *name)
+int64_t scree_config_selection_find(const scree_config_selection *selections, int64_t count, const char *name)
 {
-    for (int64_t i = 0; name && i < config->selection_count; i++)
-        if (config->selections[i].name && strcmp(config->selections[i].name, name) == 0) return i;
+    for (int64_t i = 0; name && i < count; i++)
+        if (selections[i].name && strcmp(selections[i].name, name) == 0) return i;
     return -1;
 }
 
@@ -29,7 +29,7 @@ bool scree_rule_is_selection(scree_reader *reader, const scree_config *config, c
 {
     const char *names[SCREE_SELECTIONS];
     size_t count = 0;
-    if (!name || scree_config_selection_find(config, name) >= 0) return true;
+    if (!name || scree_config_selection_find(config->selections, config->selection_count, name) >= 0) return true;
     for (int64_t i = 0; i < config->selection_count; i++) {
         if (!config->selections[i].name) return true; // it may be the one that is meant
         names[count++] = config->selections[i].name;
@@ -42,7 +42,7 @@ void scree_rules_check_selections(scree_reader *reader, const scree_config *conf
 {
     for (int64_t i = 0; i < config->selection_count; i++) {
         const char *name = config->selections[i].name;
-        int64_t first = scree_config_selection_find(config, name);
+        int64_t first = scree_config_selection_find(config->selections, config->selection_count, name);
         char path[SCREE_PATH_BYTES];
         (void)snprintf(path, sizeof path, "selections.%lld.name", (long long)i);
         if (name && first < i)

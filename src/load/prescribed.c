@@ -120,7 +120,7 @@ static scree_status check(const scree_state *state, const scree_model *model, sc
     for (int64_t k = 0; k < SCREE_LOADS; k++) {
         if (!all->acts[k]) continue;
         acts = true;
-        if (k >= model->config->load_count || !scree_prescribed_config_of(model->config, k))
+        if (k >= model->load_count || !scree_prescribed_config_of(model->loads, k))
             return scree_error_set(error, SCREE_ERROR_IO, "dataset 'prescribed/acts': load %lld is no such load",
                                    (long long)k);
     }
@@ -140,8 +140,8 @@ static scree_status check(const scree_state *state, const scree_model *model, sc
 static uint64_t checksum(const scree_model *model, const scree_state *state, uint64_t c)
 {
     const own *all = scree_prescribed_of(state);
-    for (int64_t k = 0; k < model->config->load_count; k++)
-        if (scree_prescribed_config_of(model->config, k))
+    for (int64_t k = 0; k < model->load_count; k++)
+        if (scree_prescribed_config_of(model->loads, k))
             c = scree_checksum_number(scree_checksum_number(c, all->begun[k]), all->work[k]);
     return c;
 }
@@ -176,24 +176,26 @@ static const scree_pass passes[] = {{SCREE_PHASE_DECIDE, depart},
 // ---- what each tells ---------------------------------------------------------------------------------------------
 
 /// Number among the loads of the one with this number among those of this kind; -1: there are fewer.
-static int64_t load_of(const scree_config *whole, size_t index)
+static int64_t load_of(const scree_config_load *loads, int64_t count, size_t index)
 {
-    for (int64_t i = 0; i < whole->load_count; i++)
-        if (scree_prescribed_config_of(whole, i) && index-- == 0) return i;
+    for (int64_t i = 0; i < count; i++)
+        if (scree_prescribed_config_of(loads, i) && index-- == 0) return i;
     return -1;
 }
 
 static bool told(const scree_config *whole, size_t index, char name[SCREE_RESULT_NAME])
 {
-    int64_t load = load_of(whole, index);
+    int64_t load = load_of(whole->loads, whole->load_count, index);
     if (load < 0) return false;
-    (void)snprintf(name, SCREE_RESULT_NAME, "%s", scree_prescribed_name(scree_prescribed_config_of(whole, load)));
+    (void)snprintf(name, SCREE_RESULT_NAME, "%s",
+                   scree_prescribed_name(scree_prescribed_config_of(whole->loads, load)));
     return true;
 }
 
 /// Columns at every sample, and results at the end.
 static const scree_result rows[] = {
-    {"_exerted_force_x", "N", "force of the load of this name on its bodies: applied, or the reaction that drives them"},
+    {"_exerted_force_x", "N",
+     "force of the load of this name on its bodies: applied, or the reaction that drives them"},
     {"_exerted_force_y", "N", "the same along y"},
     {"_exerted_force_z", "N", "the same along z"},
     {"_exerted_torque_x", "N m", "torque of the load of this name on its bodies, about their own centres"},
@@ -220,7 +222,7 @@ static void sum_forces(const scree_state *state, int64_t load, double sum[SCREE_
 static scree_status measure(const scree_context *c, size_t index, double *value, scree_error *error)
 {
     const own *all = scree_prescribed_of(c->state);
-    int64_t load = load_of(c->model->config, index), bodies = 0;
+    int64_t load = load_of(c->model->loads, c->model->load_count, index), bodies = 0;
     (void)error;
     sum_forces(c->state, load, value);
     for (size_t row = 0; row < c->state->count && all->owner; row++) {

@@ -42,7 +42,7 @@ typedef struct scree_exerted {
 
 /// Before the first half of a step. Derived.
 typedef struct scree_departure {
-    double position[3];                       ///< m
+    double position[3];                    ///< m
     double angle;                          ///< rad, 2D
     double acceleration[SCREE_COMPONENTS]; ///< m/s2, rad/s2
 } scree_departure;
@@ -72,10 +72,10 @@ static inline bool scree_component_exists(int dimension, int component)
     return dimension == 3 || component < 2 || component == SCREE_COMPONENTS - 1;
 }
 
-/// The struct of load `index` of the case, NULL when it is of another kind.
-static inline const scree_prescribed_config *scree_prescribed_config_of(const scree_config *config, int64_t index)
+/// The struct of load `index` among those of the case, NULL when it is of another kind.
+static inline const scree_prescribed_config *scree_prescribed_config_of(const scree_config_load *loads, int64_t index)
 {
-    return config->loads[index].kind == SCREE_SLOT_prescribed ? config->loads[index].own : NULL;
+    return loads[index].kind == SCREE_SLOT_prescribed ? loads[index].own : NULL;
 }
 
 /// Its name in columns and results.
@@ -88,8 +88,9 @@ static inline const char *scree_prescribed_name(const scree_prescribed_config *o
 bool scree_prescribed_drives(const scree_prescribed_config *own, int component);
 bool scree_prescribed_pushes(const scree_prescribed_config *own, int component);
 
-/// First and last stage in which it acts; -1: there is none of that name.
-void scree_prescribed_stages(const scree_config *config, const scree_prescribed_config *own, int64_t range[2]);
+/// First and last stage of `count` in which it acts; -1: there is none of that name.
+void scree_prescribed_stages(const scree_config_stage *stages, int64_t count, const scree_prescribed_config *own,
+                             int64_t range[2]);
 
 /// prescribed_begin.c: who is prescribed what in the stage that begins. Errors: a selection without bodies; two loads
 /// that say the same component of a body; memory.

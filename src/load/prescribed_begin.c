@@ -21,32 +21,33 @@ bool scree_prescribed_pushes(const scree_prescribed_config *own, int component)
     return !isnan(scree_schedule_at(&own->push[component], 0));
 }
 
-static int64_t find_stage(const scree_config *config, const char *name, int64_t standard)
+static int64_t find_stage(const scree_config_stage *stages, int64_t count, const char *name, int64_t standard)
 {
-    for (int64_t i = 0; name && i < config->stage_count; i++)
-        if (config->stages[i].name && strcmp(config->stages[i].name, name) == 0) return i;
+    for (int64_t i = 0; name && i < count; i++)
+        if (stages[i].name && strcmp(stages[i].name, name) == 0) return i;
     return name ? -1 : standard;
 }
 
-void scree_prescribed_stages(const scree_config *config, const scree_prescribed_config *own, int64_t range[2])
+void scree_prescribed_stages(const scree_config_stage *stages, int64_t count, const scree_prescribed_config *own,
+                             int64_t range[2])
 {
-    range[0] = find_stage(config, own->from, 0);
-    range[1] = find_stage(config, own->until, config->stage_count - 1);
+    range[0] = find_stage(stages, count, own->from, 0);
+    range[1] = find_stage(stages, count, own->until, count - 1);
 }
 
 static bool acts_now(const scree_context *c, int64_t load)
 {
     int64_t range[2];
-    const scree_prescribed_config *own = scree_prescribed_config_of(c->model->config, load);
+    const scree_prescribed_config *own = scree_prescribed_config_of(c->model->loads, load);
     if (!own) return false;
-    scree_prescribed_stages(c->model->config, own, range);
+    scree_prescribed_stages(c->model->stages, c->model->stage_count, own, range);
     return c->state->stage.index >= range[0] && c->state->stage.index <= range[1];
 }
 
-static bool has_any(const scree_config *config)
+static bool has_any(const scree_model *model)
 {
-    for (int64_t i = 0; i < config->load_count; i++)
-        if (scree_prescribed_config_of(config, i)) return true;
+    for (int64_t i = 0; i < model->load_count; i++)
+        if (scree_prescribed_config_of(model->loads, i)) return true;
     return false;
 }
 
@@ -60,15 +61,15 @@ static scree_status refuse(int64_t load, scree_error *error, scree_status status
 /// A component of a body becomes that of a load.
 static scree_status own_component(const scree_context *c, int64_t load, size_t row, int component, scree_error *error)
 {
-    const scree_config *config = c->model->config;
+    const scree_config_load *loads = c->model->loads;
     scree_owners *owner = &scree_prescribed_of(c->state)->owner[row];
     int before = (*owner)[component];
     if (before)
         return refuse(load, error,
                       scree_error_set(error, SCREE_ERROR_INPUT,
                                       "'%s' and '%s' both prescribe the %s of particle %u: leave it to one of them",
-                                      scree_prescribed_name(scree_prescribed_config_of(config, before - 1)),
-                                      scree_prescribed_name(scree_prescribed_config_of(config, load)), names[component],
+                                      scree_prescribed_name(scree_prescribed_config_of(loads, before - 1)),
+                                      scree_prescribed_name(scree_prescribed_config_of(loads, load)), names[component],
                                       c->state->id[row]));
     (*owner)[component] = (uint8_t)(load + 1);
     return SCREE_OK;
@@ -77,7 +78,7 @@ static scree_status own_component(const scree_context *c, int64_t load, size_t r
 /// All components of a body that a load says something of.
 static scree_status own_body(const scree_context *c, int64_t load, size_t row, scree_error *error)
 {
-    const scree_prescribed_config *own = scree_prescribed_config_of(c->model->config, load);
+    const scree_prescribed_config *own = scree_prescribed_config_of(c->model->loads, load);
     scree_state *state = c->state;
     scree_status status = SCREE_OK;
     for (int d = 0; d < SCREE_COMPONENTS && !status; d++) {
@@ -98,8 +99,8 @@ static scree_status own_body(const scree_context *c, int64_t load, size_t row, s
 
 static scree_status own_selection(const scree_context *c, int64_t load, scree_error *error)
 {
-    const scree_prescribed_config *own = scree_prescribed_config_of(c->model->config, load);
-    int64_t selection = scree_config_selection_find(c->model->config, own->selection);
+    const scree_prescribed_config *own = scree_prescribed_config_of(c->model->loads, load);
+    int64_t selection = scree_config_selection_find(c->model->selections, c->model->selection_count, own->selection);
     scree_status status = scree_selection_resolve(c->model, c->state, selection, error);
     for (size_t row = 0; row < c->state->count && !status; row++)
         if (scree_selection_has(c->state, selection, row)) status = own_body(c, load, row, error);
@@ -131,14 +132,14 @@ scree_status scree_prescribed_begin(const scree_context *c, scree_error *error)
     scree_state *state = c->state;
     scree_prescribed *all = scree_prescribed_of(state);
     uint8_t *before = NULL;
-    if (!has_any(c->model->config)) return SCREE_OK;
+    if (!has_any(c->model)) return SCREE_OK;
     scree_status status = begin_fields(state, error);
     if (!status) status = scree_allocate(&before, state->count + 1, sizeof *before, error);
     if (status) return status;
     memcpy(before, state->held, state->count);
     memset(state->held, 0, state->count);
     memset(all->owner, 0, state->count * sizeof *all->owner);
-    for (int64_t load = 0; load < c->model->config->load_count && !status; load++) {
+    for (int64_t load = 0; load < c->model->load_count && !status; load++) {
         bool acts = acts_now(c, load);
         if (acts && !all->acts[load]) all->begun[load] = scree_state_time(state);
         all->acts[load] = acts;

@@ -48,7 +48,7 @@ static void check_stages(judged *j)
     int64_t range[2];
     check_stage(j, "from", j->own->from);
     check_stage(j, "until", j->own->until);
-    scree_prescribed_stages(j->config, j->own, range);
+    scree_prescribed_stages(j->config->stages, j->config->stage_count, j->own, range);
     if (range[0] >= 0 && range[1] >= 0 && range[1] < range[0])
         scree_rule_refuse(j->reader, path_of(j, "until"), NULL, "comes before stage '%s', with which it begins",
                           j->own->from);
@@ -104,7 +104,7 @@ static void check_name(judged *j)
 {
     const char *name = scree_prescribed_name(j->own);
     for (int64_t i = 0; name && i < j->index; i++) {
-        const scree_prescribed_config *other = scree_prescribed_config_of(j->config, i);
+        const scree_prescribed_config *other = scree_prescribed_config_of(j->config->loads, i);
         if (other && scree_prescribed_name(other) && strcmp(scree_prescribed_name(other), name) == 0) {
             scree_rule_refuse(j->reader, path_of(j, "name"), NULL,
                               "loads.%lld is called '%s' too: give this one a name of its own", (long long)i, name);
@@ -120,12 +120,12 @@ static void check_name(judged *j)
 static void check_others(judged *j)
 {
     int64_t mine[2], others[2];
-    scree_prescribed_stages(j->config, j->own, mine);
+    scree_prescribed_stages(j->config->stages, j->config->stage_count, j->own, mine);
     for (int64_t i = 0; i < j->index; i++) {
-        const scree_prescribed_config *other = scree_prescribed_config_of(j->config, i);
+        const scree_prescribed_config *other = scree_prescribed_config_of(j->config->loads, i);
         if (!other || !other->selection || !j->own->selection || strcmp(other->selection, j->own->selection) != 0)
             continue;
-        scree_prescribed_stages(j->config, other, others);
+        scree_prescribed_stages(j->config->stages, j->config->stage_count, other, others);
         if (mine[0] > others[1] || others[0] > mine[1]) continue;
         for (int d = 0; d < SCREE_COMPONENTS; d++) {
             bool held = scree_prescribed_drives(other, d), drives = scree_prescribed_drives(j->own, d);
@@ -144,7 +144,7 @@ static void check_boundaries(judged *j)
     int64_t range[2];
     bool drives = false;
     for (int d = 0; d < SCREE_COMPONENTS; d++) drives = drives || scree_prescribed_drives(j->own, d);
-    scree_prescribed_stages(j->config, j->own, range);
+    scree_prescribed_stages(j->config->stages, j->config->stage_count, j->own, range);
     for (int64_t i = range[0] < 0 ? 0 : range[0]; drives && i <= range[1]; i++) {
         const scree_boundary *boundary = scree_config_held_by(j->config, i);
         if (!boundary || !boundary->equal_steps) continue;
@@ -159,7 +159,8 @@ static void check_boundaries(judged *j)
 void scree_prescribed_rules(scree_reader *reader, const scree_config *config)
 {
     for (int64_t i = 0; i < config->load_count; i++) {
-        judged j = {.reader = reader, .config = config, .index = i, .own = scree_prescribed_config_of(config, i)};
+        judged j = {
+            .reader = reader, .config = config, .index = i, .own = scree_prescribed_config_of(config->loads, i)};
         if (!j.own) continue;
         char path[SCREE_PATH_BYTES];
         (void)snprintf(path, sizeof path, "loads.%lld.selection", (long long)i);

@@ -126,8 +126,8 @@ static void read_orders(const scree_context *c, double middle, order list[SCREE_
     double now = scree_state_time(c->state);
     for (int64_t k = 0; k < SCREE_LOADS; k++) {
         list[k] = (order){0};
-        if (k >= c->model->config->load_count || !all->acts[k]) continue;
-        const scree_prescribed_config *own = list[k].own = scree_prescribed_config_of(c->model->config, k);
+        if (k >= c->model->load_count || !all->acts[k]) continue;
+        const scree_prescribed_config *own = list[k].own = scree_prescribed_config_of(c->model->loads, k);
         if (own->per == SCREE_PER_SELECTION && !counted) count_bodies(c->state, bodies);
         counted = counted || own->per == SCREE_PER_SELECTION;
         double share = own->per == SCREE_PER_SELECTION ? 1 / fmax(1, (double)bodies[k]) : 1;

@@ -38,7 +38,7 @@ static uint32_t find_parts(const scree_config *config, uint32_t bits)
         for (int64_t i = 0; i < config->selection_count; i++) {
             const scree_node *parts = bits >> i & 1 ? scree_selection_parts(&config->selections[i]) : NULL;
             for (const scree_node *name = parts ? parts->first : NULL; name; name = name->next) {
-                int64_t part = scree_config_selection_find(config, name->text);
+                int64_t part = scree_config_selection_find(config->selections, config->selection_count, name->text);
                 if (part >= 0) bits |= UINT32_C(1) << part;
             }
         }
@@ -51,7 +51,7 @@ static bool is_made_of_itself(const scree_config *config, int64_t index)
     const scree_node *parts = scree_selection_parts(&config->selections[index]);
     uint32_t bits = 0;
     for (const scree_node *name = parts->first; name; name = name->next) {
-        int64_t part = scree_config_selection_find(config, name->text);
+        int64_t part = scree_config_selection_find(config->selections, config->selection_count, name->text);
         if (part >= 0) bits |= UINT32_C(1) << part;
     }
     return find_parts(config, bits) >> index & 1;

@@ -115,11 +115,10 @@ static bool is_named(const species_list *list, const char *name)
 static scree_status choose_species(const scree_model *model, const scree_state *state, const void *own, uint8_t *chosen,
                                    scree_error *error)
 {
-    const scree_config_particles *particles = &model->config->particles;
     (void)error;
     for (size_t row = 0; row < state->count; row++) {
         int species = state->species[row];
-        chosen[row] = species < particles->species_count && is_named(own, particles->species[species].name);
+        chosen[row] = species < model->species_count && is_named(own, model->species[species].name);
     }
     return SCREE_OK;
 }

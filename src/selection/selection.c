@@ -12,7 +12,7 @@ typedef scree_selections own;
 /// What acts on a selection must have something to act on.
 static scree_status refuse(const scree_model *model, int64_t index, const char *why, scree_error *error)
 {
-    const scree_config_selection *selection = &model->config->selections[index];
+    const scree_config_selection *selection = &model->selections[index];
     scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "selection '%s' (%s) %s", selection->name,
                                           scree_modules[selection->kind]->name, why);
     if (error) (void)snprintf(error->field, sizeof error->field, "selections.%lld", (long long)index);
@@ -29,10 +29,10 @@ static scree_status find(const scree_model *model, scree_state *state, int64_t i
 /// From others, which are found first; the rules of the case have seen to it that this ends.
 static scree_status find_combination(const scree_model *model, scree_state *state, int64_t index, scree_error *error)
 {
-    const scree_config_selection *selection = &model->config->selections[index];
+    const scree_config_selection *selection = &model->selections[index];
     uint32_t parts = 0;
     for (const scree_node *name = scree_selection_parts(selection)->first; name; name = name->next) {
-        int64_t part = scree_config_selection_find(model->config, name->text);
+        int64_t part = scree_config_selection_find(model->selections, model->selection_count, name->text);
         scree_status status = find(model, state, part, error);
         if (status) return status;
         parts |= UINT32_C(1) << part;
@@ -45,7 +45,7 @@ static scree_status find_combination(const scree_model *model, scree_state *stat
 
 static scree_status find_kind(const scree_model *model, scree_state *state, int64_t index, scree_error *error)
 {
-    const scree_config_selection *selection = &model->config->selections[index];
+    const scree_config_selection *selection = &model->selections[index];
     uint8_t *chosen;
     scree_error reason = {0};
     scree_status status = scree_allocate(&chosen, state->count + 1, sizeof *chosen, error);
@@ -61,7 +61,7 @@ static scree_status find(const scree_model *model, scree_state *state, int64_t i
 {
     own *selections = scree_selections_of(state);
     if (selections->resolved >> index & 1) return SCREE_OK;
-    bool combined = scree_modules[model->config->selections[index].kind]->selection->combine != NULL;
+    bool combined = scree_modules[model->selections[index].kind]->selection->combine != NULL;
     scree_status status =
         combined ? find_combination(model, state, index, error) : find_kind(model, state, index, error);
     if (!status) selections->resolved |= UINT64_C(1) << index;

@@ -55,7 +55,7 @@ static scree_status gather(const scree_state *state, sample *s, scree_error *err
 
 static scree_status find_outline(const scree_model *model, sample *s, scree_error *error)
 {
-    const scree_peel_rule *rule = SCREE_PEEL_RULE(2 * model->mean_radius * model->config->boundary.gap_limit);
+    const scree_peel_rule *rule = SCREE_PEEL_RULE(2 * model->mean_radius * model->upkeep.gap_limit);
     if (model->dimension == 2) {
         uint32_t *loop = NULL;
         size_t count = 0;

@@ -27,7 +27,7 @@
 
 static int64_t find(const scree_simulation *s, const char *name)
 {
-    int64_t index = scree_config_selection_find(s->model.config, name);
+    int64_t index = scree_config_selection_find(s->model.selections, s->model.selection_count, name);
     assert_true(index >= 0);
     return index;
 }
