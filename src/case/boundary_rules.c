@@ -43,8 +43,7 @@ static void check_periodic(scree_reader *reader, const scree_config *config)
         wrong = "there is no z in two dimensions";
     else if (config->dimension == 3 && boundary->periodic == SCREE_PERIODIC_X)
         wrong = "in three dimensions a sample is periodic in x and y, or in all directions";
-    else if (scree_config_is_wholly_periodic(config) &&
-             (config->gravity[0] != 0 || config->gravity[1] != 0 || config->gravity[2] != 0))
+    else if (scree_config_is_wholly_periodic(config) && scree_config_has_gravity(config))
         wrong = "gravity has nothing to fall on: without a floor the sample would fall for ever";
     if (wrong && node) scree_problem_add(reader, node->place, "boundary.periodic", node->text, NULL, "%s", wrong);
 }
@@ -61,13 +60,12 @@ static const char *wrong_order(const scree_boundary *boundary, const scree_bound
 static const char *wrong_boundary(const scree_config *config, const scree_stage_numbers *stage,
                                   const scree_boundary *boundary)
 {
-    const double *gravity = config->gravity;
     if (!stage->needs_standing && config->wall_count > 0)
         return "in a case with walls only relax can follow: the other stages need plates or a free surface of the "
                "sample";
     if (boundary->needs_walls && config->wall_count == 0) return boundary->needs_walls;
     if (stage->needs_standing && !boundary->stands) return stage->needs_standing;
-    if (boundary->free && (gravity[0] != 0 || gravity[1] != 0 || gravity[2] != 0))
+    if (boundary->free && scree_config_has_gravity(config))
         return "without plates nothing holds the sample against gravity";
     if (stage->needs_free && !boundary->free) return stage->needs_free;
     return stage->needs_free ? NULL : boundary->needs_gradient;

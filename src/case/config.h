@@ -4,6 +4,7 @@
 #ifndef SCREE_CASE_CONFIG_H
 #define SCREE_CASE_CONFIG_H
 
+#include "base/schedule.h"
 #include "module/boundary.h"
 #include "module/preparation.h"
 #include "module/size_distribution.h"
@@ -107,7 +108,8 @@ typedef struct scree_config_stage {
     char *name;      ///< unique among the stages: the kind, numbered (compress_1, compress_2) if there are several
     int boundary;    ///< slot of a module with a boundary; SCREE_CHOICE_AUTO: as in the stage before
     double friction; ///< 1, friction during this stage; auto: the material's
-    void *own;       ///< struct of its kind, and of what else adds keys to it (scree_config_own)
+    scree_schedule gravity[3]; ///< m/s2, by time since its begin; auto: that of the case
+    void *own;                 ///< struct of its kind, and of what else adds keys to it (scree_config_own)
 } scree_config_stage;
 
 /// A wall beside the six plates (shape/container.h). Which members its keys fill depends on the shape.
@@ -177,7 +179,7 @@ struct scree_config {
     char *title;
     int64_t dimension; ///< 2 or 3
     int64_t seed;
-    double gravity[3]; ///< m/s2
+    scree_schedule gravity[3]; ///< m/s2, by time of the run
     scree_config_material *materials;
     int64_t material_count;
     scree_config_particles particles;
@@ -198,6 +200,31 @@ struct scree_config {
 /// A copy of the stages whose own structs may be changed, as one piece of memory. Errors: memory.
 scree_status scree_config_copy_stages(const scree_config *config, scree_config_stage **stages,
                                       scree_error *error) SCREE_MUST_USE;
+
+/// Whether a vector that a schedule may give was left open: `auto`.
+static inline bool scree_config_is_open(const scree_schedule *given)
+{
+    return isnan(given[0].value);
+}
+
+/// A bound of each component of gravity in all stages, at all times [m/s2].
+static inline void scree_config_largest_gravity(const scree_config *config, double largest[3])
+{
+    for (int k = 0; k < 3; k++) {
+        largest[k] = scree_schedule_largest(&config->gravity[k]);
+        for (int64_t i = 0; i < config->stage_count; i++)
+            if (!scree_config_is_open(config->stages[i].gravity))
+                largest[k] = fmax(largest[k], scree_schedule_largest(&config->stages[i].gravity[k]));
+    }
+}
+
+/// Whether there is gravity at any time.
+static inline bool scree_config_has_gravity(const scree_config *config)
+{
+    double largest[3];
+    scree_config_largest_gravity(config, largest);
+    return largest[0] > 0 || largest[1] > 0 || largest[2] > 0;
+}
 
 /// The struct of `module` among those of modules that a section's `own` points to. section: its path ("integrator"), as
 /// the module's `keys` have it. NULL: there are none.

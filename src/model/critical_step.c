@@ -109,7 +109,9 @@ double scree_expected_height(const scree_model *model, double phi)
 
 double scree_model_gravity(const scree_model *model)
 {
-    return hypot(hypot(model->gravity[0], model->gravity[1]), model->gravity[2]);
+    double largest[3];
+    scree_config_largest_gravity(model->config, largest);
+    return hypot(hypot(largest[0], largest[1]), largest[2]);
 }
 
 /// Speed [m/s] at which neighbours pass each other in the fastest loading.

@@ -6,7 +6,7 @@
 #define SCREE_MODULE_TABLE_H
 
 #define SCREE_STATE_MODULES(row)                                                                                       \
-    row(plates) row(case_walls) row(periodic_cell) row(delaunay_boundary) row(pressure) row(own_force)                 \
+    row(gravity) row(plates) row(case_walls) row(periodic_cell) row(delaunay_boundary) row(pressure) row(own_force)    \
         row(imposed_gradient)
 
 /// Boundaries, in the order in which the case reference lists them; then those that no key chooses.

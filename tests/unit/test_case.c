@@ -255,7 +255,7 @@ static void overrides_change_the_case(void **state)
     assert_int_equal(c->config.measure.window_count, 1);
     assert_true(c->config.measure.windows[0].to == 0.05);
     assert_true(c->config.guard.overlap == 0.1);
-    assert_true(c->config.gravity[1] == -9.81);
+    assert_true(c->config.gravity[1].value == -9.81);
     assert_string_equal(c->config.title, "A test: of --set = \"quoted\" # text");
     assert_int_equal(c->config.particles.count, 100000);
     scree_case_free(c);
