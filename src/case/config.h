@@ -140,7 +140,17 @@ typedef struct scree_config_wall {
     double smooth;                   ///< rad, mesh: contacts whose normals differ by less are one
     char *material;                  ///< name, or SCREE_RIGID; auto (NULL): wall_material of the grain's material
     double friction;                 ///< 1; auto: the material's friction on plates
-    double velocity[3];              ///< m/s
+    int motion;                      ///< scree_wall_motion_kind (case/wall_motion.h)
+    scree_schedule velocity[3];      ///< m/s, by time of the walls
+    scree_schedule displacement[3];  ///< m, from where its shape is given
+    double amplitude[3];             ///< m: vibration
+    double frequency, phase;         ///< 1/s, rad: vibration
+    double direction[3];             ///< servo: in which it presses, any length
+    scree_schedule force;            ///< N: servo, along its direction
+    double area;                     ///< m2, that it presses with; auto: `face`
+    double face;                     ///< m2, in 2D m: its shape seen along `direction`; 0: it has no end (the rules)
+    double servo_gain;               ///< 1, admittance of the servo over that of the grains
+    double servo_velocity;           ///< m/s, of a wall under servo at most; auto
     double spin[3];                  ///< rad/s
     double centre[3];                ///< m, about which it turns, at the begin
 } scree_config_wall;

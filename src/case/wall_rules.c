@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/vectors.h"
 #include "case/check.h"
+#include "case/wall_motion.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -54,15 +55,39 @@ static const char *wrong_shape(const scree_config_wall *wall, int dimension, con
 /// The same for its motion.
 static const char *wrong_motion(const scree_config_wall *wall, int dimension, const char **key)
 {
+    const char *wrong = scree_wall_motion_wrong(wall, dimension, key);
+    if (wrong) return wrong;
     *key = "spin";
     if (wall->shape == SCREE_SHAPE_OF_PLANE && scree_length(wall->spin) > 0)
         return "a plane has no end and cannot turn: use a box or a mesh";
     if (dimension == 3) return NULL;
     if (wall->spin[0] != 0 || wall->spin[1] != 0) return "in two dimensions a wall turns about z only";
-    *key = "velocity";
-    if (wall->velocity[2] != 0) return "there is no z in two dimensions";
     *key = "normal";
     return wall->shape == SCREE_SHAPE_OF_PLANE && wall->normal[2] != 0 ? "there is no z in two dimensions" : NULL;
+}
+
+/// Area of the shape seen along the direction of its servo; 0: none of its own.
+static double face_of(const scree_config_wall *wall, int dimension)
+{
+    double direction[3] = {wall->direction[0], wall->direction[1], wall->direction[2]}, face = 0;
+    if (wall->shape != SCREE_SHAPE_OF_BOX || !(scree_normalise(direction) > 0)) return 0;
+    for (int k = 0; k < dimension; k++) {
+        double area = fabs(direction[k]);
+        for (int i = 0; i < dimension; i++)
+            if (i != k) area *= wall->upper[i] - wall->lower[i];
+        face += area;
+    }
+    return face;
+}
+
+static const char *wrong_area(scree_config_wall *wall, int dimension, const char **key)
+{
+    *key = "area";
+    if (!scree_wall_motions[wall->motion].servo) return NULL;
+    wall->face = face_of(wall, dimension);
+    return isnan(wall->area) && !(wall->face > 0)
+               ? "a wall of this shape has no area along `direction` that a servo could press with: give `area`"
+               : NULL;
 }
 
 // ---- names -------------------------------------------------------------------------------------------------------
@@ -158,6 +183,7 @@ void scree_rules_check_walls(scree_reader *reader, scree_config *config)
         scree_config_wall *wall = &config->walls[i];
         const char *key, *wrong = wrong_shape(wall, (int)config->dimension, &key);
         if (!wrong) wrong = wrong_motion(wall, (int)config->dimension, &key);
+        if (!wrong) wrong = wrong_area(wall, (int)config->dimension, &key);
         if (wrong) refuse(reader, i, key, NULL, wrong);
         if (!wrong && wall->shape == SCREE_SHAPE_OF_MESH) find_mesh(reader, i, wall);
     }

@@ -49,6 +49,8 @@
 /// on the energy ledger is.
 #include "model/critical_step.h"
 
+#include "case/wall_motion.h"
+
 #include "base/vectors.h"
 
 #include <math.h>
@@ -139,6 +141,17 @@ static double strong_static_force(const scree_model *model, double height, doubl
     return STRONG * pressure * diameter * (model->dimension == 3 ? diameter : model->thickness);
 }
 
+/// Speed [m/s] at which the fastest wall of the case meets a body. Of a servo it is not known: it does not strike.
+static double wall_speed(const scree_model *model)
+{
+    double fastest = 0;
+    for (int64_t w = 0; w < model->config->wall_count; w++) {
+        double speed = scree_wall_largest_speed(&model->config->walls[w]);
+        if (!scree_wall_motions[model->config->walls[w].motion].servo) fastest = fmax(fastest, speed);
+    }
+    return fastest;
+}
+
 /// Smallest body that there may be of a material. Of those that are not listed as a species' own, any may be.
 static double least_radius(const scree_model *model, int material)
 {
@@ -168,6 +181,8 @@ static double estimate_of(const scree_model *model, int one, int other)
     if (method && method->impact_speed)
         force = fmax(force, elastic->impact_force(pair, effective_radius, effective_mass,
                                                   method->impact_speed(model, stage, fall)));
+    if (wall_speed(model) > 0)
+        force = fmax(force, elastic->impact_force(pair, effective_radius, effective_mass, wall_speed(model)));
     double guard = elastic->force(pair, effective_radius, model->config->guard.overlap * fmin(a, b));
     if (!(force > 0 && force < guard)) force = guard;
 

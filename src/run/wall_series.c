@@ -3,12 +3,13 @@
 #include "state/case_walls.h"
 
 #include "io/run_directory.h"
+#include "shape/container.h"
 
 #include <stdio.h>
 #include <string.h>
 
 /// Columns of one wall, and those before the first.
-enum { OF_WALL = 7, BEFORE = 2, MOST = BEFORE + OF_WALL * SCREE_SURFACES, NAME = 96 };
+enum { OF_WALL = 10, BEFORE = 2, MOST = BEFORE + OF_WALL * SCREE_SURFACES, NAME = 96 };
 
 static const struct {
     const char *name, *unit, *meaning;
@@ -20,6 +21,9 @@ static const struct {
     {"torque_y", "N m", "torque of the particles on the wall, about its centre"},
     {"torque_z", "N m", "torque of the particles on the wall, about its centre"},
     {"work", "J", "work of the wall on the particles since the begin of the run"},
+    {"displacement_x", "m", "of the centre of the wall since the begin of the run"},
+    {"displacement_y", "m", "of the centre of the wall since the begin of the run"},
+    {"displacement_z", "m", "of the centre of the wall since the begin of the run"},
 };
 
 scree_status scree_wall_series_open(scree_series_writer *writer, const scree_simulation *s, const char *directory,
@@ -50,6 +54,7 @@ scree_status scree_wall_series_append(scree_series_writer *writer, const scree_s
         memcpy(of, load->force, sizeof load->force);
         memcpy(of + 3, load->torque, sizeof load->torque);
         of[6] = load->work;
+        memcpy(of + 7, s->work.container->surface[w].shift, sizeof(scree_vector));
     }
     return scree_series_append(writer, value, error);
 }

@@ -2,6 +2,7 @@
 #include "shape/container.h"
 
 #include "base/vectors.h"
+#include "case/wall_motion.h"
 #include "shape/stl.h"
 
 #include <stdio.h>
@@ -100,9 +101,12 @@ static void find_motion(scree_surface *surface)
 {
     const scree_config_wall *config = surface->config;
     double offset[3], beside[3];
-    surface->shifts = scree_dot(config->velocity, config->velocity) > 0;
+    const double velocity[3] = {config->velocity[0].value, config->velocity[1].value, config->velocity[2].value};
+    surface->steady = scree_wall_is_steady(config);
+    surface->shifts = !surface->steady || scree_dot(velocity, velocity) > 0;
     surface->turns = scree_dot(config->spin, config->spin) > 0;
-    if (config->shape == SCREE_SHAPE_OF_PLANE) surface->shifts = scree_dot(config->velocity, surface->normal[0]) != 0;
+    if (config->shape == SCREE_SHAPE_OF_PLANE && surface->steady)
+        surface->shifts = scree_dot(velocity, surface->normal[0]) != 0;
     if (surface->profile_count == 0 || !surface->turns) return;
     double spin = sqrt(scree_dot(config->spin, config->spin));
     scree_subtract(config->centre, config->start, offset);
@@ -147,7 +151,8 @@ scree_status scree_container_create(const scree_config *config, scree_container 
                                      SCREE_ELEMENTS);
         if (status && error) (void)snprintf(error->field, sizeof error->field, "walls.%d.file", k);
     }
-    scree_container_place(c, 0);
+    scree_container_place(c, NULL, 0, 0);
+    scree_container_list(c);
     if (status) scree_container_destroy(container);
     return status;
 }

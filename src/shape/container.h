@@ -5,10 +5,11 @@
 /// is one; a mesh has its triangles, edges and vertices. Elements of all walls are numbered through. Contacts are the
 /// local minima of the distance to a wall (shape/mesh.h); walls that meet each other do not know of each other.
 ///
-/// Motion. A wall turns with a constant spin w about a centre that moves with a constant velocity v: with its time t
-/// (scree_case_walls(state)->ticks x tick, never accumulated), x(t) = c + v t + R(w t) (x(0) - c), R a rotation by |w|
-/// t about w (Rodrigues). Geometry stays in the frame of t = 0, into which the centre of the sphere is brought. A wall
-/// that moves in itself (a drum about its axis, a plane along itself) is not moved at all: only its points are.
+/// Motion. A wall turns with a constant spin w about a centre that moves by s(t) (case/wall_motion.h): with its time t
+/// (scree_case_walls(state)->ticks x tick, never accumulated), x(t) = c + s(t) + R(w t) (x(0) - c), R a rotation by |w|
+/// t about w (Rodrigues). Geometry stays in the frame without motion, into which the centre of the sphere is brought. A
+/// wall that moves in itself with a constant velocity (a drum about its axis, a plane along itself) is not moved at
+/// all: only its points are.
 ///
 /// A surface with an inside counts up to one radius behind it, a plane without limit.
 #ifndef SCREE_SHAPE_CONTAINER_H
@@ -37,11 +38,14 @@ typedef struct scree_surface {
     scree_mesh mesh;
     double smooth; ///< cosine: contacts whose normals are closer than this are one
     // motion
-    bool turns, shifts; ///< the geometry does
-    double reach;       ///< m, no point of it is farther from the centre; 0 of a plane, which cannot spin
-    double rotation[9]; ///< now, 3 x 3 by rows
-    scree_vector shift; ///< m, now
-    scree_vector hub;   ///< m, the centre now
+    bool turns, shifts;    ///< the geometry does
+    bool steady;           ///< its velocity is the same at all times
+    double reach;          ///< m, no point of it is farther from the centre; 0 of a plane, which cannot spin
+    double rotation[9];    ///< now, 3 x 3 by rows
+    scree_vector shift;    ///< m, now
+    scree_vector hub;      ///< m, the centre now
+    scree_vector velocity; ///< m/s, in the last step
+    scree_vector listed;   ///< m, its shift when neighbours were last looked for
 } scree_surface;
 
 typedef struct scree_container {
@@ -58,13 +62,17 @@ scree_status scree_container_create(const scree_config *config, scree_container 
                                     scree_error *error) SCREE_MUST_USE;
 void scree_container_destroy(scree_container **container);
 
-/// Brings all walls to their poses at `time`.
-void scree_container_place(scree_container *container, double time);
+/// Brings all walls to their poses at `time`; step [s]: the last one. walls: what servos have done; NULL: nothing yet.
+void scree_container_place(scree_container *container, const scree_case_wall_set *walls, double time, double step);
 
-/// Bound of the way that a point of any wall, or of its frame beside a body within `margin`, goes in `time` [m].
+/// Neighbours have been looked for at the present poses.
+void scree_container_list(scree_container *container);
+
+/// Bound of the way that a point of any wall, or of its frame beside a body within `margin`, is from where it was when
+/// neighbours were last looked for, `time` [s] ago [m].
 double scree_container_way(const scree_container *container, double time, double margin);
 
-/// Bound of the velocity of a point of any wall [m/s].
+/// Bound of the velocity of a point of any wall in the last step [m/s].
 double scree_container_speed(const scree_container *container);
 
 /// The wall that an element belongs to.

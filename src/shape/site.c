@@ -2,12 +2,13 @@
 #include "shape/container.h"
 
 #include "base/vectors.h"
+#include "case/wall_motion.h"
 
 #include <string.h>
 
 // ---- motion ------------------------------------------------------------------------------------------------------
 
-void scree_container_place(scree_container *container, double time)
+void scree_container_place(scree_container *container, const scree_case_wall_set *walls, double time, double step)
 {
     container->time = time;
     for (int k = 0; k < container->count; k++) {
@@ -20,9 +21,16 @@ void scree_container_place(scree_container *container, double time)
             double square = axis[i / 3] * axis[i % 3] - (i % 4 == 0 ? scree_dot(axis, axis) : 0);
             surface->rotation[i] = (i % 4 == 0 ? 1 : 0) + sine * generator[i] + rest * square;
         }
-        for (int i = 0; i < 3; i++) surface->shift[i] = config->velocity[i] * time;
+        scree_wall_shift(config, walls ? walls->load[k].travel : 0, time, surface->shift);
+        scree_wall_velocity(config, walls ? walls->load[k].speed : 0, time, step, surface->velocity);
         scree_along(config->centre, 1, surface->shift, surface->hub);
     }
+}
+
+void scree_container_list(scree_container *container)
+{
+    for (int k = 0; k < container->count; k++)
+        memcpy(container->surface[k].listed, container->surface[k].shift, sizeof container->surface[k].listed);
 }
 
 double scree_container_way(const scree_container *container, double time, double margin)
@@ -30,10 +38,11 @@ double scree_container_way(const scree_container *container, double time, double
     double longest = 0;
     for (int k = 0; k < container->count; k++) {
         const scree_surface *surface = &container->surface[k];
-        const double *v = surface->config->velocity, *w = surface->config->spin;
-        double speed = surface->shifts ? sqrt(scree_dot(v, v)) : 0;
+        const double *v = surface->velocity, *w = surface->config->spin;
+        double speed = surface->shifts && surface->steady ? sqrt(scree_dot(v, v)) : 0, gone[3] = {0};
         if (surface->turns) speed += sqrt(scree_dot(w, w)) * (surface->reach + margin);
-        longest = fmax(longest, speed * fabs(time));
+        if (!surface->steady) scree_subtract(surface->shift, surface->listed, gone);
+        longest = fmax(longest, speed * fabs(time) + sqrt(scree_dot(gone, gone)));
     }
     return longest;
 }
@@ -42,10 +51,9 @@ double scree_container_speed(const scree_container *container)
 {
     double largest = 0;
     for (int k = 0; k < container->count; k++) {
-        const scree_config_wall *config = container->surface[k].config;
-        double spin = sqrt(scree_dot(config->spin, config->spin));
-        largest =
-            fmax(largest, sqrt(scree_dot(config->velocity, config->velocity)) + spin * container->surface[k].reach);
+        const scree_surface *surface = &container->surface[k];
+        const double *v = surface->velocity, *w = surface->config->spin;
+        largest = fmax(largest, sqrt(scree_dot(v, v)) + sqrt(scree_dot(w, w)) * surface->reach);
     }
     return largest;
 }

@@ -259,7 +259,7 @@ static void leave(const scree_config_wall *wall, double time, bool position, con
     for (int k = 0; k < 3; k++) axis[k] = wall->spin[k] / rate;
     for (int k = 0; k < 3; k++) lever[k] = at[k] - (position ? wall->centre[k] : 0);
     turn(axis, rate * time, lever, out);
-    for (int k = 0; k < 3 && position; k++) out[k] += wall->centre[k] + wall->velocity[k] * time;
+    for (int k = 0; k < 3 && position; k++) out[k] += wall->centre[k] + wall->velocity[k].value * time;
 }
 
 static void put_body(world *w, const double place[3], const double velocity[3], const double spin[3])
@@ -293,7 +293,7 @@ static scree_config_wall *make_wall(world *w, const carried *c)
     const double spin[3] = {90, -40, 110}, velocity[3] = {0.1, 0.3, -0.2}, centre[3] = {0.002, -0.001, 0.003};
     for (int k = 0; k < 3; k++) {
         wall->spin[k] = c->dimension == 3 || k == 2 ? spin[k] : 0;
-        wall->velocity[k] = k < c->dimension ? velocity[k] : 0;
+        wall->velocity[k].value = k < c->dimension ? velocity[k] : 0;
         wall->centre[k] = k < c->dimension ? centre[k] : 0;
     }
     return wall;

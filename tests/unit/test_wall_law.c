@@ -47,7 +47,7 @@ static void throw(int dimension, law_choice law, bool built_in, double seen[STEP
         for (int k = 0; k < 3; k++) {
             plane->normal[k] = 3 * n[k];
             plane->point[k] = 0.013 * n[k];
-            plane->velocity[k] = towards * n[k] + drag[k];
+            plane->velocity[k].value = towards * n[k] + drag[k];
         }
     }
     world_start(&w, dimension, law, SCREE_SLOT_velocity_verlet, 1, dt);
@@ -111,11 +111,11 @@ static void expected_force(const world *w, const double place[3], const double v
     const double d = R - distance, arm = R - 0.5 * d;
     double lever[3], turning[3], rolling[3], u[3], slip[3], speed = 0;
     double time = (double)scree_case_walls(&w->f.state)->ticks * w->f.state.tick;
-    for (int k = 0; k < 3; k++) lever[k] = place[k] - arm * normal[k] - wall->centre[k] - wall->velocity[k] * time;
+    for (int k = 0; k < 3; k++) lever[k] = place[k] - arm * normal[k] - wall->centre[k] - wall->velocity[k].value * time;
     scree_cross(wall->spin, lever, turning);
     for (int k = 0; k < 3; k++) lever[k] = -arm * normal[k];
     scree_cross(spin, lever, rolling);
-    for (int k = 0; k < 3; k++) u[k] = velocity[k] - wall->velocity[k] - turning[k];
+    for (int k = 0; k < 3; k++) u[k] = velocity[k] - wall->velocity[k].value - turning[k];
     double parting = scree_dot(u, normal), stiffness = pair->value[HERTZ_NORMAL] * sqrt(R * d);
     for (int k = 0; k < 3; k++) slip[k] = u[k] - parting * normal[k] + rolling[k];
     speed = sqrt(scree_dot(slip, slip));
@@ -257,7 +257,7 @@ static void speeds_are_bounded(void **unused)
             for (int k = 0; k < 3; k++) wall->end[k] = centre[k] + 1e-5 * (k + 1);
         }
         memcpy(wall->spin, spin, sizeof spin);
-        memcpy(wall->velocity, velocity, sizeof velocity);
+        for (int k = 0; k < 3; k++) wall->velocity[k].value = velocity[k];
         world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-6);
         const scree_surface *surface = &w.f.work.container->surface[0];
         double bound = scree_container_speed(w.f.work.container), fastest = 0;
@@ -269,7 +269,7 @@ static void speeds_are_bounded(void **unused)
             double lever[3], moved[3];
             scree_subtract(&drawn.corner[k / 3][3 * (k % 3)], surface->hub, lever);
             scree_cross(wall->spin, lever, moved);
-            scree_along(wall->velocity, 1, moved, moved);
+            scree_along(velocity, 1, moved, moved);
             fastest = fmax(fastest, scree_length(moved));
         }
         assert_true(drawn.count > 0 && fastest > 0.1 && fastest <= bound && fastest * time <= way);
@@ -411,7 +411,7 @@ static void make_square(world *w, scree_side side)
     }
     wall->centre[0] = 0.002;
     wall->spin[2] = 11;
-    wall->velocity[1] = 0.07;
+    wall->velocity[1].value = 0.07;
     world_start(w, 2, HERTZ_BRILLIANTOV, SCREE_SLOT_velocity_verlet, 1, 1e-3);
     scree_case_walls(&w->f.state)->moving = 1;
 }

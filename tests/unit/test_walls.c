@@ -341,8 +341,8 @@ static void test_moving_wall(void **state)
             mesh ? world_mesh(&w, (const triangle_corners *)triangle, make_floor(triangle, 3, 0.01, 0))
                  : world_wall(&w, SCREE_SHAPE_OF_PLANE);
         wall->normal[2] = 1;
-        wall->velocity[2] = 0.05;
-        wall->velocity[0] = 0.02; // drags, too
+        wall->velocity[2].value = 0.05;
+        wall->velocity[0].value = 0.02; // drags, too
         char *file = wall->file;
         world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 2e-7);
         scree_case_walls(&w.f.state)->moving = 1;
