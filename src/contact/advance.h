@@ -5,9 +5,9 @@
 
 #include "contact/scalar.h"
 
-/// Evaluates the law, advances the memory and books energies, overlap and range.
+/// Evaluates the law, advances the memory and accumulates energies, overlap and range.
 SCREE_INLINE contact_quanta contact_advance(contact_job *job, variant v, const scree_pair_constants *constants,
-                                            const motion *m, bool touching, const memory_rows *rows)
+                                            const kinematics *m, bool touching, const memory_rows *rows)
 {
     law_constants c = constants_get(constants);
     law_memory before = memory_get(v, rows), after;
@@ -18,7 +18,7 @@ SCREE_INLINE contact_quanta contact_advance(contact_job *job, variant v, const s
     totals->friction += q.friction;
     totals->stiffness += q.stiffness;
     totals->in_range &= q.in_range != 0;
-    if (touching) totals->largest_overlap = lanes_at_least(totals->largest_overlap, m->indentation);
+    if (touching) totals->largest_overlap = lanes_at_least(totals->largest_overlap, m->overlap);
     return q;
 }
 

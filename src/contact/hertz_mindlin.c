@@ -18,7 +18,7 @@
 
 static const scree_choice tangential_histories[] = {
     {"displacement", SCREE_TANGENTIAL_DISPLACEMENT,
-     "the tangential displacement stays as it is; cycles of indentation and slip may deliver energy"},
+     "the tangential displacement stays as it is; cycles of overlap and slip may deliver energy"},
     {"rescaled", SCREE_TANGENTIAL_RESCALED,
      "the tangential force stays as it is while the contact stiffens, the displacement while it softens (Thornton et "
      "al. 2013); no cycle delivers energy"},

@@ -10,12 +10,12 @@
 /// whatever the radii; of spheres A = pi R_1 R_2, so k_n = pi E R_eff: for equal bodies the section through the centre.
 ///
 /// History row in 2D: h [m], then for the ledger, at n - 1: normal damping force, dashpot's part of the tangential
-/// force [N]. In 3D: h and the normal damping force; scree_booking has the dashpot's part.
+/// force [N]. In 3D: h and the normal damping force; scree_last_force has the dashpot's part.
 ///
-/// Ledger: damping <f_n - k_n d> d' dt with the rate of the middle of the step (motion.h), the rest by slider.h. k_t
-/// does not change, so springs are given no energy: `stiffness` is zero.
-/// Limits: the dashpot jumps to c_n v where an impact begins, so a damped impact is of first order in the step.
-/// Cost: one root, one division a contact in 2D; one and one in 3D, 3 and 2 in a group of lanes where one slides.
+/// Ledger: damping <f_n - k_n d> d' dt with the rate of the middle of the step (kinematics.h), the rest by slider.h.
+/// k_t does not change, so springs are given no energy: `stiffness` is zero. Limits: the dashpot jumps to c_n v where
+/// an impact begins, so a damped impact is of first order in the step. Cost: one root, one division a contact in 2D;
+/// one and one in 3D, 3 and 2 in a group of lanes where one slides.
 #ifndef SCREE_CONTACT_LINEAR_H
 #define SCREE_CONTACT_LINEAR_H
 
@@ -46,11 +46,15 @@ typedef struct scree_linear_material {
 #define linear_KERNELS(row) row(linear, 0, one) row(linear, 0, many)
 
 static const scree_law_traits linear_traits[] = {
-    {.remembers = true, .for_ledger = {0xe, 0x8}, .books = {false, true}, .displacement = true, .wide = true},
+    {.remembers = true,
+     .for_ledger = {0xe, 0x8},
+     .keeps_last_force = {false, true},
+     .displacement = true,
+     .wide = true},
 };
 
 /// What the slider remembers; a spring that has lost its contact still holds what it held.
-SCREE_INLINE slider_memory linear_remembered(int dimension, const motion *m, const law_memory *before,
+SCREE_INLINE slider_memory linear_remembered(int dimension, const kinematics *m, const law_memory *before,
                                              lanes tangential_stiffness)
 {
     if (dimension == 2) {
@@ -58,17 +62,18 @@ SCREE_INLINE slider_memory linear_remembered(int dimension, const motion *m, con
         return (slider_memory){{.x = before->value[0]}, {.x = spring}, {.x = before->value[2]}};
     }
     vector displacement = {before->value[0], before->value[1], before->value[2]};
-    vector dashpot = {before->booked[0], before->booked[1], before->booked[2]};
-    vector stretch = motion_carry_whole(3, m, displacement);
-    return (slider_memory){stretch, vector_times(3, stretch, tangential_stiffness), motion_carry(3, m, dashpot)};
+    vector dashpot = {before->last[0], before->last[1], before->last[2]};
+    vector tangential_displacement = kinematics_carry_whole(3, m, displacement);
+    return (slider_memory){tangential_displacement, vector_times(3, tangential_displacement, tangential_stiffness),
+                           kinematics_carry(3, m, dashpot)};
 }
 
-SCREE_INLINE law_force linear(variant v, const law_constants *constants, const law_settings *settings, const motion *m,
-                              lanes_bits touching, const law_memory *before, law_memory *after)
+SCREE_INLINE law_force linear(variant v, const law_constants *constants, const law_settings *settings,
+                              const kinematics *m, lanes_bits touching, const law_memory *before, law_memory *after)
 {
     const int dimension = v.dimension, count = tangential_count(dimension);
     const lanes *constant = constants->value, none = lanes_all(0);
-    lanes d = lanes_keep(touching, m->indentation);
+    lanes d = lanes_keep(touching, m->overlap);
     lanes whole = constant[LINEAR_NORMAL] + constant[LINEAR_BY_RADIUS] * m->reduced_radius;
     lanes stiffness = lanes_keep(touching, whole);
     lanes root = lanes_root(m->reduced_mass * stiffness);
@@ -79,11 +84,12 @@ SCREE_INLINE law_force linear(variant v, const law_constants *constants, const l
     slider_memory slipped = linear_remembered(dimension, m, before, constant[LINEAR_RATIO] * whole);
     slider slip = slider_move(count, &slipped, m->slip, settings->step, constant[LINEAR_RATIO] * stiffness,
                               constant[LINEAR_TANGENTIAL_DAMPING] * root, constant[SCREE_FRICTION] * normal, touching);
-    vector stretch = slip.now.stretch, dashpot = slip.now.dashpot;
-    *after = (law_memory){.value = {stretch.x, damping, dashpot.x, none}};
+    vector tangential_displacement = slip.now.displacement, dashpot = slip.now.dashpot;
+    *after = (law_memory){.value = {tangential_displacement.x, damping, dashpot.x, none}};
     if (dimension == 3)
-        *after = (law_memory){.value = {stretch.x, stretch.y, stretch.z, damping},
-                              .booked = {dashpot.x, dashpot.y, dashpot.z, none}};
+        *after = (law_memory){
+            .value = {tangential_displacement.x, tangential_displacement.y, tangential_displacement.z, damping},
+            .last = {dashpot.x, dashpot.y, dashpot.z, none}};
     return (law_force){
         .normal = normal,
         .tangential = vector_opposite(count, slip.resistance),

@@ -20,8 +20,8 @@ static contact_quanta evaluate(const scree_model *model, const scree_state *stat
     contact_body first = contact_body_at_half_step(model, state, work, work->pairs.first[p]);
     contact_body second = contact_body_at_half_step(model, state, work, work->pairs.second[p]);
     bodies one = body_get(dimension, &first.row, &first.turn), other = body_get(dimension, &second.row, &second.turn);
-    motion m = motion_of_pair(dimension, &one, &other, state->step_size);
-    motion_hold(&m);
+    kinematics m = kinematics_of_pair(dimension, &one, &other, state->step_size);
+    kinematics_hold(&m);
     const variant v = {
         .dimension = dimension, .law = model->law.law, .option = model->law.option, .many_materials = true};
     const contact_scale scale = {.inverse_force = 1 / state->force_quantum,

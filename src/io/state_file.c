@@ -88,7 +88,7 @@ static scree_status make_room(scree_state *state, const scree_field *field, size
         if (!status) scree_group_set_count(state, field->owner, field->group, rows);
         return status;
     }
-    if (field->rows == SCREE_ROWS_BOOKING && rows > 0) return scree_state_add_booking(state, error);
+    if (field->rows == SCREE_ROWS_LAST_FORCE && rows > 0) return scree_state_add_last_force(state, error);
     if (field->rows == SCREE_ROWS_ROLLING && rows > 0) return scree_state_add_rolling(state, error);
     if (field->rows != SCREE_ROWS_CONTACTS || state->contact_count > 0) return SCREE_OK;
     scree_status status = scree_state_reserve_contacts(state, rows, error);

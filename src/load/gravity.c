@@ -36,9 +36,9 @@ static double moment(const scree_state *state, const double by[3])
     scree_integer_sum sum = {0};
     while (scree_integer_sum_next(&sum, 1))
         for (size_t row = 0; row < state->count; row++) {
-            scree_vector place;
-            scree_body_place(state, row, place);
-            scree_integer_sum_add(&sum, state->row[row].mass * scree_dot(by, place));
+            scree_vector position;
+            scree_body_position(state, row, position);
+            scree_integer_sum_add(&sum, state->row[row].mass * scree_dot(by, position));
         }
     return scree_integer_sum_total(&sum);
 }

@@ -74,8 +74,8 @@ static inline const scree_law_traits *scree_model_traits(const scree_model *mode
     return &scree_model_law(model)->traits[model->law.option];
 }
 
-/// Whether the law looks ahead by a step and needs scree_state_foresee.
-static inline bool scree_model_foresees(const scree_model *model)
+/// Whether the law looks ahead by a step and needs scree_state_predict.
+static inline bool scree_model_predicts(const scree_model *model)
 {
     return scree_model_traits(model)->looks_ahead;
 }

@@ -21,14 +21,14 @@ typedef enum scree_field_role {
 
 /// What a field has one element of.
 typedef enum scree_field_rows {
-    SCREE_ROWS_ONE,      ///< the run: the value lies in its owner's struct
-    SCREE_ROWS_FIXED,    ///< an array of `fixed` elements in its owner's struct
-    SCREE_ROWS_GROUP,    ///< an array of its owner's, which as many rows as `group` says
-    SCREE_ROWS_BODIES,   ///< bodies: arrays of the state or of a module, which follow the bodies as they come, go and
-                         ///< change rows (state/store.h)
-    SCREE_ROWS_CONTACTS, ///< contacts: arrays of the state
-    SCREE_ROWS_BOOKING,  ///< as many as contacts where the law books them beside the history, else none
-    SCREE_ROWS_ROLLING,  ///< as many as contacts where there is resistance to rolling, else none
+    SCREE_ROWS_ONE,        ///< the run: the value lies in its owner's struct
+    SCREE_ROWS_FIXED,      ///< an array of `fixed` elements in its owner's struct
+    SCREE_ROWS_GROUP,      ///< an array of its owner's, which as many rows as `group` says
+    SCREE_ROWS_BODIES,     ///< bodies: arrays of the state or of a module, which follow the bodies as they come, go and
+                           ///< change rows (state/store.h)
+    SCREE_ROWS_CONTACTS,   ///< contacts: arrays of the state
+    SCREE_ROWS_LAST_FORCE, ///< as many as contacts where the law accumulates them beside the history, else none
+    SCREE_ROWS_ROLLING,    ///< as many as contacts where there is resistance to rolling, else none
 } scree_field_rows;
 
 /// Arrays of a module that have one length: where in its struct their number of rows and their capacity lie (size_t).

@@ -84,22 +84,23 @@ static const scree_field fields[] = {
      SCREE_RANGE_TO(SCREE_LIMIT_MANY)},
     {"rebuild", SCREE_FIELD_DOUBLE, SCREE_VECTOR, "m", SCREE_FIELD_DERIVED, false,
      "centre at the last rebuild of the neighbour list", PLAIN_ARRAY(rebuild, scree_vector), .rows = SCREE_ROWS_BODIES},
-    {"foreseen", SCREE_FIELD_DOUBLE, 8, "1", SCREE_FIELD_DERIVED, false,
-     "increments of velocity and spin by the forces of the last step", PLAIN_ARRAY(foreseen, scree_foreseen),
+    {"predicted", SCREE_FIELD_DOUBLE, 8, "1", SCREE_FIELD_DERIVED, false,
+     "increments of velocity and spin by the forces of the last step", PLAIN_ARRAY(predicted, scree_predicted),
      .rows = SCREE_ROWS_BODIES, .ghosts = SCREE_GHOSTS_FOLLOW, .optional = true},
 
     CONTACT("first", SCREE_FIELD_UINT32, 1, "1", first, "id of the first body", SCREE_RANGE_TO(SCREE_LIMIT_BODY)),
-    CONTACT(
-        "second", SCREE_FIELD_UINT32, 1, "1", second,
-        "id of the second body, larger than the first; 4294967280 + index for a plate, 2147483648 + element for a wall "
-        "of the case"),
+    CONTACT("second", SCREE_FIELD_UINT32, 1, "1", second,
+            "id of the second body, larger than the first; 4294967280 + index for a plate, 2147483648 + primitive for "
+            "a wall "
+            "of the case"),
     CONTACT("history", SCREE_FIELD_DOUBLE, SCREE_HISTORY, "1", history, "memory of the contact law, in its own units"),
-    BESIDE_CONTACT("booking", SCREE_FIELD_FLOAT, booking, scree_booking, "N", value,
+    BESIDE_CONTACT("last_force", SCREE_FIELD_FLOAT, last_force, scree_last_force, "N", value,
                    "damping force and dashpot x, y, z that the ledger needs again, where the history row has no room",
-                   SCREE_ROWS_BOOKING),
+                   SCREE_ROWS_LAST_FORCE),
     BESIDE_CONTACT("rolling", SCREE_FIELD_DOUBLE, rolling, scree_rolling, "1", value,
-                   "stretch of rolling and angle of twist: x, y, z [m] and [rad]; 2D: stretch [m]", SCREE_ROWS_ROLLING),
-    BESIDE_CONTACT("rolling_booked", SCREE_FIELD_FLOAT, rolling, scree_rolling, "1", booked,
+                   "displacement of rolling and angle of twist: x, y, z [m] and [rad]; 2D: displacement [m]",
+                   SCREE_ROWS_ROLLING),
+    BESIDE_CONTACT("rolling_last", SCREE_FIELD_FLOAT, rolling, scree_rolling, "1", last,
                    "dashpots of rolling [N] and twisting [N m] that the ledger needs again", SCREE_ROWS_ROLLING),
     ONE("scalars/next_id", SCREE_FIELD_UINT64, 1, "1", next_id, "id of the next body that comes; none is given again",
         SCREE_RANGE_TO(SCREE_LIMIT_IDS)),
@@ -118,7 +119,7 @@ static const scree_field fields[] = {
         SCREE_RANGE_ABOVE(0, DBL_MAX)),
     ONE("scalars/torque_quantum", SCREE_FIELD_DOUBLE, 1, "N m", torque_quantum, "unit of torque_sum",
         SCREE_RANGE_ABOVE(0, DBL_MAX)),
-    ONE("scalars/largest_overlap", SCREE_FIELD_DOUBLE, 1, "m", largest_overlap, "largest indentation of all contacts",
+    ONE("scalars/largest_overlap", SCREE_FIELD_DOUBLE, 1, "m", largest_overlap, "largest overlap of all contacts",
         SCREE_RANGE(0, DBL_MAX)),
     ONE("scalars/largest_speed", SCREE_FIELD_DOUBLE, 1, "m/s", largest_speed,
         "bound of the surface speed of all bodies", SCREE_RANGE(0, DBL_MAX)),
@@ -225,8 +226,8 @@ size_t scree_field_rows_count(const scree_state *state, const scree_field *field
         return field->optional && !array_of(state, field) ? 0 : state->count;
     case SCREE_ROWS_CONTACTS:
         return state->contact_count;
-    case SCREE_ROWS_BOOKING:
-        return state->booking ? state->contact_count : 0;
+    case SCREE_ROWS_LAST_FORCE:
+        return state->last_force ? state->contact_count : 0;
     case SCREE_ROWS_ROLLING:
         return state->rolling ? state->contact_count : 0;
     }

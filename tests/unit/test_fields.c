@@ -155,7 +155,7 @@ static void no_member_of_the_state_is_missing(void **unused)
     EXCEPT(row_capacity);
     EXCEPT(id_count);
     EXCEPT(id_capacity);
-    EXCEPT(booking); // beside `contact`
+    EXCEPT(last_force); // beside `contact`
     EXCEPT(rolling);
     EXCEPT(spent); // kept by checkpoints, but no part of what is computed
     EXCEPT(own);   // of the modules
@@ -190,7 +190,7 @@ static void no_member_of_an_element_is_missing(void **unused)
                   {offsetof(scree_state, turn), sizeof(scree_turn_row), 3, 0},
                   {offsetof(scree_state, torque), sizeof(scree_torque_row), 3, 8},
                   {offsetof(scree_state, contact), sizeof(scree_contact_memory), 0, 0},
-                  {offsetof(scree_state, booking), sizeof(scree_booking), 0, 0},
+                  {offsetof(scree_state, last_force), sizeof(scree_last_force), 0, 0},
                   {offsetof(scree_state, rolling), sizeof(scree_rolling), 0, 0}};
     for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++)
         for (int dimension = 2; dimension <= 3; dimension++) {
@@ -242,8 +242,8 @@ static void permuting_moves_whole_elements(void **unused)
         scree_state state, before;
         assert_int_equal(scree_state_create(&state, dimension, BODIES, NULL), SCREE_OK);
         assert_int_equal(scree_state_create(&before, dimension, BODIES, NULL), SCREE_OK);
-        assert_int_equal(scree_state_foresee(&state, NULL), SCREE_OK);
-        assert_int_equal(scree_state_foresee(&before, NULL), SCREE_OK);
+        assert_int_equal(scree_state_predict(&state, NULL), SCREE_OK);
+        assert_int_equal(scree_state_predict(&before, NULL), SCREE_OK);
         uint32_t order[BODIES];
         for (size_t k = 0; k < scree_field_total(); k++) {
             const scree_field *field = scree_field_at(k);

@@ -69,8 +69,8 @@ static void a_ball_takes_off_where_the_floor_falls_faster(void **unused)
     }
 }
 
-#define PUSHER(motion)                                                                                                 \
-    FLOOR "  - {shape: box, name: pusher, lower: [-20 mm, 0.1 mm], upper: [-1.5 mm, 3 mm], side: outside, " motion "}" \
+#define PUSHER(kinematics)                                                                                                 \
+    FLOOR "  - {shape: box, name: pusher, lower: [-20 mm, 0.1 mm], upper: [-1.5 mm, 3 mm], side: outside, " kinematics "}" \
                                                                                                                    "\n"
 
 /// A table of velocity and the table of its integral lead along the same way, which is the integral of the first; the
@@ -99,11 +99,11 @@ static void tables_of_velocity_and_displacement_agree(void **unused)
         while (simulation_goes_on(s)) {
             simulation_step(s);
             worst = simulation_residual(s, worst);
-            const scree_surface *pusher = &s->work.container->surface[1];
+            const scree_surface *pusher = &s->work.wall_set->surface[1];
             double time = scree_case_walls_time(scree_case_walls(&s->state), &s->state);
             if (k == 0) assert_true(pusher->shift[0] == scree_schedule_integral(&c->config.walls[1].velocity[0], time));
         }
-        way[k] = s->work.container->surface[1].shift[0];
+        way[k] = s->work.wall_set->surface[1].shift[0];
         ball[k] = s->state.row[s->state.row_of_id[0]].x;
         print_message("way %.6g m, ball at %.6g m, work %.4g J, residual %.2g\n", way[k], ball[k],
                       scree_case_walls(&s->state)->load[1].work, worst);
