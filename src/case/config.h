@@ -112,47 +112,26 @@ typedef struct scree_config_stage {
     void *own;                 ///< struct of its kind, and of what else adds keys to it (scree_config_own)
 } scree_config_stage;
 
-/// A wall beside the six plates (shape/wall_set.h). Which members its keys fill depends on the shape.
-typedef enum scree_surface_shape {
-    SCREE_SHAPE_OF_PLANE,
-    SCREE_SHAPE_OF_BOX,
-    SCREE_SHAPE_OF_CYLINDER,
-    SCREE_SHAPE_OF_CONE,
-    SCREE_SHAPE_OF_MESH
-} scree_surface_shape;
-typedef enum scree_side { SCREE_SIDE_INSIDE, SCREE_SIDE_OUTSIDE } scree_side;
-typedef enum scree_ends { SCREE_ENDS_OPEN, SCREE_ENDS_CLOSED } scree_ends;
-
+/// A wall beside the six plates (shape/wall_set.h). What stands in `own` is said by the module of its shape.
 typedef struct scree_config_wall {
-    int shape;                       ///< scree_surface_shape
-    char *name;                      ///< unique among the walls
-    double point[3], normal[3];      ///< m, 1: plane
-    double lower[3], upper[3];       ///< m: box
-    double start[3], end[3];         ///< m: axis of a cylinder or cone
-    double radius;                   ///< m: cylinder
-    double radius_start, radius_end; ///< m: cone
-    int side;                        ///< scree_side, where the bodies are: box, cylinder, cone
-    int ends;                        ///< scree_ends: cylinder, cone
-    char *file;                      ///< mesh: path of an STL file, relative to the case file until the case is read
-    char *checksum;                  ///< mesh: content of that file; auto: whatever it is
-    double scale;                    ///< mesh: m per unit of the file
-    double at[3];                    ///< m, mesh: where the origin of the file lies
-    double smooth;                   ///< rad, mesh: contacts whose normals differ by less are one
-    char *material;                  ///< name, or SCREE_RIGID; auto (NULL): wall_material of the grain's material
-    double friction;                 ///< 1; auto: the material's friction on plates
-    int motion;                      ///< scree_wall_motion_kind (case/wall_motion.h)
-    scree_schedule velocity[3];      ///< m/s, by time of the walls
-    scree_schedule displacement[3];  ///< m, from where its shape is given
-    double amplitude[3];             ///< m: vibration
-    double frequency, phase;         ///< 1/s, rad: vibration
-    double direction[3];             ///< servo: in which it presses, any length
-    scree_schedule force;            ///< N: servo, along its direction
-    double area;                     ///< m2, that it presses with; auto: `face`
-    double face;                     ///< m2, in 2D m: its shape seen along `direction`; 0: it has no end (the rules)
-    double servo_gain;               ///< 1, admittance of the servo over that of the grains
-    double servo_velocity;           ///< m/s, of a wall under servo at most; auto
-    double spin[3];                  ///< rad/s
-    double centre[3];                ///< m, about which it turns, at the begin
+    int shape;                      ///< slot of a module with a shape of walls (module/wall_shape.h)
+    char *name;                     ///< unique among the walls
+    char *material;                 ///< name, or SCREE_RIGID; auto (NULL): wall_material of the grain's material
+    double friction;                ///< 1; auto: the material's friction on plates
+    int motion;                     ///< scree_wall_motion_kind (case/wall_motion.h)
+    scree_schedule velocity[3];     ///< m/s, by time of the walls
+    scree_schedule displacement[3]; ///< m, from where its shape is given
+    double amplitude[3];            ///< m: vibration
+    double frequency, phase;        ///< 1/s, rad: vibration
+    double direction[3];            ///< servo: in which it presses, any length
+    scree_schedule force;           ///< N: servo, along its direction
+    double area;                    ///< m2, that it presses with; auto: `face`
+    double face;                    ///< m2, in 2D m: its shape seen along `direction`; 0: it has no end (the rules)
+    double servo_gain;              ///< 1, admittance of the servo over that of the grains
+    double servo_velocity;          ///< m/s, of a wall under servo at most; auto
+    double spin[3];                 ///< rad/s
+    double centre[3];               ///< m, about which it turns, at the begin
+    void *own;                      ///< struct of its shape
 } scree_config_wall;
 
 enum { SCREE_SURFACES = 16 }; ///< walls of a case

@@ -89,14 +89,14 @@ static void closest_on_plane(const scree_surface *surface, size_t k, const doubl
 }
 
 /// A solid box: its nearest face, edge or corner; inside it the nearest face.
-static void closest_on_solid_box(int dimension, const scree_config_wall *config, const double place[3],
+static void closest_on_solid_box(int dimension, const scree_surface *box, const double place[3],
                                  scree_closest_point *closest)
 {
     double nearest = -INFINITY;
     int face = 0;
     *closest = (scree_closest_point){.minimum = true};
     for (int i = 0; i < dimension; i++) {
-        double below = config->lower[i] - place[i], above = place[i] - config->upper[i], out = fmax(below, above);
+        double below = box->lower[i] - place[i], above = place[i] - box->upper[i], out = fmax(below, above);
         closest->normal[i] = out > 0 ? (below > above ? -out : out) : 0;
         if (out > nearest) {
             nearest = out;
@@ -153,9 +153,8 @@ static void closest_on_round(const scree_surface *surface, size_t primitive, con
                              scree_closest_point *closest)
 {
     double from[3], radial[3], normal[2];
-    bool inner = true,
-         solid = surface->config->side == SCREE_SIDE_OUTSIDE && surface->config->ends == SCREE_ENDS_CLOSED;
-    scree_subtract(place, surface->config->start, from);
+    bool inner = true, solid = surface->solid;
+    scree_subtract(place, surface->start, from);
     double s = scree_dot(from, surface->axis);
     scree_along(from, -s, surface->axis, radial);
     double r = scree_normalise(radial);
@@ -178,16 +177,15 @@ void scree_primitive_closest_point(const scree_wall_set *wall_set, size_t primit
                                    scree_closest_point *closest)
 {
     const scree_surface *surface = &wall_set->surface[scree_primitive_surface(wall_set, primitive)];
-    const scree_config_wall *config = surface->config;
     double inner[3];
     primitive -= surface->first;
     enter_frame(surface, place, inner);
-    if (config->shape == SCREE_SHAPE_OF_MESH)
+    if (surface->kind == SCREE_SURFACE_MESH)
         scree_mesh_closest_point(&surface->mesh, primitive, inner, closest);
-    else if (surface->profile_count > 0)
+    else if (surface->kind == SCREE_SURFACE_PROFILE)
         closest_on_round(surface, primitive, inner, closest);
-    else if (config->shape == SCREE_SHAPE_OF_BOX && config->side == SCREE_SIDE_OUTSIDE)
-        closest_on_solid_box(wall_set->dimension, config, inner, closest);
+    else if (surface->kind == SCREE_SURFACE_BOX)
+        closest_on_solid_box(wall_set->dimension, surface, inner, closest);
     else
         closest_on_plane(surface, primitive, inner, closest);
     leave_frame(surface, closest->normal);
@@ -197,8 +195,7 @@ bool scree_closest_point_touches(const scree_wall_set *wall_set, size_t primitiv
                                  double radius)
 {
     const scree_surface *surface = &wall_set->surface[scree_primitive_surface(wall_set, primitive)];
-    bool plane = surface->config->shape == SCREE_SHAPE_OF_PLANE;
-    return closest->minimum && !(closest->distance >= radius) && (plane || !(closest->distance <= -radius));
+    return closest->minimum && !(closest->distance >= radius) && (surface->endless || !(closest->distance <= -radius));
 }
 
 // ---- search ------------------------------------------------------------------------------------------------------
@@ -223,7 +220,7 @@ scree_status scree_wall_set_near(const scree_wall_set *wall_set, const scree_vec
     for (int k = 0; k < wall_set->count && !status; k++) {
         const scree_surface *surface = &wall_set->surface[k];
         double inner[3];
-        if (surface->config->shape == SCREE_SHAPE_OF_MESH) {
+        if (surface->kind == SCREE_SURFACE_MESH) {
             numbered pass = {surface->first, found, context};
             enter_frame(surface, place, inner);
             status = scree_mesh_near(&surface->mesh, inner, reach, pass_on, &pass);
@@ -260,19 +257,18 @@ double scree_surface_clearance(const scree_wall_set *wall_set, int k, const scre
     const scree_surface *surface = &wall_set->surface[k];
     double least = INFINITY, inner[3];
     enter_frame(surface, place, inner);
-    if (surface->config->shape == SCREE_SHAPE_OF_MESH) {
+    if (surface->kind == SCREE_SURFACE_MESH) {
         nearest_point nearest = {&surface->mesh, inner, INFINITY};
         return scree_mesh_near(&surface->mesh, inner, reach, lower_distance, &nearest) ? NAN : nearest.distance;
     }
-    bool convex = surface->config->side == SCREE_SIDE_INSIDE && surface->config->ends == SCREE_ENDS_CLOSED;
     for (size_t e = surface->first; e < surface->first + surface->count; e++) {
         scree_closest_point closest;
         scree_primitive_closest_point(wall_set, e, place, &closest);
         // Behind the end of a closed round wall its lines go on.
-        if (!closest.minimum && surface->profile_count > 0 && convex) {
+        if (!closest.minimum && surface->convex) {
             const scree_profile *line = &surface->profile[e - surface->first];
             double from[3], radial[3];
-            scree_subtract(inner, surface->config->start, from);
+            scree_subtract(inner, surface->start, from);
             double s = scree_dot(from, surface->axis);
             scree_along(from, -s, surface->axis, radial);
             closest.distance =

@@ -25,16 +25,32 @@ typedef struct scree_profile {
     bool free_ends;   ///< its ends are edges of the wall; else another primitive goes on from there
 } scree_profile;
 
+/// What a surface is made of: shapes put theirs together from these (module/wall_shape.h).
+typedef enum scree_surface_kind {
+    SCREE_SURFACE_PLANES,  ///< half-spaces, a primitive each
+    SCREE_SURFACE_BOX,     ///< a solid box, one primitive
+    SCREE_SURFACE_PROFILE, ///< lines that turn about an axis
+    SCREE_SURFACE_MESH,    ///< triangles, edges and vertices
+} scree_surface_kind;
+
 /// One wall.
 typedef struct scree_surface {
     const scree_config_wall *config;
+    scree_surface_kind kind;
     size_t first, count; ///< its primitives
-    // plane, and box seen from inside: half-spaces normal . x >= offset
+    // half-spaces normal . x >= offset
     scree_vector normal[6];
     double offset[6];
-    scree_vector axis; ///< cylinder, cone: unit vector from start to end
+    bool endless; ///< it is a plane
+    // between the corners of a box, seen from inside or outside
+    bool cornered;
+    scree_vector lower, upper; ///< m
+    // body of revolution
+    scree_vector start, axis; ///< m, one end of the axis; unit vector from there to the other
     scree_profile profile[3];
     int profile_count;
+    bool solid;  ///< closed, seen from outside: one primitive
+    bool convex; ///< closed, seen from inside: its lines go on behind their ends
     scree_mesh mesh;
     double smooth; ///< cosine: contacts whose normals are closer than this are one
     // motion
@@ -86,8 +102,7 @@ static inline int scree_primitive_surface(const scree_wall_set *wall_set, size_t
 /// Whether the normal of every primitive is the same wherever a body touches it: planes, and boxes seen from inside.
 static inline bool scree_surface_is_flat(const scree_surface *surface)
 {
-    int shape = surface->config->shape;
-    return shape == SCREE_SHAPE_OF_PLANE || (shape == SCREE_SHAPE_OF_BOX && surface->config->side == SCREE_SIDE_INSIDE);
+    return surface->kind == SCREE_SURFACE_PLANES;
 }
 
 /// Where a sphere with its centre at `place` may touch a primitive, now.

@@ -62,7 +62,7 @@ static void the_balance_closes(void **unused)
         while (simulation_goes_on(&s)) {
             simulation_step(&s);
             worst = simulation_residual(&s, worst);
-            if (s.sampled) work = fmax(work, fabs(s.sample.value[SCREE_SAMPLE_WORK_GRAVITY]));
+            if (s.sampled) work = fmax(work, fabs(s.sample[SCREE_SAMPLE_WORK_GRAVITY]));
         }
         print_message("%s: residual %.2g, work of gravity up to %.4g J\n", schemes[k], worst, work);
         assert_true(worst < 1e-12 && work > 1e-7);

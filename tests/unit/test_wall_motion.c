@@ -69,9 +69,10 @@ static void a_ball_takes_off_where_the_floor_falls_faster(void **unused)
     }
 }
 
-#define PUSHER(kinematics)                                                                                                 \
-    FLOOR "  - {shape: box, name: pusher, lower: [-20 mm, 0.1 mm], upper: [-1.5 mm, 3 mm], side: outside, " kinematics "}" \
-                                                                                                                   "\n"
+#define PUSHER(kinematics)                                                                                             \
+    FLOOR "  - {shape: box, name: pusher, lower: [-20 mm, 0.1 mm], upper: [-1.5 mm, 3 mm], side: outside, " kinematics \
+          "}"                                                                                                          \
+          "\n"
 
 /// A table of velocity and the table of its integral lead along the same way, which is the integral of the first; the
 /// ball goes where it is pushed, and the ledger has the work.
