@@ -92,6 +92,7 @@ void scree_rules_check_walls(scree_reader *reader, scree_config *config)
     name_walls(reader, config);
     for (int64_t i = 0; i < config->wall_count; i++) {
         scree_config_wall *wall = &config->walls[i];
+        if (wall->motion < 0) continue; // wrong, and noted
         const char *key, *wrong = wrong_shape(wall, (int)config->dimension, &key);
         if (!wrong) wrong = wrong_motion(wall, (int)config->dimension, &key);
         if (!wrong) wrong = wrong_area(wall, (int)config->dimension, &key);

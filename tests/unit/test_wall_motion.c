@@ -213,6 +213,7 @@ static void what_is_wrong_is_said(void **unused)
     refuse("walls.lid.direction=[0, 0, 1]", "there is no z");
     refuse("walls.lid.area=auto", "has no area along `direction`");
     refuse("walls.lid.area=0", "too small");
+    refuse("walls.floor.motion=servos", "did you mean 'servo'?");
     refuse("walls.lid.velocity=[0, 1]", "only with motion: velocity");
     refuse("walls.shaker.displacement=[[0, 0, 1], [1, 1, 1]]", "only with motion: displacement");
     refuse("walls.shaker.amplitude=[0, 0]", "needs an amplitude");
