@@ -60,6 +60,16 @@ static const char *wrong_area(scree_config_wall *wall, int dimension, const char
                : NULL;
 }
 
+/// What is wrong with a wall of a sample that repeats itself; NULL: nothing. The wall must look the same from a body
+/// and from its ghost.
+static const char *wrong_in_cell(const scree_config_wall *wall, int periodic, const char **key)
+{
+    const scree_wall_shape *shape = scree_modules[wall->shape]->wall;
+    *key = "shape";
+    if (!shape->wrong_in_cell) return "only planes go on with a sample that repeats itself (boundary.periodic)";
+    return shape->wrong_in_cell(wall->own, periodic, key);
+}
+
 // ---- names -------------------------------------------------------------------------------------------------------
 
 static void name_walls(scree_reader *reader, scree_config *config)
@@ -84,9 +94,10 @@ void scree_rules_check_walls(scree_reader *reader, scree_config *config)
 {
     for (int64_t i = 0; i < config->wall_count; i++)
         if (config->walls[i].shape < 0) return; // wrong, and noted
-    if (config->wall_count > 0 && config->boundary.periodic > 0) {
+    if (config->wall_count > 0 && scree_config_is_wholly_periodic(config)) {
         refuse(reader, 0, "shape", NULL,
-               "a periodic cell has no walls: leave one of `walls` and boundary.periodic out");
+               "a sample that is periodic in all directions has no walls: leave one of `walls` and boundary.periodic "
+               "out, or a direction of boundary.periodic");
         return;
     }
     name_walls(reader, config);
@@ -96,6 +107,7 @@ void scree_rules_check_walls(scree_reader *reader, scree_config *config)
         const char *key, *wrong = wrong_shape(wall, (int)config->dimension, &key);
         if (!wrong) wrong = wrong_motion(wall, (int)config->dimension, &key);
         if (!wrong) wrong = wrong_area(wall, (int)config->dimension, &key);
+        if (!wrong && config->boundary.periodic > 0) wrong = wrong_in_cell(wall, config->boundary.periodic, &key);
         if (wrong) refuse(reader, i, key, NULL, wrong);
         if (!wrong && scree_modules[wall->shape]->wall->find)
             scree_modules[wall->shape]->wall->find(reader, i, wall->own);

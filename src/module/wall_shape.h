@@ -14,6 +14,9 @@ typedef struct scree_wall_shape {
     bool endless; ///< it has no end, and cannot turn
     /// What is wrong with its keys, and under which; NULL: nothing.
     const char *(*wrong)(const void *keys, int dimension, const char **key);
+    /// The same in a sample that repeats itself in the directions of the mask `periodic`: there it has to look the same
+    /// from a body and from its ghost. NULL: it does not.
+    const char *(*wrong_in_cell)(const void *keys, int periodic, const char **key);
     /// Area seen along a unit vector [m2], in 2D a length [m]; 0: it has none. NULL: never has.
     double (*face)(const void *keys, int dimension, const double direction[3]);
     /// Finds the files that the keys of wall `index` name, and notes what is wrong with them. NULL: it has none.

@@ -20,6 +20,16 @@ static const char *wrong(const void *own, int dimension, const char **key)
     return dimension == 2 && c->normal[2] != 0 ? "there is no z in two dimensions" : NULL;
 }
 
+static const char *wrong_in_cell(const void *own, int periodic, const char **key)
+{
+    const config *c = own;
+    *key = "normal";
+    for (int k = 0; k < 3; k++)
+        if (periodic >> k & 1 && c->normal[k] != 0)
+            return "the plane lies across a direction in which the sample repeats itself (boundary.periodic)";
+    return NULL;
+}
+
 static scree_status make(const void *own, int dimension, scree_surface *surface, scree_error *error)
 {
     const config *c = own;
@@ -40,5 +50,5 @@ const scree_module scree_module_plane = {
     .choice_of = CHOICE_OF(IS("walls", .meaning = "a half-space")),
     .keys = (const scree_keys[]){KEYS_OF(NULL, keys, config)},
     .keys_count = 1,
-    .wall = &(const scree_wall_shape){.endless = true, .wrong = wrong, .make = make},
+    .wall = &(const scree_wall_shape){.endless = true, .wrong = wrong, .wrong_in_cell = wrong_in_cell, .make = make},
 };
