@@ -22,11 +22,11 @@
 void scree_gravity_find(const scree_model *model, const scree_state *state, uint64_t ticks, double gravity[3])
 {
     const scree_stage_state *stage = &state->stage;
-    const scree_schedule *own = model->config->stages[stage->index].gravity;
+    const scree_schedule *own = model->stages[stage->index].gravity;
     double since = (double)(state->step - stage->first_step + ticks) * state->tick;
     for (int k = 0; k < 3; k++)
         gravity[k] = scree_config_is_open(own)
-                         ? scree_schedule_at(&model->config->gravity[k], stage->first_time + since)
+                         ? scree_schedule_at(&model->gravity_of_case[k], stage->first_time + since)
                          : scree_schedule_at(&own[k], since);
 }
 
@@ -92,9 +92,8 @@ static scree_status follow(const scree_context *c, scree_error *error)
 /// Whether it may change in the stage.
 static bool in_use(const scree_context *c)
 {
-    const scree_config *config = c->model->config;
-    const scree_schedule *own = config->stages[c->state->stage.index].gravity;
-    const scree_schedule *gravity = scree_config_is_open(own) ? config->gravity : own;
+    const scree_schedule *own = c->model->stages[c->state->stage.index].gravity;
+    const scree_schedule *gravity = scree_config_is_open(own) ? c->model->gravity_of_case : own;
     for (int k = 0; k < 3; k++)
         if (!scree_schedule_is_constant(&gravity[k])) return true;
     return false;

@@ -64,7 +64,7 @@ static scree_status begin_growth(growth *g, scree_error *error)
     if (!status) status = scree_allocate(&g->force, packing->count, sizeof *g->force, error);
     if (status) return status;
     g->work.skin = SKIN;
-    uint64_t seed = (uint64_t)g->model->config->seed, axes = (uint64_t)packing->dimension;
+    uint64_t seed = g->model->seed, axes = (uint64_t)packing->dimension;
     for (size_t i = 0; i < packing->count; i++) {
         double place[3], radius = packing->radius[i] / g->unit;
         for (uint64_t c = 0; c < axes; c++)

@@ -34,8 +34,8 @@ static uint64_t checksum(const scree_model *model, const scree_state *state, uin
 {
     const scree_case_wall_set *walls = scree_case_walls(state);
     double time = scree_case_walls_time(walls, state), shift[3], velocity[3];
-    for (int64_t w = 0; w < model->config->wall_count; w++) {
-        const scree_config_wall *wall = &model->config->walls[w];
+    for (int64_t w = 0; w < model->wall_count; w++) {
+        const scree_config_wall *wall = &model->walls_of_case[w];
         scree_wall_shift(wall, walls->load[w].travel, time, shift);
         scree_wall_velocity(wall, walls->load[w].speed, time, state->step_size, velocity);
         for (int k = 0; k < 3; k++) {
@@ -54,8 +54,8 @@ static scree_status decide(const scree_context *c, scree_error *error)
     scree_case_wall_set *walls = scree_case_walls(c->state);
     double time = scree_case_walls_time(walls, c->state), unit[3];
     (void)error;
-    for (int64_t w = 0; w < c->model->config->wall_count; w++) {
-        const scree_config_wall *wall = &c->model->config->walls[w];
+    for (int64_t w = 0; w < c->model->wall_count; w++) {
+        const scree_config_wall *wall = &c->model->walls_of_case[w];
         scree_surface_load *load = &walls->load[w];
         if (!scree_wall_motions[wall->motion].servo) continue;
         scree_wall_shift(wall, 1, time, unit);
@@ -72,7 +72,7 @@ static scree_status follow(const scree_context *c, scree_error *error)
     scree_case_wall_set *walls = scree_case_walls(c->state);
     if (!walls->moving) return SCREE_OK;
     walls->ticks += c->work->ticks;
-    for (int64_t w = 0; w < c->model->config->wall_count; w++)
+    for (int64_t w = 0; w < c->model->wall_count; w++)
         walls->load[w].travel += c->state->step_size * walls->load[w].speed;
     return SCREE_OK;
 }
@@ -109,7 +109,7 @@ static scree_status sample(const scree_context *c, size_t index, double *value, 
     memcpy(value, load->force, sizeof load->force);
     memcpy(value + 3, load->torque, sizeof load->torque);
     value[6] = load->work;
-    scree_wall_shift(&c->model->config->walls[index], load->travel, scree_case_walls_time(walls, c->state), value + 7);
+    scree_wall_shift(&c->model->walls_of_case[index], load->travel, scree_case_walls_time(walls, c->state), value + 7);
     return SCREE_OK;
 }
 

@@ -66,7 +66,7 @@ static uint64_t run_some(const scree_case *c, int threads, uint64_t evaluations,
     while (simulation_goes_on(&s) && s.state.evaluations < last) {
         simulation_step(&s);
         *residual = simulation_residual(&s, *residual);
-        if (last == UINT64_MAX && s.state.stage.index + 1 == s.model.config->stage_count)
+        if (last == UINT64_MAX && s.state.stage.index + 1 == s.model.stage_count)
             last = s.state.evaluations + evaluations;
         if (discard == 0 || s.state.evaluations % discard != 0 || s.state.evaluations == 0) continue;
         simulation_lose_work(&s, threads);
