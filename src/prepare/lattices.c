@@ -17,8 +17,9 @@
 
 typedef struct lattice {
     size_t missing[2]; ///< by how many bodies every second layer is shorter, along x and y
-    double rise;       ///< distance of layers in radii
-    bool staggered;    ///< every second layer is shifted by a radius along each side
+    double spacing;    ///< distance of neighbours in a layer, in radii
+    double rise;       ///< distance of layers, in radii
+    bool staggered;    ///< every second layer is shifted by half the spacing along each side
 } lattice;
 
 /// Layers (rows in 2D) of a lattice that is n bodies wide and m deep.
@@ -41,6 +42,12 @@ static size_t layers_needed(const layers *of, size_t count)
     return 2 * (count / pair) + (rest > 0) + (rest > of->full);
 }
 
+/// Side of the box, in radii, for n bodies along it.
+static double side_of(const lattice *kind, size_t n, bool periodic)
+{
+    return kind->spacing * (double)n + (periodic ? 0 : 2 - kind->spacing);
+}
+
 /// Number of bodies across. Height over width falls with it: the first below the aspect ratio, or the one before.
 /// `deep`: number of bodies from front to back, 0 for as many as across.
 static size_t columns_for(const lattice *kind, const scree_packing *packing, size_t deep)
@@ -49,7 +56,8 @@ static size_t columns_for(const lattice *kind, const scree_packing *packing, siz
     const size_t least = 1 + (kind->missing[0] > kind->missing[1] ? kind->missing[0] : kind->missing[1]);
     for (size_t n = least;; n++) {
         layers of = layers_of(kind, packing->dimension, n, deep > 0 ? deep : n);
-        double ratio = (2 + kind->rise * (double)(layers_needed(&of, packing->count) - 1)) / (2 * (double)n);
+        double height = 2 + kind->rise * (double)(layers_needed(&of, packing->count) - 1);
+        double ratio = height / side_of(kind, n, false);
         if (ratio <= packing->aspect_ratio || n >= packing->count)
             return before - packing->aspect_ratio < packing->aspect_ratio - ratio ? n - 1 : n;
         before = ratio;
@@ -57,9 +65,10 @@ static size_t columns_for(const lattice *kind, const scree_packing *packing, siz
 }
 
 /// Number of bodies that fit beside each other into a given side of the box.
-static size_t fitting(double side, double r)
+static size_t fitting(const lattice *kind, double side, double r, bool periodic)
 {
-    return (size_t)floor(side / (2 * r) * (1 + 1e-12));
+    double beyond = periodic ? 0 : 2 - kind->spacing;
+    return (size_t)fmax(floor((side / r * (1 + 1e-12) - beyond) / kind->spacing), 0);
 }
 
 static void place_body(scree_packing *packing, size_t i, const lattice *kind, const layers *of)
@@ -68,9 +77,9 @@ static void place_body(scree_packing *packing, size_t i, const lattice *kind, co
     size_t pair = of->full + of->shorter, within = i % pair, layer = 2 * (i / pair) + (within >= of->full);
     bool shorter = within >= of->full;
     size_t number = shorter ? within - of->full : within, across = shorter ? of->n - kind->missing[0] : of->n;
-    double shift = shorter && kind->staggered ? 1 : 0;
-    packing->place[0][i] = r * (1 + 2 * (double)(packing->dimension == 3 ? number % across : number) + shift);
-    if (packing->dimension == 3) packing->place[1][i] = r * (1 + 2 * (double)(number / across) + shift);
+    double a = kind->spacing, shift = shorter && kind->staggered ? a / 2 : 0;
+    packing->place[0][i] = r * (1 + a * (double)(packing->dimension == 3 ? number % across : number) + shift);
+    if (packing->dimension == 3) packing->place[1][i] = r * (1 + a * (double)(number / across) + shift);
     packing->place[packing->dimension - 1][i] = r * (1 + kind->rise * (double)layer);
 }
 
@@ -99,20 +108,21 @@ static scree_status place_lattice(const scree_model *model, const scree_config_s
     if (count == 0) return SCREE_OK;
     double r = packing->radius[0];
     const bool in_3d = packing->dimension == 3, deep = in_3d && !isnan(box->depth);
-    size_t m = deep ? fitting(box->depth, r) : 0;
+    const bool again[2] = {box->periodic & 1, box->periodic >> 1 & 1};
+    size_t m = deep ? fitting(kind, box->depth, r, again[1]) : 0;
     if (deep && m < 1 + kind->missing[1] && count > 1)
         return scree_prepare_error(error, model, stage, "depth", "a layer of the lattice needs at least %g m",
-                                   2 * (double)(1 + kind->missing[1]) * r);
-    size_t n = isnan(box->width) ? columns_for(kind, packing, m) : fitting(box->width, r);
+                                   side_of(kind, 1 + kind->missing[1], again[1]) * r);
+    size_t n = isnan(box->width) ? columns_for(kind, packing, m) : fitting(kind, box->width, r, again[0]);
     if (n < 1 + kind->missing[0] && count > 1)
         return scree_prepare_error(error, model, stage, "width", "a row of the lattice needs at least %g m",
-                                   2 * (double)(1 + kind->missing[0]) * r);
+                                   side_of(kind, 1 + kind->missing[0], again[0]) * r);
     layers of = layers_of(kind, packing->dimension, n, deep ? m : n);
     scree_status status = upwards ? check_layers(model, stage, count, kind, &of, error) : SCREE_OK;
     if (status) return status;
     for (size_t i = 0; i < count; i++) place_body(packing, i, kind, &of);
-    box->width = 2 * (double)of.n * r;
-    box->depth = 2 * (double)of.m * r;
+    box->width = side_of(kind, of.n, again[0]) * r;
+    box->depth = side_of(kind, of.m, again[1]) * r;
     double needed = (double)layers_needed(&of, count);
     box->height = r * (upwards ? kind->rise * needed : 2 + kind->rise * (needed - 1));
     return SCREE_OK;
@@ -121,19 +131,19 @@ static scree_status place_lattice(const scree_model *model, const scree_config_s
 static scree_status place_hexagonal(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
                                     scree_error *error)
 {
-    return place_lattice(model, stage, packing, (lattice){{1, 1}, sqrt(3.0), true}, error);
+    return place_lattice(model, stage, packing, (lattice){{1, 1}, 2, sqrt(3.0), true}, error);
 }
 
 static scree_status place_upright(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
                                   scree_error *error)
 {
-    return place_lattice(model, stage, packing, (lattice){{0, 0}, 2, false}, error);
+    return place_lattice(model, stage, packing, (lattice){{0, 0}, 2, 2, false}, error);
 }
 
 static scree_status place_face_centred(const scree_model *model, const scree_config_stage *stage,
                                        scree_packing *packing, scree_error *error)
 {
-    return place_lattice(model, stage, packing, (lattice){{1, 1}, sqrt(2.0), true}, error);
+    return place_lattice(model, stage, packing, (lattice){{1, 1}, 2, sqrt(2.0), true}, error);
 }
 
 static scree_status check(const scree_model *model, const scree_config_stage *stage, scree_error *error)
