@@ -2,10 +2,11 @@
 ///
 /// In 2D rows of discs. hexagonal: n and n - 1 discs in turn, sqrt(3) R apart, in a box 2 n R wide. square: n discs, 2
 /// R apart. In 3D square layers of spheres. face_centred: n x m and (n - 1) x (m - 1) spheres in turn, sqrt(2) R apart.
-/// cubic: n x m spheres, 2 R apart. The last row or layer may be incomplete; it fills from the left (and the front).
-/// Width auto: the number n whose height over width comes nearest to the aspect ratio (m = n where the depth is auto
-/// too); a given width or depth is lowered to the next that the lattice fills. The model has checked that radii are
-/// equal.
+/// body_centred: the same numbers, 4 / sqrt(3) R apart, in layers of half that distance: neighbours in a layer do not
+/// touch. cubic: n x m spheres, 2 R apart. The last row or layer may be incomplete; it fills from the left (and the
+/// front). Width auto: the number n whose height over width comes nearest to the aspect ratio (m = n where the depth is
+/// auto too); a given width or depth is lowered to the next that the lattice fills. The model has checked that radii
+/// are equal.
 ///
 /// Periodic in a horizontal direction, no layer is shorter along it. Periodic in the last direction, the layers have to
 /// be whole, and even in number where they alternate: then width (or aspect ratio) and number of bodies have to suit
@@ -146,6 +147,12 @@ static scree_status place_face_centred(const scree_model *model, const scree_con
     return place_lattice(model, stage, packing, (lattice){{1, 1}, 2, sqrt(2.0), true}, error);
 }
 
+static scree_status place_body_centred(const scree_model *model, const scree_config_stage *stage,
+                                       scree_packing *packing, scree_error *error)
+{
+    return place_lattice(model, stage, packing, (lattice){{1, 1}, 4 / sqrt(3.0), 2 / sqrt(3.0), true}, error);
+}
+
 static scree_status check(const scree_model *model, const scree_config_stage *stage, scree_error *error)
 {
     if (!(model->radius_min < model->radius_max)) return SCREE_OK;
@@ -169,4 +176,6 @@ LATTICE(hexagonal, "triangular lattice of equal discs that touch", 2, "face_cent
 LATTICE(square, "square lattice of equal discs that touch", 2, "cubic", place_upright);
 LATTICE(face_centred, "face-centred cubic lattice of equal spheres that touch, square layers horizontal", 3,
         "hexagonal", place_face_centred);
+LATTICE(body_centred, "body-centred cubic lattice of equal spheres that touch along the diagonals of its cells", 3,
+        "hexagonal", place_body_centred);
 LATTICE(cubic, "simple cubic lattice of equal spheres that touch", 3, "square", place_upright);
