@@ -23,6 +23,7 @@
 
 #include "case/check.h"
 #include "module/key_rows.h"
+#include "state/memory_fields.h"
 
 typedef scree_linear_material material;
 #define WITH_LINEAR .when = "contact.law=linear"
@@ -136,6 +137,16 @@ static scree_pair_constants constants(const scree_contact_space *space, const sc
     }};
 }
 
+// ---- what a contact remembers --------------------------------------------------------------------------------------
+
+static const scree_field fields[] = {
+    SCREE_REMEMBERS(linear, history, 0, SCREE_AXIAL_VECTOR, SCREE_TANGENTIAL_DISPLACEMENT_FIELD, .in_checksum = true),
+    SCREE_REMEMBERS(linear, history, 1, 1, SCREE_NORMAL_DAMPING_FIELD, .only_dimension = 2),
+    SCREE_REMEMBERS(linear, history, 2, 1, SCREE_TANGENTIAL_DAMPING_FIELD, .only_dimension = 2),
+    SCREE_REMEMBERS(linear, history, 3, 1, SCREE_NORMAL_DAMPING_FIELD, .only_dimension = 3),
+    SCREE_REMEMBERS(linear, booking, 0, 3, SCREE_TANGENTIAL_DAMPING_FIELD, .only_dimension = 3),
+};
+
 // ---- closed forms --------------------------------------------------------------------------------------------------
 
 static double stiffness_of(const scree_pair_constants *pair, double effective_radius)
@@ -235,6 +246,7 @@ static const scree_elastic elastic = {
 
 static const scree_law law = {
     .traits = linear_traits,
+    .option_count = sizeof linear_traits / sizeof *linear_traits,
     .elastic = &elastic,
     .constant_count = LINEAR_TANGENTIAL_DAMPING + 1,
     .resistances = 1U << SCREE_FRICTION,
@@ -256,4 +268,6 @@ const scree_module scree_module_linear = {
     .keys_count = 1,
     .rules = rules,
     .law = &law,
+    .fields = fields,
+    .field_count = sizeof fields / sizeof *fields,
 };

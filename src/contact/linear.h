@@ -9,8 +9,8 @@
 /// E A / L: the bar from centre to centre, L = R_1 + R_2. Of discs of thickness t, A = t (R_1 + R_2), so k_n = E t
 /// whatever the radii; of spheres A = pi R_1 R_2, so k_n = pi E R_eff: for equal bodies the section through the centre.
 ///
-/// History row in 2D: h [m], then for the ledger, at n - 1: normal damping force, dashpot's part of the tangential
-/// force [N]. In 3D: h and the normal damping force; scree_booking has the dashpot's part.
+/// Memory (the fields in linear.c): h, and for the ledger, at n - 1, the normal damping force and the dashpot's part of
+/// the tangential force.
 ///
 /// Ledger: damping <f_n - k_n d> d' dt with the rate of the middle of the step (motion.h), the rest by slider.h. k_t
 /// does not change, so springs are given no energy: `stiffness` is zero.

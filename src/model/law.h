@@ -84,6 +84,7 @@ typedef struct scree_law_bounds {
 
 typedef struct scree_law {
     const scree_law_traits *traits; ///< one for each value of `option`
+    unsigned option_count;          ///< values of `option`
     const scree_elastic *elastic;
     int constant_count;    ///< constants of a pair that enter the state checksum
     unsigned resistances;  ///< bits of the constants that vanish with the friction of a body

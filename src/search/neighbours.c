@@ -422,6 +422,7 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     if (!status) status = search_pairs(state, work, error);
     if (!status) status = scree_ghosts_make(state, work, error);
     if (!status) status = scree_ghosts_search(state, work, &search->images, error);
+    scree_state_set_law(state, &model->law);
     if (!status) status = assemble(model, state, work, error);
     if (status) return status;
 

@@ -3,11 +3,14 @@
 /// bytes of a struct, so that structs may change.
 #include "state/body.h"
 #include "state/case_walls.h"
+#include "state/fields.h"
 #include "state/periodic.h"
 #include "state/plates.h"
 
 #include "base/checksum.h"
 #include "base/fixed.h"
+
+#include <assert.h>
 
 /// A material by its constants, as one word; not by its index, which depends on materials that nothing is made of.
 static uint64_t material_word(const scree_model *model, int material)
@@ -55,18 +58,24 @@ static uint64_t checksum_bodies(const scree_model *model, const scree_state *sta
     return c;
 }
 
-/// What a contact remembers of its tangential displacement (or force), and of rolling and twisting.
+/// What a contact remembers that physics depends on, as its law declares it.
 typedef struct remembered {
-    double slip[3], rolling[4];
-    size_t slips, rollings; ///< of these numbers exist
+    double value[16];
+    size_t count;
 } remembered;
 
 static remembered remembered_of(const scree_state *state, size_t contact)
 {
-    bool solid = state->dimension == 3;
-    remembered r = {.slips = solid ? 3 : 1, .rollings = !state->rolling ? 0 : solid ? 4 : 1};
-    for (size_t k = 0; k < r.slips; k++) r.slip[k] = state->contact[contact].history.value[k];
-    for (size_t k = 0; k < r.rollings; k++) r.rolling[k] = state->rolling[contact].value[k];
+    remembered r = {.count = 0};
+    const scree_module *law = state->law.law;
+    for (size_t k = 0; law && k < law->field_count; k++) {
+        const scree_field *field = &law->fields[k];
+        if (!field->in_checksum || scree_field_rows_count(state, field) == 0) continue;
+        size_t components = (size_t)scree_components(field->components, state->dimension);
+        assert(field->type == SCREE_FIELD_DOUBLE && r.count + components <= sizeof r.value / sizeof *r.value);
+        memcpy(r.value + r.count, scree_field_get(state, field, contact), components * sizeof *r.value);
+        r.count += components;
+    }
     return r;
 }
 
@@ -93,10 +102,9 @@ static uint64_t checksum_contacts(const scree_state *state, uint64_t c)
     uint64_t count = 0;
     for (size_t k = 0; k < state->contact_count; k++) {
         remembered r = remembered_of(state, k);
-        if (is_zero(r.slip, r.slips) && is_zero(r.rolling, r.rollings)) continue;
+        if (is_zero(r.value, r.count)) continue;
         c = checksum_partner(state->contact[k].second, scree_checksum_word(c, state->contact[k].first));
-        c = scree_checksum_numbers(c, r.slip, r.slips);
-        c = scree_checksum_numbers(c, r.rolling, r.rollings);
+        c = scree_checksum_numbers(c, r.value, r.count);
         count++;
     }
     return scree_checksum_word(c, count);

@@ -1,4 +1,5 @@
-/// The fields of the state itself; those of modules stand in their own files. Every member of `scree_state` is in the
+/// The fields of the state itself; those of modules stand in their own files, what contacts remember in those of the
+/// laws. Every member of `scree_state` is in the
 /// table except the counts (they are the lengths of the arrays) and row_of_id (the inverse of `id`).
 #include "state/fields.h"
 
@@ -15,11 +16,6 @@
     {                                                                                                                  \
         "contacts/" name_, type_, components_, unit_, SCREE_FIELD_STATE, false, meaning_,                              \
             IN_ARRAY(contact, scree_contact_memory, member), .rows = SCREE_ROWS_CONTACTS, __VA_ARGS__                  \
-    }
-#define BESIDE_CONTACT(name_, type_, array_, c_type, unit_, member, meaning_, rows_)                                   \
-    {                                                                                                                  \
-        "contacts/" name_, type_, 4, unit_, SCREE_FIELD_STATE, false, meaning_, IN_ARRAY(array_, c_type, member),      \
-            .rows = rows_                                                                                              \
     }
 #define ONE(name_, type_, components_, unit_, member, meaning_, ...)                                                   \
     {                                                                                                                  \
@@ -90,14 +86,6 @@ static const scree_field fields[] = {
         "second", SCREE_FIELD_UINT32, 1, "1", second,
         "id of the second body, larger than the first; 4294967280 + index for a plate, 2147483648 + element for a wall "
         "of the case"),
-    CONTACT("history", SCREE_FIELD_DOUBLE, SCREE_HISTORY, "1", history, "memory of the contact law, in its own units"),
-    BESIDE_CONTACT("booking", SCREE_FIELD_FLOAT, booking, scree_booking, "N", value,
-                   "damping force and dashpot x, y, z that the ledger needs again, where the history row has no room",
-                   SCREE_ROWS_BOOKING),
-    BESIDE_CONTACT("rolling", SCREE_FIELD_DOUBLE, rolling, scree_rolling, "1", value,
-                   "stretch of rolling and angle of twist: x, y, z [m] and [rad]; 2D: stretch [m]", SCREE_ROWS_ROLLING),
-    BESIDE_CONTACT("rolling_booked", SCREE_FIELD_FLOAT, rolling, scree_rolling, "1", booked,
-                   "dashpots of rolling [N] and twisting [N m] that the ledger needs again", SCREE_ROWS_ROLLING),
     ONE("scalars/next_id", SCREE_FIELD_UINT64, 1, "1", next_id, "id of the next body that comes; none is given again",
         SCREE_RANGE_TO(SCREE_LIMIT_IDS)),
     ONE("scalars/step", SCREE_FIELD_UINT64, 1, "1", step, "time since the start of the run, in ticks",
@@ -185,9 +173,16 @@ bool scree_field_exists(const scree_field *field, int dimension)
     return field->only_dimension == 0 || field->only_dimension == dimension;
 }
 
-bool scree_field_is_stored(const scree_field *field, int dimension)
+bool scree_field_is_here(const scree_state *state, const scree_field *field)
 {
-    return field->role == SCREE_FIELD_STATE && scree_field_exists(field, dimension);
+    if (!scree_field_exists(field, state->dimension)) return false;
+    if (!field->law) return true;
+    return field->law == state->law.law && (field->options == 0 || field->options >> state->law.option & 1);
+}
+
+bool scree_field_is_stored(const scree_state *state, const scree_field *field)
+{
+    return field->role == SCREE_FIELD_STATE && scree_field_is_here(state, field);
 }
 
 /// The struct that the offsets of a field are of.
@@ -199,7 +194,7 @@ static unsigned char *owner_of(const scree_state *state, const scree_field *fiel
     return state->own[slot];
 }
 
-/// The array that a field of bodies lies in; NULL: there is none.
+/// The array that a field of bodies or contacts lies in; NULL: there is none.
 static const void *array_of(const scree_state *state, const scree_field *field)
 {
     const void *array;
@@ -221,11 +216,7 @@ size_t scree_field_rows_count(const scree_state *state, const scree_field *field
     case SCREE_ROWS_BODIES:
         return field->optional && !array_of(state, field) ? 0 : state->count;
     case SCREE_ROWS_CONTACTS:
-        return state->contact_count;
-    case SCREE_ROWS_BOOKING:
-        return state->booking ? state->contact_count : 0;
-    case SCREE_ROWS_ROLLING:
-        return state->rolling ? state->contact_count : 0;
+        return scree_field_is_here(state, field) && array_of(state, field) ? state->contact_count : 0;
     }
     return count;
 }

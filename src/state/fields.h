@@ -15,8 +15,11 @@ const scree_field *scree_own_fields(size_t *count);
 /// Whether states of this dimension have it.
 bool scree_field_exists(const scree_field *field, int dimension);
 
+/// Whether this state has it: what contacts remember depends on their law, too.
+bool scree_field_is_here(const scree_state *state, const scree_field *field);
+
 /// The same for what checkpoints hold.
-bool scree_field_is_stored(const scree_field *field, int dimension);
+bool scree_field_is_stored(const scree_state *state, const scree_field *field);
 
 /// Whether its elements lie behind a pointer, not in the struct of its owner itself.
 static inline bool scree_field_is_array(const scree_field *field)

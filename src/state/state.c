@@ -268,6 +268,11 @@ void scree_state_release_contacts(scree_state *state)
     state->contact_count = state->contact_capacity = 0;
 }
 
+void scree_state_set_law(scree_state *state, const scree_law_use *use)
+{
+    state->law = (scree_remembered_law){scree_modules[use->law], use->option};
+}
+
 scree_status scree_state_add_booking(scree_state *state, scree_error *error)
 {
     if (state->booking) return SCREE_OK;

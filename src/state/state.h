@@ -94,7 +94,7 @@ typedef double scree_vector[3];
 #define SCREE_ELEMENTS   (SCREE_WALL_ID - SCREE_ELEMENT_ID) /* most elements */
 #define SCREE_HISTORY    4
 typedef struct scree_history {
-    double value[SCREE_HISTORY]; ///< meaning depends on the law: see the head of its file in src/contact/
+    double value[SCREE_HISTORY]; ///< meanings: the fields that the law declares
 } scree_history;
 
 /// hertz_mindlin in 3D, for the ledger: damping forces at n - 1 that the ledger needs again. Single precision is
@@ -103,7 +103,7 @@ typedef struct scree_booking {
     float value[4]; ///< N: normal, tangential x, y, z
 } scree_booking;
 
-/// Memory of rolling and twisting resistance (only with materials that have it), and its booking.
+/// More rows where the law wants them: for rolling and twisting resistance, and its booking.
 typedef struct scree_rolling {
     double value[4]; ///< 2D: rolling stretch; 3D: rolling stretch x, y, z [m], twist [rad]
     float booked[4]; ///< dashpots at n - 1, in the same order
@@ -113,6 +113,12 @@ typedef struct scree_contact_memory {
     uint32_t first, second; ///< ids
     scree_history history;
 } scree_contact_memory;
+
+/// Whose memory contacts have: the law and its option say which fields there are (state/memory_fields.h).
+typedef struct scree_remembered_law {
+    const scree_module *law; ///< NULL: none yet
+    unsigned option;
+} scree_remembered_law;
 
 /// Energy ledger, J. Work is done ON the bodies; dissipation is positive. Residual of the balance:
 /// kinetic + elastic - initial - (plates + pressure + boundary + periodic + forced + outside + gravity) + damping +
@@ -189,6 +195,7 @@ struct scree_state {
     scree_booking *booking; ///< beside `contact` where the law has booking rows; else NULL
     scree_rolling *rolling; ///< beside `contact` with rolling resistance; else NULL
     size_t contact_count, contact_capacity;
+    scree_remembered_law law;      ///< of the contacts
     void *own[SCREE_MODULE_COUNT]; ///< the struct of each module that has one (module/module.h), by slot
     scree_ledger ledger;
     scree_stage_state stage;
@@ -283,6 +290,9 @@ scree_status scree_state_reserve_contacts(scree_state *state, size_t count, scre
 
 /// Frees the contact memory and what lies beside it.
 void scree_state_release_contacts(scree_state *state);
+
+/// From now on contacts remember what this law says. Those that are there must be of this law already, or forgotten.
+void scree_state_set_law(scree_state *state, const scree_law_use *use);
 
 /// Puts booking rows, and rolling rows, beside the contact memory; nothing happens where there are some.
 scree_status scree_state_add_booking(scree_state *state, scree_error *error) SCREE_MUST_USE;

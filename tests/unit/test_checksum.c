@@ -59,6 +59,7 @@ static void create(sample *s, int dimension)
     }
     assert_int_equal(scree_state_reserve_contacts(state, 4, NULL), SCREE_OK);
     assert_int_equal(scree_state_add_rolling(state, NULL), SCREE_OK);
+    scree_state_set_law(state, &(scree_law_use){.law = SCREE_SLOT_hertz_mindlin, .option = 2}); // with rolling
     state->contact[0] = (scree_contact_memory){0, 1, {{0.5, 0.25, 0.125, 9}}};
     state->contact[1] = (scree_contact_memory){0, 2, {{0, 0, 0, 8}}};
     state->contact[2] = (scree_contact_memory){1, SCREE_ELEMENT_ID + 3, {{-1, -2, -3, 7}}};
@@ -249,12 +250,9 @@ static void physics_shows(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_definition_holds),
-        cmocka_unit_test(work_from_outside_is_a_word),
-        cmocka_unit_test(holes_show),
-        cmocka_unit_test(bookkeeping_does_not_show),
-        cmocka_unit_test(rows_do_not_show),
-        cmocka_unit_test(physics_shows),
+        cmocka_unit_test(the_definition_holds), cmocka_unit_test(work_from_outside_is_a_word),
+        cmocka_unit_test(holes_show),           cmocka_unit_test(bookkeeping_does_not_show),
+        cmocka_unit_test(rows_do_not_show),     cmocka_unit_test(physics_shows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /// The tables of fields: names, units, places, and that nothing of a state is missing from them.
 #include "measure/delaunay_boundary.h"
+#include "model/law.h"
 #include "state/plates.h"
 #include "testing.h"
 
@@ -24,8 +25,9 @@ static void every_name_is_unique_and_explained(void **unused)
     for (size_t k = 0; k < all_count(); k++) {
         assert_true(strlen(all(k)->name) > 1);
         assert_true(strlen(all(k)->meaning) > 3);
+        // Laws may remember the same thing: a state is of one of them.
         for (size_t j = 0; j < k; j++)
-            if (all(k)->only_dimension + all(j)->only_dimension != 5)
+            if (all(k)->only_dimension + all(j)->only_dimension != 5 && (!all(k)->law || all(k)->law == all(j)->law))
                 assert_string_not_equal(all(k)->name, all(j)->name);
     }
 }
@@ -105,7 +107,8 @@ static void fields_lie_where_their_names_say(void **unused)
         {"coordination", &state.sum[2].contacts},
         {"rebuild", state.rebuild[2]},
         {"contacts/second", &state.contact[2].second},
-        {"contacts/history", state.contact[2].history.value},
+        {"contacts/tangential_displacement", state.contact[2].history.value},
+        {"contacts/tangential_damping_force", state.contact[2].history.value + 3},
         {"boundary/force_y", &scree_loop_of(&state)->fy[2]},
         {"boundary/loaded", &scree_loop_of(&state)->loaded[2]},
         {"walls/normal", scree_plates(&state)[2].normal},
@@ -114,7 +117,7 @@ static void fields_lie_where_their_names_say(void **unused)
     for (size_t e = 0; e < sizeof expected / sizeof *expected; e++) {
         const void *found = NULL;
         for (size_t k = 0; k < all_count(); k++)
-            if (strcmp(all(k)->name, expected[e].name) == 0 && scree_field_exists(all(k), 2))
+            if (strcmp(all(k)->name, expected[e].name) == 0 && scree_field_is_here(&state, all(k)))
                 found = scree_field_get(&state, all(k), 2);
         if (found != expected[e].place) fail_msg("'%s' lies elsewhere", expected[e].name);
     }
@@ -155,8 +158,7 @@ static void no_member_of_the_state_is_missing(void **unused)
     EXCEPT(row_capacity);
     EXCEPT(id_count);
     EXCEPT(id_capacity);
-    EXCEPT(booking); // beside `contact`
-    EXCEPT(rolling);
+    EXCEPT(law);   // of the model
     EXCEPT(spent); // kept by checkpoints, but no part of what is computed
     EXCEPT(own);   // of the modules
     mark_fields(NULL, covered);
@@ -189,15 +191,14 @@ static void no_member_of_an_element_is_missing(void **unused)
                   {offsetof(scree_state, sum), sizeof(scree_sum_row), 0, 0},
                   {offsetof(scree_state, turn), sizeof(scree_turn_row), 3, 0},
                   {offsetof(scree_state, torque), sizeof(scree_torque_row), 3, 8},
-                  {offsetof(scree_state, contact), sizeof(scree_contact_memory), 0, 0},
-                  {offsetof(scree_state, booking), sizeof(scree_booking), 0, 0},
-                  {offsetof(scree_state, rolling), sizeof(scree_rolling), 0, 0}};
+                  {offsetof(scree_state, contact), sizeof(scree_contact_memory), 0, sizeof(scree_history)}};
     for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++)
         for (int dimension = 2; dimension <= 3; dimension++) {
             if (arrays[a].dimension && arrays[a].dimension != dimension) continue;
             size_t bytes = arrays[a].unused;
             for (size_t k = 0; k < all_count(); k++) {
-                if (all(k)->owner || all(k)->array_offset != arrays[a].offset || !scree_field_is_array(all(k)))
+                if (all(k)->owner || all(k)->array_offset != arrays[a].offset || !scree_field_is_array(all(k)) ||
+                    all(k)->law)
                     continue;
                 if (!scree_field_exists(all(k), dimension)) continue;
                 bytes += (size_t)scree_components(all(k)->components, dimension) * scree_field_size(all(k)->type);
@@ -205,6 +206,57 @@ static void no_member_of_an_element_is_missing(void **unused)
             }
             assert_int_equal(bytes, arrays[a].size);
         }
+}
+
+/// Marks which values of a row the fields of a law speak of; no two of the same one.
+static void mark_row(const scree_state *state, const scree_module *law, size_t array, size_t first, size_t size,
+                     unsigned char used[4])
+{
+    memset(used, 0, 4);
+    for (size_t k = 0; k < law->field_count; k++) {
+        const scree_field *field = &law->fields[k];
+        if (!scree_field_is_here(state, field) || field->array_offset != array) continue;
+        if (field->offset < first || field->offset >= first + 4 * size) continue;
+        assert_int_equal(scree_field_size(field->type), size);
+        size_t at = (field->offset - first) / size,
+               count = (size_t)scree_components(field->components, state->dimension);
+        assert_int_equal((field->offset - first) % size, 0);
+        for (size_t c = 0; c < count; c++) {
+            assert_true(at + c < 4);
+            if (used[at + c]++) fail_msg("'%s' lies on another value", field->name);
+        }
+    }
+}
+
+static int number_used(const unsigned char used[4])
+{
+    return used[0] + used[1] + used[2] + used[3];
+}
+
+/// What a law declares lies in the rows that its traits ask for, each of them has something in it, and no two fields
+/// are the same value.
+static void memory_is_what_the_traits_say(void **unused)
+{
+    (void)unused;
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
+        for (unsigned option = 0; scree_modules[m]->law && option < scree_modules[m]->law->option_count; option++)
+            for (int dimension = 2; dimension <= 3; dimension++) {
+                const scree_law_traits *traits = &scree_modules[m]->law->traits[option];
+                scree_state state = {.dimension = dimension};
+                unsigned char history[4], booking[4], rolling[4], booked[4];
+                scree_state_set_law(&state, &(scree_law_use){.law = m, .option = option});
+                mark_row(&state, scree_modules[m], offsetof(scree_state, contact),
+                         offsetof(scree_contact_memory, history), sizeof(double), history);
+                mark_row(&state, scree_modules[m], offsetof(scree_state, booking), 0, sizeof(float), booking);
+                mark_row(&state, scree_modules[m], offsetof(scree_state, rolling), offsetof(scree_rolling, value),
+                         sizeof(double), rolling);
+                mark_row(&state, scree_modules[m], offsetof(scree_state, rolling), offsetof(scree_rolling, booked),
+                         sizeof(float), booked);
+                assert_true(number_used(history) > 0);
+                assert_true((number_used(booking) > 0) == traits->books[dimension - 2]);
+                assert_true((number_used(rolling) > 0) == traits->rolling);
+                assert_true(number_used(rolling) == number_used(booked));
+            }
 }
 
 static void packing_and_unpacking_agree(void **unused)
@@ -354,6 +406,7 @@ int main(void)
         cmocka_unit_test(no_member_of_the_state_is_missing),
         cmocka_unit_test(no_member_of_a_module_is_missing),
         cmocka_unit_test(no_member_of_an_element_is_missing),
+        cmocka_unit_test(memory_is_what_the_traits_say),
         cmocka_unit_test(packing_and_unpacking_agree),
         cmocka_unit_test(permuting_moves_whole_elements),
         cmocka_unit_test(the_manual_lists_every_dataset),

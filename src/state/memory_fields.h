@@ -1,0 +1,36 @@
+/// Declarations of what contacts remember, for the files of laws: a law's module lists one field a value (or vector).
+/// Checkpoint, state of a snapshot, views, checks, state checksum and docs/output.md follow from the list; kernels read
+/// whole rows of four.
+///   SCREE_REMEMBERS(law, row, at, components, name, unit, meaning, ...)
+/// row: history, booking, rolling or rolling_booked, those that the traits of the law ask for; at: number of the value
+/// in this row, from 0. Behind the meaning stand designators: .only_dimension, .options (bits of the options of the law
+/// under which it exists), .in_checksum (physics depends on it).
+#ifndef SCREE_STATE_MEMORY_FIELDS_H
+#define SCREE_STATE_MEMORY_FIELDS_H
+
+#include "state/state.h"
+
+#define SCREE_MEMORY_ROW(array, element, member, at, number, c_type)                                                   \
+    .type = number, .array_offset = offsetof(scree_state, array), .stride = sizeof(element),                           \
+    .offset = offsetof(element, member) + (at) * sizeof(c_type)
+#define SCREE_MEMORY_history(at)                                                                                       \
+    SCREE_MEMORY_ROW(contact, scree_contact_memory, history.value, at, SCREE_FIELD_DOUBLE, double)
+#define SCREE_MEMORY_booking(at)                       SCREE_MEMORY_ROW(booking, scree_booking, value, at, SCREE_FIELD_FLOAT, float)
+#define SCREE_MEMORY_rolling(at)                       SCREE_MEMORY_ROW(rolling, scree_rolling, value, at, SCREE_FIELD_DOUBLE, double)
+#define SCREE_MEMORY_rolling_booked(at)                SCREE_MEMORY_ROW(rolling, scree_rolling, booked, at, SCREE_FIELD_FLOAT, float)
+
+#define SCREE_REMEMBERS(law, row, at, components, ...) SCREE_REMEMBERS_(law, row, at, components, __VA_ARGS__)
+#define SCREE_REMEMBERS_(law_, row_, at, components_, name_, unit_, meaning_, ...)                                     \
+    {                                                                                                                  \
+        .name = "contacts/" name_, SCREE_MEMORY_##row_(at), .components = components_, .unit = unit_,                  \
+        .rows = SCREE_ROWS_CONTACTS, .meaning = meaning_, .law = &scree_module_##law_, __VA_ARGS__                     \
+    }
+
+/// Name, unit and meaning of what several laws remember.
+#define SCREE_TANGENTIAL_DISPLACEMENT_FIELD "tangential_displacement", "m", "tangential displacement; along t in 2D"
+#define SCREE_NORMAL_DAMPING_FIELD          "normal_damping_force", "N", "damping part of the normal force of the last step"
+#define SCREE_TANGENTIAL_DAMPING_FIELD                                                                                 \
+    "tangential_damping_force", "N",                                                                                   \
+        "what the dashpot added to the tangential spring in the last step, positive along the displacement"
+
+#endif
