@@ -6,10 +6,12 @@
 #include "contact/scalar.h"
 
 /// Evaluates the law, advances the memory and books energies, overlap and range.
+/// own: constants of the pair's own; NULL: it has none.
 SCREE_INLINE contact_quanta contact_advance(contact_job *job, variant v, const scree_pair_constants *constants,
-                                            const motion *m, bool touching, const memory_rows *rows)
+                                            const scree_member_row *own, const motion *m, bool touching,
+                                            const memory_rows *rows)
 {
-    law_constants c = constants_get(constants);
+    law_constants c = constants_get(constants, own);
     law_memory before = memory_get(v, rows), after;
     contact_quanta q = contact_evaluate(v, &c, &job->settings, &job->scale, m, -(lanes_bits)touching, &before, &after);
     memory_set(v, rows, &after);
@@ -18,7 +20,12 @@ SCREE_INLINE contact_quanta contact_advance(contact_job *job, variant v, const s
     totals->friction += q.friction;
     totals->stiffness += q.stiffness;
     totals->in_range &= q.in_range != 0;
-    if (touching) totals->largest_overlap = lanes_at_least(totals->largest_overlap, m->indentation);
+    if (law_holds(v)) {
+        totals->largest_deformation = lanes_at_least(totals->largest_deformation, q.deformation);
+        totals->largest_gap = lanes_at_least(totals->largest_gap, -m->indentation);
+    } else if (touching) {
+        totals->largest_overlap = lanes_at_least(totals->largest_overlap, m->indentation);
+    }
     return q;
 }
 

@@ -19,6 +19,7 @@ typedef struct contact_quanta {
     lanes_bits in_range;                     ///< mask: the force is a number below the limit
     lanes_bits normal;                       ///< the same force along n
     quanta tangential;                       ///< and in the tangent plane (2D: along t)
+    lanes deformation;                       ///< m, with law_holds
 } contact_quanta;
 
 SCREE_INLINE quanta quanta_of(int count, vector v, double inverse_quantum)
@@ -75,6 +76,7 @@ SCREE_INLINE contact_quanta contact_evaluate(variant v, const law_constants *con
         .in_range = lanes_at_or_below((pulls ? lanes_abs(f.normal) : f.normal) + vector_extent(count, f.tangential),
                                       lanes_all(scale->force_limit)),
     };
+    if (law_holds(v)) q.deformation = f.deformation;
     if (law_rolls(v)) {
         quanta couple = quanta_of(count, f.couple, scale->inverse_torque);
         q.torque_first = quanta_sum(q.torque_first, couple);

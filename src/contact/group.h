@@ -22,7 +22,7 @@ SCREE_INLINE void find_bodies(const contact_job *job, group *g)
 /// Running totals in lanes.
 typedef struct totals {
     lanes_bits damping, friction, stiffness, in_range;
-    lanes largest_overlap;
+    lanes largest_overlap, largest_deformation, largest_gap;
 } totals;
 
 /// Half of the body rows of a group, from number `half` on.
@@ -91,17 +91,26 @@ SCREE_INLINE law_constants load_constants(const contact_job *job, variant v, lan
     law_constants constants = {0};
     const int count = law_is_wide(v) ? 8 : 4;
     if (!v.many_materials) {
-        for (int k = 0; k < count; k++) constants.value[k] = lanes_all(job->model->pairs[0][0].value[k]);
+        for (int k = 0; k < count; k++) constants.value[k] = lanes_all(job->pairs[0][0].value[k]);
         return constants;
     }
     const double *row[SCREE_LANES];
-    LANE_LOOP row[k] = job->model->pairs[(int)first[k]][(int)second[k]].value;
+    LANE_LOOP row[k] = job->pairs[(int)first[k]][(int)second[k]].value;
     columns c = columns_load(row);
-    constants = (law_constants){{c.c0, c.c1, c.c2, c.c3}};
+    constants = (law_constants){.value = {c.c0, c.c1, c.c2, c.c3}};
     if (!law_is_wide(v)) return constants;
     LANE_LOOP row[k] += 4;
     columns more = columns_load(row);
-    return (law_constants){{c.c0, c.c1, c.c2, c.c3, more.c0, more.c1, more.c2, more.c3}};
+    return (law_constants){.value = {c.c0, c.c1, c.c2, c.c3, more.c0, more.c1, more.c2, more.c3}};
+}
+
+/// What a pair that is held has of its own.
+SCREE_INLINE void load_own(const contact_job *job, const group *g, law_constants *constants)
+{
+    const double *row[SCREE_LANES];
+    LANE_LOOP row[k] = job->own[g->pair[k]].value;
+    columns c = columns_load(row);
+    constants->own[0] = c.c0, constants->own[1] = c.c1, constants->own[2] = c.c2, constants->own[3] = c.c3;
 }
 
 SCREE_INLINE void keep_columns(lanes value[4], lanes_bits present, columns c)
@@ -178,7 +187,7 @@ SCREE_INLINE void evaluate_group(const contact_job *job, variant v, group *g, to
     const int dimension = v.dimension;
     find_bodies(job, g);
     bodies first = load_places(dimension, job, g->first), second = load_places(dimension, job, g->second);
-    lanes_bits touching = g->present & group_touches(dimension, &first, &second);
+    lanes_bits touching = law_holds(v) ? g->present : g->present & group_touches(dimension, &first, &second);
     load_motions(dimension, job, g->first, &first);
     load_motions(dimension, job, g->second, &second);
     load_spins(dimension, job, g->first, &first);
@@ -190,6 +199,7 @@ SCREE_INLINE void evaluate_group(const contact_job *job, variant v, group *g, to
         motion_foresee(dimension, &m, &first, &ahead, &second, &ahead_second);
     }
     law_constants constants = load_constants(job, v, first.material, second.material);
+    if (law_holds(v)) load_own(job, g, &constants);
 
     law_memory before = load_memory(job, v, g), after;
     contact_quanta q = contact_evaluate(v, &constants, &job->settings, &job->scale, &m, touching, &before, &after);
@@ -198,7 +208,12 @@ SCREE_INLINE void evaluate_group(const contact_job *job, variant v, group *g, to
     add_to_sums(dimension, job, g->first, q.force, q.torque_first, q.count);
     add_to_sums(dimension, job, g->second, quanta_opposite(q.force), q.torque_second, q.count);
     t->in_range &= q.in_range;
-    t->largest_overlap = lanes_at_least(t->largest_overlap, lanes_keep(touching, m.indentation));
+    if (law_holds(v)) {
+        t->largest_deformation = lanes_at_least(t->largest_deformation, lanes_keep(touching, q.deformation));
+        t->largest_gap = lanes_at_least(t->largest_gap, lanes_keep(touching, -m.indentation));
+    } else {
+        t->largest_overlap = lanes_at_least(t->largest_overlap, lanes_keep(touching, m.indentation));
+    }
     t->damping += q.damping;
     t->friction += q.friction;
     t->stiffness += q.stiffness;

@@ -6,6 +6,10 @@
 /// (slider.h). M prints d' with the opposite sign (his overlap is negative). A contact without a bond presses only: M's
 /// text at 2.40, and the max here also while a dashpot would pull the parting bodies back.
 ///
+/// Held (LINEAR_HELD, pairs of the persistent list): the spring pulls, too, is at rest at the overlap d_0 of the pair,
+/// and neither it nor the tangential one slides (M 2.23-2.28 without strengths):
+///   f_n = k_n (d - d_0) + c_n d',   f_t = -(k_t h + c_t s)
+///
 /// E A / L: the bar from centre to centre, L = R_1 + R_2. Of discs of thickness t, A = t (R_1 + R_2), so k_n = E t
 /// whatever the radii; of spheres A = pi R_1 R_2, so k_n = pi E R_eff: for equal bodies the section through the centre.
 ///
@@ -22,6 +26,9 @@
 #include "contact/law.h"
 #include "contact/slider.h"
 #include "model/law.h"
+
+/// Option.
+enum { LINEAR_HELD = 1 };
 
 /// Constants of a pair, beside SCREE_FRICTION.
 enum {
@@ -43,10 +50,17 @@ typedef struct scree_linear_material {
     double tangential_damping_ratio; ///< 1; auto: the normal one
 } scree_linear_material;
 
-#define linear_KERNELS(row) row(linear, 0, one) row(linear, 0, many)
+#define linear_KERNELS(row) row(linear, 0, one) row(linear, 0, many) row(linear, 1, many)
 
 static const scree_law_traits linear_traits[] = {
-    {.remembers = true, .for_ledger = {0xe, 0x8}, .books = {false, true}, .displacement = true, .wide = true},
+    [0] = {.remembers = true, .for_ledger = {0xe, 0x8}, .books = {false, true}, .displacement = true, .wide = true},
+    [LINEAR_HELD] = {.remembers = true,
+                     .for_ledger = {0xe, 0x8},
+                     .books = {false, true},
+                     .displacement = true,
+                     .wide = true,
+                     .pulls = true,
+                     .holds = true},
 };
 
 /// What the slider remembers; a spring that has lost its contact still holds what it held.
@@ -68,17 +82,20 @@ SCREE_INLINE law_force linear(variant v, const law_constants *constants, const l
 {
     const int dimension = v.dimension, count = tangential_count(dimension);
     const lanes *constant = constants->value, none = lanes_all(0);
-    lanes d = lanes_keep(touching, m->indentation);
+    const bool held = v.option & LINEAR_HELD;
+    lanes d = lanes_keep(touching, held ? m->indentation - constants->own[SCREE_MEMBER_REST] : m->indentation);
     lanes whole = constant[LINEAR_NORMAL] + constant[LINEAR_BY_RADIUS] * m->reduced_radius;
     lanes stiffness = lanes_keep(touching, whole);
     lanes root = lanes_root(m->reduced_mass * stiffness);
     lanes elastic = stiffness * d;
-    lanes normal = lanes_at_least(elastic + constant[LINEAR_DAMPING] * root * m->approach, none);
+    lanes normal = elastic + constant[LINEAR_DAMPING] * root * m->approach;
+    if (!held) normal = lanes_at_least(normal, none);
     lanes damping = normal - elastic, damping_before = before->value[dimension == 2 ? 1 : 3];
 
     slider_memory slipped = linear_remembered(dimension, m, before, constant[LINEAR_RATIO] * whole);
     slider slip = slider_move(count, &slipped, m->slip, settings->step, constant[LINEAR_RATIO] * stiffness,
-                              constant[LINEAR_TANGENTIAL_DAMPING] * root, constant[SCREE_FRICTION] * normal, touching);
+                              constant[LINEAR_TANGENTIAL_DAMPING] * root,
+                              held ? lanes_all(INFINITY) : constant[SCREE_FRICTION] * normal, touching);
     vector stretch = slip.now.stretch, dashpot = slip.now.dashpot;
     *after = (law_memory){.value = {stretch.x, damping, dashpot.x, none}};
     if (dimension == 3)
@@ -91,6 +108,7 @@ SCREE_INLINE law_force linear(variant v, const law_constants *constants, const l
         .damping = 0.5 * ((damping + damping_before) * (m->approach * settings->step) + slip.damping),
         .friction = 0.5 * slip.friction,
         .stiffness = none,
+        .deformation = held ? lanes_at_least(lanes_abs(d), vector_extent(count, stretch)) : none,
         .elastic_normal = 0.5 * (elastic * d),
         .elastic_tangential = slip.elastic,
     };

@@ -63,17 +63,21 @@ static size_t share(size_t count, int k, int parts)
 static scree_status cut_part(contact_scratch *scratch, const scree_pair_list *pairs, bool solid, size_t rows, int k)
 {
     contact_part *part = &scratch->part[k];
-    size_t touching = pairs->touching_count, near = pairs->count - touching;
+    size_t held = pairs->held_count, first_near = pairs->touching_count;
+    size_t touching = first_near - held, near = pairs->count - first_near;
     int parts = scratch->part_count;
     contact_job *job = &part->job;
-    job->near = touching;
-    job->touching_begin = share(touching, k, parts);
-    job->touching_end = share(touching, k + 1, parts);
-    job->near_begin = touching + share(near, k, parts);
-    job->near_end = touching + share(near, k + 1, parts);
+    job->near = first_near;
+    job->held_begin = share(held, k, parts);
+    job->held_end = share(held, k + 1, parts);
+    job->touching_begin = held + share(touching, k, parts);
+    job->touching_end = held + share(touching, k + 1, parts);
+    job->near_begin = first_near + share(near, k, parts);
+    job->near_end = first_near + share(near, k + 1, parts);
     if (k == 0) return SCREE_OK; // adds to state->sum itself
 
     part->low = rows, part->high = 0;
+    extend_window(part, pairs, job->held_begin, job->held_end);
     extend_window(part, pairs, job->touching_begin, job->touching_end);
     extend_window(part, pairs, job->near_begin, job->near_end);
     if (part->high == 0) part->low = 0;

@@ -22,24 +22,26 @@ static contact_quanta evaluate(const scree_model *model, const scree_state *stat
     bodies one = body_get(dimension, &first.row, &first.turn), other = body_get(dimension, &second.row, &second.turn);
     motion m = motion_of_pair(dimension, &one, &other, state->step_size);
     motion_hold(&m);
-    const variant v = {
-        .dimension = dimension, .law = model->law.law, .option = model->law.option, .many_materials = true};
+    const scree_member_row *own = contact_own_of(work, p);
+    const scree_law_use *law = own ? &model->persistent.law : &model->law;
+    const variant v = {.dimension = dimension, .law = law->law, .option = law->option, .many_materials = true};
     const contact_scale scale = {.inverse_force = 1 / state->force_quantum,
                                  .inverse_torque = 1 / state->torque_quantum,
                                  .force_limit = INFINITY};
-    law_constants constants = constants_get(&model->pairs[(int)one.material][(int)other.material]);
-    law_settings settings = law_settings_get(model, 0);
+    const scree_pair_constants(*pairs)[SCREE_MAX_MATERIALS] = own ? model->persistent.pairs : model->pairs;
+    law_constants constants = constants_get(&pairs[(int)one.material][(int)other.material], own);
+    law_settings settings = law_settings_get(law, 0);
     memory_rows rows = contact_memory_of(work, CONTACT_PAIR, p);
     law_memory before = memory_get(v, &rows), after;
     return contact_evaluate(v, &constants, &settings, &scale, &m, ~UINT64_C(0), &before, &after);
 }
 
-/// Pair `p` touches, and one of its bodies goes.
+/// Pair `p` is a contact, and one of its bodies goes.
 static bool is_cut(const scree_state *state, const scree_work *work, const uint8_t *going, size_t p)
 {
     uint32_t first = work->pairs.first[p], second = work->pairs.second[p];
     return going[scree_parent_row(state, work, first)] != going[scree_parent_row(state, work, second)] &&
-           pair_touches(state->dimension, &state->row[first], &state->row[second]);
+           (p < work->pairs.held_count || pair_touches(state->dimension, &state->row[first], &state->row[second]));
 }
 
 static void take_out(scree_state *state, const exerted *e)

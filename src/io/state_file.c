@@ -37,18 +37,24 @@ static uint64_t layout_checksum(const scree_state *state)
 
 // ---- the law whose memory contacts have --------------------------------------------------------------------------
 
-static void write_law(scree_hdf5 *part, const char *group, const scree_remembered_law *law)
+static const char *const law_attributes[SCREE_LISTS][2] = {{"law", "law_option"},
+                                                           {"persistent_law", "persistent_law_option"}};
+
+static void write_laws(scree_hdf5 *part, const char *group, const scree_state *state)
 {
-    scree_hdf5_set_text(part, group, "law", law->law ? law->law->name : "");
-    scree_hdf5_set_integer(part, group, "law_option", law->option);
+    for (int list = 0; list < SCREE_LISTS; list++) {
+        const scree_remembered_law *law = &state->law[list];
+        scree_hdf5_set_text(part, group, law_attributes[list][0], law->law ? law->law->name : "");
+        scree_hdf5_set_integer(part, group, law_attributes[list][1], law->option);
+    }
 }
 
-static void read_law(scree_hdf5 *file, const char *group, scree_remembered_law *law)
+static void read_law(scree_hdf5 *file, const char *group, int list, scree_remembered_law *law)
 {
     char name[64];
     uint64_t option = 0;
-    scree_hdf5_get_text(file, group, "law", name, sizeof name);
-    scree_hdf5_get_integer(file, group, "law_option", &option);
+    scree_hdf5_get_text(file, group, law_attributes[list][0], name, sizeof name);
+    scree_hdf5_get_integer(file, group, law_attributes[list][1], &option);
     *law = (scree_remembered_law){.option = (unsigned)option};
     for (int m = 0; m < SCREE_MODULE_COUNT && !file->status; m++)
         if (scree_modules[m]->law && strcmp(scree_modules[m]->name, name) == 0) law->law = scree_modules[m];
@@ -62,7 +68,7 @@ void scree_state_write(scree_hdf5 *part, const char *group, const char *shared, 
     scree_hdf5_group(part, group);
     scree_hdf5_set_text(part, group, "program", "Scree " SCREE_VERSION);
     scree_hdf5_set_integer(part, group, "layout", layout_checksum(state));
-    write_law(part, group, &state->law);
+    write_laws(part, group, state);
     scree_hdf5_set_integer(part, group, "case_checksum", case_checksum);
     scree_hdf5_set_number(part, group, "wall_time", state->spent.run);
     scree_hdf5_set_number(part, group, "stage_wall_time", state->spent.stage);
@@ -152,7 +158,7 @@ void scree_state_read(scree_hdf5 *file, const char *group, const char *shared, i
 {
     scree_status opened = scree_state_open(state, dimension, file->error);
     if (!file->status) file->status = opened;
-    if (!file->status) read_law(file, group, &state->law);
+    for (int list = 0; list < SCREE_LISTS && !file->status; list++) read_law(file, group, list, &state->law[list]);
     check_origin(file, group, state, case_checksum);
     scree_time_spent spent = {0};
     scree_hdf5_get_number(file, group, "wall_time", &spent.run);

@@ -69,7 +69,7 @@ scree_status scree_simulation_view(scree_simulation *s, const char *name, scree_
     *view = (scree_view){0};
     const scree_field *field = find(s, name);
     if (!field) return refuse(s, name, error);
-    if (field->rows == SCREE_ROWS_CONTACTS) {
+    if (field->rows == SCREE_ROWS_CONTACTS || field->law) {
         scree_status status = scree_contacts_save(&s->state, &s->work, error);
         if (status) return status;
     }

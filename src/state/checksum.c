@@ -10,8 +10,6 @@
 #include "base/checksum.h"
 #include "base/fixed.h"
 
-#include <assert.h>
-
 /// A material by its constants, as one word; not by its index, which depends on materials that nothing is made of.
 static uint64_t material_word(const scree_model *model, int material)
 {
@@ -58,27 +56,6 @@ static uint64_t checksum_bodies(const scree_model *model, const scree_state *sta
     return c;
 }
 
-/// What a contact remembers that physics depends on, as its law declares it.
-typedef struct remembered {
-    double value[16];
-    size_t count;
-} remembered;
-
-static remembered remembered_of(const scree_state *state, size_t contact)
-{
-    remembered r = {.count = 0};
-    const scree_module *law = state->law.law;
-    for (size_t k = 0; law && k < law->field_count; k++) {
-        const scree_field *field = &law->fields[k];
-        if (!field->in_checksum || scree_field_rows_count(state, field) == 0) continue;
-        size_t components = (size_t)scree_components(field->components, state->dimension);
-        assert(field->type == SCREE_FIELD_DOUBLE && r.count + components <= sizeof r.value / sizeof *r.value);
-        memcpy(r.value + r.count, scree_field_get(state, field, contact), components * sizeof *r.value);
-        r.count += components;
-    }
-    return r;
-}
-
 static bool is_zero(const double *numbers, size_t count)
 {
     size_t zeros = 0;
@@ -101,10 +78,11 @@ static uint64_t checksum_contacts(const scree_state *state, uint64_t c)
 {
     uint64_t count = 0;
     for (size_t k = 0; k < state->contact_count; k++) {
-        remembered r = remembered_of(state, k);
-        if (is_zero(r.value, r.count)) continue;
+        double value[SCREE_CHECKSUM_VALUES];
+        size_t values = scree_remembered_values(state, SCREE_LIST_CONTACTS, k, value);
+        if (is_zero(value, values)) continue;
         c = checksum_partner(state->contact[k].second, scree_checksum_word(c, state->contact[k].first));
-        c = scree_checksum_numbers(c, r.value, r.count);
+        c = scree_checksum_numbers(c, value, values);
         count++;
     }
     return scree_checksum_word(c, count);

@@ -3,6 +3,7 @@
 /// table except the counts (they are the lengths of the arrays) and row_of_id (the inverse of `id`).
 #include "state/fields.h"
 
+#include <assert.h>
 #include <float.h>
 #include <stddef.h>
 #include <string.h>
@@ -177,7 +178,8 @@ bool scree_field_is_here(const scree_state *state, const scree_field *field)
 {
     if (!scree_field_exists(field, state->dimension)) return false;
     if (!field->law) return true;
-    return field->law == state->law.law && (field->options == 0 || field->options >> state->law.option & 1);
+    const scree_remembered_law *law = &state->law[scree_field_list(field)];
+    return field->law == law->law && (field->options == 0 || field->options >> law->option & 1);
 }
 
 bool scree_field_is_stored(const scree_state *state, const scree_field *field)
@@ -205,6 +207,7 @@ static const void *array_of(const scree_state *state, const scree_field *field)
 size_t scree_field_rows_count(const scree_state *state, const scree_field *field)
 {
     size_t count = 1;
+    if (field->law && !scree_field_is_here(state, field)) return 0;
     switch (field->rows) {
     case SCREE_ROWS_ONE:
         break;
@@ -216,7 +219,7 @@ size_t scree_field_rows_count(const scree_state *state, const scree_field *field
     case SCREE_ROWS_BODIES:
         return field->optional && !array_of(state, field) ? 0 : state->count;
     case SCREE_ROWS_CONTACTS:
-        return scree_field_is_here(state, field) && array_of(state, field) ? state->contact_count : 0;
+        return array_of(state, field) ? state->contact_count : 0;
     }
     return count;
 }
@@ -236,4 +239,21 @@ const void *scree_field_get(const scree_state *state, const scree_field *field, 
 void *scree_field_get_mutable(scree_state *state, const scree_field *field, size_t row)
 {
     return (void *)(uintptr_t)scree_field_get(state, field, row);
+}
+
+size_t scree_remembered_values(const scree_state *state, scree_list list, size_t row,
+                               double value[SCREE_CHECKSUM_VALUES])
+{
+    const scree_module *law = state->law[list].law;
+    size_t count = 0;
+    for (size_t k = 0; law && k < law->field_count; k++) {
+        const scree_field *field = &law->fields[k];
+        if (!field->in_checksum || scree_field_list(field) != list || scree_field_rows_count(state, field) == 0)
+            continue;
+        size_t components = (size_t)scree_components(field->components, state->dimension);
+        assert(field->type == SCREE_FIELD_DOUBLE && count + components <= SCREE_CHECKSUM_VALUES);
+        memcpy(value + count, scree_field_get(state, field, row), components * sizeof *value);
+        count += components;
+    }
+    return count;
 }

@@ -8,7 +8,7 @@
 #ifndef SCREE_STATE_MEMORY_FIELDS_H
 #define SCREE_STATE_MEMORY_FIELDS_H
 
-#include "state/state.h"
+#include "state/persistent.h"
 
 #define SCREE_MEMORY_ROW(array, element, member, at, number, c_type)                                                   \
     .type = number, .array_offset = offsetof(scree_state, array), .stride = sizeof(element),                           \
@@ -26,7 +26,27 @@
         .rows = SCREE_ROWS_CONTACTS, .meaning = meaning_, .law = &scree_module_##law_, __VA_ARGS__                     \
     }
 
+/// The same of a pair of the persistent list; a row more: constant, the numbers that are given with the pair.
+#define SCREE_HELD_ROW(member_, at, number, c_type)                                                                    \
+    .type = number, .array_offset = offsetof(scree_persistent_list, member),                                           \
+    .stride = sizeof(scree_persistent_member),                                                                         \
+    .offset = offsetof(scree_persistent_member, member_) + (at) * sizeof(c_type)
+#define SCREE_HELD_constant(at)                             SCREE_HELD_ROW(constant, at, SCREE_FIELD_DOUBLE, double)
+#define SCREE_HELD_history(at)                              SCREE_HELD_ROW(history.value, at, SCREE_FIELD_DOUBLE, double)
+#define SCREE_HELD_booking(at)                              SCREE_HELD_ROW(booking.value, at, SCREE_FIELD_FLOAT, float)
+#define SCREE_HELD_rolling(at)                              SCREE_HELD_ROW(rolling.value, at, SCREE_FIELD_DOUBLE, double)
+#define SCREE_HELD_rolling_booked(at)                       SCREE_HELD_ROW(rolling.booked, at, SCREE_FIELD_FLOAT, float)
+
+#define SCREE_HELD_REMEMBERS(law, row, at, components, ...) SCREE_HELD_REMEMBERS_(law, row, at, components, __VA_ARGS__)
+#define SCREE_HELD_REMEMBERS_(law_, row_, at, components_, name_, unit_, meaning_, ...)                                \
+    {                                                                                                                  \
+        .name = "persistent/" name_, SCREE_HELD_##row_(at), .components = components_, .unit = unit_,                  \
+        .rows = SCREE_ROWS_GROUP, .group = &scree_persistent_group, .owner = &scree_module_persistent,                 \
+        .meaning = meaning_, .law = &scree_module_##law_, __VA_ARGS__                                                  \
+    }
+
 /// Name, unit and meaning of what several laws remember.
+#define SCREE_REST_FIELD                    "rest_overlap", "m", "overlap at which the pair is at rest; negative: a gap"
 #define SCREE_TANGENTIAL_DISPLACEMENT_FIELD "tangential_displacement", "m", "tangential displacement; along t in 2D"
 #define SCREE_NORMAL_DAMPING_FIELD          "normal_damping_force", "N", "damping part of the normal force of the last step"
 #define SCREE_TANGENTIAL_DAMPING_FIELD                                                                                 \

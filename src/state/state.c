@@ -268,9 +268,13 @@ void scree_state_release_contacts(scree_state *state)
     state->contact_count = state->contact_capacity = 0;
 }
 
-void scree_state_set_law(scree_state *state, const scree_law_use *use)
+void scree_state_set_laws(scree_state *state, const scree_model *model)
 {
-    state->law = (scree_remembered_law){scree_modules[use->law], use->option};
+    const scree_law_use *use = &model->law, *holding = &model->persistent.law;
+    state->law[SCREE_LIST_CONTACTS] = (scree_remembered_law){scree_modules[use->law], use->option};
+    state->law[SCREE_LIST_PERSISTENT] = (scree_remembered_law){NULL, 0};
+    if (scree_model_holds(model))
+        state->law[SCREE_LIST_PERSISTENT] = (scree_remembered_law){scree_modules[holding->law], holding->option};
 }
 
 scree_status scree_state_add_booking(scree_state *state, scree_error *error)

@@ -114,7 +114,18 @@ typedef struct scree_contact_memory {
     scree_history history;
 } scree_contact_memory;
 
-/// Whose memory contacts have: the law and its option say which fields there are (state/memory_fields.h).
+/// Numbers of its own that a pair of the persistent list has (state/persistent.h); what they are is the affair of its
+/// law, but for the overlap [m] at which the pair is at rest.
+enum { SCREE_MEMBER_CONSTANTS = 4, SCREE_MEMBER_REST = 0 };
+typedef struct scree_member_row {
+    double value[SCREE_MEMBER_CONSTANTS];
+} scree_member_row;
+
+/// Lists of contacts whose memory is told apart, as laws differ.
+typedef enum scree_list { SCREE_LIST_CONTACTS, SCREE_LIST_PERSISTENT, SCREE_LISTS } scree_list;
+
+/// Whose memory the contacts of a list have: the law and its option say which fields there are
+/// (state/memory_fields.h).
 typedef struct scree_remembered_law {
     const scree_module *law; ///< NULL: none yet
     unsigned option;
@@ -195,8 +206,8 @@ struct scree_state {
     scree_booking *booking; ///< beside `contact` where the law has booking rows; else NULL
     scree_rolling *rolling; ///< beside `contact` with rolling resistance; else NULL
     size_t contact_count, contact_capacity;
-    scree_remembered_law law;      ///< of the contacts
-    void *own[SCREE_MODULE_COUNT]; ///< the struct of each module that has one (module/module.h), by slot
+    scree_remembered_law law[SCREE_LISTS]; ///< of the model (derived; checkpoints say it of their contacts)
+    void *own[SCREE_MODULE_COUNT];         ///< the struct of each module that has one (module/module.h), by slot
     scree_ledger ledger;
     scree_stage_state stage;
     scree_time_spent spent;
@@ -291,8 +302,9 @@ scree_status scree_state_reserve_contacts(scree_state *state, size_t count, scre
 /// Frees the contact memory and what lies beside it.
 void scree_state_release_contacts(scree_state *state);
 
-/// From now on contacts remember what this law says. Those that are there must be of this law already, or forgotten.
-void scree_state_set_law(scree_state *state, const scree_law_use *use);
+/// From now on contacts, and pairs that are held, remember what the laws of the model say. Those that are there must be
+/// of these laws already.
+void scree_state_set_laws(scree_state *state, const scree_model *model);
 
 /// Puts booking rows, and rolling rows, beside the contact memory; nothing happens where there are some.
 scree_status scree_state_add_booking(scree_state *state, scree_error *error) SCREE_MUST_USE;

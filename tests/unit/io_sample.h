@@ -83,7 +83,7 @@ static inline scree_status sample_contacts(scree_state *state, size_t count, scr
     scree_status status = scree_state_reserve_contacts(state, count, error);
     if (status) return status;
     state->contact_count = count;
-    scree_state_set_law(state, &(scree_law_use){.law = SCREE_SLOT_hertz_mindlin});
+    state->law[SCREE_LIST_CONTACTS] = (scree_remembered_law){&scree_module_hertz_mindlin, 0};
     for (size_t k = 0; k < count; k++) {
         state->contact[k] = (scree_contact_memory){.first = (uint32_t)k, .second = (uint32_t)k + 1};
         for (int h = 0; h < SCREE_HISTORY; h++) state->contact[k].history.value[h] = 1e-6 * (double)k + h;

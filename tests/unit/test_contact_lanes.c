@@ -31,7 +31,7 @@ static contact_totals evaluate(fixture *f, const variant *v, contact_kernel *ker
     job.booking = f->work.pairs.booking;
     job.rolling = f->work.pairs.rolling;
     job.near_touched = scratch->near_touched;
-    job.settings = law_settings_get(&f->model, f->state.step_size);
+    job.settings = law_settings_get(&f->model.law, f->state.step_size);
     job.scale = (contact_scale){.inverse_force = 1 / f->state.force_quantum,
                                 .inverse_torque = 1 / f->state.torque_quantum,
                                 .inverse_damping = 0x1p60,

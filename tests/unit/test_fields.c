@@ -1,6 +1,7 @@
 /// The tables of fields: names, units, places, and that nothing of a state is missing from them.
 #include "measure/delaunay_boundary.h"
 #include "model/law.h"
+#include "state/persistent.h"
 #include "state/plates.h"
 #include "testing.h"
 
@@ -208,28 +209,46 @@ static void no_member_of_an_element_is_missing(void **unused)
         }
 }
 
-/// Marks which values of a row the fields of a law speak of; no two of the same one.
-static void mark_row(const scree_state *state, const scree_module *law, size_t array, size_t first, size_t size,
-                     unsigned char used[4])
+/// Where the values of a row lie in a list of contacts.
+typedef struct memory_row {
+    size_t array, first, size;
+} memory_row;
+
+enum { HISTORY, BOOKING, ROLLING, BOOKED, CONSTANT, MEMORY_ROWS };
+
+#define HELD(member_, type)                                                                                            \
+    {                                                                                                                  \
+        offsetof(scree_persistent_list, member), offsetof(scree_persistent_member, member_), sizeof(type)              \
+    }
+static const memory_row memory_rows_of[SCREE_LISTS][MEMORY_ROWS] = {
+    {{offsetof(scree_state, contact), offsetof(scree_contact_memory, history), sizeof(double)},
+     {offsetof(scree_state, booking), 0, sizeof(float)},
+     {offsetof(scree_state, rolling), offsetof(scree_rolling, value), sizeof(double)},
+     {offsetof(scree_state, rolling), offsetof(scree_rolling, booked), sizeof(float)},
+     {SIZE_MAX, 0, 1}},
+    {HELD(history.value, double), HELD(booking.value, float), HELD(rolling.value, double), HELD(rolling.booked, float),
+     HELD(constant, double)},
+};
+
+/// Number of values of a row that the fields of a law speak of; no two of the same one.
+static int number_used(const scree_state *state, scree_list list, int which)
 {
-    memset(used, 0, 4);
+    const memory_row *row = &memory_rows_of[list][which];
+    const scree_module *law = state->law[list].law;
+    int used[4] = {0};
     for (size_t k = 0; k < law->field_count; k++) {
         const scree_field *field = &law->fields[k];
-        if (!scree_field_is_here(state, field) || field->array_offset != array) continue;
-        if (field->offset < first || field->offset >= first + 4 * size) continue;
-        assert_int_equal(scree_field_size(field->type), size);
-        size_t at = (field->offset - first) / size,
-               count = (size_t)scree_components(field->components, state->dimension);
-        assert_int_equal((field->offset - first) % size, 0);
-        for (size_t c = 0; c < count; c++) {
-            assert_true(at + c < 4);
-            if (used[at + c]++) fail_msg("'%s' lies on another value", field->name);
+        if (!scree_field_is_here(state, field) || scree_field_list(field) != list) continue;
+        if (field->array_offset != row->array) continue;
+        if (field->offset < row->first || field->offset >= row->first + 4 * row->size) continue;
+        assert_int_equal(scree_field_size(field->type), row->size);
+        size_t at = (field->offset - row->first) / row->size;
+        assert_int_equal((field->offset - row->first) % row->size, 0);
+        for (int c = scree_components(field->components, state->dimension); c-- > 0;) {
+            assert_true(at + (size_t)c < 4);
+            if (used[at + (size_t)c]++) fail_msg("'%s' lies on another value", field->name);
         }
     }
-}
-
-static int number_used(const unsigned char used[4])
-{
     return used[0] + used[1] + used[2] + used[3];
 }
 
@@ -242,20 +261,14 @@ static void memory_is_what_the_traits_say(void **unused)
         for (unsigned option = 0; scree_modules[m]->law && option < scree_modules[m]->law->option_count; option++)
             for (int dimension = 2; dimension <= 3; dimension++) {
                 const scree_law_traits *traits = &scree_modules[m]->law->traits[option];
+                const scree_list list = traits->holds ? SCREE_LIST_PERSISTENT : SCREE_LIST_CONTACTS;
                 scree_state state = {.dimension = dimension};
-                unsigned char history[4], booking[4], rolling[4], booked[4];
-                scree_state_set_law(&state, &(scree_law_use){.law = m, .option = option});
-                mark_row(&state, scree_modules[m], offsetof(scree_state, contact),
-                         offsetof(scree_contact_memory, history), sizeof(double), history);
-                mark_row(&state, scree_modules[m], offsetof(scree_state, booking), 0, sizeof(float), booking);
-                mark_row(&state, scree_modules[m], offsetof(scree_state, rolling), offsetof(scree_rolling, value),
-                         sizeof(double), rolling);
-                mark_row(&state, scree_modules[m], offsetof(scree_state, rolling), offsetof(scree_rolling, booked),
-                         sizeof(float), booked);
-                assert_true(number_used(history) > 0);
-                assert_true((number_used(booking) > 0) == traits->books[dimension - 2]);
-                assert_true((number_used(rolling) > 0) == traits->rolling);
-                assert_true(number_used(rolling) == number_used(booked));
+                state.law[list] = (scree_remembered_law){scree_modules[m], option};
+                assert_true(number_used(&state, list, HISTORY) > 0);
+                assert_true((number_used(&state, list, BOOKING) > 0) == traits->books[dimension - 2]);
+                assert_true((number_used(&state, list, ROLLING) > 0) == traits->rolling);
+                assert_true((number_used(&state, list, CONSTANT) > 0) == traits->holds);
+                assert_int_equal(number_used(&state, list, ROLLING), number_used(&state, list, BOOKED));
             }
 }
 
