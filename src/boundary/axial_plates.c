@@ -9,6 +9,7 @@
 #include "state/pressure.h"
 
 #include <math.h>
+#include <string.h>
 
 double scree_axial_wave_time(const scree_context *c, double pressure)
 {
@@ -26,6 +27,15 @@ void scree_axial_fit(const scree_context *c, double pressure)
     scree_plate_set *plates = scree_plate_set_of(c->state);
     plates->axial = scree_servo_for(c->model, c->state, SCREE_WALL_TOP, pressure);
     plates->sides = scree_servo_for(c->model, c->state, SCREE_WALL_LEFT, pressure);
+}
+
+void scree_axial_rest(const scree_context *c)
+{
+    for (int w = 0; w < SCREE_WALL_COUNT; w++) {
+        scree_wall *wall = &scree_plates(c->state)[w];
+        wall->velocity = 0;
+        memset(wall->tangential_velocity, 0, sizeof wall->tangential_velocity);
+    }
 }
 
 static void press_sides(const scree_context *c, double pressure)

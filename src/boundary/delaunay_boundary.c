@@ -5,6 +5,7 @@
 #include "boundary/boundary.h"
 #include "boundary/boundary_forget.h"
 #include "boundary/pressure.h"
+#include "measure/facets.h"
 #include "state/plates.h"
 
 typedef scree_delaunay_boundary own;
@@ -91,6 +92,15 @@ static scree_status refresh(const scree_context *c, scree_error *error)
 
 static const scree_pass passes[] = {{SCREE_PHASE_SEARCH, refresh}};
 
+static const scree_result columns[] = {{"boundary_count", "1", "particles on the Delaunay boundary"}};
+
+static scree_status sample(const scree_context *c, size_t index, double *value, scree_error *error)
+{
+    (void)index, (void)error;
+    *value = (double)scree_boundary_count(c->state);
+    return SCREE_OK;
+}
+
 const scree_module scree_module_delaunay_boundary = {
     .name = "delaunay_boundary",
     .meaning = "the outermost bodies of the sample, found on its Delaunay triangulation, and its strain",
@@ -102,4 +112,5 @@ const scree_module scree_module_delaunay_boundary = {
     .forget = scree_boundary_forget,
     .passes = passes,
     .pass_count = 1,
+    .columns = SCREE_RESULTS(columns, sample),
 };

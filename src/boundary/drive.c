@@ -107,14 +107,6 @@ void scree_drive_record(scree_state *state, const double rate[9])
     }
 }
 
-double scree_drive_take_ratio(scree_state *state)
-{
-    scree_imposed_gradient *drive = scree_imposed(state);
-    double ratio = drive->wanted > 0 ? drive->achieved / drive->wanted : NAN;
-    drive->achieved = drive->wanted = 0;
-    return ratio;
-}
-
 /// stress . vector / quantum, rounded.
 static void round_force(const double stress[9], const scree_vector vector, double scale, int64_t quanta[3])
 {

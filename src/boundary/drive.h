@@ -30,10 +30,6 @@ double scree_drive_measure(const scree_state *state, scree_vector *area, double 
 /// Books the rate of this step for the recorded ratio of actual and wanted rate.
 void scree_drive_record(scree_state *state, const double rate[9]);
 
-/// Actual over wanted rate since the last sample: integral of target : rate over that of target : target, both over the
-/// prescribed components. NAN when nothing was wanted. Begins the next interval.
-double scree_drive_take_ratio(scree_state *state);
-
 /// Forces f = stress . a on all nodes, whose integers add up to zero exactly (facets.h; drive.c tells how), added to
 /// the sums and to drive.force. stress [Pa], tension positive. quantum: that of the present step.
 void scree_drive_apply_stress(const scree_model *model, scree_state *state, const double stress[9]);

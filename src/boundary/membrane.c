@@ -355,6 +355,20 @@ static const scree_boundary face = {
     SCREE_AXIAL_PLATES,
 };
 
+static const scree_result columns[] = {
+    {"elastic_membrane", "J", "stored in the springs of a membrane"},
+    {"membrane_volume", "m3",
+     "volume between the plates inside a membrane, through the centres of its bodies; not a number without one"},
+};
+
+static scree_status sample(const scree_context *c, size_t index, double *value, scree_error *error)
+{
+    (void)index, (void)error;
+    value[0] = scree_membrane_energy(c->model, c->state);
+    value[1] = scree_membrane_of(c->state)->count > 0 ? scree_membrane_volume(c->model, c->state) : NAN;
+    return SCREE_OK;
+}
+
 const scree_module scree_module_membrane = {
     .name = "membrane",
     .meaning = "bodies with springs around the sides of the sample",
@@ -370,4 +384,5 @@ const scree_module scree_module_membrane = {
     .field_count = COUNT(fields),
     .check = check,
     .keeps = keeps,
+    .columns = SCREE_RESULTS(columns, sample),
 };

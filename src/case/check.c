@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "case/case.h"
+#include "case/csv.h"
 
 #include <stdint.h>
 #include <stdio.h>
@@ -231,7 +232,7 @@ static void read_key(const scope *s, const scree_key *key)
         refuse_missing(s, key, path);
     else if (key->type == SCREE_KEY_LIST)
         read_list(s, key, child, path);
-    else
+    else if (key->type != SCREE_KEY_SCHEDULE || !scree_csv_is_named(child) || scree_csv_expand(s->reader, child, path))
         scree_value_store(s->reader, key, child, path, s->base);
 }
 

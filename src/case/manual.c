@@ -17,6 +17,15 @@ static const char introduction[] =
     "- **auto** leaves a value to Scree, where the column *default* says so.\n"
     "- **Flags** are `yes` or `no` (`true` and `false` too). **Names** are made of letters, digits, `_` and `-`, a "
     "letter first.\n"
+    "- **Schedules** follow time. A value stays. A table `[[0 s, 0 mm/s], [1 s, 5 mm/s]]` is linear between its rows "
+    "and\n"
+    "  constant beyond them; its times increase; `gate.csv` beside the case file holds one too, with a first line\n"
+    "  `time [s], velocity [mm/s]` where its numbers are not in SI units, and the resolved case holds the rows. A ramp "
+    "is\n"
+    "  `{from: 0 mm/s, to: 5 mm/s, begin: 0 s, end: 1 s, smooth: yes}`, a harmonic\n"
+    "  `{amplitude: 1 mm, frequency: 50 1/s, phase: 0 degrees, mean: 0 mm}`. Vectors are `[0, -9.81 m/s2]` or tables "
+    "with\n"
+    "  two or three values a row.\n"
     "- **Key paths** join keys with dots. Elements of lists are called by number, from 0, or by name: "
     "`stages.2.rate`,\n"
     "  `stages.compress.rate`, `materials.quartz.friction`. Several stages of one kind are called `compress_1`,\n"
@@ -47,11 +56,11 @@ static void write_when(FILE *file, const scree_key *key)
 static const char *type_name(scree_key_type type)
 {
     static const char *const names[] = {
-        [SCREE_KEY_NUMBER] = "number",     [SCREE_KEY_INTEGER] = "integer", [SCREE_KEY_TEXT] = "text",
-        [SCREE_KEY_WORD] = "name",         [SCREE_KEY_FLAG] = "flag",       [SCREE_KEY_CHOICE] = "choice",
-        [SCREE_KEY_VECTOR] = "vector",     [SCREE_KEY_PAIRS] = "pairs",     [SCREE_KEY_SECTION] = "section",
-        [SCREE_KEY_LIST] = "list",         [SCREE_KEY_VALUES] = "values",   [SCREE_KEY_PATHS] = "key paths",
-        [SCREE_KEY_TENSOR] = "components",
+        [SCREE_KEY_NUMBER] = "number",     [SCREE_KEY_INTEGER] = "integer",   [SCREE_KEY_TEXT] = "text",
+        [SCREE_KEY_WORD] = "name",         [SCREE_KEY_FLAG] = "flag",         [SCREE_KEY_CHOICE] = "choice",
+        [SCREE_KEY_VECTOR] = "vector",     [SCREE_KEY_PAIRS] = "pairs",       [SCREE_KEY_SECTION] = "section",
+        [SCREE_KEY_LIST] = "list",         [SCREE_KEY_VALUES] = "values",     [SCREE_KEY_PATHS] = "key paths",
+        [SCREE_KEY_TENSOR] = "components", [SCREE_KEY_SCHEDULE] = "schedule",
     };
     return names[type];
 }

@@ -1,5 +1,6 @@
 /// Whether two cases mean the same: the values of all keys that they use, as the schema reads them. How they are
 /// written (units, order, comments, defaults left out) does not count.
+#include "base/schedule.h"
 #include "case/case.h"
 #include "case/check.h"
 
@@ -19,6 +20,17 @@ static bool same_numbers(const void *one, const void *other, size_t count)
         memcpy(&a, (const char *)one + i * sizeof a, sizeof a);
         memcpy(&b, (const char *)other + i * sizeof b, sizeof b);
         if (a != b && !(isnan(a) && isnan(b))) return false;
+    }
+    return true;
+}
+
+static bool same_schedules(const scree_key *key, const char *one, const char *other)
+{
+    for (size_t i = 0; i < (key->components > 0 ? key->components : 1); i++) {
+        scree_schedule a, b;
+        memcpy(&a, one + i * sizeof a, sizeof a);
+        memcpy(&b, other + i * sizeof b, sizeof b);
+        if (!scree_schedule_is_same(&a, &b)) return false;
     }
     return true;
 }
@@ -73,6 +85,8 @@ static bool same_key(const scree_key *key, const part *one, const part *other)
         return same_numbers(a, b, 1);
     case SCREE_KEY_VECTOR:
         return same_numbers(a, b, 3);
+    case SCREE_KEY_SCHEDULE:
+        return same_schedules(key, a, b);
     case SCREE_KEY_TENSOR:
         return same_numbers(a, b, 9);
     case SCREE_KEY_PAIRS:

@@ -39,6 +39,9 @@ const char *scree_key_noun(const scree_key *key)
         return "a list of two values, e.g. [0, -9.81 m/s2]";
     case SCREE_KEY_PAIRS:
         return "a list of pairs, e.g. [[1 %, 3 %], [10 %, 15 %]]";
+    case SCREE_KEY_SCHEDULE:
+        return key->components > 1 ? "a list of two values, or a table of times and values, [[0 s, 0, 0], ...]"
+                                   : "a value, or a table of times and values, e.g. [[0 s, 0], [1 s, 5]]";
     case SCREE_KEY_TENSOR:
         return "components with values, e.g. {xy: 5e-3 1/s}";
     case SCREE_KEY_SECTION:

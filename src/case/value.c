@@ -2,6 +2,7 @@
 #include "base/units.h"
 #include "case/case.h"
 #include "case/check.h"
+#include "case/schedule.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -77,6 +78,13 @@ static double number_of(const value *v)
         return NAN;
     }
     return is_within(v, number) ? number : NAN;
+}
+
+double scree_value_number(scree_reader *reader, const scree_key *key, scree_place place, const char *path,
+                          const char *text)
+{
+    value v = {reader, key, place, path, text};
+    return number_of(&v);
 }
 
 /// A whole number: digits, or a decimal form without a fraction ("1e5", "250.0").
@@ -265,6 +273,10 @@ static void store_member(scree_reader *reader, const scree_key *key, const scree
     char *member = scree_key_member(key, base);
     value v = {reader, key, node ? node->place : nowhere, path, node ? node->text : key->standard};
     bool list = key->type == SCREE_KEY_VECTOR || key->type == SCREE_KEY_PAIRS;
+    if (key->type == SCREE_KEY_SCHEDULE) {
+        scree_schedule_store(reader, key, node, path, (scree_schedule *)(void *)member);
+        return;
+    }
     if (list && !node) return; // the defaults of lists are zeros, or empty
     if (key->type == SCREE_KEY_VALUES || key->type == SCREE_KEY_PATHS) {
         store_node(&v, node, member);

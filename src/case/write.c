@@ -7,13 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { COMMENT_COLUMN = 40 };
+enum { COMMENT_COLUMN = 40, WRAP_COLUMN = 100, INDENT = 16 };
 
 /// The file, and the column of the line that is being written.
 typedef struct writer {
     FILE *file;
     const scree_node *root;
-    bool bare; ///< without comments and guards: what makes the case
+    bool bare;  ///< without comments and guards: what makes the case
+    bool wraps; ///< a list may go on in the next line
     int column;
 } writer;
 
@@ -79,6 +80,10 @@ static void put_value(writer *w, const scree_node *node)
         }
         put_value(w, child);
         if (child->next) put(w, ", ");
+        if (w->wraps && child->next && w->column > WRAP_COLUMN) {
+            (void)fprintf(w->file, "\n%*s", INDENT, "");
+            w->column = INDENT;
+        }
     }
     put(w, node->kind == SCREE_NODE_LIST ? "]" : "}");
 }
@@ -119,9 +124,10 @@ static void write_values(writer *w, const scree_section *section, const scree_no
         first = NULL;
         put(w, key->name);
         put(w, ": ");
+        w->wraps = key->type == SCREE_KEY_SCHEDULE;
         if (node)
             put_value(w, node);
-        else if (key->type == SCREE_KEY_VECTOR || key->type == SCREE_KEY_PAIRS || key->type == SCREE_KEY_TENSOR)
+        else if (key->standard[0] == '[' || key->type == SCREE_KEY_TENSOR)
             put(w, key->standard);
         else
             put_text(w, key->standard);

@@ -11,14 +11,10 @@
 #include "contact/images.h"
 
 #include "base/wide_sum.h"
+#include "comm/comm.h"
 #include "state/periodic.h"
 
 #include <math.h>
-
-static void add_modulo(int64_t *sum, int64_t more)
-{
-    *sum = (int64_t)((uint64_t)*sum + (uint64_t)more);
-}
 
 /// Force sums of a row.
 static void sum_of(const scree_state *state, size_t row, int64_t force[3])
@@ -29,28 +25,16 @@ static void sum_of(const scree_state *state, size_t row, int64_t force[3])
     force[2] = state->dimension == 3 ? sum->fz : 0;
 }
 
-/// Adds images to their bodies and leaves theirs clear; faces [quanta]: sum of force (x) shift.
-static void fold(scree_state *state, const scree_ghost_list *list, int64_t faces[9])
+/// Sum of force (x) shift [quanta] over the images, modulo 2^64.
+static void sum_faces(const scree_state *state, const scree_ghost_list *list, int64_t faces[9])
 {
     for (size_t k = 0; k < list->count; k++) {
-        const scree_ghost *ghost = &list->ghost[k];
-        size_t row = state->count + k;
-        scree_sum_row *to = &state->sum[ghost->parent], *from = &state->sum[row];
         int64_t force[3];
-        sum_of(state, row, force);
+        sum_of(state, state->count + k, force);
         for (int i = 0; i < 3; i++)
-            for (int j = 0; j < 3; j++) add_modulo(&faces[3 * i + j], force[i] * ghost->shift[j]);
-        add_modulo(&to->fx, from->fx);
-        add_modulo(&to->fy, from->fy);
-        add_modulo(&to->torque, from->torque); // or fz in 3D
-        to->contacts += from->contacts;
-        *from = (scree_sum_row){0};
-        if (state->dimension == 2) continue;
-        scree_torque_row *turned = &state->torque[ghost->parent], *turning = &state->torque[row];
-        add_modulo(&turned->x, turning->x);
-        add_modulo(&turned->y, turning->y);
-        add_modulo(&turned->z, turning->z);
-        *turning = (scree_torque_row){0};
+            for (int j = 0; j < 3; j++)
+                faces[3 * i + j] =
+                    (int64_t)((uint64_t)faces[3 * i + j] + (uint64_t)(force[i] * list->ghost[k].shift[j]));
     }
 }
 
@@ -113,8 +97,10 @@ void scree_images_fold(scree_state *state, scree_work *work)
     scree_periodic_cell *cell = scree_cell(state);
     int64_t faces[9] = {0};
     if (!cell->directions) return;
-    fold(state, &work->ghosts, faces);
-    if (!scree_periodic_is_whole(state)) return;
+    bool whole = scree_periodic_is_whole(state);
+    if (whole) sum_faces(state, &work->ghosts, faces);
+    scree_comm_add_back(state, work);
+    if (!whole) return;
     sum_bodies(state, work, cell->virial);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)

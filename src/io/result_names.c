@@ -1,18 +1,11 @@
-/// The table of results.
+/// The results of the run itself, and the search among all.
 #include "io/result_names.h"
 
 #include <scree/scree.h>
 
 #include <string.h>
 
-/// A value with the ends of its confidence interval of 95 %.
-#define INTERVAL(name, unit, meaning)                                                                                  \
-    {name, unit, meaning}, {name "_low", unit, "lower end of its interval"},                                           \
-    {                                                                                                                  \
-        name "_high", unit, "upper end of its interval"                                                                \
-    }
-
-const scree_result_name scree_result_names[] = {
+const scree_result scree_run_results[] = {
     // the run
     {"case", NULL, "name of the case"},
     {"status", NULL, "how the run ended"},
@@ -40,16 +33,13 @@ const scree_result_name scree_result_names[] = {
     {"solid_fraction_at_start", "1", "solid fraction at the begin of the last stage"},
     // its last sample
     {"energy_residual", "1", "largest residual of the energy balance over the energy turned over"},
-    {"stiffness_share", "1", "energy put into tangential springs by the stiffening of contacts over all that there was"},
+    {"stiffness_share", "1",
+     "energy put into tangential springs by the stiffening of contacts over all that there was"},
     {"coordination", "1", "coordination number at the end"},
     {"coordination_without_rattlers", "1", "the same without rattlers"},
     {"rattler_fraction", "1", "share of rattlers at the end"},
     {"solid_fraction", "1", "solid fraction at the end"},
     {"unbalanced_ratio", "1", "unbalanced force ratio at the end"},
-    // walls of the case
-    {"_work", "J", "work of the wall on the bodies"},
-    {"_force", "N", "magnitude of the last force on the wall"},
-    {"_torque", "N m", "magnitude of the last torque on the wall"},
     // the last loading stage
     {"axial_strain", "1", "axial strain reached"},
     {"shear_strain_reached", "1", "engineering shear strain reached"},
@@ -99,53 +89,53 @@ const scree_result_name scree_result_names[] = {
     {"band_share", "1", "share of the band in the distortion"},
     {"band_contrast", "1", "distortion within the band over that outside"},
     {"band_percolation", "1", "how far the band goes through the sample"},
-    // an impact
-    {"restitution", "1", "coefficient of restitution"},
-    {"restitution_theory", "1", "closed form of it"},
-    {"relaxation_time", "s", "duration of the contact"},
-    {"relaxation_time_theory", "s", "closed form of it"},
-    // a rotated particle
-    {"forced_particle", "1", "number of the particle"},
-    {"rotation_reach", "1", "how far rotations are felt, in mean diameters"},
-    INTERVAL("rotation_decay_length", "1", "decay length of the rotations in mean diameters"),
-    {"rotation_at_contact", "1", "rotation of the neighbours over that of the particle"},
-    {"rotation_background", "1", "rotation without the forced one"},
-    {"rotation_felt", "1", "rotation that counts as felt"},
-    INTERVAL("rotation_chain_correlation", "1", "correlation of rotations with force chains"),
-    INTERVAL("rotation_chain_alignment", "1", "alignment of rotations with force chains"),
-    INTERVAL("rotation_across_chains", "1", "the same across the chains"),
-    {"rose_eigenvector_angle", "degree", "angle between the peak of the rose and the first axis of T"},
-    {"rotation_tensor_angle", "degree", "angle of the first axis of T"},
-    {"rotation_tensor_first", "1", "largest eigenvalue of T"},
-    {"rotation_tensor_last", "1", "least eigenvalue of T"},
-    {"rotation_tensor_off_diagonal", "1", "off-diagonal part of T over its diagonal"},
-    {"rigid_rotation_ratio", "1", "rotation of the boundary over that of the particle"},
 };
-const size_t scree_result_names_count = sizeof scree_result_names / sizeof *scree_result_names;
+const size_t scree_run_results_count = sizeof scree_run_results / sizeof *scree_run_results;
 
-const scree_result_name *scree_result_name_find(const char *name, size_t *wall)
+scree_status scree_result_call(char name[SCREE_RESULT_NAME], const char *about, const scree_result *row,
+                               scree_error *error)
 {
-    size_t none;
-    if (!wall) wall = &none;
-    *wall = 0;
-    for (size_t i = 0; i < scree_result_names_count; i++)
-        if (scree_result_names[i].name[0] != '_' && strcmp(scree_result_names[i].name, name) == 0)
-            return &scree_result_names[i];
-    for (size_t i = 0; i < scree_result_names_count; i++) {
-        const char *ending = scree_result_names[i].name;
-        size_t length = strlen(name), tail = strlen(ending);
-        if (ending[0] != '_' || length <= tail || strcmp(name + length - tail, ending) != 0) continue;
-        *wall = length - tail;
-        return &scree_result_names[i];
-    }
+    int length = snprintf(name, SCREE_RESULT_NAME, "%s%s", about, row->name);
+    if (length > 0 && length < SCREE_RESULT_NAME) return SCREE_OK;
+    return scree_error_set(error, SCREE_ERROR_INPUT, "the name '%.40s...' is too long for a result", about);
+}
+
+bool scree_result_ends(const char *name, const char *ending)
+{
+    size_t length = strlen(name), tail = strlen(ending);
+    return length > tail && strcmp(name + length - tail, ending) == 0;
+}
+
+static bool fits(const scree_result *row, const char *name)
+{
+    return row->name[0] == '_' ? scree_result_ends(name, row->name) : strcmp(row->name, name) == 0;
+}
+
+const scree_result *scree_result_name_find(const char *name, const scree_module **module)
+{
+    const scree_module *none;
+    if (!module) module = &none;
+    *module = NULL;
+    for (size_t i = 0; i < scree_run_results_count; i++)
+        if (fits(&scree_run_results[i], name)) return &scree_run_results[i];
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
+        for (size_t k = 0; k < scree_modules[m]->results.count; k++) {
+            *module = scree_modules[m];
+            if (fits(&(*module)->results.row[k], name)) return &(*module)->results.row[k];
+        }
+    *module = NULL;
     return NULL;
 }
 
 const char *scree_result_name_nearest(const char *name)
 {
-    const char *names[sizeof scree_result_names / sizeof *scree_result_names];
+    const char *names[512];
     size_t count = 0;
-    for (size_t i = 0; i < scree_result_names_count; i++)
-        if (scree_result_names[i].name[0] != '_') names[count++] = scree_result_names[i].name;
+    for (size_t i = 0; i < scree_run_results_count; i++) names[count++] = scree_run_results[i].name;
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
+        for (size_t k = 0; k < scree_modules[m]->results.count && count < sizeof names / sizeof *names; k++) {
+            const char *own = scree_modules[m]->results.row[k].name;
+            if (own[0] != '_') names[count++] = own;
+        }
     return scree_nearest(name, names, count);
 }

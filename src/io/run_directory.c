@@ -25,7 +25,7 @@ enum { LONGEST_FILE_NAME = 64 }; ///< below the run directory, with its subfolde
 static const char *const usual_files[] = {SCREE_FILE_CASE, SCREE_FILE_SUMMARY, SCREE_FILE_SERIES, SCREE_FILE_RUN,
                                           SCREE_FILE_LOG};
 /// What runs of versions without a list wrote beside that, under fixed names.
-static const char *const former_files[] = {SCREE_FILE_WALLS,     SCREE_FILE_CELLS,     SCREE_FILE_BANDS,
+static const char *const former_files[] = {"walls.csv",          SCREE_FILE_CELLS,     SCREE_FILE_BANDS,
                                            SCREE_FILE_RUN_WHOLE, "rotation-decay.csv", "rotation-rose.csv",
                                            "rotation-bodies.csv"};
 enum {

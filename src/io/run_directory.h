@@ -11,7 +11,6 @@
 #define SCREE_FILE_CASE       "case.yaml"
 #define SCREE_FILE_SUMMARY    "summary.json"
 #define SCREE_FILE_SERIES     "series.csv"
-#define SCREE_FILE_WALLS      "walls.csv"
 #define SCREE_FILE_CELLS      "cells.csv"
 #define SCREE_FILE_BANDS      "bands.csv"
 #define SCREE_FILE_RUN        "run.h5"

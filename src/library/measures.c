@@ -126,17 +126,16 @@ scree_status scree_simulation_energies(scree_simulation *s, scree_energies *ener
 
 scree_status scree_simulation_sample(const scree_simulation *s, const char *name, double *value, scree_error *error)
 {
-    const char *names[SCREE_SAMPLE_COUNT];
+    const char *nearest = NULL;
     handle_assert(s);
     *value = NAN;
     if (!s->has_sample) return scree_error_set(error, SCREE_ERROR_INPUT, "no sample was taken yet");
-    for (size_t k = 0; k < SCREE_SAMPLE_COUNT; k++) {
-        names[k] = scree_sample_columns[k].name;
-        if (strcmp(names[k], name) != 0) continue;
-        *value = s->sample.value[k];
+    size_t column = scree_columns_find(&s->columns, name);
+    if (column < s->columns.count) {
+        *value = s->sample[column];
         return SCREE_OK;
     }
-    const char *nearest = scree_nearest(name, names, SCREE_SAMPLE_COUNT);
+    (void)scree_column_is_known(name, &nearest);
     scree_status status =
         scree_error_set(error, SCREE_ERROR_INPUT, "there is no column '%s'%s%s%s", name,
                         nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");

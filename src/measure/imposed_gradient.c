@@ -3,6 +3,8 @@
 
 #include "measure/facets.h"
 
+#include <math.h>
+
 typedef scree_imposed_gradient own;
 
 const scree_group scree_imposed_nodes = {"node", "b", offsetof(own, count), offsetof(own, capacity)};
@@ -37,6 +39,21 @@ static scree_status check(const scree_state *state, const scree_model *model, sc
         "dataset 'drive/force': %zu (accepted: none, or as many rows as the boundary has bodies, %zu)", count, wanted);
 }
 
+static const scree_result columns[] = {
+    {"rate_ratio", "1", "actual over imposed strain rate since the last sample, of minimal conditions"},
+};
+
+/// Integral of target : rate since the last sample over that of target : target, both over the prescribed components;
+/// NAN when nothing was wanted. The next interval begins.
+static scree_status take_ratio(const scree_context *c, size_t index, double *value, scree_error *error)
+{
+    own *imposed = scree_imposed(c->state);
+    (void)index, (void)error;
+    *value = imposed->wanted > 0 ? imposed->achieved / imposed->wanted : NAN;
+    imposed->achieved = imposed->wanted = 0;
+    return SCREE_OK;
+}
+
 const scree_module scree_module_imposed_gradient = {
     .name = "imposed_gradient",
     .meaning = "a mean velocity gradient that forces on the Delaunay boundary impose",
@@ -44,4 +61,5 @@ const scree_module scree_module_imposed_gradient = {
     .fields = fields,
     .field_count = sizeof fields / sizeof *fields,
     .check = check,
+    .columns = SCREE_RESULTS(columns, take_ratio),
 };

@@ -54,6 +54,8 @@ typedef struct scree_boundary {
     double (*height)(const scree_context *context);
     /// When a stage begins: measures the sample for its servos at this pressure, and imposes nothing.
     void (*fit)(const scree_context *context, double pressure);
+    /// A stage begins in which nothing is imposed: its plates stand where they are.
+    void (*rest)(const scree_context *context);
     /// A loading stage begins: displacements and strains count from here.
     void (*mark)(const scree_context *context);
     /// In the coming step: the pressure [Pa] on all sides, nothing else imposed.

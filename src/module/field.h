@@ -59,6 +59,17 @@ typedef struct scree_field_range {
     bool undefined; ///< not a number is a value, too
 } scree_field_range;
 
+/// What ghosts do with a field of bodies. Ghosts are bodies across a face of a periodic cell, and later those of
+/// another process: rows behind the own ones, which messages fill and empty (comm/comm.h).
+typedef enum scree_field_ghosts {
+    SCREE_GHOSTS_NONE,     ///< they have none of it
+    SCREE_GHOSTS_KEEP,     ///< copied to them when they are made: does not change while a neighbour list lives
+    SCREE_GHOSTS_FOLLOW,   ///< copied to them in every step
+    SCREE_GHOSTS_POSITION, ///< a vector, copied in every step, plus the lattice vectors from the body to the ghost [m]
+    SCREE_GHOSTS_VELOCITY, ///< a vector, copied in every step, plus the velocity of these lattice vectors [m/s]
+    SCREE_GHOSTS_ADD_BACK  ///< integers that they collect: added to the body modulo 2^64, then zero again
+} scree_field_ghosts;
+
 /// Numbers of components that depend on the dimension: d of a vector; 1 in 2D and 3 in 3D of a spin or torque.
 enum { SCREE_VECTOR = -1, SCREE_AXIAL_VECTOR = -2 };
 
@@ -78,12 +89,12 @@ typedef struct scree_field {
     size_t offset;       ///< bytes from the start of an element to the first component
     const scree_group *group;
     size_t fixed;
-    int only_dimension;      ///< 2 or 3: exists in this dimension only; 0: in both
-    bool images;             ///< of bodies: images in a periodic cell have rows of it, behind those of the bodies
-    bool optional;           ///< of bodies: there is no array until scree_state_begin_field asks for it
-    const scree_module *law; ///< of what contacts remember: there where they follow this law; NULL: always
-    unsigned options;        ///< and one of these of its options, a bit each; 0: any
-    bool in_checksum;        ///< of what contacts remember: enters the state checksum
+    int only_dimension;        ///< 2 or 3: exists in this dimension only; 0: in both
+    scree_field_ghosts ghosts; ///< of bodies; if not NONE, the array has rows of ghosts behind those of the bodies
+    bool optional;             ///< of bodies: there is no array until scree_state_begin_field asks for it
+    const scree_module *law;   ///< of what contacts remember: there where they follow this law; NULL: always
+    unsigned options;          ///< and one of these of its options, a bit each; 0: any
+    bool in_checksum;          ///< of what contacts remember: enters the state checksum
 } scree_field;
 
 /// Ends of ranges, for the rows of declarations.

@@ -12,14 +12,17 @@
 struct scree_module;
 
 typedef enum scree_key_type {
-    SCREE_KEY_NUMBER,  ///< double, SI; NAN for `auto`
-    SCREE_KEY_INTEGER, ///< int64_t
-    SCREE_KEY_TEXT,    ///< char *, any text; limits are numbers of bytes
-    SCREE_KEY_WORD,    ///< char *, a name: letters, digits, '_' and '-', a letter first; NULL for `auto`
-    SCREE_KEY_FLAG,    ///< bool
-    SCREE_KEY_CHOICE,  ///< int, one of `choices`: of those that select a module its slot
-    SCREE_KEY_VECTOR,  ///< three doubles, one beside the other; the third may be left out in a case, and is zero then
-    SCREE_KEY_PAIRS,   ///< array of pairs of doubles, and its count; the limits hold for each number
+    SCREE_KEY_NUMBER,   ///< double, SI; NAN for `auto`
+    SCREE_KEY_INTEGER,  ///< int64_t
+    SCREE_KEY_TEXT,     ///< char *, any text; limits are numbers of bytes
+    SCREE_KEY_WORD,     ///< char *, a name: letters, digits, '_' and '-', a letter first; NULL for `auto`
+    SCREE_KEY_FLAG,     ///< bool
+    SCREE_KEY_CHOICE,   ///< int, one of `choices`: of those that select a module its slot
+    SCREE_KEY_VECTOR,   ///< three doubles, one beside the other; the third may be left out in a case, and is zero then
+    SCREE_KEY_PAIRS,    ///< array of pairs of doubles, and its count; the limits hold for each number
+    SCREE_KEY_SCHEDULE, ///< scree_schedule (base/schedule.h), or `components` of them side by side: a value that stays,
+                        ///< a table of times and values, here or in a .csv file, a ramp, a harmonic; the limits hold
+                        ///< for each value; the constant NAN for `auto`
     SCREE_KEY_TENSOR, ///< nine doubles, 3 x 3 by rows, given as {component: value}: `choices` names the components that
                       ///< may be given; NAN for all others
     SCREE_KEY_SECTION, ///< struct, sections[0] describes it
@@ -68,6 +71,7 @@ typedef struct scree_key {
     const char *meaning;               ///< one line, ends with a full stop
     size_t offset;                     ///< of the member in its section's struct, or in that of its module
     size_t count_offset, element_size; ///< lists and pairs
+    size_t components;                 ///< schedules: 3 of a vector; 0 and 1: of one number
     const void *initial;               ///< lists: what an element is before its keys are read; NULL: zero
     const struct scree_section *sections;
     size_t section_count;

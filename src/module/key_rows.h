@@ -17,6 +17,7 @@
         .name = #member, .type = kind, .offset = offsetof(owner, member), __VA_ARGS__                                  \
     }
 #define NUMBER(owner, member, si, ...)   KEY(owner, member, SCREE_KEY_NUMBER, .unit = si, __VA_ARGS__)
+#define SCHEDULE(owner, member, si, ...) KEY(owner, member, SCREE_KEY_SCHEDULE, .unit = si, __VA_ARGS__)
 #define INTEGER(owner, member, ...)      KEY(owner, member, SCREE_KEY_INTEGER, __VA_ARGS__)
 #define CHOICE(owner, member, list, ...) KEY(owner, member, SCREE_KEY_CHOICE, .choices = list, __VA_ARGS__)
 #define FLAG(owner, member, ...)         KEY(owner, member, SCREE_KEY_FLAG, __VA_ARGS__)

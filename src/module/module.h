@@ -8,12 +8,14 @@
 #include "module/field.h"
 #include "module/key.h"
 #include "module/pass.h"
+#include "module/result.h"
 #include "module/table.h"
 
 #include <stdint.h>
 
 typedef struct scree_config scree_config;
 typedef struct scree_reader scree_reader;
+struct scree_conclusion;
 
 struct scree_module {
     const char *name;
@@ -60,6 +62,16 @@ struct scree_module {
     /// Work [J] that it has done on the bodies since the begin of the run. NULL: it does none, or has a row of the
     /// ledger.
     double (*work)(const scree_state *state);
+
+    // ---- results: what it tells ----
+    scree_results columns; ///< of series.csv, at every sample
+    scree_results results; ///< of summary.json, at the end of a run or when it is stopped
+    /// Whether there is something with this index that the rows are about, and its name: each then has all rows, and
+    /// with a name in front. NULL: they are about the run, once.
+    bool (*told)(const scree_config *config, size_t index, char name[SCREE_RESULT_NAME]);
+    /// Results that come from the whole series, that are texts, or with files of their own (run/conclusion.h). Those
+    /// that do not apply are left out. NULL: none.
+    scree_status (*conclude)(const struct scree_conclusion *run, scree_error *error);
 };
 
 #define SCREE_MODULE_DECLARE(name) extern const scree_module scree_module_##name;

@@ -150,7 +150,6 @@ scree_status scree_folder_check(const char *directory, void (*visit)(void *user,
     tell_file(&all, SCREE_FILE_CASE, readable, readable ? "" : c->config.name ? c->config.name : "", &reason);
     status = inspect_summary(&all, error);
     if (!status) status = inspect_series(&all, SCREE_FILE_SERIES, error);
-    if (!status && c && c->config.wall_count > 0) status = inspect_series(&all, SCREE_FILE_WALLS, error);
     if (!status) status = inspect_points(&all, readable ? NULL : c, error);
     if (!status) status = inspect_set_aside(&all, "", error);
     if (!status) status = inspect_set_aside(&all, SCREE_FOLDER_PARTS, error);

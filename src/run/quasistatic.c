@@ -151,7 +151,7 @@ double scree_quasistatic_inertial_now(const scree_simulation *s, double mean_str
 
 void scree_quasistatic_follow(scree_quasistatic_watch *watch, const scree_simulation *s, scree_log *log)
 {
-    const double *value = s->sample.value;
+    const double *value = s->sample;
     int64_t stage = (int64_t)value[SCREE_SAMPLE_STAGE];
     const scree_config_stage *config = &s->model.config->stages[stage];
     const bool settles = scree_modules[config->kind]->numbers->settles;

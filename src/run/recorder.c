@@ -8,7 +8,6 @@
 #include "io/run_directory.h"
 #include "io/snapshot.h"
 #include "run/sample.h"
-#include "run/wall_series.h"
 
 #include <math.h>
 #include <string.h>
@@ -49,9 +48,8 @@ scree_status scree_recorder_open(scree_recorder *recorder, const scree_simulatio
     memcpy(&recorder->log.user, &options, sizeof options);
     if (!recorder->log.file) return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot open '%s'", path);
     if ((status = scree_path_join(path, sizeof path, directory, SCREE_FILE_SERIES, error))) return status;
-    status = scree_series_open(&recorder->series, path, scree_sample_columns, SCREE_SAMPLE_COUNT,
+    status = scree_series_open(&recorder->series, path, s->columns.column, s->columns.count,
                                restart ? s->state.stage.samples : -1, error);
-    if (!status) status = scree_wall_series_open(&recorder->walls, s, directory, restart, error);
     // Names of files that checkpoints count on.
     if (!status) status = scree_folder_sync(directory, error);
     recorder->clocked[1] = read_clock(CLOCK_PROCESS_CPUTIME_ID);
@@ -68,7 +66,6 @@ void scree_recorder_close(scree_recorder *recorder)
 {
     scree_error ignored;
     if (recorder->series.file) (void)!scree_series_close(&recorder->series, &ignored);
-    if (recorder->walls.file) (void)!scree_series_close(&recorder->walls, &ignored);
     if (recorder->log.file) fclose(recorder->log.file);
     recorder->log.file = NULL;
 }
@@ -89,7 +86,6 @@ scree_status scree_recorder_checkpoint(scree_recorder *recorder, scree_simulatio
     scree_status status = scree_contacts_save(&s->state, &s->work, error);
     // A checkpoint counts rows, so they are on the disk before it is.
     if (!status) status = scree_series_sync(&recorder->series, error);
-    if (!status) status = scree_series_sync(&recorder->walls, error);
     if (!status) status = scree_checkpoint_write(recorder->directory, &s->state, recorder->case_checksum, error);
     recorder->last_checkpoint = scree_clock();
     recorder->checkpoint_evaluations = s->state.evaluations;
@@ -221,8 +217,7 @@ scree_status scree_recorder_follow(scree_recorder *recorder, scree_simulation *s
 {
     scree_status status = SCREE_OK;
     if (s->sampled) {
-        if ((status = scree_series_append(&recorder->series, s->sample.value, error))) return status;
-        if ((status = scree_wall_series_append(&recorder->walls, s, error))) return status;
+        if ((status = scree_series_append(&recorder->series, s->sample, error))) return status;
         s->state.stage.samples++;
         scree_quasistatic_follow(&recorder->watch, s, &recorder->log);
     }

@@ -12,7 +12,6 @@ typedef struct scree_recorder {
     const char *directory;
     scree_log log;
     scree_series_writer series;
-    scree_series_writer walls; ///< of the walls of the case; not open without them
     scree_quasistatic_watch watch;
     uint64_t case_checksum;
     double started;    ///< s, monotonic clock at the begin of this process's part of the run

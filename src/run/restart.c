@@ -50,15 +50,10 @@ typedef struct wanted_run {
 static scree_status usable(void *context, const scree_state *state, scree_error *error)
 {
     const wanted_run *run = context;
-    const char *const series[] = {SCREE_FILE_SERIES, SCREE_FILE_WALLS};
-    int count = run->s->model.config->wall_count > 0 ? 2 : 1;
+    char path[4096];
     scree_status status = scree_restart_check(run->s, state, error);
-    for (int k = 0; k < count && !status; k++) {
-        char path[4096];
-        status = scree_path_join(path, sizeof path, run->directory, series[k], error);
-        if (!status) status = scree_series_holds(path, state->stage.samples, error);
-    }
-    return status;
+    if (!status) status = scree_path_join(path, sizeof path, run->directory, SCREE_FILE_SERIES, error);
+    return status ? status : scree_series_holds(path, state->stage.samples, error);
 }
 
 scree_status scree_restart_try(scree_simulation *s, const char *directory, uint64_t checksum,

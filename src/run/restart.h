@@ -17,7 +17,7 @@ scree_status scree_restart_try(scree_simulation *s, const char *directory, uint6
                                const scree_restart_point *point, scree_error *error) SCREE_MUST_USE;
 
 /// Reads what the run goes on from into the state of `s`, which is open and has none: whole, with values that a run of
-/// this case can have, and with its rows in series.csv and walls.csv. `from` NULL: the newest checkpoint, else an older
+/// this case can have, and with its rows in series.csv. `from` NULL: the newest checkpoint, else an older
 /// one, else a snapshot, with a note when it is not the first; else the number of a snapshot, or "latest". *used says
 /// what it was. Errors: SCREE_ERROR_INPUT when there is no such thing or it belongs to another case, SCREE_ERROR_IO
 /// when it cannot be used; memory.

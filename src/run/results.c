@@ -11,12 +11,10 @@
 /// intervals between two samples) from STARTED of the strain on. What it cost, and from the bodies `corner_distortion`
 /// and `boundary_roughness` (files of these names in measure/), as long as no other stage has begun; in a case that
 /// strains nothing the cost is that of the last stage. Over the whole run: largest residual of the energy balance over
-/// the scale of the guard (measure/energy.c) at the end (`energy_residual`). Of each wall of the case `NAME_work`,
-/// `NAME_force`, `NAME_torque`.
+/// the scale of the guard (measure/energy.c) at the end (`energy_residual`).
 /// What springs were given by the change of their stiffness, over the energy at the begin and the work turned over, is
 /// `stiffness_share`.
 #include "run/results.h"
-#include "state/case_walls.h"
 #include "state/periodic.h"
 
 #include "io/loading_stage.h"
@@ -24,10 +22,9 @@
 #include "io/summary.h"
 #include "measure/measure.h"
 #include "run/cell_results.h"
+#include "run/conclusion.h"
 #include "run/quasistatic.h"
-#include "run/rotation_results.h"
 #include "run/sample.h"
-#include "run/stage_collide.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -240,22 +237,6 @@ static void summarise_run(const scree_recorder *recorder, scree_simulation *s, s
     scree_summary_set_integer(summary, "neighbour_rebuilds", (int64_t)s->work.rebuilds);
 }
 
-/// Work and last force and torque, in magnitude, of each wall of the case.
-static void summarise_walls(const scree_simulation *s, scree_summary *summary)
-{
-    const scree_config *config = s->model.config;
-    for (int64_t w = 0; w < config->wall_count; w++) {
-        const scree_surface_load *load = &scree_case_walls(&s->state)->load[w];
-        char name[96];
-        (void)snprintf(name, sizeof name, "%s_work", config->walls[w].name);
-        scree_summary_set_number(summary, name, load->work);
-        (void)snprintf(name, sizeof name, "%s_force", config->walls[w].name);
-        scree_summary_set_number(summary, name, scree_length(load->force));
-        (void)snprintf(name, sizeof name, "%s_torque", config->walls[w].name);
-        scree_summary_set_number(summary, name, scree_length(load->torque));
-    }
-}
-
 /// What the present or last stage cost.
 static void summarise_cost(const scree_simulation *s, scree_summary *summary)
 {
@@ -322,14 +303,13 @@ scree_status scree_results_collect(const scree_recorder *recorder, scree_simulat
         summarise_series(&series, *summary);
         scree_summary_set_number(*summary, "stiffness_share", scree_results_stiffness_share(&s->state));
         scree_quasistatic_results(&s->model, &series, *summary);
-        summarise_walls(s, *summary);
         status = summarise_energy(&series, s, *summary, error);
     }
     if (!status) status = summarise_stage(s, *summary, error);
     if (!status && s->model.config->measure.cells && !scree_cell(&s->state)->directions)
         status = scree_cell_results_write(recorder->directory, s->model.config, &series, *summary, error);
-    if (!status) status = scree_collide_results(s, *summary, error);
-    if (!status) status = scree_rotation_results(recorder->directory, s, *summary, error);
+    const scree_conclusion run = {recorder->directory, s, &series, *summary};
+    if (!status) status = scree_conclude(&run, error);
     const char *unknown = status ? NULL : scree_summary_unknown(*summary);
     if (unknown)
         status = scree_error_set(error, SCREE_ERROR_IO, "the result '%s' is missing in the table of results", unknown);

@@ -151,9 +151,10 @@ static void summarise(const scree_simulation *s, const findings *f, scree_summar
     scree_summary_set_number(summary, "rigid_rotation_ratio", rigid_rotation(s));
 }
 
-scree_status scree_rotation_results(const char *directory, scree_simulation *s, scree_summary *summary,
-                                    scree_error *error)
+scree_status scree_rotation_conclude(const scree_conclusion *run, scree_error *error)
 {
+    const char *directory = run->directory;
+    scree_simulation *s = run->s;
     const scree_state *state = &s->state;
     // Before the end of the stage the angles are not those of the hold.
     if (!scree_forced(state)->active || state->stage.index < s->model.config->stage_count) return SCREE_OK;
@@ -165,7 +166,7 @@ scree_status scree_rotation_results(const char *directory, scree_simulation *s, 
     scree_rotation_network_measure(&s->model, state, &s->table, f.forced, cutoff, &f.network);
     status = scree_rotation_alignment_measure(&s->model, state, &s->table, f.forced, cutoff, &f.decay, &f.network,
                                               &f.alignment, error);
-    if (!status) summarise(s, &f, summary);
+    if (!status) summarise(s, &f, run->summary);
     if (!status) status = write_table(directory, SCREE_FILE_ROTATION_DECAY, write_decay, s, &f, error);
     if (!status) status = write_table(directory, SCREE_FILE_ROTATION_ROSE, write_rose, s, &f, error);
     if (!status) status = write_table(directory, SCREE_FILE_ROTATION_BODIES, write_bodies, s, &f, error);

@@ -2,8 +2,7 @@
 #ifndef SCREE_RUN_ROTATION_RESULTS_H
 #define SCREE_RUN_ROTATION_RESULTS_H
 
-#include "io/summary.h"
-#include "run/simulation.h"
+#include "run/conclusion.h"
 
 #define SCREE_FILE_ROTATION_DECAY  "rotation-decay.csv"
 #define SCREE_FILE_ROTATION_ROSE   "rotation-rose.csv"
@@ -12,7 +11,6 @@
 /// Without a forced particle: nothing. Else the scalars `forced_particle`, `rotation_...` and three tables in the run
 /// directory: the bins of the decay with the fit, the rose of W, and every body with its distance and spin. Errors:
 /// disk, memory.
-scree_status scree_rotation_results(const char *directory, scree_simulation *s, scree_summary *summary,
-                                    scree_error *error) SCREE_MUST_USE;
+scree_status scree_rotation_conclude(const scree_conclusion *run, scree_error *error) SCREE_MUST_USE;
 
 #endif

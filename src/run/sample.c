@@ -2,18 +2,18 @@
 #include "run/sample.h"
 #include "measure/delaunay_boundary.h"
 
-#include "boundary/drive.h"
-#include "boundary/membrane.h"
 #include "measure/facets.h"
 #include "measure/measure.h"
+#include "run/columns.h"
 #include "run/guard.h"
 #include "run/loading.h"
 #include "run/quasistatic.h"
+#include "run/step.h"
 #include "state/periodic.h"
 
 #include <math.h>
 
-const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
+const scree_result scree_sample_columns[SCREE_SAMPLE_COUNT] = {
     [SCREE_SAMPLE_STEP] = {"step", "1", "simulated time in ticks: steps, small ones with two_timescales"},
     [SCREE_SAMPLE_TIME] = {"time", "s", "simulated time"},
     [SCREE_SAMPLE_STAGE] = {"stage", "1", "index of the stage in the case, from 0"},
@@ -41,8 +41,6 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
     [SCREE_SAMPLE_SHEAR_STRAIN] =
         {"boundary_shear_strain", "1",
          "engineering shear strain of the first and the last axis from the Delaunay boundary"},
-    [SCREE_SAMPLE_RATE_RATIO] = {"rate_ratio", "1",
-                                 "actual over imposed strain rate since the last sample, of minimal conditions"},
     [SCREE_SAMPLE_STRESS_RATIO] = {"stress_ratio", "1", "axial stress that the boundary applies over the lateral one"},
     [SCREE_SAMPLE_STRESS_RATIO_CONTACTS] = {"stress_ratio_contacts", "1", "the same from contact forces"},
     [SCREE_SAMPLE_AXIAL_PLATES] =
@@ -78,7 +76,6 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
                                     "work of the pressure on the Delaunay boundary or the membrane"},
     [SCREE_SAMPLE_WORK_BOUNDARY] = {"work_boundary", "J",
                                     "work of imposed rates, or of the springs of a membrane and its ends"},
-    [SCREE_SAMPLE_ELASTIC_MEMBRANE] = {"elastic_membrane", "J", "stored in the springs of a membrane"},
     [SCREE_SAMPLE_WORK_GRAVITY] = {"work_gravity", "J", "work of gravity"},
     [SCREE_SAMPLE_SCHEME_WORK] = {"scheme_work", "J", "put into the kinetic energy by changes of the step"},
     [SCREE_SAMPLE_ENERGY_RESIDUAL] = {"energy_residual", "J", "what the energy balance leaves open"},
@@ -92,10 +89,6 @@ const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT] = {
                            "its mean section"},
     [SCREE_SAMPLE_VOLUME] = {"volume", "m3",
                              "volume of the sample between plates and Delaunay boundary, or of the periodic cell"},
-    [SCREE_SAMPLE_MEMBRANE_VOLUME] = {"membrane_volume", "m3",
-                                      "volume between the plates inside a membrane, through the centres of its bodies; "
-                                      "not a number without one"},
-    [SCREE_SAMPLE_BOUNDARY_COUNT] = {"boundary_count", "1", "particles on the Delaunay boundary"},
     [SCREE_SAMPLE_WORK_PERIODIC] = {"work_periodic", "J", "work of the deforming periodic cell"},
     [SCREE_SAMPLE_SHEAR_RATIO] = {"shear_ratio", "1",
                                   "shear stress over axial normal stress from contacts, in a periodic cell"},
@@ -156,8 +149,6 @@ static void sample_stress(const scree_simulation *s, double *value)
     scree_stress_from_plates(model, &s->state, plates);
     scree_stress_from_contacts(&s->table, volume, contacts);
     value[SCREE_SAMPLE_VOLUME] = volume;
-    value[SCREE_SAMPLE_MEMBRANE_VOLUME] =
-        scree_membrane_of(&s->state)->count > 0 ? scree_membrane_volume(model, &s->state) : NAN;
     value[SCREE_SAMPLE_AREA] = s->state.dimension == 3 ? volume / scree_sample_height(s) : scree_sample_area(&s->state);
     value[SCREE_SAMPLE_AXIAL_PLATES] = -plates[axial];
     value[SCREE_SAMPLE_LATERAL_APPLIED] = -lateral_of(s, plates);
@@ -184,7 +175,6 @@ static scree_status sample_structure(const scree_simulation *s, double *value, s
     value[SCREE_SAMPLE_RATTLER_FRACTION] = coordination.rattler_fraction;
     if ((status = scree_solid_fraction(&s->state, &value[SCREE_SAMPLE_SOLID_FRACTION], error))) return status;
     value[SCREE_SAMPLE_UNBALANCED_RATIO] = scree_mean_unbalanced_ratio(&s->stage_model, &s->state, &s->table);
-    value[SCREE_SAMPLE_BOUNDARY_COUNT] = (double)scree_boundary_count(&s->state);
     value[SCREE_SAMPLE_HEIGHT] = scree_sample_height(s);
     return SCREE_OK;
 }
@@ -204,7 +194,6 @@ static void sample_energy(const scree_simulation *s, double *value)
     value[SCREE_SAMPLE_WORK_PRESSURE] = ledger->pressure;
     value[SCREE_SAMPLE_WORK_PERIODIC] = ledger->periodic;
     value[SCREE_SAMPLE_WORK_BOUNDARY] = ledger->boundary;
-    value[SCREE_SAMPLE_ELASTIC_MEMBRANE] = scree_membrane_energy(&s->stage_model, &s->state);
     value[SCREE_SAMPLE_WORK_GRAVITY] = energy.gravity;
     value[SCREE_SAMPLE_SCHEME_WORK] = ledger->scheme;
     value[SCREE_SAMPLE_ENERGY_RESIDUAL] = energy.residual;
@@ -235,7 +224,8 @@ scree_status scree_sample_take(scree_simulation *s, scree_error *error)
 {
     scree_status status = scree_contact_table_build(&s->stage_model, &s->state, &s->work, &s->table, error);
     if (status) return status;
-    double *value = s->sample.value;
+    double *value = s->sample;
+    const scree_context context = scree_step_context(s);
     value[SCREE_SAMPLE_STEP] = (double)s->state.step;
     value[SCREE_SAMPLE_TIME] = scree_state_time(&s->state);
     value[SCREE_SAMPLE_STAGE] = (double)s->state.stage.index;
@@ -245,8 +235,14 @@ scree_status scree_sample_take(scree_simulation *s, scree_error *error)
     sample_volume(s, value);
     sample_energy(s, value);
     sample_quasistatic(s, value);
-    value[SCREE_SAMPLE_RATE_RATIO] = scree_drive_take_ratio(&s->state);
+    if ((status = scree_columns_measure(&context, value, error))) return status;
     remember_velocities(s);
     s->has_sample = true;
     return scree_guard_sample(s, value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE], error);
+}
+
+double scree_sample_get(const scree_simulation *s, const char *name)
+{
+    size_t column = scree_columns_find(&s->columns, name);
+    return column < s->columns.count ? s->sample[column] : NAN;
 }

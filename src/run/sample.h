@@ -2,7 +2,7 @@
 #ifndef SCREE_RUN_SAMPLE_H
 #define SCREE_RUN_SAMPLE_H
 
-#include "io/series.h"
+#include "module/result.h"
 #include "run/simulation.h"
 
 typedef enum scree_sample_index {
@@ -18,7 +18,6 @@ typedef enum scree_sample_index {
     SCREE_SAMPLE_BOUNDARY_LATERAL,
     SCREE_SAMPLE_BOUNDARY_LATERAL_Y,
     SCREE_SAMPLE_SHEAR_STRAIN,
-    SCREE_SAMPLE_RATE_RATIO,
     SCREE_SAMPLE_STRESS_RATIO,
     SCREE_SAMPLE_STRESS_RATIO_CONTACTS,
     SCREE_SAMPLE_AXIAL_PLATES,
@@ -42,7 +41,6 @@ typedef enum scree_sample_index {
     SCREE_SAMPLE_WORK_PLATES,
     SCREE_SAMPLE_WORK_PRESSURE,
     SCREE_SAMPLE_WORK_BOUNDARY,
-    SCREE_SAMPLE_ELASTIC_MEMBRANE,
     SCREE_SAMPLE_WORK_GRAVITY,
     SCREE_SAMPLE_SCHEME_WORK,
     SCREE_SAMPLE_ENERGY_RESIDUAL,
@@ -50,19 +48,20 @@ typedef enum scree_sample_index {
     SCREE_SAMPLE_HEIGHT,
     SCREE_SAMPLE_AREA,
     SCREE_SAMPLE_VOLUME,
-    SCREE_SAMPLE_MEMBRANE_VOLUME,
-    SCREE_SAMPLE_BOUNDARY_COUNT,
     SCREE_SAMPLE_WORK_PERIODIC,
     SCREE_SAMPLE_SHEAR_RATIO,
     SCREE_SAMPLE_INERTIAL_NUMBER,
     SCREE_SAMPLE_KINETIC_OVER_ELASTIC,
     SCREE_SAMPLE_COUNT
 } scree_sample_index;
-_Static_assert(SCREE_SAMPLE_COUNT == SCREE_SAMPLE_COLUMNS, "simulation.h holds one value a column");
 
-extern const scree_series_column scree_sample_columns[SCREE_SAMPLE_COUNT];
+/// Those of the core; modules have more (run/columns.h).
+extern const scree_result scree_sample_columns[SCREE_SAMPLE_COUNT];
 
 /// Builds s->table and fills s->sample; guards the energy balance. What a user sees is compression positive.
 scree_status scree_sample_take(scree_simulation *s, scree_error *error) SCREE_MUST_USE;
+
+/// The last value of a column, NAN when there is none of this name.
+double scree_sample_get(const scree_simulation *s, const char *name);
 
 #endif

@@ -36,12 +36,15 @@ scree_status scree_simulation_open(const scree_case *c, int threads, scree_simul
     status = scree_work_create(&s->work, &s->model, threads, error);
     if (!status && (status = scree_container_create(&c->config, &s->work.container, error)))
         scree_case_locate(c, error);
-    return status;
+    if (!status) status = scree_columns_create(&c->config, &s->columns, error);
+    return status ? status : scree_allocate(&s->sample, s->columns.count, sizeof *s->sample, error);
 }
 
 void scree_simulation_close(scree_simulation *s)
 {
     s->magic = 0;
+    scree_columns_destroy(&s->columns);
+    scree_release(&s->sample);
     scree_own_force_list_destroy(&s->forces);
     scree_release(&s->points);
     scree_contact_table_destroy(&s->table);

@@ -6,14 +6,9 @@
 #include "case/case.h"
 #include "contact/contact.h"
 #include "integrate/integrate.h"
+#include "run/columns.h"
 #include "run/own_force.h"
 #include "run/stage.h"
-
-/// One row of series.csv; the columns are in sample.c.
-#define SCREE_SAMPLE_COLUMNS 50
-typedef struct scree_sample {
-    double value[SCREE_SAMPLE_COLUMNS];
-} scree_sample;
 
 enum { SCREE_PASSES = 64 }; ///< most passes of a step
 
@@ -38,11 +33,12 @@ struct scree_simulation {
     scree_pass passes[SCREE_PASSES]; ///< of the step of this stage, in their order
     size_t pass_count;
     scree_stage_plan plan;
-    scree_sample sample; ///< the last one
-    bool has_sample;     ///< there is a last one
-    bool sampled;        ///< the last step made a sample
-    bool stage_ended;    ///< the last step ended a stage
-    char reason[192];    ///< why it ended
+    scree_columns columns; ///< of series.csv
+    double *sample;        ///< the last row of them
+    bool has_sample;       ///< there is a last one
+    bool sampled;          ///< the last step made a sample
+    bool stage_ended;      ///< the last step ended a stage
+    char reason[192];      ///< why it ended
     scree_own_force_list forces;
     scree_contact_point *points; ///< what the library has handed out
     size_t point_capacity;

@@ -9,6 +9,7 @@
 #include "run/stage_collide.h"
 
 #include "module/key_rows.h"
+#include "run/conclusion.h"
 
 #include "base/vectors.h"
 
@@ -154,8 +155,10 @@ static double fraction(const scree_simulation *s)
     return (double)(s->state.step - s->state.stage.first_step) / (double)s->plan.expected;
 }
 
-scree_status scree_collide_results(const scree_simulation *s, scree_summary *summary, scree_error *error)
+static scree_status conclude(const scree_conclusion *run, scree_error *error)
 {
+    const scree_simulation *s = run->s;
+    scree_summary *summary = run->summary;
     const scree_config *whole = s->model.config;
     const collision *own = own_state(s);
     if (s->state.stage.index < whole->stage_count || !has_parted(&s->state) ||
@@ -207,6 +210,13 @@ static const scree_field fields[] = {
     ONE(duration, "s", "after which the stage ends in any case"),
 };
 
+static const scree_result results[] = {
+    {"restitution", "1", "coefficient of restitution"},
+    {"restitution_theory", "1", "closed form of it"},
+    {"relaxation_time", "s", "duration of the contact"},
+    {"relaxation_time_theory", "s", "closed form of it"},
+};
+
 const scree_module scree_module_collide = {
     .name = "collide",
     .meaning = "Two particles, prepared as a `pair` or as `bodies`, meet and part; nothing else acts on them.",
@@ -218,4 +228,6 @@ const scree_module scree_module_collide = {
     .state_size = sizeof(collision),
     .fields = fields,
     .field_count = sizeof fields / sizeof *fields,
+    .results = SCREE_RESULTS(results, NULL),
+    .conclude = conclude,
 };

@@ -137,7 +137,7 @@ static scree_status not_at_rest(const scree_simulation *s, const wanted_stress *
 static scree_status finished(scree_simulation *s, bool *done, scree_error *error)
 {
     const wanted_stress stress = stress_of(s);
-    double unbalanced = s->sample.value[SCREE_SAMPLE_UNBALANCED_RATIO], limit = own_config(s)->unbalanced_limit;
+    double unbalanced = s->sample[SCREE_SAMPLE_UNBALANCED_RATIO], limit = own_config(s)->unbalanced_limit;
     char within[96] = "";
     bool calm = scree_stage_elapsed(s) > s->plan.ramp_time && unbalanced < limit &&
                 (!stress.what || stress.off < stress.tolerance);

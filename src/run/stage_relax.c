@@ -3,17 +3,14 @@
 ///
 /// The first such stage looks whether the bodies are where the walls of the case leave room: none may be closer to a
 /// wall than its radius less the overlap that the guard allows.
-#include "measure/imposed_gradient.h"
 #include "module/key_rows.h"
 #include "run/loading.h"
 #include "run/sample.h"
-#include "run/simulation.h"
+#include "run/step.h"
 #include "shape/container.h"
 #include "state/case_walls.h"
-#include "state/plates.h"
 
 #include <math.h>
-#include <string.h>
 
 enum { CALM = 5 };
 
@@ -69,12 +66,9 @@ static scree_status check_room(const scree_simulation *s, scree_error *error)
 static scree_status begin(scree_simulation *s, scree_error *error)
 {
     scree_state *state = &s->state;
+    const scree_context context = scree_step_context(s);
     *scree_loading_of(state) = (scree_loading){.height = 0};
-    memset(scree_imposed(state)->prescribed, 0, sizeof scree_imposed(state)->prescribed);
-    for (int w = 0; w < SCREE_WALL_COUNT; w++) {
-        scree_plates(state)[w].velocity = 0;
-        memset(scree_plates(state)[w].tangential_velocity, 0, sizeof scree_plates(state)[w].tangential_velocity);
-    }
+    if (s->boundary->rest) s->boundary->rest(&context);
     for (size_t row = 0; row < state->count; row++) scree_body_place(state, row, state->reference[row]);
     scree_case_walls(state)->moving = own_config(s)->walls == WALLS_MOVE;
     return state->evaluations == 0 ? check_room(s, error) : SCREE_OK;
@@ -92,7 +86,7 @@ static scree_status finished(scree_simulation *s, bool *done, scree_error *error
     (void)error;
     const config *stage = own_config(s);
     scree_stage_state *state = &s->state.stage;
-    double unbalanced = s->sample.value[SCREE_SAMPLE_UNBALANCED_RATIO];
+    double unbalanced = s->sample[SCREE_SAMPLE_UNBALANCED_RATIO];
     bool calm = unbalanced < stage->unbalanced_limit;
     state->counter = calm ? state->counter + 1 : 0;
     bool over = s->state.step - state->first_step >= s->plan.expected;

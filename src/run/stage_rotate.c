@@ -14,6 +14,7 @@
 #include "measure/rotation.h"
 #include "module/key_rows.h"
 #include "run/loading.h"
+#include "run/rotation_results.h"
 #include "run/step.h"
 #include "state/pressure.h"
 
@@ -285,6 +286,24 @@ static const scree_field fields[] = {
     ONE(turn, "rad", "angle that the particle turns by in the whole stage"),
 };
 
+static const scree_result results[] = {
+    {"forced_particle", "1", "number of the particle"},
+    {"rotation_reach", "1", "how far rotations are felt, in mean diameters"},
+    SCREE_RESULT_INTERVAL("rotation_decay_length", "1", "decay length of the rotations in mean diameters"),
+    {"rotation_at_contact", "1", "rotation of the neighbours over that of the particle"},
+    {"rotation_background", "1", "rotation without the forced one"},
+    {"rotation_felt", "1", "rotation that counts as felt"},
+    SCREE_RESULT_INTERVAL("rotation_chain_correlation", "1", "correlation of rotations with force chains"),
+    SCREE_RESULT_INTERVAL("rotation_chain_alignment", "1", "alignment of rotations with force chains"),
+    SCREE_RESULT_INTERVAL("rotation_across_chains", "1", "the same across the chains"),
+    {"rose_eigenvector_angle", "degree", "angle between the peak of the rose and the first axis of T"},
+    {"rotation_tensor_angle", "degree", "angle of the first axis of T"},
+    {"rotation_tensor_first", "1", "largest eigenvalue of T"},
+    {"rotation_tensor_last", "1", "least eigenvalue of T"},
+    {"rotation_tensor_off_diagonal", "1", "off-diagonal part of T over its diagonal"},
+    {"rigid_rotation_ratio", "1", "rotation of the boundary over that of the particle"},
+};
+
 const scree_module scree_module_rotate_particle = {
     .name = "rotate_particle",
     .meaning =
@@ -299,4 +318,6 @@ const scree_module scree_module_rotate_particle = {
     .state_size = sizeof(scree_rotation),
     .fields = fields,
     .field_count = sizeof fields / sizeof *fields,
+    .results = SCREE_RESULTS(results, NULL),
+    .conclude = scree_rotation_conclude,
 };

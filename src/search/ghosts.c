@@ -15,6 +15,7 @@
 #include "search/ghosts.h"
 
 #include "base/matrix.h"
+#include "comm/comm.h"
 #include "state/periodic.h"
 
 #include <math.h>
@@ -124,20 +125,8 @@ scree_status scree_ghosts_make(scree_state *state, scree_work *work, scree_error
     for (size_t row = 0; row < state->count && !status; row++)
         status = append_images(state, work, &range, (uint32_t)row, error);
     list->by_parent = list->count;
-    if (!status) status = scree_ghosts_make_rows(state, work, error);
-    if (status) list->count = 0;
-    return status;
-}
-
-scree_status scree_ghosts_make_rows(scree_state *state, scree_work *work, scree_error *error)
-{
-    const scree_ghost_list *list = &work->ghosts;
-    scree_status status = scree_state_reserve_rows(state, scree_row_count(state, work), error);
-    for (size_t k = 0; k < list->count && !status; k++) {
-        state->id[state->count + k] = state->id[list->ghost[k].parent];
-        state->mark[state->count + k] = state->mark[list->ghost[k].parent];
-    }
-    if (!status) scree_ghosts_place(state, work);
+    if (!status) return scree_comm_begin(state, work, error);
+    list->count = 0;
     return status;
 }
 
@@ -178,47 +167,6 @@ scree_status scree_ghosts_row(scree_work *work, uint32_t bodies, uint32_t parent
     }
     *row = bodies + (uint32_t)list->count;
     return append_ghost(list, parent, shift, error);
-}
-
-typedef struct place_task {
-    scree_state *state;
-    const scree_ghost_list *list;
-    double lattice_velocity[9];
-} place_task;
-
-static void place_image(const place_task *task, size_t k)
-{
-    scree_state *state = task->state;
-    const scree_ghost *ghost = &task->list->ghost[k];
-    const double s[3] = {ghost->shift[0], ghost->shift[1], ghost->shift[2]};
-    scree_row *image = &state->row[state->count + k];
-    scree_vector place, velocity;
-    scree_matrix_apply(scree_cell(state)->lattice, s, place);
-    scree_matrix_apply(task->lattice_velocity, s, velocity);
-    *image = state->row[ghost->parent];
-    image->x += place[0];
-    image->y += place[1];
-    image->vx += velocity[0];
-    image->vy += velocity[1];
-    if (state->foreseen) state->foreseen[state->count + k] = state->foreseen[ghost->parent];
-    if (state->dimension == 2) return;
-    image->z += place[2];
-    image->vz += velocity[2];
-    state->turn[state->count + k] = state->turn[ghost->parent];
-}
-
-static void place_share(void *argument, int index, int count)
-{
-    const place_task *task = argument;
-    size_t end = scree_team_begin(task->list->count, index + 1, count);
-    for (size_t k = scree_team_begin(task->list->count, index, count); k < end; k++) place_image(task, k);
-}
-
-void scree_ghosts_place(scree_state *state, scree_work *work)
-{
-    place_task task = {.state = state, .list = &work->ghosts};
-    scree_periodic_lattice_velocity(state, task.lattice_velocity);
-    scree_team_run(&work->team, scree_work_shares(work), place_share, &task);
 }
 
 void scree_ghosts_deformation(const scree_state *state, const scree_work *work, double deformation[9])

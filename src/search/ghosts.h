@@ -6,9 +6,9 @@
 #include "search/pair_search.h"
 #include "state/work.h"
 
-/// Chooses the images that may come closer than R_i + R_j + skin to a body while the list lives, makes rows for them
-/// and places them. Rows of bodies have their final order. Errors: memory; SCREE_ERROR_GUARD when the cell is narrower
-/// than two pairs of its largest bodies side by side (a pair could touch twice).
+/// Chooses the images that may come closer than R_i + R_j + skin to a body while the list lives, and makes rows for
+/// them, which messages fill (comm/comm.h). Rows of bodies have their final order. Errors: memory; SCREE_ERROR_GUARD
+/// when the cell is narrower than two pairs of its largest bodies side by side (a pair could touch twice).
 scree_status scree_ghosts_make(scree_state *state, scree_work *work, scree_error *error) SCREE_MUST_USE;
 
 /// The nearest images of two bodies: false when they are the bodies themselves; else the one of the second (of_second)
@@ -16,18 +16,10 @@ scree_status scree_ghosts_make(scree_state *state, scree_work *work, scree_error
 bool scree_ghosts_nearest(const scree_state *state, const scree_work *work, uint32_t first, uint32_t second,
                           int shift[3], bool *of_second);
 
-/// Row of a ghost, which is made where there is none yet; then scree_ghosts_make_rows is due. bodies: number of them.
+/// Row of a ghost, which is made where there is none yet; then scree_comm_begin is due. bodies: number of them.
 /// Errors: memory.
 scree_status scree_ghosts_row(scree_work *work, uint32_t bodies, uint32_t parent, const int shift[3], uint32_t *row,
                               scree_error *error) SCREE_MUST_USE;
-
-/// Room for the rows of all ghosts; places them. Errors: memory.
-scree_status scree_ghosts_make_rows(scree_state *state, scree_work *work, scree_error *error) SCREE_MUST_USE;
-
-/// Brings all images to where their bodies are now, with their motion: position + H s, velocity + H' s, spin as the
-/// body's. What forces will change in it (state->foreseen) is the same for body and image, as forces leave H' alone.
-/// Cost: one row a ghost.
-void scree_ghosts_place(scree_state *state, scree_work *work);
 
 /// Refills `chunk` with the pairs of a body and an image, each physical pair once. Errors: memory.
 scree_status scree_ghosts_search(const scree_state *state, const scree_work *work, scree_pair_chunk *chunk,

@@ -8,6 +8,7 @@
 /// Cost: n log n in the members, at rebuilds; a bisection for each pair that the search finds.
 #include "search/held.h"
 
+#include "comm/comm.h"
 #include "search/ghosts.h"
 #include "search/search.h"
 #include "state/periodic.h"
@@ -104,7 +105,7 @@ scree_status scree_held_find(const scree_model *model, scree_state *state, scree
     scree_periodic_widths(work->ghosts.lattice_inverse, width);
     for (uint32_t k = 0; k < list->count && !status; k++)
         status = find_rows(state, work, width, k, &buffer->pair[k], error);
-    if (!status && work->ghosts.count > ghosts) status = scree_ghosts_make_rows(state, work, error);
+    if (!status && work->ghosts.count > ghosts) status = scree_comm_begin(state, work, error);
     if (status) return status;
     buffer->count = list->count;
     qsort(buffer->pair, buffer->count, sizeof *buffer->pair, compare);

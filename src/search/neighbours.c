@@ -21,6 +21,7 @@
 #include "state/plates.h"
 
 #include "base/matrix.h"
+#include "comm/comm.h"
 #include "search/ghosts.h"
 #include "search/search.h"
 #include "shape/container.h"
@@ -478,6 +479,6 @@ scree_status scree_neighbours_refresh(const scree_model *model, scree_state *sta
         walls_need_rebuild(model, state, work))
         return rebuild(model, state, work, error);
     scree_status status = work->budget >= 0 ? SCREE_OK : check_list(model, state, work, error);
-    if (!status && work->ghosts.count > 0) scree_ghosts_place(state, work);
+    if (!status && work->ghosts.count > 0) scree_comm_exchange(state, work);
     return status;
 }

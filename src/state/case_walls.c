@@ -5,6 +5,8 @@
 #include "state/work.h"
 
 #include <float.h>
+#include <stdio.h>
+#include <string.h>
 
 typedef scree_case_wall_set own;
 
@@ -50,6 +52,51 @@ static scree_status follow(const scree_context *c, scree_error *error)
 
 static const scree_pass passes[] = {{SCREE_PHASE_FOLLOW, follow}};
 
+// ---- what each wall tells ----------------------------------------------------------------------------------------
+
+static bool told(const scree_config *config, size_t index, char name[SCREE_RESULT_NAME])
+{
+    if (index >= (size_t)config->wall_count) return false;
+    (void)snprintf(name, SCREE_RESULT_NAME, "%s", config->walls[index].name);
+    return true;
+}
+
+static const scree_result columns[] = {
+    {"_force_x", "N", "force of the bodies on the wall of this name"},
+    {"_force_y", "N", "force of the bodies on the wall of this name"},
+    {"_force_z", "N", "force of the bodies on the wall of this name"},
+    {"_torque_x", "N m", "torque of the bodies on the wall of this name, about its centre"},
+    {"_torque_y", "N m", "torque of the bodies on the wall of this name, about its centre"},
+    {"_torque_z", "N m", "torque of the bodies on the wall of this name, about its centre"},
+    {"_work", "J", "work of the wall of this name on the bodies since the begin of the run"},
+};
+
+static scree_status sample(const scree_context *c, size_t index, double *value, scree_error *error)
+{
+    const scree_surface_load *load = &scree_case_walls(c->state)->load[index];
+    (void)error;
+    memcpy(value, load->force, sizeof load->force);
+    memcpy(value + 3, load->torque, sizeof load->torque);
+    value[6] = load->work;
+    return SCREE_OK;
+}
+
+static const scree_result results[] = {
+    {"_work", "J", "work of the wall of this name on the bodies"},
+    {"_force", "N", "magnitude of the last force on it"},
+    {"_torque", "N m", "magnitude of the last torque on it"},
+};
+
+static scree_status conclude(const scree_context *c, size_t index, double *value, scree_error *error)
+{
+    const scree_surface_load *load = &scree_case_walls(c->state)->load[index];
+    (void)error;
+    value[0] = load->work;
+    value[1] = scree_length(load->force);
+    value[2] = scree_length(load->torque);
+    return SCREE_OK;
+}
+
 const scree_module scree_module_case_walls = {
     .name = "case_walls",
     .meaning = "the walls of the case: how far they have moved, and what the bodies do to them",
@@ -59,4 +106,7 @@ const scree_module scree_module_case_walls = {
     .checksum = checksum,
     .passes = passes,
     .pass_count = 1,
+    .columns = SCREE_RESULTS(columns, sample),
+    .results = SCREE_RESULTS(results, conclude),
+    .told = told,
 };

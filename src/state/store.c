@@ -48,7 +48,7 @@ static size_t list_array(const scree_state *state, const scree_field *field, scr
     memcpy(&array, pointer, sizeof array);
     if (field->optional && !array) return count;
     assert(count < SCREE_BODY_ARRAYS);
-    list[count] = (scree_body_array){pointer, field->stride, field->images, field->optional};
+    list[count] = (scree_body_array){pointer, field->stride, field->ghosts != SCREE_GHOSTS_NONE, field->optional};
     return count + 1;
 }
 
@@ -63,14 +63,14 @@ size_t scree_body_arrays(const scree_state *state, scree_body_array list[SCREE_B
     return count;
 }
 
-/// Grows the arrays with or without room for images from their capacity to `wanted`.
-static scree_status grow(scree_state *state, bool images, size_t capacity, size_t wanted, scree_error *error)
+/// Grows the arrays with or without room for ghosts from their capacity to `wanted`.
+static scree_status grow(scree_state *state, bool ghosts, size_t capacity, size_t wanted, scree_error *error)
 {
     scree_body_array list[SCREE_BODY_ARRAYS];
     size_t arrays = scree_body_arrays(state, list);
     scree_status status = SCREE_OK;
     for (size_t k = 0; k < arrays && !status; k++)
-        if (list[k].images == images) status = scree_reallocate(list[k].pointer, capacity, wanted, list[k].size, error);
+        if (list[k].ghosts == ghosts) status = scree_reallocate(list[k].pointer, capacity, wanted, list[k].size, error);
     // After a failure some arrays are larger than the capacity says, and the next call copies no more than it says.
     return status;
 }
@@ -105,7 +105,7 @@ scree_status scree_state_begin_field(scree_state *state, const scree_field *fiel
     void *array, *pointer = scree_field_array(state, field);
     memcpy(&array, pointer, sizeof array);
     if (array) return SCREE_OK;
-    return scree_allocate(pointer, field->images ? state->row_capacity : state->body_capacity, field->stride, error);
+    return scree_allocate(pointer, field->ghosts ? state->row_capacity : state->body_capacity, field->stride, error);
 }
 
 scree_status scree_group_reserve(scree_state *state, const scree_module *module, const scree_group *group, size_t rows,

@@ -15,7 +15,7 @@ void scree_store_close(scree_state *state);
 typedef struct scree_body_array {
     void *pointer; ///< address of the pointer to it
     size_t size;   ///< bytes of an element
-    bool images;   ///< with room for the images of a periodic cell
+    bool ghosts;   ///< with room for ghosts
     bool optional; ///< there may be none
 } scree_body_array;
 

@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 #include "io/result_names.h"
-#include "run/sample.h"
+#include "run/columns.h"
 
 #include <limits.h>
 #include <stdio.h>
@@ -76,16 +76,11 @@ static void find_case(scree_reader *reader, scree_sweep *sweep, bool embedded)
 
 static void check_column(scree_reader *reader, int64_t index, const char *key, const char *name)
 {
-    const char *names[SCREE_SAMPLE_COUNT];
+    const char *nearest = NULL;
     char path[48];
-    if (!name) return; // noted
-    for (size_t i = 0; i < SCREE_SAMPLE_COUNT; i++) {
-        names[i] = scree_sample_columns[i].name;
-        if (strcmp(names[i], name) == 0) return;
-    }
+    if (!name || scree_column_is_known(name, &nearest)) return; // noted
     const scree_node *element = scree_node_at(scree_node_find(reader->root, "curves"), (size_t)index);
     const scree_node *value = scree_node_find(element, key);
-    const char *nearest = scree_nearest(name, names, SCREE_SAMPLE_COUNT);
     (void)snprintf(path, sizeof path, "curves.%lld.%s", (long long)index, key);
     scree_problem_add(reader, value ? value->place : element->place, path, name, nearest ? nearest : "",
                       "series.csv has no column '%s'%s%s%s", scree_show(name).text, nearest ? "; did you mean '" : "",
@@ -123,7 +118,7 @@ static void check_measures(scree_reader *reader, const scree_sweep *sweep)
     size_t index = 0;
     for (const scree_node *m = sweep->config.measures ? sweep->config.measures->first : NULL; m; m = m->next, index++) {
         if (!m->text) continue; // noted when the list is read
-        const scree_result_name *row = scree_result_name_find(m->text, NULL);
+        const scree_result *row = scree_result_name_find(m->text, NULL);
         if (!row)
             refuse_measure(reader, index, m, scree_result_name_nearest(m->text), "no run has a result");
         else if (!row->unit)
@@ -131,23 +126,34 @@ static void check_measures(scree_reader *reader, const scree_sweep *sweep)
     }
 }
 
-/// Measures of a wall are of one that a case of the sweep has.
-static void check_walls(scree_reader *reader, const scree_sweep *sweep)
+/// Whether a case has what the result of a module is about: a wall of this name.
+static bool is_told(const scree_config *config, const scree_module *module, const char *result)
 {
-    size_t index = 0, length;
+    char about[SCREE_RESULT_NAME], name[SCREE_RESULT_NAME];
+    for (size_t index = 0; module->told(config, index, about); index++)
+        for (size_t k = 0; k < module->results.count; k++)
+            if (!scree_result_call(name, about, &module->results.row[k], NULL) && strcmp(name, result) == 0)
+                return true;
+    return false;
+}
+
+/// Measures of a wall and the like are of one that a case of the sweep has.
+static void check_told(scree_reader *reader, const scree_sweep *sweep)
+{
+    size_t index = 0;
     for (const scree_node *m = sweep->config.measures ? sweep->config.measures->first : NULL; m; m = m->next, index++) {
-        bool found = !m->text || !scree_result_name_find(m->text, &length) || length == 0;
+        const scree_module *module;
+        const scree_result *row = m->text ? scree_result_name_find(m->text, &module) : NULL;
+        bool found = !row || row->name[0] != '_';
         for (size_t point = 0; point < sweep->point_count && !found; point++) {
             scree_case *c;
             if (scree_member_case(sweep, point, &c, NULL)) return;
-            for (int64_t w = 0; w < c->config.wall_count; w++)
-                found |=
-                    strlen(c->config.walls[w].name) == length && strncmp(c->config.walls[w].name, m->text, length) == 0;
+            found = is_told(&c->config, module, m->text);
             scree_case_free(c);
         }
         if (!found)
             refuse_measure(reader, index, m, scree_result_name_nearest(m->text),
-                           "there is no such wall, and no run has a result");
+                           "nothing in the cases is called so, and no run has a result");
     }
 }
 
@@ -198,7 +204,7 @@ static void apply_rules(scree_reader *reader, void *user)
     keep_overrides(reader, sweep, r->in->options);
     if (!scree_sweep_expand(reader, sweep) || !sweep->case_text) return;
     scree_sweep_check_cases(reader, sweep);
-    if (scree_problems_count(reader->problems) == 0) check_walls(reader, sweep);
+    if (scree_problems_count(reader->problems) == 0) check_told(reader, sweep);
 }
 
 static scree_status read_text(const input *in, scree_sweep **out, scree_problems **problems)

@@ -27,7 +27,7 @@ cp -r whole before
 
 # --- a whole folder
 expect 0 'run --restart whole --from NUMBER' "$scree" check whole
-for line in 'case.yaml +whole +small' 'summary.json +whole +status done' 'series.csv +whole +11 rows' 'walls.csv +whole' \
+for line in 'case.yaml +whole +small' 'summary.json +whole +status done' 'series.csv +whole +11 rows' \
     'run.h5 +whole +snapshots and checkpoints' 'snapshot 0 +whole +step 0,' 'snapshot 3 +whole +step 400,.* 11 rows' \
     'checkpoint 3 +whole +step 400' 'checkpoint 3: scree run --restart whole' 'snapshots 0 1 2 3: '; do
     grep -qE "^$line" <<<"$output" || complain "check whole does not say '$line': $output"

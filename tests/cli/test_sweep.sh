@@ -113,7 +113,7 @@ grep -q "none of the 1 members that are done has a value of 'restitution'" <<<"$
 sed 's/restitution/stepps/' failing.yaml >wrong.yaml
 expect 2 "^wrong.yaml:11:19: measures.1: no run has a result 'stepps'; did you mean 'steps'?" "$scree" sweep wrong.yaml -o never
 sed 's/restitution/drum_work/' failing.yaml >wrong.yaml
-expect 2 "^wrong.yaml:11:19: measures.1: there is no such wall, and no run has a result 'drum_work'" "$scree" sweep wrong.yaml -o never
+expect 2 "^wrong.yaml:11:19: measures.1: nothing in the cases is called so, and no run has a result 'drum_work'" "$scree" sweep wrong.yaml -o never
 sed 's/restitution/state_checksum/' failing.yaml >wrong.yaml
 expect 2 "^wrong.yaml:11:19: measures.1: a text has no mean: 'state_checksum'" "$scree" sweep wrong.yaml -o never
 [ -e never ] && complain "a refused sweep left a folder"

@@ -77,7 +77,7 @@ static inline void simulation_load(scree_simulation *s)
 /// The largest residual of the energy over the work, of what was known and the last step's sample.
 static inline double simulation_residual(const scree_simulation *s, double worst)
 {
-    return s->sampled ? fmax(worst, s->sample.value[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE]) : worst;
+    return s->sampled ? fmax(worst, s->sample[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE]) : worst;
 }
 
 /// Runs to the end of the case. Returns the largest residual of the energy over the work in its samples.

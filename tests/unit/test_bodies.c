@@ -7,7 +7,7 @@
 #include "case/case.h"
 #include "io/summary.h"
 #include "io_scratch.h"
-#include "run/stage_collide.h"
+#include "run/conclusion.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -175,7 +175,7 @@ static double restitution_of(scree_simulation *s)
     assert_true(scratch_create(folder));
     (void)snprintf(path, sizeof path, "%s/summary.json", folder);
     check(scree_summary_create(&summary, &error), &error);
-    check(scree_collide_results(s, summary, &error), &error);
+    check(scree_modules[SCREE_SLOT_collide]->conclude(&(scree_conclusion){.s = s, .summary = summary}, &error), &error);
     check(scree_summary_write(summary, path, &error), &error);
     scree_summary_destroy(summary);
     FILE *file = fopen(path, "r");

@@ -22,11 +22,12 @@ static void energy_balance_closes_and_rates_are_met(void **unused)
         while (simulation_goes_on(&s)) {
             simulation_step(&s);
             if (!s.sampled) continue;
-            const double *v = s.sample.value;
+            const double *v = s.sample;
             worst = fmax(worst, v[SCREE_SAMPLE_ENERGY_RESIDUAL_RELATIVE]);
-            if (isnan(v[SCREE_SAMPLE_RATE_RATIO]) || v[SCREE_SAMPLE_AXIAL_STRAIN] < 0.5 * strain) continue;
-            least = fmin(least, v[SCREE_SAMPLE_RATE_RATIO]);
-            most = fmax(most, v[SCREE_SAMPLE_RATE_RATIO]);
+            double ratio = scree_sample_get(&s, "rate_ratio");
+            if (isnan(ratio) || v[SCREE_SAMPLE_AXIAL_STRAIN] < 0.5 * strain) continue;
+            least = fmin(least, ratio);
+            most = fmax(most, ratio);
         }
         print_message("%s: largest energy residual over work %.3g, ratio of rates %.4f to %.4f\n",
                       boundary_variants[k].override, worst, least, most);

@@ -2,7 +2,7 @@
 #include "run_fixture.h"
 
 #include "io/summary.h"
-#include "run/stage_collide.h"
+#include "run/conclusion.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -49,7 +49,7 @@ static void read_results(scree_simulation *s, outcome *o)
     assert_true(handle >= 0);
     close(handle);
     assert_int_equal(scree_summary_create(&summary, NULL), SCREE_OK);
-    check(scree_collide_results(s, summary, &error), &error);
+    check(scree_modules[SCREE_SLOT_collide]->conclude(&(scree_conclusion){.s = s, .summary = summary}, &error), &error);
     assert_int_equal(scree_summary_write(summary, path, NULL), SCREE_OK);
     FILE *file = fopen(path, "r");
     assert_true(fread(text, 1, sizeof text - 1, file) > 0);
@@ -91,7 +91,7 @@ static outcome collide(const char *const *overrides, size_t count, bool exchange
         const scree_row *a = &s.state.row[0], *b = &s.state.row[1];
         o.momentum = fmax(o.momentum, fabs(a->mass * a->vx + b->mass * b->vx) / (a->mass * SPEED));
         assert_true(a->vy == 0 && b->vy == 0);
-        if (s.sampled) o.residual = s.sample.value[SCREE_SAMPLE_ENERGY_RESIDUAL] / s.state.ledger.initial;
+        if (s.sampled) o.residual = s.sample[SCREE_SAMPLE_ENERGY_RESIDUAL] / s.state.ledger.initial;
     }
     read_results(&s, &o);
     scree_simulation_close(&s);

@@ -95,7 +95,7 @@ static void growing_energy_is_caught(void **unused)
     while (!status && simulation_goes_on(&s)) status = scree_simulation_step(&s, &error);
     assert_int_equal(status, SCREE_ERROR_GUARD);
     if (!strstr(error.message, "energy appears from nowhere")) fail_msg("'%s'", error.message);
-    const double *value = s.sample.value;
+    const double *value = s.sample;
     assert_true(value[SCREE_SAMPLE_KINETIC] + value[SCREE_SAMPLE_ELASTIC_NORMAL] > 1.05 * s.state.ledger.initial);
     scree_simulation_close(&s);
     scree_case_free(c);

@@ -127,7 +127,7 @@ static void names_that_are_none_are_refused(void **unused)
     assert_int_equal(scree_simulation_sample(s, "time", &value, &error), SCREE_ERROR_INPUT);
     library_advance(s, 2000);
     check(scree_simulation_sample(s, "coordination", &value, &error), &error);
-    assert_true(value == s->sample.value[SCREE_SAMPLE_COORDINATION] && value > 1);
+    assert_true(value == s->sample[SCREE_SAMPLE_COORDINATION] && value > 1);
     assert_int_equal(scree_simulation_sample(s, "cordination", &value, &error), SCREE_ERROR_INPUT);
     assert_string_equal(error.accepted, "coordination");
     scree_simulation_free(s);
@@ -195,12 +195,12 @@ static void contacts_and_measures_agree(void **unused)
     assert_true(fabs(sum - force) < 1e-9 * scale);
     for (int k = 0; k < 9; k += 4) trace += structure.fabric[k];
     assert_true(fabs(trace - 1) < 1e-12);
-    assert_true(structure.coordination == s->sample.value[SCREE_SAMPLE_COORDINATION]);
-    assert_true(structure.solid_fraction == s->sample.value[SCREE_SAMPLE_SOLID_FRACTION]);
-    assert_true(-stress[4] == s->sample.value[SCREE_SAMPLE_AXIAL_CONTACTS]);
+    assert_true(structure.coordination == s->sample[SCREE_SAMPLE_COORDINATION]);
+    assert_true(structure.solid_fraction == s->sample[SCREE_SAMPLE_SOLID_FRACTION]);
+    assert_true(-stress[4] == s->sample[SCREE_SAMPLE_AXIAL_CONTACTS]);
     assert_true(fabs(boundary[4] / stress[4] - 1) < 0.05);
-    assert_true(scree_simulation_volume(s) == s->sample.value[SCREE_SAMPLE_VOLUME]);
-    assert_true(library_energies(s).residual == s->sample.value[SCREE_SAMPLE_ENERGY_RESIDUAL]);
+    assert_true(scree_simulation_volume(s) == s->sample[SCREE_SAMPLE_VOLUME]);
+    assert_true(library_energies(s).residual == s->sample[SCREE_SAMPLE_ENERGY_RESIDUAL]);
     scree_simulation_free(s);
     scree_case_free(c);
 }

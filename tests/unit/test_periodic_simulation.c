@@ -127,10 +127,10 @@ static void stages_do_what_they_say(void **unused)
             steps = (sampled ? 0 : steps) + 1;
             for (int k = 0; k < 2 && s.stage_ended; k++) assert_true(fabs(mean[k] / steps / 1e5 + 1) < 0.002);
         }
-        if (stage == 2 && s.stage_ended) assert_true(fabs(s.sample.value[SCREE_SAMPLE_AXIAL_STRAIN] - 0.01) < 1e-5);
-        if (stage == 3 && s.sampled && s.sample.value[SCREE_SAMPLE_AXIAL_STRAIN] > 0.2) {
-            held += s.sample.value[SCREE_SAMPLE_AXIAL_PLATES];
-            lateral += s.sample.value[SCREE_SAMPLE_LATERAL_APPLIED];
+        if (stage == 2 && s.stage_ended) assert_true(fabs(s.sample[SCREE_SAMPLE_AXIAL_STRAIN] - 0.01) < 1e-5);
+        if (stage == 3 && s.sampled && s.sample[SCREE_SAMPLE_AXIAL_STRAIN] > 0.2) {
+            held += s.sample[SCREE_SAMPLE_AXIAL_PLATES];
+            lateral += s.sample[SCREE_SAMPLE_LATERAL_APPLIED];
             rows++;
         }
     }
@@ -164,7 +164,7 @@ static void plates_close_the_other_direction(void **unused)
     assert_true(s.work.ghosts.count > 0 && !scree_plates(&s.state)[SCREE_WALL_LEFT].active);
     assert_true(worst < 1e-4);
     // Contact stress and plates agree to the inertia of a fast compression.
-    const double *v = s.sample.value;
+    const double *v = s.sample;
     assert_true(fabs(v[SCREE_SAMPLE_AXIAL_CONTACTS] / v[SCREE_SAMPLE_AXIAL_PLATES] - 1) < 0.1);
     assert_true(fabs(v[SCREE_SAMPLE_AREA] - scree_cell(&s.state)->lattice[0] * v[SCREE_SAMPLE_HEIGHT]) < 1e-12);
     scree_simulation_close(&s);

@@ -29,7 +29,7 @@ static const scree_module test_module;
         .stride = sizeof(element), __VA_ARGS__                                                                         \
     }
 static const scree_field test_fields[] = {
-    BODY_FIELD(wear, double, "wear", SCREE_FIELD_DOUBLE, 1, .images = true),
+    BODY_FIELD(wear, double, "wear", SCREE_FIELD_DOUBLE, 1, .ghosts = SCREE_GHOSTS_FOLLOW),
     BODY_FIELD(colour, uint8_t[3], "colour", SCREE_FIELD_UINT8, 2, .offset = 0),
     BODY_FIELD(colour, uint8_t[3], "shade", SCREE_FIELD_UINT8, 1, .offset = 2),
     BODY_FIELD(heat, float, "heat", SCREE_FIELD_FLOAT, 1, .optional = true),

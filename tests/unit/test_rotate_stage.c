@@ -109,9 +109,9 @@ static void the_ledger_closes_with_the_work_of_the_torque(void **unused)
     scree_case *c = case_read(DISCS, NULL, 0);
     open_at_stage(c, 1, &s);
     // What was open before is of the loose packing that was pressed together.
-    double before = s.sample.value[SCREE_SAMPLE_ENERGY_RESIDUAL], friction = s.state.ledger.friction;
+    double before = s.sample[SCREE_SAMPLE_ENERGY_RESIDUAL], friction = s.state.ledger.friction;
     while (s.state.stage.index < 3) simulation_step(&s);
-    double residual = s.sample.value[SCREE_SAMPLE_ENERGY_RESIDUAL] - before, forced = s.state.ledger.forced;
+    double residual = s.sample[SCREE_SAMPLE_ENERGY_RESIDUAL] - before, forced = s.state.ledger.forced;
     assert_true(forced > 0 && s.state.ledger.friction - friction > 0.2 * forced);
     // Trapezoidal work against the true one of a nonlinear law in 500 steps.
     assert_true(fabs(residual) < 1e-3 * forced);

@@ -1,4 +1,5 @@
 /// The schema table is sound, the written case reads back bit for bit, and the reference in docs/ is up to date.
+#include "base/schedule.h"
 #include "base/units.h"
 #include "case/case.h"
 #include "case/check.h"
@@ -75,7 +76,7 @@ static void check_key(const scree_section *section, const scree_key *key)
     check_limit(key, &key->most);
     if (key->when) check_when(section, key);
     bool number = key->type == SCREE_KEY_NUMBER || key->type == SCREE_KEY_VECTOR || key->type == SCREE_KEY_PAIRS ||
-                  key->type == SCREE_KEY_TENSOR;
+                  key->type == SCREE_KEY_TENSOR || key->type == SCREE_KEY_SCHEDULE;
     assert_int_equal(key->unit != NULL, number);
     if (number) {
         double one;
@@ -168,6 +169,11 @@ static void compare_section(const scree_section *section, const char *a, const c
             if (!text_a != !text_b || (text_a && strcmp(text_a, text_b) != 0)) fail_msg("%s differs", key->name);
         } else if (key->type == SCREE_KEY_SECTION) {
             compare_section(key->sections, x, y);
+        } else if (key->type == SCREE_KEY_SCHEDULE) {
+            for (size_t k = 0; k < (key->components > 0 ? key->components : 1); k++)
+                if (!scree_schedule_is_same((const scree_schedule *)(const void *)x + k,
+                                            (const scree_schedule *)(const void *)y + k))
+                    fail_msg("%s differs", key->name);
         } else if (key->type == SCREE_KEY_LIST || key->type == SCREE_KEY_PAIRS) {
             compare_list(key, a, b);
         } else if (key->type != SCREE_KEY_PATHS && memcmp(x, y, sizes[key->type]) != 0) {

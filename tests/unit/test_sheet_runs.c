@@ -116,7 +116,7 @@ static void the_energy_balance_closes(void **unused)
     while (s.state.stage.index < 3) {
         simulation_step(&s);
         if (!s.sampled) continue;
-        double residual = s.sample.value[SCREE_SAMPLE_ENERGY_RESIDUAL];
+        double residual = s.sample[SCREE_SAMPLE_ENERGY_RESIDUAL];
         if (s.state.stage.index < 2) begin = residual, turnover = s.state.ledger.turnover;
         if (s.state.stage.index == 2) worst = fmax(worst, fabs(residual - begin));
     }
@@ -190,8 +190,8 @@ static void a_sample_is_held_by_its_membrane(void **unused)
     int samples = 0;
     while (s.state.stage.index < 3) {
         simulation_step(&s);
-        if (!s.sampled || !(s.sample.value[SCREE_SAMPLE_AXIAL_STRAIN] > 0.01)) continue;
-        const double *v = s.sample.value;
+        if (!s.sampled || !(s.sample[SCREE_SAMPLE_AXIAL_STRAIN] > 0.01)) continue;
+        const double *v = s.sample;
         axial += v[SCREE_SAMPLE_AXIAL_CONTACTS];
         plates += v[SCREE_SAMPLE_AXIAL_PLATES];
         lateral += v[SCREE_SAMPLE_LATERAL_CONTACTS];

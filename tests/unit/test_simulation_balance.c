@@ -35,7 +35,7 @@ static void stresses_agree(void **unused)
     while (simulation_goes_on(&s)) {
         simulation_step(&s);
         if (!s.sampled || !s.stage || !s.stage->loading) continue;
-        const double *v = s.sample.value;
+        const double *v = s.sample;
         if (first) {
             // The stop rule of the confinement allows 5 % for the plates.
             assert_true(fabs(v[SCREE_SAMPLE_LATERAL_CONTACTS] / 1e5 - 1) < 0.05);

@@ -133,12 +133,12 @@ static void the_energy_balance_closes(void **unused)
     static const char *const overrides[] = {SEQUENCE(2, 20, 5)};
     run r;
     start(&r, 1, overrides, 3);
-    double residual = r.s.sample.value[SCREE_SAMPLE_ENERGY_RESIDUAL], turnover = r.s.state.ledger.turnover;
+    double residual = r.s.sample[SCREE_SAMPLE_ENERGY_RESIDUAL], turnover = r.s.state.ledger.turnover;
     double scheme = r.s.state.ledger.scheme, worst = 0;
     while (simulation_goes_on(&r.s)) {
         simulation_step(&r.s);
         if (!r.s.sampled) continue;
-        double change = r.s.sample.value[SCREE_SAMPLE_ENERGY_RESIDUAL] - residual;
+        double change = r.s.sample[SCREE_SAMPLE_ENERGY_RESIDUAL] - residual;
         worst = fmax(worst, fabs(change) / (r.s.state.ledger.turnover - turnover));
     }
     double booked = fabs(r.s.state.ledger.scheme - scheme) / (r.s.state.ledger.turnover - turnover);
@@ -157,7 +157,7 @@ static double mean_slip(const char *const *overrides, size_t count)
     while (simulation_goes_on(&r.s)) {
         simulation_step(&r.s);
         if (!r.s.sampled || !(scree_axial_strain(&r.s) > 2e-3)) continue;
-        slip += r.s.sample.value[SCREE_SAMPLE_SLIP_RATIO];
+        slip += r.s.sample[SCREE_SAMPLE_SLIP_RATIO];
         samples++;
     }
     finish(&r);

@@ -31,7 +31,7 @@ static const char *const discs[][3] = {
 typedef struct outcome {
     uint64_t checksum;
     double step, critical, phi;
-    scree_sample sample; ///< the last
+    double sample[SCREE_SAMPLE_COUNT]; ///< the last
 } outcome;
 
 static outcome run_case(const char *materials, const char *rest, const char *const *overrides, size_t count)
@@ -43,7 +43,8 @@ static outcome run_case(const char *materials, const char *rest, const char *con
     scree_case *c = case_read(text, overrides, count);
     simulation_open(c, 1, &s);
     simulation_finish(&s);
-    o = (outcome){.step = s.model.step, .critical = s.model.critical_step, .phi = s.model.phi, .sample = s.sample};
+    o = (outcome){.step = s.model.step, .critical = s.model.critical_step, .phi = s.model.phi};
+    memcpy(o.sample, s.sample, sizeof o.sample);
     o.checksum = simulation_close(&s);
     scree_case_free(c);
     return o;

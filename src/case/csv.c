@@ -1,0 +1,177 @@
+/// Tables in files become lists in the tree of a case: see csv.h.
+#include "case/csv.h"
+
+#include "base/memory.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+enum { LARGEST_FILE = 1 << 20, MOST_CELLS = 8, LONGEST_PATH = 4096 };
+
+/// A file that is being read.
+typedef struct table {
+    scree_reader *reader;
+    const char *path; ///< of the key
+    scree_place place;
+    scree_node *list;              ///< of the rows
+    const char *units[MOST_CELLS]; ///< of the columns; NULL: SI
+    bool begun;                    ///< the names of the columns, or a first row, have been read
+} table;
+
+bool scree_csv_is_named(const scree_node *node)
+{
+    if (!node || node->kind != SCREE_NODE_SCALAR) return false;
+    size_t length = strlen(node->text);
+    return length > 4 && strcasecmp(node->text + length - 4, ".csv") == 0;
+}
+
+// ---- cells and rows ----------------------------------------------------------------------------------------------
+
+static bool begins_with_number(const char *text)
+{
+    return strspn(text, "+-.0123456789") > 0;
+}
+
+/// Cuts white space off both ends of what lies between `begin` and `end`.
+static char *trim(char *begin, char *end)
+{
+    while (begin < end && strchr(" \t\r", *begin)) begin++;
+    while (end > begin && strchr(" \t\r", end[-1])) end--;
+    *end = 0;
+    return begin;
+}
+
+static scree_node *append(table *t, scree_node *parent, const scree_node *child)
+{
+    scree_node *node = scree_arena_take(t->reader->arena, sizeof *node);
+    if (!node) {
+        scree_reader_fail(t->reader, sizeof *node);
+        return NULL;
+    }
+    *node = *child;
+    scree_node_append(parent, node);
+    return node;
+}
+
+/// What stands in [ ] in the name of a column; NULL: nothing.
+static const char *unit_in(char *name)
+{
+    char *open = strchr(name, '['), *close = open ? strchr(open, ']') : NULL;
+    return close ? trim(open + 1, close) : NULL;
+}
+
+/// A plain number has the unit of its column.
+static const char *with_unit(table *t, const char *cell, const char *unit)
+{
+    char text[200];
+    if (!unit || !cell[0] || strlen(cell) + strlen(unit) + 2 > sizeof text) return cell;
+    if (strspn(cell, "+-.0123456789eE") < strlen(cell)) return cell;
+    int length = snprintf(text, sizeof text, "%s %s", cell, unit);
+    const char *copy = scree_arena_copy(t->reader->arena, text, (size_t)length);
+    if (!copy) scree_reader_fail(t->reader, sizeof text);
+    return copy;
+}
+
+static bool refuse(const table *t, const char *message)
+{
+    scree_problem_add(t->reader, t->place, t->path, NULL, NULL, "%s", message);
+    return false;
+}
+
+static bool add_row(table *t, char *const cells[], const size_t columns[], size_t count)
+{
+    if (t->list->count == SCREE_TABLE_ROWS) return refuse(t, "a table has at most 2000 rows");
+    scree_node *row = append(t, t->list, &(scree_node){.kind = SCREE_NODE_LIST, .place = t->place});
+    for (size_t k = 0; row && k < count; k++) {
+        scree_node cell = {.place = t->place, .text = with_unit(t, cells[k], t->units[k])};
+        cell.place.column = (int)columns[k];
+        if (!cell.text || !append(t, row, &cell)) return false;
+    }
+    return row != NULL;
+}
+
+/// A line without its end, which may be changed.
+static bool read_line(table *t, char *line)
+{
+    char *cells[MOST_CELLS], *end = line + strcspn(line, "#"), *at = line;
+    size_t columns[MOST_CELLS], count = 0;
+    *end = 0;
+    if (!*trim(line, end)) return true;
+    for (bool more = true; more; count++) {
+        if (count == MOST_CELLS) return refuse(t, "a row of a table has at most 8 values");
+        char *stop = at + strcspn(at, ",;");
+        more = *stop != 0;
+        cells[count] = trim(at, stop);
+        columns[count] = (size_t)(cells[count] - line) + 1;
+        at = stop + 1;
+    }
+    bool names = !t->begun && !begins_with_number(cells[0]);
+    t->begun = true;
+    for (size_t k = 0; names && k < count; k++) t->units[k] = unit_in(cells[k]);
+    return names || add_row(t, cells, columns, count);
+}
+
+// ---- the file ----------------------------------------------------------------------------------------------------
+
+/// The bytes of the file in the arena, with a NUL behind them; NULL with *reason, or when memory ran out (noted).
+static char *read_bytes(scree_reader *reader, const char *name, size_t *length, const char **reason)
+{
+    struct stat about;
+    *reason = strerror(ENOENT);
+    FILE *file = NULL;
+    if (stat(name, &about) != 0)
+        *reason = strerror(errno);
+    else if (!S_ISREG(about.st_mode))
+        *reason = "it is not a file";
+    else if (about.st_size > LARGEST_FILE)
+        *reason = "it is larger than 1 MiB";
+    else if (!(file = fopen(name, "rbe")))
+        *reason = strerror(errno);
+    if (!file) return NULL;
+    char *bytes = scree_arena_take(reader->arena, LARGEST_FILE + 1);
+    if (!bytes) scree_reader_fail(reader, LARGEST_FILE);
+    *length = bytes ? fread(bytes, 1, LARGEST_FILE, file) : 0;
+    bool whole = !ferror(file);
+    (void)fclose(file);
+    *reason = whole ? NULL : "it cannot be read to its end";
+    return whole ? bytes : NULL;
+}
+
+static const char *path_beside(const scree_reader *reader, const char *name, char path[LONGEST_PATH])
+{
+    const char *source = reader->root->place.source, *slash = source ? strrchr(source, '/') : NULL;
+    int folder = name[0] == '/' || !slash ? 0 : (int)(slash - source) + 1;
+    int length = snprintf(path, LONGEST_PATH, "%.*s%s", folder, folder ? source : "", name);
+    return length < LONGEST_PATH ? path : name;
+}
+
+bool scree_csv_expand(scree_reader *reader, scree_node *node, const char *path)
+{
+    char where[LONGEST_PATH];
+    const char *reason, *name = path_beside(reader, node->text, where);
+    size_t length = 0;
+    char *bytes = read_bytes(reader, name, &length, &reason);
+    if (!bytes && reason)
+        scree_problem_add(reader, node->place, path, node->text, NULL, "the file of this table cannot be used: %s",
+                          reason);
+    if (!bytes) return false;
+    scree_node list = {.kind = SCREE_NODE_LIST, .place = node->place, .key = node->key, .key_place = node->key_place};
+    table t = {.reader = reader, .path = path, .place = node->place, .list = &list};
+    t.place.source = scree_arena_copy(reader->arena, name, strlen(name));
+    t.place.line = 0;
+    if (!t.place.source) scree_reader_fail(reader, strlen(name));
+    if (memchr(bytes, 0, length)) return refuse(&t, "this is not a text file: it has a NUL character");
+    for (char *line = bytes, *next; line && !reader->failure.status; line = next) {
+        next = strchr(line, '\n');
+        if (next) *next++ = 0;
+        t.place.line++;
+        t.place.column = 1;
+        if (!read_line(&t, line)) return false;
+    }
+    list.next = node->next;
+    *node = list;
+    return !reader->failure.status;
+}

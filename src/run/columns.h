@@ -1,0 +1,30 @@
+/// The columns of series.csv: those of run/sample.c, then those that modules declare, by their place in the table.
+#ifndef SCREE_RUN_COLUMNS_H
+#define SCREE_RUN_COLUMNS_H
+
+#include "case/config.h"
+#include "io/series.h"
+#include "module/result.h"
+
+/// Those of one case.
+typedef struct scree_columns {
+    scree_series_column *column;
+    char (*name)[SCREE_RESULT_NAME]; ///< that `column` points to
+    size_t count;
+} scree_columns;
+
+/// Errors: SCREE_ERROR_INPUT when two columns would have one name; memory.
+scree_status scree_columns_create(const scree_config *config, scree_columns *columns,
+                                  scree_error *error) SCREE_MUST_USE;
+void scree_columns_destroy(scree_columns *columns);
+
+/// Number of a column; `count` when there is none of this name.
+size_t scree_columns_find(const scree_columns *columns, const char *name);
+
+/// Fills the values of the modules' columns; those of run/sample.c are there.
+scree_status scree_columns_measure(const scree_context *context, double *value, scree_error *error) SCREE_MUST_USE;
+
+/// Whether some case has this column; if not, *nearest is the name that is nearest, or NULL.
+bool scree_column_is_known(const char *name, const char **nearest);
+
+#endif
