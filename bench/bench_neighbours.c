@@ -60,8 +60,8 @@ static double push_apart(scree_state *state, const scree_work *work, scree_vecto
     for (size_t k = 0; k < work->pairs.count; k++) {
         uint32_t first = work->pairs.first[k], second = work->pairs.second[k];
         scree_vector a, b;
-        scree_body_place(state, first, a);
-        scree_body_place(state, second, b);
+        scree_body_position(state, first, a);
+        scree_body_position(state, second, b);
         scree_vector apart = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
         double distance = scree_length(apart),
                overlap = state->row[first].radius + state->row[second].radius - distance;
@@ -75,7 +75,7 @@ static double push_apart(scree_state *state, const scree_work *work, scree_vecto
         uint32_t body = work->wall_pairs.body[k];
         const scree_wall *wall = &scree_plates(state)[work->wall_pairs.wall[k]];
         scree_vector a;
-        scree_body_place(state, body, a);
+        scree_body_position(state, body, a);
         double along = wall->normal[0] * a[0] + wall->normal[1] * a[1] + wall->normal[2] * a[2];
         double overlap = state->row[body].radius + wall->position - along;
         for (int c = 0; c < 3 && overlap > 0; c++) push[body][c] += 0.6 * overlap * wall->normal[c];

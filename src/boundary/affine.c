@@ -8,7 +8,7 @@
 #include "base/fixed.h"
 #include "base/integer_sum.h"
 #include "boundary/boundary.h"
-#include "boundary/drive.h"
+#include "boundary/imposed_gradient.h"
 #include "measure/facets.h"
 #include "measure/imposed_gradient.h"
 #include "module/key_rows.h"
@@ -20,11 +20,11 @@ static void find_centre(const scree_state *state, scree_vector centre)
 {
     size_t count = scree_boundary_count(state);
     scree_integer_sum sum[3] = {0};
-    scree_vector place;
+    scree_vector position;
     while (scree_integer_sum_next(sum, 3))
         for (size_t k = 0; k < count; k++) {
-            scree_body_place(state, scree_boundary_row(state, k), place);
-            for (int i = 0; i < 3; i++) scree_integer_sum_add(&sum[i], place[i]);
+            scree_body_position(state, scree_boundary_row(state, k), position);
+            for (int i = 0; i < 3; i++) scree_integer_sum_add(&sum[i], position[i]);
         }
     for (int i = 0; i < 3; i++) centre[i] = scree_integer_sum_total(&sum[i]) / (double)count;
 }
@@ -32,11 +32,11 @@ static void find_centre(const scree_state *state, scree_vector centre)
 /// Velocity that a body of the boundary shall have.
 static void wanted_velocity(const scree_state *state, size_t row, const scree_vector centre, scree_vector velocity)
 {
-    scree_vector place;
-    scree_body_place(state, row, place);
+    scree_vector position;
+    scree_body_position(state, row, position);
     for (int i = 0; i < 3; i++) {
         velocity[i] = 0;
-        for (int j = 0; j < 3; j++) velocity[i] += scree_imposed(state)->target[3 * i + j] * (place[j] - centre[j]);
+        for (int j = 0; j < 3; j++) velocity[i] += scree_imposed(state)->target[3 * i + j] * (position[j] - centre[j]);
     }
 }
 
@@ -54,23 +54,23 @@ static void move_bodies(scree_state *state, const scree_vector centre, double ki
             double force = state->row[row].mass * (wanted[i] - velocity[i]) / kick;
             quanta[i] = llrint(force / state->force_quantum) - others[i];
         }
-        scree_drive_add(state, k, quanta);
+        scree_imposed_add(state, k, quanta);
     }
 }
 
 static void add_forces(const scree_model *model, scree_state *state, scree_work *work)
 {
-    scree_imposed_gradient *drive = scree_imposed(state);
-    if (drive->count == 0) return;
+    scree_imposed_gradient *imposed = scree_imposed(state);
+    if (imposed->count == 0) return;
     double rate[9];
     scree_vector centre;
-    scree_boundary_areas(model, state, drive->force);
-    (void)scree_drive_measure(state, drive->force, rate);
-    scree_drive_record(state, rate);
-    memset(drive->force, 0, drive->count * sizeof *drive->force);
+    scree_boundary_areas(model, state, imposed->force);
+    (void)scree_imposed_measure(state, imposed->force, rate);
+    scree_imposed_record(state, rate);
+    memset(imposed->force, 0, imposed->count * sizeof *imposed->force);
     find_centre(state, centre);
     move_bodies(state, centre, work->next_kick);
-    scree_drive_work(state);
+    scree_imposed_add_work(state);
 }
 
 static double bound(const scree_context *c)
@@ -106,7 +106,7 @@ static const scree_boundary face = {
     .needs_gradient = "affine needs all components of a velocity gradient: use a deform stage",
     .needs_all = "affine moves every body of the boundary: all components must be given",
     .kept = SCREE_IMPOSED_KEPT,
-    .begin = scree_drive_begin,
+    .begin = scree_imposed_begin,
     .passes = passes,
     .pass_count = COUNT(passes),
     .bound = bound,

@@ -1,8 +1,8 @@
 /// Boundaries: one file a kind, one descriptor each, with the face of module/boundary.h.
 ///
 /// A boundary says which walls stand, and may add forces to the sums besides the pressure on the Delaunay boundary
-/// (pressure.c), which acts wherever no wall stands. Every force it adds is booked by the rule of the ledger, half with
-/// the velocity before it and half with the one after (measure/energy.c), and kept in the state for that.
+/// (pressure.c), which acts wherever no wall stands. Every force it adds is accumulated by the rule of the ledger, half
+/// with the velocity before it and half with the one after (measure/energy.c), and kept in the state for that.
 #ifndef SCREE_BOUNDARY_BOUNDARY_H
 #define SCREE_BOUNDARY_BOUNDARY_H
 

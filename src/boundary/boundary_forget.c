@@ -52,7 +52,7 @@ static void place_anew(scree_state *state)
         loop->x[k] = x[0];
         loop->y[k] = x[1];
     }
-    for (size_t k = 0; k < hull->node_count; k++) scree_hull_position(state, k, hull->place[k]);
+    for (size_t k = 0; k < hull->node_count; k++) scree_hull_position(state, k, hull->position[k]);
 }
 
 /// Replaces a triangle around `node` by one with the corner `apex`; false where that has no area.

@@ -37,7 +37,7 @@ static const scree_field fields[] = {
 
     HULL(scree_hull_nodes, id, uint32_t, "id", SCREE_FIELD_UINT32, 1, "1", "bodies on the hull, by id, ascending",
          SCREE_RANGE_TO(SCREE_LIMIT_BODY)),
-    HULL(scree_hull_nodes, place, scree_vector, "place", SCREE_FIELD_DOUBLE, 3, "m",
+    HULL(scree_hull_nodes, position, scree_vector, "position", SCREE_FIELD_DOUBLE, 3, "m",
          "centre when the hull was last found", SCREE_RANGE_TO(SCREE_LIMIT_FARTHEST)),
     HULL(scree_hull_nodes, force, scree_vector, "force", SCREE_FIELD_DOUBLE, 3, "N",
          "force of the boundary on this body"),

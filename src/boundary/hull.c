@@ -13,7 +13,7 @@
 #include "state/plates.h"
 
 #include "base/integer_sum.h"
-#include "boundary/facing.h"
+#include "boundary/loaded_triangles.h"
 #include "boundary/pressed_facet.h"
 #include "measure/facets.h"
 #include "measure/hull.h"
@@ -38,7 +38,7 @@ static scree_status find_surface(const scree_model *model, const scree_state *st
     if (!status) status = scree_allocate(&radius, count, sizeof *radius, error);
     if (!status) {
         for (size_t k = 0; k < count; k++) {
-            scree_body_place(state, row[k], points + 3 * k);
+            scree_body_position(state, row[k], points + 3 * k);
             radius[k] = scree_body_bounding_radius(state, row[k]);
         }
         status = scree_outer_surface(points, radius, count, 2 * model->mean_radius, &rule, surface, error);
@@ -55,7 +55,7 @@ static scree_status find_surface(const scree_model *model, const scree_state *st
 static void hull_destroy(scree_hull *hull)
 {
     scree_release(&hull->id);
-    scree_release(&hull->place);
+    scree_release(&hull->position);
     scree_release(&hull->force);
     scree_release(&hull->triangle);
     scree_release(&hull->loaded);
@@ -65,7 +65,7 @@ static scree_status hull_create(scree_hull *hull, size_t nodes, size_t triangles
 {
     *hull = (scree_hull){.node_capacity = nodes, .triangle_capacity = triangles};
     scree_status status = scree_allocate(&hull->id, nodes, sizeof *hull->id, error);
-    if (!status) status = scree_allocate(&hull->place, nodes, sizeof *hull->place, error);
+    if (!status) status = scree_allocate(&hull->position, nodes, sizeof *hull->position, error);
     if (!status) status = scree_allocate(&hull->force, nodes, sizeof *hull->force, error);
     if (!status) status = scree_allocate(&hull->triangle, triangles, sizeof *hull->triangle, error);
     if (!status) status = scree_allocate(&hull->loaded, triangles, sizeof *hull->loaded, error);
@@ -83,7 +83,7 @@ static scree_status fill_hull(const scree_state *state, const scree_triangle_sur
     if (status) return status;
     for (size_t id = 0; id < state->id_count; id++) {
         if (!node_of[id]) continue;
-        scree_body_place(state, state->row_of_id[id], hull->place[hull->node_count]);
+        scree_body_position(state, state->row_of_id[id], hull->position[hull->node_count]);
         hull->id[hull->node_count] = (uint32_t)id;
         node_of[id] = (uint32_t)hull->node_count++;
     }
@@ -176,8 +176,8 @@ double scree_hull_pressure_bound(const scree_model *model, const scree_state *st
     for (int k = 0; k < 3; k++) {
         double low = INFINITY, high = -INFINITY;
         for (size_t i = 0; i < hull->node_count; i++) {
-            low = fmin(low, hull->place[i][k]);
-            high = fmax(high, hull->place[i][k]);
+            low = fmin(low, hull->position[i][k]);
+            high = fmax(high, hull->position[i][k]);
         }
         square += (high - low) * (high - low);
     }

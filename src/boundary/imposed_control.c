@@ -1,7 +1,7 @@
 /// Boundaries that impose a velocity gradient on the Delaunay boundary: the pressure acts on all sides, what is not
 /// prescribed is free. In compression the axial component is imposed, - rate / (1 - strain) at the strain that the rate
 /// has led to.
-#include "boundary/drive.h"
+#include "boundary/imposed_gradient.h"
 #include "boundary/minimal.h"
 #include "boundary/plates.h"
 #include "state/pressure.h"

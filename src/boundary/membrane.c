@@ -20,9 +20,9 @@
 /// Hand-over. The pressure passes from the grains of the Delaunay boundary to the membrane smoothly within RAMP_WAVES
 /// wave times (scree_direct_pressure), so that a sample confined directly can be wrapped at any time.
 ///
-/// Books. Pressure in ledger.pressure; springs and ends, which are the boundary's own, as work in ledger.boundary. The
-/// energy that the springs store is the negative of their part of it, up to the third order in the step.
-/// Cost: O(bodies of the membrane) a step.
+/// Accumulates. Pressure in ledger.pressure; springs and ends, which are the boundary's own, as work in
+/// ledger.boundary. The energy that the springs store is the negative of their part of it, up to the third order in the
+/// step. Cost: O(bodies of the membrane) a step.
 #include "boundary/membrane.h"
 #include "measure/delaunay_boundary.h"
 #include "state/plates.h"
@@ -81,13 +81,13 @@ static bool find_spring(const scree_model *model, const scree_state *state, size
     const scree_membrane *membrane = scree_membrane_of(state);
     double rest = membrane->rest[k][s];
     if (!(rest > 0)) return false;
-    bool solid = state->dimension == 3;
-    found->other = solid ? scree_sheet_neighbour(membrane->around, membrane->count, k, s) : k + 1;
-    bool rim = solid && s == 0 && scree_membrane_plate(state, k) >= 0;
+    bool in_3d = state->dimension == 3;
+    found->other = in_3d ? scree_sheet_neighbour(membrane->around, membrane->count, k, s) : k + 1;
+    bool rim = in_3d && s == 0 && scree_membrane_plate(state, k) >= 0;
     found->stiffness = rim ? 0.5 * model->membrane_stiffness : model->membrane_stiffness;
     scree_vector from;
-    scree_body_place(state, scree_membrane_row(state, k), from);
-    scree_body_place(state, scree_membrane_row(state, found->other), found->direction);
+    scree_body_position(state, scree_membrane_row(state, k), from);
+    scree_body_position(state, scree_membrane_row(state, found->other), found->direction);
     for (int i = 0; i < 3; i++) found->direction[i] -= from[i];
     double length = scree_length(found->direction);
     for (int i = 0; i < 3; i++) found->direction[i] /= length;
@@ -174,7 +174,7 @@ static double half_work(const scree_state *state, scree_vector *force)
     return 0.5 * state->step_size * scree_integer_sum_total(&power);
 }
 
-static void book_half_work(scree_state *state)
+static void add_half_work(scree_state *state)
 {
     double pressure = half_work(state, scree_membrane_of(state)->press),
            springs = half_work(state, scree_membrane_of(state)->force);
@@ -191,7 +191,7 @@ static void add_forces(const scree_model *model, scree_state *state, scree_work 
     scree_membrane_press(model, state, scree_pressure_now(state) - scree_direct_pressure(state));
     add_springs(model, state);
     hold_ends(model, state, work->next_kick);
-    book_half_work(state);
+    add_half_work(state);
 }
 
 /// Area [m2] on which the pressure loads one body, at most. 3D: two thirds of the six triangles around a body with
@@ -203,11 +203,11 @@ static double loaded_area(const scree_model *model, const scree_state *state, do
     double square = 0;
     for (int i = 0; i < 3; i++) {
         double low = INFINITY, high = -INFINITY;
-        scree_vector place;
+        scree_vector position;
         for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
-            scree_body_place(state, scree_membrane_row(state, k), place);
-            low = fmin(low, place[i]);
-            high = fmax(high, place[i]);
+            scree_body_position(state, scree_membrane_row(state, k), position);
+            low = fmin(low, position[i]);
+            high = fmax(high, position[i]);
         }
         square += (high - low) * (high - low);
     }
@@ -219,7 +219,7 @@ static double bound(const scree_context *c)
     const scree_model *model = c->model;
     const scree_state *state = c->state;
     double force = 0, length = 0, holding = 0;
-    bool solid = state->dimension == 3;
+    bool in_3d = state->dimension == 3;
     spring found;
     for (size_t k = 0; k < scree_membrane_of(state)->count; k++) {
         for (int s = 0; s < springs_of_body(state); s++) {
@@ -235,13 +235,13 @@ static double bound(const scree_context *c)
     }
     double pressure =
         scree_pressure_now(state) * loaded_area(model, state, length + 2 * scree_membrane_of(state)->radius);
-    return fmax(holding, (solid ? 6 : 2) * force + pressure);
+    return fmax(holding, (in_3d ? 6 : 2) * force + pressure);
 }
 
 static scree_status follow(const scree_context *c, scree_error *error)
 {
     (void)error;
-    book_half_work(c->state);
+    add_half_work(c->state);
     return SCREE_OK;
 }
 

@@ -38,7 +38,7 @@ static inline scree_membrane *scree_membrane_of(const scree_state *state)
 scree_status scree_membrane_resolve(scree_model *model, scree_error *error) SCREE_MUST_USE;
 
 /// Places the membrane around the grains between the bottom and the top plate (membrane_place.c, sheet_place.c): the
-/// bodies are appended to the state, unstressed, against the grains without indentation. Errors: memory;
+/// bodies are appended to the state, unstressed, against the grains without overlap. Errors: memory;
 /// SCREE_ERROR_GUARD when the plates are too close for two bodies, or (3D) a grain could slip through.
 scree_status scree_membrane_place(const scree_model *model, scree_state *state, scree_error *error) SCREE_MUST_USE;
 

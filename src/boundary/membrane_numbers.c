@@ -24,10 +24,10 @@ static const scree_membrane_config *own_config(const scree_model *model)
 /// has more than four thirds of its springs. membrane.c has the stiffness of the sheet.
 static double resolve_springs(scree_model *model)
 {
-    bool solid = model->dimension == 3;
-    model->membrane_stiffness = (solid ? sqrt(0.75) : 1) * own_config(model)->membrane_stiffness;
+    bool in_3d = model->dimension == 3;
+    model->membrane_stiffness = (in_3d ? sqrt(0.75) : 1) * own_config(model)->membrane_stiffness;
     double mass = scree_model_mass(model, model->membrane_material, model->membrane_radius);
-    return sqrt(mass / model->membrane_stiffness / (solid ? 2 : 1));
+    return sqrt(mass / model->membrane_stiffness / (in_3d ? 2 : 1));
 }
 
 /// A sheet needs no large bodies to be tight; a finer one lies closer to the grains and bears more stretch. But bodies

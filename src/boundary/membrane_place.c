@@ -57,7 +57,7 @@ static void place_side(const scree_model *model, scree_state *state, size_t firs
                                       .radius = membrane->radius,
                                       .mass = scree_model_mass(model, model->membrane_material, membrane->radius)};
         state->species[row] = SCREE_NO_SPECIES;
-        scree_body_place(state, row, state->reference[row]);
+        scree_body_position(state, row, state->reference[row]);
         membrane->rest[first + k][0] =
             k + 1 < count ? sqrt(spacing * spacing + (x[k + 1] - x[k]) * (x[k + 1] - x[k])) : 0;
     }

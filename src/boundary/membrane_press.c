@@ -35,25 +35,25 @@ static void add_press(scree_state *state, size_t k, const int64_t force[3])
 
 /// Point j of the outline of bodies [first, last]: the foot of the first on its plate, the bodies, the foot of the
 /// last.
-static void side_point(const scree_state *state, size_t first, size_t last, size_t j, double place[2])
+static void side_point(const scree_state *state, size_t first, size_t last, size_t j, double position[2])
 {
     size_t body = j == 0 ? first : j > last - first + 1 ? last : first + j - 1;
     const scree_row *row = &state->row[scree_membrane_row(state, body)];
     bool foot = j == 0 || j > last - first + 1;
-    place[0] = row->x;
-    place[1] = foot ? scree_plate_height(state, scree_membrane_plate(state, body)) : row->y;
+    position[0] = row->x;
+    position[1] = foot ? scree_plate_height(state, scree_membrane_plate(state, body)) : row->y;
 }
 
 /// Pressure on one side: bodies [first, last], the sample on the left.
 static void press_side(scree_state *state, size_t first, size_t last, double scale)
 {
-    double origin[2], place[2];
+    double origin[2], position[2];
     side_point(state, 0, 1, 1, origin);
     int64_t before[2] = {0}, force[3] = {0};
     for (size_t j = 0; j <= last - first + 2; j++) {
         int64_t now[2];
-        side_point(state, first, last, j, place);
-        for (int i = 0; i < 2; i++) now[i] = scree_fixed_round((place[i] - origin[i]) * scale);
+        side_point(state, first, last, j, position);
+        for (int i = 0; i < 2; i++) now[i] = scree_fixed_round((position[i] - origin[i]) * scale);
         force[0] = -(now[1] - before[1]);
         force[1] = now[0] - before[0];
         memcpy(before, now, sizeof before);
@@ -79,10 +79,10 @@ static double side_area(const scree_state *state, size_t first, size_t last)
 // ---- 3D ----------------------------------------------------------------------------------------------------------
 
 /// Centre of body k relative to `origin`.
-static void centre_of(const scree_state *state, size_t k, const scree_vector origin, scree_vector place)
+static void centre_of(const scree_state *state, size_t k, const scree_vector origin, scree_vector position)
 {
-    scree_body_place(state, scree_membrane_row(state, k), place);
-    for (int i = 0; i < 3; i++) place[i] -= origin[i];
+    scree_body_position(state, scree_membrane_row(state, k), position);
+    for (int i = 0; i < 3; i++) position[i] -= origin[i];
 }
 
 /// Edge j of a rim, in the sense of a cap that closes the tube; what is between it and the plate is loaded.
@@ -100,7 +100,7 @@ static void press_sheet(scree_state *state, double scale)
     const scree_membrane *membrane = scree_membrane_of(state);
     scree_vector origin, corner[3];
     int64_t force[2][3];
-    scree_body_place(state, scree_membrane_row(state, 0), origin);
+    scree_body_position(state, scree_membrane_row(state, 0), origin);
     for (size_t t = 0; t < scree_sheet_triangle_count(membrane->around, membrane->count); t++) {
         size_t body[3];
         scree_sheet_triangle(membrane->around, membrane->count, t, body);
@@ -176,7 +176,7 @@ double scree_membrane_volume(const scree_model *model, const scree_state *state)
         return model->thickness *
                (side_area(state, 0, membrane->right - 1) + side_area(state, membrane->right, membrane->count - 1));
     scree_vector origin;
-    scree_body_place(state, scree_membrane_row(state, 0), origin);
+    scree_body_position(state, scree_membrane_row(state, 0), origin);
     return triangles_volume(state, origin) + rim_volume(state, SCREE_WALL_BOTTOM, origin) +
            rim_volume(state, SCREE_WALL_TOP, origin);
 }

@@ -7,7 +7,8 @@
 /// target_C. P's functional Phi = 1/2 K sum e_C^2 gives F_k = - dPhi/dv_k = Lambda a_k with the uniform stress
 ///     Lambda = sum lambda_C C,     lambda_C = - kappa e_C,     kappa = K / V.
 /// So the conditions are a uniform traction that adjusts itself; kappa is a viscosity [Pa s]. The forces add up to zero
-/// (to the last bit: drive.c), those of symmetric tensors C have no moment, and their power is V Lambda : L exactly.
+/// (to the last bit: imposed_gradient.c), those of symmetric tensors C have no moment, and their power is V Lambda : L
+/// exactly.
 ///
 /// Integration. Explicitly the penalty would demand kappa h M < 2 with M_CC' = (1/V) C : (C' B), B = sum a (x) a /
 /// m_k: light boundary bodies. Instead lambda is taken at the end of the kick h, e = e_0 + h M lambda, where e_0 is
@@ -29,7 +30,7 @@
 #include "base/fixed.h"
 #include "base/integer_sum.h"
 #include "boundary/boundary.h"
-#include "boundary/drive.h"
+#include "boundary/imposed_gradient.h"
 #include "measure/facets.h"
 #include "module/key_rows.h"
 #include "state/pressure.h"
@@ -58,14 +59,14 @@ typedef struct conditions {
     int count;
 } conditions;
 
-static conditions conditions_get(const scree_imposed_gradient *drive)
+static conditions conditions_get(const scree_imposed_gradient *imposed)
 {
     conditions all = {0};
     for (int c = 0; c < 9; c++) {
-        if (drive->prescribed[c] == SCREE_FREE) continue;
-        all.tensor[all.count][c] += drive->prescribed[c] == SCREE_FULL ? 1 : 0.5;
-        if (drive->prescribed[c] == SCREE_SYMMETRIC) all.tensor[all.count][3 * (c % 3) + c / 3] += 0.5;
-        all.target[all.count++] = drive->target[c];
+        if (imposed->prescribed[c] == SCREE_FREE) continue;
+        all.tensor[all.count][c] += imposed->prescribed[c] == SCREE_FULL ? 1 : 0.5;
+        if (imposed->prescribed[c] == SCREE_SYMMETRIC) all.tensor[all.count][3 * (c % 3) + c / 3] += 0.5;
+        all.target[all.count++] = imposed->target[c];
     }
     return all;
 }
@@ -127,10 +128,10 @@ static void solve(double matrix[9][9], double *right, int count)
 }
 
 /// The stress Lambda of this step.
-static void find_stress(const scree_imposed_gradient *drive, const double rate[9], const double mobility[9],
+static void find_stress(const scree_imposed_gradient *imposed, const double rate[9], const double mobility[9],
                         double step, double stress[9])
 {
-    conditions all = conditions_get(drive);
+    conditions all = conditions_get(imposed);
     double matrix[9][9], lambda[9];
     for (int a = 0; a < all.count; a++) {
         lambda[a] = all.target[a] - double_product(all.tensor[a], rate);
@@ -138,7 +139,7 @@ static void find_stress(const scree_imposed_gradient *drive, const double rate[9
             double product[9] = {0};
             for (int i = 0; i < 9; i++)
                 for (int k = 0; k < 3; k++) product[i] += all.tensor[b][3 * (i / 3) + k] * mobility[3 * k + i % 3];
-            matrix[a][b] = step * double_product(all.tensor[a], product) + (a == b ? 1 / drive->viscosity : 0);
+            matrix[a][b] = step * double_product(all.tensor[a], product) + (a == b ? 1 / imposed->viscosity : 0);
         }
     }
     solve(matrix, lambda, all.count);
@@ -147,18 +148,18 @@ static void find_stress(const scree_imposed_gradient *drive, const double rate[9
         for (int i = 0; i < 9; i++) stress[i] += lambda[a] * all.tensor[a][i];
 }
 
-/// Whether every term of scree_drive_apply_stress is an integer below 2^60: a term is at most twice
+/// Whether every term of scree_imposed_apply_stress is an integer below 2^60: a term is at most twice
 /// the sum of the stress components times a factor and the distance of two nodes to the power d - 1. False for what is
 /// not a number.
 static bool stress_fits(const scree_model *model, const scree_state *state, const double stress[9])
 {
     double largest = 0, reach = 0;
-    scree_vector origin, place;
+    scree_vector origin, position;
     for (int i = 0; i < 9; i++) largest += fabs(stress[i]);
-    scree_body_place(state, scree_boundary_row(state, 0), origin);
+    scree_body_position(state, scree_boundary_row(state, 0), origin);
     for (size_t k = 1; k < scree_imposed(state)->count; k++) {
-        scree_body_place(state, scree_boundary_row(state, k), place);
-        for (int i = 0; i < state->dimension; i++) reach = fmax(reach, fabs(place[i] - origin[i]));
+        scree_body_position(state, scree_boundary_row(state, k), position);
+        for (int i = 0; i < state->dimension; i++) reach = fmax(reach, fabs(position[i] - origin[i]));
     }
     double scale = state->dimension == 3 ? reach / 6 : 0.5 * model->thickness;
     return 2 * largest * scale * reach < ldexp(state->force_quantum, 60);
@@ -166,23 +167,23 @@ static bool stress_fits(const scree_model *model, const scree_state *state, cons
 
 static void add_forces(const scree_model *model, scree_state *state, scree_work *work)
 {
-    scree_imposed_gradient *drive = scree_imposed(state);
-    if (drive->count == 0) return;
+    scree_imposed_gradient *imposed = scree_imposed(state);
+    if (imposed->count == 0) return;
     double actual[9], predicted[9], mobility[9];
     // The array of the forces holds the area vectors until they are known.
-    scree_boundary_areas(model, state, drive->force);
-    double volume = scree_drive_measure(state, drive->force, actual);
-    scree_drive_record(state, actual);
-    predict(state, drive->force, volume, work->next_kick, actual, predicted, mobility);
-    find_stress(drive, predicted, mobility, work->next_kick, drive->stress);
-    memset(drive->force, 0, drive->count * sizeof *drive->force);
-    if (!stress_fits(model, state, drive->stress)) {
+    scree_boundary_areas(model, state, imposed->force);
+    double volume = scree_imposed_measure(state, imposed->force, actual);
+    scree_imposed_record(state, actual);
+    predict(state, imposed->force, volume, work->next_kick, actual, predicted, mobility);
+    find_stress(imposed, predicted, mobility, work->next_kick, imposed->stress);
+    memset(imposed->force, 0, imposed->count * sizeof *imposed->force);
+    if (!stress_fits(model, state, imposed->stress)) {
         work->flags |= SCREE_FLAG_FORCE_RANGE;
         work->flagged_id = state->id[scree_boundary_row(state, 0)];
         return;
     }
-    scree_drive_apply_stress(model, state, drive->stress);
-    scree_drive_work(state);
+    scree_imposed_apply_stress(model, state, imposed->stress);
+    scree_imposed_add_work(state);
 }
 
 static double bound(const scree_context *c)
@@ -195,7 +196,7 @@ static double bound(const scree_context *c)
         scree_facet facet = scree_facet_get(state, f);
         for (int k = 1; k < facet.corners; k++) {
             scree_vector edge;
-            for (int i = 0; i < 3; i++) edge[i] = facet.place[k][i] - facet.place[0][i];
+            for (int i = 0; i < 3; i++) edge[i] = facet.position[k][i] - facet.position[0][i];
             largest = fmax(largest, scree_length(edge));
         }
     }
@@ -226,7 +227,7 @@ static const scree_boundary face = {
     .equal_steps = true,
     .full_mirrors = true,
     .kept = SCREE_IMPOSED_KEPT,
-    .begin = scree_drive_begin,
+    .begin = scree_imposed_begin,
     .passes = passes,
     .pass_count = COUNT(passes),
     .bound = bound,

@@ -4,19 +4,19 @@
 /// field with a velocity c of their own:
 ///     x' = c + L x,     m c' = F - m L c
 /// (SLLOD: Evans and Morriss 1984). This is the one motion that does not know where the cell has its faces: with x also
-/// x + H s obeys it, with the same c, for any L that changes as it likes. Driving bodies through their images alone
+/// x + H s obeys it, with the same c, for any L that changes as it likes. Driving bodies through their ghosts alone
 /// (Lees and Edwards 1972) gives the same in steady flow, but every change of L enters at the faces and runs through
 /// the sample as a wave, so that the result depends on where they are. With K the energy of c and of the spins,
 ///     K' + stored' + dissipated = V sigma : L,     V sigma = - sum over contacts f (x) b - sum over bodies m c (x) c,
-/// b the branch to the image that the contact is with: the cell works on its sample with the whole stress, contacts and
+/// b the branch to the ghost that the contact is with: the cell works on its sample with the whole stress, contacts and
 /// motion, and with nothing else. For a rotation, L antisymmetric, that is nothing but round-off.
 ///
 /// Scheme. Between two kicks by the forces of a scheme (integrate/), c- before the drift, h = dt / 2, all at midpoints:
 ///     c = (c- + c+) / 2,   c+ - c- = - dt L c      =>   c = (1 + h L)^-1 c-,   c+ = (1 - h L) c
 ///     v = c + L (x(n) + x(n+1)) / 2,   x(n+1) = x(n) + dt v   =>   x(n+1) = (1 - h L)^-1 [(1 + h L) x(n) + dt c]
 ///     H(n+1) = (1 - h L)^-1 (1 + h L) H(n)
-/// Second order; a body and its image move alike to round-off, and so do remapped lattices. v is the very displacement
-/// over dt, so contacts see what they see elsewhere (contact/motion.h), and the discrete energy of measure/energy.c
+/// Second order; a body and its ghost move alike to round-off, and so do remapped lattices. v is the very displacement
+/// over dt, so contacts see what they see elsewhere (contact/kinematics.h), and the discrete energy of measure/energy.c
 /// obeys, when f(n) is the contact force at n and W(n) the sum of f (x) b,
 ///     dE = - dt L : [sum m c (x) c + (W(n) + W(n+1)) / 2] + dt^2 / 4 sum (f(n+1) - f(n)) . L^2 b,
 /// of which the last term (zero in shear, (L dt)^2 of the rest else) is left out of the ledger.
@@ -24,9 +24,9 @@
 /// Rows hold c+ or c(n), whatever the scheme keeps, between two steps, and v while contacts are evaluated.
 ///
 /// Lattice. When a lattice vector leans over another by more than half of it, whole multiples of the other are taken
-/// away: the same lattice, so nothing changes but which image of a body is called the body. Bodies are put back into
+/// away: the same lattice, so nothing changes but which ghost of a body is called the body. Bodies are put back into
 /// the cell together when one of them is a mean diameter outside. Both depend on the state alone. The reference
-/// position of a body that is put back by H s goes back by H_0 s, H_0 the reference lattice: that of the image which is
+/// position of a body that is put back by H s goes back by H_0 s, H_0 the reference lattice: that of the ghost which is
 /// now in the cell. So x - F X, F = H H_0^-1, is right across faces.
 ///
 /// Servo. A component of L under stress is a degree of freedom with inertia and dashpot,
@@ -66,7 +66,8 @@ static bool deforms(const scree_periodic_cell *cell)
     return scree_matrix_contract(cell->gradient, cell->gradient) > 0;
 }
 
-// ---- the drive ---------------------------------------------------------------------------------------------------
+// ---- the imposed velocity gradient
+// ---------------------------------------------------------------------------------------------------
 
 static double density(const scree_model *model, const scree_state *state)
 {
@@ -130,17 +131,17 @@ static void hold_stress(const scree_periodic_cell *cell, double dt, double wante
     *drift += dt * cell->damping / MEAN_GRAINS * (*rate - *drift);
 }
 
-void scree_periodic_control(const scree_model *model, scree_state *state, const scree_periodic_drive *drive,
+void scree_periodic_control(const scree_model *model, scree_state *state, const scree_periodic_demand *wanted,
                             double rise)
 {
     scree_periodic_cell *cell = scree_cell(state);
     double stress[9];
     scree_periodic_stress(model, state, stress);
     for (int k = 0; k < 9; k++) {
-        if (isnan(drive->stress[k]))
-            cell->gradient[k] = cell->drift[k] = drive->rate[k] * rise;
+        if (isnan(wanted->stress[k]))
+            cell->gradient[k] = cell->drift[k] = wanted->rate[k] * rise;
         else
-            hold_stress(cell, state->step_size, drive->stress[k], stress[k], &cell->gradient[k], &cell->drift[k]);
+            hold_stress(cell, state->step_size, wanted->stress[k], stress[k], &cell->gradient[k], &cell->drift[k]);
     }
 }
 
@@ -171,11 +172,11 @@ static void velocity_of(const scree_state *state, size_t row, scree_vector veloc
     scree_body_motion(state, row, velocity, spin);
 }
 
-static void set_place(scree_state *state, size_t row, const scree_vector place)
+static void set_place(scree_state *state, size_t row, const scree_vector position)
 {
-    state->row[row].x = place[0];
-    state->row[row].y = place[1];
-    if (state->dimension == 3) state->row[row].z = place[2];
+    state->row[row].x = position[0];
+    state->row[row].y = position[1];
+    if (state->dimension == 3) state->row[row].z = position[2];
 }
 
 static void set_velocity(scree_state *state, size_t row, const scree_vector velocity)
@@ -189,25 +190,25 @@ static void set_velocity(scree_state *state, size_t row, const scree_vector velo
 static void move_body(scree_state *state, const step_maps *maps, size_t row, scree_vector relative)
 {
     const double dt = state->step_size, *gradient = scree_cell(state)->gradient;
-    scree_vector before, place, middle, affine, sum, velocity;
+    scree_vector before, position, middle, affine, sum, velocity;
     velocity_of(state, row, before);
-    scree_body_place(state, row, place);
+    scree_body_position(state, row, position);
     scree_matrix_apply(maps->slow, before, middle);
     for (int k = 0; k < 3; k++) {
         relative[k] = 2 * middle[k] - before[k];
-        place[k] -= dt * before[k];
+        position[k] -= dt * before[k];
     }
-    scree_matrix_apply(gradient, place, affine);
-    for (int k = 0; k < 3; k++) sum[k] = place[k] + 0.5 * dt * affine[k] + dt * middle[k];
-    scree_matrix_apply(maps->forward, sum, place);
-    scree_matrix_apply(gradient, place, affine);
+    scree_matrix_apply(gradient, position, affine);
+    for (int k = 0; k < 3; k++) sum[k] = position[k] + 0.5 * dt * affine[k] + dt * middle[k];
+    scree_matrix_apply(maps->forward, sum, position);
+    scree_matrix_apply(gradient, position, affine);
     for (int k = 0; k < 3; k++) sum[k] = middle[k] + affine[k];
     scree_matrix_apply(maps->slow, sum, velocity);
-    set_place(state, row, place);
+    set_place(state, row, position);
     set_velocity(state, row, velocity);
 }
 
-/// What the members of the team share.
+/// What the members of the thread pool share.
 typedef struct bodies_task {
     scree_state *state;
     const scree_work *work;
@@ -221,14 +222,14 @@ typedef struct bodies_task {
 static void move_share(void *argument, int index, int count)
 {
     const bodies_task *task = argument;
-    size_t end = scree_team_begin(task->state->count, index + 1, count);
-    for (size_t row = scree_team_begin(task->state->count, index, count); row < end; row++)
+    size_t end = scree_thread_pool_begin(task->state->count, index + 1, count);
+    for (size_t row = scree_thread_pool_begin(task->state->count, index, count); row < end; row++)
         move_body(task->state, task->maps, row, task->work->relative[row]);
 }
 
-static void run_shares(scree_work *work, scree_team_task *share, bodies_task *task)
+static void run_shares(scree_work *work, scree_thread_pool_task *share, bodies_task *task)
 {
-    scree_team_run(&work->team, scree_work_shares(work), share, task);
+    scree_thread_pool_run(&work->pool, scree_work_shares(work), share, task);
 }
 
 static void move_lattice(scree_state *state, const step_maps *maps)
@@ -260,14 +261,14 @@ static double mass_bound(const scree_model *model)
     return heaviest;
 }
 
-static void motion_share(void *argument, int index, int count)
+static void kinematics_share(void *argument, int index, int count)
 {
     bodies_task *task = argument;
     const scree_state *state = task->state;
     const double inverse = 1 / task->quantum;
     scree_wide_sum sum = {{0}};
-    size_t end = scree_team_begin(state->count, index + 1, count);
-    for (size_t row = scree_team_begin(state->count, index, count); row < end; row++) {
+    size_t end = scree_thread_pool_begin(state->count, index + 1, count);
+    for (size_t row = scree_thread_pool_begin(state->count, index, count); row < end; row++) {
         scree_vector before, c;
         velocity_of(state, row, before);
         scree_matrix_apply(task->maps->slow, before, c);
@@ -283,12 +284,12 @@ static void measure_motion(const scree_model *model, scree_state *state, scree_w
 {
     const double bound = mass_bound(model) * state->largest_speed * state->largest_speed;
     bodies_task task = {.state = state, .maps = maps, .quantum = scree_fixed_quantum(4 * bound)};
-    run_shares(work, motion_share, &task);
+    run_shares(work, kinematics_share, &task);
     scree_wide_total(task.sum, scree_work_shares(work), task.quantum, scree_cell(state)->motion);
 }
 
 /// Work of the cell on the bodies for a part of its stress times volume, sum over dt.
-static void book_work(scree_state *state, const double tensor[9], double factor)
+static void add_work(scree_state *state, const double tensor[9], double factor)
 {
     double work = -factor * state->step_size * scree_matrix_contract(tensor, scree_cell(state)->gradient);
     state->ledger.periodic += work;
@@ -334,11 +335,11 @@ static void outside_share(void *argument, int index, int count)
     const scree_state *state = task->state;
     double width[3], largest = 0;
     scree_periodic_widths(task->inverse, width);
-    size_t end = scree_team_begin(state->count, index + 1, count);
-    for (size_t row = scree_team_begin(state->count, index, count); row < end; row++) {
-        scree_vector place, f;
-        scree_body_place(state, row, place);
-        scree_matrix_apply(task->inverse, place, f);
+    size_t end = scree_thread_pool_begin(state->count, index + 1, count);
+    for (size_t row = scree_thread_pool_begin(state->count, index, count); row < end; row++) {
+        scree_vector position, f;
+        scree_body_position(state, row, position);
+        scree_matrix_apply(task->inverse, position, f);
         for (int k = 0; k < state->dimension; k++) {
             double outside = fmax(-f[k], f[k] - 1) * width[k];
             if (scree_periodic_repeats(scree_cell(state), k) && outside > largest) largest = outside;
@@ -360,9 +361,9 @@ static double farthest_outside(scree_state *state, scree_work *work, const doubl
 /// Whole lattice vectors by which a body must be put back; false: by none.
 static bool find_shift(const scree_state *state, const double inverse[9], size_t row, scree_vector shift)
 {
-    scree_vector place, f;
-    scree_body_place(state, row, place);
-    scree_matrix_apply(inverse, place, f);
+    scree_vector position, f;
+    scree_body_position(state, row, position);
+    scree_matrix_apply(inverse, position, f);
     bool moved = false;
     for (int k = 0; k < 3; k++) {
         shift[k] = k < state->dimension && scree_periodic_repeats(scree_cell(state), k) ? -floor(f[k]) : 0;
@@ -388,19 +389,19 @@ static double change_of_gravity(const scree_model *model, const scree_state *sta
 /// Puts one body back by whole lattice vectors, with its reference position.
 static void put_back(scree_state *state, const double inverse[9], const double velocity[9], size_t row)
 {
-    scree_vector place, speed, shift, by, reference, faster;
+    scree_vector position, speed, shift, by, reference, faster;
     if (!find_shift(state, inverse, row, shift)) return;
-    scree_body_place(state, row, place);
+    scree_body_position(state, row, position);
     velocity_of(state, row, speed);
     scree_matrix_apply(scree_cell(state)->lattice, shift, by);
     scree_matrix_apply(scree_cell(state)->reference, shift, reference);
     scree_matrix_apply(velocity, shift, faster);
     for (int k = 0; k < 3; k++) {
-        place[k] += by[k];
+        position[k] += by[k];
         speed[k] += faster[k];
         state->reference[row][k] += reference[k];
     }
-    set_place(state, row, place);
+    set_place(state, row, position);
     set_velocity(state, row, speed);
 }
 
@@ -439,8 +440,8 @@ scree_status scree_periodic_move(const scree_model *model, scree_state *state, s
         if (deforms(scree_cell(state))) {
             scree_status status = reserve_relative(work, state->count, error);
             if (status) return status;
-            book_work(state, scree_cell(state)->motion, 1);
-            book_work(state, scree_cell(state)->virial, 0.5);
+            add_work(state, scree_cell(state)->motion, 1);
+            add_work(state, scree_cell(state)->virial, 0.5);
             move_lattice(state, &maps);
             run_shares(work, move_share, &(bodies_task){.state = state, .work = work, .maps = &maps});
             allow_for_gradient(model, state, work, &maps);
@@ -453,8 +454,8 @@ scree_status scree_periodic_move(const scree_model *model, scree_state *state, s
 static void settle_share(void *argument, int index, int count)
 {
     const bodies_task *task = argument;
-    size_t end = scree_team_begin(task->state->count, index + 1, count);
-    for (size_t row = scree_team_begin(task->state->count, index, count); row < end; row++)
+    size_t end = scree_thread_pool_begin(task->state->count, index + 1, count);
+    for (size_t row = scree_thread_pool_begin(task->state->count, index, count); row < end; row++)
         set_velocity(task->state, row, task->work->relative[row]);
 }
 
@@ -462,5 +463,5 @@ void scree_periodic_settle(scree_state *state, scree_work *work)
 {
     if (!scree_periodic_is_whole(state) || !deforms(scree_cell(state))) return;
     run_shares(work, settle_share, &(bodies_task){.state = state, .work = work});
-    book_work(state, scree_cell(state)->virial, 0.5);
+    add_work(state, scree_cell(state)->virial, 0.5);
 }

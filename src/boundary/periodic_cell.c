@@ -45,9 +45,9 @@ static scree_status check(const scree_state *state, const scree_model *model, sc
         return scree_error_set(error, SCREE_ERROR_IO, "dataset 'periodic/lattice': its vectors enclose no volume");
     scree_matrix_invert(cell->lattice, inverse);
     for (size_t row = 0; row < state->count; row++) {
-        scree_vector place;
-        scree_body_place(state, row, place);
-        scree_matrix_apply(inverse, place, fraction);
+        scree_vector position;
+        scree_body_position(state, row, position);
+        scree_matrix_apply(inverse, position, fraction);
         for (int k = 0; k < state->dimension; k++)
             if (scree_periodic_repeats(cell, k) && !(fraction[k] > -1 && fraction[k] < 2))
                 return scree_error_set(error, SCREE_ERROR_IO,

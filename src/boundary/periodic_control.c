@@ -46,21 +46,21 @@ static void mark(const scree_context *c)
 }
 
 /// A cell that keeps its shape, with the normal components of the first `count` directions left to a pressure.
-static scree_periodic_drive drive_under(double pressure, int count)
+static scree_periodic_demand drive_under(double pressure, int count)
 {
-    scree_periodic_drive drive = {.rate = {0}};
-    for (int k = 0; k < 9; k++) drive.stress[k] = NAN;
-    for (int k = 0; k < count; k++) drive.stress[4 * k] = -pressure;
-    return drive;
+    scree_periodic_demand wanted = {.rate = {0}};
+    for (int k = 0; k < 9; k++) wanted.stress[k] = NAN;
+    for (int k = 0; k < count; k++) wanted.stress[4 * k] = -pressure;
+    return wanted;
 }
 
 static void hold(const scree_context *c, double pressure)
 {
     scree_state *state = c->state;
     scree_periodic_cell *cell = scree_cell(state);
-    const scree_periodic_drive drive = drive_under(pressure, state->dimension);
+    const scree_periodic_demand wanted = drive_under(pressure, state->dimension);
     double stress[9];
-    scree_periodic_control(c->model, state, &drive, 1);
+    scree_periodic_control(c->model, state, &wanted, 1);
     scree_periodic_stress(c->model, state, stress);
     for (int k = 0; k < state->dimension; k++) cell->stress_sum[k] += state->step_size * stress[4 * k];
     cell->stress_time += state->step_size;
@@ -69,20 +69,20 @@ static void hold(const scree_context *c, double pressure)
 static void compress(const scree_context *c, const scree_compression *compression)
 {
     const int last = c->state->dimension - 1;
-    scree_periodic_drive drive = drive_under(scree_pressure_now(c->state), last);
-    drive.rate[4 * last] = -compression->rate * compression->height / height(c);
-    scree_periodic_control(c->model, c->state, &drive, compression->rise);
+    scree_periodic_demand wanted = drive_under(scree_pressure_now(c->state), last);
+    wanted.rate[4 * last] = -compression->rate * compression->height / height(c);
+    scree_periodic_control(c->model, c->state, &wanted, compression->rise);
 }
 
 static void deform(const scree_context *c, const scree_demand *demand, double rise)
 {
-    scree_periodic_drive drive;
-    memcpy(drive.stress, demand->stress, sizeof drive.stress);
+    scree_periodic_demand wanted;
+    memcpy(wanted.stress, demand->stress, sizeof wanted.stress);
     for (int k = 0; k < 9; k++) {
         int mirror = 3 * (k % 3) + k / 3;
-        drive.rate[k] = demand->rate[demand->how[mirror] == SCREE_SYMMETRIC ? mirror : k];
+        wanted.rate[k] = demand->rate[demand->how[mirror] == SCREE_SYMMETRIC ? mirror : k];
     }
-    scree_periodic_control(c->model, c->state, &drive, rise);
+    scree_periodic_control(c->model, c->state, &wanted, rise);
 }
 
 static double stress_error(const scree_context *c, double pressure, const char **what)

@@ -9,8 +9,8 @@
 /// rot(H(b) - H(a)); over a closed outline they telescope. So, to the last bit, the forces on a closed loop add up to
 /// zero, and with plates the two sides press against each other with equal forces p t (distance of the plates).
 ///
-/// Work. Trapezoidal as for all forces (measure/energy.c): each force is booked half with v(n-1/2), which the rows hold
-/// for both schemes between `first` and `second`, and half with v(n+1/2), which they hold after the next `first`.
+/// Work. Trapezoidal as for all forces (measure/energy.c): each force is accumulated half with v(n-1/2), which the rows
+/// hold for both schemes between `first` and `second`, and half with v(n+1/2), which they hold after the next `first`.
 ///
 /// Bodies are handed to the triangulation in the order of their ids: neither the order of rows nor the number of
 /// threads shows. Cost: O(length of the loop) a step; a refresh 5 ms for 4000 bodies, 0.5 s for a million
@@ -21,9 +21,9 @@
 
 #include "base/fixed.h"
 #include "base/integer_sum.h"
-#include "boundary/corners.h"
-#include "boundary/facing.h"
 #include "boundary/hull.h"
+#include "boundary/loaded_edges.h"
+#include "boundary/loaded_triangles.h"
 #include "measure/facets.h"
 #include "measure/measure.h"
 #include "measure/outline.h"
@@ -91,9 +91,9 @@ scree_status scree_boundary_mark_loaded(const scree_model *model, scree_state *s
 /// The boundary of the last update serves for some steps more.
 static bool is_fresh(const scree_model *model, const scree_state *state)
 {
-    bool solid = state->dimension == 3;
-    size_t count = solid ? scree_hull_of(state)->node_count : scree_loop_of(state)->count;
-    uint64_t updated = solid ? scree_hull_of(state)->updated : scree_loop_of(state)->updated;
+    bool in_3d = state->dimension == 3;
+    size_t count = in_3d ? scree_hull_of(state)->node_count : scree_loop_of(state)->count;
+    uint64_t updated = in_3d ? scree_hull_of(state)->updated : scree_loop_of(state)->updated;
     if (scree_delaunay_boundary_of(state)->stale) return false;
     return count > 0 && state->step - updated < (uint64_t)model->config->boundary.every * model->largest_step;
 }
@@ -153,7 +153,7 @@ static double loop_power(const scree_state *state)
 }
 
 /// 1/2 F . v dt with the velocities that the rows hold now.
-static void book_half_work(scree_state *state)
+static void add_half_work(scree_state *state)
 {
     double power = state->dimension == 3 ? scree_hull_power(state) : loop_power(state);
     double work = 0.5 * state->step_size * power;
@@ -166,7 +166,7 @@ void scree_pressure_forces(const scree_model *model, scree_state *state)
     scree_loop *loop = scree_loop_of(state);
     if (state->dimension == 3) {
         scree_hull_press(state);
-        book_half_work(state);
+        add_half_work(state);
         return;
     }
     if (loop->count == 0) return;
@@ -177,12 +177,12 @@ void scree_pressure_forces(const scree_model *model, scree_state *state)
     pressure_forces forces = {.state = state, .scale = 0.5 * pressure * model->thickness / state->force_quantum};
     scree_loop_position(state, 0, forces.origin);
     scree_outline_walk(state, press_segment, &forces);
-    book_half_work(state);
+    add_half_work(state);
 }
 
 void scree_pressure_work(scree_state *state)
 {
-    book_half_work(state);
+    add_half_work(state);
 }
 
 /// Largest square of a length.

@@ -11,11 +11,11 @@ enum { SCREE_SHEET_SPRINGS = 3 };
 /// The body at the other end of spring `s` of body `k`; SIZE_MAX: there is no such spring.
 static inline size_t scree_sheet_neighbour(size_t around, size_t count, size_t k, int s)
 {
-    size_t ring = k / around, place = k % around, above = (ring + 1) * around;
-    if (s == 0) return ring * around + (place + 1) % around;
+    size_t ring = k / around, position = k % around, above = (ring + 1) * around;
+    if (s == 0) return ring * around + (position + 1) % around;
     if (above >= count) return SIZE_MAX;
     // An odd ring is turned to the right.
-    size_t right = ring % 2 == 1 ? place + 1 : place;
+    size_t right = ring % 2 == 1 ? position + 1 : position;
     return above + (s == 1 ? right : right + around - 1) % around;
 }
 

@@ -22,7 +22,7 @@ enum { DIRECTIONS = 360 };
 
 /// A point of the outline: where it is and where out is.
 typedef struct station {
-    double place[2], normal[2];
+    double position[2], normal[2];
 } station;
 
 /// The support points; returns the length around.
@@ -67,7 +67,7 @@ static double free_depth(const scree_state *state, double radius, const station 
     for (size_t row = 0; row < state->count; row++) {
         if (!scree_body_is_grain(state, row)) continue;
         const scree_row *grain = &state->row[row];
-        double dx = grain->x - from->place[0], dy = grain->y - from->place[1], dz = grain->z - height;
+        double dx = grain->x - from->position[0], dy = grain->y - from->position[1], dz = grain->z - height;
         double inwards = -(dx * from->normal[0] + dy * from->normal[1]), reach = grain->radius + radius;
         double beside = dx * dx + dy * dy + dz * dz - inwards * inwards;
         if (beside < reach * reach) depth = fmin(depth, inwards - sqrt(reach * reach - beside));
@@ -117,22 +117,22 @@ static void place_bodies(const scree_model *model, scree_state *state, double (*
     double deepest = length / (4 * M_PI);
     for (int pass = 0; pass < 2; pass++) {
         for (size_t k = 0; k < count; k++) {
-            double place = (double)(k % around) + (k / around % 2 == 1 ? 0.5 : 0);
+            double position = (double)(k % around) + (k / around % 2 == 1 ? 0.5 : 0);
             double height = low + rise * (double)(k / around);
-            station from = find_station(corner, length * place / (double)around);
+            station from = find_station(corner, length * position / (double)around);
             if (pass == 0) {
                 depth[k] = free_depth(state, radius, &from, height, deepest);
                 continue;
             }
             size_t row = scree_membrane_row(state, k);
-            state->row[row] = (scree_row){.x = from.place[0] - depth[k] * from.normal[0],
-                                          .y = from.place[1] - depth[k] * from.normal[1],
+            state->row[row] = (scree_row){.x = from.position[0] - depth[k] * from.normal[0],
+                                          .y = from.position[1] - depth[k] * from.normal[1],
                                           .z = height,
                                           .radius = radius,
                                           .mass = scree_model_mass(model, model->membrane_material, radius)};
             state->turn[row] = (scree_turn_row){.material = model->membrane_material};
             state->species[row] = SCREE_NO_SPECIES;
-            scree_body_place(state, row, state->reference[row]);
+            scree_body_position(state, row, state->reference[row]);
         }
         if (pass == 0) level_out(depth, around, count, 2 * SLOPE * radius);
     }

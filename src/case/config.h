@@ -110,7 +110,7 @@ typedef struct scree_config_stage {
     void *own;       ///< struct of its kind, and of what else adds keys to it (scree_config_own)
 } scree_config_stage;
 
-/// A wall beside the six plates (shape/container.h). Which members its keys fill depends on the shape.
+/// A wall beside the six plates (shape/wall_set.h). Which members its keys fill depends on the shape.
 typedef enum scree_surface_shape {
     SCREE_SHAPE_OF_PLANE,
     SCREE_SHAPE_OF_BOX,
@@ -167,7 +167,7 @@ typedef struct scree_config_output {
 } scree_config_output;
 
 typedef struct scree_config_guard {
-    double overlap;       ///< 1, largest indentation over the smaller radius
+    double overlap;       ///< 1, largest overlap over the smaller radius
     double energy_growth; ///< 1, largest energy-ledger residual over all energy that there is and was
 } scree_config_guard;
 

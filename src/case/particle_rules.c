@@ -73,17 +73,17 @@ static void check_sizes(scree_reader *reader, const scree_config *config, int64_
     if (!scree_config_species_at(particles, index).own) return;
     const scree_node *section = node_of(reader, particles, index);
     const scree_module *module = scree_modules[distribution];
-    scree_size_fault fault = {0};
-    if (!has_all_keys(section, module) || !module->sizes->wrong(scree_config_sizes(particles, index), &fault)) return;
+    scree_size_problem problem = {0};
+    if (!has_all_keys(section, module) || !module->sizes->wrong(scree_config_sizes(particles, index), &problem)) return;
     char message[320];
-    const scree_node *key = scree_node_find(section, fault.key);
-    const scree_node *above = fault.above ? scree_node_find(section, fault.above) : NULL;
+    const scree_node *key = scree_node_find(section, problem.key);
+    const scree_node *above = problem.above ? scree_node_find(section, problem.above) : NULL;
     if (key && above)
-        (void)snprintf(message, sizeof message, "'%s' is larger than %s, '%s'", scree_show(key->text).text, fault.above,
-                       scree_show(above->text).text);
+        (void)snprintf(message, sizeof message, "'%s' is larger than %s, '%s'", scree_show(key->text).text,
+                       problem.above, scree_show(above->text).text);
     else
-        (void)snprintf(message, sizeof message, "%s", fault.text);
-    refuse(reader, particles, index, fault.key, NULL, message);
+        (void)snprintf(message, sizeof message, "%s", problem.text);
+    refuse(reader, particles, index, problem.key, NULL, message);
 }
 
 static void check_names(scree_reader *reader, const scree_config_particles *particles)

@@ -79,7 +79,7 @@ static void name_stages(scree_reader *reader, scree_config *config)
     for (int64_t i = 0; i < config->stage_count; i++) {
         const scree_node *stage = element(reader, "stages", i);
         char name[80], path[SCREE_PATH_BYTES];
-        if (!scree_element_name(key, list, stage, name, sizeof name)) continue;
+        if (!scree_primitive_name(key, list, stage, name, sizeof name)) continue;
         config->stages[i].name = scree_arena_copy(reader->arena, name, strlen(name));
         if (!config->stages[i].name) {
             scree_reader_fail(reader, sizeof name);
@@ -127,37 +127,37 @@ static void check_stage_order(scree_reader *reader, const scree_config *config)
 static void refuse_dimension(scree_reader *reader, const scree_config *config, int64_t stage, const char *key,
                              const char *other)
 {
-    const bool solid = config->dimension == 3;
+    const bool in_3d = config->dimension == 3;
     char path[SCREE_PATH_BYTES];
     const char *text;
     (void)snprintf(path, sizeof path, "stages.%lld.%s", (long long)stage, key);
     scree_place place = place_of(element(reader, "stages", stage), key, &text);
     scree_problem_add(reader, place, path, text, other, "'%s' exists in %s dimensions only; in %s choose '%s'",
-                      text ? text : "", solid ? "two" : "three", solid ? "three" : "two", other);
+                      text ? text : "", in_3d ? "two" : "three", in_3d ? "three" : "two", other);
 }
 
 /// Discs in two dimensions, spheres in three; as many components of gravity.
 static void check_dimension(scree_reader *reader, const scree_config *config)
 {
-    const bool solid = config->dimension == 3;
+    const bool in_3d = config->dimension == 3;
     const char *text;
-    if (config->particles.shape == (solid ? SCREE_SHAPE_DISC : SCREE_SHAPE_SPHERE)) {
+    if (config->particles.shape == (in_3d ? SCREE_SHAPE_DISC : SCREE_SHAPE_SPHERE)) {
         scree_place place = place_of(scree_node_find(reader->root, "particles"), "shape", &text);
-        scree_problem_add(reader, place, "particles.shape", text, solid ? "sphere" : "disc",
-                          solid ? "in three dimensions particles are spheres: set particles.shape to sphere"
+        scree_problem_add(reader, place, "particles.shape", text, in_3d ? "sphere" : "disc",
+                          in_3d ? "in three dimensions particles are spheres: set particles.shape to sphere"
                                 : "spheres need dimension: 3; in two dimensions particles are discs");
     }
     const scree_node *gravity = scree_node_find(reader->root, "gravity");
-    bool missing = solid && gravity && gravity->count == 2 && (config->gravity[0] != 0 || config->gravity[1] != 0);
-    if (missing || (!solid && config->gravity[2] != 0))
-        scree_problem_add(reader, gravity->place, "gravity", NULL, solid ? "[x, y, z]" : "[x, y]",
-                          solid ? "in three dimensions gravity has three components, z upwards"
+    bool missing = in_3d && gravity && gravity->count == 2 && (config->gravity[0] != 0 || config->gravity[1] != 0);
+    if (missing || (!in_3d && config->gravity[2] != 0))
+        scree_problem_add(reader, gravity->place, "gravity", NULL, in_3d ? "[x, y, z]" : "[x, y]",
+                          in_3d ? "in three dimensions gravity has three components, z upwards"
                                 : "in two dimensions gravity has two components, y upwards");
 }
 
 static void check_preparation(scree_reader *reader, const scree_config *config)
 {
-    const bool solid = config->dimension == 3;
+    const bool in_3d = config->dimension == 3;
     for (int64_t i = 0; i < config->stage_count; i++) {
         const scree_config_stage *stage = &config->stages[i];
         if (stage->kind < 0 || !scree_modules[stage->kind]->numbers->places) continue;
@@ -165,8 +165,8 @@ static void check_preparation(scree_reader *reader, const scree_config *config)
         const scree_preparation *method = prepare->method >= 0 ? scree_modules[prepare->method]->preparation : NULL;
         if (method && method->only_dimension && method->only_dimension != config->dimension)
             refuse_dimension(reader, config, i, "method", method->elsewhere);
-        if (prepare->outline == (solid ? SCREE_SAMPLE_CIRCLE : SCREE_SAMPLE_BALL))
-            refuse_dimension(reader, config, i, "outline", solid ? "ball" : "circle");
+        if (prepare->outline == (in_3d ? SCREE_SAMPLE_CIRCLE : SCREE_SAMPLE_BALL))
+            refuse_dimension(reader, config, i, "outline", in_3d ? "ball" : "circle");
         char path[SCREE_PATH_BYTES];
         const char *text;
         (void)snprintf(path, sizeof path, "stages.%lld.depth", (long long)i);

@@ -179,7 +179,7 @@ static const scree_key output_keys[] = {
 typedef scree_config_guard guard;
 static const scree_key guard_keys[] = {
     NUMBER(guard, overlap, "1", .standard = "20 %", .guard = true, ABOVE("0 %"), TO("100 %"),
-           .meaning = "Largest indentation over the smaller radius."),
+           .meaning = "Largest overlap over the smaller radius."),
     NUMBER(guard, energy_growth, "1", .standard = "5 %", .guard = true, ABOVE("0 %"), TO("10000 %"),
            .meaning =
                "Largest residual of the energy ledger over all energy that there is and was: at the begin, turned "

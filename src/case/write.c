@@ -102,10 +102,10 @@ static void write_element(writer *w, const scree_section *section, const scree_n
                           bool explained);
 
 /// The elements of a list, indented by `depth`; the first one explains the keys where all have the same.
-static void write_elements(writer *w, const scree_key *list, const scree_node *node, int depth)
+static void write_primitives(writer *w, const scree_key *list, const scree_node *node, int depth)
 {
     for (const scree_node *element = node->first; element; element = element->next)
-        write_element(w, scree_element_section(list, element), element, depth,
+        write_element(w, scree_primitive_section(list, element), element, depth,
                       list->section_count > 1 || depth == 0 || element == node->first);
 }
 
@@ -147,7 +147,7 @@ static void write_lists(writer *w, const scree_section *section, const scree_nod
         put(w, key->name);
         put(w, ":");
         end_line(w, key->meaning);
-        write_elements(w, key, node, depth);
+        write_primitives(w, key, node, depth);
     }
 }
 
@@ -173,7 +173,7 @@ static void write_key(writer *w, const scree_key *key)
         write_values(w, key->sections, node, NULL, 2, true);
         write_lists(w, key->sections, node, 2);
     } else
-        write_elements(w, key, node, 0);
+        write_primitives(w, key, node, 0);
 }
 
 static scree_status write_case(const scree_case *c, bool bare, FILE *file, scree_error *error)

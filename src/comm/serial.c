@@ -27,8 +27,9 @@ static void send_share(void *argument, int index, int count)
 {
     const send_task *task = argument;
     unsigned char message[BLOCK_BYTES];
-    const size_t block = block_of(task->state, task->kind), end = scree_team_begin(task->list->count, index + 1, count);
-    for (size_t k = scree_team_begin(task->list->count, index, count); k < end;) {
+    const size_t block = block_of(task->state, task->kind),
+                 end = scree_thread_pool_begin(task->list->count, index + 1, count);
+    for (size_t k = scree_thread_pool_begin(task->list->count, index, count); k < end;) {
         size_t many = end - k < block ? end - k : block;
         scree_message_pack(task->state, task->kind, &task->list->ghost[k], many, &task->shift, message);
         scree_message_unpack(task->state, task->kind, task->state->count + k, many, message);
@@ -41,7 +42,7 @@ static void send(scree_state *state, scree_work *work, scree_message_kind kind)
     send_task task = {.state = state, .list = &work->ghosts, .kind = kind};
     memcpy(task.shift.lattice, scree_cell(state)->lattice, sizeof task.shift.lattice);
     scree_periodic_lattice_velocity(state, task.shift.velocity);
-    scree_team_run(&work->team, scree_work_shares(work), send_share, &task);
+    scree_thread_pool_run(&work->pool, scree_work_shares(work), send_share, &task);
 }
 
 scree_status scree_comm_begin(scree_state *state, scree_work *work, scree_error *error)

@@ -5,10 +5,10 @@
 
 #include "contact/scalar.h"
 
-/// Evaluates the law, advances the memory and books energies, overlap and range.
+/// Evaluates the law, advances the memory and accumulates energies, overlap and range.
 /// own: constants of the pair's own; NULL: it has none.
 SCREE_INLINE contact_quanta contact_advance(contact_job *job, variant v, const scree_pair_constants *constants,
-                                            const scree_member_row *own, const motion *m, bool touching,
+                                            const scree_member_row *own, const kinematics *m, bool touching,
                                             const memory_rows *rows)
 {
     law_constants c = constants_get(constants, own);
@@ -22,9 +22,9 @@ SCREE_INLINE contact_quanta contact_advance(contact_job *job, variant v, const s
     totals->in_range &= q.in_range != 0;
     if (law_holds(v)) {
         totals->largest_deformation = lanes_at_least(totals->largest_deformation, q.deformation);
-        totals->largest_gap = lanes_at_least(totals->largest_gap, -m->indentation);
+        totals->largest_gap = lanes_at_least(totals->largest_gap, -m->overlap);
     } else if (touching) {
-        totals->largest_overlap = lanes_at_least(totals->largest_overlap, m->indentation);
+        totals->largest_overlap = lanes_at_least(totals->largest_overlap, m->overlap);
     }
     return q;
 }

@@ -1,7 +1,7 @@
 /// Bounds of contact forces and energies, and the quanta.
 ///
-/// With v the largest of |v| + R |w| over bodies and walls, no relative velocity exceeds 2 v, no indentation grows by
-/// more than 2 v dt in a step, and with d_0 the largest indentation of the last evaluation
+/// With v the largest of |v| + R |w| over bodies and walls, no relative velocity exceeds 2 v, no overlap grows by
+/// more than 2 v dt in a step, and with d_0 the largest overlap of the last evaluation
 ///   d = d_0 + 2 v dt + 2^-32 R_max                                     (the last term: round-off of positions at rest)
 /// from which each law bounds its forces and energies (its descriptor's file); torques stay below R_max f.
 /// With no contact in the last evaluation, which may be the first of the run, d_0 is the guard's limit instead.

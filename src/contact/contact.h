@@ -5,7 +5,7 @@
 /// s = (v_first - v_second) . t - (a_first w_first + a_second w_second), so that pure rolling has s = 0
 /// (P 2.A6 corrected). The force on first is f_n n + f_t t, on second the opposite; f_t opposes s.
 /// The lever arms of slip and of tangential force are a = R - d/2 each (the contact point lies in the middle of the
-/// indentation; motion.h says why slip and torque must have the same arm).
+/// overlap; kinematics.h says why slip and torque must have the same arm).
 #ifndef SCREE_CONTACT_CONTACT_H
 #define SCREE_CONTACT_CONTACT_H
 
@@ -25,12 +25,12 @@ int scree_contact_instruction_set(int wanted);
 /// Frees what scree_contact_forces keeps in work->contact_scratch. Call before scree_work_destroy.
 void scree_contact_scratch_destroy(scree_work *work);
 
-/// One touching contact, everything a measure needs. With `wall` second is the index of a plate, or SCREE_ELEMENT_ID +
-/// element of the walls of the case.
+/// One touching contact, everything a measure needs. With `wall` second is the index of a plate, or SCREE_PRIMITIVE_ID
+/// + element of the walls of the case.
 typedef struct scree_contact {
     uint32_t first, second; ///< rows (not ids)
     bool wall;
-    bool image;    ///< across a face of the periodic cell: of `first` and `second` one is where its image is
+    bool ghost;    ///< across a face of the periodic cell: of `first` and `second` one is where its ghost is
     bool membrane; ///< one of the two is a body of a membrane
     bool sliding;
     bool held;                 ///< a pair of the persistent list: it need not touch, and may pull
@@ -38,7 +38,7 @@ typedef struct scree_contact {
     scree_vector tangent;      ///< 2D: (-n_y, n_x); 3D: direction of the tangential force on first, zero without one
     scree_vector point;        ///< m
     scree_vector branch;       ///< m, x_first - x_second; for a wall x_first - contact point
-    double indentation;        ///< m
+    double overlap;            ///< m
     double normal_force;       ///< N, >= 0 unless held
     double tangential_force;   ///< N, along t, on first; in 3D >= 0
     double slip;               ///< m/s along t in 2D, magnitude in 3D
@@ -56,7 +56,7 @@ static inline bool scree_contact_is_outer(const scree_contact *contact)
 static inline uint32_t scree_contact_second_id(const scree_state *state, const scree_contact *contact)
 {
     if (!contact->wall) return state->id[contact->second];
-    return contact->second >= SCREE_ELEMENT_ID ? contact->second : SCREE_WALL_ID + contact->second;
+    return contact->second >= SCREE_PRIMITIVE_ID ? contact->second : SCREE_WALL_ID + contact->second;
 }
 
 typedef struct scree_contact_table {

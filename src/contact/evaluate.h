@@ -58,7 +58,7 @@ SCREE_INLINE quanta torque_on(int dimension, vector moment, lanes arm, const con
 }
 
 SCREE_INLINE contact_quanta contact_evaluate(variant v, const law_constants *constants, const law_settings *settings,
-                                             const contact_scale *scale, const motion *m, lanes_bits touching,
+                                             const contact_scale *scale, const kinematics *m, lanes_bits touching,
                                              const law_memory *before, law_memory *after)
 {
     const int dimension = v.dimension, count = tangential_count(dimension);

@@ -7,8 +7,8 @@
 #include "base/processor.h"
 #include "contact/bounds.h"
 #include "contact/contact.h"
-#include "contact/faults.h"
-#include "contact/images.h"
+#include "contact/diagnostics.h"
+#include "contact/ghost_forces.h"
 #include "contact/laws.h"
 #include "contact/partition.h"
 #include "contact/reference.h"
@@ -25,12 +25,10 @@ int scree_contact_instruction_set(int wanted)
 static contact_kernel *choose_kernel(int dimension, int wanted)
 {
 #if defined(__x86_64__)
-    static contact_kernel *const plane[] = {
-        [2] = scree_plane_pairs_v2, [3] = scree_plane_pairs_v3, [4] = scree_plane_pairs_v4};
-    static contact_kernel *const solid[] = {
-        [2] = scree_solid_pairs_v2, [3] = scree_solid_pairs_v3, [4] = scree_solid_pairs_v4};
+    static contact_kernel *const plane[] = {[2] = scree_pairs_2d_v2, [3] = scree_pairs_2d_v3, [4] = scree_pairs_2d_v4};
+    static contact_kernel *const solid[] = {[2] = scree_pairs_3d_v2, [3] = scree_pairs_3d_v3, [4] = scree_pairs_3d_v4};
 #else
-    static contact_kernel *const plane[] = {scree_plane_pairs_v0}, *const solid[] = {scree_solid_pairs_v0};
+    static contact_kernel *const plane[] = {scree_pairs_2d_v0}, *const solid[] = {scree_pairs_3d_v0};
 #endif
     return (dimension == 3 ? solid : plane)[scree_contact_instruction_set(wanted)];
 }
@@ -50,13 +48,13 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
                     .ledger = work->ledger},
         .row = state->row,
         .turn = state->turn,
-        .foreseen = state->foreseen,
+        .predicted = state->predicted,
         .sum = state->sum,
         .torque = state->torque,
         .first = work->pairs.first,
         .second = work->pairs.second,
         .history = work->pairs.history,
-        .booking = work->pairs.booking,
+        .last_force = work->pairs.last_force,
         .rolling = work->pairs.rolling,
         .own = work->pairs.own,
         .pairs = model->pairs,
@@ -72,7 +70,7 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
                   .inverse_damping = 1 / (scree_fixed_quantum(bounds.damping) * room),
                   .inverse_friction = 1 / (scree_fixed_quantum(bounds.friction) * room),
                   .force_limit = ldexp(state->force_quantum, SCREE_FIXED_RANGE_BITS),
-                  .inverse_surface_torque = 1 / contact_surface_torque_quantum(model, state, work->container)},
+                  .inverse_surface_torque = 1 / contact_surface_torque_quantum(model, state, work->wall_set)},
     };
 }
 
@@ -99,7 +97,7 @@ static void prepare_part(contact_part *part, const contact_job *common, uint8_t 
     part->job = job;
 }
 
-/// What the members of the team share.
+/// What the members of the thread pool share.
 typedef struct parts_task {
     contact_kernel *kernel;
     contact_scratch *scratch;
@@ -142,8 +140,8 @@ static contact_totals evaluate_parts(contact_kernel *kernel, contact_scratch *sc
 {
     parts_task task = {kernel, scratch, common, state, work};
     int parts = scratch->part_count;
-    scree_team_run(&work->team, parts, evaluate_share, &task);
-    scree_team_run(&work->team, parts, finish_share, &task);
+    scree_thread_pool_run(&work->pool, parts, evaluate_share, &task);
+    scree_thread_pool_run(&work->pool, parts, finish_share, &task);
     contact_totals totals = contact_totals_none();
     for (int k = 0; k < parts; k++) contact_totals_add(&totals, &scratch->part[k].job.totals);
     return totals;
@@ -160,7 +158,7 @@ static void shear_of(const scree_state *state, const contact_totals *totals, int
     shear[1] = along * normal[0];
 }
 
-/// Forces on the walls, and the work they did on the bodies in this step (see motion.h for the trapezoid).
+/// Forces on the walls, and the work they did on the bodies in this step (see kinematics.h for the trapezoid).
 static double settle_walls(scree_state *state, const contact_totals *totals)
 {
     double work = 0;
@@ -200,12 +198,12 @@ void scree_contact_forces(const scree_model *model, scree_state *state, scree_wo
     contact_totals totals =
         scratch ? evaluate_parts(kernel, scratch, &job, state, work) : evaluate_serially(&job, state, work);
 
-    scree_images_fold(state, work);
+    scree_ghosts_add_back(state, work);
     double plates = settle_walls(state, &totals) + contact_surfaces_settle(state, work, &totals, &job.scale);
     if (work->ledger) settle_ledger(&state->ledger, &totals, &job.scale, plates);
     state->largest_overlap = totals.largest_overlap;
     scree_persistent(state)->largest_deformation = totals.largest_deformation;
     scree_persistent(state)->largest_gap = totals.largest_gap;
     if (!totals.in_range || totals.largest_overlap > contact_overlap_limit(model) * model->radius_min)
-        contact_find_faults(model, state, work, job.scale.force_limit);
+        contact_diagnose(model, state, work, job.scale.force_limit);
 }

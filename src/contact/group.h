@@ -40,12 +40,12 @@ SCREE_INLINE columns load_turns(const contact_job *job, const size_t offset[SCRE
     return columns_load(row);
 }
 
-SCREE_INLINE foresight load_foreseen(int dimension, const contact_job *job, const uint32_t *body, const group *g)
+SCREE_INLINE prediction load_predicted(int dimension, const contact_job *job, const uint32_t *body, const group *g)
 {
     const double *row[SCREE_LANES];
-    LANE_LOOP row[k] = &job->foreseen[body[g->pair[k]]].vx;
+    LANE_LOOP row[k] = &job->predicted[body[g->pair[k]]].vx;
     columns c = columns_load(row);
-    foresight ahead = {.velocity = {c.c0, c.c1, c.c2}, .contacts = c.c3};
+    prediction ahead = {.velocity = {c.c0, c.c1, c.c2}, .contacts = c.c3};
     ahead.spin.x = c.c2;
     if (dimension == 2) return ahead;
     LANE_LOOP row[k] += 4;
@@ -57,10 +57,10 @@ SCREE_INLINE foresight load_foreseen(int dimension, const contact_job *job, cons
 /// Position and radius.
 SCREE_INLINE bodies load_places(int dimension, const contact_job *job, const size_t offset[SCREE_LANES])
 {
-    columns place = load_rows(job, offset, 0);
-    bodies b = {.place = {place.c0, place.c1, place.c2}};
-    b.radius = place.c3;
-    if (dimension == 2) b.material = place.c2;
+    columns position = load_rows(job, offset, 0);
+    bodies b = {.position = {position.c0, position.c1, position.c2}};
+    b.radius = position.c3;
+    if (dimension == 2) b.material = position.c2;
     return b;
 }
 
@@ -82,7 +82,7 @@ SCREE_INLINE void load_spins(int dimension, const contact_job *job, const size_t
 
 SCREE_INLINE lanes_bits group_touches(int dimension, const bodies *first, const bodies *second)
 {
-    return bodies_touch(dimension, vector_minus(dimension, first->place, second->place),
+    return bodies_touch(dimension, vector_minus(dimension, first->position, second->position),
                         first->radius + second->radius);
 }
 
@@ -130,15 +130,15 @@ SCREE_INLINE law_memory load_memory(const contact_job *job, variant v, const gro
     if (!law_remembers(v)) return m;
     LANE_LOOP row[k] = job->history[g->pair[k]].value;
     keep_columns(m.value, g->present, columns_load(row));
-    if (law_books(v)) {
-        LANE_LOOP single[k] = job->booking[g->pair[k]].value;
-        keep_columns(m.booked, g->present, columns_load_single(single));
+    if (law_keeps_last_force(v)) {
+        LANE_LOOP single[k] = job->last_force[g->pair[k]].value;
+        keep_columns(m.last, g->present, columns_load_single(single));
     }
     if (law_rolls(v)) {
         LANE_LOOP row[k] = job->rolling[g->pair[k]].value;
         keep_columns(m.rolling, g->present, columns_load(row));
-        LANE_LOOP single[k] = job->rolling[g->pair[k]].booked;
-        keep_columns(m.rolling_booked, g->present, columns_load_single(single));
+        LANE_LOOP single[k] = job->rolling[g->pair[k]].last;
+        keep_columns(m.rolling_last, g->present, columns_load_single(single));
     }
     return m;
 }
@@ -150,17 +150,17 @@ SCREE_INLINE void store_memory(const contact_job *job, variant v, const group *g
     if (!law_remembers(v)) return;
     columns_to_rows((columns){m->value[0], m->value[1], m->value[2], m->value[3]}, row);
     LANE_LOOP *(row4 *)job->history[g->pair[SCREE_LANES - 1 - k]].value = row[SCREE_LANES - 1 - k];
-    if (law_books(v)) {
-        columns_to_rows((columns){m->booked[0], m->booked[1], m->booked[2], m->booked[3]}, row);
-        LANE_LOOP *(row4_single *)job->booking[g->pair[SCREE_LANES - 1 - k]].value =
+    if (law_keeps_last_force(v)) {
+        columns_to_rows((columns){m->last[0], m->last[1], m->last[2], m->last[3]}, row);
+        LANE_LOOP *(row4_single *)job->last_force[g->pair[SCREE_LANES - 1 - k]].value =
             __builtin_convertvector(row[SCREE_LANES - 1 - k], row4_single);
     }
     if (law_rolls(v)) {
         columns_to_rows((columns){m->rolling[0], m->rolling[1], m->rolling[2], m->rolling[3]}, row);
         LANE_LOOP *(row4 *)job->rolling[g->pair[SCREE_LANES - 1 - k]].value = row[SCREE_LANES - 1 - k];
-        const lanes *booked = m->rolling_booked;
-        columns_to_rows((columns){booked[0], booked[1], booked[2], booked[3]}, row);
-        LANE_LOOP *(row4_single *)job->rolling[g->pair[SCREE_LANES - 1 - k]].booked =
+        const lanes *last = m->rolling_last;
+        columns_to_rows((columns){last[0], last[1], last[2], last[3]}, row);
+        LANE_LOOP *(row4_single *)job->rolling[g->pair[SCREE_LANES - 1 - k]].last =
             __builtin_convertvector(row[SCREE_LANES - 1 - k], row4_single);
     }
 }
@@ -192,11 +192,11 @@ SCREE_INLINE void evaluate_group(const contact_job *job, variant v, group *g, to
     load_motions(dimension, job, g->second, &second);
     load_spins(dimension, job, g->first, &first);
     load_spins(dimension, job, g->second, &second);
-    motion m = motion_of_pair(dimension, &first, &second, job->settings.step);
-    if (law_foresees(v)) {
-        foresight ahead = load_foreseen(dimension, job, job->first, g);
-        foresight ahead_second = load_foreseen(dimension, job, job->second, g);
-        motion_foresee(dimension, &m, &first, &ahead, &second, &ahead_second);
+    kinematics m = kinematics_of_pair(dimension, &first, &second, job->settings.step);
+    if (law_predicts(v)) {
+        prediction ahead = load_predicted(dimension, job, job->first, g);
+        prediction ahead_second = load_predicted(dimension, job, job->second, g);
+        kinematics_predict(dimension, &m, &first, &ahead, &second, &ahead_second);
     }
     law_constants constants = load_constants(job, v, first.material, second.material);
     if (law_holds(v)) load_own(job, g, &constants);
@@ -210,9 +210,9 @@ SCREE_INLINE void evaluate_group(const contact_job *job, variant v, group *g, to
     t->in_range &= q.in_range;
     if (law_holds(v)) {
         t->largest_deformation = lanes_at_least(t->largest_deformation, lanes_keep(touching, q.deformation));
-        t->largest_gap = lanes_at_least(t->largest_gap, lanes_keep(touching, -m.indentation));
+        t->largest_gap = lanes_at_least(t->largest_gap, lanes_keep(touching, -m.overlap));
     } else {
-        t->largest_overlap = lanes_at_least(t->largest_overlap, lanes_keep(touching, m.indentation));
+        t->largest_overlap = lanes_at_least(t->largest_overlap, lanes_keep(touching, m.overlap));
     }
     t->damping += q.damping;
     t->friction += q.friction;

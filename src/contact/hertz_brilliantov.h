@@ -9,7 +9,7 @@
 /// about mu f_n dt / m turns its sign in every step. Implicit (docs/friction-update.md): s = s* is the slip after the
 /// coming kick. With s~ that slip if all forces stayed as they are, r the resistance -f_t and r' the one before,
 ///   s* = s~ - A (r - r'),  A = dt mobility,    r = mu f_n (|s*| / v_R)^(1/c) s* / |s*|,
-/// the mobility for the share of mass that a body's contacts have each (motion.h; mass splitting after Tonge,
+/// the mobility for the share of mass that a body's contacts have each (kinematics.h; mass splitting after Tonge,
 /// Benevolenski and Voroshilov 2012): a sweep of Jacobi's iteration in every step, from the forces of the last one,
 /// that converges for any step. r has the direction of s~ + A r'. With y = (|s*| / v_R)^(1/c), b = |s~ + A r'| / v_R
 /// and g = A mu f_n / v_R its magnitude mu f_n y follows from
@@ -20,7 +20,7 @@
 /// Memory (the fields in hertz_brilliantov.c), at n - 1: tangential force, for the ledger and the implicit update, and
 /// normal damping force, for the ledger.
 /// Ledger: damping <f_n - K d^1.5> d' dt, friction -<f_t> . s dt (mean forces, rates of the middle of the step:
-/// motion.h).
+/// kinematics.h).
 /// Cost: 2 roots, 2 divisions (3D: 3 and 3), one logarithm, one exponential a contact; implicit: 7 divisions and two
 /// logarithms and exponentials more.
 #ifndef SCREE_CONTACT_HERTZ_BRILLIANTOV_H
@@ -100,7 +100,7 @@ SCREE_INLINE lanes mobilised_friction(lanes b, lanes g, const law_settings *sett
 }
 
 /// Tangential force on first. cap: mu f_n; before: the force at n - 1, carried along.
-SCREE_INLINE vector regularised_friction(variant v, lanes cap, const law_settings *settings, const motion *m,
+SCREE_INLINE vector regularised_friction(variant v, lanes cap, const law_settings *settings, const kinematics *m,
                                          vector before)
 {
     const int count = tangential_count(v.dimension);
@@ -112,7 +112,7 @@ SCREE_INLINE vector regularised_friction(variant v, lanes cap, const law_setting
     lanes mobility = lanes_all(0);
     if (implicit) {
         mobility = settings->step * m->mobility;
-        slip = vector_minus(count, m->foreseen_slip, vector_times(count, before, mobility));
+        slip = vector_minus(count, m->predicted_slip, vector_times(count, before, mobility));
     }
     lanes speed = v.dimension == 2 ? lanes_abs(slip.x) : lanes_root(vector_dot(3, slip, slip)),
           relative = speed * scale;
@@ -122,11 +122,11 @@ SCREE_INLINE vector regularised_friction(variant v, lanes cap, const law_setting
 }
 
 SCREE_INLINE law_force hertz_brilliantov(variant v, const law_constants *constants, const law_settings *settings,
-                                         const motion *m, lanes_bits touching, const law_memory *before,
+                                         const kinematics *m, lanes_bits touching, const law_memory *before,
                                          law_memory *after)
 {
     const int dimension = v.dimension, count = tangential_count(dimension);
-    lanes d = lanes_keep(touching, m->indentation);
+    lanes d = lanes_keep(touching, m->overlap);
     lanes stiffness = constants->value[HERTZ_NORMAL] * lanes_root(m->reduced_radius * d);
     lanes elastic = stiffness * d;
     lanes normal =
@@ -136,7 +136,7 @@ SCREE_INLINE law_force hertz_brilliantov(variant v, const law_constants *constan
     vector tangential_before = {.x = before->value[0]};
     if (dimension == 3) {
         vector kept = {before->value[0], before->value[1], before->value[2]};
-        tangential_before = motion_carry(3, m, kept);
+        tangential_before = kinematics_carry(3, m, kept);
         damping_before = before->value[3];
     }
     vector tangential =

@@ -19,7 +19,7 @@
 
 static const scree_choice tangential_histories[] = {
     {"displacement", SCREE_TANGENTIAL_DISPLACEMENT,
-     "the tangential displacement stays as it is; cycles of indentation and slip may deliver energy"},
+     "the tangential displacement stays as it is; cycles of overlap and slip may deliver energy"},
     {"rescaled", SCREE_TANGENTIAL_RESCALED,
      "the tangential force stays as it is while the contact stiffens, the displacement while it softens (Thornton et "
      "al. 2013); no cycle delivers energy"},
@@ -141,12 +141,12 @@ static const scree_field fields[] = {
     SCREE_REMEMBERS(hertz_mindlin, history, 2, 1, SCREE_NORMAL_DAMPING_FIELD, .only_dimension = 2),
     SCREE_REMEMBERS(hertz_mindlin, history, 3, 1, SCREE_TANGENTIAL_DAMPING_FIELD, .only_dimension = 2),
     SCREE_REMEMBERS(hertz_mindlin, history, 3, 1, K_T, .only_dimension = 3),
-    SCREE_REMEMBERS(hertz_mindlin, booking, 0, 1, SCREE_NORMAL_DAMPING_FIELD, .only_dimension = 3),
-    SCREE_REMEMBERS(hertz_mindlin, booking, 1, 3, SCREE_TANGENTIAL_DAMPING_FIELD, .only_dimension = 3),
+    SCREE_REMEMBERS(hertz_mindlin, last_force, 0, 1, SCREE_NORMAL_DAMPING_FIELD, .only_dimension = 3),
+    SCREE_REMEMBERS(hertz_mindlin, last_force, 1, 3, SCREE_TANGENTIAL_DAMPING_FIELD, .only_dimension = 3),
     SCREE_REMEMBERS(hertz_mindlin, rolling, 0, SCREE_AXIAL_VECTOR, ROLLED, ROLLS, .in_checksum = true),
     SCREE_REMEMBERS(hertz_mindlin, rolling, 3, 1, TWISTED, ROLLS, .only_dimension = 3, .in_checksum = true),
-    SCREE_REMEMBERS(hertz_mindlin, rolling_booked, 0, SCREE_AXIAL_VECTOR, ROLLING_LAST, ROLLS),
-    SCREE_REMEMBERS(hertz_mindlin, rolling_booked, 3, 1, TWIST_LAST, ROLLS, .only_dimension = 3),
+    SCREE_REMEMBERS(hertz_mindlin, rolling_last, 0, SCREE_AXIAL_VECTOR, ROLLING_LAST, ROLLS),
+    SCREE_REMEMBERS(hertz_mindlin, rolling_last, 3, 1, TWIST_LAST, ROLLS, .only_dimension = 3),
 };
 
 static const scree_law law = {

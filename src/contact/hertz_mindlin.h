@@ -14,22 +14,23 @@
 /// When k_t changes with d, a spring keeps its displacement, or (MINDLIN_RESCALED; Thornton, Cummins and Cleary 2013,
 /// eq. 18) its force while k_t grows and its displacement while k_t falls, h <- h min(1, k_t(n-1) / k_t(n)). The first
 /// gives a spring that is stretched while k_t is small, and released while it is large, energy that nobody has spent: a
-/// closed cycle of indentation and slip may deliver work. With the second no change of k_t ever adds energy. Rolling
+/// closed cycle of overlap and slip may deliver work. With the second no change of k_t ever adds energy. Rolling
 /// springs have the same k_t; twisting ones, of k_t a^2 / 2, the cube of that factor.
 ///
 /// LAMMPS' `pair granular hertz/material, tangential mindlin, damping tsuji` differs in sliding contacts: there the
 /// spring is set to mu f_n - eta s, which in a fast slide stretches it backwards and charges it with energy that no
 /// body has spent. It also leaves out that the spring turns with the pair about n.
 ///
-/// In space the stretch is kept in the axes of space and brought into the present tangent plane in each step, with its
-/// length (motion_carry_whole): what the rotation of n leaves out is of second order in the angle of one step, and only
-/// concerns the direction. Two bodies that turn at different rates about n take the spring along at the mean.
+/// In space the tangential displacement is kept in the axes of space and brought into the present tangent plane in each
+/// step, with its length (kinematics_carry_whole): what the rotation of n leaves out is of second order in the angle of
+/// one step, and only concerns the direction. Two bodies that turn at different rates about n take the spring along at
+/// the mean.
 ///
 /// Memory (the fields in hertz_mindlin.c): h, k_t(n - 1), and at n - 1 for the ledger the normal damping force and the
 /// dashpot's part of the tangential force; of rolling the displacement and, in 3D, the angle of twist, and their
 /// dashpots.
 ///
-/// Ledger: damping <f_n - k_n d> d' dt with the rate of the middle of the step (motion.h), the rest by slider.h.
+/// Ledger: damping <f_n - k_n d> d' dt with the rate of the middle of the step (kinematics.h), the rest by slider.h.
 /// Cost: 3 roots, 3 divisions a contact in 2D; 3 and 2 in 3D, 5 and 4 in a group of lanes where one slides; rolling and
 /// twisting 3 and 4 more; rescaled one division more.
 #ifndef SCREE_CONTACT_HERTZ_MINDLIN_H
@@ -68,17 +69,20 @@ typedef struct scree_mindlin_material {
 
 /// In 2D the history holds what the ledger reads, too; k_t is for the ledger alone where springs are not rescaled.
 static const scree_law_traits hertz_mindlin_traits[] = {
-    [0] = {.remembers = true, .for_ledger = {0xe, 0x8}, .books = {false, true}, .displacement = true},
-    [MINDLIN_RESCALED] = {.remembers = true, .for_ledger = {0xc, 0}, .books = {false, true}, .displacement = true},
+    [0] = {.remembers = true, .for_ledger = {0xe, 0x8}, .keeps_last_force = {false, true}, .displacement = true},
+    [MINDLIN_RESCALED] = {.remembers = true,
+                          .for_ledger = {0xc, 0},
+                          .keeps_last_force = {false, true},
+                          .displacement = true},
     [MINDLIN_ROLLING] = {.remembers = true,
                          .for_ledger = {0xe, 0x8},
-                         .books = {false, true},
+                         .keeps_last_force = {false, true},
                          .displacement = true,
                          .rolling = true,
                          .wide = true},
     [MINDLIN_ROLLING | MINDLIN_RESCALED] = {.remembers = true,
                                             .for_ledger = {0xc, 0},
-                                            .books = {false, true},
+                                            .keeps_last_force = {false, true},
                                             .displacement = true,
                                             .rolling = true,
                                             .wide = true},
@@ -102,14 +106,15 @@ SCREE_INLINE lanes stiffness_before(int dimension, const law_memory *before)
 }
 
 /// What a slider of stiffness k_t remembers, from the rows of its displacement and of its dashpot.
-SCREE_INLINE slider_memory remembered(int dimension, const motion *m, const law_memory *before,
+SCREE_INLINE slider_memory remembered(int dimension, const kinematics *m, const law_memory *before,
                                       const lanes displacement[3], const lanes dashpot[3])
 {
     const lanes stiffness = stiffness_before(dimension, before);
     if (dimension == 2)
         return (slider_memory){{.x = displacement[0]}, {.x = displacement[0] * stiffness}, {.x = dashpot[0]}};
-    vector stretch = motion_carry_whole(3, m, row_vector(displacement));
-    return (slider_memory){stretch, vector_times(3, stretch, stiffness), motion_carry(3, m, row_vector(dashpot))};
+    vector tangential_displacement = kinematics_carry_whole(3, m, row_vector(displacement));
+    return (slider_memory){tangential_displacement, vector_times(3, tangential_displacement, stiffness),
+                           kinematics_carry(3, m, row_vector(dashpot))};
 }
 
 /// min(1, k_t(n-1) / k_t): what stiffening springs keep of their displacement. 1 where nothing touches.
@@ -131,7 +136,7 @@ SCREE_INLINE slider advance_slider(variant v, int count, slider_memory *before, 
 }
 
 /// Adds a slider's energies to those of the contact.
-SCREE_INLINE void book_slider(law_force *f, const slider *s)
+SCREE_INLINE void slider_work(law_force *f, const slider *s)
 {
     f->damping += 0.5 * s->damping;
     f->friction += 0.5 * s->friction;
@@ -140,20 +145,20 @@ SCREE_INLINE void book_slider(law_force *f, const slider *s)
 }
 
 /// Couple and energies of rolling and twisting resistance.
-SCREE_INLINE void resist_turning(variant v, const law_constants *constants, const motion *m, double step,
+SCREE_INLINE void resist_turning(variant v, const law_constants *constants, const kinematics *m, double step,
                                  lanes tangential_stiffness, lanes eta, lanes normal, lanes_bits touching,
                                  const law_memory *before, law_memory *after, law_force *f)
 {
     const int dimension = v.dimension, count = tangential_count(dimension);
     lanes kept = kept_displacement(v, before, tangential_stiffness);
-    slider_memory rolled = remembered(dimension, m, before, before->rolling, before->rolling_booked);
+    slider_memory rolled = remembered(dimension, m, before, before->rolling, before->rolling_last);
     slider roll = advance_slider(v, count, &rolled, kept, m->roll, step, tangential_stiffness, eta,
                                  constants->value[HERTZ_ROLLING] * normal, touching);
     f->couple = vector_times(count, moment_of(dimension, m->normal, roll.resistance), -m->reduced_radius);
-    book_slider(f, &roll);
+    slider_work(f, &roll);
     if (dimension == 2) {
-        after->rolling[0] = roll.now.stretch.x;
-        after->rolling_booked[0] = roll.now.dashpot.x;
+        after->rolling[0] = roll.now.displacement.x;
+        after->rolling_last[0] = roll.now.dashpot.x;
         return;
     }
     // a^2 / 2 at n - 1 from k_t = tangential_stiffness a.
@@ -161,23 +166,25 @@ SCREE_INLINE void resist_turning(variant v, const law_constants *constants, cons
     lanes radius_before = before->value[3] / constants->value[HERTZ_TANGENTIAL];
     lanes twisting_before = before->value[3] * (0.5 * (radius_before * radius_before));
     slider_memory twisted = {
-        {.x = before->rolling[3]}, {.x = twisting_before * before->rolling[3]}, {.x = before->rolling_booked[3]}};
+        {.x = before->rolling[3]}, {.x = twisting_before * before->rolling[3]}, {.x = before->rolling_last[3]}};
     slider twist = advance_slider(v, 1, &twisted, kept * kept * kept, (vector){.x = m->twist}, step,
                                   tangential_stiffness * half_square, eta * half_square,
                                   constants->value[HERTZ_TWISTING] * m->reduced_radius * normal, touching);
     f->couple = vector_minus(3, f->couple, vector_times(3, m->normal, twist.resistance.x));
-    book_slider(f, &twist);
-    vector stretch = roll.now.stretch, dashpot = roll.now.dashpot;
-    lanes *value = after->rolling, *booked = after->rolling_booked;
-    value[0] = stretch.x, value[1] = stretch.y, value[2] = stretch.z, value[3] = twist.now.stretch.x;
-    booked[0] = dashpot.x, booked[1] = dashpot.y, booked[2] = dashpot.z, booked[3] = twist.now.dashpot.x;
+    slider_work(f, &twist);
+    vector tangential_displacement = roll.now.displacement, dashpot = roll.now.dashpot;
+    lanes *value = after->rolling, *last = after->rolling_last;
+    value[0] = tangential_displacement.x, value[1] = tangential_displacement.y, value[2] = tangential_displacement.z,
+    value[3] = twist.now.displacement.x;
+    last[0] = dashpot.x, last[1] = dashpot.y, last[2] = dashpot.z, last[3] = twist.now.dashpot.x;
 }
 
 SCREE_INLINE law_force hertz_mindlin(variant v, const law_constants *constants, const law_settings *settings,
-                                     const motion *m, lanes_bits touching, const law_memory *before, law_memory *after)
+                                     const kinematics *m, lanes_bits touching, const law_memory *before,
+                                     law_memory *after)
 {
     const int dimension = v.dimension, count = tangential_count(dimension);
-    lanes d = lanes_keep(touching, m->indentation);
+    lanes d = lanes_keep(touching, m->overlap);
     lanes contact_radius = lanes_root(m->reduced_radius * d);
     lanes normal_stiffness = constants->value[HERTZ_NORMAL] * contact_radius;
     lanes tangential_stiffness = constants->value[HERTZ_TANGENTIAL] * contact_radius;
@@ -187,17 +194,18 @@ SCREE_INLINE law_force hertz_mindlin(variant v, const law_constants *constants, 
     lanes damping = normal - elastic;
 
     slider_memory slipped =
-        remembered(dimension, m, before, before->value, dimension == 2 ? before->value + 3 : before->booked + 1);
+        remembered(dimension, m, before, before->value, dimension == 2 ? before->value + 3 : before->last + 1);
     lanes kept = kept_displacement(v, before, tangential_stiffness);
     slider slip = advance_slider(v, count, &slipped, kept, m->slip, settings->step, tangential_stiffness, eta,
                                  constants->value[SCREE_FRICTION] * normal, touching);
-    vector stretch = slip.now.stretch, dashpot = slip.now.dashpot;
+    vector tangential_displacement = slip.now.displacement, dashpot = slip.now.dashpot;
     lanes damping_before = before->value[2];
-    *after = (law_memory){.value = {stretch.x, tangential_stiffness, damping, dashpot.x}};
+    *after = (law_memory){.value = {tangential_displacement.x, tangential_stiffness, damping, dashpot.x}};
     if (dimension == 3) {
-        damping_before = before->booked[0];
-        *after = (law_memory){.value = {stretch.x, stretch.y, stretch.z, tangential_stiffness},
-                              .booked = {damping, dashpot.x, dashpot.y, dashpot.z}};
+        damping_before = before->last[0];
+        *after = (law_memory){.value = {tangential_displacement.x, tangential_displacement.y, tangential_displacement.z,
+                                        tangential_stiffness},
+                              .last = {damping, dashpot.x, dashpot.y, dashpot.z}};
     }
     law_force f = {
         .normal = normal,

@@ -1,5 +1,5 @@
 /// One thread's share of a force evaluation: what a kernel reads and what it gives back. Between contact/forces.c,
-/// which cuts the work, and the kernels (scree_plane_pairs_vN and scree_solid_pairs_vN for two and three dimensions:
+/// which cuts the work, and the kernels (scree_pairs_2d_vN and scree_pairs_3d_vN for two and three dimensions:
 /// one compilation of their files for each instruction set).
 #ifndef SCREE_CONTACT_JOB_H
 #define SCREE_CONTACT_JOB_H
@@ -29,15 +29,15 @@ typedef struct contact_job {
     const scree_model *model;
     variant variant;
     const scree_row *row;
-    const scree_turn_row *turn;     ///< 3D
-    const scree_foreseen *foreseen; ///< one a row, with law_foresees
-    scree_sum_row *sum;             ///< the sum of row r is sum[r]; this thread's own
-    scree_torque_row *torque;       ///< 3D, in the same way
-    const uint32_t *first, *second; ///< the whole pair list
+    const scree_turn_row *turn;       ///< 3D
+    const scree_predicted *predicted; ///< one a row, with law_predicts
+    scree_sum_row *sum;               ///< the sum of row r is sum[r]; this thread's own
+    scree_torque_row *torque;         ///< 3D, in the same way
+    const uint32_t *first, *second;   ///< the whole pair list
     scree_history *history;
-    scree_booking *booking;      ///< with law_books
-    scree_rolling *rolling;      ///< with law_rolls
-    const scree_member_row *own; ///< with law_holds: constants of the first pairs of the list
+    scree_last_force *last_force; ///< with law_keeps_last_force
+    scree_rolling *rolling;       ///< with law_rolls
+    const scree_member_row *own;  ///< with law_holds: constants of the first pairs of the list
     const scree_pair_constants (*pairs)[SCREE_MAX_MATERIALS];
     size_t near;                         ///< number of the first near pair; touching pairs come before it
     size_t held_begin, held_end;         ///< pairs of this job that are held, for contact_job_of_held
@@ -66,7 +66,7 @@ static inline contact_job contact_job_of_held(const contact_job *job)
 }
 
 typedef void contact_kernel(contact_job *job);
-contact_kernel scree_plane_pairs_v0, scree_plane_pairs_v2, scree_plane_pairs_v3, scree_plane_pairs_v4;
-contact_kernel scree_solid_pairs_v0, scree_solid_pairs_v2, scree_solid_pairs_v3, scree_solid_pairs_v4;
+contact_kernel scree_pairs_2d_v0, scree_pairs_2d_v2, scree_pairs_2d_v3, scree_pairs_2d_v4;
+contact_kernel scree_pairs_3d_v0, scree_pairs_3d_v2, scree_pairs_3d_v3, scree_pairs_3d_v4;
 
 #endif

@@ -7,7 +7,7 @@
 #ifndef SCREE_CONTACT_LAW_H
 #define SCREE_CONTACT_LAW_H
 
-#include "contact/motion.h"
+#include "contact/kinematics.h"
 #include "state/state.h"
 
 /// What evaluations are specialised by: constants in the kernels, runtime values in the scalar reference.
@@ -32,11 +32,11 @@ typedef struct law_settings {
     double number[SCREE_LAW_NUMBERS]; ///< scree_law_use
 } law_settings;
 
-/// The rows that a contact remembers, in lanes: scree_history, scree_booking, scree_rolling.
+/// The rows that a contact remembers, in lanes: scree_history, scree_last_force, scree_rolling.
 typedef struct law_memory {
     lanes value[SCREE_HISTORY];
-    lanes booked[4];
-    lanes rolling[4], rolling_booked[4];
+    lanes last[4];
+    lanes rolling[4], rolling_last[4];
 } law_memory;
 
 typedef struct law_force {

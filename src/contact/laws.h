@@ -28,16 +28,16 @@ SCREE_INLINE bool law_remembers(variant v)
     return v.ledger || law_traits(v)->remembers;
 }
 
-/// Whether it needs motion_foresee.
-SCREE_INLINE bool law_foresees(variant v)
+/// Whether it needs kinematics_predict.
+SCREE_INLINE bool law_predicts(variant v)
 {
     return law_traits(v)->looks_ahead;
 }
 
-/// Whether it reads and writes booking rows.
-SCREE_INLINE bool law_books(variant v)
+/// Whether it reads and writes last_force rows.
+SCREE_INLINE bool law_keeps_last_force(variant v)
 {
-    return v.ledger && law_traits(v)->books[v.dimension - 2];
+    return v.ledger && law_traits(v)->keeps_last_force[v.dimension - 2];
 }
 
 /// Whether it reads and writes rolling rows, and gives couples.
@@ -66,14 +66,15 @@ SCREE_INLINE void law_forget(variant v, law_memory *after)
     const unsigned forgotten = law_traits(v)->for_ledger[v.dimension - 2];
     for (unsigned k = 0; k < 4; k++)
         if (forgotten >> k & 1) after->value[k] = none;
-    for (int k = 0; k < 4 && law_rolls(v); k++) after->rolling_booked[k] = none;
+    for (int k = 0; k < 4 && law_rolls(v); k++) after->rolling_last[k] = none;
 }
 
 #define LAW_EVALUATE(law_)                                                                                             \
     if (v.law == SCREE_SLOT_##law_) return law_(v, constants, settings, m, touching, before, after);
 
 SCREE_INLINE law_force law_evaluate(variant v, const law_constants *constants, const law_settings *settings,
-                                    const motion *m, lanes_bits touching, const law_memory *before, law_memory *after)
+                                    const kinematics *m, lanes_bits touching, const law_memory *before,
+                                    law_memory *after)
 {
     SCREE_LAWS(LAW_EVALUATE)
     return (law_force){.normal = lanes_all(0)};

@@ -146,14 +146,14 @@ static const scree_field fields[] = {
     SCREE_REMEMBERS(linear, history, 1, 1, SCREE_NORMAL_DAMPING_FIELD, .only_dimension = 2),
     SCREE_REMEMBERS(linear, history, 2, 1, SCREE_TANGENTIAL_DAMPING_FIELD, .only_dimension = 2),
     SCREE_REMEMBERS(linear, history, 3, 1, SCREE_NORMAL_DAMPING_FIELD, .only_dimension = 3),
-    SCREE_REMEMBERS(linear, booking, 0, 3, SCREE_TANGENTIAL_DAMPING_FIELD, .only_dimension = 3),
+    SCREE_REMEMBERS(linear, last_force, 0, 3, SCREE_TANGENTIAL_DAMPING_FIELD, .only_dimension = 3),
     SCREE_HELD_REMEMBERS(linear, constant, SCREE_MEMBER_REST, 1, SCREE_REST_FIELD, .in_checksum = true),
     SCREE_HELD_REMEMBERS(linear, history, 0, SCREE_AXIAL_VECTOR, SCREE_TANGENTIAL_DISPLACEMENT_FIELD,
                          .in_checksum = true),
     SCREE_HELD_REMEMBERS(linear, history, 1, 1, SCREE_NORMAL_DAMPING_FIELD, .only_dimension = 2),
     SCREE_HELD_REMEMBERS(linear, history, 2, 1, SCREE_TANGENTIAL_DAMPING_FIELD, .only_dimension = 2),
     SCREE_HELD_REMEMBERS(linear, history, 3, 1, SCREE_NORMAL_DAMPING_FIELD, .only_dimension = 3),
-    SCREE_HELD_REMEMBERS(linear, booking, 0, 3, SCREE_TANGENTIAL_DAMPING_FIELD, .only_dimension = 3),
+    SCREE_HELD_REMEMBERS(linear, last_force, 0, 3, SCREE_TANGENTIAL_DAMPING_FIELD, .only_dimension = 3),
 };
 
 // ---- closed forms --------------------------------------------------------------------------------------------------

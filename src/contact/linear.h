@@ -16,10 +16,10 @@
 /// Memory (the fields in linear.c): h, and for the ledger, at n - 1, the normal damping force and the dashpot's part of
 /// the tangential force.
 ///
-/// Ledger: damping <f_n - k_n d> d' dt with the rate of the middle of the step (motion.h), the rest by slider.h. k_t
-/// does not change, so springs are given no energy: `stiffness` is zero.
-/// Limits: the dashpot jumps to c_n v where an impact begins, so a damped impact is of first order in the step.
-/// Cost: one root, one division a contact in 2D; one and one in 3D, 3 and 2 in a group of lanes where one slides.
+/// Ledger: damping <f_n - k_n d> d' dt with the rate of the middle of the step (kinematics.h), the rest by slider.h.
+/// k_t does not change, so springs are given no energy: `stiffness` is zero. Limits: the dashpot jumps to c_n v where
+/// an impact begins, so a damped impact is of first order in the step. Cost: one root, one division a contact in 2D;
+/// one and one in 3D, 3 and 2 in a group of lanes where one slides.
 #ifndef SCREE_CONTACT_LINEAR_H
 #define SCREE_CONTACT_LINEAR_H
 
@@ -53,10 +53,14 @@ typedef struct scree_linear_material {
 #define linear_KERNELS(row) row(linear, 0, one) row(linear, 0, many) row(linear, 1, many)
 
 static const scree_law_traits linear_traits[] = {
-    [0] = {.remembers = true, .for_ledger = {0xe, 0x8}, .books = {false, true}, .displacement = true, .wide = true},
+    [0] = {.remembers = true,
+           .for_ledger = {0xe, 0x8},
+           .keeps_last_force = {false, true},
+           .displacement = true,
+           .wide = true},
     [LINEAR_HELD] = {.remembers = true,
                      .for_ledger = {0xe, 0x8},
-                     .books = {false, true},
+                     .keeps_last_force = {false, true},
                      .displacement = true,
                      .wide = true,
                      .pulls = true,
@@ -64,7 +68,7 @@ static const scree_law_traits linear_traits[] = {
 };
 
 /// What the slider remembers; a spring that has lost its contact still holds what it held.
-SCREE_INLINE slider_memory linear_remembered(int dimension, const motion *m, const law_memory *before,
+SCREE_INLINE slider_memory linear_remembered(int dimension, const kinematics *m, const law_memory *before,
                                              lanes tangential_stiffness)
 {
     if (dimension == 2) {
@@ -72,18 +76,19 @@ SCREE_INLINE slider_memory linear_remembered(int dimension, const motion *m, con
         return (slider_memory){{.x = before->value[0]}, {.x = spring}, {.x = before->value[2]}};
     }
     vector displacement = {before->value[0], before->value[1], before->value[2]};
-    vector dashpot = {before->booked[0], before->booked[1], before->booked[2]};
-    vector stretch = motion_carry_whole(3, m, displacement);
-    return (slider_memory){stretch, vector_times(3, stretch, tangential_stiffness), motion_carry(3, m, dashpot)};
+    vector dashpot = {before->last[0], before->last[1], before->last[2]};
+    vector tangential_displacement = kinematics_carry_whole(3, m, displacement);
+    return (slider_memory){tangential_displacement, vector_times(3, tangential_displacement, tangential_stiffness),
+                           kinematics_carry(3, m, dashpot)};
 }
 
-SCREE_INLINE law_force linear(variant v, const law_constants *constants, const law_settings *settings, const motion *m,
-                              lanes_bits touching, const law_memory *before, law_memory *after)
+SCREE_INLINE law_force linear(variant v, const law_constants *constants, const law_settings *settings,
+                              const kinematics *m, lanes_bits touching, const law_memory *before, law_memory *after)
 {
     const int dimension = v.dimension, count = tangential_count(dimension);
     const lanes *constant = constants->value, none = lanes_all(0);
     const bool held = v.option & LINEAR_HELD;
-    lanes d = lanes_keep(touching, held ? m->indentation - constants->own[SCREE_MEMBER_REST] : m->indentation);
+    lanes d = lanes_keep(touching, held ? m->overlap - constants->own[SCREE_MEMBER_REST] : m->overlap);
     lanes whole = constant[LINEAR_NORMAL] + constant[LINEAR_BY_RADIUS] * m->reduced_radius;
     lanes stiffness = lanes_keep(touching, whole);
     lanes root = lanes_root(m->reduced_mass * stiffness);
@@ -96,11 +101,12 @@ SCREE_INLINE law_force linear(variant v, const law_constants *constants, const l
     slider slip = slider_move(count, &slipped, m->slip, settings->step, constant[LINEAR_RATIO] * stiffness,
                               constant[LINEAR_TANGENTIAL_DAMPING] * root,
                               held ? lanes_all(INFINITY) : constant[SCREE_FRICTION] * normal, touching);
-    vector stretch = slip.now.stretch, dashpot = slip.now.dashpot;
-    *after = (law_memory){.value = {stretch.x, damping, dashpot.x, none}};
+    vector tangential_displacement = slip.now.displacement, dashpot = slip.now.dashpot;
+    *after = (law_memory){.value = {tangential_displacement.x, damping, dashpot.x, none}};
     if (dimension == 3)
-        *after = (law_memory){.value = {stretch.x, stretch.y, stretch.z, damping},
-                              .booked = {dashpot.x, dashpot.y, dashpot.z, none}};
+        *after = (law_memory){
+            .value = {tangential_displacement.x, tangential_displacement.y, tangential_displacement.z, damping},
+            .last = {dashpot.x, dashpot.y, dashpot.z, none}};
     return (law_force){
         .normal = normal,
         .tangential = vector_opposite(count, slip.resistance),
@@ -108,7 +114,7 @@ SCREE_INLINE law_force linear(variant v, const law_constants *constants, const l
         .damping = 0.5 * ((damping + damping_before) * (m->approach * settings->step) + slip.damping),
         .friction = 0.5 * slip.friction,
         .stiffness = none,
-        .deformation = held ? lanes_at_least(lanes_abs(d), vector_extent(count, stretch)) : none,
+        .deformation = held ? lanes_at_least(lanes_abs(d), vector_extent(count, tangential_displacement)) : none,
         .elastic_normal = 0.5 * (elastic * d),
         .elastic_tangential = slip.elastic,
     };

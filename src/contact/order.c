@@ -19,8 +19,8 @@ static bool reference_get(const scree_state *state, const scree_work *work, cons
     k -= pairs->count;
     if (k >= work->wall_pairs.count) {
         k -= work->wall_pairs.count;
-        *r = (contact_reference){state->id[work->element_pairs.body[k]], SCREE_ELEMENT_ID + work->element_pairs.wall[k],
-                                 (uint32_t)k};
+        *r = (contact_reference){state->id[work->primitive_pairs.body[k]],
+                                 SCREE_PRIMITIVE_ID + work->primitive_pairs.wall[k], (uint32_t)k};
         return touching[k];
     }
     uint32_t body = work->wall_pairs.body[k], wall = work->wall_pairs.wall[k];
@@ -39,18 +39,18 @@ static void insert(contact_reference *list, size_t begin, size_t k)
 scree_status contact_order(const scree_state *state, const scree_work *work, contact_reference **list, size_t *count,
                            scree_error *error)
 {
-    size_t candidates = work->pairs.count + work->wall_pairs.count + work->element_pairs.count;
+    size_t candidates = work->pairs.count + work->wall_pairs.count + work->primitive_pairs.count;
     contact_reference r;
     size_t *begin;
     uint8_t *touching = NULL;
     *list = NULL;
     scree_status status = scree_allocate(&begin, state->id_count + 2, sizeof *begin, error);
-    if (!status) status = scree_allocate(&touching, work->element_pairs.count, sizeof *touching, error);
+    if (!status) status = scree_allocate(&touching, work->primitive_pairs.count, sizeof *touching, error);
     if (status) {
         scree_release(&begin);
         return status;
     }
-    contact_elements_mark(state, work, touching);
+    contact_primitives_mark(state, work, touching);
 
     // begin[id + 2] counts, begin[id + 1] becomes the place where the contacts of id are put, and in the end their end.
     for (size_t k = 0; k < candidates; k++)

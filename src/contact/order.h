@@ -5,8 +5,8 @@
 #include "state/work.h"
 
 typedef struct contact_reference {
-    uint32_t first, second; ///< ids; a wall is SCREE_WALL_ID + its index, an element SCREE_ELEMENT_ID + its number
-    uint32_t pair;          ///< in work->pairs, work->wall_pairs or work->element_pairs
+    uint32_t first, second; ///< ids; a wall is SCREE_WALL_ID + its index, an element SCREE_PRIMITIVE_ID + its number
+    uint32_t pair;          ///< in work->pairs, work->wall_pairs or work->primitive_pairs
 } contact_reference;
 
 /// The list that a contact is in.
@@ -14,7 +14,9 @@ typedef enum contact_list { CONTACT_PAIR, CONTACT_PLATE, CONTACT_ELEMENT } conta
 
 static inline contact_list contact_reference_list(const contact_reference *r)
 {
-    return r->second >= SCREE_WALL_ID ? CONTACT_PLATE : r->second >= SCREE_ELEMENT_ID ? CONTACT_ELEMENT : CONTACT_PAIR;
+    return r->second >= SCREE_WALL_ID        ? CONTACT_PLATE
+           : r->second >= SCREE_PRIMITIVE_ID ? CONTACT_ELEMENT
+                                             : CONTACT_PAIR;
 }
 
 /// All pairs, wall pairs and element pairs that touch at the present positions, ordered by (first, second): walls come

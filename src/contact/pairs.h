@@ -6,10 +6,10 @@
 /// that touch, or did in the last step, are queued until a group is full, as are the ends of both ranges. Sums are
 /// integers, so the order does not matter.
 ///
-/// Compiled once for each dimension (plane_pairs_batch.c, solid_pairs_batch.c) and instruction set (SCREE_ISA, two,
+/// Compiled once for each dimension (pairs_2d_batch.c, pairs_3d_batch.c) and instruction set (SCREE_ISA, two,
 /// four or eight lanes); inside, once for each variant, by always-inline functions that are called with constants.
 /// Cost: two cache lines of bodies, two sum rows and one history row a contact; in 3D two rows of spins, two of torques
-/// and, with the ledger, a booking row more.
+/// and, with the ledger, a last_force row more.
 #ifndef SCREE_CONTACT_PAIRS_H
 #define SCREE_CONTACT_PAIRS_H
 
@@ -157,23 +157,23 @@ SCREE_INLINE void run(contact_job *given, variant v)
 enum { OF_one = 0, OF_many = 1 };
 enum { MOST_OPTIONS = 4 };
 
-#define PLANE_KERNEL(law, option, materials)                                                                           \
-    VARIANT(plane_##law##_##option##_##materials, 2, law, option, OF_##materials)
-#define SOLID_KERNEL(law, option, materials)                                                                           \
-    VARIANT(solid_##law##_##option##_##materials, 3, law, option, OF_##materials)
-#define PLANE_ENTRY(law, option, materials)                                                                            \
-    [SCREE_SLOT_##law][option][OF_##materials] = plane_##law##_##option##_##materials,
-#define SOLID_ENTRY(law, option, materials)                                                                            \
-    [SCREE_SLOT_##law][option][OF_##materials] = solid_##law##_##option##_##materials,
-#define PLANE_KERNELS(law) law##_KERNELS(PLANE_KERNEL)
-#define SOLID_KERNELS(law) law##_KERNELS(SOLID_KERNEL)
-#define PLANE_ENTRIES(law) law##_KERNELS(PLANE_ENTRY)
-#define SOLID_ENTRIES(law) law##_KERNELS(SOLID_ENTRY)
+#define PAIRS_2D_KERNEL(law, option, materials)                                                                        \
+    VARIANT(pairs_2d_##law##_##option##_##materials, 2, law, option, OF_##materials)
+#define PAIRS_3D_KERNEL(law, option, materials)                                                                        \
+    VARIANT(pairs_3d_##law##_##option##_##materials, 3, law, option, OF_##materials)
+#define PAIRS_2D_ENTRY(law, option, materials)                                                                         \
+    [SCREE_SLOT_##law][option][OF_##materials] = pairs_2d_##law##_##option##_##materials,
+#define PAIRS_3D_ENTRY(law, option, materials)                                                                         \
+    [SCREE_SLOT_##law][option][OF_##materials] = pairs_3d_##law##_##option##_##materials,
+#define PAIRS_2D_KERNELS(law) law##_KERNELS(PAIRS_2D_KERNEL)
+#define PAIRS_3D_KERNELS(law) law##_KERNELS(PAIRS_3D_KERNEL)
+#define PAIRS_2D_ENTRIES(law) law##_KERNELS(PAIRS_2D_ENTRY)
+#define PAIRS_3D_ENTRIES(law) law##_KERNELS(PAIRS_3D_ENTRY)
 
 /// The kernel of a dimension. One for many materials serves a single one, too.
 #define PAIRS_KERNEL(name, NAME)                                                                                       \
     SCREE_LAWS(NAME##_KERNELS)                                                                                         \
-    void KERNEL_NAME(scree_##name##_pairs_v, SCREE_ISA)(contact_job * job)                                             \
+    void KERNEL_NAME(scree_##name##_v, SCREE_ISA)(contact_job * job)                                                   \
     {                                                                                                                  \
         static contact_kernel *const kernels[SCREE_MODULE_COUNT][MOST_OPTIONS][2] = {SCREE_LAWS(NAME##_ENTRIES)};      \
         const variant *v = &job->variant;                                                                              \

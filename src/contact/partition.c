@@ -37,7 +37,7 @@ static scree_status mark_near(contact_scratch *scratch, const scree_pair_list *p
     }
     if (bytes > 0) memset(scratch->near_touched, 0, bytes);
     for (size_t k = 0; k < near; k++) {
-        memory_rows rows = memory_rows_at(pairs->history, pairs->booking, pairs->rolling, pairs->touching_count + k);
+        memory_rows rows = memory_rows_at(pairs->history, pairs->last_force, pairs->rolling, pairs->touching_count + k);
         if (!memory_is_clear(&rows)) scratch->near_touched[k / 8] |= (uint8_t)(1U << k % 8);
     }
     return SCREE_OK;
@@ -60,7 +60,7 @@ static size_t share(size_t count, int k, int parts)
     return k == parts ? count : count / (size_t)parts * (size_t)k / 8 * 8;
 }
 
-static scree_status cut_part(contact_scratch *scratch, const scree_pair_list *pairs, bool solid, size_t rows, int k)
+static scree_status cut_part(contact_scratch *scratch, const scree_pair_list *pairs, bool in_3d, size_t rows, int k)
 {
     contact_part *part = &scratch->part[k];
     size_t held = pairs->held_count, first_near = pairs->touching_count;
@@ -87,7 +87,7 @@ static scree_status cut_part(contact_scratch *scratch, const scree_pair_list *pa
     scree_release(&part->torque);
     part->capacity = 0;
     scree_status status = scree_allocate(&part->buffer, window, sizeof *part->buffer, NULL);
-    if (!status && solid) status = scree_allocate(&part->torque, window, sizeof *part->torque, NULL);
+    if (!status && in_3d) status = scree_allocate(&part->torque, window, sizeof *part->torque, NULL);
     if (!status) part->capacity = window;
     return status;
 }

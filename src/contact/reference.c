@@ -36,15 +36,15 @@ static void evaluate_pair(contact_job *job, size_t p)
 {
     const int dimension = job->variant.dimension;
     const size_t first = job->first[p], second = job->second[p];
-    memory_rows rows = memory_rows_at(job->history, job->booking, job->rolling, p);
+    memory_rows rows = memory_rows_at(job->history, job->last_force, job->rolling, p);
     bool touching = law_holds(job->variant) || pair_touches(dimension, &job->row[first], &job->row[second]);
     if (!touching && memory_is_clear(&rows)) return;
     bodies one = contact_body_at(job, first), other = contact_body_at(job, second);
-    motion m = motion_of_pair(dimension, &one, &other, job->settings.step);
-    if (law_foresees(job->variant)) {
-        foresight ahead = foresight_get(dimension, &job->foreseen[first]);
-        foresight ahead_second = foresight_get(dimension, &job->foreseen[second]);
-        motion_foresee(dimension, &m, &one, &ahead, &other, &ahead_second);
+    kinematics m = kinematics_of_pair(dimension, &one, &other, job->settings.step);
+    if (law_predicts(job->variant)) {
+        prediction ahead = prediction_get(dimension, &job->predicted[first]);
+        prediction ahead_second = prediction_get(dimension, &job->predicted[second]);
+        kinematics_predict(dimension, &m, &one, &ahead, &other, &ahead_second);
     }
     const scree_pair_constants *constants = &job->pairs[(int)one.material][(int)other.material];
     const scree_member_row *own = law_holds(job->variant) ? &job->own[p] : NULL;
@@ -90,14 +90,14 @@ SCREE_INLINE void evaluate_walls(contact_job *job, variant v, const scree_wall *
         prefetch_wall_pair(job, pairs, p + WALL_PAIRS_AHEAD);
         if (row < row_begin || row >= row_end) continue;
         uint32_t w = pairs->wall[p];
-        memory_rows rows = memory_rows_at(pairs->history, pairs->booking, pairs->rolling, p);
+        memory_rows rows = memory_rows_at(pairs->history, pairs->last_force, pairs->rolling, p);
         bool touching = wall_touches(v.dimension, &job->row[row], &wall[w]);
         if (!touching && memory_is_clear(&rows)) continue;
         bodies one = body_get(v.dimension, &job->row[row], job->turn ? &job->turn[row] : NULL);
-        motion m = motion_of_wall(v.dimension, &one, &wall[w], job->settings.step);
-        if (law_foresees(v)) {
-            foresight ahead = foresight_get(v.dimension, &job->foreseen[row]);
-            motion_foresee(v.dimension, &m, &one, &ahead, NULL, NULL);
+        kinematics m = kinematics_of_wall(v.dimension, &one, &wall[w], job->settings.step);
+        if (law_predicts(v)) {
+            prediction ahead = prediction_get(v.dimension, &job->predicted[row]);
+            kinematics_predict(v.dimension, &m, &one, &ahead, NULL, NULL);
         }
         contact_quanta q = contact_advance(job, v, &job->model->walls[(int)one.material], NULL, &m, touching, &rows);
         contact_add_to_sums(job, row, q.force, q.torque_first, q.count);

@@ -90,18 +90,18 @@ SCREE_INLINE void columns_to_rows(columns c, row4 row[8])
 
 #define LANE_LOOP _Pragma("GCC unroll 8") for (int k = 0; k < SCREE_LANES; k++)
 
-SCREE_INLINE columns columns_load(const double *const place[SCREE_LANES])
+SCREE_INLINE columns columns_load(const double *const position[SCREE_LANES])
 {
     row4 row[SCREE_LANES];
-    LANE_LOOP row[k] = *(const row4 *)place[k];
+    LANE_LOOP row[k] = *(const row4 *)position[k];
     return columns_of_rows(row);
 }
 
 /// Rows of four single-precision numbers.
-SCREE_INLINE columns columns_load_single(const float *const place[SCREE_LANES])
+SCREE_INLINE columns columns_load_single(const float *const position[SCREE_LANES])
 {
     row4 row[SCREE_LANES];
-    LANE_LOOP row[k] = __builtin_convertvector(*(const row4_single *)place[k], row4);
+    LANE_LOOP row[k] = __builtin_convertvector(*(const row4_single *)position[k], row4);
     return columns_of_rows(row);
 }
 

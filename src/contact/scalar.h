@@ -8,7 +8,7 @@
 /// `turn` is not read in two dimensions.
 static inline bodies body_get(int dimension, const scree_row *row, const scree_turn_row *turn)
 {
-    bodies body = {.place = {row->x, row->y, 0}, .velocity = {row->vx, row->vy, 0}};
+    bodies body = {.position = {row->x, row->y, 0}, .velocity = {row->vx, row->vy, 0}};
     body.radius = row->radius;
     body.mass = row->mass;
     if (dimension == 2) {
@@ -16,17 +16,17 @@ static inline bodies body_get(int dimension, const scree_row *row, const scree_t
         body.material = row->material;
         return body;
     }
-    body.place.z = row->z;
+    body.position.z = row->z;
     body.velocity.z = row->vz;
     body.spin = (vector){turn->wx, turn->wy, turn->wz};
     body.material = turn->material;
     return body;
 }
 
-static inline foresight foresight_get(int dimension, const scree_foreseen *f)
+static inline prediction prediction_get(int dimension, const scree_predicted *f)
 {
-    if (dimension == 2) return (foresight){.velocity = {f->vx, f->vy, 0}, .spin = {f->spin, 0, 0}, f->contacts};
-    return (foresight){.velocity = {f->vx, f->vy, f->vz}, .spin = {f->wx, f->wy, f->wz}, f->contacts};
+    if (dimension == 2) return (prediction){.velocity = {f->vx, f->vy, 0}, .spin = {f->spin, 0, 0}, f->contacts};
+    return (prediction){.velocity = {f->vx, f->vy, f->vz}, .spin = {f->wx, f->wy, f->wz}, f->contacts};
 }
 
 /// own: constants of the pair's own; NULL: it has none.
@@ -57,7 +57,7 @@ static inline void torque_row_add(scree_torque_row *sum, uint64_t x, uint64_t y,
 /// What a contact remembers, as rows; those that do not exist are NULL.
 typedef struct memory_rows {
     scree_history *history;
-    scree_booking *booking;
+    scree_last_force *last_force;
     scree_rolling *rolling;
 } memory_rows;
 
@@ -66,9 +66,9 @@ static inline law_memory memory_get(variant v, const memory_rows *rows)
     law_memory memory = {0};
     for (int k = 0; k < 4; k++) {
         memory.value[k] = rows->history->value[k];
-        if (law_books(v)) memory.booked[k] = (double)rows->booking->value[k];
+        if (law_keeps_last_force(v)) memory.last[k] = (double)rows->last_force->value[k];
         if (law_rolls(v)) memory.rolling[k] = rows->rolling->value[k];
-        if (law_rolls(v)) memory.rolling_booked[k] = (double)rows->rolling->booked[k];
+        if (law_rolls(v)) memory.rolling_last[k] = (double)rows->rolling->last[k];
     }
     return memory;
 }
@@ -77,17 +77,17 @@ static inline void memory_set(variant v, const memory_rows *rows, const law_memo
 {
     for (int k = 0; k < 4 && law_remembers(v); k++) {
         rows->history->value[k] = memory->value[k];
-        if (law_books(v)) rows->booking->value[k] = (float)memory->booked[k];
+        if (law_keeps_last_force(v)) rows->last_force->value[k] = (float)memory->last[k];
         if (law_rolls(v)) rows->rolling->value[k] = memory->rolling[k];
-        if (law_rolls(v)) rows->rolling->booked[k] = (float)memory->rolling_booked[k];
+        if (law_rolls(v)) rows->rolling->last[k] = (float)memory->rolling_last[k];
     }
 }
 
 /// Rows of contact `k` of a list.
-static inline memory_rows memory_rows_at(scree_history *history, scree_booking *booking, scree_rolling *rolling,
+static inline memory_rows memory_rows_at(scree_history *history, scree_last_force *last_force, scree_rolling *rolling,
                                          size_t k)
 {
-    return (memory_rows){history + k, booking ? booking + k : NULL, rolling ? rolling + k : NULL};
+    return (memory_rows){history + k, last_force ? last_force + k : NULL, rolling ? rolling + k : NULL};
 }
 
 /// A contact that has opened has all its rows clear, so the history row tells, but for what only rolls.
@@ -96,8 +96,8 @@ static inline bool memory_is_clear(const memory_rows *rows)
     bool clear = true;
     for (int k = 0; k < 4; k++) {
         clear = clear && rows->history->value[k] == 0;
-        if (rows->booking) clear = clear && rows->booking->value[k] == 0;
-        if (rows->rolling) clear = clear && rows->rolling->value[k] == 0 && rows->rolling->booked[k] == 0;
+        if (rows->last_force) clear = clear && rows->last_force->value[k] == 0;
+        if (rows->rolling) clear = clear && rows->rolling->value[k] == 0 && rows->rolling->last[k] == 0;
     }
     return clear;
 }
@@ -109,10 +109,10 @@ static inline bool pair_touches(int dimension, const scree_row *first, const scr
 }
 
 /// Beside a wall, a body of infinite radius and mass: R_eff = R, m_eff = m. What does not depend on velocities.
-SCREE_INLINE motion motion_beside(const bodies *body, const double normal[3], double distance)
+SCREE_INLINE kinematics kinematics_beside(const bodies *body, const double normal[3], double distance)
 {
-    motion m = {.normal = {normal[0], normal[1], normal[2]}, .indentation = body->radius - distance};
-    m.arm_first = body->radius - 0.5 * m.indentation;
+    kinematics m = {.normal = {normal[0], normal[1], normal[2]}, .overlap = body->radius - distance};
+    m.arm_first = body->radius - 0.5 * m.overlap;
     m.reduced_radius = body->radius;
     m.reduced_mass = body->mass;
     return m;
@@ -120,22 +120,23 @@ SCREE_INLINE motion motion_beside(const bodies *body, const double normal[3], do
 
 /// The rest of it: velocity and spin of the body are `velocity` and `spin` in the frame of the wall, whose normal turns
 /// there as m->tilted says.
-SCREE_INLINE void motion_past(int dimension, motion *m, vector velocity, vector spin, double step)
+SCREE_INLINE void kinematics_past(int dimension, kinematics *m, vector velocity, vector spin, double step)
 {
     vector along = vector_across(dimension, velocity, m->normal);
     vector lever = vector_times(tangential_count(dimension), spin, m->arm_first);
-    motion_advance(dimension, m, velocity, along, lever, spin, vector_none(), step);
+    kinematics_advance(dimension, m, velocity, along, lever, spin, vector_none(), step);
 }
 
 /// A plate moves with its normal and tangential velocity.
-SCREE_INLINE motion motion_of_wall(int dimension, const bodies *body, const scree_wall *wall, double step)
+SCREE_INLINE kinematics kinematics_of_wall(int dimension, const bodies *body, const scree_wall *wall, double step)
 {
     const double *slide = wall->tangential_velocity;
     vector normal = {wall->normal[0], wall->normal[1], wall->normal[2]};
-    motion m = motion_beside(body, wall->normal, vector_dot(dimension, normal, body->place) - wall->position);
+    kinematics m =
+        kinematics_beside(body, wall->normal, vector_dot(dimension, normal, body->position) - wall->position);
     vector moving = {wall->velocity * normal.x + slide[0], wall->velocity * normal.y + slide[1],
                      wall->velocity * normal.z + slide[2]};
-    motion_past(dimension, &m, vector_minus(dimension, body->velocity, moving), body->spin, step);
+    kinematics_past(dimension, &m, vector_minus(dimension, body->velocity, moving), body->spin, step);
     return m;
 }
 

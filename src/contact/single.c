@@ -19,7 +19,7 @@ static void set_vector(double to[3], vector from)
 }
 
 /// Tangent, tangential force and slip: signed along t in two dimensions, magnitudes along the force in three.
-static void describe_tangent(int dimension, const motion *m, const law_force *f, scree_contact *contact)
+static void describe_tangent(int dimension, const kinematics *m, const law_force *f, scree_contact *contact)
 {
     if (dimension == 2) {
         set_vector(contact->tangent, (vector){-m->normal.y, m->normal.x, 0});
@@ -35,9 +35,9 @@ static void describe_tangent(int dimension, const motion *m, const law_force *f,
 
 /// own: constants of a pair that is held; NULL: of no such pair.
 static void describe(const scree_model *model, int dimension, const scree_pair_constants *constants,
-                     const scree_member_row *own, motion *m, const memory_rows *memory, scree_contact *contact)
+                     const scree_member_row *own, kinematics *m, const memory_rows *memory, scree_contact *contact)
 {
-    motion_hold(m);
+    kinematics_hold(m);
     const scree_law_use *law = own ? &model->persistent.law : &model->law;
     variant v = {.dimension = dimension, .law = law->law, .option = law->option, .many_materials = true};
     law_constants c = constants_get(constants, own);
@@ -49,17 +49,17 @@ static void describe(const scree_model *model, int dimension, const scree_pair_c
     contact->held = own != NULL;
     contact->sliding = !own && f.normal > 0 && fabs(contact->tangential_force) >= (1 - SLIDING_TOLERANCE) * cap;
     set_vector(contact->normal, m->normal);
-    contact->indentation = m->indentation;
+    contact->overlap = m->overlap;
     contact->normal_force = f.normal;
     contact->elastic_normal = f.elastic_normal;
     contact->elastic_tangential = f.elastic_tangential;
 }
 
-/// The contact point lies in the middle of the indentation, one lever arm from the centre of `first`.
-static void place(int dimension, const bodies *first, const motion *m, scree_contact *contact)
+/// The contact point lies in the middle of the overlap, one lever arm from the centre of `first`.
+static void place(int dimension, const bodies *first, const kinematics *m, scree_contact *contact)
 {
     vector arm = vector_times(dimension, m->normal, m->arm_first);
-    set_vector(contact->point, vector_minus(dimension, first->place, arm));
+    set_vector(contact->point, vector_minus(dimension, first->position, arm));
 }
 
 bool contact_of_pair(const scree_model *model, const scree_state *state, const contact_body *first,
@@ -70,23 +70,23 @@ bool contact_of_pair(const scree_model *model, const scree_state *state, const c
     if (!own && !pair_touches(dimension, &first->row, &second->row)) return false;
     bodies one = body_get(dimension, &first->row, &first->turn);
     bodies other = body_get(dimension, &second->row, &second->turn);
-    motion m = motion_of_pair(dimension, &one, &other, state->step_size);
+    kinematics m = kinematics_of_pair(dimension, &one, &other, state->step_size);
     const scree_pair_constants(*pairs)[SCREE_MAX_MATERIALS] = own ? model->persistent.pairs : model->pairs;
     describe(model, dimension, &pairs[(int)one.material][(int)other.material], own, &m, memory, contact);
     place(dimension, &one, &m, contact);
     contact->wall = false;
-    set_vector(contact->branch, vector_minus(dimension, one.place, other.place));
+    set_vector(contact->branch, vector_minus(dimension, one.position, other.position));
     return true;
 }
 
 /// Between a body and anything that is not one.
 static void describe_wall(const scree_model *model, int dimension, const scree_pair_constants *constants,
-                          const bodies *one, motion *m, const memory_rows *memory, scree_contact *contact)
+                          const bodies *one, kinematics *m, const memory_rows *memory, scree_contact *contact)
 {
     describe(model, dimension, constants, NULL, m, memory, contact);
     place(dimension, one, m, contact);
     contact->wall = true;
-    const double centre[3] = {one->place.x, one->place.y, one->place.z};
+    const double centre[3] = {one->position.x, one->position.y, one->position.z};
     for (int k = 0; k < 3; k++) contact->branch[k] = centre[k] - contact->point[k];
 }
 
@@ -96,21 +96,23 @@ bool contact_of_wall(const scree_model *model, const scree_state *state, const c
     const int dimension = state->dimension;
     if (!wall_touches(dimension, &body->row, wall)) return false;
     bodies one = body_get(dimension, &body->row, &body->turn);
-    motion m = motion_of_wall(dimension, &one, wall, state->step_size);
+    kinematics m = kinematics_of_wall(dimension, &one, wall, state->step_size);
     describe_wall(model, dimension, &model->walls[(int)one.material], &one, &m, memory, contact);
     return true;
 }
 
-void contact_of_element(const scree_model *model, const scree_state *state, const scree_work *work,
-                        const contact_body *body, uint32_t element, const memory_rows *memory, scree_contact *contact)
+void contact_of_primitive(const scree_model *model, const scree_state *state, const scree_work *work,
+                          const contact_body *body, uint32_t primitive, const memory_rows *memory,
+                          scree_contact *contact)
 {
     const int dimension = state->dimension;
     bodies one = body_get(dimension, &body->row, &body->turn);
-    scree_site site;
-    scree_element_site(work->container, element, (const double[3]){one.place.x, one.place.y, one.place.z}, &site);
-    const scree_surface *surface = contact_surface_of(work->container, element);
-    motion m = motion_of_surface(work->container, element, dimension, &one, &site, scree_case_walls(state)->moving != 0,
-                                 state->step_size);
+    scree_closest_point closest;
+    scree_primitive_closest_point(work->wall_set, primitive,
+                                  (const double[3]){one.position.x, one.position.y, one.position.z}, &closest);
+    const scree_surface *surface = contact_surface_of(work->wall_set, primitive);
+    kinematics m = kinematics_of_surface(work->wall_set, primitive, dimension, &one, &closest,
+                                         scree_case_walls(state)->moving != 0, state->step_size);
     scree_pair_constants constants = contact_surface_constants(model, surface, (int)one.material);
     describe_wall(model, dimension, &constants, &one, &m, memory, contact);
 }

@@ -21,8 +21,8 @@ static inline contact_body contact_body_get(const scree_state *state, size_t row
     return body;
 }
 
-/// A body or an image with v(n - 1/2), with which the forces at n were evaluated; in a periodic cell with the affine
-/// field, and an image where it is.
+/// A body or a ghost with v(n - 1/2), with which the forces at n were evaluated; in a periodic cell with the affine
+/// field, and a ghost where it is.
 contact_body contact_body_at_half_step(const scree_model *model, const scree_state *state, const scree_work *work,
                                        uint32_t k);
 
@@ -30,9 +30,9 @@ contact_body contact_body_at_half_step(const scree_model *model, const scree_sta
 static inline memory_rows contact_memory_of(const scree_work *work, contact_list list, size_t k)
 {
     const scree_pair_list *pairs = &work->pairs;
-    const scree_wall_pair_list *walls = list == CONTACT_PLATE ? &work->wall_pairs : &work->element_pairs;
-    return list == CONTACT_PAIR ? memory_rows_at(pairs->history, pairs->booking, pairs->rolling, k)
-                                : memory_rows_at(walls->history, walls->booking, walls->rolling, k);
+    const scree_wall_pair_list *walls = list == CONTACT_PLATE ? &work->wall_pairs : &work->primitive_pairs;
+    return list == CONTACT_PAIR ? memory_rows_at(pairs->history, pairs->last_force, pairs->rolling, k)
+                                : memory_rows_at(walls->history, walls->last_force, walls->rolling, k);
 }
 
 /// Constants of its own of pair `p` of the list; NULL where it is not held.
@@ -52,7 +52,8 @@ bool contact_of_wall(const scree_model *model, const scree_state *state, const c
                      const scree_wall *wall, const memory_rows *memory, scree_contact *contact);
 
 /// A body and an element of the walls of the case that it touches, as the state has them now.
-void contact_of_element(const scree_model *model, const scree_state *state, const scree_work *work,
-                        const contact_body *body, uint32_t element, const memory_rows *memory, scree_contact *contact);
+void contact_of_primitive(const scree_model *model, const scree_state *state, const scree_work *work,
+                          const contact_body *body, uint32_t primitive, const memory_rows *memory,
+                          scree_contact *contact);
 
 #endif

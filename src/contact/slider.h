@@ -3,7 +3,7 @@
 /// The spring alone is kept and capped, then the sum with the dashpot: a spring that slides stretches no further.
 /// One component (2D, twisting) or three in the present tangent plane.
 ///
-/// with the rate s of the middle of the step (motion.h).
+/// with the rate s of the middle of the step (kinematics.h).
 ///
 /// Ledger of a step, with mean forces <f> = (f(n-1) + f(n))/2:
 ///   damping    <dashpot> . s dt
@@ -20,24 +20,24 @@
 
 /// What a slider remembers of step n - 1, in the directions of step n.
 typedef struct slider_memory {
-    vector stretch; ///< h
-    vector spring;  ///< k h, for the ledger
-    vector dashpot; ///< the dashpot's part of -f, for the ledger
+    vector displacement; ///< h
+    vector spring;       ///< k h, for the ledger
+    vector dashpot;      ///< the dashpot's part of -f, for the ledger
 } slider_memory;
 
 /// Shortens the displacement by `factor`, without work. Twice the energy that goes, to be taken from `stiffness`.
 SCREE_INLINE lanes slider_rescale(int count, slider_memory *memory, lanes factor)
 {
-    vector left = vector_times(count, memory->stretch, factor);
-    lanes lost = vector_dot(count, memory->spring, vector_minus(count, memory->stretch, left));
-    memory->stretch = left;
+    vector left = vector_times(count, memory->displacement, factor);
+    lanes lost = vector_dot(count, memory->spring, vector_minus(count, memory->displacement, left));
+    memory->displacement = left;
     return lost;
 }
 
 typedef struct slider {
     slider_memory now;                  ///< for the next step
     vector resistance;                  ///< -f
-    lanes damping, friction, stiffness; ///< J, twice what is booked
+    lanes damping, friction, stiffness; ///< J, twice what is accumulated
     lanes elastic;                      ///< J
 } slider;
 
@@ -50,19 +50,20 @@ SCREE_INLINE bool slider_sticks(const slider *s, lanes cap, lanes_bits touching)
     return !lanes_ones(~(within & touching));
 }
 
-/// Caps the spring, then its sum with the dashpot, of a stretch that has not been limited yet.
+/// Caps the spring, then its sum with the dashpot, of a tangential displacement that has not been limited yet.
 SCREE_INLINE void slider_limit(int count, slider *s, vector viscous, lanes stiffness, lanes cap, lanes_bits touching)
 {
-    vector trial = s->now.spring, stretch = s->now.stretch;
+    vector trial = s->now.spring, displacement = s->now.displacement;
     if (count == 1) {
         s->now.spring = vector_at_most(1, trial, cap);
-        stretch.x = lanes_select(lanes_differ(s->now.spring.x, trial.x), s->now.spring.x / stiffness, stretch.x);
+        displacement.x =
+            lanes_select(lanes_differ(s->now.spring.x, trial.x), s->now.spring.x / stiffness, displacement.x);
     } else {
         lanes factor = vector_limit_factor(trial, cap);
         s->now.spring = vector_times(3, trial, factor);
-        stretch = vector_times(3, stretch, factor);
+        displacement = vector_times(3, displacement, factor);
     }
-    s->now.stretch = vector_keep(count, touching, stretch);
+    s->now.displacement = vector_keep(count, touching, displacement);
     s->resistance = vector_at_most(count, vector_plus(count, s->now.spring, viscous), cap);
 }
 
@@ -71,9 +72,9 @@ SCREE_INLINE slider slider_move(int count, const slider_memory *before, vector r
                                 lanes viscosity, lanes cap, lanes_bits touching)
 {
     vector moved = vector_times(count, rate, lanes_all(step));
-    vector reached = vector_plus(count, before->stretch, moved);
+    vector reached = vector_plus(count, before->displacement, moved);
     vector viscous = vector_times(count, rate, viscosity);
-    slider s = {.now = {.stretch = reached, .spring = vector_times(count, reached, stiffness)},
+    slider s = {.now = {.displacement = reached, .spring = vector_times(count, reached, stiffness)},
                 .friction = lanes_all(0)};
     s.resistance = vector_plus(count, s.now.spring, viscous);
     vector springs = vector_plus(count, s.now.spring, before->spring);
@@ -81,14 +82,15 @@ SCREE_INLINE slider slider_move(int count, const slider_memory *before, vector r
     if (count == 1 || !slider_sticks(&s, cap, touching)) {
         slider_limit(count, &s, viscous, stiffness, cap, touching);
         springs = vector_plus(count, s.now.spring, before->spring);
-        s.friction = vector_dot(count, springs, vector_minus(count, reached, s.now.stretch));
+        s.friction = vector_dot(count, springs, vector_minus(count, reached, s.now.displacement));
     }
     s.now.dashpot = vector_minus(count, s.resistance, s.now.spring);
 
     vector dashpots = vector_plus(count, s.now.dashpot, before->dashpot);
     s.damping = vector_dot(count, dashpots, moved);
-    s.stiffness = vector_dot(count, s.now.spring, before->stretch) - vector_dot(count, before->spring, s.now.stretch);
-    s.elastic = 0.5 * vector_dot(count, s.now.spring, s.now.stretch);
+    s.stiffness =
+        vector_dot(count, s.now.spring, before->displacement) - vector_dot(count, before->spring, s.now.displacement);
+    s.elastic = 0.5 * vector_dot(count, s.now.spring, s.now.displacement);
     return s;
 }
 

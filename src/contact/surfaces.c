@@ -1,4 +1,4 @@
-/// Scalar, one body after the other. Cost: linear in the pairs of bodies and elements.
+/// Scalar, one body after the other. Cost: linear in the pairs of bodies and primitives.
 #include "contact/surfaces.h"
 #include "state/case_walls.h"
 
@@ -11,22 +11,22 @@
 /// Levers of forces on planes, which have no extent, are shorter than this many radii.
 #define PLANE_REACH 1048576.0
 
-// ---- which elements ----------------------------------------------------------------------------------------------
+// ---- which primitives ----------------------------------------------------------------------------------------------
 
-static void place_of(int dimension, const scree_row *body, scree_vector place)
+static void place_of(int dimension, const scree_row *body, scree_vector position)
 {
-    place[0] = body->x;
-    place[1] = body->y;
-    place[2] = dimension == 3 ? body->z : 0;
+    position[0] = body->x;
+    position[1] = body->y;
+    position[2] = dimension == 3 ? body->z : 0;
 }
 
 /// Puts a touch in its place by distance; the last one of a full list falls out.
-static void insert(element_touches *touches, const element_touch *touch)
+static void insert(primitive_touches *touches, const primitive_touch *touch)
 {
     bool full = touches->count == CONTACT_TOUCHES;
-    if (full && touches->touch[CONTACT_TOUCHES - 1].site.distance <= touch->site.distance) return;
+    if (full && touches->touch[CONTACT_TOUCHES - 1].closest.distance <= touch->closest.distance) return;
     int at = full ? CONTACT_TOUCHES - 1 : touches->count++;
-    for (; at > 0 && touches->touch[at - 1].site.distance > touch->site.distance; at--)
+    for (; at > 0 && touches->touch[at - 1].closest.distance > touch->closest.distance; at--)
         touches->touch[at] = touches->touch[at - 1];
     touches->touch[at] = *touch;
 }
@@ -37,44 +37,46 @@ static double cosine(const scree_vector a, const scree_vector b)
 }
 
 /// Drops what is the same contact as a closer one.
-static void merge(const scree_container *container, element_touches *touches)
+static void merge(const scree_wall_set *wall_set, primitive_touches *touches)
 {
     int kept = 0;
     for (int k = 0; k < touches->count; k++) {
-        element_touch touch = touches->touch[k];
+        primitive_touch touch = touches->touch[k];
         bool same = false;
         for (int i = 0; i < kept; i++)
             same = same || (touches->touch[i].surface == touch.surface &&
-                            cosine(touches->touch[i].site.normal, touch.site.normal) >
-                                container->surface[touch.surface].smooth);
+                            cosine(touches->touch[i].closest.normal, touch.closest.normal) >
+                                wall_set->surface[touch.surface].smooth);
         if (!same) touches->touch[kept++] = touch;
     }
     touches->count = kept;
 }
 
-void contact_elements_touching(const scree_container *container, int dimension, const scree_row *body,
-                               const scree_wall_pair_list *pairs, size_t begin, size_t end, element_touches *touches)
+void contact_primitives_touching(const scree_wall_set *wall_set, int dimension, const scree_row *body,
+                                 const scree_wall_pair_list *pairs, size_t begin, size_t end,
+                                 primitive_touches *touches)
 {
-    scree_vector place;
-    place_of(dimension, body, place);
+    scree_vector position;
+    place_of(dimension, body, position);
     touches->count = 0;
     for (size_t p = begin; p < end; p++) {
-        element_touch touch = {.pair = p, .surface = scree_element_surface(container, pairs->wall[p])};
-        scree_element_site(container, pairs->wall[p], place, &touch.site);
-        if (scree_site_touches(container, pairs->wall[p], &touch.site, body->radius)) insert(touches, &touch);
+        primitive_touch touch = {.pair = p, .surface = scree_primitive_surface(wall_set, pairs->wall[p])};
+        scree_primitive_closest_point(wall_set, pairs->wall[p], position, &touch.closest);
+        if (scree_closest_point_touches(wall_set, pairs->wall[p], &touch.closest, body->radius))
+            insert(touches, &touch);
     }
-    merge(container, touches);
+    merge(wall_set, touches);
 }
 
-void contact_elements_mark(const scree_state *state, const scree_work *work, uint8_t *touching)
+void contact_primitives_mark(const scree_state *state, const scree_work *work, uint8_t *touching)
 {
-    const scree_wall_pair_list *pairs = &work->element_pairs;
-    element_touches touches;
+    const scree_wall_pair_list *pairs = &work->primitive_pairs;
+    primitive_touches touches;
     for (size_t begin = 0, end; begin < pairs->count; begin = end) {
         end = contact_group_end(pairs, begin);
         for (size_t p = begin; p < end; p++) touching[p] = 0;
-        contact_elements_touching(work->container, state->dimension, &state->row[pairs->body[begin]], pairs, begin, end,
-                                  &touches);
+        contact_primitives_touching(work->wall_set, state->dimension, &state->row[pairs->body[begin]], pairs, begin,
+                                    end, &touches);
         for (int k = 0; k < touches.count; k++) touching[touches.touch[k].pair] = 1;
     }
 }
@@ -98,7 +100,7 @@ static void see_from_wall(int dimension, const scree_surface *surface, const bod
                           vector *velocity, vector *spin)
 {
     const double *v = surface->config->velocity, *w = surface->config->spin;
-    double turning[3], twice[3], change[3], y[3] = {body->place.x, body->place.y, body->place.z};
+    double turning[3], twice[3], change[3], y[3] = {body->position.x, body->position.y, body->position.z};
     scree_subtract(y, surface->hub, y);
     scree_cross(w, y, turning);
     scree_cross(w, turning, twice);
@@ -115,70 +117,73 @@ static void see_from_wall(int dimension, const scree_surface *surface, const bod
         (vector){own[0] + half * change[0] - w[0], own[1] + half * change[1] - w[1], own[2] + half * change[2] - w[2]};
 }
 
-/// How the normal of an element turns in a step while a body goes by with `velocity`, both in the frame of the wall.
+/// How the normal of a primitive turns in a step while a body goes by with `velocity`, both in the frame of the wall.
 /// Nothing where it jumps.
-static vector tilt_of(const scree_container *container, size_t element, int dimension, const bodies *body,
-                      const scree_site *site, vector velocity, double step)
+static vector tilt_of(const scree_wall_set *wall_set, size_t primitive, int dimension, const bodies *body,
+                      const scree_closest_point *closest, vector velocity, double step)
 {
-    scree_site before;
-    const vector from = vector_minus(3, body->place, vector_times(3, velocity, step));
-    scree_element_site(container, element, (const double[3]){from.x, from.y, from.z}, &before);
-    const double *n = site->normal, *old = before.normal;
+    scree_closest_point before;
+    const vector from = vector_minus(3, body->position, vector_times(3, velocity, step));
+    scree_primitive_closest_point(wall_set, primitive, (const double[3]){from.x, from.y, from.z}, &before);
+    const double *n = closest->normal, *old = before.normal;
     if (!(cosine(n, old) > cos(PASSING))) return vector_none();
     const vector turned = {n[0] - old[0], n[1] - old[1], n[2] - old[2]};
     return vector_across(dimension, turned, (vector){n[0], n[1], n[2]});
 }
 
-motion motion_of_surface(const scree_container *container, size_t element, int dimension, const bodies *body,
-                         const scree_site *site, bool moving, double step)
+kinematics kinematics_of_surface(const scree_wall_set *wall_set, size_t primitive, int dimension, const bodies *body,
+                                 const scree_closest_point *closest, bool moving, double step)
 {
-    const scree_surface *surface = contact_surface_of(container, element);
-    motion m = motion_beside(body, site->normal, site->distance);
+    const scree_surface *surface = contact_surface_of(wall_set, primitive);
+    kinematics m = kinematics_beside(body, closest->normal, closest->distance);
     vector velocity = body->velocity, spin = body->spin;
     if (moving) see_from_wall(dimension, surface, body, step, &velocity, &spin);
-    if (!scree_surface_is_flat(surface)) m.tilted = tilt_of(container, element, dimension, body, site, velocity, step);
-    motion_past(dimension, &m, velocity, spin, step);
+    if (!scree_surface_is_flat(surface))
+        m.tilted = tilt_of(wall_set, primitive, dimension, body, closest, velocity, step);
+    kinematics_past(dimension, &m, velocity, spin, step);
     if (dimension == 3 && moving) {
         // What the contact remembers turns with the wall, too.
         const double *w = surface->config->spin;
-        m.turn += step * cosine(w, site->normal);
+        m.turn += step * cosine(w, closest->normal);
         m.turned = vector_times(3, m.normal, m.turn);
     }
     return m;
 }
 
-/// Turns a stretch into the tangent plane, with its length: the normal of a wall turns by more than motion.h knows of.
-static void turn_stretch(const scree_vector normal, double stretch[3])
+/// Turns a tangential displacement into the tangent plane, with its length: the normal of a wall turns by more than
+/// kinematics.h knows of.
+static void turn_displacement(const scree_vector normal, double tangential_displacement[3])
 {
-    double along = cosine(stretch, normal), square = cosine(stretch, stretch), left = square - along * along;
+    double along = cosine(tangential_displacement, normal),
+           square = cosine(tangential_displacement, tangential_displacement), left = square - along * along;
     if (!(left > 0)) return;
     double factor = sqrt(square / left);
-    for (int k = 0; k < 3; k++) stretch[k] = factor * (stretch[k] - along * normal[k]);
+    for (int k = 0; k < 3; k++) tangential_displacement[k] = factor * (tangential_displacement[k] - along * normal[k]);
 }
 
-static void turn_stretches(const scree_vector normal, const memory_rows *rows)
+static void turn_displacements(const scree_vector normal, const memory_rows *rows)
 {
-    turn_stretch(normal, rows->history->value);
-    if (rows->rolling) turn_stretch(normal, rows->rolling->value);
+    turn_displacement(normal, rows->history->value);
+    if (rows->rolling) turn_displacement(normal, rows->rolling->value);
 }
 
 // ---- evaluation --------------------------------------------------------------------------------------------------
 
-/// The evaluation of one body: its pairs with elements and those of them that touch.
+/// The evaluation of one body: its pairs with primitives and those of them that touch.
 typedef struct group {
-    const scree_container *container;
+    const scree_wall_set *wall_set;
     const scree_wall_pair_list *pairs;
     size_t begin, end;
-    scree_vector place;
-    element_touches touches;
+    scree_vector position;
+    primitive_touches touches;
 } group;
 
 static memory_rows memory_at(const group *g, size_t p)
 {
-    return memory_rows_at(g->pairs->history, g->pairs->booking, g->pairs->rolling, p);
+    return memory_rows_at(g->pairs->history, g->pairs->last_force, g->pairs->rolling, p);
 }
 
-static const element_touch *touch_of(const group *g, size_t p)
+static const primitive_touch *touch_of(const group *g, size_t p)
 {
     for (int k = 0; k < g->touches.count; k++)
         if (g->touches.touch[k].pair == p) return &g->touches.touch[k];
@@ -186,17 +191,17 @@ static const element_touch *touch_of(const group *g, size_t p)
 }
 
 /// The pair that the body has just left, of the same wall, whose normal is nearest to that of `touch`; SIZE_MAX: none.
-static size_t find_former(const group *g, const element_touch *touch)
+static size_t find_former(const group *g, const primitive_touch *touch)
 {
-    double nearest = fmin(g->container->surface[touch->surface].smooth, cos(PASSING));
+    double nearest = fmin(g->wall_set->surface[touch->surface].smooth, cos(PASSING));
     size_t former = SIZE_MAX;
     for (size_t p = g->begin; p < g->end; p++) {
         memory_rows rows = memory_at(g, p);
         if (memory_is_clear(&rows) || touch_of(g, p)) continue;
-        if (scree_element_surface(g->container, g->pairs->wall[p]) != touch->surface) continue;
-        scree_site site;
-        scree_element_site(g->container, g->pairs->wall[p], g->place, &site);
-        double alike = cosine(site.normal, touch->site.normal);
+        if (scree_primitive_surface(g->wall_set, g->pairs->wall[p]) != touch->surface) continue;
+        scree_closest_point closest;
+        scree_primitive_closest_point(g->wall_set, g->pairs->wall[p], g->position, &closest);
+        double alike = cosine(closest.normal, touch->closest.normal);
         if (!(alike > nearest)) continue;
         nearest = alike;
         former = p;
@@ -204,7 +209,7 @@ static size_t find_former(const group *g, const element_touch *touch)
     return former;
 }
 
-/// Hands the memory of elements that the body has left to those that it touches anew.
+/// Hands the memory of primitives that the body has left to those that it touches anew.
 static void pass_memory(group *g)
 {
     for (int k = 0; k < g->touches.count; k++) {
@@ -216,9 +221,9 @@ static void pass_memory(group *g)
         memory_rows old = memory_at(g, from);
         *rows.history = *old.history;
         *old.history = (scree_history){{0}};
-        if (rows.booking) {
-            *rows.booking = *old.booking;
-            *old.booking = (scree_booking){{0}};
+        if (rows.last_force) {
+            *rows.last_force = *old.last_force;
+            *old.last_force = (scree_last_force){{0}};
         }
         if (rows.rolling) {
             *rows.rolling = *old.rolling;
@@ -231,13 +236,14 @@ static void pass_memory(group *g)
 static void add_to_surface(contact_job *job, int surface, const scree_vector hub, const bodies *body,
                            const contact_quanta *q, double quantum, double torque_quantum)
 {
-    const bool solid = job->variant.dimension == 3;
+    const bool in_3d = job->variant.dimension == 3;
     const double f[3] = {scree_fixed_to((int64_t)q->force.x, quantum), scree_fixed_to((int64_t)q->force.y, quantum),
-                         solid ? scree_fixed_to((int64_t)q->force.z, quantum) : 0};
-    const double lever[3] = {body->place.x - hub[0], body->place.y - hub[1], solid ? body->place.z - hub[2] : 0};
-    const int64_t couple[3] = {solid ? (int64_t)q->torque_first.x : 0, solid ? (int64_t)q->torque_first.y : 0,
-                               (int64_t)(solid ? q->torque_first.z : q->torque_first.x)};
-    const uint64_t force[3] = {q->force.x, q->force.y, solid ? q->force.z : 0};
+                         in_3d ? scree_fixed_to((int64_t)q->force.z, quantum) : 0};
+    const double lever[3] = {body->position.x - hub[0], body->position.y - hub[1],
+                             in_3d ? body->position.z - hub[2] : 0};
+    const int64_t couple[3] = {in_3d ? (int64_t)q->torque_first.x : 0, in_3d ? (int64_t)q->torque_first.y : 0,
+                               (int64_t)(in_3d ? q->torque_first.z : q->torque_first.x)};
+    const uint64_t force[3] = {q->force.x, q->force.y, in_3d ? q->force.z : 0};
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3, j = (k + 2) % 3;
         double torque = lever[i] * f[j] - lever[j] * f[i] + scree_fixed_to(couple[k], torque_quantum);
@@ -251,24 +257,24 @@ SCREE_INLINE void evaluate_group(contact_job *job, variant v, const scree_state 
     const size_t row = g->pairs->body[g->begin];
     bodies one = contact_body_at(job, row);
     for (size_t p = g->begin; p < g->end; p++) {
-        const element_touch *touch = touch_of(g, p);
+        const primitive_touch *touch = touch_of(g, p);
         memory_rows rows = memory_at(g, p);
         if (!touch && memory_is_clear(&rows)) continue;
-        const scree_surface *surface = contact_surface_of(g->container, g->pairs->wall[p]);
-        scree_site left;
-        if (!touch) scree_element_site(g->container, g->pairs->wall[p], g->place, &left);
-        const scree_site *site = touch ? &touch->site : &left;
-        if (v.dimension == 3 && law_traits(v)->displacement) turn_stretches(site->normal, &rows);
-        motion m = motion_of_surface(g->container, g->pairs->wall[p], v.dimension, &one, site,
-                                     scree_case_walls(state)->moving != 0, job->settings.step);
-        if (law_foresees(v)) {
-            foresight ahead = foresight_get(v.dimension, &job->foreseen[row]);
-            motion_foresee(v.dimension, &m, &one, &ahead, NULL, NULL);
+        const scree_surface *surface = contact_surface_of(g->wall_set, g->pairs->wall[p]);
+        scree_closest_point left;
+        if (!touch) scree_primitive_closest_point(g->wall_set, g->pairs->wall[p], g->position, &left);
+        const scree_closest_point *closest = touch ? &touch->closest : &left;
+        if (v.dimension == 3 && law_traits(v)->displacement) turn_displacements(closest->normal, &rows);
+        kinematics m = kinematics_of_surface(g->wall_set, g->pairs->wall[p], v.dimension, &one, closest,
+                                             scree_case_walls(state)->moving != 0, job->settings.step);
+        if (law_predicts(v)) {
+            prediction ahead = prediction_get(v.dimension, &job->predicted[row]);
+            kinematics_predict(v.dimension, &m, &one, &ahead, NULL, NULL);
         }
         scree_pair_constants constants = contact_surface_constants(job->model, surface, (int)one.material);
         contact_quanta q = contact_advance(job, v, &constants, NULL, &m, touch != NULL, &rows);
         contact_add_to_sums(job, row, q.force, q.torque_first, q.count);
-        add_to_surface(job, (int)(surface - g->container->surface), surface->hub, &one, &q, state->force_quantum,
+        add_to_surface(job, (int)(surface - g->wall_set->surface), surface->hub, &one, &q, state->force_quantum,
                        state->torque_quantum);
     }
 }
@@ -290,14 +296,14 @@ static bool holds_memory(const group *g)
 void contact_surfaces(contact_job *job, const scree_state *state, const scree_work *work, size_t begin, size_t end)
 {
     const variant v = job->variant;
-    group g = {.container = work->container, .pairs = &work->element_pairs};
+    group g = {.wall_set = work->wall_set, .pairs = &work->primitive_pairs};
     for (g.begin = 0; g.begin < g.pairs->count; g.begin = g.end) {
         g.end = contact_group_end(g.pairs, g.begin);
         size_t row = g.pairs->body[g.begin];
         if (row < begin || row >= end) continue;
-        contact_elements_touching(g.container, v.dimension, &job->row[row], g.pairs, g.begin, g.end, &g.touches);
+        contact_primitives_touching(g.wall_set, v.dimension, &job->row[row], g.pairs, g.begin, g.end, &g.touches);
         if (g.touches.count == 0 && !holds_memory(&g)) continue;
-        place_of(v.dimension, &job->row[row], g.place);
+        place_of(v.dimension, &job->row[row], g.position);
         pass_memory(&g);
         SCREE_LAWS(GROUP_OF_LAW)
         if (v.dimension == 2) evaluate_group(job, (variant){2, v.law, v.option, true, v.ledger}, state, &g);
@@ -307,15 +313,15 @@ void contact_surfaces(contact_job *job, const scree_state *state, const scree_wo
 // ---- the walls ---------------------------------------------------------------------------------------------------
 
 double contact_surface_torque_quantum(const scree_model *model, const scree_state *state,
-                                      const scree_container *container)
+                                      const scree_wall_set *wall_set)
 {
     double radius = scree_model_largest_radius(model), reach = 0;
     int exponent = 0;
-    for (int k = 0; container && k < container->count; k++) {
-        const scree_surface *surface = &container->surface[k];
+    for (int k = 0; wall_set && k < wall_set->count; k++) {
+        const scree_surface *surface = &wall_set->surface[k];
         reach = fmax(reach, surface->reach > 0 ? surface->reach : PLANE_REACH * radius);
     }
-    if (container) (void)frexp(2 * (reach + 2 * radius), &exponent);
+    if (wall_set) (void)frexp(2 * (reach + 2 * radius), &exponent);
     return ldexp(state->force_quantum, exponent);
 }
 
@@ -323,8 +329,8 @@ double contact_surfaces_settle(scree_state *state, const scree_work *work, const
                                const contact_scale *scale)
 {
     double whole = 0;
-    for (int w = 0; work->container && w < work->container->count; w++) {
-        const scree_config_wall *config = work->container->surface[w].config;
+    for (int w = 0; work->wall_set && w < work->wall_set->count; w++) {
+        const scree_config_wall *config = work->wall_set->surface[w].config;
         scree_surface_load *load = &scree_case_walls(state)->load[w];
         double power = 0;
         for (int k = 0; k < 3; k++) {

@@ -36,16 +36,16 @@ contact_body contact_body_at_half_step(const scree_model *model, const scree_sta
     contact_body body = stored_body_at_half_step(model, state, scree_parent_row(state, work, k));
     if (!scree_cell(state)->directions) return body;
     scree_row *row = &body.row;
-    bool solid = state->dimension == 3;
-    scree_vector place, relative = {row->vx, row->vy, solid ? row->vz : 0}, velocity;
-    scree_body_place(state, k, place);
-    scree_periodic_full_velocity(state, place, relative, velocity);
-    row->x = place[0];
-    row->y = place[1];
+    bool in_3d = state->dimension == 3;
+    scree_vector position, relative = {row->vx, row->vy, in_3d ? row->vz : 0}, velocity;
+    scree_body_position(state, k, position);
+    scree_periodic_full_velocity(state, position, relative, velocity);
+    row->x = position[0];
+    row->y = position[1];
     row->vx = velocity[0];
     row->vy = velocity[1];
-    if (!solid) return body;
-    row->z = place[2];
+    if (!in_3d) return body;
+    row->z = position[2];
     row->vz = velocity[2];
     return body;
 }
@@ -59,12 +59,12 @@ static scree_status reserve(scree_contact_table *table, size_t count, scree_erro
     return status;
 }
 
-/// The first body is the image: its contact is told where the body itself is.
-static void move_point(const scree_state *state, uint32_t image, scree_contact *contact)
+/// The first body is the ghost: its contact is told where the body itself is.
+static void move_point(const scree_state *state, uint32_t ghost, scree_contact *contact)
 {
     scree_vector there, here;
-    scree_body_place(state, image, there);
-    scree_body_place(state, contact->first, here);
+    scree_body_position(state, ghost, there);
+    scree_body_position(state, contact->first, here);
     for (int k = 0; k < 3; k++) contact->point[k] += here[k] - there[k];
 }
 
@@ -74,13 +74,13 @@ static void fill(const scree_model *model, const scree_state *state, const scree
 {
     size_t p = reference->pair;
     contact_list list = contact_reference_list(reference);
-    const scree_wall_pair_list *walls = list == CONTACT_PLATE ? &work->wall_pairs : &work->element_pairs;
+    const scree_wall_pair_list *walls = list == CONTACT_PLATE ? &work->wall_pairs : &work->primitive_pairs;
     memory_rows memory = contact_memory_of(work, list, p);
     uint32_t one = list == CONTACT_PAIR ? work->pairs.first[p] : walls->body[p];
     uint32_t other = list == CONTACT_PAIR ? work->pairs.second[p] : walls->wall[p];
     contact->first = scree_parent_row(state, work, one);
     contact->second = list == CONTACT_PAIR ? scree_parent_row(state, work, other) : other;
-    contact->image = one != contact->first || (list == CONTACT_PAIR && other != contact->second);
+    contact->ghost = one != contact->first || (list == CONTACT_PAIR && other != contact->second);
     contact->membrane = !scree_body_is_grain(state, contact->first);
     contact_body first = contact_body_at_half_step(model, state, work, one);
     if (list == CONTACT_PLATE) {
@@ -88,8 +88,8 @@ static void fill(const scree_model *model, const scree_state *state, const scree
         return;
     }
     if (list == CONTACT_ELEMENT) {
-        contact_of_element(model, state, work, &first, other, &memory, contact);
-        contact->second += SCREE_ELEMENT_ID;
+        contact_of_primitive(model, state, work, &first, other, &memory, contact);
+        contact->second += SCREE_PRIMITIVE_ID;
         return;
     }
     contact_body second = contact_body_at_half_step(model, state, work, other);
@@ -123,7 +123,7 @@ scree_status scree_contacts_save(scree_state *state, const scree_work *work, scr
     size_t count;
     scree_status status = contact_order(state, work, &order, &count, error);
     if (!status) status = scree_state_reserve_contacts(state, count, error);
-    if (!status && work->pairs.booking) status = scree_state_add_booking(state, error);
+    if (!status && work->pairs.last_force) status = scree_state_add_last_force(state, error);
     if (!status && work->pairs.rolling) status = scree_state_add_rolling(state, error);
     size_t saved = 0;
     for (size_t k = 0; k < count && !status; k++) {
@@ -132,7 +132,7 @@ scree_status scree_contacts_save(scree_state *state, const scree_work *work, scr
         if (list == CONTACT_PAIR && r->pair < work->pairs.held_count) continue;
         memory_rows memory = contact_memory_of(work, list, r->pair);
         state->contact[saved] = (scree_contact_memory){r->first, r->second, *memory.history};
-        if (memory.booking) state->booking[saved] = *memory.booking;
+        if (memory.last_force) state->last_force[saved] = *memory.last_force;
         if (memory.rolling) state->rolling[saved] = *memory.rolling;
         saved++;
     }

@@ -20,8 +20,8 @@ static contact_quanta evaluate(const scree_model *model, const scree_state *stat
     contact_body first = contact_body_at_half_step(model, state, work, work->pairs.first[p]);
     contact_body second = contact_body_at_half_step(model, state, work, work->pairs.second[p]);
     bodies one = body_get(dimension, &first.row, &first.turn), other = body_get(dimension, &second.row, &second.turn);
-    motion m = motion_of_pair(dimension, &one, &other, state->step_size);
-    motion_hold(&m);
+    kinematics m = kinematics_of_pair(dimension, &one, &other, state->step_size);
+    kinematics_hold(&m);
     const scree_member_row *own = contact_own_of(work, p);
     const scree_law_use *law = own ? &model->persistent.law : &model->law;
     const variant v = {.dimension = dimension, .law = law->law, .option = law->option, .many_materials = true};

@@ -25,7 +25,8 @@ void scree_forced_spin_end(scree_state *state);
 /// Sets the spin [rad/s] of the coming step. Call before the integrator's `first`.
 void scree_forced_spin_set(scree_state *state, const scree_vector spin);
 
-/// Takes the torque of the contacts off the body, and books the work of the step. Call when the sums are complete.
+/// Takes the torque of the contacts off the body, and accumulates the work of the step. Call when the sums are
+/// complete.
 void scree_forced_spin_settle(scree_state *state);
 
 #endif

@@ -25,16 +25,16 @@ typedef struct scree_kick_scale {
 #define KICK_INLINE static inline __attribute__((always_inline))
 
 /// Adds to velocity and spin; returns what it has added, and the number of contacts.
-KICK_INLINE scree_foreseen scree_kick_velocity(int dimension, scree_state *state, size_t i,
-                                               const scree_kick_scale *scale)
+KICK_INLINE scree_predicted scree_kick_velocity(int dimension, scree_state *state, size_t i,
+                                                const scree_kick_scale *scale)
 {
     scree_row *row = &state->row[i];
     const scree_sum_row *sum = &state->sum[i];
     // One division for mass and inertia.
     double square = row->radius * row->radius, inverse = 1.0 / (row->mass * square), inverse_mass = inverse * square;
-    scree_foreseen added = {.vx = (double)sum->fx * scale->force * inverse_mass + scale->gravity[0],
-                            .vy = (double)sum->fy * scale->force * inverse_mass + scale->gravity[1],
-                            .contacts = (double)sum->contacts};
+    scree_predicted added = {.vx = (double)sum->fx * scale->force * inverse_mass + scale->gravity[0],
+                             .vy = (double)sum->fy * scale->force * inverse_mass + scale->gravity[1],
+                             .contacts = (double)sum->contacts};
     row->vx += added.vx;
     row->vy += added.vy;
     if (dimension == 2) {
@@ -57,7 +57,7 @@ KICK_INLINE scree_foreseen scree_kick_velocity(int dimension, scree_state *state
 }
 
 /// Keeps what a kick has added for the laws that look ahead.
-KICK_INLINE void scree_kick_foresee(int dimension, scree_foreseen *row, scree_foreseen added, double whole)
+KICK_INLINE void scree_kick_predict(int dimension, scree_predicted *row, scree_predicted added, double whole)
 {
     row->vx = added.vx * whole;
     row->vy = added.vy * whole;
@@ -86,7 +86,7 @@ KICK_INLINE scree_speeds scree_drift(int dimension, scree_state *state, size_t i
     return (scree_speeds){.surface = row->radius * row->radius * spin2, .centre = speed2 + row->vz * row->vz};
 }
 
-/// What the members of a team share.
+/// What the members of a thread pool share.
 typedef struct scree_kick_task {
     scree_state *state;
     scree_kick_scale scale;
@@ -100,11 +100,11 @@ KICK_INLINE scree_speeds scree_kick_loop(int dimension, const scree_kick_task *t
     const double dt = state->step_size;
     double surface = 0, centre = 0;
     for (size_t i = begin; i < end; i++) {
-        scree_foreseen added = scree_kick_velocity(dimension, state, i, &task->scale);
+        scree_predicted added = scree_kick_velocity(dimension, state, i, &task->scale);
         if (!task->drift) continue;
         state->sum[i] = (scree_sum_row){0};
         if (dimension == 3) state->torque[i] = (scree_torque_row){0};
-        if (state->foreseen) scree_kick_foresee(dimension, &state->foreseen[i], added, task->scale.whole);
+        if (state->predicted) scree_kick_predict(dimension, &state->predicted[i], added, task->scale.whole);
         scree_speeds moved = scree_drift(dimension, state, i, dt);
         centre = moved.centre > centre ? moved.centre : centre;
         surface = moved.surface > surface ? moved.surface : surface;
@@ -134,7 +134,7 @@ static inline scree_speeds scree_kick(const scree_model *model, scree_state *sta
                                       .whole = state->step_size / h},
                             .drift = drift};
     int count = scree_work_shares(work);
-    scree_team_run(&work->team, count, scree_kick_share, &task);
+    scree_thread_pool_run(&work->pool, count, scree_kick_share, &task);
     if (drift) work->clear_rows = scree_row_count(state, work);
     double surface = 0, centre = 0;
     for (int k = 0; k < count; k++) {
@@ -145,8 +145,8 @@ static inline scree_speeds scree_kick(const scree_model *model, scree_state *sta
     return (scree_speeds){.surface = centre + (state->dimension == 2 ? surface : sqrt(surface)), .centre = centre};
 }
 
-/// Books the speeds of a drift: bound for the quanta, budget of the neighbour list, NaN flag.
-static inline void scree_kick_book(scree_state *state, scree_work *work, scree_speeds speeds)
+/// Accumulates the speeds of a drift: bound for the quanta, budget of the neighbour list, NaN flag.
+static inline void scree_kick_add_work(scree_state *state, scree_work *work, scree_speeds speeds)
 {
     state->largest_speed = speeds.surface;
     work->budget -= state->step_size * speeds.centre;

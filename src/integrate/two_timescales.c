@@ -14,7 +14,7 @@
 /// each of them of second order and symplectic for itself: the order is 2 for any sequence of steps. Order: 2 for
 /// forces of positions; 1 for forces of velocities, which are evaluated half a step behind. Sequences are no longer
 /// symmetric in time, so energy is not bounded by symmetry; each step conserves its own discrete energy and the ledger
-/// books what a change of the step does to it (measure/energy.c).
+/// accumulates what a change of the step does to it (measure/energy.c).
 #include "integrate/two_timescales.h"
 
 #include "case/check.h"
@@ -65,7 +65,7 @@ static uint64_t ticks(const scree_model *model, const scree_state *state)
 
 static void first(const scree_model *model, scree_state *state, scree_work *work)
 {
-    scree_kick_book(state, work, scree_kick(model, state, work, state->kick_size, true));
+    scree_kick_add_work(state, work, scree_kick(model, state, work, state->kick_size, true));
 }
 
 static const scree_integrator integrator = {.steps = steps, .ticks = ticks, .first = first, .velocity_lead = 0.0};

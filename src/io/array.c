@@ -100,7 +100,7 @@ static void displacement(const scree_model *model, const scree_state *state, siz
 {
     (void)model;
     scree_vector place;
-    scree_body_place(state, row, place);
+    scree_body_position(state, row, place);
     for (int k = 0; k < state->dimension; k++) value[k] = place[k] - state->reference[row][k];
 }
 
@@ -172,7 +172,7 @@ typedef struct contact_member {
 static const contact_member contact_members[] = {
     {"first", SCREE_FIELD_UINT32, 1, "1", "id of the first body", offsetof(scree_contact, first)},
     {"second", SCREE_FIELD_UINT32, 1, "1",
-     "id of the second body; 4294967280 + index for a plate, 2147483648 + element for a wall of the case",
+     "id of the second body; 4294967280 + index for a plate, 2147483648 + primitive for a wall of the case",
      offsetof(scree_contact, second)},
     {"normal", SCREE_FIELD_DOUBLE, SCREE_VECTOR, "1", "unit normal n, from the second to the first",
      offsetof(scree_contact, normal)},
@@ -181,8 +181,7 @@ static const contact_member contact_members[] = {
      "from the centre of the second (a wall: the contact point) to that of the first", offsetof(scree_contact, branch)},
     {"tangent", SCREE_FIELD_DOUBLE, SCREE_VECTOR, "1",
      "unit tangent t: (-n_y, n_x) in 2D, direction of the tangential force in 3D", offsetof(scree_contact, tangent)},
-    {"indentation", SCREE_FIELD_DOUBLE, 1, "m", "overlap of the undeformed bodies",
-     offsetof(scree_contact, indentation)},
+    {"overlap", SCREE_FIELD_DOUBLE, 1, "m", "overlap of the undeformed bodies", offsetof(scree_contact, overlap)},
     {"normal_force", SCREE_FIELD_DOUBLE, 1, "N", "force on the first along n, pushing apart: positive",
      offsetof(scree_contact, normal_force)},
     {"tangential_force", SCREE_FIELD_DOUBLE, 1, "N", "force on the first along t",
@@ -190,7 +189,7 @@ static const contact_member contact_members[] = {
     {"slip", SCREE_FIELD_DOUBLE, 1, "m/s", "slip velocity of the first past the second, along t in 2D, magnitude in 3D",
      offsetof(scree_contact, slip)},
     {"sliding", SCREE_FIELD_UINT8, 1, "1", "1: friction is fully mobilised", offsetof(scree_contact, sliding)},
-    {"elastic_normal", SCREE_FIELD_DOUBLE, 1, "J", "elastic energy of the indentation",
+    {"elastic_normal", SCREE_FIELD_DOUBLE, 1, "J", "elastic energy of the overlap",
      offsetof(scree_contact, elastic_normal)},
     {"elastic_tangential", SCREE_FIELD_DOUBLE, 1, "J", "elastic energy of the tangential spring",
      offsetof(scree_contact, elastic_tangential)},
@@ -228,7 +227,7 @@ scree_status scree_contact_array(const scree_state *state, const scree_contact_t
     return SCREE_OK;
 }
 
-size_t scree_place_of_id(const uint32_t *ids, size_t count, uint32_t id)
+size_t scree_position_of_id(const uint32_t *ids, size_t count, uint32_t id)
 {
     size_t low = 0, high = count;
     while (low < high) {

@@ -46,6 +46,6 @@ scree_status scree_contact_array(const scree_state *state, const scree_contact_t
                                  scree_array *array, scree_error *error) SCREE_MUST_USE;
 
 /// Place of an id among ids that ascend, as files have those of bodies; `count` when it is none of them.
-size_t scree_place_of_id(const uint32_t *ids, size_t count, uint32_t id);
+size_t scree_position_of_id(const uint32_t *ids, size_t count, uint32_t id);
 
 #endif

@@ -127,7 +127,7 @@ static void check_numbers(scree_hdf5 *run, const scree_assembly *assembly, scree
     size_t bad = 0;
     for (size_t k = 0; k < cells->count && !run->status; k++)
         for (int n = 0; n <= cells->dimension; n++) {
-            cells->node[k][n] = (uint32_t)scree_place_of_id(assembly->id, assembly->count, cells->node[k][n]);
+            cells->node[k][n] = (uint32_t)scree_position_of_id(assembly->id, assembly->count, cells->node[k][n]);
             bad += cells->node[k][n] >= assembly->count || cells->neighbour[k][n] >= (int64_t)cells->count;
         }
     for (size_t k = 0; k < cells->count && cells->dimension == 2 && !run->status; k++) {
@@ -150,13 +150,13 @@ static void read_bodies(scree_hdf5 *run, const char *group, scree_assembly *asse
         if (!run->status && all[k]->rows != place.rows)
             scree_hdf5_damaged(run, "arrays of one group have different lengths");
     }
-    if (!run->status) run->status = scree_allocate(&assembly->place, 3 * place.rows, sizeof(double), run->error);
+    if (!run->status) run->status = scree_allocate(&assembly->position, 3 * place.rows, sizeof(double), run->error);
     if (!run->status) run->status = scree_allocate(&assembly->radius, place.rows, sizeof(double), run->error);
     if (!run->status) run->status = scree_allocate(&assembly->id, place.rows, sizeof(uint32_t), run->error);
     for (size_t i = 0; i < place.rows && !run->status; i++) {
         if (((const uint8_t *)mark.data)[i] != SCREE_MARK_GRAIN) continue;
         size_t k = assembly->count++;
-        memcpy(assembly->place + 3 * k, (const double *)place.data + d * i, d * sizeof(double));
+        memcpy(assembly->position + 3 * k, (const double *)place.data + d * i, d * sizeof(double));
         assembly->radius[k] = ((const double *)radius.data)[i];
         assembly->id[k] = ((const uint32_t *)id.data)[i];
     }

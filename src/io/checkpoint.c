@@ -1,10 +1,10 @@
 /// Checkpoints: whole states (state_file.h) as parts of run.h5, the newest two of them.
 ///
-/// The seal of the file (seal.h) tells whether it is whole; when it is not, or what it holds cannot be used, the older
-/// of the two is read, or else a snapshot, which holds a state, too.
+/// The checksum of the file (checksum.h) tells whether it is whole; when it is not, or what it holds cannot be used,
+/// the older of the two is read, or else a snapshot, which holds a state, too.
 #include "io/disk.h"
+#include "io/file_checksum.h"
 #include "io/run_file.h"
-#include "io/seal.h"
 #include "io/snapshot.h"
 #include "io/state_file.h"
 
@@ -177,7 +177,7 @@ scree_status scree_restart_point_read(const char *directory, const scree_restart
                                       : scree_run_file_path(directory, path, sizeof path, error);
     if (status) return status;
     if (point->part)
-        scree_hdf5_open_sealed(&file, path, error);
+        scree_hdf5_open_checked(&file, path, error);
     else
         scree_run_file_open(&file, path, &sound, error);
     read_state(&file, point, wanted, state);
@@ -197,7 +197,7 @@ scree_status scree_restart_point_check(const char *directory, const scree_restar
     scree_status status = point->part ? scree_part_path(directory, kind, point->index, path, sizeof path, error)
                                       : scree_run_file_path(directory, path, sizeof path, error);
     if (status) return status;
-    if (point->part) return scree_seal_check(path, error);
+    if (point->part) return scree_file_checksum_check(path, error);
     scree_hdf5 run;
     bool sound;
     scree_part_group(kind, point->index, group, sizeof group);

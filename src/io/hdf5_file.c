@@ -2,8 +2,8 @@
 #include "io/hdf5_file.h"
 
 #include "base/memory.h"
+#include "io/file_checksum.h"
 #include "io/run_directory.h"
-#include "io/seal.h"
 
 #include <errno.h>
 #include <pthread.h>
@@ -173,11 +173,11 @@ void scree_hdf5_open(scree_hdf5 *hdf5, const char *path, scree_error *error)
     open_existing(hdf5, H5F_ACC_RDONLY);
 }
 
-void scree_hdf5_open_sealed(scree_hdf5 *hdf5, const char *path, scree_error *error)
+void scree_hdf5_open_checked(scree_hdf5 *hdf5, const char *path, scree_error *error)
 {
     begin(hdf5, path, error);
     if (hdf5->status) return;
-    hdf5->status = scree_seal_check(path, error);
+    hdf5->status = scree_file_checksum_check(path, error);
     hdf5->damaged = hdf5->status != SCREE_OK;
     if (!hdf5->status) open_existing(hdf5, H5F_ACC_RDONLY);
 }
@@ -199,7 +199,7 @@ scree_status scree_hdf5_close(scree_hdf5 *hdf5)
 }
 
 /// Closes a file in memory and keeps its bytes in hdf5->image; the core driver holds more of them than the file needs.
-static size_t take_image(scree_hdf5 *hdf5)
+static size_t take_ghost(scree_hdf5 *hdf5)
 {
     ssize_t size = 0;
     if (H5Fflush(hdf5->file, H5F_SCOPE_GLOBAL) < 0 || (size = H5Fget_file_image(hdf5->file, NULL, 0)) < 0)
@@ -213,11 +213,11 @@ static size_t take_image(scree_hdf5 *hdf5)
 scree_status scree_hdf5_save(scree_hdf5 *hdf5)
 {
     FILE *file;
-    size_t size = hdf5->status ? 0 : take_image(hdf5);
+    size_t size = hdf5->status ? 0 : take_ghost(hdf5);
     if (!hdf5->status) hdf5->status = scree_replace_begin(hdf5->path, &file, hdf5->error);
     if (!hdf5->status) {
         unsigned char seal[SCREE_SEAL_SIZE];
-        scree_seal_make(hdf5->image, size, seal);
+        scree_file_checksum_make(hdf5->image, size, seal);
         bool whole = fwrite(hdf5->image, 1, size, file) == size && fwrite(seal, 1, sizeof seal, file) == sizeof seal;
         if (!whole) hdf5->status = scree_error_set_errno(hdf5->error, SCREE_ERROR_IO, "cannot write '%s'", hdf5->path);
         scree_status finished = scree_replace_finish(hdf5->path, file, whole, whole ? hdf5->error : NULL);

@@ -29,15 +29,17 @@ typedef struct scree_hdf5 {
 } scree_hdf5;
 
 /// Opens. `path` must outlive the file. All files that are open at the same time are closed in reverse order.
-void scree_hdf5_create(scree_hdf5 *hdf5, const char *path, scree_error *error);      ///< new, in memory
-void scree_hdf5_open(scree_hdf5 *hdf5, const char *path, scree_error *error);        ///< to read
-void scree_hdf5_open_sealed(scree_hdf5 *hdf5, const char *path, scree_error *error); ///< to read, if its seal is whole
-void scree_hdf5_extend(scree_hdf5 *hdf5, const char *path, scree_error *error); ///< to add to, on disk; loses the seal
+void scree_hdf5_create(scree_hdf5 *hdf5, const char *path, scree_error *error); ///< new, in memory
+void scree_hdf5_open(scree_hdf5 *hdf5, const char *path, scree_error *error);   ///< to read
+void scree_hdf5_open_checked(scree_hdf5 *hdf5, const char *path,
+                             scree_error *error); ///< to read, if its checksum is whole
+void scree_hdf5_extend(scree_hdf5 *hdf5, const char *path,
+                       scree_error *error); ///< to add to, on disk; loses the checksum
 
 /// Closes; returns the first failure. What is in memory and has not been saved is lost.
 scree_status scree_hdf5_close(scree_hdf5 *hdf5);
-/// Writes a file that was built in memory, with its seal (seal.h), over `path`, as a whole or not at all, and closes
-/// it.
+/// Writes a file that was built in memory, with its checksum (checksum.h), over `path`, as a whole or not at all, and
+/// closes it.
 scree_status scree_hdf5_save(scree_hdf5 *hdf5);
 
 /// Records a failure with HDF5's innermost message; keeps the first. `action` is e.g. "write 'position' to".

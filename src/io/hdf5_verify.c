@@ -1,4 +1,4 @@
-/// Looking for damage in a file whose seal is broken, object by object.
+/// Looking for damage in a file whose checksum is broken, object by object.
 ///
 /// Files are in HDF5's newer format, where object headers, groups and chunk indices carry checksums; small datasets lie
 /// in their object header, all others have Fletcher's checksum (hdf5_file.c). So whatever can be read is whole.

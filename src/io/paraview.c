@@ -45,7 +45,7 @@ static void place_bodies(scree_vtp *vtp, const scree_state *state)
     size_t point = 0, id = 0;
     for (uint32_t row; (row = scree_next_by_id(state, &id)) != SCREE_NO_ROW; point++) {
         scree_vector place;
-        scree_body_place(state, row, place);
+        scree_body_position(state, row, place);
         scree_vtp_place(vtp, point, place);
     }
 }
@@ -89,9 +89,9 @@ static scree_status build_contacts(scree_vtp *vtp, const scene *from, scree_erro
     for (size_t k = 0; k < table->count; k++) {
         const scree_contact *contact = &table->contact[k];
         scree_vector first, second;
-        scree_body_place(state, contact->first, first);
-        if (!contact->wall) scree_body_place(state, contact->second, second);
-        for (int i = 0; i < 3 && contact->image; i++) second[i] = first[i] - contact->branch[i];
+        scree_body_position(state, contact->first, first);
+        if (!contact->wall) scree_body_position(state, contact->second, second);
+        for (int i = 0; i < 3 && contact->ghost; i++) second[i] = first[i] - contact->branch[i];
         scree_vtp_place(vtp, 2 * k, first);
         scree_vtp_place(vtp, 2 * k + 1, contact->wall ? contact->point : second);
     }
@@ -129,7 +129,7 @@ static scree_status build_boundary(scree_vtp *vtp, const scene *from, scree_erro
     if (status) return status;
     for (size_t k = 0; k < loop->count; k++) {
         scree_vector place;
-        scree_body_place(state, state->row_of_id[loop->id[k]], place);
+        scree_body_position(state, state->row_of_id[loop->id[k]], place);
         scree_vtp_place(vtp, k, place);
         scree_vtp_join(vtp, k, 0, k);
         scree_vtp_join(vtp, k, 1, (k + 1) % loop->count);
@@ -145,7 +145,7 @@ static scree_status build_hull(scree_vtp *vtp, const scene *from, scree_error *e
     if (status) return status;
     for (size_t k = 0; k < hull->node_count; k++) {
         scree_vector place;
-        scree_body_place(state, state->row_of_id[hull->id[k]], place);
+        scree_body_position(state, state->row_of_id[hull->id[k]], place);
         scree_vtp_place(vtp, k, place);
     }
     for (size_t k = 0; k < hull->triangle_count; k++)
@@ -163,7 +163,7 @@ static scree_status build_membrane(scree_vtp *vtp, const scene *from, scree_erro
     if (status) return status;
     for (size_t k = 0; k < membrane->count; k++) {
         scree_vector place;
-        scree_body_place(state, scree_membrane_row(state, k), place);
+        scree_body_position(state, scree_membrane_row(state, k), place);
         scree_vtp_place(vtp, k, place);
     }
     for (size_t t = 0; t < triangles; t++) {
@@ -180,7 +180,7 @@ static void extent(const scree_state *state, const scree_vector along, double re
     reach[1] = -INFINITY;
     for (size_t k = 0; k < state->count; k++) {
         scree_vector place;
-        scree_body_place(state, k, place);
+        scree_body_position(state, k, place);
         double at = scree_dot(along, place);
         reach[0] = fmin(reach[0], at - state->row[k].radius);
         reach[1] = fmax(reach[1], at + state->row[k].radius);
@@ -290,7 +290,7 @@ static scree_status build_cells(scree_vtp *vtp, const scene *from, scree_error *
     if (status) return status;
     for (size_t k = 0; k < cells->bodies; k++) {
         scree_vector place;
-        scree_body_place(state, scree_state_row_of(state, cells->id ? cells->id[k] : k), place);
+        scree_body_position(state, scree_state_row_of(state, cells->id ? cells->id[k] : k), place);
         scree_vtp_place(vtp, k, place);
     }
     for (size_t k = 0; k < cells->count; k++)

@@ -2,9 +2,9 @@
 #include "io/run_file.h"
 
 #include "io/disk.h"
+#include "io/file_checksum.h"
 #include "io/manifest.h"
 #include "io/run_directory.h"
-#include "io/seal.h"
 #include "io/snapshot.h"
 
 #include <scree/scree.h>
@@ -170,7 +170,7 @@ void scree_run_file_create(scree_hdf5 *run, const char *path, const char *case_n
 
 void scree_run_file_open(scree_hdf5 *run, const char *path, bool *sound, scree_error *error)
 {
-    scree_hdf5_open_sealed(run, path, error);
+    scree_hdf5_open_checked(run, path, error);
     *sound = run->status == SCREE_OK;
     if (*sound || !run->damaged) return;
     (void)scree_hdf5_close(run);
@@ -218,7 +218,7 @@ typedef struct splitting {
     const char *directory;
     const scree_kept *kept;
     scree_notes *notes;
-    bool sound;           ///< its seal is whole
+    bool sound;           ///< its checksum is whole
     size_t written, lost; ///< groups put into parts, and left out
 } splitting;
 
@@ -385,7 +385,7 @@ static scree_status set_aside_damaged(const char *directory, scree_part_kind kin
     char path[PATH_MAX];
     scree_error reason;
     scree_status status = scree_part_path(directory, kind, index, path, sizeof path, error);
-    if (status || !is_kept(kept, kind, index) || !scree_seal_check(path, &reason)) return status;
+    if (status || !is_kept(kept, kind, index) || !scree_file_checksum_check(path, &reason)) return status;
     return scree_part_set_aside(directory, kind, index, reason.message, notes, error);
 }
 
@@ -421,7 +421,7 @@ static scree_status reserve(const char *path, off_t bytes, scree_error *error)
 /// Seals `temporary`, flushes it to the disk and renames it to `path`.
 static scree_status put_in_place(const char *temporary, const char *path, scree_error *error)
 {
-    scree_status status = scree_seal_append(temporary, error);
+    scree_status status = scree_file_checksum_append(temporary, error);
     if (status) return status;
     int file = open(temporary, O_RDWR | O_CLOEXEC);
     bool good = file >= 0 && fsync(file) == 0;
@@ -454,7 +454,7 @@ static void gather_part(scree_hdf5 *run, const char *directory, scree_part_kind 
     if (run->status || (run->status = scree_part_path(directory, kind, index, path, sizeof path, run->error))) return;
     scree_part_group(kind, index, group, sizeof group);
     scree_hdf5 part;
-    scree_hdf5_open_sealed(&part, path, run->error);
+    scree_hdf5_open_checked(&part, path, run->error);
     if (!part.status && H5Ocopy(part.file, group, run->file, group, H5P_DEFAULT, H5P_DEFAULT) < 0)
         scree_hdf5_fail(&part, "copy", group);
     run->status = scree_hdf5_close(&part);

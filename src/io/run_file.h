@@ -33,9 +33,9 @@ scree_status scree_parts_list(const char *directory, scree_part_kind kind, scree
 /// Groups of an open run.h5; with `own_only` those that are in the file itself and not links. Errors: memory.
 scree_status scree_run_file_list(scree_hdf5 *run, scree_part_kind kind, bool own_only, scree_part_list *list);
 
-/// Opens DIRECTORY/run.h5 to read. When its seal is broken it is opened all the same, since every part of it has a
-/// checksum of its own: look at groups with scree_hdf5_verify before they are copied. *sound: the seal is whole. A file
-/// that cannot be opened has run->status and run->damaged set.
+/// Opens DIRECTORY/run.h5 to read. When its checksum is broken it is opened all the same, since every part of it has a
+/// checksum of its own: look at groups with scree_hdf5_verify before they are copied. *sound: the checksum is whole. A
+/// file that cannot be opened has run->status and run->damaged set.
 void scree_run_file_open(scree_hdf5 *run, const char *path, bool *sound, scree_error *error);
 
 /// What a run that goes on keeps.

@@ -284,7 +284,7 @@ static size_t find_places(const scree_snapshot *snapshot, uint32_t *ids, size_t 
 {
     size_t bad = 0;
     for (size_t k = 0; k < count; k++) {
-        ids[k] = (uint32_t)scree_place_of_id(snapshot->id, snapshot->count, ids[k]);
+        ids[k] = (uint32_t)scree_position_of_id(snapshot->id, snapshot->count, ids[k]);
         bad += ids[k] >= snapshot->count;
     }
     return bad;
@@ -299,7 +299,7 @@ static void resolve_ids(scree_hdf5 *run, scree_snapshot *snapshot)
     if (bad > 0) scree_hdf5_damaged(run, "ids of bodies do not ascend");
     bad = find_places(snapshot, snapshot->first, snapshot->contact_count);
     for (size_t k = 0; k < snapshot->contact_count; k++) {
-        bool wall = snapshot->second[k] >= SCREE_ELEMENT_ID && snapshot->second[k] < SCREE_WALL_ID + SCREE_WALL_COUNT;
+        bool wall = snapshot->second[k] >= SCREE_PRIMITIVE_ID && snapshot->second[k] < SCREE_WALL_ID + SCREE_WALL_COUNT;
         if (!wall) bad += find_places(snapshot, &snapshot->second[k], 1);
     }
     bad += find_places(snapshot, snapshot->loop, snapshot->loop_count);

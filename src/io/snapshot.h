@@ -17,7 +17,7 @@
 #include "contact/contact.h"
 #include "integrate/integrate.h"
 #include "measure/cells.h"
-#include "shape/container.h"
+#include "shape/wall_set.h"
 #include "state/periodic.h"
 #include "state/plates.h"
 
@@ -84,7 +84,7 @@ scree_status scree_restart_point_read(const char *directory, const scree_restart
                                       const scree_restart_wanted *wanted, scree_state *state, bool *another,
                                       scree_error *error) SCREE_MUST_USE;
 
-/// Whether what a point lies in is whole: the seal of a part, or of run.h5, or the checksums of its group in there.
+/// Whether what a point lies in is whole: the checksum of a part, or of run.h5, or the checksums of its group in there.
 /// Errors: SCREE_ERROR_IO with the reason; memory.
 scree_status scree_restart_point_check(const char *directory, const scree_restart_point *point,
                                        scree_error *error) SCREE_MUST_USE;
@@ -112,11 +112,11 @@ typedef struct scree_snapshot {
     double *x, *y, *radius, *angle, *vx, *vy, *spin; ///< in 3D no angle (NULL), and spin is the magnitude
     double *z, *vz;                                  ///< 3D only, else NULL
     size_t contact_count;
-    uint32_t *first, *second;                ///< places in these arrays; second >= SCREE_ELEMENT_ID is a wall
+    uint32_t *first, *second;                ///< places in these arrays; second >= SCREE_PRIMITIVE_ID is a wall
     double *normal_force, *tangential_force; ///< N
     double *contact_x, *contact_y;           ///< m
     double *contact_z;                       ///< m, 3D only, else NULL
-    double *branch_x, *branch_y, *branch_z; ///< m, from the second (its image in a periodic cell) to the first; z in 3D
+    double *branch_x, *branch_y, *branch_z; ///< m, from the second (its ghost in a periodic cell) to the first; z in 3D
     size_t loop_count;
     uint32_t *loop;          ///< places
     size_t triangle_count;   ///< of the membrane in 3D

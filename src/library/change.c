@@ -116,13 +116,13 @@ static void place(scree_row *row, const double *position, int dimension)
 static void move(scree_state *state, size_t row, const double *velocity, const double *spin)
 {
     scree_row *body = &state->row[row];
-    bool solid = state->dimension == 3;
+    bool in_3d = state->dimension == 3;
     if (velocity) {
         body->vx = velocity[0];
         body->vy = velocity[1];
-        if (solid) body->vz = velocity[2];
+        if (in_3d) body->vz = velocity[2];
     }
-    if (spin && solid) {
+    if (spin && in_3d) {
         state->turn[row].wx = spin[0];
         state->turn[row].wy = spin[1];
         state->turn[row].wz = spin[2];

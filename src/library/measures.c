@@ -10,9 +10,9 @@
 
 static void fill_partner(const scree_state *state, const scree_contact *contact, scree_contact_point *point)
 {
-    bool element = contact->wall && contact->second >= SCREE_ELEMENT_ID;
+    bool element = contact->wall && contact->second >= SCREE_PRIMITIVE_ID;
     point->partner = element ? SCREE_PARTNER_WALL : contact->wall ? SCREE_PARTNER_PLATE : SCREE_PARTNER_BODY;
-    point->second = element         ? contact->second - SCREE_ELEMENT_ID
+    point->second = element         ? contact->second - SCREE_PRIMITIVE_ID
                     : contact->wall ? contact->second
                                     : state->id[contact->second];
 }
@@ -21,7 +21,7 @@ static void fill(const scree_state *state, const scree_contact *contact, scree_c
 {
     *point = (scree_contact_point){.first = state->id[contact->first],
                                    .sliding = contact->sliding,
-                                   .overlap = contact->indentation,
+                                   .overlap = contact->overlap,
                                    .normal_force = contact->normal_force,
                                    .slip = contact->slip,
                                    .elastic_energy = contact->elastic_normal + contact->elastic_tangential};

@@ -157,7 +157,7 @@ static scree_status read_state(scree_simulation *fresh, const char *path, scree_
     scree_hdf5 file;
     scree_status status = scree_case_checksum(fresh->c, &checksum, error);
     if (status) return status;
-    scree_hdf5_open_sealed(&file, path, error);
+    scree_hdf5_open_checked(&file, path, error);
     scree_state_read(&file, GROUP, NULL, fresh->model.dimension, checksum, &fresh->state);
     status = scree_hdf5_close(&file);
     if (!status) status = scree_restart_check(fresh, &fresh->state, error);

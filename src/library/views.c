@@ -93,7 +93,7 @@ void scree_simulation_copy(const scree_simulation *s, double *position, double *
     for (size_t k = 0; k < state->count; k++) {
         scree_vector place, speed, turn;
         size_t row = scree_next_by_id(state, &next);
-        scree_body_place(state, row, place);
+        scree_body_position(state, row, place);
         scree_body_velocity(&s->stage_model, state, row, speed, turn);
         if (position) memcpy(position + components * k, place, components * sizeof *place);
         if (velocity) memcpy(velocity + components * k, speed, components * sizeof *speed);

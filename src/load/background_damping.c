@@ -7,9 +7,9 @@
 /// v is v(n - 1/2), as rows hold it: the force is explicit, and dissipates for a < 1 whenever |v| exceeds what the step
 /// changes; near rest it may turn about within a step, by no more than a share of the kick itself.
 ///
-/// Work. F_d(n) does 1/2 F_d . v(n-1/2) h(n) in the step before, which is booked at once, and 1/2 F_d . v(n+1/2) h(n+1)
-/// in the one after, which is known, too, since nothing is added behind this phase: it waits until the next step has
-/// begun. Work is a sum in integers (base/fixed.h). Cost: one pass over the bodies, some 5 ns each.
+/// Work. F_d(n) does 1/2 F_d . v(n-1/2) h(n) in the step before, which is accumulated at once, and 1/2 F_d . v(n+1/2)
+/// h(n+1) in the one after, which is known, too, since nothing is added behind this phase: it waits until the next step
+/// has begun. Work is a sum in integers (base/fixed.h). Cost: one pass over the bodies, some 5 ns each.
 #include "base/checksum.h"
 #include "base/fixed.h"
 #include "base/integer_sum.h"
@@ -67,13 +67,13 @@ static turn plan_body(const scree_context *c, const config *own, size_t row)
 {
     const scree_state *state = c->state;
     const scree_sum_row *sum = &state->sum[row];
-    const bool solid = state->dimension == 3;
-    const int64_t force[3] = {sum->fx, sum->fy, solid ? sum->fz : 0};
+    const bool in_3d = state->dimension == 3;
+    const int64_t force[3] = {sum->fx, sum->fy, in_3d ? sum->fz : 0};
     turn t = {.torque = {0}};
     scree_body_motion(state, row, t.velocity, t.spin);
     for (int i = 0; i < 3; i++)
         t.force[i] = scree_fixed_to(force[i], state->force_quantum) + state->row[row].mass * c->model->gravity[i];
-    if (solid) {
+    if (in_3d) {
         const int64_t torque[3] = {state->torque[row].x, state->torque[row].y, state->torque[row].z};
         for (int i = 0; i < 3; i++) t.torque[i] = scree_fixed_to(torque[i], state->torque_quantum);
     } else {

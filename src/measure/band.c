@@ -106,14 +106,14 @@ static void scan_around(fit *f, double degrees)
 }
 
 /// Centres, moments of the field, and room for the bins.
-static scree_status prepare(fit *f, const double *place, scree_error *error)
+static scree_status prepare(fit *f, const double *position, scree_error *error)
 {
     const scree_cells *cells = f->cells;
     scree_vector centre = {0};
     scree_status status = scree_allocate(&f->at, 3 * cells->count, sizeof *f->at, error);
     if (status) return status;
     for (size_t k = 0; k < cells->count; k++) {
-        scree_cell_centre(cells, k, place, f->at + 3 * k);
+        scree_cell_centre(cells, k, position, f->at + 3 * k);
         f->volume += cells->volume[k];
         f->sum += cells->volume[k] * f->value[k];
         for (size_t i = 0; i < 3; i++) centre[i] += cells->volume[k] * f->at[3 * k + i];
@@ -144,12 +144,12 @@ static void finish(scree_band *band, int dimension)
     band->angle = asin(fmin(1, fabs(band->normal[dimension - 1]))) / RADIAN;
 }
 
-scree_status scree_band_fit(const scree_cells *cells, const double *place, const double *value, double thinnest,
+scree_status scree_band_fit(const scree_cells *cells, const double *position, const double *value, double thinnest,
                             double step, bool fine, scree_band *band, scree_error *error)
 {
     fit f = {.cells = cells, .value = value, .thinnest = thinnest, .step = step};
     *band = (scree_band){.normal = {1}};
-    scree_status status = prepare(&f, place, error);
+    scree_status status = prepare(&f, position, error);
     if (!status && f.variance > 0) {
         scan_all(&f, fine ? DEGREES : COARSE);
         for (double degrees = DEGREES / 2; fine && degrees >= 0.25; degrees /= 2) {

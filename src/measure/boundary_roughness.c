@@ -1,4 +1,4 @@
-/// How far the boundary of a round sample leaves the affine image of what it was (P fig. 3.4).
+/// How far the boundary of a round sample leaves the affine ghost of what it was (P fig. 3.4).
 ///
 /// The places of all grains now are pulled back by the affine motion that fits their displacements since the begin of
 /// loading best (fluctuations.c). Around the centre, sectors two mean diameters wide are compared: the distance of the

@@ -18,12 +18,12 @@ typedef struct slices {
     double bottom, height;
 } slices;
 
-static void find_height(const scree_cells *cells, const double *place, slices *s)
+static void find_height(const scree_cells *cells, const double *position, slices *s)
 {
     double low = INFINITY, high = -INFINITY;
     int nodes = cells->dimension + 1;
     for (size_t k = 0; k < cells->count * (size_t)nodes; k++) {
-        double at = place[3 * cells->node[k / (size_t)nodes][k % (size_t)nodes] + (size_t)cells->dimension - 1];
+        double at = position[3 * cells->node[k / (size_t)nodes][k % (size_t)nodes] + (size_t)cells->dimension - 1];
         low = fmin(low, at);
         high = fmax(high, at);
     }
@@ -36,16 +36,16 @@ static size_t slice_of(double h)
     return (size_t)fmax(0, fmin(SLICES - 1, floor(SLICES * (h - END) / (1 - 2 * END))));
 }
 
-static void find_slices(const scree_cells *cells, const double *place, slices *s)
+static void find_slices(const scree_cells *cells, const double *position, slices *s)
 {
     scree_vector at;
-    find_height(cells, place, s);
+    find_height(cells, position, s);
     for (int i = 0; i < 3 * SLICES; i++) {
         s->low[i / 3][i % 3] = INFINITY;
         s->high[i / 3][i % 3] = -INFINITY;
     }
     for (size_t k = 0; k < cells->count; k++) {
-        scree_cell_centre(cells, k, place, at);
+        scree_cell_centre(cells, k, position, at);
         size_t slice = slice_of((at[cells->dimension - 1] - s->bottom) / s->height);
         for (int i = 0; i < 3; i++) {
             s->low[slice][i] = fmin(s->low[slice][i], at[i]);
@@ -67,16 +67,16 @@ static scree_cell_region region_of(const slices *s, int dimension, const scree_v
     return u < 0.5 && h > 0.25 && h < 0.75 ? SCREE_REGION_CORE : SCREE_REGION_ELSEWHERE;
 }
 
-void scree_cells_region_means(const scree_cells *cells, const double *place, const double *value,
+void scree_cells_region_means(const scree_cells *cells, const double *position, const double *value,
                               double mean[SCREE_REGION_COUNT])
 {
     slices s;
     scree_vector at;
     double volume[SCREE_REGION_COUNT] = {0};
-    find_slices(cells, place, &s);
+    find_slices(cells, position, &s);
     for (int r = 0; r < SCREE_REGION_COUNT; r++) mean[r] = 0;
     for (size_t k = 0; k < cells->count; k++) {
-        scree_cell_centre(cells, k, place, at);
+        scree_cell_centre(cells, k, position, at);
         scree_cell_region region = region_of(&s, cells->dimension, at);
         volume[region] += cells->volume[k];
         mean[region] += cells->volume[k] * value[k];

@@ -70,25 +70,25 @@ static void share_edge(const scree_cells *cells, const scree_node_cells *list, u
 }
 
 /// Volume of cell k with node n moved to x, over anything constant: the barycentric coordinate n of x.
-static double barycentric(const scree_cells *cells, uint32_t k, int n, const double *place, const scree_vector x)
+static double barycentric(const scree_cells *cells, uint32_t k, int n, const double *position, const scree_vector x)
 {
     double corner[12];
     scree_cells one = {.dimension = cells->dimension, .count = 1};
     uint32_t node[1][4] = {{0, 1, 2, 3}};
     for (int m = 0; m <= cells->dimension; m++)
         for (int i = 0; i < 3; i++)
-            corner[3 * m + i] = m == n ? x[i] : place[3 * (size_t)cells->node[k][m] + (size_t)i];
+            corner[3 * m + i] = m == n ? x[i] : position[3 * (size_t)cells->node[k][m] + (size_t)i];
     one.node = node;
     return scree_cell_volume_at(&one, 0, corner);
 }
 
 /// Part of the way from a to b that lies in cell k.
-static double piece_inside(const scree_cells *cells, uint32_t k, const double *place, uint32_t a, uint32_t b)
+static double piece_inside(const scree_cells *cells, uint32_t k, const double *position, uint32_t a, uint32_t b)
 {
     double from = 0, to = 1;
     for (int n = 0; n <= cells->dimension; n++) {
-        double start = barycentric(cells, k, n, place, place + 3 * (size_t)a);
-        double end = barycentric(cells, k, n, place, place + 3 * (size_t)b);
+        double start = barycentric(cells, k, n, position, position + 3 * (size_t)a);
+        double end = barycentric(cells, k, n, position, position + 3 * (size_t)b);
         if (start <= 0 && end <= 0) return 0;
         if (start < 0) from = fmax(from, start / (start - end));
         if (end < 0) to = fmin(to, start / (start - end));
@@ -104,7 +104,7 @@ static bool seen(const uint32_t *queue, size_t count, uint32_t cell)
 }
 
 /// Cells that the branch crosses, from its two ends on.
-static void share_crossing(const scree_cells *cells, const scree_node_cells *list, const double *place, uint32_t a,
+static void share_crossing(const scree_cells *cells, const scree_node_cells *list, const double *position, uint32_t a,
                            uint32_t b, sharing *s)
 {
     uint32_t queue[MOST_CELLS];
@@ -115,7 +115,7 @@ static void share_crossing(const scree_cells *cells, const scree_node_cells *lis
             if (!seen(queue, queued, list->cell[k])) queue[queued++] = list->cell[k];
     for (size_t head = 0; head < queued; head++) {
         uint32_t cell = queue[head];
-        double piece = piece_inside(cells, cell, place, a, b);
+        double piece = piece_inside(cells, cell, position, a, b);
         if (!(piece > PIECE)) continue;
         share_add(s, cell, piece);
         for (int n = 0; n <= cells->dimension && queued < MOST_CELLS; n++) {
@@ -146,19 +146,19 @@ static void add_contact(const scree_contact *contact, const sharing *s, double (
 }
 
 /// Where grains are, in the order of their ids, and of each row its place in that order.
-typedef struct places {
-    double *place; ///< m, 3 a grain
+typedef struct positions {
+    double *position; ///< m, 3 a grain
     uint32_t *of_row;
-} places;
+} positions;
 
-static scree_status places_by_id(const scree_state *state, places *p, scree_error *error)
+static scree_status places_by_id(const scree_state *state, positions *p, scree_error *error)
 {
     uint32_t *row = NULL;
     scree_status status = scree_grains_by_id(state, &row, error);
-    if (!status) status = scree_allocate(&p->place, 3 * scree_grain_count(state), sizeof *p->place, error);
+    if (!status) status = scree_allocate(&p->position, 3 * scree_grain_count(state), sizeof *p->position, error);
     if (!status) status = scree_allocate(&p->of_row, state->count, sizeof *p->of_row, error);
     for (size_t k = 0; k < scree_grain_count(state) && !status; k++) {
-        scree_body_place(state, row[k], p->place + 3 * k);
+        scree_body_position(state, row[k], p->position + 3 * k);
         p->of_row[row[k]] = (uint32_t)k;
     }
     scree_release(&row);
@@ -169,7 +169,7 @@ scree_status scree_cells_stress(scree_cells *cells, const scree_state *state, co
                                 double (*stress)[9], scree_error *error)
 {
     scree_node_cells list;
-    places p = {0};
+    positions p = {0};
     scree_status status = scree_node_cells_build(cells, &list, error);
     if (status) return status;
     status = places_by_id(state, &p, error);
@@ -186,7 +186,7 @@ scree_status scree_cells_stress(scree_cells *cells, const scree_state *state, co
         share_edge(cells, &list, a, b, &s);
         if (s.count == 0) {
             cells->crossing++;
-            share_crossing(cells, &list, p.place, a, b, &s);
+            share_crossing(cells, &list, p.position, a, b, &s);
         }
         if (s.count == 0) {
             cells->unassigned++;
@@ -197,7 +197,7 @@ scree_status scree_cells_stress(scree_cells *cells, const scree_state *state, co
     for (size_t k = 0; k < cells->count && !status; k++)
         for (int i = 0; i < 9; i++) stress[k][i] /= cells->volume[k];
     scree_node_cells_destroy(&list);
-    scree_release(&p.place);
+    scree_release(&p.position);
     scree_release(&p.of_row);
     return status;
 }

@@ -19,17 +19,17 @@
 scree_status scree_assembly_of_state(const scree_model *model, const scree_state *state, scree_assembly *assembly,
                                      scree_error *error)
 {
-    bool solid = state->dimension == 3;
+    bool in_3d = state->dimension == 3;
     *assembly = (scree_assembly){
-        .dimension = state->dimension, .thickness = solid ? 1 : model->thickness, .count = scree_grain_count(state)};
+        .dimension = state->dimension, .thickness = in_3d ? 1 : model->thickness, .count = scree_grain_count(state)};
     uint32_t *row = NULL;
     scree_status status = scree_grains_by_id(state, &row, error);
     if (!status) status = scree_allocate(&assembly->id, assembly->count, sizeof *assembly->id, error);
-    if (!status) status = scree_allocate(&assembly->place, 3 * assembly->count, sizeof *assembly->place, error);
+    if (!status) status = scree_allocate(&assembly->position, 3 * assembly->count, sizeof *assembly->position, error);
     if (!status) status = scree_allocate(&assembly->radius, assembly->count, sizeof *assembly->radius, error);
     for (size_t k = 0; k < assembly->count && !status; k++) {
         assembly->id[k] = state->id[row[k]];
-        scree_body_place(state, row[k], assembly->place + 3 * k);
+        scree_body_position(state, row[k], assembly->position + 3 * k);
         assembly->radius[k] = scree_body_equivalent_radius(state, row[k]);
     }
     scree_release(&row);
@@ -40,7 +40,7 @@ scree_status scree_assembly_of_state(const scree_model *model, const scree_state
 void scree_assembly_destroy(scree_assembly *assembly)
 {
     scree_release(&assembly->id);
-    scree_release(&assembly->place);
+    scree_release(&assembly->position);
     scree_release(&assembly->radius);
     assembly->count = 0;
 }
@@ -69,18 +69,18 @@ static double adjugate(double x[3][3], double adjugate[3][3])
     return x[0][0] * adjugate[0][0] + x[0][1] * adjugate[1][0] + x[0][2] * adjugate[2][0];
 }
 
-double scree_cell_volume_at(const scree_cells *cells, size_t k, const double *place)
+double scree_cell_volume_at(const scree_cells *cells, size_t k, const double *position)
 {
     double x[3][3], adjugated[3][3];
-    edges(cells->node[k], cells->dimension, place, 1, x);
+    edges(cells->node[k], cells->dimension, position, 1, x);
     return adjugate(x, adjugated) / (cells->dimension == 3 ? 6 : 2);
 }
 
-void scree_cells_gradient(const scree_cells *cells, const double *place, const double *value, double (*gradient)[9])
+void scree_cells_gradient(const scree_cells *cells, const double *position, const double *value, double (*gradient)[9])
 {
     for (size_t k = 0; k < cells->count; k++) {
         double x[3][3], v[3][3], adjugated[3][3];
-        edges(cells->node[k], cells->dimension, place, 1, x);
+        edges(cells->node[k], cells->dimension, position, 1, x);
         edges(cells->node[k], cells->dimension, value, 0, v);
         double determinant = adjugate(x, adjugated);
         for (int i = 0; i < 3; i++)
@@ -90,12 +90,12 @@ void scree_cells_gradient(const scree_cells *cells, const double *place, const d
     }
 }
 
-void scree_cell_centre(const scree_cells *cells, size_t k, const double *place, scree_vector centre)
+void scree_cell_centre(const scree_cells *cells, size_t k, const double *position, scree_vector centre)
 {
     int nodes = cells->dimension + 1;
     for (int i = 0; i < 3; i++) {
         double sum = 0;
-        for (int n = 0; n < nodes; n++) sum += place[3 * (size_t)cells->node[k][n] + (size_t)i];
+        for (int n = 0; n < nodes; n++) sum += position[3 * (size_t)cells->node[k][n] + (size_t)i];
         centre[i] = sum / nodes;
     }
 }
@@ -134,7 +134,7 @@ static scree_status keep_inside(const simplices *all, const scree_assembly *asse
             cells->node[k][n] = nodes == 3 ? all->triangle[t][n] : all->tetrahedron[t][n];
             cells->neighbour[k][n] = behind < 0 ? -1 : number[behind];
         }
-        cells->volume[k] = assembly->thickness * scree_cell_volume_at(cells, k, assembly->place);
+        cells->volume[k] = assembly->thickness * scree_cell_volume_at(cells, k, assembly->position);
     }
     scree_release(&number);
     return status;
@@ -217,7 +217,7 @@ scree_status scree_cells_build(const scree_assembly *assembly, double gap_limit,
     double *points = NULL;
     scree_status status = scree_allocate(&points, d * assembly->count, sizeof *points, error);
     if (status) return status;
-    for (size_t i = 0; i < assembly->count; i++) memcpy(points + d * i, assembly->place + 3 * i, d * sizeof *points);
+    for (size_t i = 0; i < assembly->count; i++) memcpy(points + d * i, assembly->position + 3 * i, d * sizeof *points);
     if (d == 3)
         status = find_tetrahedra(assembly, points, gap_limit, cells, error);
     else
@@ -246,7 +246,7 @@ static scree_status measure_motion(const scree_model *model, const scree_state *
     if (status) return status;
     for (size_t k = 0; k < assembly->count; k++)
         scree_body_velocity(model, state, scree_state_row_of(state, cells->id[k]), velocity + 3 * k, spin);
-    scree_cells_gradient(cells, assembly->place, velocity, cells->gradient);
+    scree_cells_gradient(cells, assembly->position, velocity, cells->gradient);
     scree_release(&velocity);
     return SCREE_OK;
 }
@@ -290,13 +290,13 @@ double scree_cells_mean(const scree_cells *cells, const double *value)
     return sum / volume;
 }
 
-void scree_cells_circles(const scree_cells *cells, const double *place, const scree_vector centre, double step,
+void scree_cells_circles(const scree_cells *cells, const double *position, const scree_vector centre, double step,
                          size_t count, double *pressure, double *volume)
 {
     for (size_t c = 0; c < count; c++) pressure[c] = volume[c] = 0;
     for (size_t k = 0; k < cells->count; k++) {
         scree_vector at;
-        scree_cell_centre(cells, k, place, at);
+        scree_cell_centre(cells, k, position, at);
         for (int i = 0; i < 3; i++) at[i] -= centre[i];
         double ring = floor(2 * scree_length(at) / step);
         if (!(ring < (double)count)) continue;

@@ -18,9 +18,9 @@ typedef struct scree_assembly {
     int dimension;
     double thickness; ///< m, of discs; 1 in 3D
     size_t count;
-    uint32_t *id;   ///< ascending; NULL: 0 .. count - 1
-    double *place;  ///< m, count x 3; z = 0 in 2D
-    double *radius; ///< m, equivalent
+    uint32_t *id;     ///< ascending; NULL: 0 .. count - 1
+    double *position; ///< m, count x 3; z = 0 in 2D
+    double *radius;   ///< m, equivalent
 } scree_assembly;
 
 /// Positions and radii of the grains of a state; free with scree_assembly_destroy. Errors: memory.
@@ -50,14 +50,14 @@ scree_status scree_cells_build(const scree_assembly *assembly, double gap_limit,
                                scree_error *error) SCREE_MUST_USE;
 void scree_cells_destroy(scree_cells *cells);
 
-/// Gradient of the linear interpolation of `value` in each cell, at the positions `place` (both bodies x 3): the
+/// Gradient of the linear interpolation of `value` in each cell, at the positions `position` (both bodies x 3): the
 /// velocity gradient from velocities; the displacement gradient between two instants from displacements and the
 /// positions of the first. Exact for affine fields; its mean over the volume is that of the boundary (Bagi) to
 /// round-off. gradient out: count. Cost: O(cells).
-void scree_cells_gradient(const scree_cells *cells, const double *place, const double *value, double (*gradient)[9]);
+void scree_cells_gradient(const scree_cells *cells, const double *position, const double *value, double (*gradient)[9]);
 
 /// Volume [m3 or m2 in 2D, without thickness] of cell k at other positions; negative when it has turned over.
-double scree_cell_volume_at(const scree_cells *cells, size_t k, const double *place);
+double scree_cell_volume_at(const scree_cells *cells, size_t k, const double *position);
 
 /// Distortion of a tensor: the square root of the second invariant of its deviatoric symmetric part,
 /// sqrt(1/2 D : D), D = sym(T) - tr(T)/d 1. Of a velocity gradient it is the distortion rate L_II [1/s]: half the rate
@@ -91,7 +91,7 @@ scree_status scree_cells_measure(const scree_model *model, const scree_state *st
 double scree_cells_mean(const scree_cells *cells, const double *value);
 
 /// Centre of volume of cell k [m].
-void scree_cell_centre(const scree_cells *cells, size_t k, const double *place, scree_vector centre);
+void scree_cell_centre(const scree_cells *cells, size_t k, const double *position, scree_vector centre);
 
 /// Cells of each body as a list: those of body i are cell[begin[i]] .. cell[begin[i + 1] - 1].
 typedef struct scree_node_cells {
@@ -104,7 +104,7 @@ void scree_node_cells_destroy(scree_node_cells *list);
 /// Growing circles (spheres in 3D) around `centre`: of diameter step, 2 step, ... count step. pressure out [Pa]: mean
 /// of the cells whose centres lie within, NAN without any; volume out [m3]: theirs (P fig. 3.12). Cost: O(cells +
 /// count).
-void scree_cells_circles(const scree_cells *cells, const double *place, const scree_vector centre, double step,
+void scree_cells_circles(const scree_cells *cells, const double *position, const scree_vector centre, double step,
                          size_t count, double *pressure, double *volume);
 
 /// Parts of a sample: near the plates, near the sides, the core; the rest (cell_regions.c).
@@ -117,7 +117,7 @@ typedef enum scree_cell_region {
 } scree_cell_region;
 
 /// Mean over the volume of the cells of each part; NAN for a part without cells. Cost: O(cells).
-void scree_cells_region_means(const scree_cells *cells, const double *place, const double *value,
+void scree_cells_region_means(const scree_cells *cells, const double *position, const double *value,
                               double mean[SCREE_REGION_COUNT]);
 
 #endif

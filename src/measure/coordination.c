@@ -124,9 +124,9 @@ static void mark_pressed(const scree_state *state, const supports *s)
 /// Puts a support behind those that the row has already; begin[row + 1] is where.
 static void add_normal(const supports *s, size_t row, const scree_vector normal, double sign, uint32_t other)
 {
-    uint32_t place = s->begin[row + 1]++;
-    for (int k = 0; k < 3; k++) s->normal[place][k] = sign * normal[k];
-    s->other[place] = other;
+    uint32_t position = s->begin[row + 1]++;
+    for (int k = 0; k < 3; k++) s->normal[position][k] = sign * normal[k];
+    s->other[position] = other;
 }
 
 /// 3D: the directions of the supports of every row.

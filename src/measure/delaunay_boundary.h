@@ -28,7 +28,7 @@ typedef enum scree_hull_load {
 /// scree_loop in 2D.
 typedef struct scree_hull {
     uint32_t *id;            ///< node_count, ids of the bodies on it, ascending
-    scree_vector *place;     ///< node_count, m, positions at `updated`
+    scree_vector *position;  ///< node_count, m, positions at `updated`
     scree_vector *force;     ///< node_count, N, force of the boundary at the present step
     uint32_t (*triangle)[3]; ///< triangle_count, nodes; counter-clockwise seen from outside
     uint8_t *loaded;         ///< triangle_count, scree_hull_load

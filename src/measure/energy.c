@@ -3,8 +3,8 @@
 /// The schemes conserve the discrete kinetic energy T(n) = sum 1/2 m v(n-1/2) . v(n+1/2) + 1/2 J w(n-1/2) w(n+1/2):
 /// from v(n+1/2) - v(n-1/2) = F(n)/m dt follows, without error,
 ///     T(n+1) - T(n) = sum 1/2 (F(n) + F(n+1)) . v(n+1/2) dt,
-/// the trapezoidal work of the forces over the very displacement x(n+1) - x(n) = v(n+1/2) dt. The ledger books every
-/// force by the same rule, so the residual
+/// the trapezoidal work of the forces over the very displacement x(n+1) - x(n) = v(n+1/2) dt. The ledger accumulates
+/// every force by the same rule, so the residual
 ///     (kinetic + elastic - initial) - (plates + pressure + boundary + periodic + forced + outside + gravity) +
 ///     damping + friction - stiffness - scheme + removed
 /// holds no error of the integrator, only that of the trapezoidal rule along the elastic force laws: third order in the
@@ -12,7 +12,7 @@
 /// stiffness puts into (positive) or takes out of the tangential springs.
 /// Where the step changes from h to h', T(n) is taken with h by the step that ends and with h' by the one that begins
 /// (two_timescales.c): with v(n) = v(n-1/2) + h/2 a(n), T = sum 1/2 m (v(n)^2 - h^2/4 a(n)^2), and likewise for spins.
-/// The difference, sum m a^2 (h^2 - h'^2) / 8, is booked as `scheme`; it goes to zero with the square of the step.
+/// The difference, sum m a^2 (h^2 - h'^2) / 8, is accumulated as `scheme`; it goes to zero with the square of the step.
 /// J = m R^2 / 2 (disc), 2 m R^2 / 5 (sphere). Cost: O(bodies + contacts).
 ///
 /// The guard stops a run by what is measured here, and `scheme` is part of the state: all sums are in integers, over
@@ -105,14 +105,14 @@ static void add_place(const scree_model *model, const scree_state *state, size_t
                       double *largest)
 {
     double potential = 0, magnitudes = 0;
-    scree_vector place;
+    scree_vector position;
     double mass = state->row[row].mass;
-    scree_body_place(state, row, place);
+    scree_body_position(state, row, position);
     for (int k = 0; k < state->dimension; k++) {
-        double part = mass * model->gravity[k] * place[k];
+        double part = mass * model->gravity[k] * position[k];
         potential += part;
         magnitudes += fabs(part);
-        *largest = fmax(*largest, fabs(place[k]));
+        *largest = fmax(*largest, fabs(position[k]));
     }
     scree_integer_sum_add(&sum[MASS], mass);
     scree_integer_sum_add(&sum[POTENTIAL], potential);

@@ -25,12 +25,12 @@ scree_facet scree_facet_get(const scree_state *state, size_t index)
 {
     scree_facet facet = {.corners = state->dimension};
     scree_vector origin;
-    scree_body_place(state, scree_boundary_row(state, 0), origin);
+    scree_body_position(state, scree_boundary_row(state, 0), origin);
     for (int c = 0; c < facet.corners; c++) {
         size_t next = index + (size_t)c < scree_loop_of(state)->count ? index + (size_t)c : 0;
         facet.node[c] = state->dimension == 3 ? scree_hull_of(state)->triangle[index][c] : next;
-        scree_body_place(state, scree_boundary_row(state, facet.node[c]), facet.place[c]);
-        for (int i = 0; i < 3; i++) facet.place[c][i] -= origin[i];
+        scree_body_position(state, scree_boundary_row(state, facet.node[c]), facet.position[c]);
+        for (int i = 0; i < 3; i++) facet.position[c][i] -= origin[i];
     }
     return facet;
 }
@@ -47,31 +47,31 @@ static uint32_t place_of(const scree_state *state, const uint32_t *grains, size_
 }
 
 scree_status scree_facet_rule(const scree_model *model, const scree_state *state, const uint32_t *grains,
-                              scree_peel_rule *rule, uint32_t **places, scree_error *error)
+                              scree_peel_rule *rule, uint32_t **positions, scree_error *error)
 {
     const scree_config_boundary *boundary = &model->config->boundary;
     size_t d = (size_t)state->dimension, count = scree_facet_count(state);
-    *places = NULL;
+    *positions = NULL;
     *rule = (scree_peel_rule){.gap_limit = boundary->gap_limit * 2 * model->mean_radius,
                               .hysteresis = boundary->gap_hysteresis,
                               .facet_count = count};
     if (count == 0) return SCREE_OK;
-    scree_status status = scree_allocate(places, count * d, sizeof **places, error);
+    scree_status status = scree_allocate(positions, count * d, sizeof **positions, error);
     if (status) return status;
     for (size_t k = 0; k < count; k++) {
         scree_facet facet = scree_facet_get(state, k);
         for (size_t c = 0; c < d; c++)
-            (*places)[k * d + c] = place_of(state, grains, scree_boundary_row(state, facet.node[c]));
+            (*positions)[k * d + c] = place_of(state, grains, scree_boundary_row(state, facet.node[c]));
     }
-    scree_peel_rule_sort(*places, count, state->dimension);
-    rule->facet = *places;
+    scree_peel_rule_sort(*positions, count, state->dimension);
+    rule->facet = *positions;
     return SCREE_OK;
 }
 
 /// Share of each corner in the area vector of a triangle [m2].
 static void corner_area(const scree_facet *facet, scree_vector area)
 {
-    const double *a = facet->place[0], *b = facet->place[1], *c = facet->place[2];
+    const double *a = facet->position[0], *b = facet->position[1], *c = facet->position[2];
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
         area[i] = ((b[j] - a[j]) * (c[k] - a[k]) - (b[k] - a[k]) * (c[j] - a[j])) / 6;
@@ -92,18 +92,18 @@ static double largest_share(const scree_state *state)
 }
 
 /// Adds to an integer that lies where a double will be.
-static void add_quanta(double *place, int64_t quanta)
+static void add_quanta(double *position, int64_t quanta)
 {
     int64_t sum;
-    memcpy(&sum, place, sizeof sum);
+    memcpy(&sum, position, sizeof sum);
     sum += quanta;
-    memcpy(place, &sum, sizeof sum);
+    memcpy(position, &sum, sizeof sum);
 }
 
-static double quanta_at(const double *place)
+static double quanta_at(const double *position)
 {
     int64_t sum;
-    memcpy(&sum, place, sizeof sum);
+    memcpy(&sum, position, sizeof sum);
     return (double)sum;
 }
 
@@ -134,10 +134,10 @@ static void areas_2d(const scree_model *model, const scree_state *state, scree_v
     const double half = 0.5 * model->thickness;
     scree_vector before, here, behind;
     if (count == 0) return;
-    scree_body_place(state, scree_boundary_row(state, count - 1), before);
-    scree_body_place(state, scree_boundary_row(state, 0), here);
+    scree_body_position(state, scree_boundary_row(state, count - 1), before);
+    scree_body_position(state, scree_boundary_row(state, 0), here);
     for (size_t k = 0; k < count; k++) {
-        scree_body_place(state, scree_boundary_row(state, k + 1 < count ? k + 1 : 0), behind);
+        scree_body_position(state, scree_boundary_row(state, k + 1 < count ? k + 1 : 0), behind);
         area[k][0] = half * (behind[1] - before[1]);
         area[k][1] = -half * (behind[0] - before[0]);
         area[k][2] = 0;

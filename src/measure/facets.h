@@ -22,8 +22,8 @@ static inline size_t scree_boundary_row(const scree_state *state, size_t node)
 /// One facet: its nodes, in 2D counter-clockwise with the sample on the left, in 3D counter-clockwise from outside.
 typedef struct scree_facet {
     size_t node[3];
-    scree_vector place[3]; ///< m, relative to the first node of the boundary
-    int corners;           ///< 2 in 2D, 3 in 3D
+    scree_vector position[3]; ///< m, relative to the first node of the boundary
+    int corners;              ///< 2 in 2D, 3 in 3D
 } scree_facet;
 
 size_t scree_facet_count(const scree_state *state);
@@ -33,7 +33,7 @@ scree_facet scree_facet_get(const scree_state *state, size_t index);
 /// in the order of their ids (scree_grains_by_id). *places: the memory of the rule's facets, in places of that order,
 /// which the caller releases; NULL where there is no boundary yet. Errors: memory.
 scree_status scree_facet_rule(const scree_model *model, const scree_state *state, const uint32_t *grains,
-                              scree_peel_rule *rule, uint32_t **places, scree_error *error) SCREE_MUST_USE;
+                              scree_peel_rule *rule, uint32_t **positions, scree_error *error) SCREE_MUST_USE;
 
 /// Area vectors of all nodes [m2] (in 2D length times thickness); `area` has one element a node.
 void scree_boundary_areas(const scree_model *model, const scree_state *state, scree_vector *area);

@@ -9,9 +9,9 @@
 
 #include <math.h>
 
-void scree_hull_position(const scree_state *state, size_t node, scree_vector place)
+void scree_hull_position(const scree_state *state, size_t node, scree_vector position)
 {
-    scree_body_place(state, state->row_of_id[scree_hull_of(state)->id[node]], place);
+    scree_body_position(state, state->row_of_id[scree_hull_of(state)->id[node]], position);
 }
 
 void scree_hull_corners(const scree_state *state, size_t triangle, const scree_vector origin, scree_vector corner[3])
@@ -82,10 +82,10 @@ double scree_hull_sample_volume(const scree_state *state, scree_vector centre)
 }
 
 /// moment_ij -= area_i x_j
-static void take_product(const scree_vector area, const scree_vector place, double factor, double moment[9])
+static void take_product(const scree_vector area, const scree_vector position, double factor, double moment[9])
 {
     for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) moment[3 * i + j] -= factor * area[i] * place[j];
+        for (int j = 0; j < 3; j++) moment[3 * i + j] -= factor * area[i] * position[j];
 }
 
 void scree_hull_pressure_moment(const scree_state *state, const scree_vector centre, double moment[9])

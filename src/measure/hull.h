@@ -12,7 +12,7 @@
 #include "state/state.h"
 
 /// Present position [m] of the body at a node of the hull.
-void scree_hull_position(const scree_state *state, size_t node, scree_vector place);
+void scree_hull_position(const scree_state *state, size_t node, scree_vector position);
 
 /// Present corners [m] of a triangle, relative to `origin`.
 void scree_hull_corners(const scree_state *state, size_t triangle, const scree_vector origin, scree_vector corner[3]);

@@ -11,20 +11,21 @@ const scree_group scree_imposed_nodes = {"node", "b", offsetof(own, count), offs
 
 #define ONE(...) SCREE_FIELD_ONE(imposed_gradient, own, __VA_ARGS__)
 static const scree_field fields[] = {
-    SCREE_FIELD_GROUP(imposed_gradient, own, scree_imposed_nodes, force, scree_vector, "drive/force",
+    SCREE_FIELD_GROUP(imposed_gradient, own, scree_imposed_nodes, force, scree_vector, "imposed_gradient/force",
                       SCREE_FIELD_DOUBLE, 3, "N", "force of the imposed rates on each body of the boundary"),
-    ONE(target, "drive/target", SCREE_FIELD_DOUBLE, 9, "1/s", "wanted velocity gradient, 3 x 3 by rows"),
-    ONE(prescribed, "drive/prescribed", SCREE_FIELD_INT64, 9, "1",
+    ONE(target, "imposed_gradient/target", SCREE_FIELD_DOUBLE, 9, "1/s", "wanted velocity gradient, 3 x 3 by rows"),
+    ONE(prescribed, "imposed_gradient/prescribed", SCREE_FIELD_INT64, 9, "1",
         "of each component of target: 0 free, 1 prescribed, 2 prescribed for the mean of it and its mirror",
         SCREE_RANGE(0, SCREE_SYMMETRIC)),
-    ONE(viscosity, "drive/viscosity", SCREE_FIELD_DOUBLE, 1, "Pa s", "stress over the error of the rate",
+    ONE(viscosity, "imposed_gradient/viscosity", SCREE_FIELD_DOUBLE, 1, "Pa s", "stress over the error of the rate",
         SCREE_RANGE(0, INFINITY)),
-    ONE(rate, "drive/rate", SCREE_FIELD_DOUBLE, 9, "1/s", "velocity gradient of the boundary, 3 x 3 by rows"),
-    ONE(stress, "drive/stress", SCREE_FIELD_DOUBLE, 9, "Pa",
+    ONE(rate, "imposed_gradient/rate", SCREE_FIELD_DOUBLE, 9, "1/s",
+        "velocity gradient of the boundary, 3 x 3 by rows"),
+    ONE(stress, "imposed_gradient/stress", SCREE_FIELD_DOUBLE, 9, "Pa",
         "stress that the boundary applies besides the pressure, 3 x 3 by rows, tension positive"),
-    ONE(achieved, "drive/achieved", SCREE_FIELD_DOUBLE, 1, "1/s",
+    ONE(achieved, "imposed_gradient/achieved", SCREE_FIELD_DOUBLE, 1, "1/s",
         "integral of target : rate over time since the last sample"),
-    ONE(wanted, "drive/wanted", SCREE_FIELD_DOUBLE, 1, "1/s",
+    ONE(wanted, "imposed_gradient/wanted", SCREE_FIELD_DOUBLE, 1, "1/s",
         "integral of target : target over time since the last sample"),
 };
 
@@ -36,7 +37,8 @@ static scree_status check(const scree_state *state, const scree_model *model, sc
     if (count == 0 || count == wanted) return SCREE_OK;
     return scree_error_set(
         error, SCREE_ERROR_IO,
-        "dataset 'drive/force': %zu (accepted: none, or as many rows as the boundary has bodies, %zu)", count, wanted);
+        "dataset 'imposed_gradient/force': %zu (accepted: none, or as many rows as the boundary has bodies, %zu)",
+        count, wanted);
 }
 
 static const scree_result columns[] = {

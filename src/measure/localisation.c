@@ -85,7 +85,7 @@ static void shuffle(double *value, size_t count, uint64_t round)
 }
 
 /// Index and best band of fields with the same values at random cells.
-static scree_status measure_random(const scree_cells *cells, const scree_node_cells *list, const double *place,
+static scree_status measure_random(const scree_cells *cells, const scree_node_cells *list, const double *position,
                                    const double *distortion, double diameter, double *scratch, scree_localisation *out,
                                    scree_error *error)
 {
@@ -103,7 +103,7 @@ static scree_status measure_random(const scree_cells *cells, const scree_node_ce
         double index = scree_localisation_index(cells, field);
         sum += index;
         square += index * index;
-        status = scree_band_fit(cells, place, field, THINNEST * diameter, BIN * diameter, false, &band, error);
+        status = scree_band_fit(cells, position, field, THINNEST * diameter, BIN * diameter, false, &band, error);
         out->explained_random = fmax(out->explained_random, band.explained);
     }
     double variance = (square - sum * sum / RANDOM) / (RANDOM - 1);
@@ -113,20 +113,20 @@ static scree_status measure_random(const scree_cells *cells, const scree_node_ce
 }
 
 /// Where a place lies in the slab: along the normal from its middle.
-static double height_in(const scree_band *band, const scree_vector centre, const double *place)
+static double height_in(const scree_band *band, const scree_vector centre, const double *position)
 {
     double along = -band->offset;
-    for (int i = 0; i < 3; i++) along += band->normal[i] * (place[i] - centre[i]);
+    for (int i = 0; i < 3; i++) along += band->normal[i] * (position[i] - centre[i]);
     return along;
 }
 
-static void centre_of_volume(const scree_cells *cells, const double *place, scree_vector centre)
+static void centre_of_volume(const scree_cells *cells, const double *position, scree_vector centre)
 {
     double volume = 0;
     centre[0] = centre[1] = centre[2] = 0;
     for (size_t k = 0; k < cells->count; k++) {
         scree_vector at;
-        scree_cell_centre(cells, k, place, at);
+        scree_cell_centre(cells, k, position, at);
         volume += cells->volume[k];
         for (int i = 0; i < 3; i++) centre[i] += cells->volume[k] * at[i];
     }
@@ -168,7 +168,7 @@ static void reach_extend(reach *r, scree_vector tangent[2], const scree_vector a
 }
 
 /// Reach of the active cells connected with `first`, which are struck off.
-static reach flood(const scree_cells *cells, const double *place, scree_vector tangent[2], uint8_t *active,
+static reach flood(const scree_cells *cells, const double *position, scree_vector tangent[2], uint8_t *active,
                    uint32_t *queue, uint32_t first)
 {
     size_t queued = 0;
@@ -177,7 +177,7 @@ static reach flood(const scree_cells *cells, const double *place, scree_vector t
     active[first] = 0;
     for (size_t head = 0; head < queued; head++) {
         scree_vector at;
-        scree_cell_centre(cells, queue[head], place, at);
+        scree_cell_centre(cells, queue[head], position, at);
         reach_extend(&r, tangent, at);
         for (int n = 0; n <= cells->dimension; n++) {
             int32_t behind = cells->neighbour[queue[head]][n];
@@ -189,7 +189,7 @@ static reach flood(const scree_cells *cells, const double *place, scree_vector t
     return r;
 }
 
-static scree_status measure_percolation(const scree_cells *cells, const double *place, const double *field,
+static scree_status measure_percolation(const scree_cells *cells, const double *position, const double *field,
                                         scree_band *band, scree_error *error)
 {
     scree_vector tangent[2], centre, at;
@@ -200,10 +200,10 @@ static scree_status measure_percolation(const scree_cells *cells, const double *
     double inside = band->share / band->volume_fraction, outside = (1 - band->share) / (1 - band->volume_fraction);
     double limit = (inside + outside) / 2 * scree_cells_mean(cells, field);
     reach whole = nothing;
-    centre_of_volume(cells, place, centre);
+    centre_of_volume(cells, position, centre);
     span_of(band, cells->dimension, tangent);
     for (size_t k = 0; k < cells->count && !status; k++) {
-        scree_cell_centre(cells, k, place, at);
+        scree_cell_centre(cells, k, position, at);
         if (fabs(height_in(band, centre, at)) > band->thickness / 2) continue;
         reach_extend(&whole, tangent, at);
         active[k] = field[k] > limit;
@@ -211,7 +211,7 @@ static scree_status measure_percolation(const scree_cells *cells, const double *
     band->percolation = 0;
     for (size_t k = 0; k < cells->count && !status; k++) {
         if (!active[k]) continue;
-        reach part = flood(cells, place, tangent, active, queue, (uint32_t)k);
+        reach part = flood(cells, position, tangent, active, queue, (uint32_t)k);
         double least = 1;
         for (int t = 0; t < cells->dimension - 1; t++)
             least = fmin(least, (part.high[t] - part.low[t]) / (whole.high[t] - whole.low[t]));
@@ -223,15 +223,15 @@ static scree_status measure_percolation(const scree_cells *cells, const double *
 }
 
 /// Marks the bodies inside a band that is found.
-static void mark_bodies(const scree_cells *cells, const double *place, const scree_band *band, uint8_t *in_band)
+static void mark_bodies(const scree_cells *cells, const double *position, const scree_band *band, uint8_t *in_band)
 {
     scree_vector centre;
-    centre_of_volume(cells, place, centre);
+    centre_of_volume(cells, position, centre);
     for (size_t i = 0; i < cells->bodies; i++)
-        in_band[i] = band->found && fabs(height_in(band, centre, place + 3 * i)) <= band->thickness / 2;
+        in_band[i] = band->found && fabs(height_in(band, centre, position + 3 * i)) <= band->thickness / 2;
 }
 
-scree_status scree_localisation_measure(const scree_cells *cells, const double *place, const double *distortion,
+scree_status scree_localisation_measure(const scree_cells *cells, const double *position, const double *distortion,
                                         double diameter, scree_localisation *out, double *body_field, uint8_t *in_band,
                                         scree_error *error)
 {
@@ -247,16 +247,17 @@ scree_status scree_localisation_measure(const scree_cells *cells, const double *
     }
     if (!status) {
         out->index = scree_localisation_index(cells, field);
-        status = measure_random(cells, &list, place, distortion, diameter, scratch, out, error);
+        status = measure_random(cells, &list, position, distortion, diameter, scratch, out, error);
     }
     scree_band *band = &out->band;
-    if (!status) status = scree_band_fit(cells, place, field, THINNEST * diameter, BIN * diameter, true, band, error);
-    if (!status) status = measure_percolation(cells, place, field, band, error);
+    if (!status)
+        status = scree_band_fit(cells, position, field, THINNEST * diameter, BIN * diameter, true, band, error);
+    if (!status) status = measure_percolation(cells, position, field, band, error);
     if (!status) {
         out->localised = out->index >= LOCALISED && out->significance >= SIGNIFICANT;
         band->found = band->explained >= EXPLAINED && band->explained > CLEARLY * out->explained_random &&
                       band->contrast >= CONTRAST;
-        mark_bodies(cells, place, band, in_band);
+        mark_bodies(cells, position, band, in_band);
     }
     scree_node_cells_destroy(&list);
     scree_release(&field);

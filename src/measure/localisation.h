@@ -45,14 +45,14 @@ typedef struct scree_localisation {
 /// x 3, at the first instant. distortion: of each cell. body_field out: cells->bodies, smoothed distortion at the
 /// bodies; in_band out: cells->bodies, 1 for bodies inside the band when it is found. Errors: memory. Cost:
 /// O(directions x cells): 0.1 s for 4000 discs, 1 s for 8000 spheres.
-scree_status scree_localisation_measure(const scree_cells *cells, const double *place, const double *distortion,
+scree_status scree_localisation_measure(const scree_cells *cells, const double *position, const double *distortion,
                                         double diameter, scree_localisation *out, double *body_field, uint8_t *in_band,
                                         scree_error *error) SCREE_MUST_USE;
 
 /// The slab that explains most of the variance of `value`, by least squares over all directions, places and
 /// thicknesses from `thinnest` to a third of the extent; fills all of `band` but percolation and found. `step`: m,
 /// width of the bins. fine: refine the direction to a quarter of a degree. Errors: memory.
-scree_status scree_band_fit(const scree_cells *cells, const double *place, const double *value, double thinnest,
+scree_status scree_band_fit(const scree_cells *cells, const double *position, const double *value, double thinnest,
                             double step, bool fine, scree_band *band, scree_error *error) SCREE_MUST_USE;
 
 /// How much two windows have in common at the same material points.

@@ -52,7 +52,7 @@ void scree_loop_gradient(const double *x, const double *y, const double *ux, con
 void scree_strain_measure(const scree_state *state, double gradient[9]);
 
 /// Re-detection of the boundary: the first call closes the increment of the present one and returns what it encloses
-/// [m2, in 3D m3], the second books in scree_strain_of(state)->redetected by how much the new one, at the same
+/// [m2, in 3D m3], the second accumulates in scree_strain_of(state)->redetected by how much the new one, at the same
 /// positions, encloses more.
 double scree_strain_close(scree_state *state);
 void scree_strain_redetected(scree_state *state, double enclosed);
@@ -93,7 +93,7 @@ scree_status scree_solid_fraction(const scree_state *state, double *fraction, sc
 scree_status scree_corner_distortion(const scree_model *model, const scree_state *state, double *distortion,
                                      scree_error *error) SCREE_MUST_USE;
 
-/// How far the boundary of a round sample leaves the affine image of what it was at the begin of the loading stage
+/// How far the boundary of a round sample leaves the affine ghost of what it was at the begin of the loading stage
 /// (state->reference): root mean square in mean diameters (boundary_roughness.c). NAN in 3D. Errors: memory.
 scree_status scree_boundary_roughness(const scree_model *model, const scree_state *state, double *roughness,
                                       scree_error *error) SCREE_MUST_USE;
@@ -122,7 +122,7 @@ double scree_fluctuations(int dimension, const double *const *from, const double
                           double *const *fluctuation, double *gradient);
 
 /// The same in a whole periodic cell, between two states of one loading stage: relative to the affine field of the cell
-/// itself and to the mean, between the images that are nearest after it. Fluctuations must be less than half the cell.
+/// itself and to the mean, between the ghosts that are nearest after it. Fluctuations must be less than half the cell.
 double scree_periodic_fluctuations(const scree_periodic_cell *from_cell, const scree_periodic_cell *to_cell,
                                    int dimension, const double *const *from, const double *const *to, size_t count,
                                    double *const *fluctuation);

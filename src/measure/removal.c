@@ -31,14 +31,14 @@ static void relieve_wall(scree_state *state, const scree_work *work, const scree
 {
     scree_vector force, arm;
     force_of(contact, force);
-    if (contact->second < SCREE_ELEMENT_ID) {
+    if (contact->second < SCREE_PRIMITIVE_ID) {
         scree_wall *wall = &scree_plates(state)[contact->second];
         wall->force -= contact->normal_force;
         for (int k = 0; k < 3; k++) wall->shear[k] += contact->tangential_force * contact->tangent[k];
         return;
     }
-    const scree_surface *surface = contact_surface_of(work->container, contact->second - SCREE_ELEMENT_ID);
-    scree_surface_load *load = &scree_case_walls(state)->load[surface - work->container->surface];
+    const scree_surface *surface = contact_surface_of(work->wall_set, contact->second - SCREE_PRIMITIVE_ID);
+    scree_surface_load *load = &scree_case_walls(state)->load[surface - work->wall_set->surface];
     for (int k = 0; k < 3; k++) arm[k] = contact->point[k] - surface->hub[k];
     scree_vector torque;
     scree_cross(arm, force, torque);

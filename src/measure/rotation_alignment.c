@@ -38,7 +38,7 @@ typedef struct scene {
 
 static void from_centre(const scene *s, size_t row, scree_vector out)
 {
-    scree_body_place(s->state, row, out);
+    scree_body_position(s->state, row, out);
     for (int i = 0; i < 3; i++) out[i] -= s->centre[i];
 }
 
@@ -91,23 +91,23 @@ static double cross(const double a[2], const double b[2])
     return a[0] * b[1] - a[1] * b[0];
 }
 
-/// Whether the line from the forced body to `place` crosses the barrier.
-static bool crosses(const barrier *b, const scree_vector place)
+/// Whether the line from the forced body to `position` crosses the barrier.
+static bool crosses(const barrier *b, const scree_vector position)
 {
     const double to_second[2] = {b->end[1][0] - b->end[0][0], b->end[1][1] - b->end[0][1]};
-    const double to_place[2] = {place[0] - b->end[0][0], place[1] - b->end[0][1]};
+    const double to_place[2] = {position[0] - b->end[0][0], position[1] - b->end[0][1]};
     const double to_centre[2] = {-b->end[0][0], -b->end[0][1]};
     // The ends lie on both sides of the line, and its ends on both sides of the contact.
-    return cross(place, b->end[0]) * cross(place, b->end[1]) < 0 &&
+    return cross(position, b->end[0]) * cross(position, b->end[1]) < 0 &&
            cross(to_second, to_centre) * cross(to_second, to_place) < 0;
 }
 
-static bool is_behind(const scene *s, size_t row, const scree_vector place, const scree_vector outward)
+static bool is_behind(const scene *s, size_t row, const scree_vector position, const scree_vector outward)
 {
     for (size_t k = 0; k < s->barriers; k++) {
         const barrier *b = &s->barrier[k];
         if (b->first == row || b->second == row) continue;
-        if (fabs(scree_rotation_dot(outward, b->branch)) < ACROSS && crosses(b, place)) return true;
+        if (fabs(scree_rotation_dot(outward, b->branch)) < ACROSS && crosses(b, position)) return true;
     }
     return false;
 }
@@ -119,8 +119,8 @@ static void find_witnesses(scene *s, double diameter, double limit, const scree_
     for (uint32_t row; (row = scree_next_by_id(s->state, &id)) != SCREE_NO_ROW;) {
         double own = scree_rotation_amount(s->state, row);
         if (row == s->forced || !scree_rotation_counts(s->state, row) || !(s->weight[row] > 0 && own > 0)) continue;
-        scree_vector place, outward;
-        from_centre(s, row, place);
+        scree_vector position, outward;
+        from_centre(s, row, position);
         from_centre(s, row, outward);
         double distance = scree_rotation_normalise(outward) / diameter;
         size_t bin = scree_rotation_bin_at(distance);
@@ -129,7 +129,7 @@ static void find_witnesses(scene *s, double diameter, double limit, const scree_
                                                .alignment = s->aligned[row] / s->weight[row],
                                                .bin = bin,
                                                .sector = scree_rotation_sector(s->state->dimension, network, outward),
-                                               .behind = is_behind(s, row, place, outward)};
+                                               .behind = is_behind(s, row, position, outward)};
     }
 }
 
@@ -230,7 +230,7 @@ scree_status scree_rotation_alignment_measure(const scree_model *model, const sc
     if (!status) status = scree_allocate(&s.barrier, table->count, sizeof *s.barrier, error);
     if (!status) status = scree_allocate(&s.witness, state->count, sizeof *s.witness, error);
     if (!status) {
-        scree_body_place(state, forced, s.centre);
+        scree_body_position(state, forced, s.centre);
         read_contacts(&s, table);
         find_witnesses(&s, 2 * model->mean_radius, fmin(cutoff, decay->reach), network);
         subtract_means(&s);

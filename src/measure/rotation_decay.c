@@ -42,16 +42,16 @@ double scree_rotation_mean_amount(const scree_state *state, size_t forced)
 
 size_t scree_rotation_bin_at(double distance)
 {
-    double place = (distance - FIRST) / BIN_WIDTH;
-    return place >= 0 && place < SCREE_ROTATION_BINS ? (size_t)place : SCREE_ROTATION_BINS;
+    double position = (distance - FIRST) / BIN_WIDTH;
+    return position >= 0 && position < SCREE_ROTATION_BINS ? (size_t)position : SCREE_ROTATION_BINS;
 }
 
 /// Distance from the forced body [mean diameters].
 static double distance_between(const scree_model *model, const scree_state *state, size_t forced, size_t row)
 {
     scree_vector here, there;
-    scree_body_place(state, row, here);
-    scree_body_place(state, forced, there);
+    scree_body_position(state, row, here);
+    scree_body_position(state, forced, there);
     for (int i = 0; i < 3; i++) here[i] -= there[i];
     return scree_length(here) / (2 * model->mean_radius);
 }

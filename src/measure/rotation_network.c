@@ -30,8 +30,8 @@ static bool see_segment(const scree_state *state, const scree_contact *contact, 
 {
     if (contact->wall) return false;
     scree_vector centre, end;
-    scree_body_place(state, forced, centre);
-    scree_body_place(state, contact->first, end);
+    scree_body_position(state, forced, centre);
+    scree_body_position(state, contact->first, end);
     for (int i = 0; i < 3; i++) {
         out->outward[i] = end[i] - 0.5 * contact->branch[i] - centre[i];
         out->branch[i] = contact->branch[i];

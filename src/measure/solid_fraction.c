@@ -1,7 +1,7 @@
 /// Solid fraction inside the Delaunay boundary. A disc inside counts whole, a disc on the boundary as the sector of the
 /// interior angle that its two edges leave (exact as long as the disc meets no other edge of the loop), a sphere on the
 /// hull as the interior solid angle of its triangles. Overlaps at contacts are counted twice: a relative error of the
-/// order of (indentation / radius)^1.5. In a periodic cell all bodies count whole. Cost: O(bodies).
+/// order of (overlap / radius)^1.5. In a periodic cell all bodies count whole. Cost: O(bodies).
 #include "measure/delaunay_boundary.h"
 #include "measure/measure.h"
 

@@ -77,7 +77,7 @@ static void hull_increment(const scree_state *state, double increment[9])
             scree_hull_corners(state, t, first, u);
             for (int c = 0; c < 3; c++)
                 for (int k = 0; k < 3; k++) {
-                    x[c][k] = hull->place[hull->triangle[t][c]][k] - hull->place[0][k];
+                    x[c][k] = hull->position[hull->triangle[t][c]][k] - hull->position[0][k];
                     u[c][k] -= x[c][k];
                 }
             scree_polyhedron_add(&sum, x, u);

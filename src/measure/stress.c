@@ -89,10 +89,10 @@ static void add_hull_pressure(const scree_state *state, pressure_sum *pressure, 
         for (int i = 0; i < 9; i++) pressure->sum[i] += carried * moment[i];
     }
     for (size_t k = 0; k < scree_hull_of(state)->node_count; k++) {
-        scree_vector place;
-        scree_hull_position(state, k, place);
-        for (int i = 0; i < 3; i++) place[i] -= pressure->centre[i];
-        add_product(pressure->sum, scree_hull_of(state)->force[k], place);
+        scree_vector position;
+        scree_hull_position(state, k, position);
+        for (int i = 0; i < 3; i++) position[i] -= pressure->centre[i];
+        add_product(pressure->sum, scree_hull_of(state)->force[k], position);
     }
 }
 
@@ -101,7 +101,7 @@ static void add_drive(const scree_state *state, const scree_vector centre, doubl
 {
     scree_vector point;
     for (size_t k = 0; k < scree_imposed(state)->count; k++) {
-        scree_body_place(state, scree_boundary_row(state, k), point);
+        scree_body_position(state, scree_boundary_row(state, k), point);
         for (int i = 0; i < 3; i++) point[i] -= centre[i];
         add_product(sum, scree_imposed(state)->force[k], point);
     }
@@ -131,7 +131,7 @@ void scree_stress_from_boundary(const scree_model *model, const scree_state *sta
         if (!scree_contact_is_outer(contact) || !scree_body_is_grain(state, contact->first)) continue;
         contact_force(contact, force);
         scree_vector point;
-        scree_body_place(state, contact->first, point);
+        scree_body_position(state, contact->first, point);
         for (int i = 0; i < 3; i++) point[i] = (contact->wall ? contact->point[i] : point[i]) - pressure.centre[i];
         add_product(pressure.sum, force, point);
     }

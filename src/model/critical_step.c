@@ -37,7 +37,7 @@
 /// Loads: the largest confining pressure; gravity as the weight of a column of the whole sample; velocities of a gas
 /// and falls through its box as the force of an elastic impact of two smallest discs at six times the root-mean-square
 /// velocity component; listed bodies as that of an impact at their largest relative velocity, with the fall from the
-/// highest. None of them counts above the force at the indentation where the guard would stop the run; a case without
+/// highest. None of them counts above the force at the overlap where the guard would stop the run; a case without
 /// any load gets that force.
 ///
 /// Several materials: the least over all pairs of them. Contacts of two materials stand between the smallest bodies of

@@ -237,15 +237,15 @@ static scree_status check_prepare(const scree_model *model, int64_t index, scree
     const scree_config_stage *stage = &model->config->stages[index];
     const scree_prepare_config *prepare = scree_config_prepared(stage);
     const scree_preparation *method = scree_modules[prepare->method]->preparation;
-    bool solid = model->dimension == 3;
+    bool in_3d = model->dimension == 3;
     scree_status status = method->check ? method->check(model, index, error) : SCREE_OK;
     // A round sample's sides are not the user's; and a method that makes its box has judged it.
     if (status || prepare->outline != SCREE_SAMPLE_BOX || method->sizes_box) return status;
-    bool shallow = solid && !isnan(prepare->depth) && prepare->depth < 2 * model->radius_max;
+    bool shallow = in_3d && !isnan(prepare->depth) && prepare->depth < 2 * model->radius_max;
     if (shallow || (!isnan(prepare->width) && prepare->width < 2 * model->radius_max)) {
         char text[160];
         (void)snprintf(text, sizeof text, "a %s of radius %g m does not fit into a box %g m %s",
-                       solid ? "sphere" : "disc", model->radius_max, shallow ? prepare->depth : prepare->width,
+                       in_3d ? "sphere" : "disc", model->radius_max, shallow ? prepare->depth : prepare->width,
                        shallow ? "deep" : "wide");
         return indexed_error(error, "stages", index, shallow ? "depth" : "width", text);
     }

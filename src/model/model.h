@@ -93,8 +93,8 @@ static inline const scree_law_traits *scree_model_held_traits(const scree_model 
     return &scree_law_get(model->persistent.law.law)->traits[model->persistent.law.option];
 }
 
-/// Whether the law looks ahead by a step and needs scree_state_foresee.
-static inline bool scree_model_foresees(const scree_model *model)
+/// Whether the law looks ahead by a step and needs scree_state_predict.
+static inline bool scree_model_predicts(const scree_model *model)
 {
     return scree_model_traits(model)->looks_ahead;
 }

@@ -59,14 +59,15 @@ static void share_out(scree_model *model)
     for (int s = 0; s < model->species_count; s++) model->species[s].end = end += count[s];
 }
 
-static scree_status refuse_sizes(const scree_model *model, int index, const scree_size_fault *fault, scree_error *error)
+static scree_status refuse_sizes(const scree_model *model, int index, const scree_size_problem *problem,
+                                 scree_error *error)
 {
-    scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "%s", fault->text);
+    scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "%s", problem->text);
     if (!error) return status;
     if (model->config->particles.species_count > 0)
-        (void)snprintf(error->field, sizeof error->field, "particles.species.%d.%s", index, fault->key);
+        (void)snprintf(error->field, sizeof error->field, "particles.species.%d.%s", index, problem->key);
     else
-        (void)snprintf(error->field, sizeof error->field, "particles.%s", fault->key);
+        (void)snprintf(error->field, sizeof error->field, "particles.%s", problem->key);
     return status;
 }
 
@@ -77,11 +78,11 @@ scree_status scree_model_resolve_species(scree_model *model, scree_error *error)
     for (int s = 0; s < model->species_count; s++) {
         scree_config_species said = scree_config_species_at(particles, s);
         scree_species *species = &model->species[s];
-        scree_size_fault fault;
+        scree_size_problem problem;
         *species = (scree_species){.material = scree_model_material(model, said.material),
                                    .distribution = scree_modules[said.distribution]->sizes,
                                    .sizes = scree_config_sizes(particles, s)};
-        if (species->distribution->wrong(species->sizes, &fault)) return refuse_sizes(model, s, &fault, error);
+        if (species->distribution->wrong(species->sizes, &problem)) return refuse_sizes(model, s, &problem, error);
         species->radius = species->distribution->moments(species->sizes, model->dimension);
     }
     share_out(model);

@@ -13,11 +13,11 @@ typedef struct scree_size_moments {
 } scree_size_moments;
 
 /// What is wrong with the keys of a distribution.
-typedef struct scree_size_fault {
+typedef struct scree_size_problem {
     const char *key;
     const char *above; ///< it is larger than what this key says; NULL: another fault
     char text[200];
-} scree_size_fault;
+} scree_size_problem;
 
 /// `keys`: the module's struct. dimension: of space, for shares by mass.
 typedef struct scree_size_distribution {
@@ -27,7 +27,7 @@ typedef struct scree_size_distribution {
     /// its radius.
     double (*radius)(const void *keys, int dimension, double uniform);
     /// Whether something is wrong, and what. Missing and wrong values are NAN: of such nothing is said.
-    bool (*wrong)(const void *keys, scree_size_fault *fault);
+    bool (*wrong)(const void *keys, scree_size_problem *problem);
     bool equal; ///< a trait: there is one radius
 } scree_size_distribution;
 

@@ -57,16 +57,16 @@ static void check_components(const listed *l, int64_t index, const shown *s)
 {
     static const char *const keys[] = {"position", "velocity", "spin"};
     const double *const values[] = {s->body->position, s->body->velocity, s->body->spin};
-    const bool solid = l->config->dimension == 3;
+    const bool in_3d = l->config->dimension == 3;
     for (int k = 0; k < 3; k++) {
         const scree_node *node = scree_node_find(s->node, keys[k]);
         if (!node || node->kind != SCREE_NODE_LIST) continue; // left out, or wrong and noted
-        const bool flat_spin = k == 2 && !solid, rests = k > 0 && scree_length(values[k]) == 0;
-        const size_t wanted = solid || k == 2 ? 3 : 2;
-        const char *accepted = flat_spin ? "[0, 0, about z]" : solid ? "[x, y, z]" : "[x, y]";
+        const bool flat_spin = k == 2 && !in_3d, rests = k > 0 && scree_length(values[k]) == 0;
+        const size_t wanted = in_3d || k == 2 ? 3 : 2;
+        const char *accepted = flat_spin ? "[0, 0, about z]" : in_3d ? "[x, y, z]" : "[x, y]";
         char message[160];
         (void)snprintf(message, sizeof message, "%zu components are given; in %s dimensions a %s has %zu", node->count,
-                       solid ? "three" : "two", keys[k], wanted);
+                       in_3d ? "three" : "two", keys[k], wanted);
         if (node->count != wanted && !rests)
             refuse(l, index, keys[k], accepted, message);
         else if (flat_spin && (values[k][0] != 0 || values[k][1] != 0))
@@ -121,8 +121,8 @@ static bool has_box(const scree_config *config)
 /// No deeper in a wall of the box than the guard allows; in a periodic cell the centre lies within it.
 static void check_inside(const listed *l, int64_t index, const shown *s)
 {
-    const bool solid = l->config->dimension == 3;
-    const double side[3] = {l->stage->width, solid ? l->stage->depth : l->own->height, l->own->height};
+    const bool in_3d = l->config->dimension == 3;
+    const double side[3] = {l->stage->width, in_3d ? l->stage->depth : l->own->height, l->own->height};
     static const char *const names[2][3] = {{"width", "height", ""}, {"width", "depth", "height"}};
     for (int c = 0; c < l->config->dimension && s->placed && has_box(l->config); c++) {
         bool periodic = l->config->boundary.periodic >> c & 1;
@@ -135,7 +135,7 @@ static void check_inside(const listed *l, int64_t index, const shown *s)
         else if (at > side[c] - reach)
             (void)snprintf(message, sizeof message,
                            "outside of the box: %c is %.6g m, the radius %.6g m, and the %s of the box %.6g m",
-                           "xyz"[c], at, s -> radius, names[solid][c], side[c]);
+                           "xyz"[c], at, s -> radius, names[in_3d][c], side[c]);
         else
             continue;
         refuse(l, index, "position", NULL, message);

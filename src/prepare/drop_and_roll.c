@@ -3,8 +3,8 @@
 ///
 /// Bed: bodies take random places on the floor, in the order of their radii drawn, until one has found none in ATTEMPTS
 /// trials. Then each falls at a random place of the box and rolls to a stable place: a disc on two discs on either side
-/// of its centre or on a disc and a side wall (deposit.c); a sphere on three spheres or walls whose contacts carry its
-/// weight (heap.c); either in a gap of the bed that it fits into.
+/// of its centre or on a disc and a side wall (drop_2d.c); a sphere on three spheres or walls whose contacts carry its
+/// weight (drop_3d.c); either in a gap of the bed that it fits into.
 ///
 /// Levelling. The surface of such a deposit is rough by several diameters, more so the wider it is, and a plate would
 /// rest on its highest hill. So more bodies are dropped than are asked for, and those with the lowest centres are kept:
@@ -14,8 +14,8 @@
 /// guess takes a solid fraction over the whole box; a packing made with it tells the height, and the second one has the
 /// width that gives the aspect ratio if the solid fraction stays the same.
 #include "module/key_rows.h"
-#include "prepare/deposit.h"
-#include "prepare/heap.h"
+#include "prepare/drop_2d.h"
+#include "prepare/drop_3d.h"
 #include "prepare/methods.h"
 
 #include "base/random.h"
@@ -36,8 +36,8 @@ typedef struct drop {
     scree_packing packing;
     double *level; ///< m, highest centre among a body and all that it rests on
     union {
-        scree_deposit discs; ///< 2D
-        scree_heap spheres;  ///< 3D
+        scree_drop_2d discs;   ///< 2D
+        scree_drop_3d spheres; ///< 3D
     } pile;
 } drop;
 
@@ -45,18 +45,18 @@ static scree_status begin_pile(drop *d, scree_error *error)
 {
     const scree_packing *p = &d->packing;
     if (p->dimension == 2)
-        return scree_deposit_create(&d->pile.discs, p->radius, p->count, p->box.width, p->place[0], p->place[1],
+        return scree_drop_2d_create(&d->pile.discs, p->radius, p->count, p->box.width, p->place[0], p->place[1],
                                     d->level, error);
     const double sides[2] = {p->box.width, p->box.depth};
-    return scree_heap_create(&d->pile.spheres, p->radius, p->count, sides, p->place, d->level, error);
+    return scree_drop_3d_create(&d->pile.spheres, p->radius, p->count, sides, p->place, d->level, error);
 }
 
 static void end_pile(drop *d)
 {
     if (d->packing.dimension == 2)
-        scree_deposit_destroy(&d->pile.discs);
+        scree_drop_2d_destroy(&d->pile.discs);
     else
-        scree_heap_destroy(&d->pile.spheres);
+        scree_drop_3d_destroy(&d->pile.spheres);
 }
 
 /// Random place above the floor at which body `index` does not touch the side walls.
@@ -70,14 +70,14 @@ static void random_place(const drop *d, scree_random_stream stream, uint64_t cou
 
 static bool sees_floor(const drop *d, size_t index, const double place[2])
 {
-    if (d->packing.dimension == 2) return scree_deposit_sees_floor(&d->pile.discs, index, place[0]);
-    return scree_heap_sees_floor(&d->pile.spheres, index, place[0], place[1]);
+    if (d->packing.dimension == 2) return scree_drop_2d_sees_floor(&d->pile.discs, index, place[0]);
+    return scree_drop_3d_sees_floor(&d->pile.spheres, index, place[0], place[1]);
 }
 
 static scree_status drop_one(drop *d, size_t index, const double place[2], scree_error *error)
 {
-    if (d->packing.dimension == 2) return scree_deposit_drop(&d->pile.discs, index, place[0], error);
-    return scree_heap_drop(&d->pile.spheres, index, place[0], place[1], error);
+    if (d->packing.dimension == 2) return scree_drop_2d_add(&d->pile.discs, index, place[0], error);
+    return scree_drop_3d_add(&d->pile.spheres, index, place[0], place[1], error);
 }
 
 /// Places the bed; tells how many bodies it has.
@@ -174,12 +174,12 @@ static scree_status place(const scree_model *model, const scree_config_stage *st
 {
     (void)stage;
     const scree_box given = packing->box;
-    const bool solid = packing->dimension == 3;
+    const bool in_3d = packing->dimension == 3;
     double least = 2 * scree_packing_largest(packing), room = scree_packing_solid(packing);
     scree_packing_fit_box(packing, room, SOLID_FRACTION[packing->dimension], least);
     scree_status status = fill(model, packing, error);
     if (status || !isnan(given.width)) return status;
-    double solid_fraction = room / (packing->box.width * packing->box.height * (solid ? packing->box.depth : 1));
+    double solid_fraction = room / (packing->box.width * packing->box.height * (in_3d ? packing->box.depth : 1));
     packing->box = given;
     scree_packing_fit_box(packing, room, solid_fraction, least);
     return fill(model, packing, error);

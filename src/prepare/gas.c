@@ -5,7 +5,7 @@
 /// and Tarjus 1991), and needs ever more trials towards it; MOST_TRIALS for one disc carry 100,000 equal discs to 0.51,
 /// and discs of 1:2, the small between the large, to 0.62. Above that is an error.
 ///
-/// In directions in which the box repeats itself there are no walls, and images are kept clear of too.
+/// In directions in which the box repeats itself there are no walls, and ghosts are kept clear of too.
 ///
 /// Velocities: normal components of equal variance (Maxwell; the same temperature for all only if masses are equal),
 /// without the drift of the centre of mass, scaled so that the root mean square of a component is exactly the one asked
@@ -85,7 +85,7 @@ static void sides_of(const scree_packing *packing, double side[3])
     side[2] = box->height;
 }
 
-/// Nor is an image.
+/// Nor is a ghost.
 static bool is_free(const gas_grid *grid, const double at[3], double radius)
 {
     const unsigned periodic = grid->packing->box.periodic;
@@ -95,8 +95,8 @@ static bool is_free(const gas_grid *grid, const double at[3], double radius)
     for (int i = -reach[0]; i <= reach[0]; i++)
         for (int j = -reach[1]; j <= reach[1]; j++)
             for (int k = -reach[2]; k <= reach[2]; k++) {
-                const double image[3] = {at[0] + i * side[0], at[1] + j * side[1], at[2] + k * side[2]};
-                if (!is_free_at(grid, image, radius)) return false;
+                const double ghost[3] = {at[0] + i * side[0], at[1] + j * side[1], at[2] + k * side[2]};
+                if (!is_free_at(grid, ghost, radius)) return false;
             }
     return true;
 }
@@ -157,8 +157,8 @@ static double solid_fraction_of(const scree_model *model, const scree_config_sta
 static void gas_sides(const scree_model *model, const scree_config_stage *stage, double side[3])
 {
     const scree_prepare_config *prepare = scree_config_prepared(stage);
-    double solid = (double)model->config->particles.count * scree_model_mean_solid(model);
-    double room = solid / solid_fraction_of(model, stage);
+    double in_3d = (double)model->config->particles.count * scree_model_mean_solid(model);
+    double room = in_3d / solid_fraction_of(model, stage);
     side[0] = prepare->width;
     side[1] = prepare->depth;
     side[2] = INFINITY;
@@ -175,7 +175,7 @@ static void gas_sides(const scree_model *model, const scree_config_stage *stage,
 
 /// A periodic gas must be wide enough when it is prepared, and when its cell has shrunk to the loosest packing that
 /// bears a pressure (solid fraction about 0.76 of discs, 0.55 of spheres). What happens later is not known here: the
-/// search for images says it then.
+/// search for ghosts says it then.
 static scree_status check(const scree_model *model, int64_t index, scree_error *error)
 {
     const scree_config_stage *stage = &model->config->stages[index];
@@ -201,12 +201,12 @@ static scree_status check(const scree_model *model, int64_t index, scree_error *
 static scree_status does_not_fit(const scree_model *model, const scree_config_stage *stage,
                                  const scree_packing *packing, double wanted, double reached, scree_error *error)
 {
-    const bool solid = packing->dimension == 3;
+    const bool in_3d = packing->dimension == 3;
     return scree_prepare_error(error, model, stage, "solid_fraction",
                                "%zu %s do not fit at random at a solid fraction of %.3g: there was room up to %.2g; "
                                "ask for %.2g or less, or prepare with drop_and_roll (about %s) or %s",
-                               packing->count, solid ? "spheres" : "discs", wanted, reached, 0.95 * reached,
-                               solid ? "0.58" : "0.8", solid ? "growth (0.6)" : "hexagonal (0.9)");
+                               packing->count, in_3d ? "spheres" : "discs", wanted, reached, 0.95 * reached,
+                               in_3d ? "0.58" : "0.8", in_3d ? "growth (0.6)" : "hexagonal (0.9)");
 }
 
 /// Random addition of all bodies into the box of the packing.
@@ -214,10 +214,10 @@ static scree_status fill(const scree_model *model, const scree_config_stage *sta
                          double largest, double solid_fraction, scree_error *error)
 {
     gas_grid grid = {.packing = packing, .cell = 2 * largest, .layers = 1};
-    const bool solid = packing->dimension == 3;
+    const bool in_3d = packing->dimension == 3;
     grid.columns = (size_t)(packing->box.width / grid.cell) + 1;
-    grid.rows = (size_t)((solid ? packing->box.depth : packing->box.height) / grid.cell) + 1;
-    if (solid) grid.layers = (size_t)(packing->box.height / grid.cell) + 1;
+    grid.rows = (size_t)((in_3d ? packing->box.depth : packing->box.height) / grid.cell) + 1;
+    if (in_3d) grid.layers = (size_t)(packing->box.height / grid.cell) + 1;
     uint32_t *order = NULL;
     size_t count = packing->count;
     scree_status status = scree_allocate(&grid.head, grid.columns * grid.rows * grid.layers, sizeof *grid.head, error);
@@ -230,9 +230,9 @@ static scree_status fill(const scree_model *model, const scree_config_stage *sta
         double room = 0;
         for (size_t k = 0; k < placed; k++) {
             double r = packing->radius[order[k]];
-            room += solid ? 4 * M_PI / 3 * r * r * r : M_PI * r * r;
+            room += in_3d ? 4 * M_PI / 3 * r * r * r : M_PI * r * r;
         }
-        double box = packing->box.width * packing->box.height * (solid ? packing->box.depth : 1);
+        double box = packing->box.width * packing->box.height * (in_3d ? packing->box.depth : 1);
         if (placed < count) status = does_not_fit(model, stage, packing, solid_fraction, room / box, error);
     }
     scree_release(&order);

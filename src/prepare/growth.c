@@ -46,18 +46,18 @@ typedef struct growth {
     double overlap; ///< largest, at the last evaluation
 } growth;
 
-static void set_place(scree_row *row, bool solid, const double place[3])
+static void set_place(scree_row *row, bool in_3d, const double place[3])
 {
     row->x = place[0];
     row->y = place[1];
-    if (solid) row->z = place[2];
+    if (in_3d) row->z = place[2];
 }
 
 static scree_status begin_growth(growth *g, scree_error *error)
 {
     const scree_packing *packing = g->packing;
-    const bool solid = packing->dimension == 3;
-    const double side[3] = {packing->box.width / g->unit, (solid ? packing->box.depth : packing->box.height) / g->unit,
+    const bool in_3d = packing->dimension == 3;
+    const double side[3] = {packing->box.width / g->unit, (in_3d ? packing->box.depth : packing->box.height) / g->unit,
                             packing->box.height / g->unit};
     scree_status status = scree_state_create(&g->state, packing->dimension, packing->count, error);
     if (!status) status = scree_work_create(&g->work, g->model, 1, error);
@@ -70,7 +70,7 @@ static scree_status begin_growth(growth *g, scree_error *error)
         for (uint64_t c = 0; c < axes; c++)
             place[c] =
                 radius + scree_random_uniform(seed, SCREE_RANDOM_POSITION, axes * i + c) * (side[c] - 2 * radius);
-        set_place(&g->state.row[i], solid, place);
+        set_place(&g->state.row[i], in_3d, place);
     }
     for (int axis = 0; axis < packing->dimension; axis++)
         for (int w = 2 * axis; w < 2 * axis + 2; w++) {
@@ -108,12 +108,12 @@ static scree_status evaluate(growth *g, scree_error *error)
     if (status) return status;
     const scree_pair_list *pairs = &g->work.pairs;
     const scree_wall_pair_list *walls = &g->work.wall_pairs;
-    const bool solid = g->state.dimension == 3;
+    const bool in_3d = g->state.dimension == 3;
     memset(g->force, 0, g->state.count * sizeof *g->force);
     g->overlap = 0;
     for (size_t k = 0; k < pairs->count; k++) {
         const scree_row *a = &g->state.row[pairs->first[k]], *b = &g->state.row[pairs->second[k]];
-        double dx = a->x - b->x, dy = a->y - b->y, dz = solid ? a->z - b->z : 0, reach = a->radius + b->radius;
+        double dx = a->x - b->x, dy = a->y - b->y, dz = in_3d ? a->z - b->z : 0, reach = a->radius + b->radius;
         double square = dx * dx + dy * dy + dz * dz;
         if (square >= reach * reach) continue;
         // Bodies at one point push each other along x.
@@ -127,7 +127,7 @@ static scree_status evaluate(growth *g, scree_error *error)
     for (size_t k = 0; k < walls->count; k++) {
         const scree_wall *wall = &scree_plates(&g->state)[walls->wall[k]];
         scree_vector place;
-        scree_body_place(&g->state, walls->body[k], place);
+        scree_body_position(&g->state, walls->body[k], place);
         double away = wall->normal[0] * place[0] + wall->normal[1] * place[1] + wall->normal[2] * place[2];
         double overlap = g->state.row[walls->body[k]].radius - (away - wall->position);
         if (overlap <= 0) continue;
@@ -146,11 +146,11 @@ typedef struct fire {
 /// Turns velocities towards the forces, and adapts the step to whether they still go downhill.
 static void steer(growth *g, fire *f)
 {
-    const bool solid = g->state.dimension == 3;
+    const bool in_3d = g->state.dimension == 3;
     double power = 0, speed = 0, strength = 0;
     for (size_t k = 0; k < g->state.count; k++) {
         const scree_row *row = &g->state.row[k];
-        const double *force = g->force[k], vz = solid ? row->vz : 0;
+        const double *force = g->force[k], vz = in_3d ? row->vz : 0;
         power += row->vx * force[0] + row->vy * force[1] + vz * force[2];
         speed += row->vx * row->vx + row->vy * row->vy + vz * vz;
         strength += force[0] * force[0] + force[1] * force[1] + force[2] * force[2];
@@ -172,14 +172,14 @@ static void steer(growth *g, fire *f)
         scree_row *row = &g->state.row[k];
         row->vx = keep * row->vx + take * g->force[k][0];
         row->vy = keep * row->vy + take * g->force[k][1];
-        if (solid) row->vz = keep * row->vz + take * g->force[k][2];
+        if (in_3d) row->vz = keep * row->vz + take * g->force[k][2];
     }
 }
 
 /// A step of the motion with unit masses.
 static void move(growth *g, const fire *f)
 {
-    const bool solid = g->state.dimension == 3;
+    const bool in_3d = g->state.dimension == 3;
     double fastest = 0;
     for (size_t k = 0; k < g->state.count; k++) {
         scree_row *row = &g->state.row[k];
@@ -188,7 +188,7 @@ static void move(growth *g, const fire *f)
         row->x += f->step * row->vx;
         row->y += f->step * row->vy;
         double square = row->vx * row->vx + row->vy * row->vy;
-        if (solid) {
+        if (in_3d) {
             row->vz += f->step * g->force[k][2];
             row->z += f->step * row->vz;
             square += row->vz * row->vz;
@@ -219,7 +219,7 @@ static void take_places(const growth *g, scree_packing *packing)
 {
     for (size_t i = 0; i < packing->count; i++) {
         scree_vector place;
-        scree_body_place(&g->state, g->state.row_of_id[i], place);
+        scree_body_position(&g->state, g->state.row_of_id[i], place);
         for (int c = 0; c < packing->dimension; c++) packing->place[c][i] = place[c] * g->unit;
     }
 }

@@ -96,7 +96,7 @@ static scree_status place_lattice(const scree_model *model, const scree_config_s
     if (around) kind->missing = 0;
     if (count == 0) return SCREE_OK;
     double r = packing->radius[0];
-    const bool solid = packing->dimension == 3, deep = solid && !isnan(box->depth);
+    const bool in_3d = packing->dimension == 3, deep = in_3d && !isnan(box->depth);
     size_t m = deep ? fitting(box->depth, r) : 0;
     if (deep && m < 1 + kind->missing && count > 1)
         return scree_prepare_error(error, model, stage, "depth", "a layer of the lattice needs at least %g m",

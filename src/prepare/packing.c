@@ -41,12 +41,12 @@ void scree_packing_draw(const scree_model *model, scree_packing *packing)
 
 double scree_packing_solid(const scree_packing *packing)
 {
-    double solid = 0;
+    double in_3d = 0;
     for (size_t i = 0; i < packing->count; i++) {
         double r = packing->radius[i];
-        solid += packing->dimension == 3 ? 4 * M_PI / 3 * r * r * r : M_PI * r * r;
+        in_3d += packing->dimension == 3 ? 4 * M_PI / 3 * r * r * r : M_PI * r * r;
     }
-    return solid;
+    return in_3d;
 }
 
 double scree_packing_largest(const scree_packing *packing)
@@ -56,13 +56,13 @@ double scree_packing_largest(const scree_packing *packing)
     return largest;
 }
 
-void scree_packing_fit_box(scree_packing *packing, double solid, double solid_fraction, double least)
+void scree_packing_fit_box(scree_packing *packing, double in_3d, double solid_fraction, double least)
 {
     scree_box *box = &packing->box;
-    double room = solid / solid_fraction, face = room / packing->aspect_ratio;
+    double room = in_3d / solid_fraction, face = room / packing->aspect_ratio;
     if (packing->dimension == 2) {
-        if (isnan(box->width)) box->width = fmax(least, sqrt(solid / (solid_fraction * packing->aspect_ratio)));
-        box->height = solid / (solid_fraction * box->width);
+        if (isnan(box->width)) box->width = fmax(least, sqrt(in_3d / (solid_fraction * packing->aspect_ratio)));
+        box->height = in_3d / (solid_fraction * box->width);
         return;
     }
     if (isnan(box->width)) box->width = fmax(least, isnan(box->depth) ? cbrt(face) : sqrt(face / box->depth));
@@ -75,10 +75,10 @@ static size_t square_count(const scree_packing *packing, double margin)
 {
     // A round sample at a solid fraction of 0.5 or more is at most sqrt(2 N), cbrt(2 N) mean radii in radius, and at
     // least three quarters of that, which the margin is compared with.
-    bool solid = packing->dimension == 3;
-    double count = (double)packing->count, radius = 0.75 * (solid ? cbrt(2 * count) : sqrt(2 * count));
+    bool in_3d = packing->dimension == 3;
+    double count = (double)packing->count, radius = 0.75 * (in_3d ? cbrt(2 * count) : sqrt(2 * count));
     double wider = 1 + margin / radius;
-    return (size_t)ceil(count * (solid ? 6 / M_PI * wider * wider * wider : 4 / M_PI * wider * wider));
+    return (size_t)ceil(count * (in_3d ? 6 / M_PI * wider * wider * wider : 4 / M_PI * wider * wider));
 }
 
 /// A body of the larger packing and how far it reaches from the centre.
@@ -104,8 +104,8 @@ static int by_index(const void *a, const void *b)
 static bool keep_middle(const scree_packing *larger, candidate *of, scree_packing *packing)
 {
     const scree_box *box = &larger->box;
-    const bool solid = packing->dimension == 3;
-    const double centre[3] = {box->width / 2, (solid ? box->depth : box->height) / 2, box->height / 2};
+    const bool in_3d = packing->dimension == 3;
+    const double centre[3] = {box->width / 2, (in_3d ? box->depth : box->height) / 2, box->height / 2};
     for (size_t i = 0; i < larger->count; i++) {
         double square = 0;
         for (int c = 0; c < packing->dimension; c++) {
@@ -116,7 +116,7 @@ static bool keep_middle(const scree_packing *larger, candidate *of, scree_packin
     }
     qsort(of, larger->count, sizeof *of, by_reach);
     double reach = packing->count > 0 ? of[packing->count - 1].reach : 0;
-    if (reach > fmin(fmin(centre[0], centre[1]), solid ? centre[2] : INFINITY)) return false;
+    if (reach > fmin(fmin(centre[0], centre[1]), in_3d ? centre[2] : INFINITY)) return false;
     // The order of placement stays.
     qsort(of, packing->count, sizeof *of, by_index);
     for (size_t i = 0; i < packing->count; i++) {

@@ -14,7 +14,7 @@ typedef struct config {
 } config;
 static const scree_key keys[] = {
     NUMBER(config, gap, "m", .standard = "auto", FROM("0 m"), TO("1 km"), .when = "method=pair",
-           .meaning = "Between the surfaces of the two; auto: about their indentation in the impact."),
+           .meaning = "Between the surfaces of the two; auto: about their overlap in the impact."),
     NUMBER(config, speed, "m/s", .standard = "auto", ABOVE("0 m/s"), TO("1e5 m/s"), .when = "method=pair",
            .meaning = "Relative speed at which they approach; auto: contact.reference_velocity."),
 };

@@ -46,7 +46,7 @@ static void fill_rows(const scree_model *model, const scree_config_stage *stage,
         } else
             state->row[i].material = material;
         state->species[i] = packing->species[i];
-        scree_body_place(state, i, state->reference[i]);
+        scree_body_position(state, i, state->reference[i]);
     }
 }
 

@@ -1,11 +1,11 @@
 /// Circles and regions are averaged over the snapshots in the first strain window of measure.windows (P: 7 - 8.5 %);
 /// cells and sample are compared over the whole stage.
 ///
-/// Strain: between two consecutive snapshots, at x and x + u, the mean gradient of the cells on the middle configuration
-/// x + u/2, weighted with their volumes there. Sums over them are logarithmic strains up to the square of their
-/// distance, as those of the boundary in series.csv are. The boundary is renewed between snapshots while the cells stay:
-/// what that makes falls with their distance (400 spheres, every 1.3, 0.17, 0.04 % of strain: 3.8, 0.63, 0.21 %).
-/// Stress: means over the same instants.
+/// Strain: between two consecutive snapshots, at x and x + u, the mean gradient of the cells on the middle
+/// configuration x + u/2, weighted with their volumes there. Sums over them are logarithmic strains up to the square of
+/// their distance, as those of the boundary in series.csv are. The boundary is renewed between snapshots while the
+/// cells stay: what that makes falls with their distance (400 spheres, every 1.3, 0.17, 0.04 % of strain: 3.8, 0.63,
+/// 0.21 %). Stress: means over the same instants.
 #include "run/cell_averages.h"
 
 #include <math.h>
@@ -99,8 +99,8 @@ void scree_cell_averages_add(scree_cell_averages *averages, const scree_cell_sna
     add_stress(averages, snapshot);
     if (!(snapshot->axial_strain >= averages->from && snapshot->axial_strain <= averages->to)) return;
     double distortion[SCREE_REGION_COUNT], pressure[SCREE_REGION_COUNT];
-    scree_cells_region_means(cells, snapshot->assembly.place, cells->distortion, distortion);
-    scree_cells_region_means(cells, snapshot->assembly.place, cells->pressure, pressure);
+    scree_cells_region_means(cells, snapshot->assembly.position, cells->distortion, distortion);
+    scree_cells_region_means(cells, snapshot->assembly.position, cells->pressure, pressure);
     for (int r = 0; r < SCREE_REGION_COUNT; r++) {
         averages->distortion[r] += distortion[r];
         averages->pressure[r] += pressure[r];
@@ -120,8 +120,8 @@ scree_status scree_cell_averages_strain(scree_cell_averages *averages, const scr
     if (!status) {
         double *moved = middle + n;
         for (size_t i = 0; i < n; i++) {
-            moved[i] = second->assembly.place[i] - first->assembly.place[i];
-            middle[i] = first->assembly.place[i] + 0.5 * moved[i];
+            moved[i] = second->assembly.position[i] - first->assembly.position[i];
+            middle[i] = first->assembly.position[i] + 0.5 * moved[i];
         }
         scree_cells_gradient(cells, middle, moved, gradient);
         for (size_t k = 0; k < cells->count; k++) {

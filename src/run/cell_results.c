@@ -92,8 +92,8 @@ static void box_of(const scree_assembly *assembly, scree_vector low, scree_vecto
         high[i] = -INFINITY;
     }
     for (size_t k = 0; k < 3 * assembly->count; k++) {
-        low[k % 3] = fmin(low[k % 3], assembly->place[k]);
-        high[k % 3] = fmax(high[k % 3], assembly->place[k]);
+        low[k % 3] = fmin(low[k % 3], assembly->position[k]);
+        high[k % 3] = fmax(high[k % 3], assembly->position[k]);
     }
 }
 
@@ -113,7 +113,7 @@ static scree_status write_circles(walk *w, const scree_cell_snapshot *snapshot, 
     for (size_t p = 0; p < SCREE_CIRCLES && !status; p++) {
         for (int i = 0; i < 3; i++) centre[i] = (low[i] + high[i]) / 2;
         centre[axis] = low[axis] + height[p] * (high[axis] - low[axis]);
-        scree_cells_circles(&snapshot->cells, assembly->place, centre, step, count, pressure, pressure + count);
+        scree_cells_circles(&snapshot->cells, assembly->position, centre, step, count, pressure, pressure + count);
         for (size_t c = 0; c < count && !status; c++) {
             ratio[p * count + c] = pressure[c] / mean;
             const double row[CIRCLE_COLUMNS] = {
@@ -182,12 +182,12 @@ static scree_status close_window(walk *w, const scree_cell_snapshot *second, scr
         if (!status && !w->inside[k]) status = scree_allocate(&w->inside[k], bodies, 1, error);
     }
     if (!status)
-        status = scree_cells_window_distortion(&w->first.cells, w->first.assembly.place, second->assembly.place,
+        status = scree_cells_window_distortion(&w->first.cells, w->first.assembly.position, second->assembly.position,
                                                &distortion, error);
     if (!status) {
         scree_band_window *window = &w->window[w->window_count++];
         w->diameter = mean_diameter(&w->first.assembly);
-        status = scree_localisation_measure(&w->first.cells, w->first.assembly.place, distortion, w->diameter,
+        status = scree_localisation_measure(&w->first.cells, w->first.assembly.position, distortion, w->diameter,
                                             &window->localisation, w->field[now], w->inside[now], error);
         bool any = w->window_count > 1;
         window->correlation = any ? scree_field_correlation(w->field[0], w->field[1], bodies) : NAN;

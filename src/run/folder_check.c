@@ -1,7 +1,7 @@
 /// What is whole in the folder of a run, what is damaged or left over, and from where the run can go on.
+#include "io/file_checksum.h"
 #include "io/run_directory.h"
 #include "io/run_file.h"
-#include "io/seal.h"
 #include "io/series.h"
 #include "run/restart.h"
 
@@ -70,7 +70,7 @@ static scree_status inspect_run_file(inspection *all, const scree_restart_points
     scree_status status = scree_run_file_path(all->directory, path, sizeof path, error);
     if (status || access(path, F_OK) != 0) return status;
     for (size_t k = 0; k < points->count; k++) own += !points->point[k].part;
-    status = scree_seal_check(path, &reason);
+    status = scree_file_checksum_check(path, &reason);
     if (status && own == 0 && points->count > 0)
         (void)scree_error_set(&reason, status, "it holds nothing that is not in parts/: a restart writes it anew");
     tell_file(all, SCREE_FILE_RUN, status, own > 0 ? "snapshots and checkpoints" : "links into parts/", &reason);

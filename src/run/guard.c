@@ -10,7 +10,7 @@ static size_t first_not_finite(const scree_state *state)
     size_t lowest = state->count;
     for (size_t row = 0; row < state->count; row++) {
         scree_vector place, velocity, spin;
-        scree_body_place(state, row, place);
+        scree_body_position(state, row, place);
         scree_body_motion(state, row, velocity, spin);
         // The sum of finite numbers of these sizes is finite, and of others it is not.
         double sum = 0;
@@ -62,7 +62,7 @@ static scree_status stop_escaped(const scree_simulation *s, scree_error *error)
     size_t next = 0;
     for (uint32_t row; (row = scree_next_by_id(state, &next)) != SCREE_NO_ROW;) {
         scree_vector place;
-        scree_body_place(state, row, place);
+        scree_body_position(state, row, place);
         double height = place[state->dimension - 1];
         bool below = bottom->active && height < bottom->position;
         bool above = top->active && -height < top->position;

@@ -27,7 +27,7 @@ static double present_height(scree_simulation *s)
     scree_vector place;
     for (size_t row = 0; row < state->count; row++) {
         if (!scree_body_is_grain(state, row)) continue;
-        scree_body_place(state, row, place);
+        scree_body_position(state, row, place);
         low = fmin(low, place[state->dimension - 1] - state->row[row].radius);
         high = fmax(high, place[state->dimension - 1] + state->row[row].radius);
     }
@@ -43,7 +43,7 @@ void scree_loading_begin(scree_simulation *s, double pressure)
     scree_strain_measure(state, loading->strain);
     s->boundary->fit(&context, pressure);
     if (s->boundary->mark) s->boundary->mark(&context);
-    for (size_t row = 0; row < state->count; row++) scree_body_place(state, row, state->reference[row]);
+    for (size_t row = 0; row < state->count; row++) scree_body_position(state, row, state->reference[row]);
     if (state->angle) memset(state->angle, 0, state->count * sizeof *state->angle);
 }
 

@@ -111,13 +111,13 @@ static scree_status picture_walls(const scree_simulation *s, scree_wall_triangle
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     for (size_t row = 0; row < s->state.count; row++) {
         scree_vector place;
-        scree_body_place(&s->state, row, place);
+        scree_body_position(&s->state, row, place);
         for (int k = 0; k < 3; k++) {
             low[k] = fmin(low[k], place[k] - s->state.row[row].radius);
             high[k] = fmax(high[k], place[k] + s->state.row[row].radius);
         }
     }
-    return scree_container_triangles(s->work.container, low, high, walls, error);
+    return scree_wall_set_triangles(s->work.wall_set, low, high, walls, error);
 }
 
 /// `sound`: the guards have passed the state; else it is only shown.

@@ -66,13 +66,13 @@ static void write_bodies(FILE *file, const scree_simulation *s, const findings *
 {
     const scree_state *state = &s->state;
     scree_vector centre, place;
-    scree_body_place(state, f->forced, centre);
+    scree_body_position(state, f->forced, centre);
     double driven = scree_rotation_amount(state, f->forced), diameter = 2 * s->model.mean_radius;
     fputs("id [1],distance [1],rotation_ratio [1],rotation_with [1],counts [1]\n", file);
     size_t next = 0;
     for (uint32_t row; (row = scree_next_by_id(state, &next)) != SCREE_NO_ROW;) {
         if (!scree_body_is_grain(state, row)) continue;
-        scree_body_place(state, row, place);
+        scree_body_position(state, row, place);
         for (int i = 0; i < 3; i++) place[i] -= centre[i];
         fprintf(file, "%u,%.9g,%.9g,%.9g,%d\n", state->id[row], scree_length(place) / diameter,
                 scree_rotation_amount(state, row) / driven, turned_with(state, row, f->forced),

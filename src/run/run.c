@@ -7,7 +7,7 @@
 #include "run/restart.h"
 #include "run/results.h"
 #include "search/neighbours.h"
-#include "shape/container.h"
+#include "shape/wall_set.h"
 #include "view/plot.h"
 
 #include <string.h>
@@ -28,7 +28,7 @@ static scree_status save_case(const char *directory, const scree_case *c, scree_
 }
 
 /// Steps until the case ends, somebody asks to stop, or something fails.
-static scree_status drive(scree_recorder *recorder, scree_simulation *s, scree_error *error)
+static scree_status imposed(scree_recorder *recorder, scree_simulation *s, scree_error *error)
 {
     double begin = scree_clock();
     scree_status status = SCREE_OK;
@@ -146,11 +146,11 @@ static scree_status complete(scree_recorder *recorder, scree_simulation *s, scre
 }
 
 /// What the files of meshes held.
-static void log_meshes(const scree_recorder *recorder, const scree_container *container)
+static void log_meshes(const scree_recorder *recorder, const scree_wall_set *wall_set)
 {
     scree_log log = recorder->log;
-    for (int k = 0; container && k < container->count; k++) {
-        const scree_surface *surface = &container->surface[k];
+    for (int k = 0; wall_set && k < wall_set->count; k++) {
+        const scree_surface *surface = &wall_set->surface[k];
         const scree_mesh *mesh = &surface->mesh;
         if (mesh->triangle_count == 0) continue;
         scree_log_write(
@@ -182,8 +182,8 @@ static scree_status record(scree_simulation *s, const scree_run_options *options
                         s->model.step, (unsigned long long)s->model.largest_step, s->model.critical_step, s->model.phi,
                         s->model.psi);
         if (!restarted) scree_quasistatic_warn(&s->model, &recorder.log);
-        log_meshes(&recorder, s->work.container);
-        status = drive(&recorder, s, error);
+        log_meshes(&recorder, s->work.wall_set);
+        status = imposed(&recorder, s, error);
         if (status)
             leave(&recorder, s, error);
         else

@@ -7,7 +7,7 @@
 #include "run/sample.h"
 #include "run/step.h"
 #include "search/neighbours.h"
-#include "shape/container.h"
+#include "shape/wall_set.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -34,8 +34,7 @@ scree_status scree_simulation_open(const scree_case *c, int threads, scree_simul
     if (threads <= 0)
         threads = (int)fmin(scree_processor_count(), 1 + (double)c->config.particles.count / BODIES_A_THREAD);
     status = scree_work_create(&s->work, &s->model, threads, error);
-    if (!status && (status = scree_container_create(&c->config, &s->work.container, error)))
-        scree_case_locate(c, error);
+    if (!status && (status = scree_wall_set_create(&c->config, &s->work.wall_set, error))) scree_case_locate(c, error);
     if (!status) status = scree_columns_create(&c->config, &s->columns, error);
     return status ? status : scree_allocate(&s->sample, s->columns.count, sizeof *s->sample, error);
 }

@@ -41,7 +41,7 @@ static void relative_motion(const scree_state *state, double way[3], double velo
 {
     scree_vector place[2], moving[2], spin;
     for (int k = 0; k < 2; k++) {
-        scree_body_place(state, state->row_of_id[k], place[k]);
+        scree_body_position(state, state->row_of_id[k], place[k]);
         scree_body_motion(state, state->row_of_id[k], moving[k], spin);
     }
     for (int c = 0; c < 3; c++) way[c] = place[1][c] - place[0][c];
@@ -57,7 +57,7 @@ static double approach(const scree_state *state)
 }
 
 /// Speed of approach at the first touch, and the time until then: nothing acts before.
-static scree_status foresee_touch(const scree_state *state, double *speed, double *time, scree_error *error)
+static scree_status predict_touch(const scree_state *state, double *speed, double *time, scree_error *error)
 {
     double way[3], velocity[3], aside = 0;
     double one = state->row[state->row_of_id[0]].radius, other = state->row[state->row_of_id[1]].radius;
@@ -110,7 +110,7 @@ static scree_status begin(scree_simulation *s, scree_error *error)
     collision *own = own_state(s);
     scree_impact impact;
     own->last_force = 0;
-    scree_status status = foresee_touch(&s->state, &own->speed, &own->touch, error);
+    scree_status status = predict_touch(&s->state, &own->speed, &own->touch, error);
     if (!status) status = theory_of(s, own->speed, &impact, error);
     if (status) return status;
     double after = patience(&s->model) * impact.duration;

@@ -7,7 +7,7 @@
 #include "run/loading.h"
 #include "run/sample.h"
 #include "run/step.h"
-#include "shape/container.h"
+#include "shape/wall_set.h"
 #include "state/case_walls.h"
 
 #include <math.h>
@@ -41,23 +41,22 @@ static const config *own_config(const scree_simulation *s)
 
 static scree_status check_room(const scree_simulation *s, scree_error *error)
 {
-    const scree_container *container = s->work.container;
+    const scree_wall_set *wall_set = s->work.wall_set;
     const scree_state *state = &s->state;
-    for (int k = 0; container && k < container->count; k++) {
+    for (int k = 0; wall_set && k < wall_set->count; k++) {
         size_t next = 0;
         for (uint32_t row; (row = scree_next_by_id(state, &next)) != SCREE_NO_ROW;) {
             scree_vector place;
-            scree_body_place(state, row, place);
+            scree_body_position(state, row, place);
             double radius = scree_body_bounding_radius(state, row);
-            double clearance = scree_surface_clearance(container, k, place, radius);
+            double clearance = scree_surface_clearance(wall_set, k, place, radius);
             if (clearance >= radius * (1 - s->model.config->guard.overlap)) continue;
             return scree_error_set(error, SCREE_ERROR_INPUT,
                                    "particle %u at (%.4g, %.4g, %.4g) m, radius %.4g m, is %s wall '%s': its centre "
                                    "is %.4g m from it; move the wall, or change the box of the prepare stage (it "
                                    "begins at the origin)",
                                    state->id[row], place[0], place[1], place[2], radius,
-                                   clearance < 0 ? "behind" : "in", container->surface[k].config->name,
-                                   fabs(clearance));
+                                   clearance < 0 ? "behind" : "in", wall_set->surface[k].config->name, fabs(clearance));
         }
     }
     return SCREE_OK;
@@ -69,7 +68,7 @@ static scree_status begin(scree_simulation *s, scree_error *error)
     const scree_context context = scree_step_context(s);
     *scree_loading_of(state) = (scree_loading){.height = 0};
     if (s->boundary->rest) s->boundary->rest(&context);
-    for (size_t row = 0; row < state->count; row++) scree_body_place(state, row, state->reference[row]);
+    for (size_t row = 0; row < state->count; row++) scree_body_position(state, row, state->reference[row]);
     scree_case_walls(state)->moving = own_config(s)->walls == WALLS_MOVE;
     return state->evaluations == 0 ? check_room(s, error) : SCREE_OK;
 }

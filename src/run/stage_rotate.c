@@ -80,7 +80,7 @@ static void find_centre(const scree_state *state, scree_vector centre)
     while (scree_integer_sum_next(sum, 3))
         for (size_t row = 0; row < state->count; row++) {
             if (!scree_body_is_grain(state, row)) continue;
-            scree_body_place(state, row, place);
+            scree_body_position(state, row, place);
             for (int i = 0; i < 3; i++) scree_integer_sum_add(&sum[i], place[i]);
         }
     for (int i = 0; i < 3; i++) centre[i] = scree_integer_sum_total(&sum[i]) / (double)scree_grain_count(state);
@@ -96,7 +96,7 @@ static int64_t find_central(const scree_simulation *s, const int64_t *load)
     int64_t best = -1, most = 0;
     for (size_t row = 0; row < state->count; row++) {
         if (!scree_body_is_grain(state, row)) continue;
-        scree_body_place(state, row, place);
+        scree_body_position(state, row, place);
         for (int i = 0; i < 3; i++) place[i] -= centre[i];
         int64_t id = state->id[row];
         bool held = state->sum[row].contacts > state->dimension;

@@ -17,7 +17,7 @@ static scree_status choose_step(const scree_context *c, scree_error *error)
     scree_simulation *s = c->simulation;
     double before = s->state.step_size;
     (void)error;
-    (void)scree_team_size_follow(&c->work->size, c->work->team, c->work->threads);
+    (void)scree_thread_pool_size_follow(&c->work->size, c->work->pool, c->work->threads);
     c->work->ticks = scree_integrator_choose_step(s->integrator, c->model, c->state, s->stage->loading);
     if (s->state.step_size != before && c->work->ledger)
         scree_energy_change_step(c->model, c->state, before, s->state.step_size);
@@ -54,7 +54,7 @@ static scree_status refresh_neighbours(const scree_context *c, scree_error *erro
 /// Room for what a law that looks ahead needs.
 static scree_status look_ahead(const scree_context *c, scree_error *error)
 {
-    return scree_model_foresees(c->model) ? scree_state_foresee(c->state, error) : SCREE_OK;
+    return scree_model_predicts(c->model) ? scree_state_predict(c->state, error) : SCREE_OK;
 }
 
 /// Largest force of the loads of this step on one body [N].
@@ -75,7 +75,7 @@ static scree_status contact_forces(const scree_context *c, scree_error *error)
 }
 
 /// Loads may ask how long their forces will act.
-static scree_status foresee_kick(const scree_context *c, scree_error *error)
+static scree_status predict_kick(const scree_context *c, scree_error *error)
 {
     const scree_simulation *s = c->simulation;
     (void)error;
@@ -99,7 +99,7 @@ static const scree_pass core[] = {
     {SCREE_PHASE_DECIDE, look_ahead},       {SCREE_PHASE_DECIDE, choose_step},
     {SCREE_PHASE_DECIDE, control},          {SCREE_PHASE_FIRST_HALF, first_half},
     {SCREE_PHASE_FOLLOW, advance_clock},    {SCREE_PHASE_SEARCH, refresh_neighbours},
-    {SCREE_PHASE_CONTACTS, contact_forces}, {SCREE_PHASE_LOADS, foresee_kick},
+    {SCREE_PHASE_CONTACTS, contact_forces}, {SCREE_PHASE_LOADS, predict_kick},
     {SCREE_PHASE_SECOND_HALF, second_half}, {SCREE_PHASE_GUARD, guard},
 };
 

@@ -2,7 +2,7 @@
 #include "case/case.h"
 #include "run/estimate.h"
 #include "run/quasistatic.h"
-#include "shape/container.h"
+#include "shape/wall_set.h"
 
 #include <math.h>
 #include <string.h>
@@ -61,12 +61,12 @@ scree_status scree_case_summarise(const scree_case *c, scree_case_summary *summa
                                     .reference_velocity = model.reference_velocity};
     (void)snprintf(summary->name, sizeof summary->name, "%s", c->config.name);
     // Walls that cannot be made are found here.
-    scree_container *container;
-    if ((status = scree_container_create(&c->config, &container, error))) {
+    scree_wall_set *wall_set;
+    if ((status = scree_wall_set_create(&c->config, &wall_set, error))) {
         scree_case_locate(c, error);
         return status;
     }
-    scree_container_destroy(&container);
+    scree_wall_set_destroy(&wall_set);
     status = estimate(c, &model, summary, error);
     return status;
 }

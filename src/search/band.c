@@ -81,8 +81,8 @@ static scree_status sort_points(scree_band *b, scree_error *error)
     for (size_t c = 0; c < cells; c++) b->end[c + 1] += b->end[c];
     // Filling advances the start of each cell to its end, which is the start of the next one.
     for (size_t i = 0; i < b->all_count; i++) {
-        uint32_t *place = &b->end[cell_of(b, b->all_points + dimension * i)];
-        b->order[(*place)++] = (uint32_t)i;
+        uint32_t *position = &b->end[cell_of(b, b->all_points + dimension * i)];
+        b->order[(*position)++] = (uint32_t)i;
     }
     return SCREE_OK;
 }
@@ -103,17 +103,17 @@ static void reach(scree_band *b, size_t cell, uint8_t depth)
 static void spread(scree_band *b, size_t cell, uint8_t depth)
 {
     const size_t *size = b->size;
-    size_t place[3] = {cell % size[0], cell / size[0] % size[1], cell / size[0] / size[1]};
+    size_t position[3] = {cell % size[0], cell / size[0] % size[1], cell / size[0] / size[1]};
     size_t low[3], high[3];
     for (int k = 0; k < 3; k++) {
-        low[k] = place[k] > 0 ? place[k] - 1 : 0;
-        high[k] = place[k] + 1 < size[k] ? place[k] + 1 : place[k];
+        low[k] = position[k] > 0 ? position[k] - 1 : 0;
+        high[k] = position[k] + 1 < size[k] ? position[k] + 1 : position[k];
     }
     for (size_t z = low[2]; z <= high[2]; z++)
         for (size_t y = low[1]; y <= high[1]; y++)
             for (size_t x = low[0]; x <= high[0]; x++) {
                 size_t other = (z * size[1] + y) * size[0] + x;
-                int moved = (x != place[0]) + (y != place[1]) + (z != place[2]);
+                int moved = (x != position[0]) + (y != position[1]) + (z != position[2]);
                 bool empty = b->end[other] == begin_of(b, other);
                 bool open = depth > 0 ? moved <= step_across[b->dimension] : empty && moved == 1;
                 if (open && b->depth[other] == SCREE_BAND_INSIDE) reach(b, other, depth);
@@ -198,10 +198,10 @@ static bool holds_one(const scree_band *b, size_t cell, const double *centre, do
     return false;
 }
 
-/// Square of the distance along one axis from `place` to the cells of index `index`.
-static double square_to(const scree_band *b, int axis, size_t index, double place)
+/// Square of the distance along one axis from `position` to the cells of index `index`.
+static double square_to(const scree_band *b, int axis, size_t index, double position)
 {
-    double low = b->origin[axis] + b->cell * (double)index, apart = place - fmin(fmax(place, low), low + b->cell);
+    double low = b->origin[axis] + b->cell * (double)index, apart = position - fmin(fmax(position, low), low + b->cell);
     return apart * apart;
 }
 
@@ -210,9 +210,9 @@ static cell_box box_around(const scree_band *b, const double *centre, double rea
 {
     cell_box box = {0};
     for (int k = 0; k < b->dimension; k++) {
-        double last = (double)(b->size[k] - 1), place = centre[k] - b->origin[k];
-        box.low[k] = (size_t)fmax(0, fmin(last, floor((place - reach) / b->cell) - 1));
-        box.high[k] = (size_t)fmax(0, fmin(last, floor((place + reach) / b->cell) + 1));
+        double last = (double)(b->size[k] - 1), position = centre[k] - b->origin[k];
+        box.low[k] = (size_t)fmax(0, fmin(last, floor((position - reach) / b->cell) - 1));
+        box.high[k] = (size_t)fmax(0, fmin(last, floor((position + reach) / b->cell) + 1));
     }
     return box;
 }

@@ -58,26 +58,26 @@ static scree_status heap_push(peeling *peel, peel_edge edge, scree_error *error)
         if (status) return status;
         peel->heap_capacity = capacity;
     }
-    size_t place = peel->heap_count++;
-    while (place > 0 && before(&edge, &peel->heap[(place - 1) / 2])) {
-        peel->heap[place] = peel->heap[(place - 1) / 2];
-        place = (place - 1) / 2;
+    size_t position = peel->heap_count++;
+    while (position > 0 && before(&edge, &peel->heap[(position - 1) / 2])) {
+        peel->heap[position] = peel->heap[(position - 1) / 2];
+        position = (position - 1) / 2;
     }
-    peel->heap[place] = edge;
+    peel->heap[position] = edge;
     return SCREE_OK;
 }
 
 static peel_edge heap_pop(peeling *peel)
 {
     peel_edge top = peel->heap[0], last = peel->heap[--peel->heap_count];
-    size_t place = 0, child;
-    while ((child = 2 * place + 1) < peel->heap_count) {
+    size_t position = 0, child;
+    while ((child = 2 * position + 1) < peel->heap_count) {
         if (child + 1 < peel->heap_count && before(&peel->heap[child + 1], &peel->heap[child])) child++;
         if (!before(&peel->heap[child], &last)) break;
-        peel->heap[place] = peel->heap[child];
-        place = child;
+        peel->heap[position] = peel->heap[child];
+        position = child;
     }
-    peel->heap[place] = last;
+    peel->heap[position] = last;
     return top;
 }
 

@@ -84,26 +84,26 @@ static scree_status heap_push(candidates *heap, candidate item, scree_error *err
 {
     scree_status status = append(heap, item, error);
     if (status) return status;
-    size_t place = heap->count - 1;
-    while (place > 0 && before(&item, &heap->item[(place - 1) / 2])) {
-        heap->item[place] = heap->item[(place - 1) / 2];
-        place = (place - 1) / 2;
+    size_t position = heap->count - 1;
+    while (position > 0 && before(&item, &heap->item[(position - 1) / 2])) {
+        heap->item[position] = heap->item[(position - 1) / 2];
+        position = (position - 1) / 2;
     }
-    heap->item[place] = item;
+    heap->item[position] = item;
     return SCREE_OK;
 }
 
 static candidate heap_pop(candidates *heap)
 {
     candidate top = heap->item[0], last = heap->item[--heap->count];
-    size_t place = 0, child;
-    while ((child = 2 * place + 1) < heap->count) {
+    size_t position = 0, child;
+    while ((child = 2 * position + 1) < heap->count) {
         if (child + 1 < heap->count && before(&heap->item[child + 1], &heap->item[child])) child++;
         if (!before(&heap->item[child], &last)) break;
-        heap->item[place] = heap->item[child];
-        place = child;
+        heap->item[position] = heap->item[child];
+        position = child;
     }
-    heap->item[place] = last;
+    heap->item[position] = last;
     return top;
 }
 

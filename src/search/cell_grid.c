@@ -19,7 +19,7 @@ static double cell_coordinate(double position, double inverse_width, double fart
 
 void scree_cell_grid_fit(scree_cell_grid *grid, const scree_state *state, double skin)
 {
-    const bool solid = state->dimension == 3;
+    const bool in_3d = state->dimension == 3;
     double smallest = INFINITY, largest = 0, x = INFINITY, y = INFINITY, z = INFINITY;
     uint64_t odd = UINT64_MAX;
     for (size_t k = 0; k < state->count; k++) {
@@ -28,7 +28,7 @@ void scree_cell_grid_fit(scree_cell_grid *grid, const scree_state *state, double
         largest = row->radius > largest ? row->radius : largest;
         x = row->x < x ? row->x : x;
         y = row->y < y ? row->y : y;
-        double height = solid ? row->z : 0;
+        double height = in_3d ? row->z : 0;
         z = height < z ? height : z;
         if (!isfinite(row->x + row->y + height) && state->id[k] < odd) odd = state->id[k];
     }
@@ -112,7 +112,7 @@ scree_status scree_cell_grid_order(scree_cell_grid *grid, const scree_state *sta
         grid->curve.index[id] = (uint32_t)k;
         if (grid->dimension == 3) {
             uint32_t z = (uint32_t)fmax(cell_coordinate(row->z, inverse, farthest) - lowest[2], 0);
-            grid->curve.key[id] = scree_curve_key_solid(x, y, z);
+            grid->curve.key[id] = scree_curve_key_3d(x, y, z);
         } else
             grid->curve.key[id] = scree_curve_key(x, y);
     }
@@ -176,24 +176,24 @@ static void find_cells(scree_cell_grid *grid, size_t bodies, int m)
 /// a constant difference. Fills `step` with the differences of the middles of the SCREE_CELL_ROWS rows around a cell.
 static void sort_cells(scree_cell_grid *grid, size_t cells, uint64_t *step)
 {
-    const bool solid = grid->dimension == 3;
+    const bool in_3d = grid->dimension == 3;
     uint64_t *key = grid->sorted.key;
     uint32_t column = 0, row = 0;
     for (size_t k = 0; k < cells; k++) {
-        column |= solid ? scree_curve_gather_solid(key[k]) : scree_curve_gather(key[k]);
-        if (solid) row |= scree_curve_gather_solid(key[k] >> 1);
+        column |= in_3d ? scree_curve_gather_3d(key[k]) : scree_curve_gather(key[k]);
+        if (in_3d) row |= scree_curve_gather_3d(key[k] >> 1);
     }
     // Coordinates are at most 2^20 in 3D and 2^31 in 2D (twice FARTHEST), which bounds what their neighbours need.
-    int most = solid ? 21 : 32;
+    int most = in_3d ? 21 : 32;
     int column_bits = 64 - __builtin_clzll((uint64_t)column + 2), row_bits = 64 - __builtin_clzll((uint64_t)row + 2);
     column_bits = column_bits < most ? column_bits : most;
     row_bits = row_bits < most ? row_bits : most;
     for (size_t k = 0; k < cells; k++) {
         uint64_t one = key[k], other;
-        if (solid) {
-            other = ((uint64_t)scree_curve_gather_solid(one >> 2) + 1) << row_bits;
-            other = (other + scree_curve_gather_solid(one >> 1) + 1) << column_bits;
-            other += (uint64_t)scree_curve_gather_solid(one) + 1;
+        if (in_3d) {
+            other = ((uint64_t)scree_curve_gather_3d(one >> 2) + 1) << row_bits;
+            other = (other + scree_curve_gather_3d(one >> 1) + 1) << column_bits;
+            other += (uint64_t)scree_curve_gather_3d(one) + 1;
         } else {
             other = ((uint64_t)scree_curve_gather(one >> 1) + 1) << column_bits;
             other += (uint64_t)scree_curve_gather(one) + 1;
@@ -202,9 +202,9 @@ static void sort_cells(scree_cell_grid *grid, size_t cells, uint64_t *step)
         grid->sorted.index[k] = (uint32_t)k;
     }
     scree_key_list_sort(&grid->sorted, cells);
-    const int64_t beside = INT64_C(1) << column_bits, above = solid ? INT64_C(1) << (column_bits + row_bits) : 0;
+    const int64_t beside = INT64_C(1) << column_bits, above = in_3d ? INT64_C(1) << (column_bits + row_bits) : 0;
     for (int d = 0; d < SCREE_CELL_ROWS(grid->dimension); d++)
-        step[d] = (uint64_t)((solid ? d / 3 - 1 : 0) * above + (d % 3 - 1) * beside);
+        step[d] = (uint64_t)((in_3d ? d / 3 - 1 : 0) * above + (d % 3 - 1) * beside);
 }
 
 /// Copies the bodies of level m into their slots: row by row of cells, within a cell along the curve.
@@ -248,7 +248,7 @@ static inline __attribute__((always_inline)) void find_ranges(scree_cell_grid *g
     const scree_cell_level *level = &grid->level[m];
     scree_slot_range *range = grid->range + level->first_cell * (size_t)ranges;
     const uint64_t *key = grid->sorted.key;
-    const uint32_t *first = grid->sorted.other_index, *place = grid->sorted.index;
+    const uint32_t *first = grid->sorted.other_index, *position = grid->sorted.index;
     size_t begin[9] = {0}, end[9] = {0};
     for (size_t k = 0; k < level->cells; k++) {
         scree_slot_range *cell = &range[grid->sorted.index[k] * (size_t)ranges];
@@ -257,8 +257,8 @@ static inline __attribute__((always_inline)) void find_ranges(scree_cell_grid *g
             while (begin[d] < level->cells && key[begin[d]] < middle - 1) begin[d]++;
             while (end[d] < level->cells && key[end[d]] <= middle + 1) end[d]++;
             size_t from = begin[d], to = end[d];
-            while (own && from < to && place[from] < place[k]) from++;
-            while (own && from < to && place[to - 1] < place[k]) to--;
+            while (own && from < to && position[from] < position[k]) from++;
+            while (own && from < to && position[to - 1] < position[k]) to--;
             cell[d] = (scree_slot_range){first[from], first[to]};
         }
     }

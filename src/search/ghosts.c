@@ -1,8 +1,8 @@
-/// Which images there are, and the search for pairs with them.
+/// Which ghosts there are, and the search for pairs with them.
 ///
-/// Of the images x_j + H s of a body, those with a lexicographically positive shift (first component that is not zero
-/// above zero) are enough: the pair of i and the image of j at s is the pair of j and the image of i at -s, and exactly
-/// one of the two shifts is positive. An image is made when its fractional coordinates lie within (R_j + R_max + skin)
+/// Of the ghosts x_j + H s of a body, those with a lexicographically positive shift (first component that is not zero
+/// above zero) are enough: the pair of i and the ghost of j at s is the pair of j and the ghost of i at -s, and exactly
+/// one of the two shifts is positive. A ghost is made when its fractional coordinates lie within (R_j + R_max + skin)
 /// / width of the range that the bodies fill, in each periodic direction. Bodies may be outside the cell by any
 /// distance: shifts are taken relative to where they are.
 ///
@@ -21,23 +21,23 @@
 #include <math.h>
 #include <string.h>
 
-/// What the choice of images needs: range of fractional coordinates that bodies fill, and widths of the cell.
-typedef struct image_range {
+/// What the choice of ghosts needs: range of fractional coordinates that bodies fill, and widths of the cell.
+typedef struct ghost_range {
     double low[3], high[3];
     double width[3]; ///< m
     double radius;   ///< m, of the largest body
-} image_range;
+} ghost_range;
 
 static void fraction_of(const scree_state *state, const scree_work *work, size_t row, double fraction[3])
 {
-    scree_vector place;
-    scree_body_place(state, row, place);
-    scree_matrix_apply(work->ghosts.lattice_inverse, place, fraction);
+    scree_vector position;
+    scree_body_position(state, row, position);
+    scree_matrix_apply(work->ghosts.lattice_inverse, position, fraction);
 }
 
-static image_range measure_range(const scree_state *state, const scree_work *work)
+static ghost_range measure_range(const scree_state *state, const scree_work *work)
 {
-    image_range range = {.low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}};
+    ghost_range range = {.low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}};
     scree_periodic_widths(work->ghosts.lattice_inverse, range.width);
     for (size_t row = 0; row < state->count; row++) {
         double f[3];
@@ -54,7 +54,7 @@ static image_range measure_range(const scree_state *state, const scree_work *wor
 /// Bodies are put back when they leave the cell: those that are this many cells apart have been hurled out of it.
 #define MOST_CELLS 100.0
 
-static scree_status check_range(const scree_state *state, const image_range *range, double skin, scree_error *error)
+static scree_status check_range(const scree_state *state, const ghost_range *range, double skin, scree_error *error)
 {
     double needed = 4 * range->radius + 2 * skin;
     for (int k = 0; k < state->dimension; k++)
@@ -91,8 +91,8 @@ static bool is_positive(const int shift[3])
     return shift[0] > 0 || (shift[0] == 0 && (shift[1] > 0 || (shift[1] == 0 && shift[2] > 0)));
 }
 
-/// All images of one body that are within reach of the range.
-static scree_status append_images(const scree_state *state, scree_work *work, const image_range *range, uint32_t row,
+/// All ghosts of one body that are within reach of the range.
+static scree_status append_ghosts(const scree_state *state, scree_work *work, const ghost_range *range, uint32_t row,
                                   scree_error *error)
 {
     double f[3], reach = state->row[row].radius + range->radius + work->skin;
@@ -119,11 +119,11 @@ scree_status scree_ghosts_make(scree_state *state, scree_work *work, scree_error
     list->count = 0;
     if (!scree_cell(state)->directions) return SCREE_OK;
     scree_matrix_invert(scree_cell(state)->lattice, list->lattice_inverse);
-    image_range range = measure_range(state, work);
+    ghost_range range = measure_range(state, work);
     list->largest_radius = range.radius;
     scree_status status = check_range(state, &range, work->skin, error);
     for (size_t row = 0; row < state->count && !status; row++)
-        status = append_images(state, work, &range, (uint32_t)row, error);
+        status = append_ghosts(state, work, &range, (uint32_t)row, error);
     list->by_parent = list->count;
     if (!status) return scree_comm_begin(state, work, error);
     list->count = 0;
@@ -176,39 +176,39 @@ void scree_ghosts_deformation(const scree_state *state, const scree_work *work, 
 
 // ---- the search --------------------------------------------------------------------------------------------------
 
-/// Images by cells of space: chains of images that share a slot.
-typedef struct image_table {
+/// Images by cells of space: chains of ghosts that share a slot.
+typedef struct ghost_table {
     double inverse_width;  ///< 1/m
-    uint32_t *head, *next; ///< 1 + image, 0 for none
+    uint32_t *head, *next; ///< 1 + ghost, 0 for none
     uint64_t mask;
-} image_table;
+} ghost_table;
 
-static uint64_t slot_of(const image_table *table, const int64_t cell[3])
+static uint64_t slot_of(const ghost_table *table, const int64_t cell[3])
 {
     uint64_t hash = (uint64_t)cell[0] * UINT64_C(0x9e3779b97f4a7c15) +
                     (uint64_t)cell[1] * UINT64_C(0xc2b2ae3d27d4eb4f) + (uint64_t)cell[2] * UINT64_C(0x165667b19e3779f9);
     return (hash ^ hash >> 29) & table->mask;
 }
 
-static void cell_of(const scree_state *state, const image_table *table, size_t row, int64_t cell[3])
+static void cell_of(const scree_state *state, const ghost_table *table, size_t row, int64_t cell[3])
 {
-    scree_vector place;
-    scree_body_place(state, row, place);
-    for (int k = 0; k < 3; k++) cell[k] = (int64_t)floor(place[k] * table->inverse_width);
+    scree_vector position;
+    scree_body_position(state, row, position);
+    for (int k = 0; k < 3; k++) cell[k] = (int64_t)floor(position[k] * table->inverse_width);
 }
 
-static void table_destroy(image_table *table)
+static void table_destroy(ghost_table *table)
 {
     scree_release(&table->head);
     scree_release(&table->next);
 }
 
-static scree_status table_fill(const scree_state *state, const scree_work *work, image_table *table, scree_error *error)
+static scree_status table_fill(const scree_state *state, const scree_work *work, ghost_table *table, scree_error *error)
 {
     const scree_ghost_list *list = &work->ghosts;
     uint64_t slots = 64;
     while (slots < 2 * list->count) slots *= 2;
-    *table = (image_table){.inverse_width = 1 / ((2 * list->largest_radius + work->skin) * (1 + 0x1p-20)),
+    *table = (ghost_table){.inverse_width = 1 / ((2 * list->largest_radius + work->skin) * (1 + 0x1p-20)),
                            .mask = slots - 1};
     scree_status status = scree_allocate(&table->head, slots, sizeof *table->head, error);
     if (!status) status = scree_allocate(&table->next, list->count, sizeof *table->next, error);
@@ -234,25 +234,25 @@ static scree_status append_pair(scree_pair_buffer *buffer, uint32_t first, uint3
     return SCREE_OK;
 }
 
-/// Lists the body and the image if they are close.
-static scree_status test_pair(const scree_state *state, const scree_work *work, uint32_t row, uint32_t image,
+/// Lists the body and the ghost if they are close.
+static scree_status test_pair(const scree_state *state, const scree_work *work, uint32_t row, uint32_t ghost,
                               scree_pair_chunk *chunk, scree_error *error)
 {
     scree_vector a, b;
-    scree_body_place(state, row, a);
-    scree_body_place(state, image, b);
-    double square = 0, sum = state->row[row].radius + state->row[image].radius, wider = sum + work->skin;
+    scree_body_position(state, row, a);
+    scree_body_position(state, ghost, b);
+    double square = 0, sum = state->row[row].radius + state->row[ghost].radius, wider = sum + work->skin;
     for (int k = 0; k < state->dimension; k++) square += (a[k] - b[k]) * (a[k] - b[k]);
     chunk->candidates++;
     if (!(square < wider * wider)) return SCREE_OK;
-    bool lower = state->id[row] < state->id[image];
-    return append_pair(square < sum * sum ? &chunk->touching : &chunk->near, lower ? row : image, lower ? image : row,
+    bool lower = state->id[row] < state->id[ghost];
+    return append_pair(square < sum * sum ? &chunk->touching : &chunk->near, lower ? row : ghost, lower ? ghost : row,
                        error);
 }
 
-/// Pairs of one body with the images in the cells around it. Images of other cells may share a slot, and two cells may
-/// share one too: an image is tested from the cell that it lies in.
-static scree_status search_body(const scree_state *state, const scree_work *work, const image_table *table,
+/// Pairs of one body with the ghosts in the cells around it. Images of other cells may share a slot, and two cells may
+/// share one too: a ghost is tested from the cell that it lies in.
+static scree_status search_body(const scree_state *state, const scree_work *work, const ghost_table *table,
                                 uint32_t row, scree_pair_chunk *chunk, scree_error *error)
 {
     int64_t centre[3], cell[3], own[3];
@@ -263,15 +263,15 @@ static scree_status search_body(const scree_state *state, const scree_work *work
         for (cell[1] = centre[1] - 1; cell[1] <= centre[1] + 1; cell[1]++)
             for (cell[2] = centre[2] - deep; cell[2] <= centre[2] + deep; cell[2]++)
                 for (uint32_t k = table->head[slot_of(table, cell)]; k > 0 && !status; k = table->next[k - 1]) {
-                    uint32_t image = (uint32_t)state->count + k - 1;
-                    cell_of(state, table, image, own);
-                    if (memcmp(own, cell, sizeof own) == 0) status = test_pair(state, work, row, image, chunk, error);
+                    uint32_t ghost = (uint32_t)state->count + k - 1;
+                    cell_of(state, table, ghost, own);
+                    if (memcmp(own, cell, sizeof own) == 0) status = test_pair(state, work, row, ghost, chunk, error);
                 }
     return status;
 }
 
-/// Whether an image can be near: all of them lie beyond an upper end of the range, in some direction.
-static bool is_near_face(const scree_state *state, const scree_work *work, const image_range *range, double reach,
+/// Whether a ghost can be near: all of them lie beyond an upper end of the range, in some direction.
+static bool is_near_face(const scree_state *state, const scree_work *work, const ghost_range *range, double reach,
                          size_t row)
 {
     double f[3];
@@ -286,11 +286,11 @@ static bool is_near_face(const scree_state *state, const scree_work *work, const
 scree_status scree_ghosts_search(const scree_state *state, const scree_work *work, scree_pair_chunk *chunk,
                                  scree_error *error)
 {
-    image_table table;
+    ghost_table table;
     chunk->touching.count = chunk->near.count = chunk->wall.count = 0;
     chunk->candidates = 0;
     if (work->ghosts.count == 0) return SCREE_OK;
-    image_range range = measure_range(state, work);
+    ghost_range range = measure_range(state, work);
     double reach = 2 * range.radius + work->skin;
     scree_status status = table_fill(state, work, &table, error);
     for (size_t row = 0; row < state->count && !status; row++)

@@ -1,6 +1,6 @@
 /// From ids to rows and back.
 ///
-/// Images. A member joins the nearest images of its two bodies: with the fractional coordinates f, those whose
+/// Images. A member joins the nearest ghosts of its two bodies: with the fractional coordinates f, those whose
 /// difference is within half a cell in each periodic direction. That is unique, whatever whole lattice vectors bodies
 /// were put back by, as long as no member is longer than half the width of the cell, which is checked. A ghost that the
 /// search for near pairs did not need is made here, so ghosts reach as far as the longest member.
@@ -128,7 +128,7 @@ scree_status scree_held_list(const scree_state *state, const scree_held_buffer *
         pairs->first[k] = pair->first;
         pairs->second[k] = pair->second;
         pairs->history[k] = member->history;
-        if (pairs->booking) pairs->booking[k] = member->booking;
+        if (pairs->last_force) pairs->last_force[k] = member->last_force;
         if (pairs->rolling) pairs->rolling[k] = member->rolling;
         for (int i = 0; i < SCREE_MEMBER_CONSTANTS; i++) pairs->own[k].value[i] = member->constant[i];
     }
@@ -144,7 +144,7 @@ void scree_held_collect(scree_state *state, const scree_work *work)
         scree_persistent_member *member = &scree_persistent(state)->member[number];
         if (member->added > work->search->held.changes) continue; // ended, and held anew
         member->history = pairs->history[k];
-        if (pairs->booking) member->booking = pairs->booking[k];
+        if (pairs->last_force) member->last_force = pairs->last_force[k];
         if (pairs->rolling) member->rolling = pairs->rolling[k];
     }
 }

@@ -23,7 +23,7 @@ bool scree_held_changed(const scree_state *state, const scree_held_buffer *buffe
 /// Drops pairs that are held from what a search has found; the order stays.
 void scree_held_drop(const scree_state *state, scree_pair_buffer *buffer);
 
-/// Finds the rows of all members, the nearest images in a periodic cell, and makes ghosts where one is missing; to be
+/// Finds the rows of all members, the nearest ghosts in a periodic cell, and makes ghosts where one is missing; to be
 /// called when the near pairs are found. Errors: memory; SCREE_ERROR_GUARD: a pair longer than half of the cell;
 /// SCREE_ERROR_INPUT: members that the law cannot hold.
 scree_status scree_held_find(const scree_model *model, scree_state *state, scree_work *work, scree_held_buffer *buffer,

@@ -28,13 +28,13 @@ static bool holds_something(const void *row, size_t bytes)
 typedef struct entry {
     uint32_t first, second; ///< ids
     const scree_history *history;
-    const scree_booking *booking;
+    const scree_last_force *last_force;
     const scree_rolling *rolling;
 } entry;
 
 static size_t entry_count(const scree_work *work)
 {
-    return work->pairs.count - work->pairs.held_count + work->wall_pairs.count + work->element_pairs.count;
+    return work->pairs.count - work->pairs.held_count + work->wall_pairs.count + work->primitive_pairs.count;
 }
 
 static entry entry_get(const scree_state *state, const scree_work *work, size_t k)
@@ -44,23 +44,23 @@ static entry entry_get(const scree_state *state, const scree_work *work, size_t 
     k += pairs->held_count;
     if (k < pairs->count)
         return (entry){state->id[pairs->first[k]], state->id[pairs->second[k]], &pairs->history[k],
-                       pairs->booking ? &pairs->booking[k] : NULL, pairs->rolling ? &pairs->rolling[k] : NULL};
+                       pairs->last_force ? &pairs->last_force[k] : NULL, pairs->rolling ? &pairs->rolling[k] : NULL};
     k -= pairs->count;
     uint32_t base = SCREE_WALL_ID;
     if (k >= walls->count) {
         k -= walls->count;
-        walls = &work->element_pairs;
-        base = SCREE_ELEMENT_ID;
+        walls = &work->primitive_pairs;
+        base = SCREE_PRIMITIVE_ID;
     }
     return (entry){state->id[walls->body[k]], base + walls->wall[k], &walls->history[k],
-                   walls->booking ? &walls->booking[k] : NULL, walls->rolling ? &walls->rolling[k] : NULL};
+                   walls->last_force ? &walls->last_force[k] : NULL, walls->rolling ? &walls->rolling[k] : NULL};
 }
 
 static bool entry_holds_something(const scree_state *state, const scree_work *work, size_t k)
 {
     entry e = entry_get(state, work, k);
     return holds_something(e.history, sizeof *e.history) ||
-           (e.booking && holds_something(e.booking, sizeof *e.booking)) ||
+           (e.last_force && holds_something(e.last_force, sizeof *e.last_force)) ||
            (e.rolling && holds_something(e.rolling, sizeof *e.rolling));
 }
 
@@ -69,7 +69,7 @@ static void pack_entry(scree_state *state, const scree_work *work, size_t k, siz
 {
     entry e = entry_get(state, work, k);
     state->contact[to] = (scree_contact_memory){e.first, e.second, *e.history};
-    if (e.booking) state->booking[to] = *e.booking;
+    if (e.last_force) state->last_force[to] = *e.last_force;
     if (e.rolling) state->rolling[to] = *e.rolling;
 }
 
@@ -82,8 +82,8 @@ typedef struct collect_task {
 static void count_share(void *argument, int index, int count)
 {
     const collect_task *task = argument;
-    size_t carried = 0, end = scree_team_begin(task->entries, index + 1, count);
-    for (size_t k = scree_team_begin(task->entries, index, count); k < end; k++)
+    size_t carried = 0, end = scree_thread_pool_begin(task->entries, index + 1, count);
+    for (size_t k = scree_thread_pool_begin(task->entries, index, count); k < end; k++)
         carried += entry_holds_something(task->state, task->work, k);
     task->work->search->chunk[index].carried = carried;
 }
@@ -91,9 +91,9 @@ static void count_share(void *argument, int index, int count)
 static void pack_share(void *argument, int index, int count)
 {
     const collect_task *task = argument;
-    size_t to = 0, end = scree_team_begin(task->entries, index + 1, count);
+    size_t to = 0, end = scree_thread_pool_begin(task->entries, index + 1, count);
     for (int before = 0; before < index; before++) to += task->work->search->chunk[before].carried;
-    for (size_t k = scree_team_begin(task->entries, index, count); k < end; k++)
+    for (size_t k = scree_thread_pool_begin(task->entries, index, count); k < end; k++)
         if (entry_holds_something(task->state, task->work, k)) pack_entry(task->state, task->work, k, to++);
 }
 
@@ -102,15 +102,15 @@ scree_status scree_histories_collect(scree_state *state, scree_work *work, scree
     scree_search *search = work->search;
     collect_task task = {state, work, entry_count(work)};
     // Each chunk counts its entries, so that all chunks can write theirs at once.
-    scree_team_run(&work->team, search->chunks, count_share, &task);
+    scree_thread_pool_run(&work->pool, search->chunks, count_share, &task);
     size_t total = 0;
     for (int c = 0; c < search->chunks; c++) total += search->chunk[c].carried;
     state->contact_count = 0;
     scree_status status = scree_state_reserve_contacts(state, total, error);
-    if (!status && work->pairs.booking) status = scree_state_add_booking(state, error);
+    if (!status && work->pairs.last_force) status = scree_state_add_last_force(state, error);
     if (!status && work->pairs.rolling) status = scree_state_add_rolling(state, error);
     if (status) return status;
-    scree_team_run(&work->team, search->chunks, pack_share, &task);
+    scree_thread_pool_run(&work->pool, search->chunks, pack_share, &task);
     state->contact_count = total;
     scree_held_collect(state, work);
     return SCREE_OK;
@@ -121,7 +121,7 @@ static uint32_t lower_row(const scree_state *state, const scree_contact_memory *
 {
     uint32_t first = scree_state_row_of(state, memory->first);
     if (first == SCREE_NO_ROW) return (uint32_t)state->count;
-    if (memory->second >= SCREE_ELEMENT_ID) return first;
+    if (memory->second >= SCREE_PRIMITIVE_ID) return first;
     uint32_t second = scree_state_row_of(state, memory->second);
     if (second == SCREE_NO_ROW) return (uint32_t)state->count;
     return first < second ? first : second;

@@ -24,7 +24,7 @@
 #include "comm/comm.h"
 #include "search/ghosts.h"
 #include "search/search.h"
-#include "shape/container.h"
+#include "shape/wall_set.h"
 
 #include <float.h>
 #include <math.h>
@@ -51,10 +51,10 @@ static void displacement_share(void *argument, int index, int count)
     displacement_task *task = argument;
     const scree_state *state = task->state;
     double largest = 0;
-    size_t end = scree_team_begin(state->count, index + 1, count);
-    for (size_t k = scree_team_begin(state->count, index, count); k < end; k++) {
+    size_t end = scree_thread_pool_begin(state->count, index + 1, count);
+    for (size_t k = scree_thread_pool_begin(state->count, index, count); k < end; k++) {
         scree_vector now, then;
-        scree_body_place(state, k, now);
+        scree_body_position(state, k, now);
         scree_matrix_apply(task->deformation, state->rebuild[k], then);
         double square = 0;
         for (int i = 0; i < 3; i++) square += (now[i] - then[i]) * (now[i] - then[i]);
@@ -70,7 +70,7 @@ static double largest_displacement(const scree_state *state, const double deform
 {
     displacement_task task = {.state = state, .deformation = deformation};
     const int shares = scree_work_shares(work);
-    scree_team_run(&work->team, shares, displacement_share, &task);
+    scree_thread_pool_run(&work->pool, shares, displacement_share, &task);
     double largest = 0;
     for (int k = 0; k < shares; k++) largest = fmax(largest, task.square[k]);
     return sqrt(largest);
@@ -84,11 +84,11 @@ static double surface_time(const scree_state *state, uint64_t ticks)
 /// A wall has come up, turned, or moved by half the skin. Walls that go away do no harm.
 static bool walls_need_rebuild(const scree_model *model, const scree_state *state, const scree_work *work)
 {
-    if (work->container) {
+    if (work->wall_set) {
         double time =
             surface_time(state, scree_case_walls(state)->ticks) - surface_time(state, work->search->surface_ticks);
         double margin = scree_model_largest_radius(model) + work->skin;
-        if (!(scree_container_way(work->container, time, margin) < half_skin(work))) return true;
+        if (!(scree_wall_set_way(work->wall_set, time, margin) < half_skin(work))) return true;
     }
     for (int w = 0; w < SCREE_WALL_COUNT; w++) {
         const scree_wall *now = &scree_plates(state)[w], *then = &work->search->wall[w];
@@ -104,19 +104,19 @@ static bool walls_need_rebuild(const scree_model *model, const scree_state *stat
 typedef struct list_arrays {
     uint32_t **one, **other;
     scree_history **history;
-    scree_booking **booking;
+    scree_last_force **last_force;
     scree_rolling **rolling;
     size_t *capacity;
 } list_arrays;
 
 static list_arrays arrays_of_pairs(scree_pair_list *l)
 {
-    return (list_arrays){&l->first, &l->second, &l->history, &l->booking, &l->rolling, &l->capacity};
+    return (list_arrays){&l->first, &l->second, &l->history, &l->last_force, &l->rolling, &l->capacity};
 }
 
 static list_arrays arrays_of_wall_pairs(scree_wall_pair_list *l)
 {
-    return (list_arrays){&l->body, &l->wall, &l->history, &l->booking, &l->rolling, &l->capacity};
+    return (list_arrays){&l->body, &l->wall, &l->history, &l->last_force, &l->rolling, &l->capacity};
 }
 
 static void release_list(const list_arrays *list)
@@ -124,7 +124,7 @@ static void release_list(const list_arrays *list)
     scree_release(list->one);
     scree_release(list->other);
     scree_release(list->history);
-    scree_release(list->booking);
+    scree_release(list->last_force);
     scree_release(list->rolling);
     *list->capacity = 0;
 }
@@ -132,7 +132,7 @@ static void release_list(const list_arrays *list)
 void scree_pair_lists_destroy(scree_work *work)
 {
     list_arrays pairs = arrays_of_pairs(&work->pairs), walls = arrays_of_wall_pairs(&work->wall_pairs);
-    list_arrays elements = arrays_of_wall_pairs(&work->element_pairs);
+    list_arrays elements = arrays_of_wall_pairs(&work->primitive_pairs);
     release_list(&pairs);
     release_list(&walls);
     release_list(&elements);
@@ -143,14 +143,14 @@ void scree_pair_lists_destroy(scree_work *work)
 /// Makes room for `count` pairs and the padding, with the rows that the law needs; contents are lost when it grows.
 static scree_status reserve_list(const list_arrays *list, size_t count, bool books, bool rolls, scree_error *error)
 {
-    bool complete = (!books || *list->booking) && (!rolls || *list->rolling);
+    bool complete = (!books || *list->last_force) && (!rolls || *list->rolling);
     if (complete && count + SCREE_PAIR_PADDING <= *list->capacity) return SCREE_OK;
     size_t room = count + count / 8 + 4 * SCREE_PAIR_PADDING;
     release_list(list);
     scree_status status = scree_allocate(list->one, room, sizeof **list->one, error);
     if (!status) status = scree_allocate(list->other, room, sizeof **list->other, error);
     if (!status) status = scree_allocate(list->history, room, sizeof **list->history, error);
-    if (!status && books) status = scree_allocate(list->booking, room, sizeof **list->booking, error);
+    if (!status && books) status = scree_allocate(list->last_force, room, sizeof **list->last_force, error);
     if (!status && rolls) status = scree_allocate(list->rolling, room, sizeof **list->rolling, error);
     if (!status) *list->capacity = room;
     return status;
@@ -181,11 +181,12 @@ static void pairs_share(void *argument, int index, int count)
     pairs_task *task = argument;
     const scree_state *state = task->state;
     scree_pair_chunk *chunk = &task->search->chunk[index];
-    size_t begin = scree_team_begin(state->count, index, count), end = scree_team_begin(state->count, index + 1, count);
+    size_t begin = scree_thread_pool_begin(state->count, index, count),
+           end = scree_thread_pool_begin(state->count, index + 1, count);
     chunk->element.count = 0;
     task->failed[index] =
         task->find(&task->search->grid, state, begin, end, chunk, NULL) ||
-        scree_elements_search(task->work->container, state, begin, end, task->work->skin, &chunk->element, NULL);
+        scree_primitives_search(task->work->wall_set, state, begin, end, task->work->skin, &chunk->element, NULL);
     scree_held_drop(state, &chunk->touching);
     scree_held_drop(state, &chunk->near);
     if (state->marked[SCREE_MARK_MEMBRANE] == 0) return;
@@ -198,7 +199,7 @@ static scree_status search_pairs(const scree_state *state, scree_work *work, scr
     scree_search *search = work->search;
     pairs_task task = {
         .state = state, .work = work, .search = search, .find = scree_pair_search_get(work->instruction_set)};
-    scree_team_run(&work->team, search->chunks, pairs_share, &task);
+    scree_thread_pool_run(&work->pool, search->chunks, pairs_share, &task);
     for (int c = 0; c < search->chunks; c++)
         if (task.failed[c])
             return scree_error_set_memory(error, search->chunk[c].touching.capacity * sizeof(scree_row_pair));
@@ -237,8 +238,8 @@ static void list_pairs(scree_search *search, scree_pair_list *pairs, bool touchi
     }
 }
 
-/// Puts the pairs with images into the list from number `at` on.
-static void list_image_pairs(const scree_pair_buffer *from, scree_pair_list *pairs, size_t at)
+/// Puts the pairs with ghosts into the list from number `at` on.
+static void list_ghost_pairs(const scree_pair_buffer *from, scree_pair_list *pairs, size_t at)
 {
     for (size_t k = 0; k < from->count; k++, at++) {
         pairs->first[at] = from->pair[k].first;
@@ -256,8 +257,8 @@ static void list_wall_pairs(const scree_search *search, scree_work *work)
             work->wall_pairs.wall[wall] = chunk->wall.pair[k].second;
         }
         for (size_t k = 0; k < chunk->element.count; k++, element++) {
-            work->element_pairs.body[element] = chunk->element.pair[k].first;
-            work->element_pairs.wall[element] = chunk->element.pair[k].second;
+            work->primitive_pairs.body[element] = chunk->element.pair[k].first;
+            work->primitive_pairs.wall[element] = chunk->element.pair[k].second;
         }
     }
 }
@@ -267,7 +268,8 @@ static void attach_rows(const scree_state *state, const list_arrays *list, size_
 {
     bool known = from < state->contact_count;
     (*list->history)[k] = known ? state->contact[from].history : (scree_history){{0}};
-    if (*list->booking) (*list->booking)[k] = known && state->booking ? state->booking[from] : (scree_booking){{0}};
+    if (*list->last_force)
+        (*list->last_force)[k] = known && state->last_force ? state->last_force[from] : (scree_last_force){{0}};
     if (*list->rolling)
         (*list->rolling)[k] = known && state->rolling ? state->rolling[from] : (scree_rolling){{0}, {0}};
 }
@@ -283,8 +285,8 @@ static void attach_share(void *argument, int index, int count)
     const scree_state *state = task->state;
     scree_pair_list *pairs = &task->work->pairs;
     const list_arrays of_pairs = arrays_of_pairs(pairs);
-    size_t end = scree_team_begin(pairs->count, index + 1, count);
-    for (size_t k = scree_team_begin(pairs->count, index, count); k < end; k++) {
+    size_t end = scree_thread_pool_begin(pairs->count, index + 1, count);
+    for (size_t k = scree_thread_pool_begin(pairs->count, index, count); k < end; k++) {
         if (k < pairs->held_count) continue; // what these remember came with them
         uint32_t first = scree_parent_row(state, task->work, pairs->first[k]);
         uint32_t second = scree_parent_row(state, task->work, pairs->second[k]),
@@ -298,10 +300,10 @@ static void attach_share(void *argument, int index, int count)
 static void attach_histories(scree_state *state, scree_work *work)
 {
     const scree_search *search = work->search;
-    scree_wall_pair_list *walls = &work->wall_pairs, *elements = &work->element_pairs;
+    scree_wall_pair_list *walls = &work->wall_pairs, *elements = &work->primitive_pairs;
     const list_arrays of_walls = arrays_of_wall_pairs(walls), of_elements = arrays_of_wall_pairs(elements);
     attach_task task = {state, work};
-    scree_team_run(&work->team, search->chunks, attach_share, &task);
+    scree_thread_pool_run(&work->pool, search->chunks, attach_share, &task);
     for (size_t k = 0; k < walls->count; k++)
         attach_rows(state, &of_walls, k,
                     scree_history_find(search, state, walls->body[k], state->id[walls->body[k]],
@@ -309,7 +311,7 @@ static void attach_histories(scree_state *state, scree_work *work)
     for (size_t k = 0; k < elements->count; k++)
         attach_rows(state, &of_elements, k,
                     scree_history_find(search, state, elements->body[k], state->id[elements->body[k]],
-                                       SCREE_ELEMENT_ID + elements->wall[k]));
+                                       SCREE_PRIMITIVE_ID + elements->wall[k]));
 }
 
 /// Row 0 (wall 0) and clear rows behind the last pair.
@@ -326,8 +328,8 @@ static scree_status assemble(const scree_model *model, scree_state *state, scree
 {
     scree_search *search = work->search;
     scree_pair_list *pairs = &work->pairs;
-    scree_wall_pair_list *walls = &work->wall_pairs, *elements = &work->element_pairs;
-    size_t touching = search->images.touching.count, near = search->images.near.count, wall = 0, element = 0;
+    scree_wall_pair_list *walls = &work->wall_pairs, *elements = &work->primitive_pairs;
+    size_t touching = search->ghosts.touching.count, near = search->ghosts.near.count, wall = 0, element = 0;
     const size_t held = search->held.count;
     for (int c = 0; c < search->chunks; c++) {
         touching += search->chunk[c].touching.count;
@@ -338,14 +340,14 @@ static scree_status assemble(const scree_model *model, scree_state *state, scree
     pairs->count = pairs->held_count = pairs->touching_count = walls->count = elements->count = 0;
     const list_arrays of_pairs = arrays_of_pairs(pairs), of_walls = arrays_of_wall_pairs(walls);
     const list_arrays of_elements = arrays_of_wall_pairs(elements);
-    bool books = scree_contacts_book(model, state->dimension), rolls = scree_contacts_roll(model);
+    bool books = scree_contacts_add_work(model, state->dimension), rolls = scree_contacts_roll(model);
     bool held_books = held > 0 && scree_model_held_traits(model)->books[state->dimension - 2];
     bool held_rolls = held > 0 && scree_model_held_traits(model)->rolling;
     touching += held;
     scree_status status = reserve_list(&of_pairs, touching + near, books || held_books, rolls || held_rolls, error);
     if (!status) status = scree_held_list(state, &search->held, pairs, error);
     if (!status) status = reserve_list(&of_walls, wall, books, rolls, error);
-    if (!status && work->container) status = reserve_list(&of_elements, element, books, rolls, error);
+    if (!status && work->wall_set) status = reserve_list(&of_elements, element, books, rolls, error);
     if (status) return status;
     pairs->count = touching + near;
     pairs->held_count = held;
@@ -353,9 +355,9 @@ static scree_status assemble(const scree_model *model, scree_state *state, scree
     walls->count = wall;
     elements->count = element;
     list_pairs(search, pairs, true, held);
-    list_image_pairs(&search->images.touching, pairs, touching - search->images.touching.count);
+    list_ghost_pairs(&search->ghosts.touching, pairs, touching - search->ghosts.touching.count);
     list_pairs(search, pairs, false, touching);
-    list_image_pairs(&search->images.near, pairs, touching + near - search->images.near.count);
+    list_ghost_pairs(&search->ghosts.near, pairs, touching + near - search->ghosts.near.count);
     list_wall_pairs(search, work);
     attach_histories(state, work);
     pad_list(state, &of_pairs, pairs->count);
@@ -418,7 +420,7 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     search->bodies = state->count;
     search->changes = state->changes;
     work->pairs.count = work->pairs.held_count = work->pairs.touching_count = 0;
-    work->wall_pairs.count = work->element_pairs.count = work->ghosts.count = 0;
+    work->wall_pairs.count = work->primitive_pairs.count = work->ghosts.count = 0;
     if (state->count >= LARGE) scree_pair_lists_destroy(work);
 
     scree_cell_grid_fit(&search->grid, state, work->skin);
@@ -433,15 +435,15 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     if (!status) status = scree_histories_index(search, state, error);
     if (!status) status = search_pairs(state, work, error);
     if (!status) status = scree_ghosts_make(state, work, error);
-    if (!status) status = scree_ghosts_search(state, work, &search->images, error);
-    scree_held_drop(state, &search->images.touching);
-    scree_held_drop(state, &search->images.near);
+    if (!status) status = scree_ghosts_search(state, work, &search->ghosts, error);
+    scree_held_drop(state, &search->ghosts.touching);
+    scree_held_drop(state, &search->ghosts.near);
     if (!status) status = scree_held_find(model, state, work, &search->held, error);
     scree_state_set_laws(state, model);
     if (!status) status = assemble(model, state, work, error);
     if (status) return status;
 
-    for (size_t k = 0; k < state->count; k++) scree_body_place(state, k, state->rebuild[k]);
+    for (size_t k = 0; k < state->count; k++) scree_body_position(state, k, state->rebuild[k]);
     memcpy(search->wall, scree_plates(state), sizeof search->wall);
     search->surface_ticks = scree_case_walls(state)->ticks;
     release_scratch(search, state);
@@ -471,9 +473,9 @@ static scree_status check_list(const scree_model *model, scree_state *state, scr
 scree_status scree_neighbours_refresh(const scree_model *model, scree_state *state, scree_work *work,
                                       scree_error *error)
 {
-    if (work->container) {
-        scree_container_place(work->container, surface_time(state, scree_case_walls(state)->ticks));
-        scree_case_walls(state)->speed = scree_case_walls(state)->moving ? scree_container_speed(work->container) : 0;
+    if (work->wall_set) {
+        scree_wall_set_place(work->wall_set, surface_time(state, scree_case_walls(state)->ticks));
+        scree_case_walls(state)->speed = scree_case_walls(state)->moving ? scree_wall_set_speed(work->wall_set) : 0;
     }
     if (!work->valid || !is_of_these_bodies(work->search, state) || scree_held_changed(state, &work->search->held) ||
         walls_need_rebuild(model, state, work))

@@ -14,7 +14,7 @@ struct scree_search {
     scree_cell_grid grid;
     scree_pair_chunk *chunk; ///< one a thread
     int chunks;
-    scree_pair_chunk images;           ///< pairs with images of a periodic cell
+    scree_pair_chunk ghosts;           ///< pairs with ghosts of a periodic cell
     scree_held_buffer held;            ///< pairs of the persistent list
     bool listed;                       ///< the list in `work` is whole and holds the contact histories
     size_t bodies;                     ///< in the list
@@ -28,14 +28,14 @@ struct scree_search {
 };
 
 /// Appends the bodies of rows [begin, end) with the elements of the walls of the case that are closer than R + skin, by
-/// row, then element. `container` may be NULL. Errors: memory.
-scree_status scree_elements_search(const scree_container *container, const scree_state *state, size_t begin, size_t end,
-                                   double skin, scree_pair_buffer *buffer, scree_error *error) SCREE_MUST_USE;
+/// row, then element. `wall_set` may be NULL. Errors: memory.
+scree_status scree_primitives_search(const scree_wall_set *wall_set, const scree_state *state, size_t begin, size_t end,
+                                     double skin, scree_pair_buffer *buffer, scree_error *error) SCREE_MUST_USE;
 
 /// Frees the lists of pairs and of wall pairs.
 void scree_pair_lists_destroy(scree_work *work);
 
-/// Copies the rows of the list that are not zero to state->contact (booking, rolling), with ids. Errors: memory.
+/// Copies the rows of the list that are not zero to state->contact (last_force, rolling), with ids. Errors: memory.
 scree_status scree_histories_collect(scree_state *state, scree_work *work, scree_error *error) SCREE_MUST_USE;
 
 /// Sorts the entries of state->contact by rows, for scree_history_find. Entries with unknown ids are left out.

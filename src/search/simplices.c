@@ -166,13 +166,13 @@ static void order_simplices(const raw_simplices *raw, size_t count, size_t corne
     for (size_t i = 0, begin = 0; i < count; begin = end[i++])
         for (size_t k = begin + 1; k < end[i]; k++) {
             uint32_t moved = order[k];
-            size_t place = k;
-            for (; place > begin; place--) {
-                uint32_t other = order[place - 1];
+            size_t position = k;
+            for (; position > begin; position--) {
+                uint32_t other = order[position - 1];
                 if (!is_before(raw->corner + corners * moved, raw->corner + corners * other, corners)) break;
-                order[place] = other;
+                order[position] = other;
             }
-            order[place] = moved;
+            order[position] = moved;
         }
 }
 

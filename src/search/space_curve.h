@@ -39,7 +39,7 @@ static inline uint64_t scree_curve_key(uint32_t x, uint32_t y)
 }
 
 /// Every third bit of the result is a bit of `value`, which has 21.
-static inline uint64_t scree_curve_spread_solid(uint32_t value)
+static inline uint64_t scree_curve_spread_3d(uint32_t value)
 {
     uint64_t bits = value & 0x1fffff;
     bits = (bits | bits << 32) & UINT64_C(0x001f00000000ffff);
@@ -49,8 +49,8 @@ static inline uint64_t scree_curve_spread_solid(uint32_t value)
     return (bits | bits << 2) & UINT64_C(0x1249249249249249);
 }
 
-/// Inverse of scree_curve_spread_solid; the other bits are ignored.
-static inline uint32_t scree_curve_gather_solid(uint64_t bits)
+/// Inverse of scree_curve_spread_3d; the other bits are ignored.
+static inline uint32_t scree_curve_gather_3d(uint64_t bits)
 {
     bits &= UINT64_C(0x1249249249249249);
     bits = (bits | bits >> 2) & UINT64_C(0x10c30c30c30c30c3);
@@ -60,9 +60,9 @@ static inline uint32_t scree_curve_gather_solid(uint64_t bits)
     return (uint32_t)(bits | bits >> 32) & 0x1fffff;
 }
 
-static inline uint64_t scree_curve_key_solid(uint32_t x, uint32_t y, uint32_t z)
+static inline uint64_t scree_curve_key_3d(uint32_t x, uint32_t y, uint32_t z)
 {
-    return scree_curve_spread_solid(x) | scree_curve_spread_solid(y) << 1 | scree_curve_spread_solid(z) << 2;
+    return scree_curve_spread_3d(x) | scree_curve_spread_3d(y) << 1 | scree_curve_spread_3d(z) << 2;
 }
 
 /// Keys with a 32-bit companion each, and room for a second copy that the sort needs.

@@ -8,7 +8,7 @@
 /// and 0.08 for u = 1e-4, as in a slow one. At 0.15 either costs below 0.5 ns a body and step more than at its best.
 #include "search/neighbours.h"
 #include "search/search.h"
-#include "shape/container.h"
+#include "shape/wall_set.h"
 
 #include <string.h>
 
@@ -34,12 +34,12 @@ scree_status scree_work_create(scree_work *work, const scree_model *model, int t
 
 void scree_work_destroy(scree_work *work)
 {
-    scree_team_destroy(&work->team);
+    scree_thread_pool_destroy(&work->pool);
     scree_search *search = work->search;
     if (search) {
         for (int c = 0; c < search->chunks; c++) scree_pair_chunk_destroy(&search->chunk[c]);
         scree_release(&search->chunk);
-        scree_pair_chunk_destroy(&search->images);
+        scree_pair_chunk_destroy(&search->ghosts);
         scree_release(&search->held.pair);
         scree_cell_grid_destroy(&search->grid);
         scree_release(&search->entry_begin);
@@ -49,6 +49,6 @@ void scree_work_destroy(scree_work *work)
     scree_release(&work->ghosts.ghost);
     scree_release(&work->relative);
     scree_pair_lists_destroy(work);
-    scree_container_destroy(&work->container);
+    scree_wall_set_destroy(&work->wall_set);
     memset(work, 0, sizeof *work);
 }

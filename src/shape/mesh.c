@@ -67,60 +67,61 @@ static bool is_minimum(const scree_mesh *mesh, const uint32_t *list, uint32_t be
     return true;
 }
 
-static void face_site(const scree_mesh *mesh, size_t t, const double place[3], scree_site *site)
+static void closest_on_face(const scree_mesh *mesh, size_t t, const double place[3], scree_closest_point *closest)
 {
     double from[3];
     scree_subtract(place, mesh->vertex[mesh->triangle[t][0]], from);
     double height = scree_dot(from, mesh->normal[t]), sign = height < 0 ? -1 : 1;
-    (void)triangle_distance(mesh, t, place, &site->minimum);
-    site->distance = sign * height;
-    for (int k = 0; k < 3; k++) site->normal[k] = sign * mesh->normal[t][k];
+    (void)triangle_distance(mesh, t, place, &closest->minimum);
+    closest->distance = sign * height;
+    for (int k = 0; k < 3; k++) closest->normal[k] = sign * mesh->normal[t][k];
 }
 
 /// From a point of the mesh to the centre; `triangle` has it in its plane.
-static void point_site(const scree_mesh *mesh, const double point[3], size_t triangle, const double place[3],
-                       scree_site *site)
+static void closest_on_point(const scree_mesh *mesh, const double point[3], size_t triangle, const double place[3],
+                             scree_closest_point *closest)
 {
-    scree_subtract(place, point, site->normal);
-    site->distance = scree_normalise(site->normal);
-    if (!(site->distance > 0)) memcpy(site->normal, mesh->normal[triangle], sizeof site->normal);
+    scree_subtract(place, point, closest->normal);
+    closest->distance = scree_normalise(closest->normal);
+    if (!(closest->distance > 0)) memcpy(closest->normal, mesh->normal[triangle], sizeof closest->normal);
 }
 
-static void edge_site(const scree_mesh *mesh, size_t e, const double place[3], scree_site *site)
+static void closest_on_edge(const scree_mesh *mesh, size_t e, const double place[3], scree_closest_point *closest)
 {
     const double *a = mesh->vertex[mesh->edge[e][0]], *b = mesh->vertex[mesh->edge[e][1]];
     double fraction, side[3], point[3], square = segment_distance(a, b, place, &fraction);
     scree_subtract(b, a, side);
     scree_along(a, fraction, side, point);
-    point_site(mesh, point, mesh->edge_list[mesh->edge_begin[e]], place, site);
-    site->minimum = fraction > 0 && fraction < 1 &&
-                    is_minimum(mesh, mesh->edge_list, mesh->edge_begin[e], mesh->edge_begin[e + 1], place, square);
+    closest_on_point(mesh, point, mesh->edge_list[mesh->edge_begin[e]], place, closest);
+    closest->minimum = fraction > 0 && fraction < 1 &&
+                       is_minimum(mesh, mesh->edge_list, mesh->edge_begin[e], mesh->edge_begin[e + 1], place, square);
 }
 
-static void vertex_site(const scree_mesh *mesh, size_t v, const double place[3], scree_site *site)
+static void closest_on_vertex(const scree_mesh *mesh, size_t v, const double place[3], scree_closest_point *closest)
 {
-    point_site(mesh, mesh->vertex[v], mesh->vertex_list[mesh->vertex_begin[v]], place, site);
-    site->minimum = is_minimum(mesh, mesh->vertex_list, mesh->vertex_begin[v], mesh->vertex_begin[v + 1], place,
-                               site->distance * site->distance);
+    closest_on_point(mesh, mesh->vertex[v], mesh->vertex_list[mesh->vertex_begin[v]], place, closest);
+    closest->minimum = is_minimum(mesh, mesh->vertex_list, mesh->vertex_begin[v], mesh->vertex_begin[v + 1], place,
+                                  closest->distance * closest->distance);
 }
 
-void scree_mesh_site(const scree_mesh *mesh, size_t element, const scree_vector place, scree_site *site)
+void scree_mesh_closest_point(const scree_mesh *mesh, size_t primitive, const scree_vector place,
+                              scree_closest_point *closest)
 {
-    size_t edge = element - mesh->triangle_count, vertex = edge - mesh->edge_count;
-    if (element < mesh->triangle_count)
-        face_site(mesh, element, place, site);
+    size_t edge = primitive - mesh->triangle_count, vertex = edge - mesh->edge_count;
+    if (primitive < mesh->triangle_count)
+        closest_on_face(mesh, primitive, place, closest);
     else if (edge < mesh->edge_count)
-        edge_site(mesh, edge, place, site);
+        closest_on_edge(mesh, edge, place, closest);
     else
-        vertex_site(mesh, vertex, place, site);
+        closest_on_vertex(mesh, vertex, place, closest);
 }
 
-double scree_mesh_distance(const scree_mesh *mesh, size_t element, const scree_vector place)
+double scree_mesh_distance(const scree_mesh *mesh, size_t primitive, const scree_vector place)
 {
-    size_t edge = element - mesh->triangle_count, vertex = edge - mesh->edge_count;
+    size_t edge = primitive - mesh->triangle_count, vertex = edge - mesh->edge_count;
     bool inside;
     double fraction, from[3];
-    if (element < mesh->triangle_count) return sqrt(triangle_distance(mesh, element, place, &inside));
+    if (primitive < mesh->triangle_count) return sqrt(triangle_distance(mesh, primitive, place, &inside));
     if (edge < mesh->edge_count)
         return sqrt(
             segment_distance(mesh->vertex[mesh->edge[edge][0]], mesh->vertex[mesh->edge[edge][1]], place, &fraction));
@@ -130,23 +131,23 @@ double scree_mesh_distance(const scree_mesh *mesh, size_t element, const scree_v
 
 /// The triangle, and the edges and vertices that it owns.
 static scree_status report(const scree_mesh *mesh, size_t t, const double place[3], double reach,
-                           scree_status (*found)(void *context, size_t element), void *context)
+                           scree_status (*found)(void *context, size_t primitive), void *context)
 {
-    size_t element[7] = {t}, count = 1;
+    size_t primitive[7] = {t}, count = 1;
     for (int k = 0; k < 3; k++) {
         uint32_t e = mesh->triangle_edge[t][k], v = mesh->triangle[t][k];
-        if (mesh->edge_list[mesh->edge_begin[e]] == t) element[count++] = mesh->triangle_count + e;
+        if (mesh->edge_list[mesh->edge_begin[e]] == t) primitive[count++] = mesh->triangle_count + e;
         if (mesh->vertex_list[mesh->vertex_begin[v]] == t)
-            element[count++] = mesh->triangle_count + mesh->edge_count + v;
+            primitive[count++] = mesh->triangle_count + mesh->edge_count + v;
     }
     scree_status status = SCREE_OK;
     for (size_t k = 0; k < count && !status; k++)
-        if (!(scree_mesh_distance(mesh, element[k], place) >= reach)) status = found(context, element[k]);
+        if (!(scree_mesh_distance(mesh, primitive[k], place) >= reach)) status = found(context, primitive[k]);
     return status;
 }
 
 scree_status scree_mesh_near(const scree_mesh *mesh, const scree_vector place, double reach,
-                             scree_status (*found)(void *context, size_t element), void *context)
+                             scree_status (*found)(void *context, size_t primitive), void *context)
 {
     uint32_t stack[DEEPEST] = {0};
     int depth = 1;

@@ -39,11 +39,11 @@ typedef struct scree_mesh {
 } scree_mesh;
 
 /// Where a sphere may touch: the closest point of a feature.
-typedef struct scree_site {
+typedef struct scree_closest_point {
     scree_vector normal; ///< unit vector from the wall to the centre
     double distance;     ///< m, of the centre; negative behind the surface of a wall that has an inside
     bool minimum;        ///< a local minimum of the distance: a contact if the sphere reaches it
-} scree_site;
+} scree_closest_point;
 
 /// Builds topology and tree from `count` triangles of three corners each [m]; corners closer than 1e-6 of the extent
 /// are one vertex. Errors: no triangle with an area, memory. Cost: n log n.
@@ -52,20 +52,21 @@ scree_status scree_mesh_build(scree_mesh *mesh, size_t count, const double (*cor
 void scree_mesh_destroy(scree_mesh *mesh);
 
 /// Number of features: triangles, then edges, then vertices.
-static inline size_t scree_mesh_elements(const scree_mesh *mesh)
+static inline size_t scree_mesh_primitives(const scree_mesh *mesh)
 {
     return mesh->triangle_count + mesh->edge_count + mesh->vertex_count;
 }
 
-/// The site of feature `element` for a centre at `place`.
-void scree_mesh_site(const scree_mesh *mesh, size_t element, const scree_vector place, scree_site *site);
+/// The closest point of feature `primitive` for a centre at `place`.
+void scree_mesh_closest_point(const scree_mesh *mesh, size_t primitive, const scree_vector place,
+                              scree_closest_point *closest);
 
-/// Distance from `place` to feature `element`.
-double scree_mesh_distance(const scree_mesh *mesh, size_t element, const scree_vector place);
+/// Distance from `place` to feature `primitive`.
+double scree_mesh_distance(const scree_mesh *mesh, size_t primitive, const scree_vector place);
 
-/// Calls `found(context, element)` for every feature within `reach` of `place`, each once; stops at the first status
+/// Calls `found(context, primitive)` for every feature within `reach` of `place`, each once; stops at the first status
 /// that is not SCREE_OK. Cost: logarithmic, and linear in what is found.
 scree_status scree_mesh_near(const scree_mesh *mesh, const scree_vector place, double reach,
-                             scree_status (*found)(void *context, size_t element), void *context) SCREE_MUST_USE;
+                             scree_status (*found)(void *context, size_t primitive), void *context) SCREE_MUST_USE;
 
 #endif

@@ -1,5 +1,5 @@
 /// Walls as triangles, for scenes and ParaView.
-#include "shape/container.h"
+#include "shape/wall_set.h"
 
 #include "base/vectors.h"
 
@@ -106,21 +106,21 @@ static void add_mesh(scree_wall_triangles *triangles, const scree_surface *surfa
     }
 }
 
-scree_status scree_container_triangles(const scree_container *container, const double low[3], const double high[3],
-                                       scree_wall_triangles *triangles, scree_error *error)
+scree_status scree_wall_set_triangles(const scree_wall_set *wall_set, const double low[3], const double high[3],
+                                      scree_wall_triangles *triangles, scree_error *error)
 {
     size_t room = 0;
     *triangles = (scree_wall_triangles){0};
-    for (int k = 0; container && k < container->count; k++)
-        room += container->surface[k].mesh.triangle_count + (size_t)container->surface[k].profile_count * 2 * FACETS +
+    for (int k = 0; wall_set && k < wall_set->count; k++)
+        room += wall_set->surface[k].mesh.triangle_count + (size_t)wall_set->surface[k].profile_count * 2 * FACETS +
                 MOST_FLAT;
     scree_status status = scree_allocate(&triangles->corner, room, sizeof *triangles->corner, error);
     if (!status) status = scree_allocate(&triangles->wall, room, sizeof *triangles->wall, error);
-    for (int k = 0; !status && container && k < container->count; k++) {
-        const scree_surface *surface = &container->surface[k];
+    for (int k = 0; !status && wall_set && k < wall_set->count; k++) {
+        const scree_surface *surface = &wall_set->surface[k];
         int shape = surface->config->shape;
-        if (shape == SCREE_SHAPE_OF_PLANE) add_plane(triangles, surface, k, container->dimension, low, high);
-        if (shape == SCREE_SHAPE_OF_BOX) add_box(triangles, surface, k, container->dimension);
+        if (shape == SCREE_SHAPE_OF_PLANE) add_plane(triangles, surface, k, wall_set->dimension, low, high);
+        if (shape == SCREE_SHAPE_OF_BOX) add_box(triangles, surface, k, wall_set->dimension);
         if (shape == SCREE_SHAPE_OF_MESH) add_mesh(triangles, surface, k);
         add_round(triangles, surface, k);
     }

@@ -22,10 +22,10 @@ static double radius(const void *own, int dimension, double uniform)
     return ((const config *)own)->radius;
 }
 
-static bool wrong(const void *own, scree_size_fault *fault)
+static bool wrong(const void *own, scree_size_problem *problem)
 {
     (void)own;
-    (void)fault;
+    (void)problem;
     return false;
 }
 

@@ -86,15 +86,15 @@ double scree_gaussian_radius(const scree_gaussian *g, double uniform)
     return radius_at(g, z);
 }
 
-bool scree_gaussian_wrong(const scree_gaussian *g, const char *key, scree_size_fault *fault)
+bool scree_gaussian_wrong(const scree_gaussian *g, const char *key, scree_size_problem *problem)
 {
     const scree_size_limits *limits = &g->limits;
-    if (scree_size_limits_wrong(limits, fault)) return true;
+    if (scree_size_limits_wrong(limits, problem)) return true;
     bool one = limits->radius_min == limits->radius_max;
     double share = share_between(reduced(g, limits->radius_min), reduced(g, limits->radius_max));
     if (one || !(share < LEAST)) return false;
-    *fault = (scree_size_fault){.key = key};
-    (void)snprintf(fault->text, sizeof fault->text,
+    *problem = (scree_size_problem){.key = key};
+    (void)snprintf(problem->text, sizeof problem->text,
                    "between radius_min and radius_max lie %.2g of the distribution: bring it and its limits together",
                    share);
     return true;

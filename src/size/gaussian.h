@@ -18,6 +18,6 @@ scree_size_moments scree_gaussian_moments(const scree_gaussian *g);
 double scree_gaussian_radius(const scree_gaussian *g, double uniform);
 
 /// The limits hold too little of it. key: what the fault is said of.
-bool scree_gaussian_wrong(const scree_gaussian *g, const char *key, scree_size_fault *fault);
+bool scree_gaussian_wrong(const scree_gaussian *g, const char *key, scree_size_problem *problem);
 
 #endif

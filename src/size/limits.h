@@ -27,6 +27,6 @@ typedef struct scree_size_limits {
 #define SIZE_CHOICE CHOICE_OF(IS("particles.distribution"), IS("particles.species.distribution"))
 
 /// The smallest radius is not above the largest.
-bool scree_size_limits_wrong(const void *limits, scree_size_fault *fault);
+bool scree_size_limits_wrong(const void *limits, scree_size_problem *problem);
 
 #endif

@@ -33,10 +33,10 @@ static double radius(const void *own, int dimension, double uniform)
     return scree_gaussian_radius(&g, uniform);
 }
 
-static bool wrong(const void *own, scree_size_fault *fault)
+static bool wrong(const void *own, scree_size_problem *problem)
 {
     scree_gaussian g = gaussian(own);
-    return scree_gaussian_wrong(&g, "median", fault);
+    return scree_gaussian_wrong(&g, "median", problem);
 }
 
 const scree_module scree_module_log_normal = {

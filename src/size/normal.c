@@ -30,10 +30,10 @@ static double radius(const void *own, int dimension, double uniform)
     return scree_gaussian_radius(&g, uniform);
 }
 
-static bool wrong(const void *own, scree_size_fault *fault)
+static bool wrong(const void *own, scree_size_problem *problem)
 {
     scree_gaussian g = gaussian(own);
-    return scree_gaussian_wrong(&g, "mean", fault);
+    return scree_gaussian_wrong(&g, "mean", problem);
 }
 
 const scree_module scree_module_normal = {

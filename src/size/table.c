@@ -68,14 +68,14 @@ static double radius(const void *own, int dimension, double uniform)
     return c->sizes[i].radius;
 }
 
-static bool wrong(const void *own, scree_size_fault *fault)
+static bool wrong(const void *own, scree_size_problem *problem)
 {
     const config *c = own;
     double sum = 0;
     for (int64_t i = 0; i < c->size_count; i++) sum += c->sizes[i].share;
     if (c->size_count == 0 || !(fabs(sum - 1) > 1e-6)) return false;
-    *fault = (scree_size_fault){.key = "sizes"};
-    (void)snprintf(fault->text, sizeof fault->text, "the shares add up to %.6g %%, not to 100 %%", 100 * sum);
+    *problem = (scree_size_problem){.key = "sizes"};
+    (void)snprintf(problem->text, sizeof problem->text, "the shares add up to %.6g %%, not to 100 %%", 100 * sum);
     return true;
 }
 

@@ -12,25 +12,25 @@
 #include "state/state.h"
 
 /// Position of the body in `row` [m]; z = 0 in 2D.
-static inline void scree_body_place(const scree_state *state, size_t row, scree_vector place)
+static inline void scree_body_position(const scree_state *state, size_t row, scree_vector position)
 {
     const scree_row *body = &state->row[row];
-    place[0] = body->x;
-    place[1] = body->y;
-    place[2] = state->dimension == 3 ? body->z : 0;
+    position[0] = body->x;
+    position[1] = body->y;
+    position[2] = state->dimension == 3 ? body->z : 0;
 }
 
 /// Velocity [m/s] and spin [rad/s] that the scheme keeps; in 2D vz = 0 and the spin is about z.
 static inline void scree_body_motion(const scree_state *state, size_t row, scree_vector velocity, scree_vector spin)
 {
     const scree_row *body = &state->row[row];
-    bool solid = state->dimension == 3;
+    bool in_3d = state->dimension == 3;
     velocity[0] = body->vx;
     velocity[1] = body->vy;
-    velocity[2] = solid ? body->vz : 0;
-    spin[0] = solid ? state->turn[row].wx : 0;
-    spin[1] = solid ? state->turn[row].wy : 0;
-    spin[2] = solid ? state->turn[row].wz : body->spin;
+    velocity[2] = in_3d ? body->vz : 0;
+    spin[0] = in_3d ? state->turn[row].wx : 0;
+    spin[1] = in_3d ? state->turn[row].wy : 0;
+    spin[2] = in_3d ? state->turn[row].wz : body->spin;
 }
 
 /// Index of the material of the body in `row`.
@@ -79,7 +79,7 @@ static inline double scree_body_volume(const scree_state *state, size_t row)
     return M_PI * (radius * radius) * (state->dimension == 2 ? 1 : 4.0 / 3 * radius);
 }
 
-/// What the body is there for. An image has the mark of its body.
+/// What the body is there for. A ghost has the mark of its body.
 static inline scree_mark scree_body_mark(const scree_state *state, size_t row)
 {
     return (scree_mark)state->mark[row];

@@ -1,5 +1,5 @@
 /// The walls of a case in a run: whether they move, and what the bodies do to them. Their geometry is in
-/// shape/container.h.
+/// shape/wall_set.h.
 #ifndef SCREE_STATE_CASE_WALLS_H
 #define SCREE_STATE_CASE_WALLS_H
 

@@ -19,7 +19,7 @@ static double most_of(const scree_field_range *range, const scree_state *state, 
     case SCREE_LIMIT_BODY:
         return (double)state->next_id - 1;
     case SCREE_LIMIT_IDS:
-        return SCREE_ELEMENT_ID;
+        return SCREE_PRIMITIVE_ID;
     case SCREE_LIMIT_LAST_MATERIAL:
         return fmax(model->material_count - 1, model->membrane ? model->membrane_material : 0);
     case SCREE_LIMIT_LARGEST_RADIUS:
@@ -159,7 +159,7 @@ static scree_status check_contacts(const scree_state *state, const scree_model *
 {
     for (size_t k = 0; k < state->contact_count; k++) {
         const scree_contact_memory *c = &state->contact[k];
-        bool plate = c->second >= SCREE_WALL_ID, element = !plate && c->second >= SCREE_ELEMENT_ID;
+        bool plate = c->second >= SCREE_WALL_ID, element = !plate && c->second >= SCREE_PRIMITIVE_ID;
         if (plate && c->second >= SCREE_WALL_ID + SCREE_WALL_COUNT)
             return refuse_contact(state, k, "is no plate", error);
         if (element && model->config->wall_count == 0)
@@ -169,7 +169,7 @@ static scree_status check_contacts(const scree_state *state, const scree_model *
             return refuse_contact(state, k, "is no body, or one with a lower id", error);
         if (k == 0) continue;
         const scree_contact_memory *before = c - 1;
-        // In a small periodic cell a body may touch several images of another.
+        // In a small periodic cell a body may touch several ghosts of another.
         bool again = c->second == before->second && !scree_cell(state)->directions;
         if (before->first > c->first || (before->first == c->first && (before->second > c->second || again)))
             return refuse_contact(state, k, "is there twice, or not in the order of ids", error);

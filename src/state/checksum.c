@@ -41,11 +41,11 @@ static uint64_t checksum_bodies(const scree_model *model, const scree_state *sta
     if (holes) c = scree_checksum_word(c, state->next_id);
     size_t id = 0;
     for (uint32_t row; (row = scree_next_by_id(state, &id)) != SCREE_NO_ROW;) {
-        scree_vector place, velocity, spin;
+        scree_vector position, velocity, spin;
         if (holes) c = scree_checksum_word(c, state->id[row]);
-        scree_body_place(state, row, place);
+        scree_body_position(state, row, position);
         scree_body_motion(state, row, velocity, spin);
-        c = scree_checksum_numbers(c, place, dimension);
+        c = scree_checksum_numbers(c, position, dimension);
         c = scree_checksum_numbers(c, velocity, dimension);
         c = scree_checksum_numbers(c, spin + 3 - turns, turns);
         c = scree_checksum_number(c, state->row[row].radius);
@@ -68,8 +68,8 @@ static uint64_t checksum_partner(uint32_t second, uint64_t c)
 {
     enum { BODY, ELEMENT, PLATE };
     if (second >= SCREE_WALL_ID) return scree_checksum_word(scree_checksum_word(c, PLATE), second - SCREE_WALL_ID);
-    if (second >= SCREE_ELEMENT_ID)
-        return scree_checksum_word(scree_checksum_word(c, ELEMENT), second - SCREE_ELEMENT_ID);
+    if (second >= SCREE_PRIMITIVE_ID)
+        return scree_checksum_word(scree_checksum_word(c, ELEMENT), second - SCREE_PRIMITIVE_ID);
     return scree_checksum_word(scree_checksum_word(c, BODY), second);
 }
 

@@ -81,15 +81,15 @@ static const scree_field fields[] = {
      SCREE_RANGE_TO(SCREE_LIMIT_MANY)},
     {"rebuild", SCREE_FIELD_DOUBLE, SCREE_VECTOR, "m", SCREE_FIELD_DERIVED, false,
      "centre at the last rebuild of the neighbour list", PLAIN_ARRAY(rebuild, scree_vector), .rows = SCREE_ROWS_BODIES},
-    {"foreseen", SCREE_FIELD_DOUBLE, 8, "1", SCREE_FIELD_DERIVED, false,
-     "increments of velocity and spin by the forces of the last step", PLAIN_ARRAY(foreseen, scree_foreseen),
+    {"predicted", SCREE_FIELD_DOUBLE, 8, "1", SCREE_FIELD_DERIVED, false,
+     "increments of velocity and spin by the forces of the last step", PLAIN_ARRAY(predicted, scree_predicted),
      .rows = SCREE_ROWS_BODIES, .ghosts = SCREE_GHOSTS_FOLLOW, .optional = true},
 
     CONTACT("first", SCREE_FIELD_UINT32, 1, "1", first, "id of the first body", SCREE_RANGE_TO(SCREE_LIMIT_BODY)),
-    CONTACT(
-        "second", SCREE_FIELD_UINT32, 1, "1", second,
-        "id of the second body, larger than the first; 4294967280 + index for a plate, 2147483648 + element for a wall "
-        "of the case"),
+    CONTACT("second", SCREE_FIELD_UINT32, 1, "1", second,
+            "id of the second body, larger than the first; 4294967280 + index for a plate, 2147483648 + primitive for "
+            "a wall "
+            "of the case"),
     ONE("scalars/next_id", SCREE_FIELD_UINT64, 1, "1", next_id, "id of the next body that comes; none is given again",
         SCREE_RANGE_TO(SCREE_LIMIT_IDS)),
     ONE("scalars/step", SCREE_FIELD_UINT64, 1, "1", step, "time since the start of the run, in ticks",
@@ -107,7 +107,7 @@ static const scree_field fields[] = {
         SCREE_RANGE_ABOVE(0, DBL_MAX)),
     ONE("scalars/torque_quantum", SCREE_FIELD_DOUBLE, 1, "N m", torque_quantum, "unit of torque_sum",
         SCREE_RANGE_ABOVE(0, DBL_MAX)),
-    ONE("scalars/largest_overlap", SCREE_FIELD_DOUBLE, 1, "m", largest_overlap, "largest indentation of all contacts",
+    ONE("scalars/largest_overlap", SCREE_FIELD_DOUBLE, 1, "m", largest_overlap, "largest overlap of all contacts",
         SCREE_RANGE(0, DBL_MAX)),
     ONE("scalars/largest_speed", SCREE_FIELD_DOUBLE, 1, "m/s", largest_speed,
         "bound of the surface speed of all bodies", SCREE_RANGE(0, DBL_MAX)),

@@ -82,7 +82,7 @@ void scree_periodic_stress(const scree_model *model, const scree_state *state, d
     for (int k = 0; k < 9; k++) stress[k] = -(cell->virial[k] + cell->motion[k]) / volume;
 }
 
-void scree_periodic_full_velocity(const scree_state *state, const scree_vector place, const scree_vector relative,
+void scree_periodic_full_velocity(const scree_state *state, const scree_vector position, const scree_vector relative,
                                   scree_vector velocity)
 {
     // c+ = (1 - h L) c, v = c + L (x - h v), h = dt / 2.
@@ -91,7 +91,7 @@ void scree_periodic_full_velocity(const scree_state *state, const scree_vector p
     half_step_inverse(state, -1, forward);
     half_step_inverse(state, 1, back);
     scree_matrix_apply(forward, relative, middle);
-    scree_matrix_apply(scree_cell(state)->gradient, place, affine);
+    scree_matrix_apply(scree_cell(state)->gradient, position, affine);
     for (int k = 0; k < 3; k++) sum[k] = middle[k] + affine[k];
     scree_matrix_apply(back, sum, velocity);
 }

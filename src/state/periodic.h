@@ -1,7 +1,7 @@
 /// Geometry of the periodic cell: the lattice in which the sample repeats itself.
 ///
 /// The lattice vectors are the columns of `lattice`; a direction without a bit in `periodic` has its unit vector there
-/// and does not repeat. A point x has the fractional coordinates f = H^-1 x; its images are x + H n with integers n (0
+/// and does not repeat. A point x has the fractional coordinates f = H^-1 x; its ghosts are x + H n with integers n (0
 /// in directions that are not periodic). Bodies lie in the cell 0 <= f < 1, or a little outside (boundary/periodic.c
 /// says when they are put back). Faces k are the two planes f_k = 0 and f_k = 1.
 #ifndef SCREE_STATE_PERIODIC_H
@@ -65,7 +65,7 @@ bool scree_periodic_edge(const scree_periodic_cell *cell, int dimension, const s
                          const scree_vector high, int edge, scree_vector ends[2]);
 
 /// Velocities [m/s] with which the lattice vectors move, as columns, at the end of a step with the gradient of the
-/// cell: an image moves as its body plus this times its shift.
+/// cell: a ghost moves as its body plus this times its shift.
 void scree_periodic_lattice_velocity(const scree_state *state, double velocity[9]);
 
 /// Stress [Pa, tension positive] of the bodies in a whole cell at the present step: -(virial + motion) / volume.
@@ -73,7 +73,7 @@ void scree_periodic_stress(const scree_model *model, const scree_state *state, d
 
 /// Velocity of the body in `row` [m/s] that its contacts saw at the present step: that of the scheme at n - 1/2, which
 /// is relative to the affine field, given as `relative`, plus that field.
-void scree_periodic_full_velocity(const scree_state *state, const scree_vector place, const scree_vector relative,
+void scree_periodic_full_velocity(const scree_state *state, const scree_vector position, const scree_vector relative,
                                   scree_vector velocity);
 
 #endif

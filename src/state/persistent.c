@@ -70,8 +70,8 @@ void scree_persistent_branch(const scree_state *state, const scree_persistent_me
     const scree_periodic_cell *cell = scree_cell(state);
     scree_vector from, to, shift = {0}, by;
     double inverse[9], fraction[3];
-    scree_body_place(state, scree_state_row_of(state, member->first), from);
-    scree_body_place(state, scree_state_row_of(state, member->second), to);
+    scree_body_position(state, scree_state_row_of(state, member->first), from);
+    scree_body_position(state, scree_state_row_of(state, member->second), to);
     for (int k = 0; k < 3; k++) branch[k] = to[k] - from[k];
     if (!cell->directions) return;
     scree_matrix_invert(cell->lattice, inverse);

@@ -13,7 +13,7 @@ typedef struct scree_persistent_member {
     uint32_t first, second;                  ///< ids, the lower one first
     double constant[SCREE_MEMBER_CONSTANTS]; ///< of this pair, given with it; the law says what they are
     scree_history history;                   ///< and these rows as those of other contacts
-    scree_booking booking;
+    scree_last_force last_force;
     scree_rolling rolling;
     uint64_t added; ///< `changes` of the list, when it was added (derived)
 } scree_persistent_member;

@@ -62,7 +62,7 @@ scree_status scree_state_make_bodies(scree_state *state, size_t count, scree_err
 
 void scree_state_destroy(scree_state *state)
 {
-    void *const others[] = {&state->row_of_id, &state->contact, &state->booking, &state->rolling};
+    void *const others[] = {&state->row_of_id, &state->contact, &state->last_force, &state->rolling};
     scree_body_array list[SCREE_BODY_ARRAYS];
     size_t arrays = scree_body_arrays(state, list);
     for (size_t k = 0; k < arrays; k++) scree_release(list[k].pointer);
@@ -71,22 +71,22 @@ void scree_state_destroy(scree_state *state)
     memset(state, 0, sizeof *state);
 }
 
-scree_status scree_state_foresee(scree_state *state, scree_error *error)
+scree_status scree_state_predict(scree_state *state, scree_error *error)
 {
-    if (state->foreseen) return SCREE_OK;
-    return scree_allocate(&state->foreseen, state->row_capacity, sizeof *state->foreseen, error);
+    if (state->predicted) return SCREE_OK;
+    return scree_allocate(&state->predicted, state->row_capacity, sizeof *state->predicted, error);
 }
 
 scree_status scree_state_append(scree_state *state, scree_mark mark, size_t more, scree_error *error)
 {
     scree_body_array list[SCREE_BODY_ARRAYS];
-    if (state->next_id >= SCREE_ELEMENT_ID || more >= SCREE_ELEMENT_ID - state->next_id)
+    if (state->next_id >= SCREE_PRIMITIVE_ID || more >= SCREE_PRIMITIVE_ID - state->next_id)
         return scree_error_set(error, SCREE_ERROR_INPUT, "%zu bodies were there so far: there can be no %zu more",
                                state->next_id, more);
     scree_status status = scree_store_reserve_bodies(state, state->count + more, false, error);
     if (!status) status = reserve_ids(state, state->next_id + more, false, error);
     if (status) return status;
-    // Bodies that were there before, and images, may have left something behind.
+    // Bodies that were there before, and ghosts, may have left something behind.
     size_t arrays = scree_body_arrays(state, list);
     for (size_t k = 0; k < arrays; k++)
         memset(*(unsigned char **)list[k].pointer + state->count * list[k].size, 0, more * list[k].size);
@@ -137,7 +137,7 @@ static void forget_contacts(scree_state *state)
     for (size_t k = 0; k < state->contact_count; k++) {
         if (is_going(state, state->contact[k].first) || is_going(state, state->contact[k].second)) continue;
         state->contact[kept] = state->contact[k];
-        if (state->booking) state->booking[kept] = state->booking[k];
+        if (state->last_force) state->last_force[kept] = state->last_force[k];
         if (state->rolling) state->rolling[kept] = state->rolling[k];
         kept++;
     }
@@ -153,7 +153,7 @@ static void remove_row(scree_state *state, const scree_body_array *list, size_t 
     for (size_t k = 0; k < arrays; k++) {
         unsigned char *array = *(unsigned char **)list[k].pointer, *from = array + last * list[k].size;
         if (row != last) memcpy(array + row * list[k].size, from, list[k].size);
-        memset(from, 0, list[k].size); // the sums of an image that takes this row are clear
+        memset(from, 0, list[k].size); // the sums of a ghost that takes this row are clear
     }
     state->row_of_id[moved] = (uint32_t)row | (state->row_of_id[moved] & GOING);
     state->row_of_id[id] = SCREE_NO_ROW;
@@ -182,7 +182,7 @@ static scree_status refuse_id(const scree_state *state, size_t row, size_t limit
 
 scree_status scree_state_find_rows(scree_state *state, scree_error *error)
 {
-    const size_t limit = state->next_id < SCREE_ELEMENT_ID ? state->next_id : SCREE_ELEMENT_ID;
+    const size_t limit = state->next_id < SCREE_PRIMITIVE_ID ? state->next_id : SCREE_PRIMITIVE_ID;
     size_t bad = 0, ids = 0;
     for (; bad < state->count && state->id[bad] < limit; bad++)
         if (state->id[bad] >= ids) ids = (size_t)state->id[bad] + 1;
@@ -226,7 +226,7 @@ static void permute_array(void *array, size_t size, const uint32_t *order, size_
 size_t scree_state_widest(const scree_state *state)
 {
     scree_body_array list[SCREE_BODY_ARRAYS];
-    size_t widest = sizeof *state->foreseen, arrays = scree_body_arrays(state, list);
+    size_t widest = sizeof *state->predicted, arrays = scree_body_arrays(state, list);
     for (size_t k = 0; k < arrays; k++)
         if (list[k].size > widest) widest = list[k].size;
     return widest;
@@ -252,8 +252,8 @@ scree_status scree_state_reserve_contacts(scree_state *state, size_t count, scre
     if (count <= state->contact_capacity) return SCREE_OK;
     size_t old = state->contact_count, capacity = count + count / 8 + 16;
     scree_status status = scree_reallocate(&state->contact, old, capacity, sizeof *state->contact, error);
-    if (!status && state->booking)
-        status = scree_reallocate(&state->booking, old, capacity, sizeof *state->booking, error);
+    if (!status && state->last_force)
+        status = scree_reallocate(&state->last_force, old, capacity, sizeof *state->last_force, error);
     if (!status && state->rolling)
         status = scree_reallocate(&state->rolling, old, capacity, sizeof *state->rolling, error);
     if (!status) state->contact_capacity = capacity;
@@ -263,7 +263,7 @@ scree_status scree_state_reserve_contacts(scree_state *state, size_t count, scre
 void scree_state_release_contacts(scree_state *state)
 {
     scree_release(&state->contact);
-    scree_release(&state->booking);
+    scree_release(&state->last_force);
     scree_release(&state->rolling);
     state->contact_count = state->contact_capacity = 0;
 }
@@ -277,10 +277,10 @@ void scree_state_set_laws(scree_state *state, const scree_model *model)
         state->law[SCREE_LIST_PERSISTENT] = (scree_remembered_law){scree_modules[holding->law], holding->option};
 }
 
-scree_status scree_state_add_booking(scree_state *state, scree_error *error)
+scree_status scree_state_add_last_force(scree_state *state, scree_error *error)
 {
-    if (state->booking) return SCREE_OK;
-    return scree_allocate(&state->booking, state->contact_capacity, sizeof *state->booking, error);
+    if (state->last_force) return SCREE_OK;
+    return scree_allocate(&state->last_force, state->contact_capacity, sizeof *state->last_force, error);
 }
 
 scree_status scree_state_add_rolling(scree_state *state, scree_error *error)

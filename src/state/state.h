@@ -63,7 +63,7 @@ typedef struct scree_sum_row {
 
 /// What the next step will do to a body if its forces stay as they are, for laws that look ahead (contact/laws.h): the
 /// increments of its velocity and spin, and the number of its contacts. Derived; valid from the drift to the forces.
-typedef struct scree_foreseen {
+typedef struct scree_predicted {
     double vx, vy; ///< m/s
     union {
         double spin; ///< 2D: rad/s
@@ -72,7 +72,7 @@ typedef struct scree_foreseen {
     double contacts;
     double wx, wy, wz; ///< 3D: rad/s
     double unused;     ///< zero
-} scree_foreseen;
+} scree_predicted;
 
 /// 3D only: sum of the torques, in torque quanta.
 typedef struct scree_torque_row {
@@ -88,25 +88,25 @@ typedef double scree_vector[3];
 
 /// Memory of one contact between the bodies (or body and wall) with ids first < second. Signs are those of the contact
 /// seen from `first` (n from second to first); a wall is always `second`, with id SCREE_WALL_ID + wall index; an
-/// element of the walls of a case (shape/container.h) with id SCREE_ELEMENT_ID + its number.
-#define SCREE_WALL_ID    UINT32_C(0xfffffff0)
-#define SCREE_ELEMENT_ID UINT32_C(0x80000000)
-#define SCREE_ELEMENTS   (SCREE_WALL_ID - SCREE_ELEMENT_ID) /* most elements */
-#define SCREE_HISTORY    4
+/// element of the walls of a case (shape/wall_set.h) with id SCREE_PRIMITIVE_ID + its number.
+#define SCREE_WALL_ID      UINT32_C(0xfffffff0)
+#define SCREE_PRIMITIVE_ID UINT32_C(0x80000000)
+#define SCREE_PRIMITIVES   (SCREE_WALL_ID - SCREE_PRIMITIVE_ID) /* most elements */
+#define SCREE_HISTORY      4
 typedef struct scree_history {
     double value[SCREE_HISTORY]; ///< meanings: the fields that the law declares
 } scree_history;
 
 /// hertz_mindlin in 3D, for the ledger: damping forces at n - 1 that the ledger needs again. Single precision is
 /// enough: each enters a mean with the present force, and the rounding errors have no preferred sign.
-typedef struct scree_booking {
+typedef struct scree_last_force {
     float value[4]; ///< N: normal, tangential x, y, z
-} scree_booking;
+} scree_last_force;
 
-/// More rows where the law wants them: for rolling and twisting resistance, and its booking.
+/// More rows where the law wants them: for rolling and twisting resistance, and its last_force.
 typedef struct scree_rolling {
-    double value[4]; ///< 2D: rolling stretch; 3D: rolling stretch x, y, z [m], twist [rad]
-    float booked[4]; ///< dashpots at n - 1, in the same order
+    double value[4]; ///< 2D: rolling displacement; 3D: rolling displacement x, y, z [m], twist [rad]
+    float last[4];   ///< dashpots at n - 1, in the same order
 } scree_rolling;
 
 typedef struct scree_contact_memory {
@@ -137,7 +137,7 @@ typedef struct scree_remembered_law {
 typedef struct scree_ledger {
     double damping;   ///< dissipated by contact damping, normal and tangential
     double friction;  ///< dissipated by sliding
-    double stiffness; ///< put into tangential springs by the change of their stiffness with indentation (hertz_mindlin)
+    double stiffness; ///< put into tangential springs by the change of their stiffness with overlap (hertz_mindlin)
     double plates;    ///< work of the walls
     double pressure;  ///< work of the pressure on the Delaunay boundary or the membrane
     double boundary;  ///< work of the other forces of the boundary: imposed rates, springs and ends of a membrane
@@ -180,7 +180,7 @@ struct scree_state {
     double step_size;         ///< s, the last step, from n - 1 to n
     double kick_size;         ///< s, what leapfrog velocities were advanced by in it: the mean of it and the one before
     size_t body_capacity;     ///< of the arrays with one element a body
-    size_t row_capacity;      ///< of those that have room for the images of a periodic cell, too (state/work.h)
+    size_t row_capacity;      ///< of those that have room for the ghosts of a periodic cell, too (state/work.h)
     size_t id_capacity;       ///< of row_of_id
     scree_row *row;           ///< count
     scree_turn_row *turn;     ///< 3D: count; NULL in 2D
@@ -200,11 +200,11 @@ struct scree_state {
     uint64_t sampled_step;          ///< step of the last sample
     scree_vector *rebuild;          ///< m, positions at the last neighbour rebuild (derived, kept sorted with rows)
     uint32_t *row_of_id;            ///< id_count (derived); SCREE_NO_ROW: taken out
-    scree_foreseen *foreseen;       ///< derived, sorted with rows; NULL unless the law looks ahead
+    scree_predicted *predicted;     ///< derived, sorted with rows; NULL unless the law looks ahead
     // contacts: filled from `work` by scree_contacts_save, consumed by scree_contacts_load (contact/contact.h)
     scree_contact_memory *contact;
-    scree_booking *booking; ///< beside `contact` where the law has booking rows; else NULL
-    scree_rolling *rolling; ///< beside `contact` with rolling resistance; else NULL
+    scree_last_force *last_force; ///< beside `contact` where the law has last_force rows; else NULL
+    scree_rolling *rolling;       ///< beside `contact` with rolling resistance; else NULL
     size_t contact_count, contact_capacity;
     scree_remembered_law law[SCREE_LISTS]; ///< of the model (derived; checkpoints say it of their contacts)
     void *own[SCREE_MODULE_COUNT];         ///< the struct of each module that has one (module/module.h), by slot
@@ -222,7 +222,7 @@ scree_status scree_state_create(scree_state *state, int dimension, size_t count,
 scree_status scree_state_make_bodies(scree_state *state, size_t count, scree_error *error) SCREE_MUST_USE;
 void scree_state_destroy(scree_state *state);
 
-/// Grows the arrays of bodies that images have rows of, too, to hold `count` rows. Errors: memory.
+/// Grows the arrays of bodies that ghosts have rows of, too, to hold `count` rows. Errors: memory.
 scree_status scree_state_reserve_rows(scree_state *state, size_t count, scree_error *error) SCREE_MUST_USE;
 
 /// Not the row of a body.
@@ -258,7 +258,7 @@ scree_status scree_grains_by_id(const scree_state *state, uint32_t **rows, scree
 scree_status scree_state_begin_field(scree_state *state, const scree_field *field, scree_error *error) SCREE_MUST_USE;
 
 /// Makes room for what laws that look ahead need, if there is none yet.
-scree_status scree_state_foresee(scree_state *state, scree_error *error) SCREE_MUST_USE;
+scree_status scree_state_predict(scree_state *state, scree_error *error) SCREE_MUST_USE;
 
 /// Adds `more` bodies with a mark behind those that there are, with ids that were never given, all else zero. What
 /// refers to bodies by id stays valid, what refers to rows does not reach the new ones; the neighbour list is made anew
@@ -296,7 +296,7 @@ scree_status scree_state_permute(scree_state *state, const uint32_t *order, scre
 /// bookkeeping of stages, boundaries, samples and quanta. Cost: some 50 ns a body and 20 ns a contact.
 uint64_t scree_state_checksum(const scree_model *model, const scree_state *state);
 
-/// Grows the contact memory to hold `count`, and the booking and rolling rows beside it where there are any.
+/// Grows the contact memory to hold `count`, and the last_force and rolling rows beside it where there are any.
 scree_status scree_state_reserve_contacts(scree_state *state, size_t count, scree_error *error) SCREE_MUST_USE;
 
 /// Frees the contact memory and what lies beside it.
@@ -306,8 +306,8 @@ void scree_state_release_contacts(scree_state *state);
 /// of these laws already.
 void scree_state_set_laws(scree_state *state, const scree_model *model);
 
-/// Puts booking rows, and rolling rows, beside the contact memory; nothing happens where there are some.
-scree_status scree_state_add_booking(scree_state *state, scree_error *error) SCREE_MUST_USE;
+/// Puts last_force rows, and rolling rows, beside the contact memory; nothing happens where there are some.
+scree_status scree_state_add_last_force(scree_state *state, scree_error *error) SCREE_MUST_USE;
 scree_status scree_state_add_rolling(scree_state *state, scree_error *error) SCREE_MUST_USE;
 
 #endif

@@ -2,9 +2,9 @@
 #include "sweep/member.h"
 
 #include "case/case.h"
+#include "io/file_checksum.h"
 #include "io/run_directory.h"
 #include "io/run_file.h"
-#include "io/seal.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -97,7 +97,7 @@ static bool has_whole_part(const char *folder)
     if (scree_parts_list(folder, SCREE_PART_CHECKPOINT, &list, &ignored)) return false;
     for (size_t k = 0; k < list.count && !found; k++)
         found = !scree_part_path(folder, SCREE_PART_CHECKPOINT, list.index[k], path, sizeof path, &ignored) &&
-                !scree_seal_check(path, &ignored);
+                !scree_file_checksum_check(path, &ignored);
     scree_part_list_destroy(&list);
     return found;
 }
@@ -110,7 +110,7 @@ static bool has_gathered(const char *folder)
     scree_error ignored;
     scree_part_list list = {0};
     if (scree_run_file_path(folder, path, sizeof path, &ignored) || access(path, F_OK) != 0) return false;
-    scree_hdf5_open_sealed(&run, path, &ignored);
+    scree_hdf5_open_checked(&run, path, &ignored);
     bool found = !scree_run_file_list(&run, SCREE_PART_CHECKPOINT, true, &list) && list.count > 0;
     scree_part_list_destroy(&list);
     return !scree_hdf5_close(&run) && found;

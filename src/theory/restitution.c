@@ -24,7 +24,7 @@
 static const double STRONGEST_DAMPING = 1000;
 static const double TOLERANCE = 1e-12;
 
-/// state: indentation and its rate; parameter: tau.
+/// state: overlap and its rate; parameter: tau.
 static int impact_rates(double time, const double state[2], double rates[2], void *parameter)
 {
     (void)time;

@@ -50,7 +50,7 @@ scree_status scree_plot_cell_map(const scree_plot_run *run, const scree_snapshot
                          .field_name = map->field == SCREE_CELL_PRESSURE ? "mean pressure p of the cells (Pa)"
                                                                          : "rate of distortion L_II of the cells (1/s)",
                          .cells = &cells.cells,
-                         .cell_place = cells.assembly.place,
+                         .cell_place = cells.assembly.position,
                          .cell_field =
                              map->field == SCREE_CELL_PRESSURE ? cells.cells.pressure : cells.cells.distortion,
                          .cell_threshold = map->threshold,
@@ -69,14 +69,14 @@ static scree_status find_distortion(const scree_cell_snapshot *first, const scre
     uint8_t *inside = NULL;
     double *body = NULL, diameter = 0;
     size_t bodies = first->assembly.count;
-    scree_status status =
-        scree_cells_window_distortion(&first->cells, first->assembly.place, second->assembly.place, distortion, error);
+    scree_status status = scree_cells_window_distortion(&first->cells, first->assembly.position,
+                                                        second->assembly.position, distortion, error);
     if (!status) status = scree_allocate(&body, bodies, sizeof *body, error);
     if (!status) status = scree_allocate(&inside, bodies, 1, error);
     for (size_t i = 0; i < bodies; i++) diameter += 2 * first->assembly.radius[i] / (double)bodies;
     if (!status)
-        status = scree_localisation_measure(&first->cells, first->assembly.place, *distortion, diameter, &found, body,
-                                            inside, error);
+        status = scree_localisation_measure(&first->cells, first->assembly.position, *distortion, diameter, &found,
+                                            body, inside, error);
     if (!status) *band = found.band;
     for (size_t k = 0; k < first->cells.count && !status; k++) (*distortion)[k] *= 100;
     scree_release(&body);
@@ -101,7 +101,7 @@ scree_status scree_plot_distortion(const scree_plot_run *run, const scree_snapsh
         scree_scene scene = {.title = title,
                              .field_name = "distortion of the cells (%)",
                              .cells = &a.cells,
-                             .cell_place = a.assembly.place,
+                             .cell_place = a.assembly.position,
                              .cell_field = distortion,
                              .band = &band,
                              .of_cell = run->of_cell,

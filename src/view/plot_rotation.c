@@ -328,23 +328,23 @@ static scree_status draw_map(const scree_plot_run *run, const scree_series *bodi
         return status;
     }
     size_t marked = now.count;
-    if (forced >= 0) marked = scree_place_of_id(now.id, now.count, (uint32_t)forced);
+    if (forced >= 0) marked = scree_position_of_id(now.id, now.count, (uint32_t)forced);
     if (now.count != bodies->row_count || marked == now.count) {
         status = scree_error_set(error, SCREE_ERROR_INPUT, "%s is not of the last snapshot", FILE_BODIES);
     } else {
-        bool solid = now.dimension == 3;
-        if (solid) status = scree_section_create(&now, &plane, error);
-        scree_scene scene = {.title = solid ? "Rotations around the forced sphere, section"
+        bool in_3d = now.dimension == 3;
+        if (in_3d) status = scree_section_create(&now, &plane, error);
+        scree_scene scene = {.title = in_3d ? "Rotations around the forced sphere, section"
                                             : "Rotations around the forced disc and the force network",
                              .field = field,
                              .field_name = "spin over that of the forced particle (1), same sense positive",
                              .map = SCREE_COLOUR_DIVERGING,
-                             .force_network = !solid,
-                             .section = solid,
+                             .force_network = !in_3d,
+                             .section = in_3d,
                              .marked = &marked,
                              .marked_name = "forced particle"};
-        if (!status) status = scree_scene_draw(path, solid ? &plane : &now, &scene, error);
-        if (solid) scree_snapshot_destroy(&plane);
+        if (!status) status = scree_scene_draw(path, in_3d ? &plane : &now, &scene, error);
+        if (in_3d) scree_snapshot_destroy(&plane);
     }
     scree_snapshot_destroy(&now);
     scree_release(&field);

@@ -233,7 +233,7 @@ static scree_status draw_fluctuations(const scree_plot_run *run, const scree_sna
     char path[PATH_MAX], first[16], second[16], title[160];
     double *arrow = NULL;
     const size_t count = from->count;
-    const bool solid = from->dimension == 3;
+    const bool in_3d = from->dimension == 3;
     percent_text(first, sizeof first, from->axial_strain, false);
     percent_text(second, sizeof second, to->axial_strain, false);
     (void)snprintf(title, sizeof title, "Displacements relative to the affine field, %s %s to %s %%",
@@ -244,11 +244,11 @@ static scree_status draw_fluctuations(const scree_plot_run *run, const scree_sna
         status = find_fluctuations(from, to, arrow, error);
         scree_scene scene = {.title = title,
                              .arrow_x = arrow,
-                             .arrow_y = arrow + (solid ? 2 : 1) * count,
+                             .arrow_y = arrow + (in_3d ? 2 : 1) * count,
                              .of_cell = run->of_cell,
                              .plates = true};
         if (!status)
-            status = solid ? draw_in_space(path, from, VIEW_SECTION, &scene, error)
+            status = in_3d ? draw_in_space(path, from, VIEW_SECTION, &scene, error)
                            : scree_scene_draw(path, from, &scene, error);
     }
     scree_release(&arrow);

@@ -166,7 +166,7 @@ static void measure_forces(scree_scene_view *view)
     const scree_snapshot *s = view->snapshot;
     size_t touching = 0;
     for (size_t k = 0; view->scene->force_network && k < s->contact_count; k++) {
-        if (s->second[k] >= SCREE_ELEMENT_ID || !isfinite(s->normal_force[k]) || !(s->normal_force[k] > 0)) continue;
+        if (s->second[k] >= SCREE_PRIMITIVE_ID || !isfinite(s->normal_force[k]) || !(s->normal_force[k] > 0)) continue;
         touching++;
         view->mean_force += (s->normal_force[k] - view->mean_force) / (double)touching;
     }

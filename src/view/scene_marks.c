@@ -143,7 +143,7 @@ double scree_scene_force_width(const scree_scene_view *view, double ratio)
 static bool contact_end(const scree_snapshot *s, size_t k, double *x, double *y)
 {
     if (s->first[k] >= s->count || !scree_scene_drawn(s, s->first[k])) return false;
-    if (s->second[k] >= SCREE_ELEMENT_ID) {
+    if (s->second[k] >= SCREE_PRIMITIVE_ID) {
         *x = s->contact_x[k];
         *y = s->contact_y[k];
         return isfinite(*x) && isfinite(*y);

@@ -75,19 +75,19 @@ static inline void bench_begin(bench *b, int dimension, size_t count, double ste
 static inline void bench_fill(bench *b, size_t side, bool plates)
 {
     scree_state *state = &b->state;
-    const bool solid = state->dimension == 3;
-    const size_t layer = solid ? side * side : side;
+    const bool in_3d = state->dimension == 3;
+    const size_t layer = in_3d ? side * side : side;
     double low = INFINITY, high = -INFINITY;
     for (size_t i = 0; i < state->count; i++) {
         scree_row *row = &state->row[i];
         size_t level = i / layer;
         double shift = level % 2 ? 0.5 : 0, across = (double)(i / side % side) + shift + 0.2 * uniform(8 * i + 2);
-        double height = (solid ? 0.75 : 1) * (double)level + 0.15 * uniform(8 * i + 3);
+        double height = (in_3d ? 0.75 : 1) * (double)level + 0.15 * uniform(8 * i + 3);
         row->radius = RADIUS * (0.7 + 0.3 * uniform(8 * i));
         row->mass = scree_model_mass(&b->model, 0, row->radius);
         row->x = 2 * RADIUS * ((double)(i % side) + shift + 0.2 * uniform(8 * i + 1));
-        row->y = 2 * RADIUS * (solid ? across : height);
-        if (solid) row->z = 2 * RADIUS * height;
+        row->y = 2 * RADIUS * (in_3d ? across : height);
+        if (in_3d) row->z = 2 * RADIUS * height;
         low = fmin(low, 2 * RADIUS * height - row->radius);
         high = fmax(high, 2 * RADIUS * height + row->radius);
     }
@@ -97,7 +97,7 @@ static inline void bench_fill(bench *b, size_t side, bool plates)
 }
 
 /// Foresees a membrane of bodies of this radius, which has taken the pressure over.
-static inline void bench_foresee_membrane(bench *b, double radius)
+static inline void bench_predict_membrane(bench *b, double radius)
 {
     b->model.membrane = true;
     b->model.membrane_material = 1;

@@ -65,7 +65,7 @@ static inline void fixture_reserve(fixture *f, size_t pairs)
     assert_int_equal(scree_allocate(&list->second, pairs, sizeof *list->second, &error), SCREE_OK);
     assert_int_equal(scree_allocate(&list->history, pairs, sizeof *list->history, &error), SCREE_OK);
     if (f->state.dimension == 3)
-        assert_int_equal(scree_allocate(&list->booking, pairs, sizeof *list->booking, &error), SCREE_OK);
+        assert_int_equal(scree_allocate(&list->last_force, pairs, sizeof *list->last_force, &error), SCREE_OK);
     if (scree_contacts_roll(&f->model))
         assert_int_equal(scree_allocate(&list->rolling, pairs, sizeof *list->rolling, &error), SCREE_OK);
     list->capacity = pairs;
@@ -82,7 +82,7 @@ static inline void fixture_create_in(fixture *f, int dimension, law_choice law, 
     f->model.config = &f->config;
     assert_int_equal(scree_state_create(&f->state, dimension, count, &error), SCREE_OK);
     f->state.tick = f->state.step_size = f->state.kick_size = step;
-    if (scree_model_foresees(&f->model)) assert_int_equal(scree_state_foresee(&f->state, &error), SCREE_OK);
+    if (scree_model_predicts(&f->model)) assert_int_equal(scree_state_predict(&f->state, &error), SCREE_OK);
     f->model.step = step;
     f->work.threads = 1;
     f->work.ledger = true;
@@ -98,17 +98,17 @@ static inline void fixture_create(fixture *f, law_choice law, size_t count, doub
 
 static inline void fixture_destroy(fixture *f)
 {
-    scree_team_destroy(&f->work.team);
+    scree_thread_pool_destroy(&f->work.pool);
     scree_contact_scratch_destroy(&f->work);
     scree_release(&f->work.pairs.first);
     scree_release(&f->work.pairs.second);
     scree_release(&f->work.pairs.history);
-    scree_release(&f->work.pairs.booking);
+    scree_release(&f->work.pairs.last_force);
     scree_release(&f->work.pairs.rolling);
     scree_release(&f->work.wall_pairs.body);
     scree_release(&f->work.wall_pairs.wall);
     scree_release(&f->work.wall_pairs.history);
-    scree_release(&f->work.wall_pairs.booking);
+    scree_release(&f->work.wall_pairs.last_force);
     scree_release(&f->work.wall_pairs.rolling);
     scree_state_destroy(&f->state);
 }
@@ -122,8 +122,8 @@ static inline double fixture_distance(const scree_row *a, const scree_row *b)
 static inline double fixture_gap(const fixture *f, size_t i, size_t j)
 {
     scree_vector a, b;
-    scree_body_place(&f->state, i, a);
-    scree_body_place(&f->state, j, b);
+    scree_body_position(&f->state, i, a);
+    scree_body_position(&f->state, j, b);
     for (int k = 0; k < 3; k++) a[k] -= b[k];
     return scree_length(a) - f->state.row[i].radius - f->state.row[j].radius;
 }
@@ -143,7 +143,7 @@ static inline void fixture_find_pairs(fixture *f, double skin)
                 assert_true(list->count < list->capacity);
                 list->first[list->count] = (uint32_t)(f->state.id[i] < f->state.id[j] ? i : j);
                 list->second[list->count] = (uint32_t)(f->state.id[i] < f->state.id[j] ? j : i);
-                if (list->booking) list->booking[list->count] = (scree_booking){{0}};
+                if (list->last_force) list->last_force[list->count] = (scree_last_force){{0}};
                 if (list->rolling) list->rolling[list->count] = (scree_rolling){{0}, {0}};
                 list->history[list->count++] = (scree_history){{0}};
             }
@@ -162,7 +162,7 @@ static inline void fixture_find_walls(fixture *f)
     assert_int_equal(scree_allocate(&list->wall, most, sizeof *list->wall, &error), SCREE_OK);
     assert_int_equal(scree_allocate(&list->history, most, sizeof *list->history, &error), SCREE_OK);
     if (f->state.dimension == 3)
-        assert_int_equal(scree_allocate(&list->booking, most, sizeof *list->booking, &error), SCREE_OK);
+        assert_int_equal(scree_allocate(&list->last_force, most, sizeof *list->last_force, &error), SCREE_OK);
     if (scree_contacts_roll(&f->model))
         assert_int_equal(scree_allocate(&list->rolling, most, sizeof *list->rolling, &error), SCREE_OK);
     list->capacity = most;
@@ -207,12 +207,12 @@ static inline void fixture_step(fixture *f)
         scree_row *row = &f->state.row[k];
         double force[3];
         fixture_force(f, k, force);
-        if (f->state.foreseen)
-            f->state.foreseen[k] =
-                (scree_foreseen){.vx = dt * (force[0] / row->mass + f->model.gravity[0]),
-                                 .vy = dt * (force[1] / row->mass + f->model.gravity[1]),
-                                 .spin = dt * force[2] / (0.5 * row->mass * row->radius * row->radius),
-                                 .contacts = (double)f->state.sum[k].contacts};
+        if (f->state.predicted)
+            f->state.predicted[k] =
+                (scree_predicted){.vx = dt * (force[0] / row->mass + f->model.gravity[0]),
+                                  .vy = dt * (force[1] / row->mass + f->model.gravity[1]),
+                                  .spin = dt * force[2] / (0.5 * row->mass * row->radius * row->radius),
+                                  .contacts = (double)f->state.sum[k].contacts};
         row->vx += dt * (force[0] / row->mass + f->model.gravity[0]);
         row->vy += dt * (force[1] / row->mass + f->model.gravity[1]);
         row->spin += dt * force[2] / (0.5 * row->mass * row->radius * row->radius);

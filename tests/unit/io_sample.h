@@ -106,7 +106,7 @@ static inline scree_status sample_table(const scree_state *state, scree_contact_
                                             .tangent = {-0.8, 0.6},
                                             .point = {1e-3 * (double)k, 2e-3},
                                             .branch = {1.2e-3, 1.6e-3},
-                                            .indentation = 1e-7 * (double)(k + 1),
+                                            .overlap = 1e-7 * (double)(k + 1),
                                             .normal_force = 3.0 + (double)k,
                                             .tangential_force = -1.0 - (double)k,
                                             .slip = 1e-3 * (double)k,

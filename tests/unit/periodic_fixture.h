@@ -48,7 +48,7 @@ static inline void periodic_create(periodic_sample *s, int dimension, size_t cou
     s->model.pairs[0][0] = s->model.walls[0] = hertz_pair(4e9, 5e9, 0.5, 0.3);
     law_choose(&s->model, law);
     check(scree_state_create(&s->state, dimension, count, &error), &error);
-    if (scree_model_foresees(&s->model)) check(scree_state_foresee(&s->state, &error), &error);
+    if (scree_model_predicts(&s->model)) check(scree_state_predict(&s->state, &error), &error);
     s->model.largest_step = s->model.large_multiple = 1;
     s->state.tick = s->state.step_size = s->state.kick_size = s->model.step;
     const double none[3] = {1, 1, 1};
@@ -69,19 +69,19 @@ static inline void periodic_place(periodic_sample *s, size_t row, const double p
                                   double radius)
 {
     scree_row *body = &s->state.row[row];
-    bool solid = s->state.dimension == 3;
-    double volume = solid ? 4 * M_PI / 3 * radius : M_PI * s->model.thickness;
+    bool in_3d = s->state.dimension == 3;
+    double volume = in_3d ? 4 * M_PI / 3 * radius : M_PI * s->model.thickness;
     *body = (scree_row){.x = place[0],
                         .y = place[1],
                         .radius = radius,
                         .vx = velocity[0],
                         .vy = velocity[1],
                         .mass = s->model.density[0] * volume * radius * radius};
-    if (solid) {
+    if (in_3d) {
         body->z = place[2];
         body->vz = velocity[2];
     }
-    scree_body_place(&s->state, row, s->state.reference[row]);
+    scree_body_position(&s->state, row, s->state.reference[row]);
 }
 
 /// Forces at the present positions.

@@ -12,7 +12,7 @@
 #include "run/sample.h"
 #include "run/simulation.h"
 #include "search/neighbours.h"
-#include "shape/container.h"
+#include "shape/wall_set.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -115,7 +115,7 @@ static inline void simulation_lose_work(scree_simulation *s, int threads)
     scree_contact_scratch_destroy(&s->work);
     scree_work_destroy(&s->work);
     check(scree_work_create(&s->work, &s->model, threads, &error), &error);
-    check(scree_container_create(&s->c->config, &s->work.container, &error), &error);
+    check(scree_wall_set_create(&s->c->config, &s->work.wall_set, &error), &error);
 }
 
 /// Opens in `other` what goes on from a checkpoint of `s`, which goes on itself; the file lies in `folder`.

@@ -1,4 +1,4 @@
-/// Background damping against closed forms: free fall, a ball that bounces, books of energy.
+/// Background damping against closed forms: free fall, a ball that bounces, accumulates of energy.
 #include "run_fixture.h"
 
 #define BALL                                                                                                           \
@@ -42,7 +42,7 @@ static void free_fall_is_slowed(void **unused)
 /// Between two turning points of a motion to and fro the force is weakened by 1 - a on the way to equilibrium, and
 /// strengthened by 1 + a on the way from it, so that whatever the potential U(high) (1 - a) = U(low) (1 + a) over that
 /// of equilibrium. After a bounce of an elastic ball: height over height = ((1 - a) / (1 + a))^2, but for the weight's
-/// own indentation.
+/// own overlap.
 static void a_ball_bounces_lower(void **unused)
 {
     (void)unused;
@@ -60,7 +60,7 @@ static void a_ball_bounces_lower(void **unused)
         up = up || (down && ball(&s)->y > 2e-3);
         if (up) highest = fmax(highest, ball(&s)->y);
     }
-    // 10 mm above the floor at first; the indentation under its weight is 4e-4 of that.
+    // 10 mm above the floor at first; the overlap under its weight is 4e-4 of that.
     print_message("share %g: height after the bounce %.5f of that before, %.5f expected\n", share,
                   (highest - 1e-3) / 10e-3, wanted);
     assert_true(up && fabs((highest - 1e-3) / 10e-3 - wanted) < 1e-4);

@@ -85,7 +85,7 @@ static void spheres_are_what_the_case_says(void **unused)
     scree_simulation s;
     prepare(spheres, NULL, 0, &c, &s);
     scree_vector place, velocity, spin;
-    scree_body_place(&s.state, 0, place);
+    scree_body_position(&s.state, 0, place);
     scree_body_motion(&s.state, 0, velocity, spin);
     assert_true(place[0] == 1e-3 && place[1] == 2e-3 && place[2] == 3e-3);
     assert_true(velocity[0] == 4 && velocity[1] == 5 && velocity[2] == 6);
@@ -123,24 +123,24 @@ static void sides_that_are_left_out_follow_the_bodies(void **unused)
 /// The state that method pair prepares, as a list of bodies.
 static void write_bodies(const scree_state *state, char *text, size_t size)
 {
-    bool solid = state->dimension == 3;
+    bool in_3d = state->dimension == 3;
     int length = snprintf(text, size, PAIR_CASE "stages:\n  - stage: prepare\n    method: bodies\n    width: %.17g\n",
                           -scree_plates(state)[SCREE_WALL_RIGHT].position);
     length += snprintf(text + length, size - (size_t)length, "    height: %.17g\n",
                        -scree_plates(state)[SCREE_WALL_TOP].position);
-    if (solid)
+    if (in_3d)
         length += snprintf(text + length, size - (size_t)length, "    depth: %.17g\n",
                            -scree_plates(state)[SCREE_WALL_BACK].position);
     length += snprintf(text + length, size - (size_t)length, "    bodies:\n");
     for (size_t i = 0; i < 2; i++) {
         scree_vector place, velocity, spin;
-        scree_body_place(state, i, place);
+        scree_body_position(state, i, place);
         scree_body_motion(state, i, velocity, spin);
         char third[40] = "";
-        if (solid) (void)snprintf(third, sizeof third, ", %.17g", place[2]);
+        if (in_3d) (void)snprintf(third, sizeof third, ", %.17g", place[2]);
         length += snprintf(text + length, size - (size_t)length,
                            "      - {position: [%.17g, %.17g%s], velocity: [%.17g, 0%s], radius: %.17g}\n", place[0],
-                           place[1], third, velocity[0], solid ? ", 0" : "", state->row[i].radius);
+                           place[1], third, velocity[0], in_3d ? ", 0" : "", state->row[i].radius);
     }
     (void)snprintf(text + length, size - (size_t)length, "  - {stage: collide, duration: 100 ms}\n");
 }
@@ -150,14 +150,14 @@ static void a_pair_of_bodies_is_a_pair(void **unused)
     (void)unused;
     static const char pair[] = PAIR_CASE "stages:\n  - {stage: prepare, method: pair}\n"
                                          "  - {stage: collide, duration: 100 ms}\n";
-    static const char *const solid[] = {"dimension=3", "particles.shape=sphere"};
+    static const char *const in_3d[] = {"dimension=3", "particles.shape=sphere"};
     for (size_t overrides = 0; overrides <= 2; overrides += 2) {
         char text[2048];
         scree_case *c[2];
         scree_simulation s[2];
-        prepare(pair, solid, overrides, &c[0], &s[0]);
+        prepare(pair, in_3d, overrides, &c[0], &s[0]);
         write_bodies(&s[0].state, text, sizeof text);
-        prepare(text, solid, overrides, &c[1], &s[1]);
+        prepare(text, in_3d, overrides, &c[1], &s[1]);
         assert_true(scree_state_checksum(&s[0].model, &s[0].state) == scree_state_checksum(&s[1].model, &s[1].state));
         for (int k = 0; k < 2; k++) (void)simulation_finish(&s[k]);
         assert_true(s[0].state.row[s[0].state.row_of_id[0]].vx < 0); // they have met
@@ -306,7 +306,7 @@ static void what_cannot_be_is_refused(void **unused)
         {"stages.0.aspect_ratio=2", "stages.0.aspect_ratio", "not used with method: bodies", "stages.0.width=auto"},
         {"stages.0.gap=1 mm", "stages.0.gap", "not used with method: bodies", NULL},
     };
-    static const refusal solid[] = {
+    static const refusal in_3d[] = {
         {"stages.0.bodies.1.position=[5 mm, 5 mm]", "stages.0.bodies.1.position", "a position has 3", NULL},
         {"stages.0.bodies.0.velocity=[1 m/s, 0]", "stages.0.bodies.0.velocity", "a velocity has 3", NULL},
         {"stages.0.bodies.1.position=[12.5 mm, 2 mm, 3 mm]", "stages.0.bodies.1.position", "the width of the box",
@@ -316,7 +316,7 @@ static void what_cannot_be_is_refused(void **unused)
         {"stages.0.bodies.1.radius=2 mm", "stages.0.bodies.1.radius", "is not the radius of the particles", NULL},
     };
     for (size_t k = 0; k < sizeof flat / sizeof *flat; k++) check_refusal(discs, &flat[k]);
-    for (size_t k = 0; k < sizeof solid / sizeof *solid; k++) check_refusal(spheres, &solid[k]);
+    for (size_t k = 0; k < sizeof in_3d / sizeof *in_3d; k++) check_refusal(spheres, &in_3d[k]);
 }
 
 /// A problem says line and column of what is wrong.

@@ -8,7 +8,7 @@
 #include "base/fixed.h"
 #include "base/random.h"
 #include "boundary/boundary.h"
-#include "boundary/drive.h"
+#include "boundary/imposed_gradient.h"
 #include "boundary/minimal.h"
 #include "measure/facets.h"
 
@@ -58,7 +58,7 @@ static void make_hull(scree_state *state)
     scree_hull *hull = scree_hull_of(state);
     size_t nodes = RINGS * RING + 2, triangles = 2 * RINGS * RING;
     assert_int_equal(scree_allocate(&hull->id, nodes, sizeof *hull->id, NULL), SCREE_OK);
-    assert_int_equal(scree_allocate(&hull->place, nodes, sizeof *hull->place, NULL), SCREE_OK);
+    assert_int_equal(scree_allocate(&hull->position, nodes, sizeof *hull->position, NULL), SCREE_OK);
     assert_int_equal(scree_allocate(&hull->force, nodes, sizeof *hull->force, NULL), SCREE_OK);
     assert_int_equal(scree_allocate(&hull->triangle, triangles, sizeof *hull->triangle, NULL), SCREE_OK);
     assert_int_equal(scree_allocate(&hull->loaded, triangles, 1, NULL), SCREE_OK);
@@ -136,7 +136,7 @@ static double measure_rate(bench *b, double rate[9])
 {
     scree_vector area[SIDES + RINGS * RING];
     scree_boundary_areas(&b->model, &b->state, area);
-    return scree_drive_measure(&b->state, area, rate);
+    return scree_imposed_measure(&b->state, area, rate);
 }
 
 static void area_vectors_integrate_the_normal(void **unused)
@@ -147,10 +147,10 @@ static void area_vectors_integrate_the_normal(void **unused)
         bench_create(&b, dimension);
         scree_vector area[SIDES + RINGS * RING], place;
         scree_boundary_areas(&b.model, &b.state, area);
-        double rate[9], volume = scree_drive_measure(&b.state, area, rate);
+        double rate[9], volume = scree_imposed_measure(&b.state, area, rate);
         double sum[3] = {0}, moment[9] = {0}, largest = 0;
         for (size_t k = 0; k < scree_boundary_count(&b.state); k++) {
-            scree_body_place(&b.state, scree_boundary_row(&b.state, k), place);
+            scree_body_position(&b.state, scree_boundary_row(&b.state, k), place);
             largest = fmax(largest, scree_length(area[k]));
             for (int i = 0; i < 3; i++) sum[i] += area[k][i];
             for (int i = 0; i < 9; i++) moment[i] += place[i / 3] * area[k][i % 3];
@@ -174,8 +174,8 @@ static void the_power_of_a_stress_is_volume_stress_rate(void **unused)
         bench b;
         bench_create(&b, dimension);
         b.state.force_quantum = FINE;
-        assert_int_equal(scree_drive_refresh(&b.model, &b.state, NULL), SCREE_OK);
-        scree_drive_apply_stress(&b.model, &b.state, stress);
+        assert_int_equal(scree_imposed_make_room(&b.model, &b.state, NULL), SCREE_OK);
+        scree_imposed_apply_stress(&b.model, &b.state, stress);
         double rate[9], power = 0, expected = 0, scale = 0, volume;
         int64_t total[3] = {0};
         scree_vector velocity, spin;
@@ -218,7 +218,7 @@ static void minimal_conditions_meet_their_rates(void **unused)
         for (int i = 0; i < 9; i++) scree_imposed(state)->prescribed[i] = prescribed[k % 4][i];
         memcpy(scree_imposed(state)->target, target, sizeof target);
         scree_imposed(state)->viscosity = INFINITY;
-        // Other forces, which the solution has to foresee.
+        // Other forces, which the solution has to predict.
         for (size_t r = 0; r < state->count; r++) state->sum[r].fx = (int64_t)(1e15 * uniform(500 + r));
         assert_int_equal(boundary_pass(minimal, SCREE_PHASE_SEARCH, &b.model, state, &b.work, NULL), SCREE_OK);
         boundary_load(minimal, &b.model, state, &b.work);
@@ -287,7 +287,8 @@ static void a_strain_rate_has_no_moment(void **unused)
     }
 }
 
-/// With any viscosity an error decays without overshoot, and the books hold: free bodies gain what the ledger says.
+/// With any viscosity an error decays without overshoot, and the accumulates hold: free bodies gain what the ledger
+/// says.
 static void penalty_is_stable_and_booked(void **unused)
 {
     (void)unused;

@@ -2,7 +2,7 @@
 #include "measure/imposed_gradient.h"
 #include "run_fixture.h"
 
-#include "boundary/drive.h"
+#include "boundary/imposed_gradient.h"
 #include "boundary_cases.h"
 #include "run/step.h"
 
@@ -21,8 +21,8 @@ static scree_status apply_traction(const scree_context *c, scree_error *error)
     double stress[9];
     for (int i = 0; i < 9; i++) stress[i] = applied[i] * scree_smooth_ramp(fraction);
     memset(scree_imposed(state)->force, 0, scree_imposed(state)->count * sizeof *scree_imposed(state)->force);
-    scree_drive_apply_stress(c->model, state, stress);
-    scree_drive_work(state);
+    scree_imposed_apply_stress(c->model, state, stress);
+    scree_imposed_add_work(state);
     return SCREE_OK;
 }
 

@@ -1,21 +1,21 @@
 /// The order of stiffness, uniform displacement >= periodic >= minimal >= uniform traction, on one sample.
 ///
-/// What makes it one sample. The grains of a periodic cell and the images that they touch, with every contact once, are
-/// a body with a boundary: images and the grains that they are images of. All conditions are put on this body; they
+/// What makes it one sample. The grains of a periodic cell and the ghosts that they touch, with every contact once, are
+/// a body with a boundary: ghosts and the grains that they are ghosts of. All conditions are put on this body; they
 /// are linear in its displacements u and rotations w, and each allows what the one before allows:
-///     uniform displacement   u = G x, w = 0 for all of the boundary, pairs of grain and image above all
+///     uniform displacement   u = G x, w = 0 for all of the boundary, pairs of grain and ghost above all
 ///     periodic               u_image - u_grain = G H s, w_image = w_grain, for every pair on its own
 ///     minimal                the same for the mean of the pairs (least squares), and the symmetric part of G alone
-///     uniform traction       forces S H s on images and the opposite on grains, S a symmetric stress
+///     uniform traction       forces S H s on ghosts and the opposite on grains, S a symmetric stress
 /// The least of the elastic energy over a larger set is no larger (Huet 1990), so 2 E / V = G : C : G is ordered for
 /// any packing and any G, to round-off, and no tolerance hides anything. The dual of the minimal conditions on all
-/// components is the uniform traction, so these two are equal. For the comparison no grain turns: an image on a single
+/// components is the uniform traction, so these two are equal. For the comparison no grain turns: a ghost on a single
 /// contact could roll about it, and satisfy a mean for nothing. The energy is that of the contacts of the sample,
 /// linearised as model/critical_step.h says. Two runs that compare boundaries on different cuts of a packing
 /// (test_boundary_order.c) order them only within the scatter of cuts.
 ///
 /// What ties it to the code. The same small strains as a deform stage of the periodic cell must give the stress that
-/// the periodic conditions give: image shifts, velocity jumps, virial and servo all enter.
+/// the periodic conditions give: ghost shifts, velocity jumps, virial and servo all enter.
 #include "run_fixture.h"
 
 #include "model/critical_step.h"
@@ -25,7 +25,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char plane_text[] =
+static const char text_2d[] =
     "scree: 1\n"
     "name: plane\n"
     "dimension: 2\n"
@@ -39,7 +39,7 @@ static const char plane_text[] =
     "  - {stage: confine, pressure: 100 kPa, unbalanced_limit: 1e-5, friction: 0.02}\n"
     "  - {stage: deform, velocity_gradient: {yy: -1e-4 1/s}, strain: 0.001 %, rise_time: 10 ms}\n";
 
-static const char solid_text[] =
+static const char text_3d[] =
     "scree: 1\n"
     "name: solid\n"
     "dimension: 3\n"
@@ -55,17 +55,17 @@ static const char solid_text[] =
 
 // ---- the network ---------------------------------------------------------------------------------------------------
 
-/// An image that a contact needs.
-typedef struct image {
+/// A ghost that a contact needs.
+typedef struct ghost {
     size_t parent;
     double away[3]; ///< m, H s
-} image;
+} ghost;
 
 typedef struct network {
     int dimension, turns; ///< rotations: 1 or 3
-    size_t grains, nodes; ///< images behind the grains
-    size_t image_count;
-    image *image;
+    size_t grains, nodes; ///< ghosts behind the grains
+    size_t ghost_count;
+    ghost *ghost;
     double *place;     ///< nodes x 3
     double *stiffness; ///< size x size, size = nodes (dimension + turns)
     size_t size;
@@ -80,23 +80,23 @@ static size_t freedom(const network *n, size_t node, int k)
 static bool is_boundary(const network *n, size_t node)
 {
     if (node >= n->grains) return true;
-    for (size_t k = 0; k < n->image_count; k++)
-        if (n->image[k].parent == node) return true;
+    for (size_t k = 0; k < n->ghost_count; k++)
+        if (n->ghost[k].parent == node) return true;
     return false;
 }
 
-/// Node of the image of `parent` at `away`, a new one if there is none.
-static size_t image_node(network *n, size_t parent, const double away[3])
+/// Node of the ghost of `parent` at `away`, a new one if there is none.
+static size_t ghost_node(network *n, size_t parent, const double away[3])
 {
-    for (size_t k = 0; k < n->image_count; k++) {
-        const image *known = &n->image[k];
+    for (size_t k = 0; k < n->ghost_count; k++) {
+        const ghost *known = &n->ghost[k];
         double apart = 0;
         for (int i = 0; i < 3; i++) apart += fabs(known->away[i] - away[i]);
         if (known->parent == parent && apart < 1e-6) return n->grains + k;
     }
-    n->image[n->image_count].parent = parent;
-    memcpy(n->image[n->image_count].away, away, sizeof n->image->away);
-    return n->grains + n->image_count++;
+    n->ghost[n->ghost_count].parent = parent;
+    memcpy(n->ghost[n->ghost_count].away, away, sizeof n->ghost->away);
+    return n->grains + n->ghost_count++;
 }
 
 static void cross(const double a[3], const double b[3], double c[3])
@@ -146,8 +146,7 @@ static void tangents(int dimension, const double normal[3], double t[2][3])
 static void add_contact(network *n, const scree_simulation *s, const scree_contact *c, size_t one, size_t other)
 {
     const scree_row *row = s->state.row;
-    const double radius[2] = {row[c->first].radius - 0.5 * c->indentation,
-                              row[c->second].radius - 0.5 * c->indentation};
+    const double radius[2] = {row[c->first].radius - 0.5 * c->overlap, row[c->second].radius - 0.5 * c->overlap};
     double a = row[c->first].radius, b = row[c->second].radius, m = row[c->first].mass;
     scree_contact_tangent k =
         scree_contact_linearise(&s->stage_model, &s->model.pairs[0][0], a * b / (a + b), m / 2, c->normal_force);
@@ -167,11 +166,11 @@ static void *room(size_t count, size_t size)
 }
 
 /// Places of the grains of the cell, each moved by lattice vectors to where contacts lead from one grain to the next:
-/// the body holds together without its images.
+/// the body holds together without its ghosts.
 static void make_connected(const scree_simulation *s, const scree_contact_table *table, double (*whole)[3])
 {
     bool *reached = room(s->state.count, sizeof *reached), more = true;
-    for (size_t k = 0; k < s->state.count; k++) scree_body_place(&s->state, k, whole[k]);
+    for (size_t k = 0; k < s->state.count; k++) scree_body_position(&s->state, k, whole[k]);
     if (table->count > 0) reached[table->contact[0].first] = true;
     while (more) {
         more = false;
@@ -192,7 +191,7 @@ static void build(network *n, const scree_simulation *s)
     scree_error error;
     check(scree_contact_table_build(&s->stage_model, &s->state, &s->work, &table, &error), &error);
     *n = (network){.dimension = s->state.dimension, .turns = s->state.dimension == 3 ? 3 : 1, .grains = s->state.count};
-    n->image = room(table.count, sizeof *n->image);
+    n->ghost = room(table.count, sizeof *n->ghost);
     n->volume = scree_periodic_extent(&s->state) * (n->dimension == 2 ? s->model.thickness : 1);
     size_t *second = room(table.count, sizeof *second);
     double(*whole)[3] = room(n->grains, sizeof *whole);
@@ -201,14 +200,14 @@ static void build(network *n, const scree_simulation *s)
         const scree_contact *c = &table.contact[k];
         double away[3], size = 0;
         for (int i = 0; i < 3; i++) size += fabs(away[i] = whole[c->first][i] - c->branch[i] - whole[c->second][i]);
-        second[k] = size < 1e-6 ? c->second : image_node(n, c->second, away);
+        second[k] = size < 1e-6 ? c->second : ghost_node(n, c->second, away);
     }
-    n->nodes = n->grains + n->image_count;
+    n->nodes = n->grains + n->ghost_count;
     n->size = freedom(n, n->nodes, 0);
     n->stiffness = room(n->size * n->size, sizeof(double));
     n->place = room(3 * n->nodes, sizeof(double));
     for (size_t k = 0; k < n->nodes; k++) {
-        const image *of = k < n->grains ? NULL : &n->image[k - n->grains];
+        const ghost *of = k < n->grains ? NULL : &n->ghost[k - n->grains];
         for (size_t i = 0; i < 3; i++) n->place[3 * k + i] = whole[of ? of->parent : k][i] + (of ? of->away[i] : 0);
     }
     for (size_t k = 0; k < table.count; k++) add_contact(n, s, &table.contact[k], table.contact[k].first, second[k]);
@@ -222,7 +221,7 @@ static void build(network *n, const scree_simulation *s)
 
 static void release(network *n)
 {
-    free(n->image);
+    free(n->ghost);
     free(n->stiffness);
     free(n->place);
 }
@@ -268,7 +267,7 @@ typedef enum condition { DISPLACEMENT, PERIODIC, TIED } condition;
 static void tie(const network *n, condition kind, bool turning, const double gradient[9], size_t *leader, double *ahead)
 {
     for (size_t node = 0; node < n->nodes; node++) {
-        const image *of = node < n->grains ? NULL : &n->image[node - n->grains];
+        const ghost *of = node < n->grains ? NULL : &n->ghost[node - n->grains];
         for (int k = 0; k < n->dimension + n->turns; k++) {
             size_t f = freedom(n, node, k);
             bool turn = k >= n->dimension;
@@ -336,8 +335,8 @@ static void mean_rows(const network *n, const size_t *number, size_t count, doub
 {
     double moment[9] = {0}, inverse[9];
     int pair[6][2], total = components(n, pair);
-    for (size_t k = 0; k < n->image_count; k++)
-        for (int i = 0; i < 9; i++) moment[i] += n->image[k].away[i / 3] * n->image[k].away[i % 3];
+    for (size_t k = 0; k < n->ghost_count; k++)
+        for (int i = 0; i < 9; i++) moment[i] += n->ghost[k].away[i / 3] * n->ghost[k].away[i % 3];
     if (n->dimension == 2) moment[8] = 1;
     for (int k = 0; k < 3; k++) {
         double copy[9], unit[3] = {k == 0, k == 1, k == 2};
@@ -345,13 +344,13 @@ static void mean_rows(const network *n, const size_t *number, size_t count, doub
         solve(3, copy, unit);
         for (int i = 0; i < 3; i++) inverse[3 * i + k] = unit[i];
     }
-    for (size_t k = 0; k < n->image_count; k++)
+    for (size_t k = 0; k < n->ghost_count; k++)
         for (int c = 0; c < total; c++)
             for (int order = 0; order < 2; order++) {
                 int i = pair[c][order], j = pair[c][1 - order];
-                double weight = 0.5 * apply(inverse, n->image[k].away, j);
+                double weight = 0.5 * apply(inverse, n->ghost[k].away, j);
                 rows[(size_t)c * count + number[freedom(n, n->grains + k, i)]] += weight;
-                rows[(size_t)c * count + number[freedom(n, n->image[k].parent, i)]] -= weight;
+                rows[(size_t)c * count + number[freedom(n, n->ghost[k].parent, i)]] -= weight;
             }
 }
 
@@ -429,7 +428,7 @@ static void compare_with_stage(scree_simulation *s, double expected)
     scree_periodic_stress(&s->stage_model, &s->state, after);
     double found = (after[axial] - before[axial]) / (scree_cell(&s->state)->strain[axial] - strained);
     print_message("%dD: as a stage %.5g, as a network %.5g Pa\n", s->state.dimension, found, expected);
-    // The network leaves out that contacts turn the forces that they have: f / (k R) = 5 % at indentations of 8 % of R.
+    // The network leaves out that contacts turn the forces that they have: f / (k R) = 5 % at overlaps of 8 % of R.
     assert_true(fabs(found / expected - 1) < 0.06);
 }
 
@@ -458,13 +457,13 @@ static void the_order_holds(const char *text, bool as_stage)
 static void discs_are_ordered(void **unused)
 {
     (void)unused;
-    the_order_holds(plane_text, true);
+    the_order_holds(text_2d, true);
 }
 
 static void spheres_are_ordered(void **unused)
 {
     (void)unused;
-    the_order_holds(solid_text, false);
+    the_order_holds(text_3d, false);
 }
 
 int main(void)

@@ -22,11 +22,11 @@ static void make_assembly(scree_assembly *a, int dimension, size_t side, double 
 {
     *a = (scree_assembly){.dimension = dimension, .thickness = 1};
     a->count = 2 * side * side * (dimension == 3 ? side : 1);
-    assert_int_equal(scree_allocate(&a->place, 3 * a->count, sizeof(double), NULL), SCREE_OK);
+    assert_int_equal(scree_allocate(&a->position, 3 * a->count, sizeof(double), NULL), SCREE_OK);
     assert_int_equal(scree_allocate(&a->radius, a->count, sizeof(double), NULL), SCREE_OK);
     for (size_t id = 0; id < a->count; id++) {
         const size_t at[3] = {id % side, dimension == 3 ? id / side % side : id / side, id / side / side};
-        double *x = &a->place[3 * id];
+        double *x = &a->position[3 * id];
         for (int i = 0; i < dimension; i++)
             x[i] = D * ((double)at[i] + 0.3 * scree_random_uniform(5, SCREE_RANDOM_TEST, 3 * id + (size_t)i));
         double u = x[dimension - 1] / (D * (double)side) - 1;
@@ -50,7 +50,7 @@ static void coordinates(const scree_cell_snapshot *s, size_t k, size_t side, dou
 {
     scree_vector at;
     int axis = s->cells.dimension - 1;
-    scree_cell_centre(&s->cells, k, s->assembly.place, at);
+    scree_cell_centre(&s->cells, k, s->assembly.position, at);
     *h = at[axis] / (D * (double)side) - 1;
     *u = 0;
     for (int i = 0; i < axis; i++) *u = fmax(*u, fabs(2 * at[i] / (D * (double)side * (1 + bulge * (1 - *h * *h)))));
@@ -73,12 +73,12 @@ static void regions_lie_where_they_should(void **unused)
                 s.cells.pressure[k] = h * h;
                 s.cells.distortion[k] = u * u;
             }
-            scree_cells_region_means(&s.cells, s.assembly.place, s.cells.pressure, mean);
+            scree_cells_region_means(&s.cells, s.assembly.position, s.cells.pressure, mean);
             // int h^2 over 3/4 < h < 1, over 1/4 of it; and over h < 1/2, over 1/2 of it
             assert_true(fabs(mean[SCREE_REGION_PLATES] - 37.0 / 48) < tolerance);
             assert_true(fabs(mean[SCREE_REGION_CORE] - 1.0 / 12) < tolerance);
             assert_true(mean[SCREE_REGION_SIDES] < 0.75 * 0.75 / 3 + tolerance);
-            scree_cells_region_means(&s.cells, s.assembly.place, s.cells.distortion, mean);
+            scree_cells_region_means(&s.cells, s.assembly.position, s.cells.distortion, mean);
             // the same for u, which in space is spread as 2 u du
             assert_true(fabs(mean[SCREE_REGION_SIDES] - (dimension == 2 ? 37.0 / 48 : 25.0 / 32)) < tolerance);
             assert_true(fabs(mean[SCREE_REGION_CORE] - (dimension == 2 ? 1.0 / 12 : 1.0 / 8)) < tolerance);
@@ -182,7 +182,7 @@ static void cells_are_compared_with_the_sample(void **unused)
         second.time = 2;
         for (size_t k = 0; k < first.cells.count; k++)
             for (int i = 0; i < 3; i++) first.cells.stress[k][4 * i] = i < dimension ? -(double)(i + 1) : 0;
-        for (size_t i = 0; i < 3 * first.assembly.count; i++) second.assembly.place[i] *= 1 - rate[i % 3];
+        for (size_t i = 0; i < 3 * first.assembly.count; i++) second.assembly.position[i] *= 1 - rate[i % 3];
         int axial = dimension - 1;
         for (int k = 0; k < ROWS; k++) {
             // Logarithmic strains, compression positive; row 0 belongs to a stage that ended at the same time.

@@ -104,8 +104,8 @@ static void test_cells_come_back(void **unused)
         assert_true(fabs(sum + 3 * SPACING) < 1e-12);
         for (size_t i = 0; i < 3 * state.count; i++) {
             scree_vector place;
-            scree_body_place(&state, state.row_of_id[i / 3], place);
-            assert_true(!(fabs(read.assembly.place[i] - place[i % 3]) > 0));
+            scree_body_position(&state, state.row_of_id[i / 3], place);
+            assert_true(!(fabs(read.assembly.position[i] - place[i % 3]) > 0));
         }
         scree_cell_snapshot_destroy(&read);
         scree_cells_destroy(&cells);

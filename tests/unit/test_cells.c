@@ -35,17 +35,17 @@ static void place_bodies(sample *s, int dimension, size_t side)
 {
     size_t count = dimension == 3 ? side * side * side : side * side;
     s->assembly = (scree_assembly){.dimension = dimension, .thickness = dimension == 3 ? 1 : 1.5e-3, .count = count};
-    assert_int_equal(scree_allocate(&s->assembly.place, 3 * count, sizeof(double), NULL), SCREE_OK);
+    assert_int_equal(scree_allocate(&s->assembly.position, 3 * count, sizeof(double), NULL), SCREE_OK);
     assert_int_equal(scree_allocate(&s->assembly.radius, count, sizeof(double), NULL), SCREE_OK);
     assert_int_equal(scree_state_create(&s->state, dimension, count, NULL), SCREE_OK);
     for (size_t i = 0; i < count; i++) {
         const size_t at[3] = {i % side, i / side % side, i / side / side};
         for (int d = 0; d < dimension; d++)
-            s->assembly.place[3 * i + (size_t)d] = 1.4e-3 * ((double)at[d] + 0.7 * noise(4 * i + (size_t)d));
+            s->assembly.position[3 * i + (size_t)d] = 1.4e-3 * ((double)at[d] + 0.7 * noise(4 * i + (size_t)d));
         // Some bodies reach beyond their neighbours, so that not all contacts are edges.
         s->assembly.radius[i] = (i % 7 == 3 ? 1.6e-3 : 0.75e-3) + 0.5e-3 * noise(4 * i + 3);
-        s->state.row[i] = (scree_row){.x = s->assembly.place[3 * i], .y = s->assembly.place[3 * i + 1]};
-        if (dimension == 3) s->state.row[i].z = s->assembly.place[3 * i + 2];
+        s->state.row[i] = (scree_row){.x = s->assembly.position[3 * i], .y = s->assembly.position[3 * i + 1]};
+        if (dimension == 3) s->state.row[i].z = s->assembly.position[3 * i + 2];
         s->state.row[i].radius = s->assembly.radius[i];
     }
 }
@@ -58,7 +58,8 @@ static void touch(sample *s)
     for (size_t i = 0; i < count; i++)
         for (size_t j = i + 1; j < count && s->table.count < capacity; j++) {
             scree_contact c = {.first = (uint32_t)i, .second = (uint32_t)j};
-            for (size_t d = 0; d < 3; d++) c.branch[d] = s->assembly.place[3 * i + d] - s->assembly.place[3 * j + d];
+            for (size_t d = 0; d < 3; d++)
+                c.branch[d] = s->assembly.position[3 * i + d] - s->assembly.position[3 * j + d];
             double length = scree_length(c.branch);
             if (length > s->assembly.radius[i] + s->assembly.radius[j]) continue;
             for (int d = 0; d < 3; d++) c.normal[d] = c.branch[d] / length;
@@ -119,9 +120,9 @@ static void test_affine_field(void **unused)
             for (int a = 0; a < dimension; a++) {
                 v[3 * i + (size_t)a] = 0.01;
                 for (int b = 0; b < dimension; b++)
-                    v[3 * i + (size_t)a] += affine[3 * a + b] * s.assembly.place[3 * i + (size_t)b];
+                    v[3 * i + (size_t)a] += affine[3 * a + b] * s.assembly.position[3 * i + (size_t)b];
             }
-        scree_cells_gradient(&s.cells, s.assembly.place, v, s.cells.gradient);
+        scree_cells_gradient(&s.cells, s.assembly.position, v, s.cells.gradient);
         // Round-off of 0.04 m/s (the largest value) over the height of the flattest cell, 1e-3 of an edge of 1.4 mm.
         for (size_t k = 0; k < s.cells.count; k++)
             for (int a = 0; a < 3; a++)
@@ -145,10 +146,10 @@ static void boundary_sum(const sample *s, const double *v, double sum[9])
             const double *x[3], *u[3];
             for (int m = 0, next = 0; m <= d; m++) {
                 if (m == n) continue;
-                x[next] = s->assembly.place + 3 * (size_t)s->cells.node[k][m];
+                x[next] = s->assembly.position + 3 * (size_t)s->cells.node[k][m];
                 u[next++] = v + 3 * (size_t)s->cells.node[k][m];
             }
-            const double *inside = s->assembly.place + 3 * (size_t)s->cells.node[k][n];
+            const double *inside = s->assembly.position + 3 * (size_t)s->cells.node[k][n];
             double a[3], b[3] = {0, 0, 2 * s->assembly.thickness}, area[3], along = 0;
             for (int i = 0; i < 3; i++) a[i] = x[1][i] - x[0][i];
             for (int i = 0; i < 3 && d == 3; i++) b[i] = x[2][i] - x[0][i];
@@ -171,7 +172,7 @@ static void test_mean_gradient_is_that_of_the_boundary(void **unused)
         sample s;
         sample_create(&s, dimension, dimension == 3 ? 8 : 20);
         double *v = random_field(s.assembly.count, dimension), cells[9], boundary[9], volume;
-        scree_cells_gradient(&s.cells, s.assembly.place, v, s.cells.gradient);
+        scree_cells_gradient(&s.cells, s.assembly.position, v, s.cells.gradient);
         weighted_sum(&s, s.cells.gradient, cells, &volume);
         boundary_sum(&s, v, boundary);
         // Thousands of terms of face (1e-6 m2) times value (1), each exact to 1e-16 of itself.
@@ -246,14 +247,14 @@ static void test_power(void **unused)
             const uint32_t ends[2] = {s.table.contact[c].first, s.table.contact[c].second};
             for (int e = 0; e < 2; e++)
                 for (int i = 0; i < dimension; i++) {
-                    double x = s.assembly.place[3 * (size_t)ends[e] + (size_t)i];
+                    double x = s.assembly.position[3 * (size_t)ends[e] + (size_t)i];
                     inside = inside && x > low && x < high;
                 }
             if (inside) s.table.contact[kept++] = s.table.contact[c];
         }
         s.table.count = kept;
         double *v = random_field(s.assembly.count, dimension), inner = 0, outer = 0;
-        scree_cells_gradient(&s.cells, s.assembly.place, v, s.cells.gradient);
+        scree_cells_gradient(&s.cells, s.assembly.position, v, s.cells.gradient);
         assert_int_equal(scree_cells_stress(&s.cells, &s.state, &s.table, s.cells.stress, NULL), SCREE_OK);
         assert_true(s.cells.crossing > 0);
         assert_int_equal(s.cells.unassigned, 0);
@@ -321,12 +322,12 @@ static void test_circles(void **unused)
     assert_int_equal(scree_allocate(&s.cells.pressure, s.cells.count, sizeof(double), NULL), SCREE_OK);
     for (size_t k = 0; k < s.cells.count; k++) {
         scree_vector centre;
-        scree_cell_centre(&s.cells, k, s.assembly.place, centre);
+        scree_cell_centre(&s.cells, k, s.assembly.position, centre);
         s.cells.pressure[k] = 100 + centre[1];
     }
     const scree_vector middle = {1.4e-3 * 9.5, 1.4e-3 * 9.5, 0};
     double volume[200], pressure[200], all = 0, step = 0.5e-3;
-    scree_cells_circles(&s.cells, s.assembly.place, middle, step, 200, pressure, volume);
+    scree_cells_circles(&s.cells, s.assembly.position, middle, step, 200, pressure, volume);
     for (size_t k = 0; k < s.cells.count; k++) all += s.cells.volume[k];
     // The largest circle holds every cell; one of 10 spacings its area to within a cell along its rim.
     assert_near(volume[199], all, 1e-12 * all);
@@ -335,7 +336,7 @@ static void test_circles(void **unused)
     assert_near(volume[27] / circle, 1, 0.1);
     assert_near(pressure[27], 100 + middle[1], 1e-3);
     for (int c = 1; c < 200; c++) assert_true(volume[c] >= volume[c - 1]);
-    scree_cells_circles(&s.cells, s.assembly.place, (const scree_vector){1, 1, 0}, step, 1, pressure, volume);
+    scree_cells_circles(&s.cells, s.assembly.position, (const scree_vector){1, 1, 0}, step, 1, pressure, volume);
     assert_true(isnan(pressure[0]) && !(volume[0] > 0));
     sample_destroy(&s);
 }
@@ -344,7 +345,7 @@ static void test_bad_points(void **unused)
 {
     (void)unused;
     double place[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, NAN, 0, 0}, radius[5] = {0.5, 0.5, 0.5, 0.5, 0.5};
-    scree_assembly assembly = {.dimension = 3, .thickness = 1, .count = 3, .place = place, .radius = radius};
+    scree_assembly assembly = {.dimension = 3, .thickness = 1, .count = 3, .position = place, .radius = radius};
     scree_cells cells;
     scree_error error;
     assert_int_equal(scree_cells_build(&assembly, 1, &cells, &error), SCREE_ERROR_GUARD);
@@ -381,7 +382,7 @@ static void test_cost(void **unused)
         assert_int_equal(scree_allocate(&s.cells.gradient, s.cells.count, sizeof *s.cells.gradient, NULL), SCREE_OK);
         assert_int_equal(scree_allocate(&s.cells.stress, s.cells.count, sizeof *s.cells.stress, NULL), SCREE_OK);
         clock_gettime(CLOCK_MONOTONIC, &begin);
-        scree_cells_gradient(&s.cells, s.assembly.place, v, s.cells.gradient);
+        scree_cells_gradient(&s.cells, s.assembly.position, v, s.cells.gradient);
         clock_gettime(CLOCK_MONOTONIC, &middle);
         assert_int_equal(scree_cells_stress(&s.cells, &s.state, &s.table, s.cells.stress, NULL), SCREE_OK);
         clock_gettime(CLOCK_MONOTONIC, &end);

@@ -1,8 +1,8 @@
 /// Checkpoints: every bit comes back; what is damaged, foreign or missing is recognised and nothing is lost.
 #include "testing.h"
 
+#include "io/file_checksum.h"
 #include "io/run_file.h"
-#include "io/seal.h"
 #include "io/snapshot.h"
 #include "io_sample.h"
 #include "io_scratch.h"
@@ -145,7 +145,7 @@ static void set_attribute(int64_t index, const char *name, uint64_t value)
     assert_true(H5Adelete_by_name(file.file, group, name, H5P_DEFAULT) >= 0);
     scree_hdf5_set_integer(&file, group, name, value);
     assert_int_equal(scree_hdf5_close(&file), SCREE_OK);
-    assert_int_equal(scree_seal_append(path, NULL), SCREE_OK);
+    assert_int_equal(scree_file_checksum_append(path, NULL), SCREE_OK);
 }
 
 static void another_version_is_refused(void **unused)

@@ -62,10 +62,10 @@ static void create(sample *s, int dimension)
     state->law[SCREE_LIST_CONTACTS] = (scree_remembered_law){&scree_module_hertz_mindlin, 2}; // with rolling
     state->contact[0] = (scree_contact_memory){0, 1, {{0.5, 0.25, 0.125, 9}}};
     state->contact[1] = (scree_contact_memory){0, 2, {{0, 0, 0, 8}}};
-    state->contact[2] = (scree_contact_memory){1, SCREE_ELEMENT_ID + 3, {{-1, -2, -3, 7}}};
+    state->contact[2] = (scree_contact_memory){1, SCREE_PRIMITIVE_ID + 3, {{-1, -2, -3, 7}}};
     state->contact[3] = (scree_contact_memory){1, SCREE_WALL_ID + 1, {{4, 5, 6, 6}}};
     for (int k = 0; k < 4; k++)
-        state->rolling[k] = (scree_rolling){.value = {k == 1 ? 0 : k + 1.5, 0, -k, 2.0 * k}, .booked = {3}};
+        state->rolling[k] = (scree_rolling){.value = {k == 1 ? 0 : k + 1.5, 0, -k, 2.0 * k}, .last = {3}};
     if (dimension == 2) state->rolling[1].value[1] = 77; // its force, not its displacement
     if (dimension == 3) memset(&state->rolling[1], 0, sizeof state->rolling[1]);
     state->contact_count = 4;
@@ -157,7 +157,7 @@ static void bookkeeping_does_not_show(void **unused)
         state->largest_overlap = state->largest_speed = scree_imposed(state)->achieved = 4;
         scree_plates(state)[SCREE_WALL_LEFT].position = 8; // stands no more
         scree_plates(state)[SCREE_WALL_TOP].force = 1;
-        state->booking = NULL;
+        state->last_force = NULL;
         state->contact[1].history.value[3] = 55; // what is kept for the ledger alone
         // The same forces in quanta half as large.
         state->force_quantum /= 2;

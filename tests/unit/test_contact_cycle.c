@@ -1,4 +1,4 @@
-/// Closed cycles of indentation and tangential motion of a contact of law hertz_mindlin without damping and without
+/// Closed cycles of overlap and tangential motion of a contact of law hertz_mindlin without damping and without
 /// sliding: what they cost or deliver, for springs that keep their displacement and for rescaled ones (Thornton,
 /// Cummins and Cleary 2013). The normal force gives back all work, so with k_1 and k_2 > k_1 the stiffness at both ends
 /// and h the displacement the cycle costs X = (k_2 - k_1) h^2 / 2, or delivers it:
@@ -115,7 +115,7 @@ static double elastic(const fixture *f)
     return energy;
 }
 
-/// Stiffness of the spring at indentation d, per square of the rate's integral.
+/// Stiffness of the spring at overlap d, per square of the rate's integral.
 static double stiffness_at(const setting *s, double d)
 {
     double reduced = s->plate ? R1 : R1 * R2 / (R1 + R2), radius = sqrt(reduced * d), stiffness = 5e9 * radius;
@@ -123,7 +123,7 @@ static double stiffness_at(const setting *s, double d)
 }
 
 /// A cycle; returns what it cost over X, having checked the ledger: work = what is stored + dissipated - put in.
-static double cycle(const setting *s, bool stretch_first)
+static double cycle(const setting *s, bool displacement_first)
 {
     const double rate[] = {[SLIP] = 1e-3, [ROLL] = 1e-3, [TWIST] = 0.5}, closing = (DEEP - SHALLOW) / PHASE / STEP;
     course c = {.s = *s, .d = SHALLOW};
@@ -133,13 +133,13 @@ static double cycle(const setting *s, bool stretch_first)
     c.f.state.ledger = (scree_ledger){0};
     const double begin = elastic(&c.f);
     for (int phase = 0; phase < 4; phase++) {
-        const bool stretches = (phase % 2 == 0) == stretch_first;
+        const bool stretches = (phase % 2 == 0) == displacement_first;
         const double sign = phase < 2 ? 1 : -1;
         for (int n = 0; n < PHASE; n++) go(&c, stretches ? 0 : sign * closing, stretches ? sign * rate[s->moved] : 0);
     }
     // Springs of relative motion: rolling moves by R_eff (1/a1 + 1/a2) of the rate, twisting by both spins.
     const scree_ledger *l = &c.f.state.ledger;
-    double way = rate[s->moved] * PHASE * STEP, depth = stretch_first ? SHALLOW : DEEP;
+    double way = rate[s->moved] * PHASE * STEP, depth = displacement_first ? SHALLOW : DEEP;
     if (s->moved == ROLL && !s->plate) way *= R1 * R2 / (R1 + R2) * (1 / (R1 - depth / 2) + 1 / (R2 - depth / 2));
     if (s->moved == ROLL && s->plate) way *= R1 / (R1 - depth / 2);
     if (s->moved == TWIST && !s->plate) way *= 2;

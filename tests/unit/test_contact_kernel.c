@@ -175,7 +175,7 @@ static void momentum_is_conserved_exactly(void **unused)
         fy += f.state.sum[k].fy;
         contacts += f.state.sum[k].contacts;
     }
-    // What the walls give is on their books, in the same quanta: normals along the axes round nothing.
+    // What the walls give is on their accumulates, in the same quanta: normals along the axes round nothing.
     const scree_wall *bottom = &scree_plates(&f.state)[SCREE_WALL_BOTTOM],
                      *left = &scree_plates(&f.state)[SCREE_WALL_LEFT];
     assert_true(bottom->force > 0 && left->force > 0 && bottom->shear[0] != 0);
@@ -207,7 +207,7 @@ static void sums_are_exact_to_half_a_quantum_a_contact(void **unused)
             const scree_row *row = &f.state.row[body[side]];
             sum[3 * body[side]] += side ? -fx : fx;
             sum[3 * body[side] + 1] += side ? -fy : fy;
-            sum[3 * body[side] + 2] -= (long double)c->tangential_force * (row->radius - 0.5 * c->indentation);
+            sum[3 * body[side] + 2] -= (long double)c->tangential_force * (row->radius - 0.5 * c->overlap);
         }
     }
     // Half a quantum a contact, and the round-off of computing a force in double: three roundings of 2^-53 of at most
@@ -287,11 +287,11 @@ static void table_is_ordered_by_ids(void **unused)
         walls += c->wall;
         sliding += c->sliding;
         // the contact point lies R - d/2 from the centre, against the normal
-        double arm = first->radius - c->indentation / 2;
+        double arm = first->radius - c->overlap / 2;
         assert_true(fabs(first->x - c->point[0] - arm * c->normal[0]) < 1e-17);
         assert_true(fabs(first->y - c->point[1] - arm * c->normal[1]) < 1e-17);
         double length = hypot(c->branch[0], c->branch[1]);
-        double expected = c->wall ? arm : arm + f.state.row[c->second].radius - c->indentation / 2;
+        double expected = c->wall ? arm : arm + f.state.row[c->second].radius - c->overlap / 2;
         assert_true(fabs(length - expected) < 1e-15);
         assert_true(fabs(c->tangential_force) <= 0.5 * c->normal_force * (1 + 1e-12));
     }

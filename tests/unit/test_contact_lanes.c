@@ -3,8 +3,8 @@
 #pragma GCC diagnostic ignored "-Wpsabi"
 #define SCREE_ISA   9 /* no machine has it: only a name */
 #define SCREE_LANES 8
-#include "contact/plane_pairs_batch.c"
-#include "contact/solid_pairs_batch.c"
+#include "contact/pairs_2d_batch.c"
+#include "contact/pairs_3d_batch.c"
 
 #include "sphere_fixture.h"
 
@@ -24,11 +24,11 @@ static contact_totals evaluate(fixture *f, const variant *v, contact_kernel *ker
     job.variant = *v;
     job.row = f->state.row;
     job.turn = f->state.turn;
-    job.foreseen = f->state.foreseen;
+    job.predicted = f->state.predicted;
     job.first = f->work.pairs.first;
     job.second = f->work.pairs.second;
     job.history = f->work.pairs.history;
-    job.booking = f->work.pairs.booking;
+    job.last_force = f->work.pairs.last_force;
     job.rolling = f->work.pairs.rolling;
     job.near_touched = scratch->near_touched;
     job.settings = law_settings_get(&f->model.law, f->state.step_size);
@@ -61,9 +61,9 @@ static void assert_same_memory(const fixture *a, const fixture *b)
     for (size_t p = 0; p < one->count; p++)
         for (int k = 0; k < 4; k++) {
             assert_true(one->history[p].value[k] == other->history[p].value[k]);
-            if (one->booking) assert_true(one->booking[p].value[k] == other->booking[p].value[k]);
+            if (one->last_force) assert_true(one->last_force[p].value[k] == other->last_force[p].value[k]);
             if (one->rolling) assert_true(one->rolling[p].value[k] == other->rolling[p].value[k]);
-            if (one->rolling) assert_true(one->rolling[p].booked[k] == other->rolling[p].booked[k]);
+            if (one->rolling) assert_true(one->rolling[p].last[k] == other->rolling[p].last[k]);
         }
 }
 
@@ -74,7 +74,7 @@ static void compare(const variant *v)
     create(&wide, v);
     for (int n = 0; n < EVALUATIONS; n++) {
         contact_totals a = evaluate(&one, v, contact_pairs_reference);
-        contact_totals b = evaluate(&wide, v, v->dimension == 3 ? scree_solid_pairs_v9 : scree_plane_pairs_v9);
+        contact_totals b = evaluate(&wide, v, v->dimension == 3 ? scree_pairs_3d_v9 : scree_pairs_2d_v9);
         assert_memory_equal(one.state.sum, wide.state.sum, one.state.count * sizeof *one.state.sum);
         if (v->dimension == 3)
             assert_memory_equal(one.state.torque, wide.state.torque, one.state.count * sizeof *one.state.torque);

@@ -3,8 +3,8 @@
 /// Tolerances: ROUND_OFF is that of forces in quanta, 2^-51 of the bound of the step, which in these tests is at most
 /// 2^8 times the force itself, and a few roundings of 2^-53. Others say where they come from.
 ///
-/// Rates are those of the middle of the step (motion.h): the closed form of a force of velocities alone is taken with a
-/// step of zero.
+/// Rates are those of the middle of the step (kinematics.h): the closed form of a force of velocities alone is taken
+/// with a step of zero.
 #include "contact_fixture.h"
 #include "state/plates.h"
 
@@ -18,7 +18,7 @@ static void assert_close(double value, double expected, double relative)
         fail_msg("%.17g is not %.17g within %g", value, expected, relative);
 }
 
-/// Two bodies along x with indentation d, radii 1 mm and `radius`.
+/// Two bodies along x with overlap d, radii 1 mm and `radius`.
 static void create_pair(fixture *f, law_choice law, double radius, double d)
 {
     fixture_create(f, law, 2, 1e-7);
@@ -32,7 +32,7 @@ static void create_pair(fixture *f, law_choice law, double radius, double d)
     fixture_find_pairs(f, 1e-4);
 }
 
-static double indentation(const fixture *f)
+static double overlap(const fixture *f)
 {
     const scree_row *row = f->state.row;
     return row[0].radius + row[1].radius - fixture_distance(&row[0], &row[1]);
@@ -47,7 +47,7 @@ static void normal_force_is_hertz(void **unused)
         create_pair(&f, (law_choice)law, 1.5e-3, 2e-6);
         fixture_forces(&f);
         fixture_force(&f, 0, force);
-        double d = indentation(&f), reduced = 1e-3 * 1.5e-3 / 2.5e-3;
+        double d = overlap(&f), reduced = 1e-3 * 1.5e-3 / 2.5e-3;
         assert_close(force[0], 4e9 * sqrt(reduced) * pow(d, 1.5), ROUND_OFF);
         assert_true(force[1] == 0 && force[2] == 0);
         assert_int_equal(f.state.sum[0].contacts, 1);
@@ -69,7 +69,7 @@ static void normal_damping_follows_brilliantov(void **unused)
         fixture_measure_speed(&f);
         fixture_forces(&f);
         fixture_force(&f, 0, force);
-        double d = indentation(&f), k = 4e9 * sqrt(0.5e-3);
+        double d = overlap(&f), k = 4e9 * sqrt(0.5e-3);
         assert_close(force[0], k * (pow(d, 1.5) + sign * 1e-6 * sqrt(d)), ROUND_OFF);
         law_numbers(&f.model, 1e-5, 50);
         fixture_forces(&f);
@@ -94,7 +94,7 @@ static void regularised_friction_is_a_power_of_the_slip(void **unused)
         fixture_forces(&f);
         fixture_force(&f, 0, force);
         fixture_force(&f, 1, other);
-        double expected = 0.5 * force[0] * pow(slip[k] / 1e-2, 1.0 / 50), d = indentation(&f);
+        double expected = 0.5 * force[0] * pow(slip[k] / 1e-2, 1.0 / 50), d = overlap(&f);
         assert_close(force[1], -expected, ROUND_OFF);
         assert_close(force[2], (1e-3 - d / 2) * expected, ROUND_OFF);
         assert_close(other[2], (1.2e-3 - d / 2) * expected, ROUND_OFF);
@@ -105,7 +105,7 @@ static void regularised_friction_is_a_power_of_the_slip(void **unused)
 /// One step of the implicit update from rest in the history: the force belongs to the slip s* that it leaves behind,
 /// mu f_n (s* / v_R)^(1/c) with s* = s - dt (1/m + a^2/J) f_t of both bodies; for any step it never turns the slip
 /// round. A velocity v across the normal at the end of the step was turned from it by v dt / 2 L in the middle: s is
-/// shorter by the square of that (motion.h).
+/// shorter by the square of that (kinematics.h).
 static void implicit_friction_belongs_to_the_slip_that_it_leaves(void **unused)
 {
     (void)unused;
@@ -121,11 +121,10 @@ static void implicit_friction_belongs_to_the_slip_that_it_leaves(void **unused)
             fixture_forces(&f);
             fixture_force(&f, 0, force);
             for (int i = 0; i < 2; i++) {
-                double ratio = 1 - indentation(&f) / 2 / f.state.row[i].radius;
+                double ratio = 1 - overlap(&f) / 2 / f.state.row[i].radius;
                 mobility += (1 + 2 * ratio * ratio) / f.state.row[i].mass;
             }
-            double turned = 0.5 * slip[k] * steps[h] / (2.2e-3 - indentation(&f)),
-                   middle = slip[k] * (1 - turned * turned);
+            double turned = 0.5 * slip[k] * steps[h] / (2.2e-3 - overlap(&f)), middle = slip[k] * (1 - turned * turned);
             double left = middle + steps[h] * mobility * force[1], cap = 0.5 * force[0];
             // In sticking contacts what is left is a difference of equal numbers; forces are known to their quanta.
             double quantum = f.state.force_quantum;
@@ -150,7 +149,7 @@ static void tangential_spring_is_mindlin(void **unused)
     create_pair(&f, HERTZ_MINDLIN, 1e-3, 2e-6);
     f.state.row[0].vy = 1e-2;
     fixture_measure_speed(&f);
-    double d = indentation(&f), radius = sqrt(0.5e-3 * d);
+    double d = overlap(&f), radius = sqrt(0.5e-3 * d);
     double eta = 0.3 * sqrt(0.5 * f.state.row[0].mass * 4e9 * radius);
     for (int n = 1; n <= 3; n++) {
         fixture_forces(&f);
@@ -170,7 +169,7 @@ static void friction_is_capped(void **unused)
     create_pair(&f, HERTZ_MINDLIN, 1e-3, 2e-6);
     f.state.row[0].vy = 1e-1;
     fixture_measure_speed(&f);
-    double d = indentation(&f), radius = sqrt(0.5e-3 * d);
+    double d = overlap(&f), radius = sqrt(0.5e-3 * d);
     for (int n = 0; n < 200; n++) fixture_forces(&f);
     fixture_force(&f, 0, force);
     assert_close(force[1], -0.5 * force[0], ROUND_OFF);
@@ -263,7 +262,7 @@ static void rolling_and_rigid_rotation_do_not_slip(void **unused)
     create_pair(&f, HERTZ_MINDLIN, 1.5e-3, 2e-6);
     f.state.step_size = 0; // finite steps: test_rigid_motion.c
     scree_row *row = f.state.row;
-    double d = indentation(&f), arm0 = row[0].radius - d / 2, arm1 = row[1].radius - d / 2;
+    double d = overlap(&f), arm0 = row[0].radius - d / 2, arm1 = row[1].radius - d / 2;
     // Gears: equal and opposite surface velocities.
     row[0].spin = 100;
     row[1].spin = -100 * arm0 / arm1;

@@ -102,7 +102,7 @@ static void ledger_closes_with_the_square_of_the_step(void **unused)
     }
 }
 
-/// A contact that opens takes its spring with it: what the spring held is booked, and the history is clear.
+/// A contact that opens takes its spring with it: what the spring held is accumulated, and the history is clear.
 static void opening_books_the_spring(void **unused)
 {
     (void)unused;

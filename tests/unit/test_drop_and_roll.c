@@ -86,7 +86,7 @@ static bool is_stable(const contacts *of)
 static void centre_of(const scree_state *state, size_t i, double out[3])
 {
     scree_vector at = {0};
-    scree_body_place(state, i, at);
+    scree_body_position(state, i, at);
     memcpy(out, (const double[3]){at[0], state->dimension == 3 ? at[1] : 0, at[state->dimension - 1]},
            sizeof(double[3]));
 }

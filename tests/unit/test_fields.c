@@ -222,11 +222,11 @@ enum { HISTORY, BOOKING, ROLLING, BOOKED, CONSTANT, MEMORY_ROWS };
     }
 static const memory_row memory_rows_of[SCREE_LISTS][MEMORY_ROWS] = {
     {{offsetof(scree_state, contact), offsetof(scree_contact_memory, history), sizeof(double)},
-     {offsetof(scree_state, booking), 0, sizeof(float)},
+     {offsetof(scree_state, last_force), 0, sizeof(float)},
      {offsetof(scree_state, rolling), offsetof(scree_rolling, value), sizeof(double)},
-     {offsetof(scree_state, rolling), offsetof(scree_rolling, booked), sizeof(float)},
+     {offsetof(scree_state, rolling), offsetof(scree_rolling, last), sizeof(float)},
      {SIZE_MAX, 0, 1}},
-    {HELD(history.value, double), HELD(booking.value, float), HELD(rolling.value, double), HELD(rolling.booked, float),
+    {HELD(history.value, double), HELD(last_force.value, float), HELD(rolling.value, double), HELD(rolling.last, float),
      HELD(constant, double)},
 };
 
@@ -307,8 +307,8 @@ static void permuting_moves_whole_elements(void **unused)
         scree_state state, before;
         assert_int_equal(scree_state_create(&state, dimension, BODIES, NULL), SCREE_OK);
         assert_int_equal(scree_state_create(&before, dimension, BODIES, NULL), SCREE_OK);
-        assert_int_equal(scree_state_foresee(&state, NULL), SCREE_OK);
-        assert_int_equal(scree_state_foresee(&before, NULL), SCREE_OK);
+        assert_int_equal(scree_state_predict(&state, NULL), SCREE_OK);
+        assert_int_equal(scree_state_predict(&before, NULL), SCREE_OK);
         uint32_t order[BODIES];
         for (size_t k = 0; k < scree_field_total(); k++) {
             const scree_field *field = scree_field_at(k);

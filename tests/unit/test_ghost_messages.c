@@ -1,6 +1,6 @@
 /// Messages between bodies and their ghosts follow from declarations: what ghosts keep, follow in, and give back, of
 /// the state's own fields and of those of a module that nobody has written a line for. The table of modules is one of
-/// this test. Lists of ghosts are compared with all images that there are within reach, found by brute force.
+/// this test. Lists of ghosts are compared with all ghosts that there are within reach, found by brute force.
 #include "periodic_fixture.h"
 
 #include "comm/comm.h"
@@ -94,17 +94,17 @@ static void make(periodic_sample *s)
     check(scree_ghosts_make(&s->state, &s->work, &error), &error);
 }
 
-/// Some body is nearer to the image of `row` at this shift than both radii and the skin.
+/// Some body is nearer to the ghost of `row` at this shift than both radii and the skin.
 static bool is_needed(const periodic_sample *s, size_t row, const int32_t shift[3])
 {
     const double n[3] = {shift[0], shift[1], shift[2]};
-    double by[3], image[3], other[3];
+    double by[3], copy[3], other[3];
     scree_matrix_apply(scree_cell(&s->state)->lattice, n, by);
-    scree_body_place(&s->state, row, image);
+    scree_body_position(&s->state, row, copy);
     for (size_t k = 0; k < COUNT; k++) {
         double square = 0, reach = s->state.row[row].radius + s->state.row[k].radius + s->work.skin;
-        scree_body_place(&s->state, k, other);
-        for (int i = 0; i < 3; i++) square += (image[i] + by[i] - other[i]) * (image[i] + by[i] - other[i]);
+        scree_body_position(&s->state, k, other);
+        for (int i = 0; i < 3; i++) square += (copy[i] + by[i] - other[i]) * (copy[i] + by[i] - other[i]);
         if (square < reach * reach) return true;
     }
     return false;
@@ -163,7 +163,7 @@ static void lists_hold_all_near_images(void **unused)
 static void assert_moved(const periodic_sample *s, const scree_ghost *ghost, size_t row)
 {
     const scree_periodic_cell *cell = scree_cell(&s->state);
-    double plus[9], back[9], middle[9], speed[9], by[3], faster[3], body[3], image[3], v[3], w[3], spin[3];
+    double plus[9], back[9], middle[9], speed[9], by[3], faster[3], body[3], copy[3], v[3], w[3], spin[3];
     const double n[3] = {ghost->shift[0], ghost->shift[1], ghost->shift[2]};
     scree_matrix_unit_plus(0.5 * s->state.step_size, cell->gradient, plus);
     scree_matrix_invert(plus, back);
@@ -171,13 +171,13 @@ static void assert_moved(const periodic_sample *s, const scree_ghost *ghost, siz
     scree_matrix_multiply(cell->gradient, middle, speed);
     scree_matrix_apply(cell->lattice, n, by);
     scree_matrix_apply(speed, n, faster);
-    scree_body_place(&s->state, ghost->parent, body);
-    scree_body_place(&s->state, row, image);
+    scree_body_position(&s->state, ghost->parent, body);
+    scree_body_position(&s->state, row, copy);
     scree_body_motion(&s->state, ghost->parent, v, spin);
     scree_body_motion(&s->state, row, w, spin);
     // The same operations on the same numbers: equal to the last bit.
     for (int i = 0; i < s->state.dimension; i++) {
-        assert_true(image[i] == body[i] + by[i]);
+        assert_true(copy[i] == body[i] + by[i]);
         assert_true(w[i] == v[i] + faster[i]);
     }
 }

@@ -300,7 +300,7 @@ static void sum_polyhedron(const polyhedron *p, double *volume, double gradient[
             double x[3][3], u[3][3];
             for (int c = 0; c < 3; c++)
                 for (int k = 0; k < 3; k++) {
-                    x[c][k] = hull->place[hull->triangle[t][c]][k];
+                    x[c][k] = hull->position[hull->triangle[t][c]][k];
                     u[c][k] = p->u ? p->u[hull->triangle[t][c]][k] : 0;
                 }
             scree_polyhedron_add(&sum, x, u);
@@ -325,17 +325,17 @@ static void polyhedra_keep_their_promises(void **user)
     p.u = NULL;
     sum_polyhedron(&p, &before, unused);
     for (size_t k = 0; k < hull->node_count; k++)
-        for (int i = 0; i < 3; i++) hull->place[k][i] += u[k][i];
+        for (int i = 0; i < 3; i++) hull->position[k][i] += u[k][i];
     sum_polyhedron(&p, &after, unused);
     for (size_t k = 0; k < hull->node_count; k++)
-        for (int i = 0; i < 3; i++) hull->place[k][i] -= u[k][i];
+        for (int i = 0; i < 3; i++) hull->position[k][i] -= u[k][i];
     double trace = gradient[0] + gradient[4] + gradient[8];
     assert_true(fabs(after - before) > 1e-3 * before);
     assert_true(fabs(trace * middle - (after - before)) < 1e-13 * before);
     // A rotation by half a radian about a skew axis: no symmetric part.
     double axis[3] = {1 / 3.0, 2 / 3.0, -2 / 3.0}, c = cos(0.5), s = sin(0.5);
     for (size_t k = 0; k < hull->node_count; k++) {
-        const double *x = hull->place[k];
+        const double *x = hull->position[k];
         double along = axis[0] * x[0] + axis[1] * x[1] + axis[2] * x[2];
         for (int i = 0; i < 3; i++) {
             int j = (i + 1) % 3, l = (i + 2) % 3;
@@ -352,7 +352,7 @@ static void polyhedra_keep_their_promises(void **user)
     for (size_t k = 0; k < hull->node_count; k++)
         for (int i = 0; i < 3; i++) {
             u[k][i] = 0;
-            for (int j = 0; j < 3; j++) u[k][i] += f[3 * i + j] * hull->place[k][j];
+            for (int j = 0; j < 3; j++) u[k][i] += f[3 * i + j] * hull->position[k][j];
         }
     sum_polyhedron(&p, &middle, gradient);
     for (int i = 0; i < 3; i++)

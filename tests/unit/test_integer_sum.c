@@ -7,8 +7,8 @@
 #include "base/integer_sum.h"
 #include "base/random.h"
 #include "boundary/boundary.h"
-#include "boundary/drive.h"
 #include "boundary/hull.h"
+#include "boundary/imposed_gradient.h"
 #include "boundary/periodic.h"
 #include "boundary/plates.h"
 #include "measure/facets.h"
@@ -155,7 +155,7 @@ static void keep_boundary(numbers *n, const scree_model *model, scree_state *sta
     assert_true(count <= 512);
     if (count == 0) return;
     scree_boundary_areas(model, state, area);
-    rate[9] = scree_drive_measure(state, area, rate);
+    rate[9] = scree_imposed_measure(state, area, rate);
     keep(n, rate, 10);
     for (size_t k = 0; k < count; k += 1 + count / 8) keep(n, area[k], 3);
     double others[] = {scree_sample_volume(model, state), scree_enclosed_logarithm(state),

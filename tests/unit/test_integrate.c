@@ -136,7 +136,7 @@ static double error_in_space(int scheme, double time, int steps)
     }
     double c = cos(OMEGA * time), s = sin(OMEGA * time), worst = 0;
     scree_vector place, velocity, spin;
-    scree_body_place(&state, 0, place);
+    scree_body_position(&state, 0, place);
     scree_body_velocity(&model, &state, 0, velocity, spin);
     const double start[3] = {1, -0.5, 0.25}, rate[3] = {1, -2, 3};
     for (int k = 0; k < 3; k++) {
@@ -206,7 +206,8 @@ static void two_timescales_are_of_second_order(void **unused)
     }
 }
 
-/// What a change of the step does to the scheme's kinetic energy is booked: the balance over the work of the springs.
+/// What a change of the step does to the scheme's kinetic energy is accumulated: the balance over the work of the
+/// springs.
 static void changes_of_the_step_are_booked(void **unused)
 {
     (void)unused;
@@ -219,7 +220,7 @@ static void changes_of_the_step_are_booked(void **unused)
     make_state(&state, 3, 0.01);
     spring_forces(&state);
     scree_integrator_choose_step(scree_integrator_get(model.scheme), &model, &state, true);
-    double initial = NAN, worst = 0, booked = 0;
+    double initial = NAN, worst = 0, last = 0;
     for (int k = 0; k < 400; k++) {
         scree_energy_measure(&model, &state, &none, &energy);
         double potential = 0;
@@ -230,7 +231,7 @@ static void changes_of_the_step_are_booked(void **unused)
         double sum = energy.kinetic + energy.kinetic_rotation + potential - state.ledger.scheme;
         initial = k > 0 ? initial : sum;
         worst = fmax(worst, fabs(sum - initial));
-        booked = fmax(booked, fabs(state.ledger.scheme));
+        last = fmax(last, fabs(state.ledger.scheme));
         double before = state.step_size;
         state.step += scree_integrator_choose_step(scree_integrator_get(model.scheme), &model, &state, true);
         scree_energy_change_step(&model, &state, before, state.step_size);
@@ -238,7 +239,7 @@ static void changes_of_the_step_are_booked(void **unused)
         spring_forces(&state);
     }
     // Linear forces: the trapezoid is exact, so only round-off and the quantum of the force are left of some 70 J.
-    assert_true(worst < 1e-11 && booked > 1e-3);
+    assert_true(worst < 1e-11 && last > 1e-3);
     scree_state_destroy(&state);
 }
 
@@ -313,7 +314,7 @@ static void threads_give_the_same_bits(void **unused)
             integrator->second(&model, &state, &work);
         }
         checksum[threads - 1] = state_bits(&state);
-        scree_team_destroy(&work.team);
+        scree_thread_pool_destroy(&work.pool);
         scree_state_destroy(&state);
     }
     assert_true(checksum[0] == checksum[1] && checksum[0] == checksum[2]);
@@ -369,7 +370,7 @@ static void a_kick_before_a_drift_leaves_the_sums_clear(void **unused)
             }
             if (integrator->second) integrator->second(&model, &state, &work);
             for (size_t i = 0; i < 5; i++) assert_true(state.sum[i].fx == 1 && state.sum[i].contacts == 4);
-            scree_team_destroy(&work.team);
+            scree_thread_pool_destroy(&work.pool);
             scree_state_destroy(&state);
         }
 }

@@ -33,12 +33,12 @@ static void sample_create(sample *s, int dimension, size_t side)
     memset(s, 0, sizeof *s);
     size_t count = side * 2 * side * (dimension == 3 ? side : 1);
     s->assembly = (scree_assembly){.dimension = dimension, .thickness = 1, .count = count};
-    assert_int_equal(scree_allocate(&s->assembly.place, 3 * count, sizeof(double), NULL), SCREE_OK);
+    assert_int_equal(scree_allocate(&s->assembly.position, 3 * count, sizeof(double), NULL), SCREE_OK);
     assert_int_equal(scree_allocate(&s->assembly.radius, count, sizeof(double), NULL), SCREE_OK);
     for (size_t i = 0; i < count; i++) {
         const size_t at[3] = {i % side, dimension == 3 ? i / side % side : i / side, i / side / side};
         for (size_t d = 0; d < (size_t)dimension; d++)
-            s->assembly.place[3 * i + d] = DIAMETER * ((double)at[d] + 0.6 * (uniform(1, 3 * i + d) - 0.5));
+            s->assembly.position[3 * i + d] = DIAMETER * ((double)at[d] + 0.6 * (uniform(1, 3 * i + d) - 0.5));
         s->assembly.radius[i] = DIAMETER / 2;
     }
     assert_int_equal(scree_cells_build(&s->assembly, DIAMETER, &s->cells, NULL), SCREE_OK);
@@ -66,12 +66,12 @@ static void plant(sample *s, const scree_vector normal, double offset, double th
     scree_vector middle = {0}, at;
     double volume = 0;
     for (size_t k = 0; k < s->cells.count; k++) {
-        scree_cell_centre(&s->cells, k, s->assembly.place, at);
+        scree_cell_centre(&s->cells, k, s->assembly.position, at);
         volume += s->cells.volume[k];
         for (int i = 0; i < 3; i++) middle[i] += s->cells.volume[k] * at[i];
     }
     for (size_t k = 0; k < s->cells.count; k++) {
-        scree_cell_centre(&s->cells, k, s->assembly.place, at);
+        scree_cell_centre(&s->cells, k, s->assembly.position, at);
         double along = -offset;
         for (int i = 0; i < 3; i++) along += normal[i] * (at[i] - middle[i] / volume);
         s->field[k] = -0.01 * log(1 - uniform(seed, k)) * (fabs(along) <= thickness / 2 ? contrast : 1);
@@ -80,8 +80,8 @@ static void plant(sample *s, const scree_vector normal, double offset, double th
 
 static void measure(sample *s, scree_localisation *out, int which)
 {
-    assert_int_equal(scree_localisation_measure(&s->cells, s->assembly.place, s->field, DIAMETER, out, s->body[which],
-                                                s->inside[which], NULL),
+    assert_int_equal(scree_localisation_measure(&s->cells, s->assembly.position, s->field, DIAMETER, out,
+                                                s->body[which], s->inside[which], NULL),
                      SCREE_OK);
 }
 
@@ -163,7 +163,7 @@ static void test_half_a_band_does_not_percolate(void **unused)
     plant(&s, (const scree_vector){M_SQRT1_2, M_SQRT1_2, 0}, 0, 8 * DIAMETER, 6, 4);
     for (size_t k = 0; k < s.cells.count; k++) {
         scree_vector at;
-        scree_cell_centre(&s.cells, k, s.assembly.place, at);
+        scree_cell_centre(&s.cells, k, s.assembly.position, at);
         if (at[0] > DIAMETER * 24) s.field[k] = 0.01;
     }
     measure(&s, &found, 0);
@@ -197,7 +197,7 @@ static void test_a_field_turned_with_the_sample_gives_the_same(void **unused)
     plant(&s, (const scree_vector){0.6, 0.8, 0}, 0, 8 * DIAMETER, 4, 6);
     measure(&s, &before, 0);
     for (size_t i = 0; i < s.assembly.count; i++) {
-        double *x = s.assembly.place + 3 * i, old = x[0];
+        double *x = s.assembly.position + 3 * i, old = x[0];
         x[0] = 0.28 * old - 0.96 * x[1];
         x[1] = 0.96 * old + 0.28 * x[1];
     }

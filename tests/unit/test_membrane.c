@@ -17,7 +17,7 @@ enum { COLUMNS = 8, ROWS = 14 };
 static void bench_create(bench *b)
 {
     bench_begin(b, 2, COLUMNS * ROWS, STEP);
-    bench_foresee_membrane(b, 1.25 * RADIUS);
+    bench_predict_membrane(b, 1.25 * RADIUS);
     bench_fill(b, COLUMNS, true);
     assert_int_equal(scree_membrane_place(&b->model, &b->state, NULL), SCREE_OK);
 }

@@ -88,20 +88,20 @@ static void stand_walls(scree_state *state, double side)
 static void make_state(scree_state *state, int dimension, size_t count, double ratio, uint64_t seed)
 {
     scree_error error;
-    bool solid = dimension == 3;
+    bool in_3d = dimension == 3;
     assert_int_equal(scree_state_create(state, dimension, count, &error), SCREE_OK);
     double room = 0;
     for (size_t k = 0; k < count; k++) {
         double u = uniform(seed, 4 * k), small = pow(ratio, -dimension);
         double radius = pow(1 - u * (1 - small), -1.0 / dimension);
         state->row[k] = (scree_row){.radius = radius, .mass = 1};
-        room += solid ? 4 * M_PI / 3 * radius * radius * radius : M_PI * radius * radius;
+        room += in_3d ? 4 * M_PI / 3 * radius * radius * radius : M_PI * radius * radius;
     }
-    double side = solid ? cbrt(room / 0.6) : sqrt(room / 0.8);
+    double side = in_3d ? cbrt(room / 0.6) : sqrt(room / 0.8);
     for (size_t k = 0; k < count; k++) {
         state->row[k].x = side * uniform(seed, 4 * k + 1);
         state->row[k].y = side * uniform(seed, 4 * k + 2);
-        if (solid) state->row[k].z = side * uniform(seed, 4 * k + 3);
+        if (in_3d) state->row[k].z = side * uniform(seed, 4 * k + 3);
     }
     stand_walls(state, side);
 }

@@ -51,7 +51,7 @@ static void contacts_across_faces_are_contacts(int dimension, law_choice law)
         force_on(&across, 0, found);
         force_on(&across, 1, other);
         for (int i = 0; i < 3; i++) {
-            // The rounding of a coordinate of 0.03 m, 2^-58 m, over an indentation of 1e-4 m: 3e-14, and its power.
+            // The rounding of a coordinate of 0.03 m, 2^-58 m, over an overlap of 1e-4 m: 3e-14, and its power.
             assert_true(fabs(found[i] - expected[i]) <= 1e-12 * size);
             assert_true(found[i] == -other[i]);
         }
@@ -72,7 +72,7 @@ static void pairs_touch_through_faces(void **unused)
         for (int law = 0; law < 2; law++) contacts_across_faces_are_contacts(dimension, (law_choice)law);
 }
 
-/// The table tells contacts as the evaluation saw them, with the branch to the image, and its virial is that of the
+/// The table tells contacts as the evaluation saw them, with the branch to the ghost, and its virial is that of the
 /// sums; also in a cell that deforms, with velocities relative to the affine field in the rows.
 static void table_agrees_with_the_sums(void **unused)
 {
@@ -86,10 +86,10 @@ static void table_agrees_with_the_sums(void **unused)
         periodic_run(&s, gradient, 300);
         check(scree_contact_table_build(&s.model, &s.state, &s.work, &table, &error), &error);
         double stress[9], virial[9], scale = 0;
-        bool images = false;
+        bool ghosts = false;
         scree_stress_from_contacts(&table, 1, stress);
         for (size_t c = 0; c < table.count; c++) {
-            images = images || table.contact[c].image;
+            ghosts = ghosts || table.contact[c].ghost;
             assert_true(scree_length(table.contact[c].branch) < 2.4e-3);
             assert_true(table.contact[c].first < s.state.count && table.contact[c].second < s.state.count);
         }
@@ -97,7 +97,7 @@ static void table_agrees_with_the_sums(void **unused)
             virial[k] = -stress[k];
             scale = fmax(scale, fabs(virial[k]));
         }
-        assert_true(images && scale > 0);
+        assert_true(ghosts && scale > 0);
         // Forces from the table go through the velocities once more: round-off of v over v, some 1e-11 of a force.
         for (int k = 0; k < 9; k++) assert_true(fabs(virial[k] - scree_cell(&s.state)->virial[k]) < 1e-9 * scale);
         scree_contact_table_destroy(&table);
@@ -144,7 +144,7 @@ static void stress_after(int dimension, law_choice law, const double shift[3], i
     periodic_destroy(&s);
 }
 
-/// With the spring of hertz_mindlin, and with the implicit friction that looks at what forces do to images too.
+/// With the spring of hertz_mindlin, and with the implicit friction that looks at what forces do to ghosts too.
 static void faces_may_lie_anywhere(void **unused)
 {
     (void)unused;
@@ -158,7 +158,7 @@ static void faces_may_lie_anywhere(void **unused)
             stress_after(dimension, laws[law], here, 1, remapped);
             for (int k = 0; k < 9; k++) scale = fmax(scale, fabs(expected[k]));
             assert_true(scale > 1e3);
-            // Round-off of positions, 2^-59 m over 1e-5 m of indentation, grown through 400 steps of collisions.
+            // Round-off of positions, 2^-59 m over 1e-5 m of overlap, grown through 400 steps of collisions.
             for (int k = 0; k < 9; k++) {
                 assert_true(fabs(moved[k] - expected[k]) < 1e-8 * scale);
                 assert_true(fabs(remapped[k] - expected[k]) < 1e-8 * scale);
@@ -247,7 +247,7 @@ static void power_is_volume_times_stress_times_rate(void **unused)
         periodic_fill(&s, dimension, 5, HERTZ_MINDLIN, 0.2);
         periodic_run(&s, gradient, 50);
         memcpy(before, scree_cell(&s.state)->virial, sizeof before);
-        double booked = s.state.ledger.periodic;
+        double last = s.state.ledger.periodic;
         for (int step = 0; step < 50; step++) {
             periodic_run(&s, gradient, 1);
             check(scree_contact_table_build(&s.model, &s.state, &s.work, &table, &error), &error);
@@ -269,8 +269,8 @@ static void power_is_volume_times_stress_times_rate(void **unused)
             memcpy(before, now, sizeof before);
         }
         // Round-off of some 1e-13 a term; the table computes forces again, as above.
-        if (!(fabs(s.state.ledger.periodic - booked - work) < 1e-9 * size))
-            fail_msg("booked %.17g, found %.17g", s.state.ledger.periodic - booked, work);
+        if (!(fabs(s.state.ledger.periodic - last - work) < 1e-9 * size))
+            fail_msg("booked %.17g, found %.17g", s.state.ledger.periodic - last, work);
         scree_contact_table_destroy(&table);
         periodic_destroy(&s);
     }
@@ -293,7 +293,7 @@ static void displacements_go_across_faces(void **unused)
     scree_matrix_invert(scree_cell(&s.state)->reference, inverse);
     scree_matrix_multiply(scree_cell(&s.state)->lattice, inverse, deformation);
     scree_matrix_apply(deformation, s.state.reference[0], carried);
-    scree_body_place(&s.state, 0, u);
+    scree_body_position(&s.state, 0, u);
     scree_matrix_invert(scree_cell(&s.state)->lattice, inverse);
     scree_matrix_apply(inverse, u, f);
     for (int k = 0; k < 2; k++) assert_true(f[k] > -0.2 && f[k] < 1.2);
@@ -310,7 +310,7 @@ static void stresses_are_held(void **unused)
     (void)unused;
     for (int dimension = 2; dimension <= 3; dimension++) {
         periodic_sample s;
-        scree_periodic_drive drive = {.rate = {0}};
+        scree_periodic_demand drive = {.rate = {0}};
         periodic_fill(&s, dimension, 5, HERTZ_MINDLIN, 0);
         double stress[9], wanted[9] = {-1e6, 5e4, 0, 0, -1.3e6, 0, 0, 0, -1.1e6};
         for (int k = 0; k < 9; k++) drive.stress[k] = NAN;
@@ -336,7 +336,7 @@ static void lasting_rates_are_not_resisted(void **unused)
     (void)unused;
     for (int lasting = 0; lasting < 2; lasting++) {
         periodic_sample s;
-        scree_periodic_drive drive = {.rate = {0}};
+        scree_periodic_demand drive = {.rate = {0}};
         periodic_fill(&s, 3, 5, HERTZ_MINDLIN, 0);
         scree_periodic_cell *cell = scree_cell(&s.state);
         for (int k = 0; k < 9; k++) drive.stress[k] = k % 4 == 0 ? -1e6 : NAN;
@@ -363,10 +363,10 @@ static void rates_and_stresses_are_mixed(void **unused)
 {
     (void)unused;
     for (int dimension = 2; dimension <= 3; dimension++) {
-        const bool solid = dimension == 3;
+        const bool in_3d = dimension == 3;
         const int axial = 4 * (dimension - 1), confining = 8000, loading = 12000;
         periodic_sample s;
-        scree_periodic_drive drive = {.rate = {0}};
+        scree_periodic_demand drive = {.rate = {0}};
         double stress[9], begin[9], mean[9] = {0}, wanted[9] = {-1e6, 0, 0, 0, -1.2e6, 5e4, 0, 0, -1e6};
         periodic_fill(&s, dimension, 5, HERTZ_MINDLIN, 0);
         for (int k = 0; k < 9; k++) drive.stress[k] = k % 4 == 0 && k / 4 < dimension ? wanted[k] : NAN;
@@ -376,11 +376,11 @@ static void rates_and_stresses_are_mixed(void **unused)
             periodic_step(&s);
         }
         drive.stress[axial] = NAN;
-        if (solid) drive.stress[5] = wanted[5];
+        if (in_3d) drive.stress[5] = wanted[5];
         drive.rate[axial] = -3;
         drive.rate[1] = 1.5;
         drive.rate[3] = -0.5;
-        if (solid) drive.rate[6] = 0.7;
+        if (in_3d) drive.rate[6] = 0.7;
         memcpy(begin, scree_cell(&s.state)->strain, sizeof begin);
         double before = s.state.ledger.periodic, work = 0;
         for (int step = 0; step < loading; step++) {
@@ -403,8 +403,8 @@ static void rates_and_stresses_are_mixed(void **unused)
                 fail_msg("dimension %d component %d: mean %g, strain %g", dimension, k, mean[k], strain);
         }
         // Every step with the gradient that it had; sums of as many terms.
-        double booked = s.state.ledger.periodic - before;
-        if (!(fabs(booked - work) < 1e-12 * fabs(work))) fail_msg("booked %.17g, found %.17g", booked, work);
+        double last = s.state.ledger.periodic - before;
+        if (!(fabs(last - work) < 1e-12 * fabs(work))) fail_msg("booked %.17g, found %.17g", last, work);
         periodic_destroy(&s);
     }
 }

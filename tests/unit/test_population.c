@@ -216,7 +216,7 @@ static void everything_follows_its_body(void **unused)
         for (int move = 0; move < 600; move++) {
             if (move == 200) { // the optional ones come later
                 assert_int_equal(scree_state_begin_field(&state, &test_fields[3], NULL), SCREE_OK);
-                assert_int_equal(scree_state_foresee(&state, NULL), SCREE_OK);
+                assert_int_equal(scree_state_predict(&state, NULL), SCREE_OK);
                 for (size_t row = 0; row < state.count; row++) fill(&state, row);
             }
             size_t what = draw(4);
@@ -239,12 +239,12 @@ static void contacts_go_with_their_bodies(void **unused)
     scree_state state;
     create(&state, 3, 6);
     assert_int_equal(scree_state_reserve_contacts(&state, 5, NULL), SCREE_OK);
-    assert_int_equal(scree_state_add_booking(&state, NULL), SCREE_OK);
+    assert_int_equal(scree_state_add_last_force(&state, NULL), SCREE_OK);
     assert_int_equal(scree_state_add_rolling(&state, NULL), SCREE_OK);
-    static const uint32_t pair[5][2] = {{0, 1}, {0, SCREE_WALL_ID}, {1, 2}, {2, 5}, {4, SCREE_ELEMENT_ID + 1}};
+    static const uint32_t pair[5][2] = {{0, 1}, {0, SCREE_WALL_ID}, {1, 2}, {2, 5}, {4, SCREE_PRIMITIVE_ID + 1}};
     for (size_t k = 0; k < 5; k++) {
         state.contact[k] = (scree_contact_memory){pair[k][0], pair[k][1], {{(double)k, 0, 0, 0}}};
-        state.booking[k].value[0] = (float)k;
+        state.last_force[k].value[0] = (float)k;
         state.rolling[k].value[3] = (double)k;
     }
     state.contact_count = 5;
@@ -255,7 +255,7 @@ static void contacts_go_with_their_bodies(void **unused)
         assert_int_equal(state.contact[k].first, pair[kept[k]][0]);
         assert_int_equal(state.contact[k].second, pair[kept[k]][1]);
         assert_true(state.contact[k].history.value[0] == (double)kept[k]);
-        assert_true(state.booking[k].value[0] == (float)kept[k]);
+        assert_true(state.last_force[k].value[0] == (float)kept[k]);
         assert_true(state.rolling[k].value[3] == (double)kept[k]);
     }
     scree_state_destroy(&state);
@@ -283,7 +283,7 @@ static void refusals_change_nothing(void **unused)
         assert_string_equal(error.message, bad[k].words);
         assert_invariants(&state);
     }
-    state.next_id = SCREE_ELEMENT_ID - 2;
+    state.next_id = SCREE_PRIMITIVE_ID - 2;
     assert_int_equal(scree_state_append(&state, SCREE_MARK_GRAIN, 2, NULL), SCREE_ERROR_INPUT);
     scree_state_destroy(&state);
 }

@@ -68,7 +68,7 @@ static double largest_overlap(const sample *s, contacts *each)
     const int dimension = s->state.dimension;
     for (size_t i = 0; i < s->state.count; i++) {
         scree_vector p, q;
-        scree_body_place(&s->state, i, p);
+        scree_body_position(&s->state, i, p);
         double radius = s->state.row[i].radius;
         for (int c = 0; c < dimension; c++)
             for (int far = 0; far < 2; far++) {
@@ -79,7 +79,7 @@ static double largest_overlap(const sample *s, contacts *each)
                 if (each && gap < TOUCHING && !top) add_contact(&each[i], n[0], n[1], n[2]);
             }
         for (size_t j = 0; j < i; j++) {
-            scree_body_place(&s->state, j, q);
+            scree_body_position(&s->state, j, q);
             double d[3] = {p[0] - q[0], p[1] - q[1], p[2] - q[2]}, reach = radius + s->state.row[j].radius;
             if (fabs(d[0]) > 1.001 * reach || fabs(d[1]) > 1.001 * reach || fabs(d[2]) > 1.001 * reach) continue;
             double distance = scree_length(d), gap = (distance - reach) / unit;
@@ -164,7 +164,7 @@ static double solid_fraction_inside(const sample *s)
         for (int c = 0; c < 3; c++) at[c] = margin + (s->side[c] - 2 * margin) * (number[c] + 0.5) / POINTS;
         for (size_t i = 0; i < s->state.count; i++) {
             scree_vector q;
-            scree_body_place(&s->state, i, q);
+            scree_body_position(&s->state, i, q);
             double d[3] = {at[0] - q[0], at[1] - q[1], at[2] - q[2]};
             if (scree_length(d) > s->state.row[i].radius) continue;
             inside++;
@@ -282,7 +282,7 @@ static void gas_of_spheres(void **unused)
     for (size_t i = 0; i < s.state.count; i++) {
         scree_vector v, w, p;
         scree_body_motion(&s.state, i, v, w);
-        scree_body_place(&s.state, i, p);
+        scree_body_position(&s.state, i, p);
         top = fmax(top, p[2]);
         for (int c = 0; c < 3; c++) {
             square[c] += v[c] * v[c];
@@ -333,8 +333,8 @@ static void check_isotropy(const sample *s, double tolerance)
     for (size_t i = 0; i < s->state.count; i++)
         for (size_t j = 0; j < i; j++) {
             scree_vector p, q;
-            scree_body_place(&s->state, i, p);
-            scree_body_place(&s->state, j, q);
+            scree_body_position(&s->state, i, p);
+            scree_body_position(&s->state, j, q);
             double d[3] = {p[0] - q[0], p[1] - q[1], p[2] - q[2]}, distance = scree_length(d);
             if (distance > s->state.row[i].radius + s->state.row[j].radius + 0.1 * unit) continue;
             for (int c = 0; c < 3; c++) moment[c] += d[c] * d[c] / (distance * distance);
@@ -406,7 +406,7 @@ static void round_samples(void **unused)
             double radius = s.side[0] / 2, reach = 0, moment[3] = {0};
             for (size_t i = 0; i < s.state.count; i++) {
                 scree_vector p;
-                scree_body_place(&s.state, i, p);
+                scree_body_position(&s.state, i, p);
                 for (int c = 0; c < dimension; c++) {
                     p[c] -= radius;
                     moment[c] += p[c];
@@ -431,7 +431,7 @@ static uint64_t fingerprint(const scree_state *state)
     uint64_t hash = UINT64_C(14695981039346656037);
     for (size_t i = 0; i < state->count; i++) {
         double values[4] = {0, 0, 0, state->row[i].radius};
-        scree_body_place(state, i, values);
+        scree_body_position(state, i, values);
         for (int k = 0; k < 4; k++) {
             uint64_t bits;
             memcpy(&bits, &values[k], sizeof bits);

@@ -130,7 +130,7 @@ static double trace_of(const scree_state *state)
 
 /// Bodies wander at random while the sample grows; the boundary is found again in every step. The increments of the
 /// strain are of order e = 0.006 a step, so the sum of their third orders over N steps is below N e^3 = 5e-6.
-static void check_books(int dimension)
+static void check_ledger(int dimension)
 {
     enum { STEPS = 25 };
     const double move = 0.04;
@@ -164,8 +164,8 @@ static void check_books(int dimension)
 static void increments_and_redetections_make_the_enclosed_volume(void **user)
 {
     (void)user;
-    check_books(2);
-    check_books(3);
+    check_ledger(2);
+    check_ledger(3);
 }
 
 int main(void)

@@ -2,8 +2,8 @@
 /// file, dataset, row and value; and whatever is not refused does no harm.
 #include "run_fixture.h"
 
+#include "io/file_checksum.h"
 #include "io/run_file.h"
-#include "io/seal.h"
 #include "io_scratch.h"
 #include "restart_cases.h"
 #include "run/restart.h"
@@ -110,7 +110,7 @@ static void no_value_does_harm(void **unused)
                 size_t row = which % 3 == 0 ? 0 : which % 3 == 1 ? rows / 2 : rows - 1;
                 bool accepted = try_one(c, checksum, field, row, which % components, which);
                 bool number = !is_real(field) || field->range.undefined || which > 2;
-                bool infinite = strcmp(field->name, "drive/viscosity") == 0 && which == 1;
+                bool infinite = strcmp(field->name, "imposed_gradient/viscosity") == 0 && which == 1;
                 if (accepted && !number && !infinite) fail_msg("%s may be %g", field->name, reals[which]);
                 tried++;
                 passed += accepted;
@@ -123,7 +123,7 @@ static void no_value_does_harm(void **unused)
     }
 }
 
-/// Writes one number into a dataset of the checkpoint and seals the file again.
+/// Writes one number into a dataset of the checkpoint and checksums the file again.
 static void forge(const char *path, const char *dataset, hsize_t at, hid_t type, const void *value)
 {
     char name[96];
@@ -137,7 +137,7 @@ static void forge(const char *path, const char *dataset, hsize_t at, hid_t type,
     assert_true(H5Dwrite(set, type, one, space, H5P_DEFAULT, value) >= 0);
     assert_true(H5Sclose(one) >= 0 && H5Sclose(space) >= 0 && H5Dclose(set) >= 0);
     assert_int_equal(scree_hdf5_close(&file), SCREE_OK);
-    assert_int_equal(scree_seal_append(path, NULL), SCREE_OK);
+    assert_int_equal(scree_file_checksum_append(path, NULL), SCREE_OK);
 }
 
 static void a_forged_file_is_refused(void **unused)
@@ -164,7 +164,7 @@ static void a_forged_file_is_refused(void **unused)
         {"contacts/second", false, 2e9, "2000000000 is no body"},
         {"boundary/id", false, 31, "dataset 'boundary/id', row 0: 31"},
         {"walls/material", false, 3, "dataset 'walls/material', wall 0: 3"},
-        {"drive/prescribed", false, 3, "dataset 'drive/prescribed': 3"},
+        {"imposed_gradient/prescribed", false, 3, "dataset 'imposed_gradient/prescribed': 3"},
         {"scalars/tick", true, 1e-5, "dataset 'scalars/tick'"},
         {"stage/index", false, 4, "dataset 'stage/index': 4 (accepted: at least 0, at most 3)"},
         {"stage/samples", false, -2, "dataset 'stage/samples': -2"},

@@ -15,7 +15,7 @@ static const double AXIS[2][3] = {{0, 0, 1}, {2.0 / 7, 6.0 / 7, 3.0 / 7}};      
 static const double NORMAL[2][3] = {{0.6, 0.8, 0}, {6.0 / 7, 3.0 / 7, -2.0 / 7}}; // at the begin
 static const double SPRING[2][3] = {{3e-6, 0, 0}, {2e-6, -6e-6, -3e-6}};          // normal to it; 2D along t
 
-/// What happens in the turning frame, besides closing from an indentation of 2 to 20 um.
+/// What happens in the turning frame, besides closing from an overlap of 2 to 20 um.
 typedef struct inner_motion {
     double roll;  ///< m/s, velocity at which both surfaces pass the contact without slip
     double twist; ///< rad/s
@@ -323,8 +323,8 @@ static double carry(const carried *c, int steps)
         scree_case_walls(&w.f.state)->ticks = (uint64_t)n;
         world_forces(&w);
         assert_int_equal(w.f.state.sum[0].contacts, 1);
-        for (size_t p = 0; p < w.f.work.element_pairs.count; p++) {
-            const double *h = w.f.work.element_pairs.history[p].value;
+        for (size_t p = 0; p < w.f.work.primitive_pairs.count; p++) {
+            const double *h = w.f.work.primitive_pairs.history[p].value;
             largest = fmax(largest, c->dimension == 3 ? scree_length(h) : fabs(h[0]));
         }
     }

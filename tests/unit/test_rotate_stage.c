@@ -204,9 +204,9 @@ static void a_crystal_turns_like_gears(void **unused)
         size_t forced = (size_t)scree_forced(&s.state)->id;
         double plane[4], along = 0, driven = spin_of(&s, forced, axis);
         int beside = 0;
-        scree_body_place(&s.state, s.state.row_of_id[forced], centre);
+        scree_body_position(&s.state, s.state.row_of_id[forced], centre);
         for (size_t id = 0; id < s.state.count; id++) {
-            scree_body_place(&s.state, s.state.row_of_id[id], place);
+            scree_body_position(&s.state, s.state.row_of_id[id], place);
             for (int i = 0; i < 3; i++) place[i] -= centre[i];
             if (id == forced || scree_length(place) > 2.1e-3) continue;
             if (fabs(place[axis]) > 1e-3)

@@ -45,8 +45,8 @@ static void add_contact(cluster *c, size_t first, size_t second, double force)
 {
     scree_contact *contact = &c->table.contact[c->table.count++];
     scree_vector a, b;
-    scree_body_place(&c->state, first, a);
-    scree_body_place(&c->state, second, b);
+    scree_body_position(&c->state, first, a);
+    scree_body_position(&c->state, second, b);
     *contact = (scree_contact){.first = (uint32_t)first, .second = (uint32_t)second, .normal_force = force};
     for (int i = 0; i < 3; i++) contact->branch[i] = a[i] - b[i];
 }
@@ -87,8 +87,8 @@ static void drop_segments_across(cluster *c)
     for (size_t k = 0; k < c->table.count; k++) {
         scree_contact *contact = &c->table.contact[k];
         scree_vector a, b;
-        scree_body_place(&c->state, contact->first, a);
-        scree_body_place(&c->state, contact->second, b);
+        scree_body_position(&c->state, contact->first, a);
+        scree_body_position(&c->state, contact->second, b);
         double product = 0;
         for (int i = 0; i < 3; i++) product += (a[i] + b[i]) / 2 * contact->branch[i];
         if (fabs(product) < 1e-9 * RADIUS * RADIUS) contact->normal_force = 0;

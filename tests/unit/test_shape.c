@@ -133,16 +133,16 @@ static void test_topology(void **state)
     scree_mesh_destroy(&mesh);
 }
 
-typedef struct found_elements {
+typedef struct found_primitives {
     size_t count;
     bool has[4096];
-} found_elements;
+} found_primitives;
 
-static scree_status note(void *context, size_t element)
+static scree_status note(void *context, size_t primitive)
 {
-    found_elements *f = context;
-    assert_false(f->has[element]);
-    f->has[element] = true;
+    found_primitives *f = context;
+    assert_false(f->has[primitive]);
+    f->has[primitive] = true;
     f->count++;
     return SCREE_OK;
 }
@@ -175,27 +175,27 @@ static void test_search_and_minima(void **state)
     (void)state;
     scree_mesh mesh;
     make_rough(&mesh, 12);
-    const size_t elements = scree_mesh_elements(&mesh);
-    assert_true(elements < 4096);
+    const size_t primitives = scree_mesh_primitives(&mesh);
+    assert_true(primitives < 4096);
     assert_int_equal(mesh.vertex_count + mesh.triangle_count, mesh.edge_count + 2); // Euler
     for (uint64_t k = 0; k < 300; k++) {
-        static found_elements found;
-        found = (found_elements){0};
+        static found_primitives found;
+        found = (found_primitives){0};
         double place[3], reach = 0.3 * fixture_random(900000 + k), closest = INFINITY, minimum = INFINITY;
         for (uint64_t i = 0; i < 3; i++) place[i] = 3 * fixture_random(800000 + 3 * k + i) - 1.5;
         assert_int_equal(scree_mesh_near(&mesh, place, reach, note, &found), SCREE_OK);
-        for (size_t e = 0; e < elements; e++) {
+        for (size_t e = 0; e < primitives; e++) {
             double distance = scree_mesh_distance(&mesh, e, place);
             assert_int_equal(found.has[e], distance < reach);
             closest = fmin(closest, distance);
-            scree_site site;
-            scree_mesh_site(&mesh, e, place, &site);
-            if (!site.minimum) continue;
-            minimum = fmin(minimum, site.distance);
-            assert_near(site.distance, distance, 1e-14);
+            scree_closest_point met;
+            scree_mesh_closest_point(&mesh, e, place, &met);
+            if (!met.minimum) continue;
+            minimum = fmin(minimum, met.distance);
+            assert_near(met.distance, distance, 1e-14);
             // Along the normal lies the surface.
             double foot[3];
-            for (int i = 0; i < 3; i++) foot[i] = place[i] - site.distance * site.normal[i];
+            for (int i = 0; i < 3; i++) foot[i] = place[i] - met.distance * met.normal[i];
             assert_near(scree_mesh_distance(&mesh, e, foot), 0, 1e-13);
         }
         assert_near(minimum, closest, 1e-14);

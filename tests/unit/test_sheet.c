@@ -21,7 +21,7 @@ enum { SIDE = 5, LEVELS = 9 };
 static void plates_create(bench *b, size_t count, double height)
 {
     bench_begin(b, 3, count, STEP);
-    bench_foresee_membrane(b, SHEET);
+    bench_predict_membrane(b, SHEET);
     scree_plates(&b->state)[SCREE_WALL_TOP].position = -height;
     scree_plates(&b->state)[SCREE_WALL_BOTTOM].active = scree_plates(&b->state)[SCREE_WALL_TOP].active = 1;
 }
@@ -484,7 +484,7 @@ static void it_is_no_part_of_the_assembly(void **unused)
         const scree_sum_row *sum = &state->sum[k];
         const double force[3] = {(double)sum->fx, (double)sum->fy, (double)sum->fz};
         scree_vector place;
-        scree_body_place(state, k, place);
+        scree_body_position(state, k, place);
         for (int i = 0; i < 9; i++)
             other[i] -= force[i / 3] * state->force_quantum * (place[i % 3] - centre[i % 3]) / volume;
     }

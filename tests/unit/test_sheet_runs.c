@@ -72,13 +72,13 @@ static void check_restart(const char *const *overrides, size_t count, int dimens
     while (simulation_last_steps(&s[0]) < 400) simulation_step(&s[0]);
     simulation_reopen(&s[0], 1, folder, &s[1]);
     const scree_state *state = &s[0].state;
-    double stretch = 0, booked = 0;
+    double stretch = 0, last = 0;
     for (size_t k = 0; k < state->contact_count; k++) {
         int twist = dimension == 3 ? 3 : 0;
         if (rolling) stretch = fmax(stretch, fabs(state->rolling[k].value[twist]));
-        if (dimension == 3) booked = fmax(booked, fabs((double)state->booking[k].value[0]));
+        if (dimension == 3) last = fmax(last, fabs((double)state->last_force[k].value[0]));
     }
-    assert_true(scree_membrane_of(state)->count > 0 && (stretch > 0) == rolling && (booked > 0) == (dimension == 3));
+    assert_true(scree_membrane_of(state)->count > 0 && (stretch > 0) == rolling && (last > 0) == (dimension == 3));
     for (int n = 0; n < 300; n++)
         for (int i = 0; i < 2; i++) check(scree_step(&s[i], &error), &error);
     assert_true(simulation_bits(&s[0]) == simulation_bits(&s[1]));
@@ -160,8 +160,8 @@ static void stress_with_membrane(scree_simulation *s, double stress[9], double i
             size_t other = scree_sheet_neighbour(membrane->around, membrane->count, k, n);
             if (other == SIZE_MAX) continue;
             scree_vector from, edge;
-            scree_body_place(state, scree_membrane_row(state, k), from);
-            scree_body_place(state, scree_membrane_row(state, other), edge);
+            scree_body_position(state, scree_membrane_row(state, k), from);
+            scree_body_position(state, scree_membrane_row(state, other), edge);
             for (int i = 0; i < 3; i++) edge[i] -= from[i];
             double length = scree_length(edge), stretch = fmax(0, length - membrane->rest[k][n]);
             bool rim = n == 0 && scree_membrane_plate(state, k) >= 0;
@@ -172,7 +172,7 @@ static void stress_with_membrane(scree_simulation *s, double stress[9], double i
         const scree_sum_row *sum = &state->sum[row];
         const double force[3] = {(double)sum->fx * quantum, (double)sum->fy * quantum, (double)sum->fz * quantum};
         scree_vector place;
-        scree_body_place(state, row, place);
+        scree_body_position(state, row, place);
         add_product(inertia, force, place, 1 / volume);
     }
 }
@@ -221,20 +221,20 @@ static void a_sample_is_held_by_its_membrane(void **unused)
     size_t inside = 0;
     for (size_t id = 0; id < scree_grain_count(&s.state); id++) {
         scree_vector place;
-        scree_body_place(&s.state, s.state.row_of_id[id], place);
+        scree_body_position(&s.state, s.state.row_of_id[id], place);
         double turns = 0;
         // Winding number of the rings about the axis through the grain: those next to it in height go around it.
         size_t around = scree_membrane_of(&s.state)->around, best = 0;
         double nearest = INFINITY;
         for (size_t k = 0; k < scree_membrane_of(&s.state)->count; k++) {
             scree_vector member;
-            scree_body_place(&s.state, scree_membrane_row(&s.state, k), member);
+            scree_body_position(&s.state, scree_membrane_row(&s.state, k), member);
             if (fabs(member[2] - place[2]) < nearest) nearest = fabs(member[2] - place[2]), best = k / around;
         }
         for (size_t j = 0; j < around; j++) {
             scree_vector a, b;
-            scree_body_place(&s.state, scree_membrane_row(&s.state, best * around + j), a);
-            scree_body_place(&s.state, scree_membrane_row(&s.state, best * around + (j + 1) % around), b);
+            scree_body_position(&s.state, scree_membrane_row(&s.state, best * around + j), a);
+            scree_body_position(&s.state, scree_membrane_row(&s.state, best * around + (j + 1) % around), b);
             double ax = a[0] - place[0], ay = a[1] - place[1], bx = b[0] - place[0], by = b[1] - place[1];
             turns += atan2(ax * by - ay * bx, ax * bx + ay * by) / (2 * M_PI);
         }

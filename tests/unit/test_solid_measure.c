@@ -74,12 +74,12 @@ static void add_contact(bench *b, uint32_t first, uint32_t second, bool wall, ui
     scree_contact *contact = &b->contact[b->table.count++];
     scree_vector x, y;
     *contact = (scree_contact){.first = first, .second = second, .wall = wall};
-    scree_body_place(&b->state, first, x);
+    scree_body_position(&b->state, first, x);
     if (wall) {
         memcpy(y, x, sizeof y);
         y[2] = scree_plates(&b->state)[second].normal[2] * scree_plates(&b->state)[second].position;
     } else {
-        scree_body_place(&b->state, second, y);
+        scree_body_position(&b->state, second, y);
     }
     for (int k = 0; k < 3; k++) contact->branch[k] = x[k] - y[k];
     for (int k = 0; k < 3; k++) contact->normal[k] = contact->branch[k] / scree_length(contact->branch);
@@ -129,7 +129,7 @@ static void contacts_and_boundary_differ_by_the_residual(void **user)
             resultant[scree_hull_of(&b->state)->id[n]][k] += scree_hull_of(&b->state)->force[n][k];
     for (size_t i = 0; i < 225; i++) {
         scree_vector x;
-        scree_body_place(&b->state, i, x);
+        scree_body_position(&b->state, i, x);
         for (int r = 0; r < 3; r++)
             for (int c = 0; c < 3; c++) residual[3 * r + c] += resultant[i][r] * (x[c] - centre[c]) / volume;
     }

@@ -41,7 +41,7 @@ static void create_bodies(scree_state *state)
                                       .mass = 1};
         state->turn[row] = (scree_turn_row){.wx = 3, .wy = 4 * uniform(4 * id + 3), .wz = 12, .material = id % 2};
         state->torque[row] = (scree_torque_row){.x = id, .y = -(int64_t)id, .z = 2 * (int64_t)id};
-        scree_body_place(state, row, state->reference[row]);
+        scree_body_position(state, row, state->reference[row]);
     }
     state->step_size = 1e-6;
     scree_plates(state)[SCREE_WALL_BOTTOM] = (scree_wall){.normal = {0, 0, 1}, .active = 1};
@@ -54,7 +54,7 @@ static void create_hull(scree_hull *hull)
 {
     static const uint32_t triangle[CORNERS][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
     assert_int_equal(scree_allocate(&hull->id, CORNERS, sizeof *hull->id, NULL), SCREE_OK);
-    assert_int_equal(scree_allocate(&hull->place, CORNERS, sizeof *hull->place, NULL), SCREE_OK);
+    assert_int_equal(scree_allocate(&hull->position, CORNERS, sizeof *hull->position, NULL), SCREE_OK);
     assert_int_equal(scree_allocate(&hull->force, CORNERS, sizeof *hull->force, NULL), SCREE_OK);
     assert_int_equal(scree_allocate(&hull->triangle, CORNERS, sizeof *hull->triangle, NULL), SCREE_OK);
     assert_int_equal(scree_allocate(&hull->loaded, CORNERS, sizeof *hull->loaded, NULL), SCREE_OK);
@@ -62,7 +62,7 @@ static void create_hull(scree_hull *hull)
     hull->updated = 17;
     for (uint32_t k = 0; k < CORNERS; k++) {
         hull->id[k] = 5 * k;
-        hull->place[k][2] = uniform(5000 + k);
+        hull->position[k][2] = uniform(5000 + k);
         hull->force[k][1] = uniform(6000 + k);
         hull->loaded[k] = k % 2;
     }
@@ -82,7 +82,7 @@ static void create_table(const scree_state *state, scree_contact_table *table)
                                    .tangent = {1, 0, 0},
                                    .normal_force = 4 * uniform(8000 + k) * uniform(9000 + k),
                                    .tangential_force = 0.5};
-        scree_body_place(state, contact->first, contact->point);
+        scree_body_position(state, contact->first, contact->point);
     }
 }
 
@@ -93,14 +93,14 @@ typedef struct solid {
     scree_model model;
 } solid;
 
-static char solid_name[] = "solid";
+static char name_3d[] = "solid";
 
 static void create(solid *s)
 {
     create_bodies(&s->state);
     create_hull(scree_hull_of(&s->state));
     create_table(&s->state, &s->table);
-    s->config = (scree_config){.name = solid_name};
+    s->config = (scree_config){.name = name_3d};
     s->model = sample_model(&s->config);
     s->model.dimension = 3;
 }

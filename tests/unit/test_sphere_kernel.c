@@ -155,7 +155,7 @@ static void table_says_what_the_sums_hold(void **unused)
         sliding += c->sliding;
         for (int side = 0; side < 2; side++)
             for (int i = 0; i < 3; i++) {
-                double arm = f.state.row[body[side]].radius - 0.5 * c->indentation;
+                double arm = f.state.row[body[side]].radius - 0.5 * c->overlap;
                 double force = c->normal_force * n[i] + c->tangential_force * t[i];
                 sum[6 * body[side] + (size_t)i] += side ? -force : force;
                 sum[6 * body[side] + 3 + (size_t)i] -= c->tangential_force * moment[i] * arm;
@@ -183,19 +183,19 @@ static void all_rows_of_the_memory_are_saved(void **unused)
     create(&f, HERTZ_MINDLIN, 1, true);
     sphere_run(&f, 20);
     assert_int_equal(scree_contacts_save(&f.state, &f.work, &error), SCREE_OK);
-    assert_true(f.state.contact_count > f.state.count && f.state.booking && f.state.rolling);
-    size_t found = 0, booked = 0;
+    assert_true(f.state.contact_count > f.state.count && f.state.last_force && f.state.rolling);
+    size_t found = 0, last = 0;
     for (size_t p = 0; p < f.work.pairs.count; p++)
         for (size_t k = 0; k < f.state.contact_count; k++) {
             const scree_contact_memory *m = &f.state.contact[k];
             if (m->first != f.work.pairs.first[p] || m->second != f.work.pairs.second[p]) continue;
             assert_memory_equal(&m->history, &f.work.pairs.history[p], sizeof m->history);
-            assert_memory_equal(&f.state.booking[k], &f.work.pairs.booking[p], sizeof *f.state.booking);
+            assert_memory_equal(&f.state.last_force[k], &f.work.pairs.last_force[p], sizeof *f.state.last_force);
             assert_memory_equal(&f.state.rolling[k], &f.work.pairs.rolling[p], sizeof *f.state.rolling);
-            booked += f.state.booking[k].value[0] != 0 && f.state.rolling[k].value[3] != 0;
+            last += f.state.last_force[k].value[0] != 0 && f.state.rolling[k].value[3] != 0;
             found++;
         }
-    assert_true(2 * booked > found);
+    assert_true(2 * last > found);
     size_t walls = 0;
     for (size_t k = 0; k < f.state.contact_count; k++) walls += f.state.contact[k].second >= SCREE_WALL_ID;
     assert_int_equal(found + walls, f.state.contact_count);

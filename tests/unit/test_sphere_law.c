@@ -1,7 +1,7 @@
 /// The contact laws on spheres against closed forms, and their symmetries.
 ///
 /// Tolerances: ROUND_OFF is that of forces in quanta, 2^-51 of the bound of the step, which in these tests is at most
-/// 2^8 times the force itself, and a few roundings of 2^-53 (the indentation, a difference of lengths a thousand times
+/// 2^8 times the force itself, and a few roundings of 2^-53 (the overlap, a difference of lengths a thousand times
 /// as large, is computed here in the same way). Others say where they come from.
 #include "sphere_fixture.h"
 #include "state/plates.h"
@@ -32,7 +32,7 @@ static void assert_vector(const double value[3], const double expected[3], doubl
             fail_msg("component %d: %.17g is not %.17g within %g", k, value[k], expected[k], tolerance * scale);
 }
 
-/// Two spheres of 1 and 1.3 mm that touch along `direction` with indentation d.
+/// Two spheres of 1 and 1.3 mm that touch along `direction` with overlap d.
 static void create_pair(fixture *f, law_choice law, double d)
 {
     fixture_create_in(f, 3, law, 2, 1e-7);
@@ -53,7 +53,7 @@ static void set_motion(fixture *f, size_t k, const double velocity[3], const dou
     fixture_measure_speed(f);
 }
 
-/// Lets the first sphere slip by `slip` at a constant indentation: it came along the chord of an arc.
+/// Lets the first sphere slip by `slip` at a constant overlap: it came along the chord of an arc.
 static void set_slip(fixture *f, const double slip[3])
 {
     double velocity[3], spin[3] = {0},
@@ -89,7 +89,7 @@ static void normal_force_is_hertz(void **unused)
         sphere_force(&f, 0, force, torque);
         geometry g = geometry_of(&f);
         for (int k = 0; k < 3; k++) expected[k] = 4e9 * g.radius * g.d * direction[k];
-        // the direction is that of positions rounded to 1e-18 m over 2.3e-3 m, the indentation its length to 1e-12
+        // the direction is that of positions rounded to 1e-18 m over 2.3e-3 m, the overlap its length to 1e-12
         assert_vector(force, expected, 1e-11);
         assert_true(torque[0] == 0 && torque[1] == 0 && torque[2] == 0);
         assert_int_equal(f.state.sum[0].contacts, 1);
@@ -197,8 +197,8 @@ static void turn_pair(const double axis[3], int steps)
     scree_vector start, centre;
     f.state.step_size = dt;
     memcpy(f.work.pairs.history[0].value, h, sizeof h);
-    scree_body_place(&f.state, 0, start);
-    scree_body_place(&f.state, 1, centre);
+    scree_body_position(&f.state, 0, start);
+    scree_body_position(&f.state, 1, centre);
     for (int k = 0; k < 3; k++) start[k] -= centre[k], spin[k] = rate * axis[k];
     for (int n = 1; n <= steps; n++) {
         double now[3];
@@ -374,7 +374,7 @@ static void compare_turned(law_choice law, double m[3][3], double tolerance)
 }
 
 /// A half turn about an axis and a quarter turn about z leave every sum as it is, so they are exact; a permutation of
-/// all axes adds in another order, any rotation rounds the positions: 1e-19 m of an indentation of 6e-5 m.
+/// all axes adds in another order, any rotation rounds the positions: 1e-19 m of an overlap of 6e-5 m.
 static void turning_the_axes_turns_the_forces(void **unused)
 {
     (void)unused;

@@ -68,7 +68,7 @@ static void compare(const fixture *plane, const fixture *solid)
         assert_int_equal(plane->state.sum[k].contacts, solid->state.sum[k].contacts);
     }
     const scree_ledger *a = &plane->state.ledger, *b = &solid->state.ledger;
-    // booked dashpots have 24 bits
+    // accumulated dashpots have 24 bits
     assert_true(a->damping > 0 && fabs(a->damping - b->damping) < 1e-7 * a->turnover);
     assert_true(a->friction > 0 && fabs(a->friction - b->friction) < 1e-7 * a->turnover);
     assert_true(fabs(a->plates - b->plates) < 1e-9 * a->turnover);

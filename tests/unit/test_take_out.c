@@ -225,7 +225,7 @@ static void put_in(scree_simulation *s, const scree_row *like)
     check(scree_state_append(&s->state, SCREE_MARK_GRAIN, 1, &error), &error);
     s->state.row[row] = *like;
     s->state.row[row].vx = s->state.row[row].vy = s->state.row[row].spin = 0;
-    scree_body_place(&s->state, row, s->state.reference[row]);
+    scree_body_position(&s->state, row, s->state.reference[row]);
     check(scree_neighbours_refresh(&s->stage_model, &s->state, &s->work, &error), &error);
 }
 

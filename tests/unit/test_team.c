@@ -1,10 +1,10 @@
-/// The team of spinning threads: every share of every task is done once, also after members have gone to sleep, when
-/// the number of shares changes and when there are more threads than processors. The choice of how many work, on
+/// The thread pool of spinning threads: every share of every task is done once, also after members have gone to sleep,
+/// when the number of shares changes and when there are more threads than processors. The choice of how many work, on
 /// machines that are made up.
 #include "testing.h"
 
 #include "base/memory.h"
-#include "base/team_size.h"
+#include "base/thread_pool_size.h"
 
 #include <stdatomic.h>
 #include <string.h>
@@ -22,11 +22,11 @@ static void count_share(void *argument, int index, int count)
     atomic_fetch_add(&t->done[index], 1);
 }
 
-static void run_many(scree_team **team, int count, int tasks)
+static void run_many(scree_thread_pool **pool, int count, int tasks)
 {
     tally t = {.count = count};
     for (int k = 0; k < tasks; k++) {
-        scree_team_run(team, count, count_share, &t);
+        scree_thread_pool_run(pool, count, count_share, &t);
         for (int i = 0; i < SCREE_TEAM_MOST; i++) assert_int_equal(t.done[i], i < count ? k + 1 : 0);
     }
 }
@@ -35,40 +35,40 @@ static void every_share_is_done_once(void **unused)
 {
     (void)unused;
     static const int counts[] = {1, 2, 3, 7, 2, 1};
-    scree_team *team = NULL;
-    for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) run_many(&team, counts[k], 500);
-    scree_team_destroy(&team);
-    assert_null(team);
-    scree_team_destroy(&team);
+    scree_thread_pool *pool = NULL;
+    for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) run_many(&pool, counts[k], 500);
+    scree_thread_pool_destroy(&pool);
+    assert_null(pool);
+    scree_thread_pool_destroy(&pool);
 }
 
 static void sleeping_members_wake_up(void **unused)
 {
     (void)unused;
-    scree_team *team = NULL;
+    scree_thread_pool *pool = NULL;
     for (int k = 0; k < 5; k++) {
-        run_many(&team, 3, 10);
+        run_many(&pool, 3, 10);
         // Long enough for a member to spin out and sleep on any machine; if it does not, the test is only weaker.
         nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL);
     }
-    scree_team_destroy(&team);
+    scree_thread_pool_destroy(&pool);
 }
 
 static void without_memory_the_caller_does_all(void **unused)
 {
     (void)unused;
-    scree_team *team = NULL;
+    scree_thread_pool *pool = NULL;
     tally t = {.count = 4};
     scree_allocation_fail_after(1);
-    scree_team_run(&team, 4, count_share, &t);
+    scree_thread_pool_run(&pool, 4, count_share, &t);
     scree_allocation_fail_after(0);
-    assert_null(team);
+    assert_null(pool);
     for (int i = 0; i < 4; i++) assert_int_equal(t.done[i], 1);
 }
 
 /// What a share has written is there when the task returns, and what the caller writes between two tasks is seen.
 typedef struct relay {
-    int value[SCREE_TEAM_MOST]; // plain: the team orders them
+    int value[SCREE_TEAM_MOST]; // plain: the thread pool orders them
 } relay;
 
 static void count_up(void *argument, int index, int count)
@@ -82,16 +82,16 @@ static void tasks_are_ordered(void **unused)
 {
     (void)unused;
     enum { COUNT = 7, TASKS = 3000 };
-    scree_team *team = NULL;
+    scree_thread_pool *pool = NULL;
     relay r = {{0}};
     for (int task = 0; task < TASKS; task++) {
-        scree_team_run(&team, COUNT, count_up, &r);
+        scree_thread_pool_run(&pool, COUNT, count_up, &r);
         for (int k = 0; k < COUNT; k++) {
             assert_int_equal(r.value[k], 2 * task + 1);
             r.value[k]++;
         }
     }
-    scree_team_destroy(&team);
+    scree_thread_pool_destroy(&pool);
 }
 
 /// A machine with some free processors: a step of one thread takes 1 ms, n threads on free processors are 0.9 n times
@@ -108,11 +108,11 @@ static double lost_on(const void *user)
 }
 
 /// `seconds` of steps; returns steps a second.
-static double work_on(machine *m, scree_team_size *size, int most, double seconds)
+static double work_on(machine *m, scree_thread_pool_size *size, int most, double seconds)
 {
     double end = m->now + seconds, begin = m->now, steps = 0;
     for (; m->now < end; steps++) {
-        int n = scree_team_size_choose(size, most, m->now, lost_on, m);
+        int n = scree_thread_pool_size_choose(size, most, m->now, lost_on, m);
         assert_true(n >= 1 && n <= most);
         double step = n == 1 ? 1e-3 : 1e-3 / (0.9 * n);
         if (n > m->free) {
@@ -130,7 +130,7 @@ static void two_threads_give_way(void **unused)
 {
     (void)unused;
     machine m = {.now = 1, .free = 2};
-    scree_team_size size = {0};
+    scree_thread_pool_size size = {0};
     assert_true(work_on(&m, &size, 2, 10) > 1799);
     m.free = 1;
     assert_true(work_on(&m, &size, 2, 1) > 900);
@@ -146,7 +146,7 @@ static void many_threads_find_the_free_processors(void **unused)
 {
     (void)unused;
     machine m = {.now = 1, .free = 5};
-    scree_team_size size = {0};
+    scree_thread_pool_size size = {0};
     (void)work_on(&m, &size, 16, 2);
     assert_true(work_on(&m, &size, 16, 60) > 0.95 * 4500);
     m.free = 16;
@@ -160,7 +160,7 @@ static void losses_alone_take_no_thread(void **unused)
 {
     (void)unused;
     machine m = {.now = 1, .free = 2};
-    scree_team_size size = {0};
+    scree_thread_pool_size size = {0};
     double steps = 0;
     for (int k = 0; k < 1000; k++) {
         steps += 0.5 * work_on(&m, &size, 2, 0.5);
@@ -174,7 +174,7 @@ static void one_thread_stays_alone(void **unused)
 {
     (void)unused;
     machine m = {.now = 1, .free = 1};
-    scree_team_size size = {0};
+    scree_thread_pool_size size = {0};
     assert_true(work_on(&m, &size, 1, 1) > 999);
 }
 

@@ -36,10 +36,10 @@ enum { STEPS = 400, VALUES = 18 };
 /// A body is thrown at a wall that moves and drags. Row, force, and load of the wall after every step.
 static void throw(int dimension, law_choice law, bool built_in, double seen[STEPS][VALUES])
 {
-    const bool solid = dimension == 3;
-    const double normal[2][3] = {{0.6, 0.8, 0}, {2.0 / 7, 3.0 / 7, 6.0 / 7}}, *n = normal[solid];
+    const bool in_3d = dimension == 3;
+    const double normal[2][3] = {{0.6, 0.8, 0}, {2.0 / 7, 3.0 / 7, 6.0 / 7}}, *n = normal[in_3d];
     const double drag[3] = {0.02 * n[1], -0.02 * n[0], 0}, towards = 0.03, dt = 2e-7;
-    const double velocity[3] = {-0.1, -0.2, solid ? -0.15 : 0}, spin[3] = {solid ? 50 : 0, solid ? -80 : 0, 300};
+    const double velocity[3] = {-0.1, -0.2, in_3d ? -0.15 : 0}, spin[3] = {in_3d ? 50 : 0, in_3d ? -80 : 0, 300};
     double place[3];
     world w = {0};
     if (!built_in) {
@@ -64,7 +64,7 @@ static void throw(int dimension, law_choice law, bool built_in, double seen[STEP
         if (built_in) wall->position += dt * towards;
         world_step(&w);
         scree_body_force(&w.f.model, &w.f.state, 0, force, torque);
-        scree_body_place(&w.f.state, 0, at);
+        scree_body_position(&w.f.state, 0, at);
         scree_body_motion(&w.f.state, 0, speed, turning);
         double *value = seen[step], on_wall[3];
         for (int k = 0; k < 3; k++)
@@ -93,7 +93,7 @@ static void planes_are_built_in_walls(void **unused)
                 for (int k = 0; k < VALUES; k++) size[k / 3] = fmax(size[k / 3], fabs(one[step][k]));
             assert_true(size[0] > 0.1);
             // Indentations of 1e-6 m are differences of numbers of 1e-2 m: 1e-16 x 1e-2 / 1e-6; 400 steps, in which
-            // friction that foresees the slip passes through its steepest part.
+            // friction that predicts the slip passes through its steepest part.
             for (int step = 0; step < STEPS; step++)
                 for (int k = 0; k < VALUES; k++) assert_near(other[step][k], one[step][k], 1e-9 * size[k / 3]);
         }
@@ -130,9 +130,9 @@ static void expected_force(const world *w, const double place[3], const double v
 /// One contact, with the force of the law, at rest and in motion; the wall gets the opposite.
 static void check_contact(world *w, const double foot[3], const double normal[3])
 {
-    const bool solid = w->f.state.dimension == 3;
-    const double speeds[2][3] = {{0}, {0.2, -0.1, solid ? 0.15 : 0}};
-    const double spins[2][3] = {{0}, {solid ? 90 : 0, solid ? -60 : 0, 150}};
+    const bool in_3d = w->f.state.dimension == 3;
+    const double speeds[2][3] = {{0}, {0.2, -0.1, in_3d ? 0.15 : 0}};
+    const double spins[2][3] = {{0}, {in_3d ? 90 : 0, in_3d ? -60 : 0, 150}};
     for (int moves = 0; moves < 2; moves++) {
         const double distance = 0.99 * R;
         double place[3], force[3], torque[3];
@@ -259,12 +259,12 @@ static void speeds_are_bounded(void **unused)
         memcpy(wall->spin, spin, sizeof spin);
         memcpy(wall->velocity, velocity, sizeof velocity);
         world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-6);
-        const scree_surface *surface = &w.f.work.container->surface[0];
-        double bound = scree_container_speed(w.f.work.container), fastest = 0;
-        double time = 1e-4, way = scree_container_way(w.f.work.container, time, 0);
+        const scree_surface *surface = &w.f.work.wall_set->surface[0];
+        double bound = scree_wall_set_speed(w.f.work.wall_set), fastest = 0;
+        double time = 1e-4, way = scree_wall_set_way(w.f.work.wall_set, time, 0);
         scree_wall_triangles drawn;
         scree_error error;
-        check(scree_container_triangles(w.f.work.container, wall->lower, wall->upper, &drawn, &error), &error);
+        check(scree_wall_set_triangles(w.f.work.wall_set, wall->lower, wall->upper, &drawn, &error), &error);
         for (size_t k = 0; k < 3 * drawn.count; k++) {
             double lever[3], moved[3];
             scree_subtract(&drawn.corner[k / 3][3 * (k % 3)], surface->hub, lever);
@@ -295,7 +295,7 @@ static void clearance_is_negative_outside(void **unused)
         double expected = fmin(mantle, fmin(s, LENGTH - s));
         lift(6 * fixture_random(3 * k + 2), s, r, place);
         for (int i = 0; i < 3; i++) place[i] += START[i];
-        double clearance = scree_surface_clearance(w.f.work.container, 0, place, R);
+        double clearance = scree_surface_clearance(w.f.work.wall_set, 0, place, R);
         assert_true((clearance < 0) == (expected < 0));
         if (expected > 0) assert_near(clearance, expected, 1e-15);
         inside += expected > 0;
@@ -306,7 +306,7 @@ static void clearance_is_negative_outside(void **unused)
 }
 
 /// A body more than its radius behind a wall with an inside has nothing to do with it; a plane has no other side.
-/// The indentation on a wall of its own material and on one without, at the same place; the table says the same.
+/// The overlap on a wall of its own material and on one without, at the same place; the table says the same.
 static void walls_have_their_own_material(void **unused)
 {
     (void)unused;
@@ -326,7 +326,7 @@ static void walls_have_their_own_material(void **unused)
         const double expected = k * sqrt(R) * pow(2e-6, 1.5);
         scree_vector force, torque;
         scree_body_force(&w.f.model, &w.f.state, 0, force, torque);
-        // Quanta are those of an indentation at the guard's limit, of a force 1000 times as large.
+        // Quanta are those of an overlap at the guard's limit, of a force 1000 times as large.
         assert_near(force[1], expected, 1e-11 * expected);
         scree_energy energy = world_energy(&w, NULL);
         assert_near(energy.elastic_normal, 0.4 * expected * 2e-6, 1e-12 * expected * 2e-6);
@@ -348,12 +348,12 @@ static void walls_have_another_side(void **unused)
             for (int i = 0; i < 3; i++) wall->upper[i] = 0.02;
             wall->point[2] = wall->end[2] = wall->radius = 0.02;
             world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-6);
-            const scree_container *container = w.f.work.container;
+            const scree_wall_set *wall_set = w.f.work.wall_set;
             int touching = 0;
-            for (size_t e = 0; e < container->elements; e++) {
-                scree_site site;
-                scree_element_site(container, e, place, &site);
-                touching += scree_site_touches(container, e, &site, R);
+            for (size_t e = 0; e < wall_set->primitives; e++) {
+                scree_closest_point closest;
+                scree_primitive_closest_point(wall_set, e, place, &closest);
+                touching += scree_closest_point_touches(wall_set, e, &closest, R);
             }
             assert_int_equal(touching, k < 2 || shape == SCREE_SHAPE_OF_PLANE);
             world_close(&w);
@@ -476,7 +476,7 @@ static void discs_roll(void **unused)
         world_begin(&w);
         world_run(&w, steps);
         double time = steps * 2e-6, expected = 2.0 / 3 * gravity * sin(angle) * time;
-        // The lever is shorter by half the indentation, 1e-3 of the radius; the spring takes a few hundred steps.
+        // The lever is shorter by half the overlap, 1e-3 of the radius; the spring takes a few hundred steps.
         assert_near(w.f.state.row[0].vx, expected, 2e-3 * expected);
         assert_near(-w.f.state.row[0].spin * R, expected, 3e-3 * expected);
         scree_energy energy = world_energy(&w, NULL);

@@ -221,8 +221,8 @@ static void test_concave_corner(void **state)
     assert_near(force[0], expected, 1e-9 * expected);
     assert_near(force[2], expected, 1e-9 * expected);
     int springs = 0;
-    for (size_t p = 0; p < w.f.work.element_pairs.count; p++)
-        springs += w.f.work.element_pairs.history[p].value[1] != 0;
+    for (size_t p = 0; p < w.f.work.primitive_pairs.count; p++)
+        springs += w.f.work.primitive_pairs.history[p].value[1] != 0;
     assert_int_equal(springs, 2);
     // The vertex of three faces.
     put(&w, d, d, d);
@@ -292,7 +292,7 @@ static void test_triangulated_plane(void **state)
         const scree_model model = fixture_model(law);
         double expected = k % 2 == 0 ? 5.0 / 7 * G * sin(0.3) * time : slide(&model, law, friction[1], time);
         double reached = hypot(plane[3], plane[4]);
-        // The begin of rolling takes a few hundred steps; levers are shorter by half the indentation, 1e-3.
+        // The begin of rolling takes a few hundred steps; levers are shorter by half the overlap, 1e-3.
         assert_near(reached, expected, 2e-3 * expected);
     }
 }
@@ -321,7 +321,7 @@ static void test_oscillation(void **state)
         }
         assert_int_equal(crossings, 5);
         double period = (last - first) * 2e-6 / 2, expected = 2 * M_PI * sqrt(length / G * (rolls ? 1.4 : 1));
-        // Amplitude: 1 + angle^2 / 16 = 1.6e-4; the contact gives way by the tangential spring and the indentation.
+        // Amplitude: 1 + angle^2 / 16 = 1.6e-4; the contact gives way by the tangential spring and the overlap.
         assert_near(period, expected, 2e-3 * expected);
         scree_energy energy = world_energy(&w, NULL);
         // The trapezoid along the force law, third order in the step: see the same on one plane in the tests of planes.
@@ -391,7 +391,7 @@ static void test_spinning_drum(void **state)
     assert_true(fabs(momentum) > 0);
     assert_near(scree_case_walls(&w.f.state)->load[0].work, 3 * momentum, 1e-9 * fabs(3 * momentum));
     // A drum that turns about its axis is nowhere else: no neighbour list is built for it.
-    assert_true(scree_container_way(w.f.work.container, 1, R) == 0);
+    assert_true(scree_wall_set_way(w.f.work.wall_set, 1, R) == 0);
     scree_energy energy = world_energy(&w, NULL);
     assert_near(energy.residual, 0, 1e-3 * w.f.state.ledger.turnover);
     world_close(&w);

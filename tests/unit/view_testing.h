@@ -88,7 +88,7 @@ static inline void picture_extent(const picture *p, scree_colour colour, double 
 }
 
 /// What a non-validating XML reader demands of elements, attributes and entities. NULL, or what is wrong.
-static inline const char *xml_fault(const char *text)
+static inline const char *xml_problem(const char *text)
 {
     const char *open[64];
     size_t depth = 0, elements = 0;
@@ -130,8 +130,8 @@ static inline const char *xml_fault(const char *text)
 static inline void assert_well_formed(const char *path)
 {
     char *text = read_whole(path);
-    const char *fault = xml_fault(text);
-    if (fault) fail_msg("%s: %s", path, fault);
+    const char *problem = xml_problem(text);
+    if (problem) fail_msg("%s: %s", path, problem);
     assert_non_null(strstr(text, "<svg"));
     free(text);
 }

@@ -7,8 +7,8 @@
 
 #include "measure/measure.h"
 #include "search/neighbours.h"
-#include "shape/container.h"
 #include "shape/stl.h"
+#include "shape/wall_set.h"
 
 #include <stdio.h>
 #include <unistd.h>
@@ -52,10 +52,10 @@ static inline void world_start(world *w, int dimension, law_choice law, int sche
     w->f.model.largest_step = w->f.model.large_multiple = 1;
     w->f.model.config = &w->config;
     assert_int_equal(scree_state_create(&w->f.state, dimension, count, &error), SCREE_OK);
-    if (scree_model_foresees(&w->f.model)) check(scree_state_foresee(&w->f.state, &error), &error);
+    if (scree_model_predicts(&w->f.model)) check(scree_state_predict(&w->f.state, &error), &error);
     w->f.state.tick = w->f.state.step_size = w->f.state.kick_size = step;
     assert_int_equal(scree_work_create(&w->f.work, &w->f.model, 1, &error), SCREE_OK);
-    scree_status status = scree_container_create(&w->config, &w->f.work.container, &error);
+    scree_status status = scree_wall_set_create(&w->config, &w->f.work.wall_set, &error);
     if (status) fail_msg("%s", error.message);
 }
 

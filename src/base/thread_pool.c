@@ -7,8 +7,8 @@
 /// A member spins SPINS times (some 30 us) for an offer, then sleeps in the kernel (futex(2)) on its word. The caller
 /// spins for the last shares, then gives its processor to whoever wants it (the member may be waiting for just that),
 /// then sleeps. Time that it waits longer than spinning lasts is counted: the shares of a task are nearly equal, so it
-/// says that other programs have taken processors away (team_size.h).
-#include "base/team.h"
+/// says that other programs have taken processors away (thread_pool_size.h).
+#include "base/thread_pool.h"
 
 #include "base/memory.h"
 
@@ -30,15 +30,15 @@ enum { NOTHING, OFFERED, SLEEPING, ENDED };
 
 typedef struct member {
     _Alignas(64) atomic_int word; // on a cache line of its own
-    scree_team *team;
+    scree_thread_pool *pool;
     pthread_t thread;
     int index;
 } member;
 
-struct scree_team {
+struct scree_thread_pool {
     int count, started; ///< threads with the caller's; those that were started, count - 1 when all could be
     int shares;         ///< of the present task, at most count
-    scree_team_task *task;
+    scree_thread_pool_task *task;
     void *argument;
     double stalled;                     ///< s
     _Alignas(64) atomic_int unfinished; ///< shares of others
@@ -104,65 +104,65 @@ static bool wait_for_share(member *self)
 static void *serve(void *argument)
 {
     member *self = argument;
-    scree_team *team = self->team;
+    scree_thread_pool *pool = self->pool;
     while (wait_for_share(self)) {
-        team->task(team->argument, self->index, team->shares);
-        if (atomic_fetch_sub(&team->unfinished, 1) == 1 && atomic_load(&team->waiting)) wake(&team->unfinished);
+        pool->task(pool->argument, self->index, pool->shares);
+        if (atomic_fetch_sub(&pool->unfinished, 1) == 1 && atomic_load(&pool->waiting)) wake(&pool->unfinished);
     }
     return NULL;
 }
 
-static scree_team *create(int count)
+static scree_thread_pool *create(int count)
 {
-    scree_team *team;
-    if (scree_allocate(&team, 1, sizeof *team, NULL)) return NULL;
-    team->count = count;
+    scree_thread_pool *pool;
+    if (scree_allocate(&pool, 1, sizeof *pool, NULL)) return NULL;
+    pool->count = count;
     for (int k = 1; k < count; k++) {
-        team->members[k].team = team;
-        team->members[k].index = k;
-        if (pthread_create(&team->members[k].thread, NULL, serve, &team->members[k])) break;
-        team->started++;
+        pool->members[k].pool = pool;
+        pool->members[k].index = k;
+        if (pthread_create(&pool->members[k].thread, NULL, serve, &pool->members[k])) break;
+        pool->started++;
     }
-    return team;
+    return pool;
 }
 
-void scree_team_destroy(scree_team **team)
+void scree_thread_pool_destroy(scree_thread_pool **pool)
 {
-    scree_team *t = *team;
+    scree_thread_pool *t = *pool;
     if (!t) return;
     for (int k = 1; k <= t->started; k++) tell(&t->members[k], ENDED);
     for (int k = 1; k <= t->started; k++) pthread_join(t->members[k].thread, NULL);
-    scree_release(team);
+    scree_release(pool);
 }
 
-double scree_team_stalled(const scree_team *team)
+double scree_thread_pool_stalled(const scree_thread_pool *pool)
 {
-    return team ? team->stalled : 0;
+    return pool ? pool->stalled : 0;
 }
 
 /// Waits for shares that members have begun.
-static void wait_for_others(scree_team *team)
+static void wait_for_others(scree_thread_pool *pool)
 {
     for (int spins = 0; spins < SPINS_BEFORE_YIELD; spins++) {
-        if (atomic_load_explicit(&team->unfinished, memory_order_acquire) == 0) return;
+        if (atomic_load_explicit(&pool->unfinished, memory_order_acquire) == 0) return;
         relax();
     }
     double begin = clock_now(), passed = 0;
-    while (atomic_load(&team->unfinished) > 0 && passed < yield_seconds) {
+    while (atomic_load(&pool->unfinished) > 0 && passed < yield_seconds) {
         sched_yield();
         passed = clock_now() - begin;
     }
-    atomic_store(&team->waiting, 1);
-    for (int left; (left = atomic_load(&team->unfinished)) > 0;) sleep_on(&team->unfinished, left);
-    atomic_store(&team->waiting, 0);
-    team->stalled += clock_now() - begin;
+    atomic_store(&pool->waiting, 1);
+    for (int left; (left = atomic_load(&pool->unfinished)) > 0;) sleep_on(&pool->unfinished, left);
+    atomic_store(&pool->waiting, 0);
+    pool->stalled += clock_now() - begin;
 }
 
-void scree_team_run(scree_team **team, int count, scree_team_task *task, void *argument)
+void scree_thread_pool_run(scree_thread_pool **pool, int count, scree_thread_pool_task *task, void *argument)
 {
-    if (*team && (*team)->count < count) scree_team_destroy(team);
-    if (!*team && count > 1) *team = create(count);
-    scree_team *t = count > 1 ? *team : NULL;
+    if (*pool && (*pool)->count < count) scree_thread_pool_destroy(pool);
+    if (!*pool && count > 1) *pool = create(count);
+    scree_thread_pool *t = count > 1 ? *pool : NULL;
     int members = !t ? 0 : t->started < count - 1 ? t->started : count - 1;
     if (t) {
         t->shares = count;

@@ -1,6 +1,6 @@
 /// Faults are sought again from positions and velocities, body by body and pair by pair, so the answer does not depend
 /// on the kernel, on threads or on the order of the list.
-#include "contact/faults.h"
+#include "contact/diagnostics.h"
 #include "state/plates.h"
 
 #include "contact/bounds.h"
@@ -10,57 +10,57 @@
 #include <math.h>
 
 /// Smallest id for each fault; UINT64_MAX for none.
-typedef struct faults {
+typedef struct diagnostics {
     uint64_t not_finite, overlap, force;
-} faults;
+} diagnostics;
 
 static void lower(uint64_t *least, uint64_t id)
 {
     if (id < *least) *least = id;
 }
 
-static void check_rows(const scree_state *state, faults *f)
+static void check_rows(const scree_state *state, diagnostics *f)
 {
     for (size_t k = 0; k < state->count; k++) {
-        scree_vector place, velocity, spin;
+        scree_vector position, velocity, spin;
         double sum = 0;
-        scree_body_place(state, k, place);
+        scree_body_position(state, k, position);
         scree_body_motion(state, k, velocity, spin);
-        for (int i = 0; i < 3; i++) sum += place[i] + velocity[i] + spin[i];
+        for (int i = 0; i < 3; i++) sum += position[i] + velocity[i] + spin[i];
         if (!isfinite(sum)) lower(&f->not_finite, state->id[k]);
     }
 }
 
-static void check_contact(const scree_contact *c, double overlap_limit, double force_limit, uint64_t id, faults *f)
+static void check_contact(const scree_contact *c, double overlap_limit, double force_limit, uint64_t id, diagnostics *f)
 {
-    if (c->indentation > overlap_limit) lower(&f->overlap, id);
+    if (c->overlap > overlap_limit) lower(&f->overlap, id);
     if (!(fabs(c->normal_force) + fabs(c->tangential_force) <= force_limit)) lower(&f->force, id);
 }
 
 static void check_elements(const scree_model *model, const scree_state *state, const scree_work *work,
-                           double force_limit, faults *f)
+                           double force_limit, diagnostics *f)
 {
-    const scree_wall_pair_list *pairs = &work->element_pairs;
-    element_touches touches;
+    const scree_wall_pair_list *pairs = &work->primitive_pairs;
+    primitive_touches touches;
     scree_contact c;
     for (size_t begin = 0, end; begin < pairs->count; begin = end) {
         end = contact_group_end(pairs, begin);
-        contact_elements_touching(work->container, state->dimension, &state->row[pairs->body[begin]], pairs, begin, end,
-                                  &touches);
+        contact_primitives_touching(work->wall_set, state->dimension, &state->row[pairs->body[begin]], pairs, begin,
+                                    end, &touches);
         contact_body body = contact_body_get(state, pairs->body[begin]);
         for (int k = 0; k < touches.count; k++) {
             size_t p = touches.touch[k].pair;
             memory_rows memory = contact_memory_of(work, CONTACT_ELEMENT, p);
-            contact_of_element(model, state, work, &body, pairs->wall[p], &memory, &c);
+            contact_of_primitive(model, state, work, &body, pairs->wall[p], &memory, &c);
             check_contact(&c, contact_overlap_limit(model) * body.row.radius, force_limit, state->id[pairs->body[p]],
                           f);
         }
     }
 }
 
-void contact_find_faults(const scree_model *model, const scree_state *state, scree_work *work, double force_limit)
+void contact_diagnose(const scree_model *model, const scree_state *state, scree_work *work, double force_limit)
 {
-    faults f = {UINT64_MAX, UINT64_MAX, UINT64_MAX};
+    diagnostics f = {UINT64_MAX, UINT64_MAX, UINT64_MAX};
     double limit = contact_overlap_limit(model);
     scree_contact c;
     check_rows(state, &f);

@@ -1,14 +1,14 @@
-/// Sums of images, and the virial of the contact forces.
+/// Sums of ghosts, and the virial of the contact forces.
 ///
 /// The virial, sum over contacts of f (x) (x_first - x_second) with f the force on the first and the positions that the
-/// contact sees, is the sum over all rows, images included, of F (x) x, F the sum on the row. With x = x_parent + H s
-/// of an image this is
-///     sum over bodies of F (x) x + (sum over images of F (x) s) H^T,      F of a body now with those of its images.
+/// contact sees, is the sum over all rows, ghosts included, of F (x) x, F the sum on the row. With x = x_parent + H s
+/// of a ghost this is
+///     sum over bodies of F (x) x + (sum over ghosts of F (x) s) H^T,      F of a body now with those of its ghosts.
 /// The second sum is one of integers; the terms of the first are rounded to integers, in quanta of the force times a
 /// power of two above every coordinate, and added in 128 bits. Both so depend on nothing but the state: not on the
-/// order of rows, on threads, or on which of the two bodies of a contact is the image. Rounding: 2^-51 of the largest
+/// order of rows, on threads, or on which of the two bodies of a contact is the ghost. Rounding: 2^-51 of the largest
 /// force times the size of the cell, a body. Cost: d^2 multiplications a body.
-#include "contact/images.h"
+#include "contact/ghost_forces.h"
 
 #include "base/wide_sum.h"
 #include "comm/comm.h"
@@ -25,7 +25,7 @@ static void sum_of(const scree_state *state, size_t row, int64_t force[3])
     force[2] = state->dimension == 3 ? sum->fz : 0;
 }
 
-/// Sum of force (x) shift [quanta] over the images, modulo 2^64.
+/// Sum of force (x) shift [quanta] over the ghosts, modulo 2^64.
 static void sum_faces(const scree_state *state, const scree_ghost_list *list, int64_t faces[9])
 {
     for (size_t k = 0; k < list->count; k++) {
@@ -49,11 +49,11 @@ static void bound_share(void *argument, int index, int count)
 {
     virial_task *task = argument;
     double largest = 0;
-    size_t end = scree_team_begin(task->state->count, index + 1, count);
-    for (size_t row = scree_team_begin(task->state->count, index, count); row < end; row++) {
-        scree_vector place;
-        scree_body_place(task->state, row, place);
-        for (int k = 0; k < 3; k++) largest = fabs(place[k]) > largest ? fabs(place[k]) : largest;
+    size_t end = scree_thread_pool_begin(task->state->count, index + 1, count);
+    for (size_t row = scree_thread_pool_begin(task->state->count, index, count); row < end; row++) {
+        scree_vector position;
+        scree_body_position(task->state, row, position);
+        for (int k = 0; k < 3; k++) largest = fabs(position[k]) > largest ? fabs(position[k]) : largest;
     }
     task->largest[index] = largest;
 }
@@ -64,15 +64,15 @@ static void sum_share(void *argument, int index, int count)
     const scree_state *state = task->state;
     const double inverse = 1 / task->bound;
     scree_wide_sum sum = {{0}};
-    size_t end = scree_team_begin(state->count, index + 1, count);
-    for (size_t row = scree_team_begin(state->count, index, count); row < end; row++) {
-        scree_vector place;
+    size_t end = scree_thread_pool_begin(state->count, index + 1, count);
+    for (size_t row = scree_thread_pool_begin(state->count, index, count); row < end; row++) {
+        scree_vector position;
         int64_t force[3];
-        scree_body_place(state, row, place);
+        scree_body_position(state, row, position);
         sum_of(state, row, force);
         for (int i = 0; i < state->dimension; i++)
             for (int j = 0; j < state->dimension; j++)
-                sum.value[3 * i + j] += (int64_t)rint((double)force[i] * (place[j] * inverse));
+                sum.value[3 * i + j] += (int64_t)rint((double)force[i] * (position[j] * inverse));
     }
     task->sum[index] = sum;
 }
@@ -84,15 +84,15 @@ static void sum_bodies(const scree_state *state, scree_work *work, double produc
     const int shares = scree_work_shares(work);
     double largest = 0;
     int exponent;
-    scree_team_run(&work->team, shares, bound_share, &task);
+    scree_thread_pool_run(&work->pool, shares, bound_share, &task);
     for (int k = 0; k < shares; k++) largest = fmax(largest, task.largest[k]);
     (void)frexp(largest, &exponent);
     task.bound = ldexp(1.0, exponent);
-    scree_team_run(&work->team, shares, sum_share, &task);
+    scree_thread_pool_run(&work->pool, shares, sum_share, &task);
     scree_wide_total(task.sum, shares, state->force_quantum * task.bound, product);
 }
 
-void scree_images_fold(scree_state *state, scree_work *work)
+void scree_ghosts_add_back(scree_state *state, scree_work *work)
 {
     scree_periodic_cell *cell = scree_cell(state);
     int64_t faces[9] = {0};

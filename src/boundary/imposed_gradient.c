@@ -1,4 +1,4 @@
-/// Forces of an imposed motion, and their books.
+/// Forces of an imposed motion, and their accumulates.
 ///
 /// Uniform stress S on a closed surface. Every corner of a facet gets S times its share of the facet's area vector. A
 /// share is a sum over the edges of the facet, or its ends in 2D, each of which belongs to the neighbouring facet with
@@ -9,7 +9,7 @@
 /// a term. Places are relative to a node, so the terms stay small. Cost: O(facets).
 ///
 /// Rates, volume and work steer the run or stay in its state: sums in integers, whose nodes may come in any order.
-#include "boundary/drive.h"
+#include "boundary/imposed_gradient.h"
 #include "measure/imposed_gradient.h"
 
 #include "base/fixed.h"
@@ -20,30 +20,30 @@
 #include <math.h>
 #include <string.h>
 
-scree_status scree_drive_begin(const scree_model *model, scree_state *state, scree_error *error)
+scree_status scree_imposed_begin(const scree_model *model, scree_state *state, scree_error *error)
 {
-    scree_imposed_gradient *drive = scree_imposed(state);
+    scree_imposed_gradient *imposed = scree_imposed(state);
     (void)model, (void)error;
-    drive->count = 0;
-    drive->achieved = drive->wanted = 0;
-    memset(drive->rate, 0, sizeof drive->rate);
-    memset(drive->stress, 0, sizeof drive->stress);
+    imposed->count = 0;
+    imposed->achieved = imposed->wanted = 0;
+    memset(imposed->rate, 0, sizeof imposed->rate);
+    memset(imposed->stress, 0, sizeof imposed->stress);
     return SCREE_OK;
 }
 
-scree_status scree_drive_refresh(const scree_model *model, scree_state *state, scree_error *error)
+scree_status scree_imposed_make_room(const scree_model *model, scree_state *state, scree_error *error)
 {
     (void)model;
-    scree_imposed_gradient *drive = scree_imposed(state);
+    scree_imposed_gradient *imposed = scree_imposed(state);
     size_t count = scree_boundary_count(state);
     scree_status status =
         scree_group_reserve(state, &scree_module_imposed_gradient, &scree_imposed_nodes, count, error);
     if (status) return status;
-    drive->count = count;
+    imposed->count = count;
     return SCREE_OK;
 }
 
-void scree_drive_add(scree_state *state, size_t node, const int64_t quanta[3])
+void scree_imposed_add(scree_state *state, size_t node, const int64_t quanta[3])
 {
     scree_sum_row *sum = &state->sum[scree_boundary_row(state, node)];
     sum->fx += quanta[0];
@@ -53,7 +53,7 @@ void scree_drive_add(scree_state *state, size_t node, const int64_t quanta[3])
         scree_imposed(state)->force[node][i] += (double)quanta[i] * state->force_quantum;
 }
 
-void scree_drive_work(scree_state *state)
+void scree_imposed_add_work(scree_state *state)
 {
     scree_integer_sum power = {0};
     scree_vector velocity, spin;
@@ -67,19 +67,19 @@ void scree_drive_work(scree_state *state)
     state->ledger.turnover += fabs(work);
 }
 
-double scree_drive_measure(const scree_state *state, scree_vector *area, double rate[9])
+double scree_imposed_measure(const scree_state *state, scree_vector *area, double rate[9])
 {
     enum { VOLUME = 9 };
     scree_integer_sum sum[10] = {0};
-    scree_vector origin, place, velocity, spin;
-    scree_body_place(state, scree_boundary_row(state, 0), origin);
+    scree_vector origin, position, velocity, spin;
+    scree_body_position(state, scree_boundary_row(state, 0), origin);
     while (scree_integer_sum_next(sum, 10))
         for (size_t k = 0; k < scree_boundary_count(state); k++) {
             size_t row = scree_boundary_row(state, k);
             scree_body_motion(state, row, velocity, spin);
-            scree_body_place(state, row, place);
-            scree_subtract(place, origin, place);
-            scree_integer_sum_add(&sum[VOLUME], scree_dot(place, area[k]));
+            scree_body_position(state, row, position);
+            scree_subtract(position, origin, position);
+            scree_integer_sum_add(&sum[VOLUME], scree_dot(position, area[k]));
             for (int i = 0; i < state->dimension; i++)
                 for (int j = 0; j < state->dimension; j++)
                     scree_integer_sum_add(&sum[3 * i + j], velocity[i] * area[k][j]);
@@ -89,21 +89,21 @@ double scree_drive_measure(const scree_state *state, scree_vector *area, double 
     return volume;
 }
 
-/// Mirror image of component c of a 3 x 3 tensor.
+/// Mirror ghost of component c of a 3 x 3 tensor.
 static int mirror(int c)
 {
     return 3 * (c % 3) + c / 3;
 }
 
-void scree_drive_record(scree_state *state, const double rate[9])
+void scree_imposed_record(scree_state *state, const double rate[9])
 {
-    scree_imposed_gradient *drive = scree_imposed(state);
-    memcpy(drive->rate, rate, sizeof drive->rate);
+    scree_imposed_gradient *imposed = scree_imposed(state);
+    memcpy(imposed->rate, rate, sizeof imposed->rate);
     for (int c = 0; c < 9; c++) {
-        if (drive->prescribed[c] == SCREE_FREE) continue;
-        double actual = drive->prescribed[c] == SCREE_FULL ? rate[c] : 0.5 * (rate[c] + rate[mirror(c)]);
-        drive->achieved += state->step_size * drive->target[c] * actual;
-        drive->wanted += state->step_size * drive->target[c] * drive->target[c];
+        if (imposed->prescribed[c] == SCREE_FREE) continue;
+        double actual = imposed->prescribed[c] == SCREE_FULL ? rate[c] : 0.5 * (rate[c] + rate[mirror(c)]);
+        imposed->achieved += state->step_size * imposed->target[c] * actual;
+        imposed->wanted += state->step_size * imposed->target[c] * imposed->target[c];
     }
 }
 
@@ -118,14 +118,14 @@ static void round_force(const double stress[9], const scree_vector vector, doubl
 /// Adds the term of the end or edge of a facet that goes from corner a to b.
 static void add_term(const scree_facet *facet, int a, int b, const double stress[9], double scale, int64_t total[3])
 {
-    const double *p = facet->place[a], *q = facet->place[b];
+    const double *p = facet->position[a], *q = facet->position[b];
     int64_t one[3], other[3] = {0};
     if (facet->corners == 2) {
         round_force(stress, (scree_vector){q[1], -q[0]}, scale, one);
         round_force(stress, (scree_vector){p[1], -p[0]}, scale, other);
     } else {
         int64_t sign = facet->node[a] < facet->node[b] ? 1 : -1;
-        if (sign < 0) p = facet->place[b], q = facet->place[a];
+        if (sign < 0) p = facet->position[b], q = facet->position[a];
         scree_vector cross;
         scree_cross(p, q, cross);
         round_force(stress, cross, scale, one);
@@ -134,7 +134,7 @@ static void add_term(const scree_facet *facet, int a, int b, const double stress
     for (int i = 0; i < 3; i++) total[i] += one[i] - other[i];
 }
 
-void scree_drive_apply_stress(const scree_model *model, scree_state *state, const double stress[9])
+void scree_imposed_apply_stress(const scree_model *model, scree_state *state, const double stress[9])
 {
     double scale = (state->dimension == 3 ? 1.0 / 6 : 0.5 * model->thickness) / state->force_quantum;
     for (size_t f = 0; f < scree_facet_count(state); f++) {
@@ -142,18 +142,18 @@ void scree_drive_apply_stress(const scree_model *model, scree_state *state, cons
         int64_t share[3] = {0};
         int terms = facet.corners == 2 ? 1 : 3;
         for (int t = 0; t < terms; t++) add_term(&facet, t, (t + 1) % facet.corners, stress, scale, share);
-        for (int c = 0; c < facet.corners; c++) scree_drive_add(state, facet.node[c], share);
+        for (int c = 0; c < facet.corners; c++) scree_imposed_add(state, facet.node[c], share);
     }
 }
 
 scree_status scree_imposed_refresh(const scree_context *context, scree_error *error)
 {
-    return scree_drive_refresh(context->model, context->state, error);
+    return scree_imposed_make_room(context->model, context->state, error);
 }
 
 scree_status scree_imposed_work(const scree_context *context, scree_error *error)
 {
     (void)error;
-    scree_drive_work(context->state);
+    scree_imposed_add_work(context->state);
     return SCREE_OK;
 }

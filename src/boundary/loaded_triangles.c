@@ -1,4 +1,4 @@
-/// Which triangles of the hull carry the lateral pressure: the counterpart of corners.c in three dimensions.
+/// Which triangles of the hull carry the lateral pressure: the counterpart of loaded_edges.c in three dimensions.
 ///
 /// Rule. A body of the hull FACES the nearer active one of the bottom and top plates if the gap between its surface and
 /// the plate is at most the mean radius, so that no body fits in between; if no body faces a plate, the one nearest to
@@ -8,7 +8,7 @@
 /// triangles that face a plate, and belong to that plate (to the side when they touch both plates). The side carries
 /// the pressure, and so does the gap between its rim and the plate (measure/hull.h). With an active side plate nothing
 /// is loaded: the sides are not free. Cost: O(triangles).
-#include "boundary/facing.h"
+#include "boundary/loaded_triangles.h"
 #include "state/body.h"
 #include "state/plates.h"
 
@@ -33,9 +33,9 @@ typedef struct marking {
 static double gap_to(const scree_state *state, const scree_wall *wall, uint32_t id)
 {
     size_t row = state->row_of_id[id];
-    scree_vector place;
-    scree_body_place(state, row, place);
-    return wall->normal[2] * place[2] - wall->position - state->row[row].radius;
+    scree_vector position;
+    scree_body_position(state, row, position);
+    return wall->normal[2] * position[2] - wall->position - state->row[row].radius;
 }
 
 /// Marks the nodes that face a wall.
@@ -58,7 +58,7 @@ static void area_vector(const marking *m, size_t t, scree_vector area)
 {
     scree_vector corner[3];
     for (int c = 0; c < 3; c++)
-        scree_body_place(m->state, m->state->row_of_id[m->hull->id[m->hull->triangle[t][c]]], corner[c]);
+        scree_body_position(m->state, m->state->row_of_id[m->hull->id[m->hull->triangle[t][c]]], corner[c]);
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3, j = (k + 2) % 3;
         area[k] = (corner[1][i] - corner[0][i]) * (corner[2][j] - corner[0][j]) -

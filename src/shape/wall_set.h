@@ -1,9 +1,9 @@
 /// The walls of a case beside the six plates: planes, boxes, cylinders, cones and triangle meshes, fixed or moving.
 ///
-/// A wall consists of elements, each of which can touch a sphere at one point at most: a plane is one; a box seen from
-/// inside has six planes, a closed cylinder or cone its side and two ends; what is convex seen from outside (box, rod)
-/// is one; a mesh has its triangles, edges and vertices. Elements of all walls are numbered through. Contacts are the
-/// local minima of the distance to a wall (shape/mesh.h); walls that meet each other do not know of each other.
+/// A wall consists of primitives, each of which can touch a sphere at one point at most: a plane is one; a box seen
+/// from inside has six planes, a closed cylinder or cone its side and two ends; what is convex seen from outside (box,
+/// rod) is one; a mesh has its triangles, edges and vertices. Elements of all walls are numbered through. Contacts are
+/// the local minima of the distance to a wall (shape/mesh.h); walls that meet each other do not know of each other.
 ///
 /// Motion. A wall turns with a constant spin w about a centre that moves with a constant velocity v: with its time t
 /// (scree_case_walls(state)->ticks x tick, never accumulated), x(t) = c + v t + R(w t) (x(0) - c), R a rotation by |w|
@@ -11,8 +11,8 @@
 /// that moves in itself (a drum about its axis, a plane along itself) is not moved at all: only its points are.
 ///
 /// A surface with an inside counts up to one radius behind it, a plane without limit.
-#ifndef SCREE_SHAPE_CONTAINER_H
-#define SCREE_SHAPE_CONTAINER_H
+#ifndef SCREE_SHAPE_WALL_SET_H
+#define SCREE_SHAPE_WALL_SET_H
 
 #include "shape/mesh.h"
 #include "state/case_walls.h"
@@ -21,13 +21,13 @@
 typedef struct scree_profile {
     double s[2], r[2];
     double normal[2]; ///< towards the bodies
-    bool free_ends;   ///< its ends are edges of the wall; else another element goes on from there
+    bool free_ends;   ///< its ends are edges of the wall; else another primitive goes on from there
 } scree_profile;
 
 /// One wall.
 typedef struct scree_surface {
     const scree_config_wall *config;
-    size_t first, count; ///< its elements
+    size_t first, count; ///< its primitives
     // plane, and box seen from inside: half-spaces normal . x >= offset
     scree_vector normal[6];
     double offset[6];
@@ -44,58 +44,60 @@ typedef struct scree_surface {
     scree_vector hub;   ///< m, the centre now
 } scree_surface;
 
-typedef struct scree_container {
+typedef struct scree_wall_set {
     int dimension;
     int count;
     scree_surface surface[SCREE_SURFACES];
-    size_t elements;
+    size_t primitives;
     double time; ///< s, of the present poses
-} scree_container;
+} scree_wall_set;
 
-/// Makes the walls of `config`; *container is NULL when it has none. Errors: SCREE_ERROR_INPUT or SCREE_ERROR_IO with
+/// Makes the walls of `config`; *wall_set is NULL when it has none. Errors: SCREE_ERROR_INPUT or SCREE_ERROR_IO with
 /// the field (walls.N.key), memory.
-scree_status scree_container_create(const scree_config *config, scree_container **container,
-                                    scree_error *error) SCREE_MUST_USE;
-void scree_container_destroy(scree_container **container);
+scree_status scree_wall_set_create(const scree_config *config, scree_wall_set **wall_set,
+                                   scree_error *error) SCREE_MUST_USE;
+void scree_wall_set_destroy(scree_wall_set **wall_set);
 
 /// Brings all walls to their poses at `time`.
-void scree_container_place(scree_container *container, double time);
+void scree_wall_set_place(scree_wall_set *wall_set, double time);
 
 /// Bound of the way that a point of any wall, or of its frame beside a body within `margin`, goes in `time` [m].
-double scree_container_way(const scree_container *container, double time, double margin);
+double scree_wall_set_way(const scree_wall_set *wall_set, double time, double margin);
 
 /// Bound of the velocity of a point of any wall [m/s].
-double scree_container_speed(const scree_container *container);
+double scree_wall_set_speed(const scree_wall_set *wall_set);
 
-/// The wall that an element belongs to.
-static inline int scree_element_surface(const scree_container *container, size_t element)
+/// The wall that a primitive belongs to.
+static inline int scree_primitive_surface(const scree_wall_set *wall_set, size_t primitive)
 {
     int k = 0;
-    while (element >= container->surface[k].first + container->surface[k].count) k++;
+    while (primitive >= wall_set->surface[k].first + wall_set->surface[k].count) k++;
     return k;
 }
 
-/// Whether the normal of every element is the same wherever a body touches it: planes, and boxes seen from inside.
+/// Whether the normal of every primitive is the same wherever a body touches it: planes, and boxes seen from inside.
 static inline bool scree_surface_is_flat(const scree_surface *surface)
 {
     int shape = surface->config->shape;
     return shape == SCREE_SHAPE_OF_PLANE || (shape == SCREE_SHAPE_OF_BOX && surface->config->side == SCREE_SIDE_INSIDE);
 }
 
-/// Where a sphere with its centre at `place` may touch an element, now.
-void scree_element_site(const scree_container *container, size_t element, const scree_vector place, scree_site *site);
+/// Where a sphere with its centre at `place` may touch a primitive, now.
+void scree_primitive_closest_point(const scree_wall_set *wall_set, size_t primitive, const scree_vector place,
+                                   scree_closest_point *closest);
 
-/// Whether a sphere of this radius reaches a site. NaN counts as touching, so that it is noticed.
-bool scree_site_touches(const scree_container *container, size_t element, const scree_site *site, double radius);
+/// Whether a sphere of this radius reaches a closest point. NaN counts as touching, so that it is noticed.
+bool scree_closest_point_touches(const scree_wall_set *wall_set, size_t primitive, const scree_closest_point *closest,
+                                 double radius);
 
-/// Calls `found(context, element)` for the elements of all walls within `reach` of `place`, each once.
-scree_status scree_container_near(const scree_container *container, const scree_vector place, double reach,
-                                  scree_status (*found)(void *context, size_t element), void *context) SCREE_MUST_USE;
+/// Calls `found(context, primitive)` for the primitives of all walls within `reach` of `place`, each once.
+scree_status scree_wall_set_near(const scree_wall_set *wall_set, const scree_vector place, double reach,
+                                 scree_status (*found)(void *context, size_t primitive), void *context) SCREE_MUST_USE;
 
 /// How far a sphere with its centre at `place` stands inside of what wall `k` bounds now: the distance of the centre
 /// from it, negative where it is on the wrong side. A mesh has no sides, and is looked for within `reach` only; an open
 /// wall has sides only beside it.
-double scree_surface_clearance(const scree_container *container, int k, const scree_vector place, double reach);
+double scree_surface_clearance(const scree_wall_set *wall_set, int k, const scree_vector place, double reach);
 
 /// Walls as triangles, for pictures: three corners each; in 2D lines, whose last two corners are the same.
 typedef struct scree_wall_triangles {
@@ -105,9 +107,9 @@ typedef struct scree_wall_triangles {
 } scree_wall_triangles;
 
 /// All walls at their present poses, round ones in facets; planes as far as `low` and `high` (a box that holds all
-/// bodies) reach. container may be NULL: nothing. Errors: memory.
-scree_status scree_container_triangles(const scree_container *container, const double low[3], const double high[3],
-                                       scree_wall_triangles *triangles, scree_error *error) SCREE_MUST_USE;
+/// bodies) reach. wall_set may be NULL: nothing. Errors: memory.
+scree_status scree_wall_set_triangles(const scree_wall_set *wall_set, const double low[3], const double high[3],
+                                      scree_wall_triangles *triangles, scree_error *error) SCREE_MUST_USE;
 void scree_wall_triangles_destroy(scree_wall_triangles *triangles);
 
 #endif

@@ -1,5 +1,5 @@
 /// One decision at the end of a window.
-#include "base/team_size.h"
+#include "base/thread_pool_size.h"
 
 #include <math.h>
 #include <time.h>
@@ -14,14 +14,14 @@ static double read_clock(clockid_t which)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static void start(scree_team_size *size, int most)
+static void start(scree_thread_pool_size *size, int most)
 {
-    *size =
-        (scree_team_size){.most = most, .now = most, .kept = most, .rest_more = least_rest, .rest_less = least_rest};
+    *size = (scree_thread_pool_size){
+        .most = most, .now = most, .kept = most, .rest_more = least_rest, .rest_less = least_rest};
 }
 
 /// After the last window of a comparison: the faster number stays.
-static void decide(scree_team_size *size, double now)
+static void decide(scree_thread_pool_size *size, double now)
 {
     bool more = size->tried > size->kept, pays = size->gain > 0;
     double *rest = more ? &size->rest_more : &size->rest_less;
@@ -35,7 +35,7 @@ static void decide(scree_team_size *size, double now)
 }
 
 /// After a window of a comparison.
-static void compare(scree_team_size *size, double rate, double now)
+static void compare(scree_thread_pool_size *size, double rate, double now)
 {
     bool trying = size->now == size->tried;
     size->gain += trying ? rate : -rate;
@@ -45,7 +45,7 @@ static void compare(scree_team_size *size, double rate, double now)
 }
 
 /// After a window with the number that is kept: maybe another one is tried, and this was the first window of that.
-static void consider(scree_team_size *size, double rate, double lost, double now)
+static void consider(scree_thread_pool_size *size, double rate, double lost, double now)
 {
     if (size->now > 1 && lost > lost_share && now >= size->until_less)
         size->tried = size->now - 1;
@@ -57,8 +57,8 @@ static void consider(scree_team_size *size, double rate, double lost, double now
     size->now = size->tried;
 }
 
-int scree_team_size_choose(scree_team_size *size, int most, double now, double (*lost)(const void *user),
-                           const void *user)
+int scree_thread_pool_size_choose(scree_thread_pool_size *size, int most, double now, double (*lost)(const void *user),
+                                  const void *user)
 {
     if (size->now == 0 || size->most != most) start(size, most);
     if (most <= 1) return 1;
@@ -82,12 +82,12 @@ int scree_team_size_choose(scree_team_size *size, int most, double now, double (
 /// harm: a decision compares rates, this only asks for one.
 static double lost_time(const void *user)
 {
-    const scree_team *team = user;
+    const scree_thread_pool *pool = user;
     double away = read_clock(CLOCK_MONOTONIC) - read_clock(CLOCK_THREAD_CPUTIME_ID);
-    return away + scree_team_stalled(team);
+    return away + scree_thread_pool_stalled(pool);
 }
 
-int scree_team_size_follow(scree_team_size *size, const scree_team *team, int most)
+int scree_thread_pool_size_follow(scree_thread_pool_size *size, const scree_thread_pool *pool, int most)
 {
-    return scree_team_size_choose(size, most, most > 1 ? read_clock(CLOCK_MONOTONIC) : 0, lost_time, team);
+    return scree_thread_pool_size_choose(size, most, most > 1 ? read_clock(CLOCK_MONOTONIC) : 0, lost_time, pool);
 }

@@ -1,5 +1,5 @@
 /// Closest points of the walls of a case, and their motion.
-#include "shape/container.h"
+#include "shape/wall_set.h"
 
 #include "base/vectors.h"
 
@@ -7,11 +7,11 @@
 
 // ---- motion ------------------------------------------------------------------------------------------------------
 
-void scree_container_place(scree_container *container, double time)
+void scree_wall_set_place(scree_wall_set *wall_set, double time)
 {
-    container->time = time;
-    for (int k = 0; k < container->count; k++) {
-        scree_surface *surface = &container->surface[k];
+    wall_set->time = time;
+    for (int k = 0; k < wall_set->count; k++) {
+        scree_surface *surface = &wall_set->surface[k];
         const scree_config_wall *config = surface->config;
         double axis[3] = {config->spin[0], config->spin[1], config->spin[2]};
         double angle = scree_normalise(axis) * time, sine = sin(angle), rest = 1 - cos(angle);
@@ -25,11 +25,11 @@ void scree_container_place(scree_container *container, double time)
     }
 }
 
-double scree_container_way(const scree_container *container, double time, double margin)
+double scree_wall_set_way(const scree_wall_set *wall_set, double time, double margin)
 {
     double longest = 0;
-    for (int k = 0; k < container->count; k++) {
-        const scree_surface *surface = &container->surface[k];
+    for (int k = 0; k < wall_set->count; k++) {
+        const scree_surface *surface = &wall_set->surface[k];
         const double *v = surface->config->velocity, *w = surface->config->spin;
         double speed = surface->shifts ? sqrt(scree_dot(v, v)) : 0;
         if (surface->turns) speed += sqrt(scree_dot(w, w)) * (surface->reach + margin);
@@ -38,14 +38,14 @@ double scree_container_way(const scree_container *container, double time, double
     return longest;
 }
 
-double scree_container_speed(const scree_container *container)
+double scree_wall_set_speed(const scree_wall_set *wall_set)
 {
     double largest = 0;
-    for (int k = 0; k < container->count; k++) {
-        const scree_config_wall *config = container->surface[k].config;
+    for (int k = 0; k < wall_set->count; k++) {
+        const scree_config_wall *config = wall_set->surface[k].config;
         double spin = sqrt(scree_dot(config->spin, config->spin));
         largest =
-            fmax(largest, sqrt(scree_dot(config->velocity, config->velocity)) + spin * container->surface[k].reach);
+            fmax(largest, sqrt(scree_dot(config->velocity, config->velocity)) + spin * wall_set->surface[k].reach);
     }
     return largest;
 }
@@ -72,31 +72,33 @@ static void leave_frame(const scree_surface *surface, double direction[3])
 
 // ---- shapes ------------------------------------------------------------------------------------------------------
 
-static void plane_site(const scree_surface *surface, size_t k, const double place[3], scree_site *site)
+static void closest_on_plane(const scree_surface *surface, size_t k, const double place[3],
+                             scree_closest_point *closest)
 {
-    memcpy(site->normal, surface->normal[k], sizeof site->normal);
-    site->distance = scree_dot(surface->normal[k], place) - surface->offset[k];
-    site->minimum = true;
+    memcpy(closest->normal, surface->normal[k], sizeof closest->normal);
+    closest->distance = scree_dot(surface->normal[k], place) - surface->offset[k];
+    closest->minimum = true;
 }
 
 /// A solid box: its nearest face, edge or corner; inside it the nearest face.
-static void solid_box_site(int dimension, const scree_config_wall *config, const double place[3], scree_site *site)
+static void closest_on_solid_box(int dimension, const scree_config_wall *config, const double place[3],
+                                 scree_closest_point *closest)
 {
     double nearest = -INFINITY;
     int face = 0;
-    *site = (scree_site){.minimum = true};
+    *closest = (scree_closest_point){.minimum = true};
     for (int i = 0; i < dimension; i++) {
         double below = config->lower[i] - place[i], above = place[i] - config->upper[i], out = fmax(below, above);
-        site->normal[i] = out > 0 ? (below > above ? -out : out) : 0;
+        closest->normal[i] = out > 0 ? (below > above ? -out : out) : 0;
         if (out > nearest) {
             nearest = out;
             face = below > above ? 2 * i : 2 * i + 1;
         }
     }
-    site->distance = scree_normalise(site->normal);
+    closest->distance = scree_normalise(closest->normal);
     if (nearest > 0) return;
-    site->distance = nearest;
-    site->normal[face / 2] = face % 2 ? 1 : -1;
+    closest->distance = nearest;
+    closest->normal[face / 2] = face % 2 ? 1 : -1;
 }
 
 /// A point (s, r) against a line of the half-plane. *inner: its foot lies on the line. The normal of the line is taken
@@ -139,7 +141,8 @@ static double solid_profile(const scree_surface *surface, double s, double r, do
     return outside ? nearest : deepest;
 }
 
-static void round_site(const scree_surface *surface, size_t element, const double place[3], scree_site *site)
+static void closest_on_round(const scree_surface *surface, size_t primitive, const double place[3],
+                             scree_closest_point *closest)
 {
     double from[3], radial[3], normal[2];
     bool inner = true,
@@ -157,35 +160,37 @@ static void round_site(const scree_surface *surface, size_t element, const doubl
         scree_cross(surface->axis, unit, radial);
         (void)scree_normalise(radial);
     }
-    site->distance = solid ? solid_profile(surface, s, r, normal)
-                           : profile_distance(&surface->profile[element], s, r, normal, &inner);
-    site->minimum = solid || inner || surface->profile[element].free_ends;
-    for (int i = 0; i < 3; i++) site->normal[i] = normal[0] * surface->axis[i] + normal[1] * radial[i];
+    closest->distance = solid ? solid_profile(surface, s, r, normal)
+                              : profile_distance(&surface->profile[primitive], s, r, normal, &inner);
+    closest->minimum = solid || inner || surface->profile[primitive].free_ends;
+    for (int i = 0; i < 3; i++) closest->normal[i] = normal[0] * surface->axis[i] + normal[1] * radial[i];
 }
 
-void scree_element_site(const scree_container *container, size_t element, const scree_vector place, scree_site *site)
+void scree_primitive_closest_point(const scree_wall_set *wall_set, size_t primitive, const scree_vector place,
+                                   scree_closest_point *closest)
 {
-    const scree_surface *surface = &container->surface[scree_element_surface(container, element)];
+    const scree_surface *surface = &wall_set->surface[scree_primitive_surface(wall_set, primitive)];
     const scree_config_wall *config = surface->config;
     double inner[3];
-    element -= surface->first;
+    primitive -= surface->first;
     enter_frame(surface, place, inner);
     if (config->shape == SCREE_SHAPE_OF_MESH)
-        scree_mesh_site(&surface->mesh, element, inner, site);
+        scree_mesh_closest_point(&surface->mesh, primitive, inner, closest);
     else if (surface->profile_count > 0)
-        round_site(surface, element, inner, site);
+        closest_on_round(surface, primitive, inner, closest);
     else if (config->shape == SCREE_SHAPE_OF_BOX && config->side == SCREE_SIDE_OUTSIDE)
-        solid_box_site(container->dimension, config, inner, site);
+        closest_on_solid_box(wall_set->dimension, config, inner, closest);
     else
-        plane_site(surface, element, inner, site);
-    leave_frame(surface, site->normal);
+        closest_on_plane(surface, primitive, inner, closest);
+    leave_frame(surface, closest->normal);
 }
 
-bool scree_site_touches(const scree_container *container, size_t element, const scree_site *site, double radius)
+bool scree_closest_point_touches(const scree_wall_set *wall_set, size_t primitive, const scree_closest_point *closest,
+                                 double radius)
 {
-    const scree_surface *surface = &container->surface[scree_element_surface(container, element)];
+    const scree_surface *surface = &wall_set->surface[scree_primitive_surface(wall_set, primitive)];
     bool plane = surface->config->shape == SCREE_SHAPE_OF_PLANE;
-    return site->minimum && !(site->distance >= radius) && (plane || !(site->distance <= -radius));
+    return closest->minimum && !(closest->distance >= radius) && (plane || !(closest->distance <= -radius));
 }
 
 // ---- search ------------------------------------------------------------------------------------------------------
@@ -193,22 +198,22 @@ bool scree_site_touches(const scree_container *container, size_t element, const 
 /// What a search in the mesh of one wall passes on.
 typedef struct numbered {
     size_t first;
-    scree_status (*found)(void *context, size_t element);
+    scree_status (*found)(void *context, size_t primitive);
     void *context;
 } numbered;
 
-static scree_status pass_on(void *context, size_t element)
+static scree_status pass_on(void *context, size_t primitive)
 {
     const numbered *n = context;
-    return n->found(n->context, n->first + element);
+    return n->found(n->context, n->first + primitive);
 }
 
-scree_status scree_container_near(const scree_container *container, const scree_vector place, double reach,
-                                  scree_status (*found)(void *context, size_t element), void *context)
+scree_status scree_wall_set_near(const scree_wall_set *wall_set, const scree_vector place, double reach,
+                                 scree_status (*found)(void *context, size_t primitive), void *context)
 {
     scree_status status = SCREE_OK;
-    for (int k = 0; k < container->count && !status; k++) {
-        const scree_surface *surface = &container->surface[k];
+    for (int k = 0; k < wall_set->count && !status; k++) {
+        const scree_surface *surface = &wall_set->surface[k];
         double inner[3];
         if (surface->config->shape == SCREE_SHAPE_OF_MESH) {
             numbered pass = {surface->first, found, context};
@@ -218,9 +223,9 @@ scree_status scree_container_near(const scree_container *container, const scree_
         }
         // Elements that are not minima now may become some before the next search.
         for (size_t e = surface->first; e < surface->first + surface->count && !status; e++) {
-            scree_site site;
-            scree_element_site(container, e, place, &site);
-            if (!(site.distance >= reach)) status = found(context, e);
+            scree_closest_point closest;
+            scree_primitive_closest_point(wall_set, e, place, &closest);
+            if (!(closest.distance >= reach)) status = found(context, e);
         }
     }
     return status;
@@ -235,16 +240,16 @@ typedef struct nearest_point {
     double distance;
 } nearest_point;
 
-static scree_status lower_distance(void *context, size_t element)
+static scree_status lower_distance(void *context, size_t primitive)
 {
     nearest_point *n = context;
-    n->distance = fmin(n->distance, scree_mesh_distance(n->mesh, element, n->place));
+    n->distance = fmin(n->distance, scree_mesh_distance(n->mesh, primitive, n->place));
     return SCREE_OK;
 }
 
-double scree_surface_clearance(const scree_container *container, int k, const scree_vector place, double reach)
+double scree_surface_clearance(const scree_wall_set *wall_set, int k, const scree_vector place, double reach)
 {
-    const scree_surface *surface = &container->surface[k];
+    const scree_surface *surface = &wall_set->surface[k];
     double least = INFINITY, inner[3];
     enter_frame(surface, place, inner);
     if (surface->config->shape == SCREE_SHAPE_OF_MESH) {
@@ -253,19 +258,19 @@ double scree_surface_clearance(const scree_container *container, int k, const sc
     }
     bool convex = surface->config->side == SCREE_SIDE_INSIDE && surface->config->ends == SCREE_ENDS_CLOSED;
     for (size_t e = surface->first; e < surface->first + surface->count; e++) {
-        scree_site site;
-        scree_element_site(container, e, place, &site);
+        scree_closest_point closest;
+        scree_primitive_closest_point(wall_set, e, place, &closest);
         // Behind the end of a closed round wall its lines go on.
-        if (!site.minimum && surface->profile_count > 0 && convex) {
+        if (!closest.minimum && surface->profile_count > 0 && convex) {
             const scree_profile *line = &surface->profile[e - surface->first];
             double from[3], radial[3];
             scree_subtract(inner, surface->config->start, from);
             double s = scree_dot(from, surface->axis);
             scree_along(from, -s, surface->axis, radial);
-            site.distance =
+            closest.distance =
                 (s - line->s[0]) * line->normal[0] + (sqrt(scree_dot(radial, radial)) - line->r[0]) * line->normal[1];
         }
-        least = fmin(least, site.distance);
+        least = fmin(least, closest.distance);
     }
     return least;
 }

@@ -1,38 +1,38 @@
 /// What boundaries share that impose a motion through forces on the bodies of the Delaunay boundary
 /// (*scree_imposed(&state)).
-#ifndef SCREE_BOUNDARY_DRIVE_H
-#define SCREE_BOUNDARY_DRIVE_H
+#ifndef SCREE_BOUNDARY_IMPOSED_GRADIENT_H
+#define SCREE_BOUNDARY_IMPOSED_GRADIENT_H
 
 #include "boundary/boundary.h"
 #include "measure/imposed_gradient.h"
 #include "state/work.h"
 
 /// Forgets the forces and rates of an earlier stage; target, prescribed components and viscosity stay.
-scree_status scree_drive_begin(const scree_model *model, scree_state *state, scree_error *error) SCREE_MUST_USE;
+scree_status scree_imposed_begin(const scree_model *model, scree_state *state, scree_error *error) SCREE_MUST_USE;
 
 /// Room for one force a node of the present boundary. Errors: memory.
-scree_status scree_drive_refresh(const scree_model *model, scree_state *state, scree_error *error) SCREE_MUST_USE;
+scree_status scree_imposed_make_room(const scree_model *model, scree_state *state, scree_error *error) SCREE_MUST_USE;
 
-/// The same, and scree_drive_work, as passes.
+/// The same, and scree_imposed_add_work, as passes.
 scree_status scree_imposed_refresh(const scree_context *context, scree_error *error) SCREE_MUST_USE;
 scree_status scree_imposed_work(const scree_context *context, scree_error *error) SCREE_MUST_USE;
 
-/// Adds a force in quanta to the sum of a node and keeps it in drive.force.
-void scree_drive_add(scree_state *state, size_t node, const int64_t quanta[3]);
+/// Adds a force in quanta to the sum of a node and keeps it in force.
+void scree_imposed_add(scree_state *state, size_t node, const int64_t quanta[3]);
 
-/// Books 1/2 F . v dt of the kept forces, with the velocities that rows hold now.
-void scree_drive_work(scree_state *state);
+/// Accumulates 1/2 F . v dt of the kept forces, with the velocities that rows hold now.
+void scree_imposed_add_work(scree_state *state);
 
 /// Velocity gradient of the boundary [1/s] with the velocities that rows hold now. area: a node. Returns the volume
 /// inside [m3].
-double scree_drive_measure(const scree_state *state, scree_vector *area, double rate[9]);
+double scree_imposed_measure(const scree_state *state, scree_vector *area, double rate[9]);
 
-/// Books the rate of this step for the recorded ratio of actual and wanted rate.
-void scree_drive_record(scree_state *state, const double rate[9]);
+/// Accumulates the rate of this step for the recorded ratio of actual and wanted rate.
+void scree_imposed_record(scree_state *state, const double rate[9]);
 
-/// Forces f = stress . a on all nodes, whose integers add up to zero exactly (facets.h; drive.c tells how), added to
-/// the sums and to drive.force. stress [Pa], tension positive. quantum: that of the present step.
-void scree_drive_apply_stress(const scree_model *model, scree_state *state, const double stress[9]);
+/// Forces f = stress . a on all nodes, whose integers add up to zero exactly (facets.h; imposed_gradient.c tells how),
+/// added to the sums and to force. stress [Pa], tension positive. quantum: that of the present step.
+void scree_imposed_apply_stress(const scree_model *model, scree_state *state, const double stress[9]);
 
 /// What stages ask of a boundary that imposes a velocity gradient (imposed_control.c).
 double scree_imposed_wave_time(const scree_context *context, double pressure);

@@ -13,7 +13,7 @@
 ///
 /// Cost: a grid of cells of the largest diameter holds all spheres; a fall looks at nine columns from their tops, a
 /// roll at the cells around its arc.
-#include "prepare/heap.h"
+#include "prepare/drop_3d.h"
 
 #include "base/vectors.h"
 #include "prepare/arc.h"
@@ -49,55 +49,55 @@ typedef struct meeting {
     bool parting; ///< `name` no longer holds the point
 } meeting;
 
-scree_status scree_heap_create(scree_heap *heap, const double *radius, size_t count, const double floor_sides[2],
-                               double *const place[3], double *level, scree_error *error)
+scree_status scree_drop_3d_create(scree_drop_3d *drop, const double *radius, size_t count, const double floor_sides[2],
+                                  double *const place[3], double *level, scree_error *error)
 {
-    *heap = (scree_heap){.radius = radius,
-                         .x = place[0],
-                         .y = place[1],
-                         .z = place[2],
-                         .level = level,
-                         .width = floor_sides[0],
-                         .depth = floor_sides[1]};
-    for (size_t i = 0; i < count; i++) heap->largest = fmax(heap->largest, radius[i]);
-    heap->cell = 2 * heap->largest;
-    heap->columns = (size_t)(heap->width / heap->cell) + 1;
-    heap->rows = (size_t)(heap->depth / heap->cell) + 1;
-    heap->layers = 4;
-    size_t columns = heap->rows * heap->columns;
-    scree_status status = scree_allocate(&heap->head, heap->layers * columns, sizeof *heap->head, error);
-    if (!status) status = scree_allocate(&heap->next, count, sizeof *heap->next, error);
-    if (!status) status = scree_allocate(&heap->filled, columns, sizeof *heap->filled, error);
-    if (status) scree_heap_destroy(heap);
+    *drop = (scree_drop_3d){.radius = radius,
+                            .x = place[0],
+                            .y = place[1],
+                            .z = place[2],
+                            .level = level,
+                            .width = floor_sides[0],
+                            .depth = floor_sides[1]};
+    for (size_t i = 0; i < count; i++) drop->largest = fmax(drop->largest, radius[i]);
+    drop->cell = 2 * drop->largest;
+    drop->columns = (size_t)(drop->width / drop->cell) + 1;
+    drop->rows = (size_t)(drop->depth / drop->cell) + 1;
+    drop->layers = 4;
+    size_t columns = drop->rows * drop->columns;
+    scree_status status = scree_allocate(&drop->head, drop->layers * columns, sizeof *drop->head, error);
+    if (!status) status = scree_allocate(&drop->next, count, sizeof *drop->next, error);
+    if (!status) status = scree_allocate(&drop->filled, columns, sizeof *drop->filled, error);
+    if (status) scree_drop_3d_destroy(drop);
     return status;
 }
 
-void scree_heap_destroy(scree_heap *heap)
+void scree_drop_3d_destroy(scree_drop_3d *drop)
 {
-    scree_release(&heap->head);
-    scree_release(&heap->next);
-    scree_release(&heap->filled);
+    scree_release(&drop->head);
+    scree_release(&drop->next);
+    scree_release(&drop->filled);
 }
 
-static scree_status insert(scree_heap *heap, size_t index, const double at[3], scree_error *error)
+static scree_status insert(scree_drop_3d *drop, size_t index, const double at[3], scree_error *error)
 {
-    size_t layer = (size_t)(at[2] / heap->cell), columns = heap->rows * heap->columns;
-    size_t column = scree_cell_within(at[1], heap->cell, heap->rows) * heap->columns +
-                    scree_cell_within(at[0], heap->cell, heap->columns);
-    if (layer >= heap->layers) {
+    size_t layer = (size_t)(at[2] / drop->cell), columns = drop->rows * drop->columns;
+    size_t column = scree_cell_within(at[1], drop->cell, drop->rows) * drop->columns +
+                    scree_cell_within(at[0], drop->cell, drop->columns);
+    if (layer >= drop->layers) {
         size_t layers = 2 * layer;
         scree_status status =
-            scree_reallocate(&heap->head, heap->layers * columns, layers * columns, sizeof *heap->head, error);
+            scree_reallocate(&drop->head, drop->layers * columns, layers * columns, sizeof *drop->head, error);
         if (status) return status;
-        heap->layers = layers;
+        drop->layers = layers;
     }
-    heap->x[index] = at[0];
-    heap->y[index] = at[1];
-    heap->z[index] = at[2];
-    uint32_t *head = &heap->head[layer * columns + column];
-    heap->next[index] = *head;
+    drop->x[index] = at[0];
+    drop->y[index] = at[1];
+    drop->z[index] = at[2];
+    uint32_t *head = &drop->head[layer * columns + column];
+    drop->next[index] = *head;
     *head = (uint32_t)index + 1;
-    if (heap->filled[column] <= layer) heap->filled[column] = layer + 1;
+    if (drop->filled[column] <= layer) drop->filled[column] = layer + 1;
     return SCREE_OK;
 }
 
@@ -120,11 +120,11 @@ static bool is_released(const mover *sphere, uint32_t name)
 }
 
 /// The surface that the point must not enter.
-static scree_arc_surface surface_of(const scree_heap *heap, double radius, uint32_t name)
+static scree_arc_surface surface_of(const scree_drop_3d *drop, double radius, uint32_t name)
 {
     if (name < NOTHING)
-        return (scree_arc_surface){.centre = {heap->x[name], heap->y[name], heap->z[name]},
-                                   .reach = heap->radius[name] + radius};
+        return (scree_arc_surface){.centre = {drop->x[name], drop->y[name], drop->z[name]},
+                                   .reach = drop->radius[name] + radius};
     uint32_t plane = PLANE(0) - name;
     scree_arc_surface surface = {.plane = true};
     if (plane == FLOOR) {
@@ -132,7 +132,7 @@ static scree_arc_surface surface_of(const scree_heap *heap, double radius, uint3
         surface.reach = radius;
         return surface;
     }
-    double side = plane < 2 ? heap->width : heap->depth;
+    double side = plane < 2 ? drop->width : drop->depth;
     surface.centre[plane / 2] = plane % 2 ? -1 : 1;
     surface.reach = plane % 2 ? radius - side : radius;
     return surface;
@@ -143,53 +143,53 @@ typedef struct cell_box {
     size_t first[3], last[3];
 } cell_box;
 
-static cell_box cells_around(const scree_heap *heap, const double low[3], const double high[3])
+static cell_box cells_around(const scree_drop_3d *drop, const double low[3], const double high[3])
 {
-    const size_t count[3] = {heap->columns, heap->rows, heap->layers};
+    const size_t count[3] = {drop->columns, drop->rows, drop->layers};
     cell_box box;
     for (int c = 0; c < 3; c++) {
-        box.first[c] = scree_cell_within(low[c], heap->cell, count[c]);
-        box.last[c] = scree_cell_within(high[c], heap->cell, count[c]);
+        box.first[c] = scree_cell_within(low[c], drop->cell, count[c]);
+        box.last[c] = scree_cell_within(high[c], drop->cell, count[c]);
     }
     return box;
 }
 
-static uint32_t head_of(const scree_heap *heap, size_t layer, size_t row, size_t column)
+static uint32_t head_of(const scree_drop_3d *drop, size_t layer, size_t row, size_t column)
 {
-    return heap->head[(layer * heap->rows + row) * heap->columns + column];
+    return drop->head[(layer * drop->rows + row) * drop->columns + column];
 }
 
 /// Height at which a point falling from `disc->at` meets sphere k; -1 if it passes.
-static double hit(const scree_heap *heap, const mover *sphere, uint32_t k)
+static double hit(const scree_drop_3d *drop, const mover *sphere, uint32_t k)
 {
-    double reach = heap->radius[k] + sphere->radius;
-    double dx = sphere->at[0] - heap->x[k], dy = sphere->at[1] - heap->y[k];
+    double reach = drop->radius[k] + sphere->radius;
+    double dx = sphere->at[0] - drop->x[k], dy = sphere->at[1] - drop->y[k];
     double rise2 = reach * reach - dx * dx - dy * dy;
     double least = SCREE_ARC_EQUATOR * reach;
-    if (rise2 <= least * least || heap->z[k] >= sphere->at[2] || is_released(sphere, k)) return -1;
-    double z = heap->z[k] + sqrt(rise2);
+    if (rise2 <= least * least || drop->z[k] >= sphere->at[2] || is_released(sphere, k)) return -1;
+    double z = drop->z[k] + sqrt(rise2);
     return z <= sphere->at[2] + TOUCH * sphere->radius ? z : -1;
 }
 
 /// Highest sphere below the point; NOTHING above the floor. `z`: where it is met.
-static uint32_t look_down(const scree_heap *heap, const mover *sphere, double *z)
+static uint32_t look_down(const scree_drop_3d *drop, const mover *sphere, double *z)
 {
-    double reach = heap->largest + sphere->radius, low[3], high[3];
+    double reach = drop->largest + sphere->radius, low[3], high[3];
     for (int c = 0; c < 3; c++) low[c] = sphere->at[c] - reach;
     for (int c = 0; c < 3; c++) high[c] = sphere->at[c] + reach;
-    cell_box box = cells_around(heap, low, high);
-    size_t top = 0, below = scree_cell_within(sphere->at[2], heap->cell, heap->layers) + 1;
+    cell_box box = cells_around(drop, low, high);
+    size_t top = 0, below = scree_cell_within(sphere->at[2], drop->cell, drop->layers) + 1;
     for (size_t row = box.first[1]; row <= box.last[1]; row++)
         for (size_t column = box.first[0]; column <= box.last[0]; column++)
-            if (heap->filled[row * heap->columns + column] > top) top = heap->filled[row * heap->columns + column];
+            if (drop->filled[row * drop->columns + column] > top) top = drop->filled[row * drop->columns + column];
     uint32_t found = NOTHING;
     *z = sphere->radius;
     // Spheres of lower layers end below (layer + 1) cell + reach.
-    for (size_t layer = top < below ? top : below; layer-- > 0 && *z < (double)(layer + 1) * heap->cell + reach;)
+    for (size_t layer = top < below ? top : below; layer-- > 0 && *z < (double)(layer + 1) * drop->cell + reach;)
         for (size_t row = box.first[1]; row <= box.last[1]; row++)
             for (size_t column = box.first[0]; column <= box.last[0]; column++)
-                for (uint32_t k = head_of(heap, layer, row, column); k > 0; k = heap->next[k - 1]) {
-                    double height = hit(heap, sphere, k - 1);
+                for (uint32_t k = head_of(drop, layer, row, column); k > 0; k = drop->next[k - 1]) {
+                    double height = hit(drop, sphere, k - 1);
                     if (height <= *z) continue;
                     *z = height;
                     found = k - 1;
@@ -197,17 +197,18 @@ static uint32_t look_down(const scree_heap *heap, const mover *sphere, double *z
     return found;
 }
 
-bool scree_heap_sees_floor(const scree_heap *heap, size_t index, double x, double y)
+bool scree_drop_3d_sees_floor(const scree_drop_3d *drop, size_t index, double x, double y)
 {
-    mover sphere = {.radius = heap->radius[index], .at = {x, y, INFINITY}};
+    mover sphere = {.radius = drop->radius[index], .at = {x, y, INFINITY}};
     double z;
-    return look_down(heap, &sphere, &z) == NOTHING;
+    return look_down(drop, &sphere, &z) == NOTHING;
 }
 
 /// Takes surface `name` into account if the arc enters it before the meeting already known.
-static void consider(const scree_heap *heap, const mover *sphere, const scree_arc *arc, uint32_t name, meeting *nearest)
+static void consider(const scree_drop_3d *drop, const mover *sphere, const scree_arc *arc, uint32_t name,
+                     meeting *nearest)
 {
-    scree_arc_surface surface = surface_of(heap, sphere->radius, name);
+    scree_arc_surface surface = surface_of(drop, sphere->radius, name);
     meeting met = {.name = name};
     if (!scree_arc_enters(arc, &surface, is_released(sphere, name), &met.measure, met.at) ||
         met.measure >= nearest->measure)
@@ -225,10 +226,10 @@ static void consider_parting(const scree_arc *arc, uint32_t name, double height,
 }
 
 /// First surface that the arc enters, or holder that lets go. `lowest`: height below which the path does not go.
-static meeting look_ahead(const scree_heap *heap, const mover *sphere, const scree_arc *arc, const contact_set *holders,
-                          double lowest, meeting nearest)
+static meeting look_ahead(const scree_drop_3d *drop, const mover *sphere, const scree_arc *arc,
+                          const contact_set *holders, double lowest, meeting nearest)
 {
-    double reach = heap->largest + sphere->radius, low[3], high[3];
+    double reach = drop->largest + sphere->radius, low[3], high[3];
     for (int c = 0; c < 3; c++) {
         double extent = arc->radius * sqrt(arc->along[c] * arc->along[c] + arc->ahead[c] * arc->ahead[c]) + reach;
         low[c] = arc->middle[c] - extent;
@@ -237,25 +238,25 @@ static meeting look_ahead(const scree_heap *heap, const mover *sphere, const scr
     low[2] = fmax(low[2], lowest - reach);
     high[2] = fmin(high[2], sphere->at[2] + reach);
     for (int plane = 0; plane < PLANES; plane++)
-        if (!contains(holders, PLANE(plane))) consider(heap, sphere, arc, PLANE(plane), &nearest);
-    cell_box box = cells_around(heap, low, high);
+        if (!contains(holders, PLANE(plane))) consider(drop, sphere, arc, PLANE(plane), &nearest);
+    cell_box box = cells_around(drop, low, high);
     for (size_t layer = box.first[2]; layer <= box.last[2]; layer++)
         for (size_t row = box.first[1]; row <= box.last[1]; row++)
             for (size_t column = box.first[0]; column <= box.last[0]; column++)
-                for (uint32_t k = head_of(heap, layer, row, column); k > 0; k = heap->next[k - 1])
-                    if (!contains(holders, k - 1)) consider(heap, sphere, arc, k - 1, &nearest);
+                for (uint32_t k = head_of(drop, layer, row, column); k > 0; k = drop->next[k - 1])
+                    if (!contains(holders, k - 1)) consider(drop, sphere, arc, k - 1, &nearest);
     return nearest;
 }
 
 /// Moves the point along the surfaces that hold it to the next event, which changes the surfaces that it touches.
 /// False: there is none.
-static bool roll(const scree_heap *heap, mover *sphere, const contact_set *holders, const scree_arc *arc)
+static bool roll(const scree_drop_3d *drop, mover *sphere, const contact_set *holders, const scree_arc *arc)
 {
     const bool both = holders->count == 2;
     const uint32_t name[2] = {holders->name[0], holders->name[holders->count - 1]};
     scree_arc_surface surface[2];
     double normal[2][3];
-    for (int k = 0; k < 2; k++) surface[k] = surface_of(heap, sphere->radius, name[k]);
+    for (int k = 0; k < 2; k++) surface[k] = surface_of(drop, sphere->radius, name[k]);
     for (int k = 0; k < 2; k++) scree_arc_surface_normal(&surface[k], sphere->at, normal[k]);
     double cosine = scree_dot(normal[0], normal[1]), lowest = -1;
     meeting next = {.measure = INFINITY};
@@ -264,7 +265,7 @@ static bool roll(const scree_heap *heap, mover *sphere, const contact_set *holde
         if (parting >= 0) consider_parting(arc, name[k], parting, &next);
         if (!both) lowest = parting;
     }
-    next = look_ahead(heap, sphere, arc, holders, lowest, next);
+    next = look_ahead(drop, sphere, arc, holders, lowest, next);
     if (isinf(next.measure)) return false;
 
     // As long as the point does not move, it touches all that it has touched.
@@ -279,21 +280,21 @@ static bool roll(const scree_heap *heap, mover *sphere, const contact_set *holde
 }
 
 /// Falls to the next support, which is the floor at last.
-static void fall(const scree_heap *heap, mover *sphere)
+static void fall(const scree_drop_3d *drop, mover *sphere)
 {
     double z;
-    uint32_t support = look_down(heap, sphere, &z);
+    uint32_t support = look_down(drop, sphere, &z);
     sphere->at[2] = z;
     sphere->touched.count = sphere->left.count = 0;
     add(&sphere->touched, support == NOTHING ? PLANE(FLOOR) : support);
 }
 
 /// Which of the surfaces that the point touches hold it.
-static scree_hold held_by(const scree_heap *heap, mover *sphere, contact_set *holders)
+static scree_hold held_by(const scree_drop_3d *drop, mover *sphere, contact_set *holders)
 {
     scree_arc_surface surface[SCREE_ARC_MOST];
     for (int k = 0; k < sphere->touched.count; k++)
-        surface[k] = surface_of(heap, sphere->radius, sphere->touched.name[k]);
+        surface[k] = surface_of(drop, sphere->radius, sphere->touched.name[k]);
     scree_hold hold = scree_hold_find(surface, sphere->touched.count, sphere->at);
     holders->count = 0;
     for (int k = 0; k < hold.count; k++) add(holders, sphere->touched.name[hold.by[k]]);
@@ -301,27 +302,27 @@ static scree_hold held_by(const scree_heap *heap, mover *sphere, contact_set *ho
 }
 
 /// Rests sphere `index` at its place on what it touches.
-static scree_status rest(scree_heap *heap, size_t index, const mover *sphere, scree_error *error)
+static scree_status rest(scree_drop_3d *drop, size_t index, const mover *sphere, scree_error *error)
 {
     double level = sphere->at[2];
     for (int k = 0; k < sphere->touched.count; k++)
-        if (sphere->touched.name[k] < NOTHING) level = fmax(level, heap->level[sphere->touched.name[k]]);
-    heap->level[index] = level;
-    return insert(heap, index, sphere->at, error);
+        if (sphere->touched.name[k] < NOTHING) level = fmax(level, drop->level[sphere->touched.name[k]]);
+    drop->level[index] = level;
+    return insert(drop, index, sphere->at, error);
 }
 
-scree_status scree_heap_drop(scree_heap *heap, size_t index, double x, double y, scree_error *error)
+scree_status scree_drop_3d_add(scree_drop_3d *drop, size_t index, double x, double y, scree_error *error)
 {
-    mover sphere = {.radius = heap->radius[index], .at = {x, y, INFINITY}};
-    fall(heap, &sphere);
+    mover sphere = {.radius = drop->radius[index], .at = {x, y, INFINITY}};
+    fall(drop, &sphere);
     for (int events = 0; events < MOST_EVENTS; events++) {
         contact_set holders = {.count = 0};
-        if (contains(&sphere.touched, PLANE(FLOOR))) return rest(heap, index, &sphere, error);
-        scree_hold hold = held_by(heap, &sphere, &holders);
-        if (hold.count == 3) return rest(heap, index, &sphere, error);
+        if (contains(&sphere.touched, PLANE(FLOOR))) return rest(drop, index, &sphere, error);
+        scree_hold hold = held_by(drop, &sphere, &holders);
+        if (hold.count == 3) return rest(drop, index, &sphere, error);
         if (hold.count == 0)
-            fall(heap, &sphere);
-        else if (!roll(heap, &sphere, &holders, &hold.path))
+            fall(drop, &sphere);
+        else if (!roll(drop, &sphere, &holders, &hold.path))
             break;
     }
     return scree_error_set(error, SCREE_ERROR_INPUT, "sphere %zu of radius %g m finds no place of rest", index,

@@ -1,5 +1,5 @@
 /// Life of the walls of a case: from what the user said to planes, profiles and meshes.
-#include "shape/container.h"
+#include "shape/wall_set.h"
 
 #include "base/vectors.h"
 #include "shape/stl.h"
@@ -66,7 +66,7 @@ static scree_status make_mesh(const scree_config_wall *config, scree_surface *su
     if (!status) status = scree_mesh_build(&surface->mesh, count, (const double(*)[3])corner, &failure);
     scree_release(&bytes);
     scree_release(&corner);
-    surface->count = scree_mesh_elements(&surface->mesh);
+    surface->count = scree_mesh_primitives(&surface->mesh);
     surface->smooth = cos(config->smooth);
     if (!status) return SCREE_OK;
     (void)snprintf(reason, sizeof reason, "%s", failure.message);
@@ -129,31 +129,31 @@ static scree_status make_surface(int dimension, const scree_config_wall *config,
     return SCREE_OK;
 }
 
-scree_status scree_container_create(const scree_config *config, scree_container **container, scree_error *error)
+scree_status scree_wall_set_create(const scree_config *config, scree_wall_set **wall_set, scree_error *error)
 {
-    *container = NULL;
+    *wall_set = NULL;
     if (config->wall_count == 0) return SCREE_OK;
-    scree_status status = scree_allocate(container, 1, sizeof **container, error);
+    scree_status status = scree_allocate(wall_set, 1, sizeof **wall_set, error);
     if (status) return status;
-    scree_container *c = *container;
+    scree_wall_set *c = *wall_set;
     c->dimension = (int)config->dimension;
     for (int k = 0; k < config->wall_count && !status; k++) {
         scree_surface *surface = &c->surface[c->count++];
         status = make_surface(c->dimension, &config->walls[k], surface, error);
-        surface->first = c->elements;
-        c->elements += surface->count;
-        if (!status && c->elements >= SCREE_ELEMENTS)
+        surface->first = c->primitives;
+        c->primitives += surface->count;
+        if (!status && c->primitives >= SCREE_PRIMITIVES)
             status = scree_error_set(error, SCREE_ERROR_INPUT, "the walls of a case have at most %u elements",
-                                     SCREE_ELEMENTS);
+                                     SCREE_PRIMITIVES);
         if (status && error) (void)snprintf(error->field, sizeof error->field, "walls.%d.file", k);
     }
-    scree_container_place(c, 0);
-    if (status) scree_container_destroy(container);
+    scree_wall_set_place(c, 0);
+    if (status) scree_wall_set_destroy(wall_set);
     return status;
 }
 
-void scree_container_destroy(scree_container **container)
+void scree_wall_set_destroy(scree_wall_set **wall_set)
 {
-    for (int k = 0; *container && k < (*container)->count; k++) scree_mesh_destroy(&(*container)->surface[k].mesh);
-    scree_release(container);
+    for (int k = 0; *wall_set && k < (*wall_set)->count; k++) scree_mesh_destroy(&(*wall_set)->surface[k].mesh);
+    scree_release(wall_set);
 }

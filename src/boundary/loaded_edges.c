@@ -8,7 +8,7 @@
 /// without plates. A plate with one corner takes no edge. With an active side plate nothing is loaded: the sides are
 /// not free. The gap between a corner and its plate belongs to the lateral arc (measure/outline.h). Of equal candidates
 /// the one that comes first in the loop counts. Cost: O(length of the loop).
-#include "boundary/corners.h"
+#include "boundary/loaded_edges.h"
 #include "measure/delaunay_boundary.h"
 #include "state/plates.h"
 

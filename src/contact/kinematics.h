@@ -1,7 +1,7 @@
 /// Relative motion of two bodies at their contact, in lanes: what every law needs.
 ///
 /// With r = x_first - x_second, u = v_first - v_second, L = |r|, n = r / L, P = 1 - n n:
-///   indentation d = R_first + R_second - L,      its rate d' = -u . n  (P 2.A2, 2.A3 corrected)
+///   overlap d = R_first + R_second - L,      its rate d' = -u . n  (P 2.A2, 2.A3 corrected)
 ///   lever arms a = R - d / 2,                    slip s = P u - (a_first w_first + a_second w_second) x n
 /// which is one number along t = (-n_y, n_x) in two dimensions, s = u . t - (a_first w_first + a_second w_second).
 /// The slip uses the lever arms of the torque (P 2.A5, 2.A6: r is measured from each centre to the contact point): only
@@ -13,15 +13,15 @@
 ///
 /// What the contact remembers turns with it: from n - 1 to n, n turns by phi = P u dt / L, and the pair about its
 /// normal by psi = (w_first + w_second) . (n - phi / 2) dt / 2 (the mean of both surfaces: a pair that turns rigidly
-/// takes its spring along). motion_carry projects into the present tangent plane, which is that turn up to second order
-/// in phi; motion_carry_whole also gives back the length that the projection takes, up to fourth order,
+/// takes its spring along). kinematics_carry projects into the present tangent plane, which is that turn up to second
+/// order in phi; kinematics_carry_whole also gives back the length that the projection takes, up to fourth order,
 ///   a <- (1 - psi^2 / 2) b + psi n x b,    b = a - (n - phi L / (2 L(n-1))) (a . n)
 ///
 /// Rates in the middle of the step. Velocities and spins are those of n - 1/2, normal, distance and arms those of n.
 /// Put together as they are, they give a pair that turns rigidly with w the slip dt/2 L (w . n) P w, and one that
 /// closes while it turns d' dt w: errors of first order in the step. So all rates are those of the geometry of n - 1/2,
 /// turned into the directions of n. There the normal is n - phi / 2, each arm longer by D / 4 where D is the increment
-/// of the indentation, and what lies in the tangent plane is turned by phi / 2 and psi / 2: with W = w_first +
+/// of the overlap, and what lies in the tangent plane is turned by phi / 2 and psi / 2: with W = w_first +
 /// w_second, V = w_first - w_second, A = a_first w_first + a_second w_second,
 ///   approach  D / dt = d' + phi . P u / 2                         (D = d(n) - d(n-1))
 ///   slip      (1 + psi/2 n x) (P u - D / dt phi / 2 - (A + (A . n) phi / 2 + D W / 4) x n)
@@ -35,21 +35,21 @@
 /// 1: F(n-1) turned along with its contact has the power of F(n-1) when the velocity is turned too. The mean of both
 /// half-steps is the geometry in between, so the work is (F(n-1) + F(n))/2 times the rates above times dt, up to third
 /// order: the trapezoids of the ledger close with the second order of the scheme itself.
-#ifndef SCREE_CONTACT_MOTION_H
-#define SCREE_CONTACT_MOTION_H
+#ifndef SCREE_CONTACT_KINEMATICS_H
+#define SCREE_CONTACT_KINEMATICS_H
 
 #include "contact/vector.h"
 
 typedef struct bodies {
-    vector place, velocity;
+    vector position, velocity;
     vector spin; ///< one component in two dimensions
     lanes radius, mass, material;
 } bodies;
 
 /// Rates are those of the middle of the step.
-typedef struct motion {
+typedef struct kinematics {
     vector normal;               ///< n, from second to first
-    lanes indentation;           ///< m, negative when apart
+    lanes overlap;               ///< m, negative when apart
     lanes approach;              ///< m/s, d'
     vector slip;                 ///< m/s, s
     vector roll;                 ///< m/s
@@ -61,15 +61,15 @@ typedef struct motion {
     lanes half;                  ///< 1, half of L / L(n - 1), of pairs in space
     vector turned;               ///< rad, psi n, in space
     lanes turn;                  ///< rad, psi, in space
-    vector foreseen_slip;        ///< m/s, slip after the coming kick if all forces stay as they are (motion_foresee)
-    lanes mobility;              ///< 1/kg, slip per tangential impulse of the contact's share of the bodies
-} motion;
+    vector predicted_slip; ///< m/s, slip after the coming kick if all forces stay as they are (kinematics_predict)
+    lanes mobility;        ///< 1/kg, slip per tangential impulse of the contact's share of the bodies
+} kinematics;
 
-/// scree_foreseen in lanes.
-typedef struct foresight {
+/// scree_predicted in lanes.
+typedef struct prediction {
     vector velocity, spin;
     lanes contacts;
-} foresight;
+} prediction;
 
 /// Set where the bodies are in contact; also where a coordinate is NaN, so that the kernels notice.
 SCREE_INLINE lanes_bits bodies_touch(int dimension, vector apart, lanes radii)
@@ -78,7 +78,7 @@ SCREE_INLINE lanes_bits bodies_touch(int dimension, vector apart, lanes radii)
 }
 
 /// A vector of the tangent plane of step n - 1 in that of n; in two dimensions there is only one tangent.
-SCREE_INLINE vector motion_carry(int dimension, const motion *m, vector a)
+SCREE_INLINE vector kinematics_carry(int dimension, const kinematics *m, vector a)
 {
     if (dimension == 2) return a;
     vector turned = vector_plus(3, a, vector_cross(m->turned, a));
@@ -86,7 +86,7 @@ SCREE_INLINE vector motion_carry(int dimension, const motion *m, vector a)
 }
 
 /// The same with the length that it had.
-SCREE_INLINE vector motion_carry_whole(int dimension, const motion *m, vector a)
+SCREE_INLINE vector kinematics_carry_whole(int dimension, const kinematics *m, vector a)
 {
     if (dimension == 2) return a;
     vector middle = vector_minus(3, m->normal, vector_times(3, m->tilted, m->half));
@@ -96,20 +96,20 @@ SCREE_INLINE vector motion_carry_whole(int dimension, const motion *m, vector a)
 }
 
 /// For what has been evaluated already: what the contact remembers is that of now, and is carried no further.
-SCREE_INLINE void motion_hold(motion *m)
+SCREE_INLINE void kinematics_hold(kinematics *m)
 {
     m->tilted = m->turned = vector_none();
     m->turn = lanes_all(0);
 }
 
 /// A rate in the tangent plane of the middle, turned on by psi / 2.
-SCREE_INLINE vector turn_half(const motion *m, vector rate)
+SCREE_INLINE vector turn_half(const kinematics *m, vector rate)
 {
     return vector_plus(3, rate, vector_times(3, vector_cross(m->turned, rate), lanes_all(0.5)));
 }
 
 /// Turn, twist and rolling, in space.
-SCREE_INLINE void motion_turn(motion *m, vector spins, vector relative, double step)
+SCREE_INLINE void kinematics_turn(kinematics *m, vector spins, vector relative, double step)
 {
     vector half = vector_times(3, m->tilted, lanes_all(0.5)), middle = vector_minus(3, m->normal, half);
     m->turn = (0.5 * step) * vector_dot(3, spins, middle);
@@ -119,10 +119,10 @@ SCREE_INLINE void motion_turn(motion *m, vector spins, vector relative, double s
     m->roll = turn_half(m, vector_times(3, vector_cross(relative, m->normal), m->reduced_radius));
 }
 
-/// Everything that depends on velocities; normal, indentation, arms, reduced radius and `tilted` are set.
+/// Everything that depends on velocities; normal, overlap, arms, reduced radius and `tilted` are set.
 /// along: P u. lever: a_first w_first + a_second w_second.
-SCREE_INLINE void motion_advance(int dimension, motion *m, vector velocity, vector along, vector lever,
-                                 vector spin_first, vector spin_second, double step)
+SCREE_INLINE void kinematics_advance(int dimension, kinematics *m, vector velocity, vector along, vector lever,
+                                     vector spin_first, vector spin_second, double step)
 {
     const int count = tangential_count(dimension);
     vector n = m->normal;
@@ -136,12 +136,12 @@ SCREE_INLINE void motion_advance(int dimension, motion *m, vector velocity, vect
     m->slip = vector_minus(count, along, spin_across(dimension, lever, n));
     m->roll = vector_times(count, relative, m->reduced_radius);
     if (dimension == 2) return;
-    motion_turn(m, spins, relative, step);
+    kinematics_turn(m, spins, relative, step);
     m->slip = turn_half(m, m->slip);
 }
 
 /// 1 / m + a^2 / J times the number of contacts that pull at the body: each may move its share of the mass alone.
-SCREE_INLINE lanes body_mobility(int dimension, const bodies *body, const foresight *ahead, lanes arm)
+SCREE_INLINE lanes body_mobility(int dimension, const bodies *body, const prediction *ahead, lanes arm)
 {
     lanes lever = arm / body->radius;
     lanes one = 1.0 + (dimension == 3 ? 2.5 : 2.0) * (lever * lever);
@@ -149,8 +149,8 @@ SCREE_INLINE lanes body_mobility(int dimension, const bodies *body, const foresi
 }
 
 /// For laws that look ahead. Against a wall, `second` is NULL.
-SCREE_INLINE void motion_foresee(int dimension, motion *m, const bodies *first, const foresight *ahead,
-                                 const bodies *second, const foresight *ahead_second)
+SCREE_INLINE void kinematics_predict(int dimension, kinematics *m, const bodies *first, const prediction *ahead,
+                                     const bodies *second, const prediction *ahead_second)
 {
     const int count = tangential_count(dimension);
     vector velocity = ahead->velocity, lever = vector_times(count, ahead->spin, m->arm_first);
@@ -162,27 +162,27 @@ SCREE_INLINE void motion_foresee(int dimension, motion *m, const bodies *first, 
     }
     vector change =
         vector_minus(count, vector_across(dimension, velocity, m->normal), spin_across(dimension, lever, m->normal));
-    m->foreseen_slip = vector_plus(count, m->slip, change);
+    m->predicted_slip = vector_plus(count, m->slip, change);
 }
 
-SCREE_INLINE motion motion_of_pair(int dimension, const bodies *first, const bodies *second, double step)
+SCREE_INLINE kinematics kinematics_of_pair(int dimension, const bodies *first, const bodies *second, double step)
 {
     const int count = tangential_count(dimension);
-    motion m;
-    vector apart = vector_minus(dimension, first->place, second->place);
+    kinematics m;
+    vector apart = vector_minus(dimension, first->position, second->position);
     lanes radii = first->radius + second->radius, masses = first->mass + second->mass;
     lanes square = vector_dot(dimension, apart, apart), distance = lanes_root(square);
     // In space, where the chain of operations is long, the division does not wait for the root.
     lanes inverse_distance = dimension == 2 ? 1.0 / distance : distance * (1.0 / square);
     m.normal = vector_times(dimension, apart, inverse_distance);
-    m.indentation = radii - distance;
+    m.overlap = radii - distance;
 
     // One division serves both reduced quantities.
     lanes inverse = 1.0 / (radii * masses);
     m.reduced_radius = (first->radius * second->radius) * (masses * inverse);
     m.reduced_mass = (first->mass * second->mass) * (radii * inverse);
 
-    lanes half = 0.5 * m.indentation;
+    lanes half = 0.5 * m.overlap;
     m.arm_first = first->radius - half;
     m.arm_second = second->radius - half;
     vector lever = vector_plus(count, vector_times(count, first->spin, m.arm_first),
@@ -190,7 +190,7 @@ SCREE_INLINE motion motion_of_pair(int dimension, const bodies *first, const bod
     vector velocity = vector_minus(dimension, first->velocity, second->velocity);
     vector along = vector_across(dimension, velocity, m.normal);
     m.tilted = vector_times(count, along, step * inverse_distance);
-    motion_advance(dimension, &m, velocity, along, lever, first->spin, second->spin, step);
+    kinematics_advance(dimension, &m, velocity, along, lever, first->spin, second->spin, step);
     if (dimension == 3) m.half = 0.5 - (0.5 * step) * (m.approach * inverse_distance);
     return m;
 }
