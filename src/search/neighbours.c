@@ -341,10 +341,10 @@ static scree_status assemble(const scree_model *model, scree_state *state, scree
     const list_arrays of_pairs = arrays_of_pairs(pairs), of_walls = arrays_of_wall_pairs(walls);
     const list_arrays of_elements = arrays_of_wall_pairs(elements);
     bool books = scree_contacts_add_work(model, state->dimension), rolls = scree_contacts_roll(model);
-    bool held_books = held > 0 && scree_model_held_traits(model)->books[state->dimension - 2];
+    bool held_keeps = held > 0 && scree_model_held_traits(model)->keeps_last_force[state->dimension - 2];
     bool held_rolls = held > 0 && scree_model_held_traits(model)->rolling;
     touching += held;
-    scree_status status = reserve_list(&of_pairs, touching + near, books || held_books, rolls || held_rolls, error);
+    scree_status status = reserve_list(&of_pairs, touching + near, books || held_keeps, rolls || held_rolls, error);
     if (!status) status = scree_held_list(state, &search->held, pairs, error);
     if (!status) status = reserve_list(&of_walls, wall, books, rolls, error);
     if (!status && work->wall_set) status = reserve_list(&of_elements, element, books, rolls, error);

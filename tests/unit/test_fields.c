@@ -265,7 +265,7 @@ static void memory_is_what_the_traits_say(void **unused)
                 scree_state state = {.dimension = dimension};
                 state.law[list] = (scree_remembered_law){scree_modules[m], option};
                 assert_true(number_used(&state, list, HISTORY) > 0);
-                assert_true((number_used(&state, list, BOOKING) > 0) == traits->books[dimension - 2]);
+                assert_true((number_used(&state, list, BOOKING) > 0) == traits->keeps_last_force[dimension - 2]);
                 assert_true((number_used(&state, list, ROLLING) > 0) == traits->rolling);
                 assert_true((number_used(&state, list, CONSTANT) > 0) == traits->holds);
                 assert_int_equal(number_used(&state, list, ROLLING), number_used(&state, list, BOOKED));
