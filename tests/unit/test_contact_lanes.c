@@ -22,7 +22,7 @@ static contact_totals evaluate(fixture *f, const variant *v, contact_kernel *ker
     contact_part_clear(&scratch->part[0], &f->state, &job);
     job.model = &f->model;
     job.variant = *v;
-    job.pairs = f->model.pairs;
+    job.pairs = (const scree_pair_constants(*)[SCREE_MAX_MATERIALS])f->model.pairs;
     job.row = f->state.row;
     job.turn = f->state.turn;
     job.predicted = f->state.predicted;
