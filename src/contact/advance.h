@@ -34,6 +34,17 @@ static inline bodies contact_body_at(const contact_job *job, size_t row)
     return body_get(job->variant.dimension, &job->row[row], job->turn ? &job->turn[row] : NULL);
 }
 
+/// Adds to the moments of a row, where they are asked for.
+static inline void contact_add_moments(const contact_job *job, size_t row, vector normal, lanes arm, vector force)
+{
+    if (!job->moment) return;
+    const int dimension = job->variant.dimension;
+    uint64_t moment[9];
+    contact_moments(dimension, &job->scale, normal, arm, force, moment);
+    int64_t *sum = job->moment + row * scree_moment_size(dimension);
+    for (int k = 0; k < dimension * dimension; k++) sum[k] = (int64_t)((uint64_t)sum[k] + moment[k]);
+}
+
 /// Adds to the sums of a row, modulo 2^64.
 static inline void contact_add_to_sums(const contact_job *job, size_t row, quanta force, quanta torque, uint64_t count)
 {

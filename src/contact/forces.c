@@ -51,6 +51,7 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
         .predicted = state->predicted,
         .sum = state->sum,
         .torque = state->torque,
+        .moment = state->moment,
         .first = work->pairs.first,
         .second = work->pairs.second,
         .history = work->pairs.history,
@@ -131,6 +132,7 @@ static void finish_share(void *argument, int index, int count)
     contact_merge(task->scratch, state, begin, end);
     job->sum = state->sum;
     job->torque = state->torque;
+    job->moment = state->moment;
     contact_walls(job, scree_plates(state), &task->work->wall_pairs, begin, end);
     contact_surfaces(job, state, task->work, begin, end);
 }
@@ -193,6 +195,7 @@ void scree_contact_forces(const scree_model *model, scree_state *state, scree_wo
     contact_job job = describe_job(model, state, work);
     contact_clear_rows(state, work->clear_rows, scree_row_count(state, work));
     work->clear_rows = 0;
+    contact_clear_moments(state, scree_row_count(state, work));
     contact_kernel *kernel = work->reference_kernel ? NULL : choose_kernel(state->dimension, work->instruction_set);
     contact_scratch *scratch = kernel ? contact_scratch_refresh(work, state) : NULL;
     contact_totals totals =

@@ -33,6 +33,7 @@ typedef struct contact_job {
     const scree_predicted *predicted; ///< one a row, with law_predicts
     scree_sum_row *sum;               ///< the sum of row r is sum[r]; this thread's own
     scree_torque_row *torque;         ///< 3D, in the same way
+    int64_t *moment;                  ///< in the same way; NULL: not asked for
     const uint32_t *first, *second;   ///< the whole pair list
     scree_history *history;
     scree_last_force *last_force; ///< with law_keeps_last_force

@@ -51,6 +51,8 @@ static void evaluate_pair(contact_job *job, size_t p)
     contact_quanta q = contact_advance(job, job->variant, constants, own, &m, touching, &rows);
     contact_add_to_sums(job, first, q.force, q.torque_first, q.count);
     contact_add_to_sums(job, second, quanta_opposite(q.force), q.torque_second, q.count);
+    contact_add_moments(job, first, m.normal, m.arm_first, q.on_first);
+    contact_add_moments(job, second, m.normal, m.arm_second, q.on_first);
 }
 
 static void evaluate_range(contact_job *job)
@@ -101,6 +103,7 @@ SCREE_INLINE void evaluate_walls(contact_job *job, variant v, const scree_wall *
         }
         contact_quanta q = contact_advance(job, v, &job->model->walls[(int)one.material], NULL, &m, touching, &rows);
         contact_add_to_sums(job, row, q.force, q.torque_first, q.count);
+        contact_add_moments(job, row, m.normal, m.arm_first, q.on_first);
         job->totals.wall_force[w] += q.normal;
         job->totals.wall_shear[w][0] -= q.tangential.x;
         job->totals.wall_shear[w][1] -= q.tangential.y;

@@ -11,10 +11,13 @@
 typedef struct exerted {
     uint32_t row;
     contact_quanta quanta; ///< force and torque_first are those on this body
+    vector normal;         ///< of the contact
+    double arm;            ///< m, of this body
 } exerted;
 
-/// Force and torques of pair `p` [quanta].
-static contact_quanta evaluate(const scree_model *model, const scree_state *state, const scree_work *work, size_t p)
+/// Force and torques of pair `p` [quanta], and its kinematics.
+static contact_quanta evaluate(const scree_model *model, const scree_state *state, const scree_work *work, size_t p,
+                               kinematics *kinematics_of)
 {
     const int dimension = state->dimension;
     contact_body first = contact_body_at_half_step(model, state, work, work->pairs.first[p]);
@@ -22,6 +25,7 @@ static contact_quanta evaluate(const scree_model *model, const scree_state *stat
     bodies one = body_get(dimension, &first.row, &first.turn), other = body_get(dimension, &second.row, &second.turn);
     kinematics m = kinematics_of_pair(dimension, &one, &other, state->step_size);
     kinematics_hold(&m);
+    *kinematics_of = m;
     const scree_member_row *own = contact_own_of(work, p);
     const scree_law_use *law = own ? &model->persistent.law : &model->law;
     const variant v = {.dimension = dimension, .law = law->law, .option = law->option, .many_materials = true};
@@ -44,8 +48,19 @@ static bool is_cut(const scree_state *state, const scree_work *work, const uint8
            (p < work->pairs.held_count || pair_touches(state->dimension, &state->row[first], &state->row[second]));
 }
 
+static void take_out_moment(scree_state *state, const exerted *e)
+{
+    uint64_t moment[9];
+    const int dimension = state->dimension;
+    const contact_scale scale = {.inverse_torque = 1 / state->torque_quantum};
+    int64_t *sum = state->moment + e->row * scree_moment_size(dimension);
+    contact_moments(dimension, &scale, e->normal, e->arm, e->quanta.on_first, moment);
+    for (int k = 0; k < dimension * dimension; k++) sum[k] = (int64_t)((uint64_t)sum[k] - moment[k]);
+}
+
 static void take_out(scree_state *state, const exerted *e)
 {
+    if (state->moment) take_out_moment(state, e);
     const quanta force = quanta_opposite(e->quanta.force), torque = quanta_opposite(e->quanta.torque_first);
     scree_sum_row *sum = &state->sum[e->row];
     if (state->dimension == 2) {
@@ -66,11 +81,16 @@ scree_status scree_contacts_take_out(const scree_model *model, scree_state *stat
     if (status) return status;
     for (size_t p = 0; p < work->pairs.count; p++) {
         if (!is_cut(state, work, going, p)) continue;
-        exerted e = {scree_parent_row(state, work, work->pairs.first[p]), evaluate(model, state, work, p)};
+        kinematics m;
+        exerted e = {.row = scree_parent_row(state, work, work->pairs.first[p]),
+                     .quanta = evaluate(model, state, work, p, &m)};
+        e.normal = m.normal;
+        e.arm = m.arm_first;
         if (going[e.row]) {
             e.row = scree_parent_row(state, work, work->pairs.second[p]);
             e.quanta.force = quanta_opposite(e.quanta.force);
             e.quanta.torque_first = e.quanta.torque_second;
+            e.arm = m.arm_second;
         }
         list[found++] = e;
     }

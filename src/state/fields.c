@@ -76,6 +76,18 @@ static const scree_field fields[] = {
     {"torque_sum", SCREE_FIELD_INT64, 3, "1", SCREE_FIELD_STATE, false,
      "sum of the contact torques, in units of scalars/torque_quantum", IN_ARRAY(torque, scree_torque_row, x),
      .rows = SCREE_ROWS_BODIES, .ghosts = SCREE_GHOSTS_ADD_BACK, .only_dimension = 3, SCREE_RANGE(-SUM, SUM)},
+    {"contact_moment", SCREE_FIELD_INT64, 4, "1", SCREE_FIELD_STATE, false,
+     "sum over the contacts of branch (x) force, from the centre to the point, by rows, in units of "
+     "scalars/torque_quantum",
+     .array_offset = offsetof(scree_state, moment), .stride = SCREE_MOMENTS_2D * sizeof(int64_t),
+     .rows = SCREE_ROWS_BODIES, .ghosts = SCREE_GHOSTS_ADD_BACK, .optional = true, .only_dimension = 2,
+     SCREE_RANGE(-SUM, SUM)},
+    {"contact_moment", SCREE_FIELD_INT64, 9, "1", SCREE_FIELD_STATE, false,
+     "sum over the contacts of branch (x) force, from the centre to the point, by rows, in units of "
+     "scalars/torque_quantum",
+     .array_offset = offsetof(scree_state, moment), .stride = SCREE_MOMENTS_3D * sizeof(int64_t),
+     .rows = SCREE_ROWS_BODIES, .ghosts = SCREE_GHOSTS_ADD_BACK, .optional = true, .only_dimension = 3,
+     SCREE_RANGE(-SUM, SUM)},
     {"coordination", SCREE_FIELD_INT64, 1, "1", SCREE_FIELD_STATE, true, "number of touching neighbours and walls",
      IN_ARRAY(sum, scree_sum_row, contacts), .rows = SCREE_ROWS_BODIES, .ghosts = SCREE_GHOSTS_ADD_BACK,
      SCREE_RANGE_TO(SCREE_LIMIT_MANY)},

@@ -77,6 +77,14 @@ scree_status scree_state_predict(scree_state *state, scree_error *error)
     return scree_allocate(&state->predicted, state->row_capacity, sizeof *state->predicted, error);
 }
 
+scree_status scree_state_ask_for_moments(scree_state *state, bool wanted, scree_error *error)
+{
+    if (!wanted) scree_release(&state->moment);
+    if (!wanted || state->moment) return SCREE_OK;
+    return scree_allocate(&state->moment, state->row_capacity,
+                          scree_moment_size(state->dimension) * sizeof *state->moment, error);
+}
+
 scree_status scree_state_append(scree_state *state, scree_mark mark, size_t more, scree_error *error)
 {
     scree_body_array list[SCREE_BODY_ARRAYS];

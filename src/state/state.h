@@ -74,6 +74,9 @@ typedef struct scree_predicted {
     double unused;     ///< zero
 } scree_predicted;
 
+/// Numbers of a row of state->moment: the tensor by rows, in 3D filled up to 96 bytes, which kernels move in three.
+enum { SCREE_MOMENTS_2D = 4, SCREE_MOMENTS_3D = 12 };
+
 /// 3D only: sum of the torques, in torque quanta.
 typedef struct scree_torque_row {
     int64_t x, y, z;
@@ -186,6 +189,7 @@ struct scree_state {
     scree_turn_row *turn;     ///< 3D: count; NULL in 2D
     scree_sum_row *sum;       ///< count, forces at `step`
     scree_torque_row *torque; ///< 3D: count; NULL in 2D
+    int64_t *moment;          ///< of a row: scree_moments_of, torque quanta; NULL unless a module asks for them
     double force_quantum;     ///< N
     double torque_quantum;    ///< N m
     double largest_overlap;   ///< m, over all contacts at `step`
@@ -305,6 +309,15 @@ void scree_state_release_contacts(scree_state *state);
 /// From now on contacts, and pairs that are held, remember what the laws of the model say. Those that are there must be
 /// of these laws already.
 void scree_state_set_laws(scree_state *state, const scree_model *model);
+
+/// Integers that a row of state->moment has in this dimension.
+static inline size_t scree_moment_size(int dimension)
+{
+    return dimension == 3 ? SCREE_MOMENTS_3D : SCREE_MOMENTS_2D;
+}
+
+/// From the next evaluation on the moments of contact forces are summed, or no longer. Errors: memory.
+scree_status scree_state_ask_for_moments(scree_state *state, bool wanted, scree_error *error) SCREE_MUST_USE;
 
 /// Puts last_force rows, and rolling rows, beside the contact memory; nothing happens where there are some.
 scree_status scree_state_add_last_force(scree_state *state, scree_error *error) SCREE_MUST_USE;
