@@ -15,7 +15,7 @@ double scree_axial_stress_error(const scree_context *context, double pressure, c
 /// The members of a boundary with such plates.
 #define SCREE_AXIAL_PLATES                                                                                             \
     .wave_time = scree_axial_wave_time, .height = scree_axial_height, .fit = scree_axial_fit,                          \
-    .rest = scree_axial_rest, .hold = scree_axial_hold, .compress = scree_axial_compress, .stress_error = scree_axial_stress_error,              \
-    .stress_tolerance = 0.05, .patience = 400
+    .rest = scree_axial_rest, .hold = scree_axial_hold, .compress = scree_axial_compress,                              \
+    .stress_error = scree_axial_stress_error, .stress_tolerance = 0.05, .patience = 400
 
 #endif

@@ -31,16 +31,14 @@ scree_status scree_imposed_begin(const scree_model *model, scree_state *state, s
     return SCREE_OK;
 }
 
-scree_status scree_imposed_make_room(const scree_model *model, scree_state *state, scree_error *error)
+scree_status scree_imposed_refresh(const scree_context *context, scree_error *error)
 {
-    (void)model;
-    scree_imposed_gradient *imposed = scree_imposed(state);
+    scree_state *state = context->state;
     size_t count = scree_boundary_count(state);
     scree_status status =
         scree_group_reserve(state, &scree_module_imposed_gradient, &scree_imposed_nodes, count, error);
-    if (status) return status;
-    imposed->count = count;
-    return SCREE_OK;
+    if (!status) scree_imposed(state)->count = count;
+    return status;
 }
 
 void scree_imposed_add(scree_state *state, size_t node, const int64_t quanta[3])
@@ -144,11 +142,6 @@ void scree_imposed_apply_stress(const scree_model *model, scree_state *state, co
         for (int t = 0; t < terms; t++) add_term(&facet, t, (t + 1) % facet.corners, stress, scale, share);
         for (int c = 0; c < facet.corners; c++) scree_imposed_add(state, facet.node[c], share);
     }
-}
-
-scree_status scree_imposed_refresh(const scree_context *context, scree_error *error)
-{
-    return scree_imposed_make_room(context->model, context->state, error);
 }
 
 scree_status scree_imposed_work(const scree_context *context, scree_error *error)

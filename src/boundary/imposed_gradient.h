@@ -11,10 +11,9 @@
 scree_status scree_imposed_begin(const scree_model *model, scree_state *state, scree_error *error) SCREE_MUST_USE;
 
 /// Room for one force a node of the present boundary. Errors: memory.
-scree_status scree_imposed_make_room(const scree_model *model, scree_state *state, scree_error *error) SCREE_MUST_USE;
-
-/// The same, and scree_imposed_add_work, as passes.
 scree_status scree_imposed_refresh(const scree_context *context, scree_error *error) SCREE_MUST_USE;
+
+/// scree_imposed_add_work as a pass.
 scree_status scree_imposed_work(const scree_context *context, scree_error *error) SCREE_MUST_USE;
 
 /// Adds a force in quanta to the sum of a node and keeps it in force.

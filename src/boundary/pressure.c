@@ -140,16 +140,15 @@ static void press_segment(void *user, const scree_outline_segment *segment)
     add_force(forces, segment->second, -half[1], half[0]);
 }
 
+/// The terms are found once for both passes of the sum: rows of bodies along a loop lie all over the memory.
 static double loop_power(const scree_state *state)
 {
     const scree_loop *loop = scree_loop_of(state);
-    scree_integer_sum power = {0};
-    while (scree_integer_sum_next(&power, 1))
-        for (size_t k = 0; k < loop->count; k++) {
-            const scree_row *row = &state->row[state->row_of_id[loop->id[k]]];
-            scree_integer_sum_add(&power, loop->fx[k] * row->vx + loop->fy[k] * row->vy);
-        }
-    return scree_integer_sum_total(&power);
+    for (size_t k = 0; k < loop->count; k++) {
+        const scree_row *row = &state->row[state->row_of_id[loop->id[k]]];
+        loop->power[k] = loop->fx[k] * row->vx + loop->fy[k] * row->vy;
+    }
+    return scree_integer_sum_of(loop->power, loop->count);
 }
 
 /// 1/2 F . v dt with the velocities that the rows hold now.

@@ -35,8 +35,9 @@ scree_status scree_array_from_field(const scree_state *state, const scree_field 
     const size_t size = (size_t)array->components * scree_field_size(array->type);
     unsigned char *target = array->data;
     size_t id = 0;
+    const unsigned char *first = array->rows > 0 ? scree_field_get(state, field, 0) : NULL;
     for (size_t k = 0; k < array->rows; k++, target += size)
-        memcpy(target, scree_field_get(state, field, by_id ? scree_next_by_id(state, &id) : k), size);
+        memcpy(target, first + field->stride * (by_id ? scree_next_by_id(state, &id) : k), size);
     return SCREE_OK;
 }
 
@@ -44,8 +45,8 @@ void scree_array_to_field(const scree_array *array, const scree_field *field, sc
 {
     const size_t size = (size_t)array->components * scree_field_size(array->type);
     const unsigned char *source = array->data;
-    for (size_t k = 0; k < array->rows; k++, source += size)
-        memcpy(scree_field_get_mutable(state, field, k), source, size);
+    unsigned char *first = array->rows > 0 ? scree_field_get_mutable(state, field, 0) : NULL;
+    for (size_t k = 0; k < array->rows; k++, source += size) memcpy(first + field->stride * k, source, size);
 }
 
 // ---- bodies ------------------------------------------------------------------------------------------------------

@@ -118,7 +118,7 @@ scree_status scree_cell_grid_order(scree_cell_grid *grid, const scree_state *sta
     }
     if (holes) close_holes(&grid->curve, state->id_count);
     scree_key_list_sort(&grid->curve, state->count);
-    memcpy(grid->order, grid->curve.index, state->count * sizeof *grid->order);
+    if (state->count > 0) memcpy(grid->order, grid->curve.index, state->count * sizeof *grid->order);
     return SCREE_OK;
 }
 

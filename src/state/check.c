@@ -132,8 +132,10 @@ static scree_status check_field(const scree_state *state, const scree_model *mod
     if (!real && range->limit == SCREE_LIMIT_ANY) return SCREE_OK;
     double most = most_of(range, state, model);
     int components = scree_components(field->components, state->dimension);
-    for (size_t row = 0; row < scree_field_rows_count(state, field); row++) {
-        const unsigned char *at = scree_field_get(state, field, row);
+    const size_t rows = scree_field_rows_count(state, field);
+    const unsigned char *first = rows > 0 ? scree_field_get(state, field, 0) : NULL;
+    for (size_t row = 0; row < rows; row++) {
+        const unsigned char *at = first + row * field->stride;
         for (int k = 0; k < components; k++, at += scree_field_size(field->type)) {
             double value = number_of(field->type, at);
             bool gone = range->limit == SCREE_LIMIT_BODY && value >= 0 && value <= most &&

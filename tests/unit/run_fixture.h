@@ -126,6 +126,7 @@ static inline void simulation_reopen(scree_simulation *s, int threads, const cha
     check(scree_contacts_save(&s->state, &s->work, &error), &error);
     check(scree_checkpoint_write(folder, &s->state, CASE, &error), &error);
     simulation_open(s->c, threads, other);
+    scree_state_destroy(&other->state);
     check(scree_checkpoint_read(folder, s->model.dimension, &other->state, CASE, &error), &error);
     assert_true(state_bits(&s->state) == state_bits(&other->state));
     check(scree_neighbours_refresh(&other->model, &other->state, &other->work, &error), &error);

@@ -87,4 +87,34 @@ static inline void sphere_create_assembly(fixture *f, law_choice law, size_t sid
     fixture_find_pairs(f, 3e-4);
 }
 
+/// J, with velocities at n.
+static inline double fixture_kinetic(const fixture *f)
+{
+    double energy = 0, dt = f->state.step_size;
+    for (size_t k = 0; k < f->state.count; k++) {
+        scree_vector velocity, spin, force, torque;
+        double mass = f->state.row[k].mass, inertia = scree_body_inertia(&f->state, k);
+        scree_body_half_velocity(&f->model, &f->state, k, velocity, spin);
+        scree_body_force(&f->model, &f->state, k, force, torque);
+        for (int i = 0; i < 3; i++) {
+            energy += 0.5 * velocity[i] * (mass * velocity[i] + dt * force[i]);
+            energy += 0.5 * spin[i] * (inertia * spin[i] + dt * torque[i]);
+        }
+    }
+    return energy;
+}
+
+/// J, of all contacts.
+static inline double fixture_elastic(const fixture *f)
+{
+    scree_contact_table table = {0};
+    scree_error error;
+    double energy = 0;
+    assert_int_equal(scree_contact_table_build(&f->model, &f->state, &f->work, &table, &error), SCREE_OK);
+    for (size_t k = 0; k < table.count; k++)
+        energy += table.contact[k].elastic_normal + table.contact[k].elastic_tangential;
+    scree_contact_table_destroy(&table);
+    return energy;
+}
+
 #endif

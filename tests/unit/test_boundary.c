@@ -174,7 +174,8 @@ static void the_power_of_a_stress_is_volume_stress_rate(void **unused)
         bench b;
         bench_create(&b, dimension);
         b.state.force_quantum = FINE;
-        assert_int_equal(scree_imposed_make_room(&b.model, &b.state, NULL), SCREE_OK);
+        const scree_context context = {.model = &b.model, .state = &b.state};
+        assert_int_equal(scree_imposed_refresh(&context, NULL), SCREE_OK);
         scree_imposed_apply_stress(&b.model, &b.state, stress);
         double rate[9], power = 0, expected = 0, scale = 0, volume;
         int64_t total[3] = {0};

@@ -8,6 +8,13 @@
 #include "io_scratch.h"
 #include "state_bits.h"
 
+/// Frames of HDF5, which has no frame pointers, are seen by the suppression below.
+const char *__asan_default_options(void);
+const char *__asan_default_options(void)
+{
+    return "fast_unwind_on_malloc=0";
+}
+
 /// HDF5 (1.10) loses memory of its own when it reads damaged files. For the leak sanitizer, in this test alone.
 const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void)

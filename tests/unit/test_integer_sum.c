@@ -70,6 +70,7 @@ static void order_and_parts_do_not_show(void **unused)
         draw(term, scales[s]);
         double sum = sum_in_order(term, 0);
         for (int order = 1; order < 3; order++) assert_true(sum_in_order(term, order) == sum);
+        assert_true(scree_integer_sum_of(term, TERMS) == sum);
         for (size_t parts = 1; parts <= TERMS; parts = 3 * parts + 1) assert_true(sum_in_parts(term, parts) == sum);
         // The terms are such that a sum of doubles shows their order.
         for (size_t k = 0; k < TERMS; k++) {
@@ -123,6 +124,7 @@ static void no_term_overflows_in_silence(void **unused)
         term[500] = bad[k];
         assert_true(isnan(sum_in_order(term, 0)));
         assert_true(isnan(sum_in_parts(term, 7)));
+        assert_true(isnan(scree_integer_sum_of(term, TERMS)));
     }
     // A loop whose second pass finds a larger term than its first.
     scree_integer_sum sum = {0};

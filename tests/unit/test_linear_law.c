@@ -247,34 +247,6 @@ static void an_oblique_impact_slides(void **unused)
 
 // ---- energy --------------------------------------------------------------------------------------------------------
 
-static double kinetic(const fixture *f)
-{
-    double energy = 0, dt = f->state.step_size;
-    for (size_t k = 0; k < f->state.count; k++) {
-        scree_vector velocity, spin, force, torque;
-        double mass = f->state.row[k].mass, inertia = scree_body_inertia(&f->state, k);
-        scree_body_half_velocity(&f->model, &f->state, k, velocity, spin);
-        scree_body_force(&f->model, &f->state, k, force, torque);
-        for (int i = 0; i < 3; i++) {
-            energy += 0.5 * velocity[i] * (mass * velocity[i] + dt * force[i]);
-            energy += 0.5 * spin[i] * (inertia * spin[i] + dt * torque[i]);
-        }
-    }
-    return energy;
-}
-
-static double elastic(const fixture *f)
-{
-    scree_contact_table table = {0};
-    scree_error error;
-    double energy = 0;
-    check(scree_contact_table_build(&f->model, &f->state, &f->work, &table, &error), &error);
-    for (size_t k = 0; k < table.count; k++)
-        energy += table.contact[k].elastic_normal + table.contact[k].elastic_tangential;
-    scree_contact_table_destroy(&table);
-    return energy;
-}
-
 /// Stretched while shallow, pressed together, stretched back, parted, and the other way round: all work comes back,
 /// which hertz_mindlin's springs do not do (test_contact_cycle.c).
 static void closed_cycles_cost_nothing(void **unused)
@@ -333,12 +305,12 @@ static double worst_residual(int dimension, double step, int steps)
     fixture_forces(&f);
     const scree_ledger *l = &f.state.ledger;
     f.state.ledger = (scree_ledger){0};
-    const double initial = kinetic(&f) + elastic(&f);
+    const double initial = fixture_kinetic(&f) + fixture_elastic(&f);
     double worst = 0;
     for (int n = 0; n < steps; n++) {
         sphere_step(&f);
         if (n % (steps / 50) == 0)
-            worst = fmax(worst, fabs(kinetic(&f) + elastic(&f) + l->damping + l->friction - initial));
+            worst = fmax(worst, fabs(fixture_kinetic(&f) + fixture_elastic(&f) + l->damping + l->friction - initial));
     }
     assert_true(l->damping > 0.05 * initial && l->friction > 0.01 * initial && l->stiffness == 0);
     assert_int_equal(f.work.flags, 0);

@@ -31,38 +31,10 @@ static void create(fixture *f, law_choice law, bool rolling, double step)
 }
 
 /// The scheme's own kinetic energy, 1/2 m v(n-1/2) . v(n+1/2), and the same of rotation.
-static double kinetic(const fixture *f)
-{
-    double energy = 0, dt = f->state.step_size;
-    for (size_t k = 0; k < f->state.count; k++) {
-        scree_vector velocity, spin, force, torque;
-        double mass = f->state.row[k].mass, inertia = scree_body_inertia(&f->state, k);
-        scree_body_half_velocity(&f->model, &f->state, k, velocity, spin);
-        scree_body_force(&f->model, &f->state, k, force, torque);
-        for (int i = 0; i < 3; i++) {
-            energy += 0.5 * velocity[i] * (mass * velocity[i] + dt * force[i]);
-            energy += 0.5 * spin[i] * (inertia * spin[i] + dt * torque[i]);
-        }
-    }
-    return energy;
-}
-
-static double elastic(const fixture *f)
-{
-    scree_contact_table table = {0};
-    scree_error error;
-    double energy = 0;
-    assert_int_equal(scree_contact_table_build(&f->model, &f->state, &f->work, &table, &error), SCREE_OK);
-    for (size_t k = 0; k < table.count; k++)
-        energy += table.contact[k].elastic_normal + table.contact[k].elastic_tangential;
-    scree_contact_table_destroy(&table);
-    return energy;
-}
-
 static double balance(const fixture *f)
 {
     const scree_ledger *l = &f->state.ledger;
-    return kinetic(f) + elastic(f) + l->damping + l->friction - l->stiffness - l->plates;
+    return fixture_kinetic(f) + fixture_elastic(f) + l->damping + l->friction - l->stiffness - l->plates;
 }
 
 /// Largest imbalance over 2 ms, relative to the turnover.
