@@ -105,6 +105,7 @@ static const scree_boundary face = {
     .equal_steps = true,
     .needs_gradient = "affine needs all components of a velocity gradient: use a deform stage",
     .needs_all = "affine moves every body of the boundary: all components must be given",
+    .needs_ends = SCREE_IMPOSED_ENDS,
     .kept = SCREE_IMPOSED_KEPT,
     .begin = scree_imposed_begin,
     .passes = passes,

@@ -6,6 +6,7 @@
 #include "boundary/axial_plates.h"
 #include "boundary/pressure.h"
 #include "measure/imposed_gradient.h"
+#include "state/periodic.h"
 
 #include <math.h>
 
@@ -47,7 +48,7 @@ scree_status scree_boundary_begin(const scree_boundary *boundary, const scree_mo
                                   const scree_contact_table *table, bool *changed, scree_error *error)
 {
     size_t count = state->count;
-    *changed = change_walls(state, boundary->walls, table);
+    *changed = change_walls(state, boundary->walls & scree_periodic_plates(state), table);
     scree_imposed(state)->count = 0; // what another boundary imposed is over
     scree_status status = SCREE_OK;
     if (*changed && !boundary->open) status = scree_boundary_mark_loaded(model, state, error);

@@ -40,6 +40,9 @@ void scree_imposed_compress(const scree_context *context, const scree_compressio
 void scree_imposed_deform(const scree_context *context, const scree_demand *demand, double rise);
 
 /// What is wrong where one with plates follows it.
+#define SCREE_IMPOSED_ENDS                                                                                             \
+    "its forces act on the Delaunay boundary, which goes around a sample that does not repeat itself: give boundary: " \
+    "plates, or make the sample periodic in all directions"
 #define SCREE_IMPOSED_KEPT                                                                                             \
     "plates cannot come back to a sample that has deformed freely: only minimal or affine can follow"
 

@@ -226,6 +226,7 @@ static const scree_boundary face = {
     .round = true,
     .equal_steps = true,
     .full_mirrors = true,
+    .needs_ends = SCREE_IMPOSED_ENDS,
     .kept = SCREE_IMPOSED_KEPT,
     .begin = scree_imposed_begin,
     .passes = passes,

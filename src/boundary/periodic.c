@@ -49,6 +49,7 @@
 #include "base/integer_sum.h"
 #include "base/matrix.h"
 #include "base/wide_sum.h"
+#include "comm/comm.h"
 #include "search/neighbours.h"
 #include "state/periodic.h"
 
@@ -72,7 +73,7 @@ static bool deforms(const scree_periodic_cell *cell)
 static double density(const scree_model *model, const scree_state *state)
 {
     scree_integer_sum mass = {0};
-    while (scree_integer_sum_next(&mass, 1))
+    while (scree_comm_sum_next(state, &mass, 1))
         for (size_t row = 0; row < state->count; row++) scree_integer_sum_add(&mass, state->row[row].mass);
     return scree_integer_sum_total(&mass) / (scree_periodic_extent(state) * model->thickness);
 }
@@ -227,6 +228,16 @@ static void move_share(void *argument, int index, int count)
         move_body(task->state, task->maps, row, task->work->relative[row]);
 }
 
+/// A task whose sums, which the shares fill, are not cleared: they are large.
+static void begin_task(bodies_task *task, scree_state *state, const scree_work *work)
+{
+    task->state = state;
+    task->work = work;
+    task->maps = NULL;
+    task->inverse = NULL;
+    task->quantum = 0;
+}
+
 static void run_shares(scree_work *work, scree_thread_pool_task *share, bodies_task *task)
 {
     scree_thread_pool_run(&work->pool, scree_work_shares(work), share, task);
@@ -283,7 +294,10 @@ static void kinematics_share(void *argument, int index, int count)
 static void measure_motion(const scree_model *model, scree_state *state, scree_work *work, const step_maps *maps)
 {
     const double bound = mass_bound(model) * state->largest_speed * state->largest_speed;
-    bodies_task task = {.state = state, .maps = maps, .quantum = scree_fixed_quantum(4 * bound)};
+    bodies_task task;
+    begin_task(&task, state, work);
+    task.maps = maps;
+    task.quantum = scree_fixed_quantum(4 * bound);
     run_shares(work, kinematics_share, &task);
     scree_wide_total(task.sum, scree_work_shares(work), task.quantum, scree_cell(state)->motion);
 }
@@ -351,10 +365,13 @@ static void outside_share(void *argument, int index, int count)
 /// Largest distance [m] of a body from the cell it should be in.
 static double farthest_outside(scree_state *state, scree_work *work, const double inverse[9])
 {
-    bodies_task task = {.state = state, .inverse = inverse};
+    bodies_task task;
     double largest = 0;
+    begin_task(&task, state, work);
+    task.inverse = inverse;
     run_shares(work, outside_share, &task);
     for (int k = 0; k < scree_work_shares(work); k++) largest = fmax(largest, task.largest[k]);
+    scree_comm_maximum(state, &largest, 1);
     return largest;
 }
 
@@ -376,7 +393,7 @@ static bool find_shift(const scree_state *state, const double inverse[9], size_t
 static double change_of_gravity(const scree_model *model, const scree_state *state, const double inverse[9])
 {
     scree_integer_sum sum = {0};
-    while (scree_integer_sum_next(&sum, 1))
+    while (scree_comm_sum_next(state, &sum, 1))
         for (size_t row = 0; row < state->count; row++) {
             scree_vector shift, by;
             if (!find_shift(state, inverse, row, shift)) continue;
@@ -443,7 +460,10 @@ scree_status scree_periodic_move(const scree_model *model, scree_state *state, s
             add_work(state, scree_cell(state)->motion, 1);
             add_work(state, scree_cell(state)->virial, 0.5);
             move_lattice(state, &maps);
-            run_shares(work, move_share, &(bodies_task){.state = state, .work = work, .maps = &maps});
+            bodies_task task;
+            begin_task(&task, state, work);
+            task.maps = &maps;
+            run_shares(work, move_share, &task);
             allow_for_gradient(model, state, work, &maps);
         }
     }
@@ -462,6 +482,8 @@ static void settle_share(void *argument, int index, int count)
 void scree_periodic_settle(scree_state *state, scree_work *work)
 {
     if (!scree_periodic_is_whole(state) || !deforms(scree_cell(state))) return;
-    run_shares(work, settle_share, &(bodies_task){.state = state, .work = work});
+    bodies_task task;
+    begin_task(&task, state, work);
+    run_shares(work, settle_share, &task);
     add_work(state, scree_cell(state)->virial, 0.5);
 }

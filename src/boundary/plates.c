@@ -15,6 +15,7 @@
 #include "state/plates.h"
 
 #include "base/integer_sum.h"
+#include "comm/comm.h"
 #include "measure/hull.h"
 #include "measure/measure.h"
 #include "measure/outline.h"
@@ -58,7 +59,7 @@ double scree_plate_stress(const scree_model *model, const scree_state *state, in
 static double sample_mass(const scree_state *state)
 {
     scree_integer_sum mass = {0};
-    while (scree_integer_sum_next(&mass, 1))
+    while (scree_comm_sum_next(state, &mass, 1))
         for (size_t row = 0; row < state->count; row++)
             if (scree_body_is_grain(state, row)) scree_integer_sum_add(&mass, state->row[row].mass);
     return scree_integer_sum_total(&mass);

@@ -2,7 +2,11 @@
 #include "boundary/axial_plates.h"
 #include "module/key_rows.h"
 
-static const scree_boundary face = {.walls = SCREE_AXIAL_WALLS, SCREE_AXIAL_PLATES};
+static const scree_boundary face = {
+    .walls = SCREE_AXIAL_WALLS,
+    .needs_ends = "the Delaunay boundary goes around a sample that does not repeat itself: give boundary: plates",
+    SCREE_AXIAL_PLATES,
+};
 
 const scree_module scree_module_pressure_boundary = {
     .name = "pressure",

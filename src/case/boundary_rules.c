@@ -17,20 +17,26 @@ static void refuse(scree_reader *reader, int64_t index, const char *key, const c
 /// What is wrong with the preparation of a periodic sample, and under which key; NULL: nothing.
 static const char *wrong_preparation(const scree_prepare_config *stage, const char **key)
 {
-    if (stage->method >= 0 && scree_modules[stage->method]->preparation->needs_walls)
-        return "this method needs walls and cannot fill a periodic cell: prepare with gas or on a lattice, and confine";
+    *key = "method";
+    if (stage->method >= 0 && !scree_modules[stage->method]->preparation->periodic)
+        return scree_modules[stage->method]->preparation->needs_walls
+                   ? "this method needs walls on all sides and cannot fill a sample that repeats itself "
+                     "(boundary.periodic): prepare with gas, bodies or on a lattice, and confine"
+                   : NULL; // of a pair more is said
     *key = "outline";
     return stage->outline != SCREE_SAMPLE_BOX ? "a round sample cannot repeat itself" : NULL;
 }
 
-/// What is wrong with a stage of a periodic sample, and under which key; NULL: nothing.
-static const char *wrong_in_cell(const scree_config_stage *stage, const char **key)
+/// What is wrong with a stage of a sample that repeats itself, and under which key; NULL: nothing.
+static const char *wrong_in_cell(const scree_config *config, const scree_config_stage *stage,
+                                 const scree_stage_numbers *numbers, const scree_boundary *boundary, const char **key)
 {
-    *key = "method";
-    if (scree_modules[stage->kind]->numbers->places) return wrong_preparation(scree_config_prepared(stage), key);
+    if (boundary->periodic && stage->boundary != SCREE_CHOICE_AUTO)
+        return "the sample is periodic in all directions (boundary.periodic) and can have no boundary";
+    if (boundary->needs_ends) return boundary->needs_ends;
+    *key = "stage";
+    if (scree_config_axis_repeats(config) && (numbers->settles || numbers->rate)) return boundary->needs_axis;
     *key = "boundary";
-    if (stage->boundary != SCREE_CHOICE_AUTO)
-        return "the sample is periodic from its preparation on (boundary.periodic) and can have no other boundary";
     return NULL;
 }
 
@@ -41,8 +47,6 @@ static void check_periodic(scree_reader *reader, const scree_config *config)
     const char *wrong = NULL;
     if (boundary->periodic > (1 << config->dimension) - 1)
         wrong = "there is no z in two dimensions";
-    else if (config->dimension == 3 && boundary->periodic == SCREE_PERIODIC_X)
-        wrong = "in three dimensions a sample is periodic in x and y, or in all directions";
     else if (scree_config_is_wholly_periodic(config) &&
              (config->gravity[0] != 0 || config->gravity[1] != 0 || config->gravity[2] != 0))
         wrong = "gravity has nothing to fall on: without a floor the sample would fall for ever";
@@ -61,15 +65,18 @@ static const char *wrong_order(const scree_boundary *boundary, const scree_bound
 static const char *wrong_boundary(const scree_config *config, const scree_stage_numbers *stage,
                                   const scree_boundary *boundary)
 {
-    const double *gravity = config->gravity;
+    const bool falls = config->gravity[0] != 0 || config->gravity[1] != 0 || config->gravity[2] != 0;
     if (!stage->needs_standing && config->wall_count > 0)
         return "in a case with walls only relax can follow: the other stages need plates or a free surface of the "
                "sample";
     if (boundary->needs_walls && config->wall_count == 0) return boundary->needs_walls;
-    if (stage->needs_standing && !boundary->stands) return stage->needs_standing;
-    if (boundary->free && (gravity[0] != 0 || gravity[1] != 0 || gravity[2] != 0))
+    if (stage->needs_standing && !boundary->stands && !boundary->open) return stage->needs_standing;
+    if (!stage->needs_standing && !stage->collides && boundary->open)
+        return "nothing stands around the sample that could press it: only relax can follow";
+    if ((boundary->free || (boundary->open && config->wall_count == 0 && !stage->collides)) && falls)
         return "without plates nothing holds the sample against gravity";
-    if (stage->needs_free && !boundary->free) return stage->needs_free;
+    // Of a sample that repeats itself the stage itself says more.
+    if (stage->needs_free && !boundary->free) return config->boundary.periodic > 0 ? NULL : stage->needs_free;
     return stage->needs_free ? NULL : boundary->needs_gradient;
 }
 
@@ -86,10 +93,15 @@ void scree_rules_check_boundaries(scree_reader *reader, const scree_config *conf
         const scree_boundary *boundary = scree_config_held_by(config, i);
         if (!boundary) return; // the section could not be read, and that has been noted
         const scree_stage_numbers *numbers = scree_modules[stage->kind]->numbers;
-        if (numbers->places) round = scree_config_prepared(stage)->outline != SCREE_SAMPLE_BOX;
-        if (numbers->places && !boundary->periodic) continue;
-        const char *key = "boundary",
-                   *wrong = boundary->periodic ? wrong_in_cell(stage, &key) : wrong_boundary(config, numbers, boundary);
+        const char *key = "boundary", *wrong = NULL;
+        if (numbers->places) {
+            round = scree_config_prepared(stage)->outline != SCREE_SAMPLE_BOX;
+            if (config->boundary.periodic > 0) wrong = wrong_preparation(scree_config_prepared(stage), &key);
+            if (wrong) refuse(reader, i, key, wrong);
+            continue;
+        }
+        if (config->boundary.periodic > 0) wrong = wrong_in_cell(config, stage, numbers, boundary, &key);
+        if (!wrong && !boundary->periodic) wrong = wrong_boundary(config, numbers, boundary);
         if (round && !boundary->periodic && !boundary->round)
             wrong = "a round sample has no plates: give boundary: minimal or affine";
         if (!wrong) wrong = wrong_order(boundary, before);

@@ -70,7 +70,16 @@ typedef struct scree_config_integrator {
 } scree_config_integrator;
 
 /// Mask of periodic directions.
-enum { SCREE_PERIODIC_NONE = 0, SCREE_PERIODIC_X = 1, SCREE_PERIODIC_XY = 3, SCREE_PERIODIC_XYZ = 7 };
+enum {
+    SCREE_PERIODIC_NONE = 0,
+    SCREE_PERIODIC_X = 1,
+    SCREE_PERIODIC_Y = 2,
+    SCREE_PERIODIC_XY = 3,
+    SCREE_PERIODIC_Z = 4,
+    SCREE_PERIODIC_XZ = 5,
+    SCREE_PERIODIC_YZ = 6,
+    SCREE_PERIODIC_XYZ = 7
+};
 
 typedef struct scree_config_boundary {
     int periodic;          ///< SCREE_PERIODIC_...
@@ -265,6 +274,12 @@ static inline const scree_boundary *scree_config_held_by(const scree_config *con
 static inline bool scree_config_is_wholly_periodic(const scree_config *config)
 {
     return config->boundary.periodic > 0 && config->boundary.periodic == (1 << config->dimension) - 1;
+}
+
+/// The sample is periodic along its axis: nothing stands below and above it.
+static inline bool scree_config_axis_repeats(const scree_config *config)
+{
+    return config->boundary.periodic > 0 && config->boundary.periodic >> (config->dimension - 1) & 1;
 }
 
 #endif

@@ -23,10 +23,14 @@ static const scree_choice share_kinds[] = {
 };
 static const scree_choice listed[] = {{"given", 1, "the list has elements"}, {0}};
 static const scree_choice periodics[] = {
-    {"no", SCREE_PERIODIC_NONE, "not periodic: plates and what `lateral` says"},
-    {"x", SCREE_PERIODIC_X, "2D: periodic in x, between plates below and above"},
-    {"xy", SCREE_PERIODIC_XY, "periodic in x and y: in 2D without any boundary, in 3D between plates below and above"},
-    {"xyz", SCREE_PERIODIC_XYZ, "periodic in all directions of space"},
+    {"no", SCREE_PERIODIC_NONE, "in no direction"},
+    {"x", SCREE_PERIODIC_X, "along the x axis"},
+    {"y", SCREE_PERIODIC_Y, "along the y axis"},
+    {"z", SCREE_PERIODIC_Z, "along the z axis, 3D"},
+    {"xy", SCREE_PERIODIC_XY, "along x and y: in 2D a cell without any boundary, which can be deformed"},
+    {"xz", SCREE_PERIODIC_XZ, "along x and z, 3D"},
+    {"yz", SCREE_PERIODIC_YZ, "along y and z, 3D"},
+    {"xyz", SCREE_PERIODIC_XYZ, "in all directions, 3D: a cell without any boundary, which can be deformed"},
     {0},
 };
 static const scree_choice boundaries[] = {
@@ -106,10 +110,13 @@ static const scree_key integrator_keys[] = {
 
 typedef scree_config_boundary boundary;
 static const scree_key boundary_keys[] = {
-    CHOICE(boundary, periodic, periodics, .standard = "no", .meaning = "Directions in which the sample repeats."),
+    CHOICE(boundary, periodic, periodics, .standard = "no",
+           .meaning =
+               "Directions in which the sample repeats itself. In the others there is what the boundary of a stage "
+               "says: plates, unless it is chosen, or the `walls` of the case, or nothing (none)."),
     CHOICE(boundary, lateral, NULL, .standard = "pressure",
            .meaning = "What holds the sides, beside plates below and above, until a stage chooses its `boundary`. Not "
-                      "asked for where the sample is periodic."),
+                      "asked for where the sample repeats itself."),
     INTEGER(boundary, every, .standard = "250", FROM("1"), TO("1e9"),
             .meaning =
                 "Steps between two updates of the Delaunay boundary; with two_timescales steps of N_S small ones."),

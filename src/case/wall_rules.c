@@ -65,6 +65,20 @@ static const char *wrong_motion(const scree_config_wall *wall, int dimension, co
     return wall->shape == SCREE_SHAPE_OF_PLANE && wall->normal[2] != 0 ? "there is no z in two dimensions" : NULL;
 }
 
+/// What is wrong with a wall of a sample that repeats itself; NULL: nothing. The wall must look the same from a body
+/// and from its ghost.
+static const char *wrong_in_cell(const scree_config_wall *wall, int periodic, const char **key)
+{
+    *key = "shape";
+    if (wall->shape != SCREE_SHAPE_OF_PLANE)
+        return "only planes go on with a sample that repeats itself (boundary.periodic)";
+    *key = "normal";
+    for (int k = 0; k < 3; k++)
+        if (periodic >> k & 1 && wall->normal[k] != 0)
+            return "the plane lies across a direction in which the sample repeats itself (boundary.periodic)";
+    return NULL;
+}
+
 // ---- names -------------------------------------------------------------------------------------------------------
 
 static void name_walls(scree_reader *reader, scree_config *config)
@@ -148,9 +162,10 @@ void scree_rules_check_walls(scree_reader *reader, scree_config *config)
 {
     for (int64_t i = 0; i < config->wall_count; i++)
         if (config->walls[i].shape < 0) return; // wrong, and noted
-    if (config->wall_count > 0 && config->boundary.periodic > 0) {
+    if (config->wall_count > 0 && scree_config_is_wholly_periodic(config)) {
         refuse(reader, 0, "shape", NULL,
-               "a periodic cell has no walls: leave one of `walls` and boundary.periodic out");
+               "a sample that is periodic in all directions has no walls: leave one of `walls` and boundary.periodic "
+               "out, or a direction of boundary.periodic");
         return;
     }
     name_walls(reader, config);
@@ -158,6 +173,7 @@ void scree_rules_check_walls(scree_reader *reader, scree_config *config)
         scree_config_wall *wall = &config->walls[i];
         const char *key, *wrong = wrong_shape(wall, (int)config->dimension, &key);
         if (!wrong) wrong = wrong_motion(wall, (int)config->dimension, &key);
+        if (!wrong && config->boundary.periodic > 0) wrong = wrong_in_cell(wall, config->boundary.periodic, &key);
         if (wrong) refuse(reader, i, key, NULL, wrong);
         if (!wrong && wall->shape == SCREE_SHAPE_OF_MESH) find_mesh(reader, i, wall);
     }

@@ -6,6 +6,7 @@
 #ifndef SCREE_COMM_COMM_H
 #define SCREE_COMM_COMM_H
 
+#include "base/integer_sum.h"
 #include "comm/message.h"
 
 /// The list of ghosts in `work` is new: makes room for them behind the own rows, tells them what they keep and where
@@ -20,5 +21,18 @@ void scree_comm_exchange(scree_state *state, scree_work *work);
 
 /// Adds what the ghosts have collected to their bodies, and leaves the rows of the ghosts clear.
 void scree_comm_add_back(scree_state *state, scree_work *work);
+
+// ---- one number out of all parts: what each has found among its own bodies and contacts
+// --------------------------------
+
+/// scree_integer_sum_next over the terms of all processes: between the passes their parts are joined, so that all have
+/// the same quantum and the same total. All of them call it, as often.
+bool scree_comm_sum_next(const scree_state *state, scree_integer_sum *sum, int count);
+
+/// Replaces each value by the largest one of all processes.
+void scree_comm_maximum(const scree_state *state, double *values, size_t count);
+
+/// Replaces each value by the sum over all processes.
+void scree_comm_add(const scree_state *state, int64_t *values, size_t count);
 
 #endif

@@ -111,6 +111,9 @@ static inline void copy(unsigned char *to, const unsigned char *from, size_t byt
     case 8:
         memcpy(to, from, 8);
         break;
+    case 16:
+        memcpy(to, from, 16);
+        break;
     case 24:
         memcpy(to, from, 24);
         break;
@@ -186,8 +189,13 @@ void scree_message_collect(scree_state *state, size_t row, size_t count, unsigne
         unsigned char *first = first_of(state, piece);
         if (!first) continue;
         for (size_t k = 0; k < count; k++, message += piece->bytes) {
-            copy(message, first + (row + k) * piece->stride, piece->bytes);
-            memset(first + (row + k) * piece->stride, 0, piece->bytes);
+            static const unsigned char zeros[64];
+            unsigned char *from = first + (row + k) * piece->stride;
+            copy(message, from, piece->bytes);
+            if (piece->bytes <= sizeof zeros)
+                copy(from, zeros, piece->bytes);
+            else
+                memset(from, 0, piece->bytes);
         }
     }
 }

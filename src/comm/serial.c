@@ -74,3 +74,25 @@ void scree_comm_add_back(scree_state *state, scree_work *work)
         k += many;
     }
 }
+
+// What one process has found is all that there is.
+
+bool scree_comm_sum_next(const scree_state *state, scree_integer_sum *sum, int count)
+{
+    (void)state;
+    return scree_integer_sum_next(sum, count);
+}
+
+void scree_comm_maximum(const scree_state *state, double *values, size_t count)
+{
+    (void)state;
+    (void)values;
+    (void)count;
+}
+
+void scree_comm_add(const scree_state *state, int64_t *values, size_t count)
+{
+    (void)state;
+    (void)values;
+    (void)count;
+}

@@ -31,8 +31,8 @@ static void sum_faces(const scree_state *state, const scree_ghost_list *list, in
     for (size_t k = 0; k < list->count; k++) {
         int64_t force[3];
         sum_of(state, state->count + k, force);
-        for (int i = 0; i < 3; i++)
-            for (int j = 0; j < 3; j++)
+        for (int i = 0; i < state->dimension; i++)
+            for (int j = 0; j < state->dimension; j++)
                 faces[3 * i + j] =
                     (int64_t)((uint64_t)faces[3 * i + j] + (uint64_t)(force[i] * list->ghost[k].shift[j]));
     }
@@ -80,10 +80,11 @@ static void sum_share(void *argument, int index, int count)
 /// sum over bodies of F (x) x [J].
 static void sum_bodies(const scree_state *state, scree_work *work, double product[9])
 {
-    virial_task task = {.state = state};
+    virial_task task; // large, and filled by the shares
     const int shares = scree_work_shares(work);
     double largest = 0;
     int exponent;
+    task.state = state;
     scree_thread_pool_run(&work->pool, shares, bound_share, &task);
     for (int k = 0; k < shares; k++) largest = fmax(largest, task.largest[k]);
     (void)frexp(largest, &exponent);

@@ -14,6 +14,7 @@
 #include "base/fixed.h"
 #include "base/integer_sum.h"
 #include "case/check.h"
+#include "comm/comm.h"
 #include "load/load.h"
 #include "module/key_rows.h"
 
@@ -138,7 +139,7 @@ static scree_status damp(const scree_context *c, scree_error *error)
     const config *own = first_config(c->model);
     scree_integer_sum power[2] = {0};
     (void)error;
-    while (scree_integer_sum_next(power, 2))
+    while (scree_comm_sum_next(state, power, 2))
         for (size_t row = 0; row < state->count; row++) {
             const turn t = plan_body(c, own, row);
             add_power(c, row, &t, power);

@@ -30,6 +30,7 @@
 #include "measure/measure.h"
 
 #include "base/integer_sum.h"
+#include "comm/comm.h"
 #include "integrate/integrate.h"
 
 #include <float.h>
@@ -95,7 +96,7 @@ static double inertial_power(const scree_model *model, const scree_state *state,
 void scree_energy_change_step(const scree_model *model, scree_state *state, double before, double after)
 {
     scree_integer_sum sum = {0};
-    while (scree_integer_sum_next(&sum, 1))
+    while (scree_comm_sum_next(state, &sum, 1))
         for (size_t row = 0; row < state->count; row++) scree_integer_sum_add(&sum, inertial_power(model, state, row));
     state->ledger.scheme += 0.125 * (before * before - after * after) * scree_integer_sum_total(&sum);
 }
@@ -124,18 +125,19 @@ static void sum_bodies(const scree_model *model, const scree_state *state, doubl
 {
     scree_integer_sum sum[BODY_SUMS] = {0};
     *largest = 0;
-    while (scree_integer_sum_next(sum, BODY_SUMS))
+    while (scree_comm_sum_next(state, sum, BODY_SUMS))
         for (size_t row = 0; row < state->count; row++) {
             add_kinetic(model, state, row, sum);
             add_place(model, state, row, sum, largest);
         }
+    scree_comm_maximum(state, largest, 1);
     for (int k = 0; k < BODY_SUMS; k++) total[k] = scree_integer_sum_total(&sum[k]);
 }
 
-static void sum_contacts(const scree_contact_table *table, double total[CONTACT_SUMS])
+static void sum_contacts(const scree_state *state, const scree_contact_table *table, double total[CONTACT_SUMS])
 {
     scree_integer_sum sum[CONTACT_SUMS] = {0};
-    while (scree_integer_sum_next(sum, CONTACT_SUMS))
+    while (scree_comm_sum_next(state, sum, CONTACT_SUMS))
         for (size_t c = 0; c < table->count; c++) {
             scree_integer_sum_add(&sum[ELASTIC_NORMAL], table->contact[c].elastic_normal);
             scree_integer_sum_add(&sum[ELASTIC_TANGENTIAL], table->contact[c].elastic_tangential);
@@ -162,7 +164,7 @@ void scree_energy_measure(const scree_model *model, const scree_state *state, co
     const scree_ledger *ledger = &state->ledger;
     double body[BODY_SUMS], contact[CONTACT_SUMS], largest;
     sum_bodies(model, state, body, &largest);
-    sum_contacts(table, contact);
+    sum_contacts(state, table, contact);
     *energy = (scree_energy){.kinetic = body[KINETIC],
                              .kinetic_rotation = body[KINETIC_ROTATION],
                              .elastic_normal = contact[ELASTIC_NORMAL],

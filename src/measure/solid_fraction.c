@@ -6,6 +6,7 @@
 #include "measure/measure.h"
 
 #include "base/integer_sum.h"
+#include "comm/comm.h"
 #include "measure/hull.h"
 #include "measure/outline.h"
 #include "state/periodic.h"
@@ -79,7 +80,7 @@ static void add_solid_angles(const scree_state *state, scree_vector *inward, dou
 static double solid_of_all(const scree_state *state)
 {
     scree_integer_sum solid = {0};
-    while (scree_integer_sum_next(&solid, 1))
+    while (scree_comm_sum_next(state, &solid, 1))
         for (size_t row = 0; row < state->count; row++) {
             if (!scree_body_is_grain(state, row)) continue;
             double square = state->row[row].radius * state->row[row].radius;
@@ -126,7 +127,8 @@ scree_status scree_solid_fraction(const scree_state *state, double *fraction, sc
     *fraction = NAN;
     double solid = 0;
     scree_status status = SCREE_OK;
-    if (scree_cell(state)->directions) *fraction = solid_of_all(state) / scree_periodic_extent(state);
+    if (scree_cell(state)->directions && scree_periodic_is_closed(state))
+        *fraction = solid_of_all(state) / scree_periodic_extent(state);
     if (state->dimension == 2 && scree_loop_of(state)->count > 0)
         *fraction = solid_in_loop(state) / scree_loop_area(state);
     if (state->dimension == 3 && scree_hull_of(state)->node_count > 0) {

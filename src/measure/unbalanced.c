@@ -9,15 +9,16 @@
 #include "measure/measure.h"
 
 #include "base/integer_sum.h"
+#include "comm/comm.h"
 #include "integrate/integrate.h"
 
 #include <math.h>
 
 /// Sum of the magnitudes of the contact forces [N].
-static double sum_contacts(const scree_contact_table *table)
+static double sum_contacts(const scree_state *state, const scree_contact_table *table)
 {
     scree_integer_sum sum = {0};
-    while (scree_integer_sum_next(&sum, 1))
+    while (scree_comm_sum_next(state, &sum, 1))
         for (size_t c = 0; c < table->count; c++)
             scree_integer_sum_add(&sum, hypot(table->contact[c].normal_force, table->contact[c].tangential_force));
     return scree_integer_sum_total(&sum);
@@ -29,19 +30,20 @@ static double ratio(const scree_model *model, const scree_state *state, const sc
 {
     scree_integer_sum resultant = {0};
     scree_vector force;
-    size_t bodies = 0;
-    while (scree_integer_sum_next(&resultant, 1)) {
-        bodies = 0;
+    int64_t number[2] = {0, (int64_t)table->count}; // bodies, contacts
+    while (scree_comm_sum_next(state, &resultant, 1)) {
+        number[0] = 0;
         for (size_t row = 0; row < state->count; row++) {
             if (!scree_body_is_grain(state, row) || state->sum[row].contacts == 0) continue;
             resultant_on(model, state, row, force);
             scree_integer_sum_add(&resultant, scree_length(force));
-            bodies++;
+            number[0]++;
         }
     }
-    double contact_force = sum_contacts(table);
-    if (bodies == 0 || !(contact_force > 0)) return NAN;
-    return (scree_integer_sum_total(&resultant) / (double)bodies) / (contact_force / (double)table->count);
+    scree_comm_add(state, number, 2);
+    double contact_force = sum_contacts(state, table);
+    if (number[0] == 0 || !(contact_force > 0)) return NAN;
+    return (scree_integer_sum_total(&resultant) / (double)number[0]) / (contact_force / (double)number[1]);
 }
 
 static void present_force(const scree_model *model, const scree_state *state, size_t row, scree_vector force)

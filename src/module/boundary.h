@@ -10,9 +10,9 @@ struct scree_demand;
 
 typedef struct scree_boundary {
     // ---- traits ----
-    uint32_t walls;    ///< bit w: plate w stands (those of the state's dimension)
+    uint32_t walls;    ///< bit w: plate w stands (those of the state's dimension, where the sample has an end)
     bool open;         ///< the bodies need not hang together: no Delaunay boundary or hull is kept, and no pressure
-    bool periodic;     ///< the sample repeats itself
+    bool periodic;     ///< the sample repeats itself in all directions, and its cell can be deformed
     bool stands;       ///< something stands around the sample on all sides
     bool free;         ///< no plates: forces on the boundary of the sample impose a velocity gradient
     bool round;        ///< can hold a round sample; a periodic one never is
@@ -30,6 +30,8 @@ typedef struct scree_boundary {
     const char *needs_walls;    ///< where the case has no walls
     const char *needs_gradient; ///< where a stage demands no velocity gradient
     const char *needs_all;      ///< where a component of that is not given
+    const char *needs_ends;     ///< where the sample repeats itself in some directions
+    const char *needs_axis;     ///< where it does along its axis, in a stage that presses or shortens it
     const char *kept;     ///< where another follows it; after a free one those that are not free, after others all
     const char *returned; ///< where it follows another
 

@@ -12,7 +12,7 @@
 /// Boundaries, in the order in which the case reference lists them; then those that no key chooses.
 #define SCREE_BOUNDARY_MODULES(row)                                                                                    \
     row(pressure_boundary) row(plates_boundary) row(membrane) row(minimal) row(affine) row(walls) row(none)            \
-        row(periodic) row(channel)
+        row(periodic)
 
 /// What stages remember.
 #define SCREE_STAGE_STATE_MODULES(row) row(forced_spin) row(loading)

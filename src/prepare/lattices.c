@@ -7,18 +7,18 @@
 /// too); a given width or depth is lowered to the next that the lattice fills. The model has checked that radii are
 /// equal.
 ///
-/// Periodic in the horizontal directions, all layers have n (n x m) bodies. Periodic in the last direction too, the
-/// layers have to be whole, and even in number where they alternate: then width (or aspect ratio) and number of bodies
-/// have to suit each other.
+/// Periodic in a horizontal direction, no layer is shorter along it. Periodic in the last direction, the layers have to
+/// be whole, and even in number where they alternate: then width (or aspect ratio) and number of bodies have to suit
+/// each other.
 #include "module/key_rows.h"
 #include "prepare/methods.h"
 
 #include <math.h>
 
 typedef struct lattice {
-    size_t missing; ///< by how many bodies every second layer is shorter, along each side
-    double rise;    ///< distance of layers in radii
-    bool staggered; ///< every second layer is shifted by a radius along each side
+    size_t missing[2]; ///< by how many bodies every second layer is shorter, along x and y
+    double rise;       ///< distance of layers in radii
+    bool staggered;    ///< every second layer is shifted by a radius along each side
 } lattice;
 
 /// Layers (rows in 2D) of a lattice that is n bodies wide and m deep.
@@ -30,8 +30,8 @@ typedef struct layers {
 static layers layers_of(const lattice *kind, int dimension, size_t n, size_t m)
 {
     if (dimension == 2) m = 1;
-    size_t deep = dimension == 3 ? m - kind->missing : 1;
-    return (layers){n, m, n * m, (n - kind->missing) * deep};
+    size_t deep = dimension == 3 ? m - kind->missing[1] : 1;
+    return (layers){n, m, n * m, (n - kind->missing[0]) * deep};
 }
 
 /// Layers that `count` bodies need.
@@ -46,7 +46,8 @@ static size_t layers_needed(const layers *of, size_t count)
 static size_t columns_for(const lattice *kind, const scree_packing *packing, size_t deep)
 {
     double before = INFINITY;
-    for (size_t n = 1 + kind->missing;; n++) {
+    const size_t least = 1 + (kind->missing[0] > kind->missing[1] ? kind->missing[0] : kind->missing[1]);
+    for (size_t n = least;; n++) {
         layers of = layers_of(kind, packing->dimension, n, deep > 0 ? deep : n);
         double ratio = (2 + kind->rise * (double)(layers_needed(&of, packing->count) - 1)) / (2 * (double)n);
         if (ratio <= packing->aspect_ratio || n >= packing->count)
@@ -66,7 +67,7 @@ static void place_body(scree_packing *packing, size_t i, const lattice *kind, co
     double r = packing->radius[0];
     size_t pair = of->full + of->shorter, within = i % pair, layer = 2 * (i / pair) + (within >= of->full);
     bool shorter = within >= of->full;
-    size_t number = shorter ? within - of->full : within, across = shorter ? of->n - kind->missing : of->n;
+    size_t number = shorter ? within - of->full : within, across = shorter ? of->n - kind->missing[0] : of->n;
     double shift = shorter && kind->staggered ? 1 : 0;
     packing->place[0][i] = r * (1 + 2 * (double)(packing->dimension == 3 ? number % across : number) + shift);
     if (packing->dimension == 3) packing->place[1][i] = r * (1 + 2 * (double)(number / across) + shift);
@@ -91,20 +92,21 @@ static scree_status place_lattice(const scree_model *model, const scree_config_s
 {
     size_t count = packing->count;
     scree_box *box = &packing->box;
-    const bool around = box->periodic & 1, upwards = box->periodic >> (packing->dimension - 1) & 1;
+    const bool upwards = box->periodic >> (packing->dimension - 1) & 1;
     lattice *kind = &alone;
-    if (around) kind->missing = 0;
+    for (int k = 0; k < packing->dimension - 1; k++)
+        if (box->periodic >> k & 1) kind->missing[k] = 0;
     if (count == 0) return SCREE_OK;
     double r = packing->radius[0];
     const bool in_3d = packing->dimension == 3, deep = in_3d && !isnan(box->depth);
     size_t m = deep ? fitting(box->depth, r) : 0;
-    if (deep && m < 1 + kind->missing && count > 1)
+    if (deep && m < 1 + kind->missing[1] && count > 1)
         return scree_prepare_error(error, model, stage, "depth", "a layer of the lattice needs at least %g m",
-                                   2 * (double)(1 + kind->missing) * r);
+                                   2 * (double)(1 + kind->missing[1]) * r);
     size_t n = isnan(box->width) ? columns_for(kind, packing, m) : fitting(box->width, r);
-    if (n < 1 + kind->missing && count > 1)
+    if (n < 1 + kind->missing[0] && count > 1)
         return scree_prepare_error(error, model, stage, "width", "a row of the lattice needs at least %g m",
-                                   2 * (double)(1 + kind->missing) * r);
+                                   2 * (double)(1 + kind->missing[0]) * r);
     layers of = layers_of(kind, packing->dimension, n, deep ? m : n);
     scree_status status = upwards ? check_layers(model, stage, count, kind, &of, error) : SCREE_OK;
     if (status) return status;
@@ -119,19 +121,19 @@ static scree_status place_lattice(const scree_model *model, const scree_config_s
 static scree_status place_hexagonal(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
                                     scree_error *error)
 {
-    return place_lattice(model, stage, packing, (lattice){1, sqrt(3.0), true}, error);
+    return place_lattice(model, stage, packing, (lattice){{1, 1}, sqrt(3.0), true}, error);
 }
 
 static scree_status place_upright(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
                                   scree_error *error)
 {
-    return place_lattice(model, stage, packing, (lattice){0, 2, false}, error);
+    return place_lattice(model, stage, packing, (lattice){{0, 0}, 2, false}, error);
 }
 
 static scree_status place_face_centred(const scree_model *model, const scree_config_stage *stage,
                                        scree_packing *packing, scree_error *error)
 {
-    return place_lattice(model, stage, packing, (lattice){1, sqrt(2.0), true}, error);
+    return place_lattice(model, stage, packing, (lattice){{1, 1}, sqrt(2.0), true}, error);
 }
 
 static scree_status check(const scree_model *model, int64_t index, scree_error *error)

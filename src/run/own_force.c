@@ -15,6 +15,7 @@
 
 #include "base/fixed.h"
 #include "base/integer_sum.h"
+#include "comm/comm.h"
 #include "run/simulation.h"
 #include "state/fields.h"
 
@@ -139,7 +140,7 @@ static void take_half_work(scree_state *state)
     const own *sums = scree_own_loads_of(state);
     const size_t planar = state->dimension == 2 ? 2 : 3;
     scree_integer_sum power = {0};
-    while (scree_integer_sum_next(&power, 1))
+    while (scree_comm_sum_next(state, &power, 1))
         for (size_t row = 0; row < state->count; row++) {
             // A body that has been added since had none.
             if (state->id[row] >= sums->count) continue;

@@ -9,6 +9,7 @@
 #include "run/stage_rotate.h"
 #include "base/fixed.h"
 #include "base/integer_sum.h"
+#include "comm/comm.h"
 #include "integrate/forced_spin.h"
 #include "measure/measure.h"
 #include "measure/rotation.h"
@@ -77,7 +78,7 @@ static void find_centre(const scree_state *state, scree_vector centre)
 {
     scree_integer_sum sum[3] = {0};
     scree_vector place;
-    while (scree_integer_sum_next(sum, 3))
+    while (scree_comm_sum_next(state, sum, 3))
         for (size_t row = 0; row < state->count; row++) {
             if (!scree_body_is_grain(state, row)) continue;
             scree_body_position(state, row, place);

@@ -2,6 +2,7 @@
 #include "search/cell_grid.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /// Cells from the origin at which coordinates are cut off: what is left fits into the bits of a key.
@@ -82,42 +83,52 @@ static scree_status reserve_bodies(scree_cell_grid *grid, size_t count, scree_er
     return status;
 }
 
-/// Moves the keys together where ids are missing.
-static void close_holes(scree_key_list *list, size_t ids)
+static int by_id(const void *a, const void *b, void *ids)
 {
-    size_t kept = 0;
-    for (size_t id = 0; id < ids; id++) {
-        if (list->index[id] == SCREE_NO_ROW) continue;
-        list->key[kept] = list->key[id];
-        list->index[kept++] = list->index[id];
+    const uint32_t *id = ids, one = id[*(const uint32_t *)a], other = id[*(const uint32_t *)b];
+    return one > other ? 1 : one < other ? -1 : 0;
+}
+
+/// Bodies of one cell in the order of their ids. Cells hold a few.
+static void order_cells(const scree_state *state, scree_key_list *list, size_t count)
+{
+    const uint32_t *id = state->id;
+    for (size_t first = 0, end; first < count; first = end) {
+        for (end = first + 1; end < count && list->key[end] == list->key[first]; end++) continue;
+        if (end - first > 16) {
+            qsort_r(&list->index[first], end - first, sizeof *list->index, by_id, state->id);
+            continue;
+        }
+        for (size_t k = first + 1; k < end; k++) {
+            const uint32_t moving = list->index[k];
+            size_t at = k;
+            for (; at > first && id[list->index[at - 1]] > id[moving]; at--) list->index[at] = list->index[at - 1];
+            list->index[at] = moving;
+        }
     }
 }
 
 scree_status scree_cell_grid_order(scree_cell_grid *grid, const scree_state *state, scree_error *error)
 {
     scree_status status = reserve_bodies(grid, state->count, error);
-    if (!status) status = scree_key_list_reserve(&grid->curve, state->id_count, error);
+    if (!status) status = scree_key_list_reserve(&grid->curve, state->count, error);
     if (status) return status;
     const double inverse = 1 / grid->level[0].width, farthest = FARTHEST(grid->dimension);
     const double *lowest = grid->lowest;
-    const bool holes = state->count < state->id_count;
-    if (holes) memset(grid->curve.index, 0xff, state->id_count * sizeof *grid->curve.index);
-    // Keys are put down by id: the stable sort then leaves bodies of one cell in the order of their ids.
     for (size_t k = 0; k < state->count; k++) {
         const scree_row *row = &state->row[k];
-        uint32_t id = state->id[k];
         // What is not a number has a coordinate below the lowest.
         uint32_t x = (uint32_t)fmax(cell_coordinate(row->x, inverse, farthest) - lowest[0], 0);
         uint32_t y = (uint32_t)fmax(cell_coordinate(row->y, inverse, farthest) - lowest[1], 0);
-        grid->curve.index[id] = (uint32_t)k;
+        grid->curve.index[k] = (uint32_t)k;
         if (grid->dimension == 3) {
             uint32_t z = (uint32_t)fmax(cell_coordinate(row->z, inverse, farthest) - lowest[2], 0);
-            grid->curve.key[id] = scree_curve_key_3d(x, y, z);
+            grid->curve.key[k] = scree_curve_key_3d(x, y, z);
         } else
-            grid->curve.key[id] = scree_curve_key(x, y);
+            grid->curve.key[k] = scree_curve_key(x, y);
     }
-    if (holes) close_holes(&grid->curve, state->id_count);
     scree_key_list_sort(&grid->curve, state->count);
+    order_cells(state, &grid->curve, state->count);
     if (state->count > 0) memcpy(grid->order, grid->curve.index, state->count * sizeof *grid->order);
     return SCREE_OK;
 }

@@ -31,6 +31,24 @@ double scree_periodic_extent(const scree_state *state)
     return extent;
 }
 
+uint32_t scree_periodic_plates(const scree_state *state)
+{
+    uint32_t plates = 0;
+    for (int w = 0; w < 2 * state->dimension; w++) {
+        int axis = w / 2 == 0 ? state->dimension - 1 : w / 2 - 1;
+        if (!scree_periodic_repeats(scree_cell(state), axis)) plates |= UINT32_C(1) << w;
+    }
+    return plates;
+}
+
+bool scree_periodic_is_closed(const scree_state *state)
+{
+    const uint32_t room = scree_periodic_plates(state);
+    for (int w = 0; w < 2 * state->dimension; w++)
+        if (room >> w & 1 && !scree_plates(state)[w].active) return false;
+    return true;
+}
+
 void scree_periodic_box(int dimension, const scree_wall *plates, scree_vector low, scree_vector high)
 {
     static const int below[] = {SCREE_WALL_LEFT, SCREE_WALL_FRONT}, above[] = {SCREE_WALL_RIGHT, SCREE_WALL_BACK};

@@ -55,6 +55,13 @@ void scree_periodic_widths(const double inverse[9], double width[3]);
 /// that do not repeat. [m2, m3]
 double scree_periodic_extent(const scree_state *state);
 
+/// The plates that a sample has room for, bit w for plate w: those across directions in which it does not repeat
+/// itself.
+uint32_t scree_periodic_plates(const scree_state *state);
+
+/// Plates stand across all other directions, so that the sample has an extent.
+bool scree_periodic_is_closed(const scree_state *state);
+
 /// Plates on both sides of the sample along each axis [m]; 0 in 2D along z.
 void scree_periodic_box(int dimension, const scree_wall *plates, scree_vector low, scree_vector high);
 

@@ -448,7 +448,7 @@ static void stages_have_boundaries(void **state)
                    "membrane");
     assert_held_by((const char *const[]){"stages.1.boundary=minimal", NULL}, 2, "minimal", "minimal");
     assert_held_by((const char *const[]){"boundary.periodic=xy", NULL}, 1, "periodic", "periodic");
-    assert_held_by((const char *const[]){"boundary.periodic=x", NULL}, 2, "channel", "channel");
+    assert_held_by((const char *const[]){"boundary.periodic=x", NULL}, 2, "plates", "plates");
     // Of one that was wrong nobody else says anything.
     wrong(loaded, (const char *const[]){"integrator.scheme=two_timescales", "stages.2.boundary=foo", NULL},
           "there is no boundary 'foo'");

@@ -1,6 +1,10 @@
 /// Own forces: a spring and a torque against their closed forms, the ledger, any order of registration, bounds.
 #include "library_fixture.h"
 
+#include "base/matrix.h"
+#include "run/stage.h"
+#include "state/periodic.h"
+
 typedef struct spring {
     double stiffness, length;
     double position[2][3]; ///< of the last call, by id
@@ -158,6 +162,78 @@ static void the_order_of_registration_does_not_matter(void **unused)
     scree_case_free(c);
 }
 
+#define SHEARED(dimension, shape, place, other)                                                                        \
+    "dimension: " dimension "\n"                                                                                       \
+    "materials: [{name: quartz, young_modulus: 100 kPa, density: 2650 kg/m3, friction: 0.4}]\n"                        \
+    "particles: {shape: " shape ", material: quartz, count: 2, distribution: equal, radius: 1 mm}\n"                   \
+    "integrator: {step: 1e-5 s}\n"                                                                                     \
+    "measure: {cells: no}\n"                                                                                           \
+    "stages:\n"                                                                                                        \
+    "  - {stage: prepare, method: bodies, width: 40 mm, height: 40 mm, bodies: [" place ", " other "]}\n"              \
+    "  - {stage: confine, pressure: 1 Pa}\n"                                                                           \
+    "  - {stage: deform, velocity_gradient: {xy: 30 1/s}, strain: 1000 %, rise_time: 0 s}\n"
+
+/// Lifts body 0, across the planes of shear.
+static int lift(void *user, scree_simulation *s, scree_loads *loads)
+{
+    (void)s;
+    scree_loads_add(loads, 0, (const double[]){0, *(const double *)user, 0}, NULL);
+    return 0;
+}
+
+/// A body that a force lifts through a sheared cell keeps the velocity along x of the place that it comes from: forces
+/// act on bodies, not on the flow. Its own velocity, relative to the flow, is taken along: the ledger has the work of
+/// the force on it and that of the cell. It goes through the upper face and through ghosts beside it.
+static void lifted_in_a_sheared_cell(const char *text, const char *periodic)
+{
+    enum { STEPS = 4000 };
+    scree_error error;
+    scree_case *c = case_read(text, &periodic, 1);
+    scree_simulation *s = library_create(c);
+    const double rate = 30, acceleration = 60;
+    library_advance_stage(s);
+    // Straight to the deform stage: nothing presses these bodies.
+    s->state.stage.index = 2;
+    s->state.stage.counter = -1;
+    check(scree_stage_enter(s, false, &error), &error);
+    double force = acceleration * s->state.row[0].mass, dt = scree_simulation_step_size(s);
+    const uint32_t row = scree_state_row_of(&s->state, 0);
+    const double x0 = s->state.row[row].x, y0 = s->state.row[row].y;
+    // Both drift with the flow from the start.
+    add(s, "lift", lift, &force, 2 * force, 0);
+    library_advance(s, STEPS);
+    const scree_row *body = &s->state.row[scree_state_row_of(&s->state, 0)];
+    const double t = STEPS * dt;
+    // As in a spring (above), no force was there before the first step.
+    const double y = y0 + acceleration * dt * dt * STEPS * (STEPS - 1) / 2, x = x0 + rate * y0 * t;
+    // From the body to where it should be: whole lattice vectors, of a lattice that has been reduced.
+    double inverse[9], fraction[3], away[3], way[3] = {x - body->x, y - body->y, 0};
+    scree_matrix_invert(scree_cell(&s->state)->lattice, inverse);
+    scree_matrix_apply(inverse, way, fraction);
+    assert_true(scree_length(fraction) > 0.9);
+    for (int k = 0; k < 3; k++) fraction[k] -= rint(fraction[k]);
+    scree_matrix_apply(scree_cell(&s->state)->lattice, fraction, away);
+    // Second order of the scheme along x: (1 / STEPS)^2 of the path that the flow would have added.
+    assert_true(fabs(away[0]) < 1e-5 * rate * (y - y0) * t && fabs(away[1]) < 1e-12);
+    scree_energies energies = library_energies(s);
+    print_message("off by %.2g m of %.2g m, residual %.2g of %.2g J\n", away[0], rate * (y - y0) * t, energies.residual,
+                  energies.kinetic);
+    assert_true(fabs(s->state.ledger.periodic) > 0.01 * energies.kinetic && energies.outside > energies.kinetic / 2);
+    assert_true(fabs(energies.residual) < 1e-10 * energies.kinetic);
+    scree_simulation_free(s);
+    scree_case_free(c);
+}
+
+static void own_forces_act_in_a_deforming_cell(void **unused)
+{
+    (void)unused;
+    lifted_in_a_sheared_cell(SHEARED("2", "disc", "{position: [15 mm, 20 mm]}", "{position: [25 mm, 5 mm]}"),
+                             "boundary.periodic=xy");
+    lifted_in_a_sheared_cell(
+        SHEARED("3", "sphere", "{position: [15 mm, 20 mm, 20 mm]}", "{position: [25 mm, 5 mm, 5 mm]}"),
+        "boundary.periodic=xyz");
+}
+
 static void own_forces_come_and_go(void **unused)
 {
     (void)unused;
@@ -264,6 +340,7 @@ int main(void)
         cmocka_unit_test(a_spring_oscillates),
         cmocka_unit_test(a_torque_turns),
         cmocka_unit_test(the_order_of_registration_does_not_matter),
+        cmocka_unit_test(own_forces_act_in_a_deforming_cell),
         cmocka_unit_test(own_forces_come_and_go),
         cmocka_unit_test(bounds_are_kept),
         cmocka_unit_test(own_forces_may_not_meddle),
