@@ -35,7 +35,7 @@ static double time_update(scree_simulation *s)
 {
     scree_error error;
     // Due again: as if the interval had passed.
-    s->state.step += (uint64_t)s->model.config->boundary.every * s->model.largest_step;
+    s->state.step += s->model.upkeep.every;
     double begin = seconds(1);
     require(scree_boundary_refresh(&s->model, &s->state, &error), &error);
     return seconds(1) - begin;
@@ -44,7 +44,7 @@ static double time_update(scree_simulation *s)
 /// One step without an update, the mean of many [s]; an update has just been made.
 static double time_step(scree_simulation *s)
 {
-    const int steps = (int)s->model.config->boundary.every / 2;
+    const int steps = (int)(s->model.upkeep.every / s->model.largest_step) / 2;
     scree_error error;
     double begin = seconds(1);
     for (int k = 0; k < steps; k++) require(scree_simulation_step(s, &error), &error);

@@ -3,7 +3,6 @@
 #include "state/plates.h"
 
 #include "base/integer_sum.h"
-#include "boundary/axial_plates.h"
 #include "boundary/pressure.h"
 #include "measure/imposed_gradient.h"
 #include "state/periodic.h"

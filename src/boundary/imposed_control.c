@@ -22,19 +22,12 @@ void scree_imposed_fit(const scree_context *c, double pressure)
     memset(imposed->prescribed, 0, sizeof imposed->prescribed);
 }
 
-/// Stress over the error of the rate [Pa s]; `scale` [1/s]: the largest rate.
-static double viscosity(const scree_context *c, double scale)
-{
-    const double rate[9] = {[0] = scale}, penalty = scree_minimal_penalty(c->model->config);
-    return isnan(penalty) ? scree_minimal_viscosity(scree_pressure_now(c->state), rate) : penalty;
-}
-
 void scree_imposed_compress(const scree_context *c, const scree_compression *compression)
 {
     scree_imposed_gradient *imposed = scree_imposed(c->state);
     int axial = c->state->dimension == 3 ? 8 : 4;
     imposed->prescribed[axial] = SCREE_FULL;
-    imposed->viscosity = viscosity(c, compression->rate);
+    imposed->viscosity = scree_minimal_viscosity_at(c->model, scree_pressure_now(c->state), compression->rate);
     imposed->target[axial] = -(compression->rate * compression->rise) / (1 - compression->strain);
 }
 
@@ -47,5 +40,5 @@ void scree_imposed_deform(const scree_context *c, const scree_demand *demand, do
         largest = fmax(largest, fabs(demand->rate[k]));
         imposed->target[k] = demand->rate[k] * rise;
     }
-    imposed->viscosity = viscosity(c, largest);
+    imposed->viscosity = scree_minimal_viscosity_at(c->model, scree_pressure_now(c->state), largest);
 }

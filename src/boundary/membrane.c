@@ -84,7 +84,7 @@ static bool find_spring(const scree_model *model, const scree_state *state, size
     bool in_3d = state->dimension == 3;
     found->other = in_3d ? scree_sheet_neighbour(membrane->around, membrane->count, k, s) : k + 1;
     bool rim = in_3d && s == 0 && scree_membrane_plate(state, k) >= 0;
-    found->stiffness = rim ? 0.5 * model->membrane_stiffness : model->membrane_stiffness;
+    found->stiffness = (rim ? 0.5 : 1) * scree_membrane_numbers_of(model)->stiffness;
     scree_vector from;
     scree_body_position(state, scree_membrane_row(state, k), from);
     scree_body_position(state, scree_membrane_row(state, found->other), found->direction);
@@ -309,8 +309,9 @@ static scree_status check_bodies(const scree_state *state, scree_error *error)
 static scree_status check(const scree_state *state, const scree_model *model, scree_error *error)
 {
     const scree_stage_state *stage = &state->stage;
-    bool began = stage->index < model->config->stage_count && stage->counter >= 0;
-    bool present = began && scree_config_boundary_of(model->config, stage->index) == SCREE_SLOT_membrane;
+    bool began = stage->index < model->stage_count && stage->counter >= 0;
+    bool present =
+        began && scree_model_boundary_of(model, stage->index) == scree_modules[SCREE_SLOT_membrane]->boundary;
     const scree_membrane *m = scree_membrane_of(state);
     scree_status status = check_bodies(state, error);
     if (status) return status;
@@ -379,6 +380,7 @@ const scree_module scree_module_membrane = {
         IS("boundary.lateral", .meaning = "pressure on a membrane around the assembly")),
     .keys = (const scree_keys[]){KEYS_OF("boundary", keys, config)},
     .keys_count = 1,
+    .numbers_size = sizeof(scree_membrane_numbers),
     .boundary = &face,
     .state_size = sizeof(own),
     .fields = fields,

@@ -5,6 +5,13 @@
 #include "state/plates.h"
 #include "state/state.h"
 
+/// What the keys become.
+typedef struct scree_membrane_numbers {
+    int material;     ///< index of its constants: frictionless, else those of the particles
+    double radius;    ///< m
+    double stiffness; ///< N/m, of one spring
+} scree_membrane_numbers;
+
 typedef struct scree_membrane_config {
     double membrane_stiffness; ///< N/m, 2D: between two neighbours; 3D: of the sheet, tension over strain
     double membrane_radius;    ///< m, of its bodies; auto: 1.25 mean radii of the grains, 3D: 0.75
@@ -55,6 +62,11 @@ double scree_membrane_energy(const scree_model *model, const scree_state *state)
 
 /// Volume [m3] between the plates and inside the membrane (through the centres of its bodies).
 double scree_membrane_volume(const scree_model *model, const scree_state *state);
+
+static inline const scree_membrane_numbers *scree_membrane_numbers_of(const scree_model *model)
+{
+    return scree_model_numbers(model, SCREE_SLOT_membrane);
+}
 
 /// Row of the k-th body of the membrane.
 static inline size_t scree_membrane_row(const scree_state *state, size_t k)

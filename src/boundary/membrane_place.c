@@ -51,11 +51,12 @@ static void place_side(const scree_model *model, scree_state *state, size_t firs
     fill_gaps(x, count);
     for (size_t k = 0; k < count; k++) {
         size_t row = scree_membrane_row(state, first + k);
-        state->row[row] = (scree_row){.x = x[k],
-                                      .y = begin + spacing * (double)k,
-                                      .material = model->membrane_material,
-                                      .radius = membrane->radius,
-                                      .mass = scree_model_mass(model, model->membrane_material, membrane->radius)};
+        state->row[row] =
+            (scree_row){.x = x[k],
+                        .y = begin + spacing * (double)k,
+                        .material = scree_membrane_numbers_of(model)->material,
+                        .radius = membrane->radius,
+                        .mass = scree_model_mass(model, scree_membrane_numbers_of(model)->material, membrane->radius)};
         state->species[row] = SCREE_NO_SPECIES;
         scree_body_position(state, row, state->reference[row]);
         membrane->rest[first + k][0] =
@@ -78,7 +79,7 @@ scree_status scree_membrane_make_room(scree_state *state, size_t count, scree_er
 /// The chains of 2D.
 static scree_status place_chains(const scree_model *model, scree_state *state, double height, scree_error *error)
 {
-    double radius = model->membrane_radius;
+    double radius = scree_membrane_numbers_of(model)->radius;
     size_t side = (size_t)round(height / (2 * radius)) < 2 ? 2 : (size_t)round(height / (2 * radius));
     double *x = NULL;
     scree_status status = scree_allocate(&x, side, sizeof *x, error);
@@ -95,7 +96,7 @@ static scree_status place_chains(const scree_model *model, scree_state *state, d
 
 scree_status scree_membrane_place(const scree_model *model, scree_state *state, scree_error *error)
 {
-    double radius = model->membrane_radius;
+    double radius = scree_membrane_numbers_of(model)->radius;
     double height = scree_plate_height(state, SCREE_WALL_TOP) - scree_plate_height(state, SCREE_WALL_BOTTOM);
     if (!(height > 4 * radius))
         return scree_error_set(error, SCREE_ERROR_GUARD,

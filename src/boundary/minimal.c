@@ -47,10 +47,18 @@ static const scree_key keys[] = {
                       "1 %."),
 };
 
-double scree_minimal_penalty(const scree_config *whole)
+/// What the keys become.
+typedef struct numbers {
+    double viscosity; ///< Pa s; 0: follows the pressure and the rate of the stage
+} numbers;
+
+static scree_status resolve(scree_model *model, scree_error *error)
 {
-    const config *own = scree_config_own(&scree_module_minimal, "boundary", whole->boundary.own);
-    return own->penalty;
+    const config *own = scree_config_own(&scree_module_minimal, "boundary", model->config->boundary.own);
+    numbers *found = scree_model_reserve_numbers(model, SCREE_SLOT_minimal);
+    (void)error;
+    found->viscosity = isnan(own->penalty) ? 0 : own->penalty;
+    return SCREE_OK;
 }
 
 /// The prescribed components: tensors, and what they shall be [1/s].
@@ -211,6 +219,13 @@ double scree_minimal_viscosity(double pressure, const double target[9])
     return pressure > 0 && rate > 0 ? pressure / (RELATIVE_ERROR * rate) : INFINITY;
 }
 
+double scree_minimal_viscosity_at(const scree_model *model, double pressure, double rate)
+{
+    const numbers *own = scree_model_numbers(model, SCREE_SLOT_minimal);
+    const double target[9] = {[0] = rate};
+    return own && own->viscosity > 0 ? own->viscosity : scree_minimal_viscosity(pressure, target);
+}
+
 static scree_status load(const scree_context *c, scree_error *error)
 {
     (void)error;
@@ -228,6 +243,7 @@ static const scree_boundary face = {
     .full_mirrors = true,
     .needs_ends = SCREE_IMPOSED_ENDS,
     .kept = SCREE_IMPOSED_KEPT,
+    .resolve = resolve,
     .begin = scree_imposed_begin,
     .passes = passes,
     .pass_count = COUNT(passes),
@@ -241,5 +257,6 @@ const scree_module scree_module_minimal = {
     .choice_of = CHOICE_OF(IS("stages.boundary")),
     .keys = (const scree_keys[]){KEYS_OF("boundary", keys, config, .after = "servo_velocity")},
     .keys_count = 1,
+    .numbers_size = sizeof(numbers),
     .boundary = &face,
 };

@@ -112,13 +112,10 @@ double scree_periodic_wave_time(const scree_model *model, const scree_state *sta
 void scree_periodic_fit(const scree_model *model, scree_state *state, double pressure)
 {
     scree_periodic_cell *cell = scree_cell(state);
-    const scree_config_boundary *boundary = &model->config->boundary;
     double diameter = 2 * model->mean_radius;
     cell->inertia = CREEP_GRAINS * density(model, state) * diameter * diameter;
-    cell->damping = wave_speed(model, state, pressure) / diameter / boundary->servo_gain;
-    // Auto: a face may not cross a hundredth of the smallest radius in a step.
-    double velocity = boundary->servo_velocity;
-    cell->limit = (isnan(velocity) ? 0.01 * model->radius_min / state->step_size : velocity) / mean_width(state);
+    cell->damping = wave_speed(model, state, pressure) / diameter / model->servo.gain;
+    cell->limit = fmin(model->servo.velocity, model->servo.travel / state->step_size) / mean_width(state);
 }
 
 /// One step of the servo of a component.

@@ -76,7 +76,7 @@ scree_servo scree_servo_for(const scree_model *model, const scree_state *state, 
     double area = scree_plate_area(model, state, index),
            density = sample_mass(state) / scree_sample_volume(model, state);
     double diameter = 2 * model->mean_radius, stiffness = scree_confined_modulus(model, pressure);
-    return (scree_servo){.impedance = area * sqrt(stiffness * density) / model->config->boundary.servo_gain,
+    return (scree_servo){.impedance = area * sqrt(stiffness * density) / model->servo.gain,
                          .mass = density * area * diameter};
 }
 
@@ -85,8 +85,7 @@ double scree_sample_wave_time(const scree_model *model, const scree_state *state
     double height = distance(state, SCREE_WALL_BOTTOM, SCREE_WALL_TOP);
     double area = scree_plate_area(model, state, SCREE_WALL_TOP);
     double length = state->dimension == 3 ? sqrt(area) : area / model->thickness;
-    double impedance =
-        scree_servo_for(model, state, SCREE_WALL_TOP, pressure).impedance * model->config->boundary.servo_gain;
+    double impedance = scree_servo_for(model, state, SCREE_WALL_TOP, pressure).impedance * model->servo.gain;
     return sample_mass(state) / impedance * (height > length ? 1 : length / height);
 }
 
@@ -96,8 +95,6 @@ void scree_plate_servo(const scree_model *model, scree_state *state, int index, 
     double target = pressure * scree_plate_area(model, state, index), kick = state->kick_size;
     double velocity =
         (wall->velocity + kick / servo.mass * (target - wall->force)) / (1 + kick / servo.mass * servo.impedance);
-    double limit = model->config->boundary.servo_velocity;
-    // Auto: a plate may not cross a hundredth of the smallest radius in a step.
-    if (isnan(limit)) limit = 0.01 * model->radius_min / state->step_size;
+    double limit = fmin(model->servo.velocity, model->servo.travel / state->step_size);
     wall->velocity = fmax(-limit, fmin(limit, velocity));
 }

@@ -95,7 +95,7 @@ static bool is_fresh(const scree_model *model, const scree_state *state)
     size_t count = in_3d ? scree_hull_of(state)->node_count : scree_loop_of(state)->count;
     uint64_t updated = in_3d ? scree_hull_of(state)->updated : scree_loop_of(state)->updated;
     if (scree_delaunay_boundary_of(state)->stale) return false;
-    return count > 0 && state->step - updated < (uint64_t)model->config->boundary.every * model->largest_step;
+    return count > 0 && state->step - updated < model->upkeep.every;
 }
 
 scree_status scree_boundary_refresh(const scree_model *model, scree_state *state, scree_error *error)

@@ -125,12 +125,13 @@ static void place_bodies(const scree_model *model, scree_state *state, double (*
                 continue;
             }
             size_t row = scree_membrane_row(state, k);
-            state->row[row] = (scree_row){.x = from.position[0] - depth[k] * from.normal[0],
-                                          .y = from.position[1] - depth[k] * from.normal[1],
-                                          .z = height,
-                                          .radius = radius,
-                                          .mass = scree_model_mass(model, model->membrane_material, radius)};
-            state->turn[row] = (scree_turn_row){.material = model->membrane_material};
+            state->row[row] =
+                (scree_row){.x = from.position[0] - depth[k] * from.normal[0],
+                            .y = from.position[1] - depth[k] * from.normal[1],
+                            .z = height,
+                            .radius = radius,
+                            .mass = scree_model_mass(model, scree_membrane_numbers_of(model)->material, radius)};
+            state->turn[row] = (scree_turn_row){.material = scree_membrane_numbers_of(model)->material};
             state->species[row] = SCREE_NO_SPECIES;
             scree_body_position(state, row, state->reference[row]);
         }
@@ -140,7 +141,7 @@ static void place_bodies(const scree_model *model, scree_state *state, double (*
 
 scree_status scree_sheet_place(const scree_model *model, scree_state *state, scree_error *error)
 {
-    double radius = model->membrane_radius, corner[DIRECTIONS][2], *depth = NULL;
+    double radius = scree_membrane_numbers_of(model)->radius, corner[DIRECTIONS][2], *depth = NULL;
     double height = scree_plate_height(state, SCREE_WALL_TOP) - scree_plate_height(state, SCREE_WALL_BOTTOM);
     double length = find_outline(state, radius, corner);
     size_t around = (size_t)ceil(length / (2 * radius)), rings = (size_t)ceil((height / radius - 2) / sqrt(3)) + 1;

@@ -21,7 +21,7 @@ static const char *wrong_preparation(const scree_prepare_config *stage, const ch
     if (stage->method >= 0 && !scree_modules[stage->method]->preparation->periodic)
         return scree_modules[stage->method]->preparation->needs_walls
                    ? "this method needs walls on all sides and cannot fill a sample that repeats itself "
-                     "(boundary.periodic): prepare with gas, bodies or on a lattice, and confine"
+                     "(boundary.periodic): prepare with gas, growth, bodies or on a lattice, and confine"
                    : NULL; // of a pair more is said
     *key = "outline";
     return stage->outline != SCREE_SAMPLE_BOX ? "a round sample cannot repeat itself" : NULL;

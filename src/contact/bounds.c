@@ -29,10 +29,8 @@ static scree_pair_constants largest_constants(const scree_model *model)
         extend(&most, &model->walls[a]);
         for (int b = 0; b <= a; b++) extend(&most, &model->pairs[a][b]);
     }
-    for (int w = 0; model->config && w < model->config->wall_count; w++) {
-        most.value[SCREE_FRICTION] = fmax(most.value[SCREE_FRICTION], model->config->walls[w].friction);
+    for (int w = 0; w < model->wall_count; w++)
         for (int a = 0; a < model->material_count; a++) extend(&most, &model->surfaces[w][a]);
-    }
     return most;
 }
 

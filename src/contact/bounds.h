@@ -18,7 +18,7 @@ scree_law_bounds contact_bounds_get(const scree_model *model, const scree_state 
 /// Largest overlap over the smaller radius that the case allows; 1 without a config.
 static inline double contact_overlap_limit(const scree_model *model)
 {
-    return model->config ? model->config->guard.overlap : 1.0;
+    return model->overlap_limit;
 }
 
 #endif

@@ -44,7 +44,7 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
         .variant = {.dimension = state->dimension,
                     .law = model->law.law,
                     .option = model->law.option,
-                    .many_materials = model->material_count > 1 || model->membrane,
+                    .many_materials = model->material_count + model->added_materials > 1,
                     .ledger = work->ledger},
         .row = state->row,
         .turn = state->turn,

@@ -85,11 +85,7 @@ void contact_primitives_mark(const scree_state *state, const scree_work *work, u
 
 scree_pair_constants contact_surface_constants(const scree_model *model, const scree_surface *surface, int material)
 {
-    const scree_config_wall *wall = surface->config;
-    scree_pair_constants constants =
-        wall->material ? model->surfaces[wall - model->config->walls][material] : model->walls[material];
-    if (!isnan(wall->friction) && !model->friction_of_stage) constants.value[SCREE_FRICTION] = wall->friction;
-    return constants;
+    return model->surfaces[surface->config - model->walls_of_case][material];
 }
 
 /// Velocity and spin of a body in the frame of a wall that moves with v and turns with w: there it goes in a step from

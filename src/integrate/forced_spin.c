@@ -107,6 +107,11 @@ static bool in_use(const scree_context *c)
     return scree_forced(c->state)->active != 0;
 }
 
+static bool turns(const scree_state *state, size_t row)
+{
+    return scree_forced(state)->active && scree_forced(state)->id == state->id[row];
+}
+
 static scree_status settle(const scree_context *c, scree_error *error)
 {
     (void)error;
@@ -127,4 +132,5 @@ const scree_module scree_module_forced_spin = {
     .passes = passes,
     .pass_count = 1,
     .in_use = in_use,
+    .turns = turns,
 };

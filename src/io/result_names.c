@@ -72,23 +72,6 @@ const scree_result scree_run_results[] = {
     {"loading_processor_time", "s", "processor time of the stage"},
     {"corner_distortion", "1", "non-affine displacement at the corners over the width"},
     {"boundary_roughness", "1", "roughness of a round sample's outline in mean diameters"},
-    // cells
-    {"cell_stress_disagreement", "1", "stress of the cells against that of the contacts"},
-    {"cell_strain_disagreement", "1", "strain of the cells against that of the boundary"},
-    {"circle_pressure_spread", "1", "spread of the pressure over circles"},
-    {"circle_pressure_diameter", "1", "diameter from which on circles have the mean pressure, in mean diameters"},
-    {"plate_distortion_ratio", "1", "distortion rate near the plates over that of the core"},
-    {"plate_pressure_ratio", "1", "pressure near the plates over that of the core"},
-    {"side_pressure_ratio", "1", "pressure near the sides over that of the core"},
-    // shear bands
-    {"bands", NULL, "kind of localisation"},
-    {"band_persistence", "1", "persistence of the bands"},
-    {"localisation_index_last", "1", "localisation index of the last window"},
-    {"band_angle", "degree", "angle of the band"},
-    {"band_thickness_diameters", "1", "thickness of the band in mean diameters"},
-    {"band_share", "1", "share of the band in the distortion"},
-    {"band_contrast", "1", "distortion within the band over that outside"},
-    {"band_percolation", "1", "how far the band goes through the sample"},
 };
 const size_t scree_run_results_count = sizeof scree_run_results / sizeof *scree_run_results;
 

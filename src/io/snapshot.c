@@ -139,7 +139,7 @@ scree_status scree_snapshot_write(const char *directory, const scree_model *mode
     }
     status = scree_hdf5_save(&part);
     const scree_kept all = SCREE_KEEP_ALL;
-    const char *case_name = model->config && model->config->name ? model->config->name : "";
+    const char *case_name = model->name ? model->name : "";
     return status ? status : scree_run_file_renew(directory, case_name, &all, NULL, error);
 }
 

@@ -29,13 +29,13 @@ void scree_simulation_free(scree_simulation *s)
 
 static bool has_ended(const scree_simulation *s)
 {
-    return s->state.stage.index >= s->model.config->stage_count;
+    return s->state.stage.index >= s->model.stage_count;
 }
 
 /// The same, or its last stage has.
 static bool is_at_end(const scree_simulation *s)
 {
-    bool last = s->state.stage.index + 1 == s->model.config->stage_count;
+    bool last = s->state.stage.index + 1 == s->model.stage_count;
     return has_ended(s) || (last && s->state.stage.counter == SCREE_STAGE_ENDED);
 }
 
@@ -114,7 +114,7 @@ int64_t scree_simulation_stage(const scree_simulation *s, const char **name)
 {
     handle_assert(s);
     if (name) *name = NULL;
-    if (has_ended(s)) return s->model.config->stage_count;
+    if (has_ended(s)) return s->model.stage_count;
     if (name) *name = scree_stage_config(s)->name;
     return s->state.stage.index;
 }

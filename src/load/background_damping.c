@@ -203,6 +203,22 @@ static const scree_field fields[] = {
 
 static const scree_pass passes[] = {{SCREE_PHASE_FOLLOW, follow}, {SCREE_PHASE_RESULTANTS, damp}};
 
+static const scree_result columns[] = {
+    {"work_background_damping", "J", "work of the background damping on the bodies"}};
+
+static scree_status sample(const scree_context *c, size_t index, double *value, scree_error *error)
+{
+    (void)index, (void)error;
+    *value = own_state(c->state)->work;
+    return SCREE_OK;
+}
+
+static bool told(const scree_config *whole, size_t index, char name[SCREE_RESULT_NAME])
+{
+    name[0] = 0;
+    return scree_load_told(whole, &scree_module_background_damping, index);
+}
+
 const scree_module scree_module_background_damping = {
     .name = "background_damping",
     .meaning = "Slows every body by a share of the resultant force and torque on it, whatever its speed (non-viscous).",
@@ -218,4 +234,6 @@ const scree_module scree_module_background_damping = {
     .pass_count = sizeof passes / sizeof *passes,
     .in_use = in_use,
     .work = work,
+    .columns = SCREE_RESULTS(columns, sample),
+    .told = told,
 };

@@ -258,7 +258,7 @@ scree_status scree_cells_measure(const scree_model *model, const scree_state *st
     *cells = (scree_cells){0};
     scree_status status = scree_assembly_of_state(model, state, &assembly, error);
     if (status) return status;
-    double gap_limit = model->config->boundary.gap_limit * 2 * model->mean_radius;
+    double gap_limit = model->upkeep.gap_limit * 2 * model->mean_radius;
     status = scree_cells_build(&assembly, gap_limit, cells, error);
     if (!status) {
         cells->id = assembly.id;

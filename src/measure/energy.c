@@ -26,7 +26,6 @@
 ///     two bodies that should just touch    to              (2/5) K sqrt(R) d^(5/2), which may be felt after they part,
 ///     the sum of N terms m g . x           to              N / 2 units in the last place of the sum of |m g . x|.
 /// The sums of kinetic and elastic energy have errors of the same kind, but against themselves, which are in the scale.
-#include "integrate/forced_spin.h"
 #include "measure/measure.h"
 
 #include "base/integer_sum.h"
@@ -56,8 +55,23 @@ typedef enum contact_sum {
     CONTACT_SUMS
 } contact_sum;
 
+/// The modules that may prescribe rotations.
+typedef struct turners {
+    bool (*by[SCREE_MODULE_COUNT])(const scree_state *state, size_t row);
+    size_t count;
+} turners;
+
+static turners find_turners(void)
+{
+    turners found = {.count = 0};
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
+        if (scree_modules[m]->turns) found.by[found.count++] = scree_modules[m]->turns;
+    return found;
+}
+
 /// v(n-1/2) . v(n+1/2) of a body, translation and rotation.
-static void add_kinetic(const scree_model *model, const scree_state *state, size_t index, scree_integer_sum *sum)
+static void add_kinetic(const scree_model *model, const scree_state *state, const turners *turned, size_t index,
+                        scree_integer_sum *sum)
 {
     double kinetic = 0, rotation = 0;
     double mass = state->row[index].mass, inertia = scree_body_inertia(state, index), dt = state->step_size;
@@ -69,8 +83,9 @@ static void add_kinetic(const scree_model *model, const scree_state *state, size
         rotation += 0.5 * inertia * spin[k] * (spin[k] + dt * torque[k] / inertia);
     }
     scree_integer_sum_add(&sum[KINETIC], kinetic);
-    if (!scree_forced(state)->active || scree_forced(state)->id != state->id[index])
-        scree_integer_sum_add(&sum[KINETIC_ROTATION], rotation);
+    for (size_t k = 0; k < turned->count; k++)
+        if (turned->by[k](state, index)) return;
+    scree_integer_sum_add(&sum[KINETIC_ROTATION], rotation);
 }
 
 /// F^2 / m + T^2 / J of a body. Called for every body at most steps of two timescales, so without divisions to spare.
@@ -124,10 +139,11 @@ static void add_place(const scree_model *model, const scree_state *state, size_t
 static void sum_bodies(const scree_model *model, const scree_state *state, double total[BODY_SUMS], double *largest)
 {
     scree_integer_sum sum[BODY_SUMS] = {0};
+    const turners turned = find_turners();
     *largest = 0;
     while (scree_comm_sum_next(state, sum, BODY_SUMS))
         for (size_t row = 0; row < state->count; row++) {
-            add_kinetic(model, state, row, sum);
+            add_kinetic(model, state, &turned, row, sum);
             add_place(model, state, row, sum, largest);
         }
     scree_comm_maximum(state, largest, 1);

@@ -49,11 +49,10 @@ static uint32_t place_of(const scree_state *state, const uint32_t *grains, size_
 scree_status scree_facet_rule(const scree_model *model, const scree_state *state, const uint32_t *grains,
                               scree_peel_rule *rule, uint32_t **positions, scree_error *error)
 {
-    const scree_config_boundary *boundary = &model->config->boundary;
     size_t d = (size_t)state->dimension, count = scree_facet_count(state);
     *positions = NULL;
-    *rule = (scree_peel_rule){.gap_limit = boundary->gap_limit * 2 * model->mean_radius,
-                              .hysteresis = boundary->gap_hysteresis,
+    *rule = (scree_peel_rule){.gap_limit = model->upkeep.gap_limit * 2 * model->mean_radius,
+                              .hysteresis = model->upkeep.hysteresis,
                               .facet_count = count};
     if (count == 0) return SCREE_OK;
     scree_status status = scree_allocate(positions, count * d, sizeof **positions, error);

@@ -8,6 +8,7 @@
 #include "module/integrator.h"
 #include "theory/quasistatic.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -39,7 +40,7 @@ int scree_model_material(const scree_model *model, const char *name)
 
 bool scree_model_is_wholly_periodic(const scree_model *model)
 {
-    return scree_config_is_wholly_periodic(model->config);
+    return model->periodic > 0 && model->periodic == (1u << model->dimension) - 1;
 }
 
 static scree_status check_materials(const scree_model *model, scree_error *error)
@@ -111,7 +112,7 @@ static scree_status wall_constants(const scree_model *model, int64_t grain, cons
     return SCREE_OK;
 }
 
-/// Grains of every material on plates and on the walls of the case that have a material of their own.
+/// Grains of every material on plates and on each wall of the case.
 static scree_status resolve_walls(scree_model *model, scree_error *error)
 {
     const scree_config *config = model->config;
@@ -121,10 +122,13 @@ static scree_status resolve_walls(scree_model *model, scree_error *error)
         const scree_config_material *grain = &config->materials[place];
         status = wall_constants(model, place, grain->wall_material, "materials", place, "wall_material",
                                 &model->walls[i], error);
-        for (int64_t w = 0; w < config->wall_count && !status; w++)
+        for (int64_t w = 0; w < config->wall_count && !status; w++) {
+            scree_pair_constants *pair = &model->surfaces[w][i];
+            *pair = model->walls[i];
             if (config->walls[w].material)
-                status = wall_constants(model, place, config->walls[w].material, "walls", w, "material",
-                                        &model->surfaces[w][i], error);
+                status = wall_constants(model, place, config->walls[w].material, "walls", w, "material", pair, error);
+            if (!isnan(config->walls[w].friction)) pair->value[SCREE_FRICTION] = config->walls[w].friction;
+        }
     }
     return status;
 }
@@ -198,24 +202,25 @@ double scree_model_stiffness(const scree_model *model, double pressure, double d
 
 double scree_model_largest_radius(const scree_model *model)
 {
-    return fmax(model->radius_max, model->membrane_radius);
+    return fmax(model->radius_max, model->added_radius);
 }
 
-static void take_friction(const scree_model *model, scree_pair_constants *pair)
+void *scree_model_reserve_numbers(scree_model *model, int slot)
 {
-    for (int k = 0; k < SCREE_PAIR_CONSTANTS; k++)
-        if (scree_model_law(model)->resistances >> k & 1) pair->value[k] = 0;
-}
-
-void scree_model_make_membrane_frictionless(scree_model *model)
-{
-    int m = model->membrane_material;
-    take_friction(model, &model->walls[m]);
-    for (int w = 0; w < SCREE_SURFACES; w++) take_friction(model, &model->surfaces[w][m]);
-    for (int i = 0; i < SCREE_MAX_MATERIALS; i++) {
-        take_friction(model, &model->pairs[i][m]);
-        model->pairs[m][i] = model->pairs[i][m];
+    enum { ALIGNMENT = 16 };
+    size_t size = (scree_modules[slot]->numbers_size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+    if (model->number_at[slot] == 0) {
+        assert(model->numbers_end + size <= sizeof model->numbers);
+        // 0 says that there are none.
+        model->number_at[slot] = (uint16_t)(model->numbers_end + 1);
+        model->numbers_end += size;
     }
+    return &model->numbers[model->number_at[slot] - 1];
+}
+
+const void *scree_model_numbers(const scree_model *model, int slot)
+{
+    return model->number_at[slot] ? &model->numbers[model->number_at[slot] - 1] : NULL;
 }
 
 /// Numbers of the boundaries that the stages have.
@@ -238,7 +243,7 @@ static scree_status check_prepare(const scree_model *model, int64_t index, scree
     const scree_prepare_config *prepare = scree_config_prepared(stage);
     const scree_preparation *method = scree_modules[prepare->method]->preparation;
     bool in_3d = model->dimension == 3;
-    scree_status status = method->check ? method->check(model, index, error) : SCREE_OK;
+    scree_status status = method->check ? method->check(model, stage, error) : SCREE_OK;
     // A round sample's sides are not the user's; and a method that makes its box has judged it.
     if (status || prepare->outline != SCREE_SAMPLE_BOX || method->sizes_box) return status;
     bool shallow = in_3d && !isnan(prepare->depth) && prepare->depth < 2 * model->radius_max;
@@ -313,6 +318,24 @@ static double two_digits_below(double value)
     return floor(value / unit) * unit;
 }
 
+/// What needs no more than a unit or the mean radius.
+static void take_numbers(const scree_config *config, scree_model *model)
+{
+    const scree_config_boundary *boundary = &config->boundary;
+    bool bounded = !isnan(boundary->servo_velocity);
+    model->upkeep = (scree_upkeep){.every = (uint64_t)boundary->every * model->largest_step,
+                                   .gap_limit = boundary->gap_limit,
+                                   .hysteresis = boundary->gap_hysteresis};
+    // Auto: a plate or a face may not cross a hundredth of the smallest radius in a step.
+    model->servo = (scree_servo_limits){.gain = boundary->servo_gain,
+                                        .velocity = bounded ? boundary->servo_velocity : INFINITY,
+                                        .travel = bounded ? INFINITY : 0.01 * model->radius_min};
+    model->overlap_limit = config->guard.overlap;
+    model->energy_growth = config->guard.energy_growth;
+    model->measure = config->measure;
+    model->output = config->output;
+}
+
 static scree_status resolve_step(scree_model *model, scree_error *error)
 {
     const scree_config_integrator *integrator = &model->config->integrator;
@@ -346,10 +369,20 @@ static scree_status resolve_step(scree_model *model, scree_error *error)
 scree_status scree_model_build(const scree_config *config, scree_model *model, scree_error *error)
 {
     *model = (scree_model){
+        .name = config->name,
+        .seed = (uint64_t)config->seed,
+        .count = (uint64_t)config->particles.count,
+        .periodic = (unsigned)config->boundary.periodic,
         .dimension = (int)config->dimension,
         .law = {.law = config->contact.law},
         .scheme = config->integrator.scheme,
         .gravity = {config->gravity[0], config->gravity[1], config->gravity[2]},
+        .walls_of_case = config->walls,
+        .wall_count = config->wall_count,
+        .loads = config->loads,
+        .load_count = config->load_count,
+        .stages = config->stages,
+        .stage_count = config->stage_count,
         .config = config,
     };
     scree_status status = resolve_materials(model, error);
@@ -358,20 +391,12 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
     if (!status) status = resolve_loading(model, error);
     if (!status) resolve_persistent(model);
     if (!status) status = resolve_step(model, error);
+    if (!status) take_numbers(config, model);
     if (!status) status = resolve_boundaries(model, error);
     return status;
 }
 
-scree_model scree_model_with_friction(const scree_model *model, double friction)
+const scree_boundary *scree_model_boundary_of(const scree_model *model, int64_t index)
 {
-    scree_model copy = *model;
-    if (isnan(friction)) return copy;
-    copy.friction_of_stage = true;
-    for (int i = 0; i < SCREE_MAX_MATERIALS; i++) {
-        copy.walls[i].value[SCREE_FRICTION] = friction;
-        for (int w = 0; w < SCREE_SURFACES; w++) copy.surfaces[w][i].value[SCREE_FRICTION] = friction;
-        for (int j = 0; j < SCREE_MAX_MATERIALS; j++) copy.pairs[i][j].value[SCREE_FRICTION] = friction;
-    }
-    if (copy.membrane) scree_model_make_membrane_frictionless(&copy);
-    return copy;
+    return scree_config_held_by(model->config, index);
 }

@@ -1,6 +1,6 @@
 /// The immutable description of a run, resolved from a config: every `auto` has become a number, materials have become
-/// constants per pair of materials. Built once; nothing below the stage driver may change it, except that a stage with
-/// its own friction hands the kernels a copy (`model_with_friction`).
+/// constants per pair of materials. Built once; nothing below the stage driver may change it. The model of a stage that
+/// has its own friction is a copy (friction.c).
 #ifndef SCREE_MODEL_MODEL_H
 #define SCREE_MODEL_MODEL_H
 
@@ -27,7 +27,25 @@ typedef struct scree_persistent_law {
     scree_pair_constants pairs[SCREE_MAX_MATERIALS][SCREE_MAX_MATERIALS];
 } scree_persistent_law;
 
+/// How the Delaunay boundary is kept.
+typedef struct scree_upkeep {
+    uint64_t every;    ///< ticks between two updates
+    double gap_limit;  ///< 1, boundary edges with a free gap above this many mean diameters are cut
+    double hysteresis; ///< 1, share of the limits by which a facet stays, or stays away (search/peel_rule.h)
+} scree_upkeep;
+
+/// Servos of plates and cells.
+typedef struct scree_servo_limits {
+    double gain;     ///< 1, admittance over that of the sample (1: absorbs waves)
+    double velocity; ///< m/s, largest of a plate or face; INFINITY: none
+    double travel;   ///< m, most in a step; INFINITY: none
+} scree_servo_limits;
+
 struct scree_model {
+    const char *name; ///< of the case
+    uint64_t seed;
+    uint64_t count;    ///< particles of the case
+    unsigned periodic; ///< bit k: the sample repeats itself in direction k
     int dimension;
     double thickness;          ///< m, length of the discs; 1 in 3D
     scree_law_use law;         ///< how contacts resist
@@ -44,21 +62,41 @@ struct scree_model {
     double mean_radius;            ///< m, of all particles, by number
     double mean_square, mean_cube; ///< m2, m3, of R^2 and R^3
     double radius_min, radius_max; ///< m
-    double phi, psi;           ///< quasistatic and size coefficients (P 2.13, 2.14, B1), NAN without a loading stage
-    bool membrane;             ///< some stage has one
-    int membrane_material;     ///< index of its constants below, frictionless, else those of the particles
-    double membrane_radius;    ///< m; 0 without a membrane
-    double membrane_stiffness; ///< N/m, of one spring
+    double phi, psi; ///< quasistatic and size coefficients (P 2.13, 2.14, B1), NAN without a loading stage
     int listed[SCREE_MAX_MATERIALS]; ///< where each material stands in the list of the case
     int material_count; ///< in use; they are numbered from 0, and what no body is made of has no part in anything
     scree_pair_constants pairs[SCREE_MAX_MATERIALS][SCREE_MAX_MATERIALS]; ///< grain on grain
-    scree_pair_constants walls[SCREE_MAX_MATERIALS];                      ///< grain on a plate, or wall of the case
-    scree_pair_constants surfaces[SCREE_SURFACES][SCREE_MAX_MATERIALS];   ///< on walls of the case with a `material`
+    scree_pair_constants walls[SCREE_MAX_MATERIALS];                      ///< grain on a plate
+    scree_pair_constants surfaces[SCREE_SURFACES][SCREE_MAX_MATERIALS];   ///< on each wall of the case
     scree_persistent_law persistent;
-    bool friction_of_stage; ///< the stage's own friction holds for all contacts, the walls of the case included
+    int added_materials;   ///< behind those in use: of bodies that modules add
+    double added_radius;   ///< m, largest of such bodies
+    uint32_t frictionless; ///< bit m: material m has no friction with anything, in no stage
     double density[SCREE_MAX_MATERIALS];
-    const scree_config *config; ///< what the user said; outlives the model
+    scree_upkeep upkeep;
+    scree_servo_limits servo;
+    double overlap_limit; ///< 1, largest overlap over the smaller radius
+    double energy_growth; ///< 1, largest residual of the ledger over all energy that there is and was
+    scree_config_measure measure;
+    scree_config_output output;
+
+    // ---- numbers of modules, in one block without pointers, so that the model can be copied ----
+    _Alignas(16) unsigned char numbers[1024];
+    size_t numbers_end;
+    uint16_t number_at[SCREE_MODULE_COUNT]; ///< place of those of each module, plus 1; 0: none
+
+    // ---- lists of the case; what an element says beside is for the module of its kind ----
+    const scree_config_wall *walls_of_case;
+    int64_t wall_count;
+    const scree_config_load *loads;
+    int64_t load_count;
+    const scree_config_stage *stages;
+    int64_t stage_count;
+    const scree_config *config; ///< what the user said; outlives the model; read by what resolves a model alone
 };
+
+/// Boundary of stage `index`.
+const scree_boundary *scree_model_boundary_of(const scree_model *model, int64_t index);
 
 /// Resolves `config` into `model`. Errors: SCREE_ERROR_INPUT with the field for anything that only shows when values
 /// meet: a step above the critical one (names it and offers it), a packing that cannot fit, a material that does not
@@ -141,11 +179,16 @@ double scree_model_loading_rate(const scree_config_stage *stage);
 /// Number of the material of this name, NULL that of the first species; -1: the case has none of that name.
 int scree_model_material(const scree_model *model, const char *name);
 
-/// Takes the friction of the membrane's material away.
-void scree_model_make_membrane_frictionless(scree_model *model);
+/// Takes every resistance of a material away, for good.
+void scree_model_make_frictionless(scree_model *model, int material);
 
-/// A copy with every friction coefficient replaced by `friction` (used while preparing dense samples), but a membrane's
-/// zero. NAN copies only.
+/// Zeroed room for the numbers of a module (`numbers_size`), which it fills when the model is resolved.
+void *scree_model_reserve_numbers(scree_model *model, int slot);
+
+/// They; NULL: the module has not been resolved, as nothing in the case has it.
+const void *scree_model_numbers(const scree_model *model, int slot);
+
+/// The model of a stage with this friction; NAN: its own (friction.c).
 scree_model scree_model_with_friction(const scree_model *model, double friction);
 
 #endif

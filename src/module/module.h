@@ -29,6 +29,9 @@ struct scree_module {
     /// been noted: of such nothing is said. NULL: nothing.
     void (*rules)(scree_reader *reader, const scree_config *config);
 
+    // ---- numbers: what its keys become, once, with the model at hand (scree_model_numbers); no `auto` is left ----
+    size_t numbers_size;
+
     // ---- faces: what only modules of one kind have ----
     const struct scree_law *law;                 ///< model/law.h
     const struct scree_integrator *integrator;   ///< module/integrator.h
@@ -63,6 +66,10 @@ struct scree_module {
     /// Work [J] that it has done on the bodies since the begin of the run. NULL: it does none, or has a row of the
     /// ledger.
     double (*work)(const scree_state *state);
+
+    /// Whether it prescribes the rotation of the body in this row: its energy is no part of the balance then. NULL: of
+    /// none.
+    bool (*turns)(const scree_state *state, size_t row);
 
     // ---- results: what it tells ----
     scree_results columns; ///< of series.csv, at every sample

@@ -20,8 +20,8 @@ typedef struct scree_preparation {
     const char *elsewhere; ///< method that takes its place in the other dimension
 
     // ---- what the model asks before there is a sample; each may be NULL ----
-    /// What is wrong with the stage `index`, besides a box that is too small.
-    scree_status (*check)(const scree_model *model, int64_t index, scree_error *error);
+    /// What is wrong with the stage, besides a box that is too small.
+    scree_status (*check)(const scree_model *model, const struct scree_config_stage *stage, scree_error *error);
     /// Some particle is of the material of this name, besides that of all particles.
     bool (*uses)(const struct scree_config_stage *stage, const char *material);
     /// Height [m] of the sample. NULL: from number, sizes, box and solid fraction.

@@ -28,7 +28,11 @@
             row(compress) row(deform) row(rotate_particle) row(relax) row(collide) row(background_damping)             \
                 row(uniform) row(two_sizes) row(equal) row(normal) row(log_normal) row(power_law) row(table)
 
+/// What is measured at the end of a run, with tables of its own.
+#define SCREE_MEASURE_MODULES(row) row(cells)
+
 #define SCREE_MODULES(row)                                                                                             \
-    SCREE_STATE_MODULES(row) SCREE_BOUNDARY_MODULES(row) SCREE_STAGE_STATE_MODULES(row) SCREE_CASE_MODULES(row)
+    SCREE_STATE_MODULES(row)                                                                                           \
+    SCREE_BOUNDARY_MODULES(row) SCREE_STAGE_STATE_MODULES(row) SCREE_CASE_MODULES(row) SCREE_MEASURE_MODULES(row)
 
 #endif

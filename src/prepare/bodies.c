@@ -31,6 +31,12 @@ static const scree_key keys[] = {
         .meaning = "The particles, numbered from 0; as many as particles.count says."),
 };
 
+/// Radius [m] of a listed body; left out: that of all particles.
+static double radius_of(const scree_model *model, const scree_listed_body *body)
+{
+    return isnan(body->radius) ? model->species[0].radius.least : body->radius;
+}
+
 static scree_status place(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
                           scree_error *error)
 {
@@ -41,7 +47,7 @@ static scree_status place(const scree_model *model, const scree_config_stage *st
     double reach[3] = {0};
     for (size_t i = 0; i < packing->count; i++) {
         const scree_listed_body *body = &own->bodies[i];
-        packing->radius[i] = scree_listed_radius(model->config, body);
+        packing->radius[i] = radius_of(model, body);
         for (int c = 0; c < packing->dimension; c++) {
             packing->place[c][i] = body->position[c];
             reach[c] = fmax(reach[c], body->position[c] + packing->radius[i]);
@@ -78,9 +84,8 @@ static void set_moving(const scree_model *model, const scree_config_stage *stage
     }
 }
 
-static scree_status check(const scree_model *model, int64_t index, scree_error *error)
+static scree_status check(const scree_model *model, const scree_config_stage *stage, scree_error *error)
 {
-    const scree_config_stage *stage = &model->config->stages[index];
     const config *own = scree_bodies_of(stage);
     for (int64_t i = 0; i < own->body_count; i++)
         if (scree_model_material(model, own->bodies[i].material) < 0)
@@ -104,7 +109,7 @@ static double height_of(const scree_model *model, const scree_config_stage *stag
     double height = 0;
     for (int64_t i = 0; i < own->body_count; i++) {
         const scree_listed_body *body = &own->bodies[i];
-        height = fmax(height, body->position[model->dimension - 1] + scree_listed_radius(model->config, body));
+        height = fmax(height, body->position[model->dimension - 1] + radius_of(model, body));
     }
     return height;
 }

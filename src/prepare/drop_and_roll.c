@@ -153,7 +153,7 @@ static void keep_lowest(const drop *d, double *sorted, scree_packing *packing)
 /// Fills the packing and the height of its box for the width and depth of its box.
 static scree_status fill(const scree_model *model, scree_packing *packing, scree_error *error)
 {
-    drop d = {.seed = (uint64_t)model->config->seed};
+    drop d = {.seed = model->seed};
     size_t dropped = packing->count + surplus(model, packing);
     scree_status status = scree_packing_create(&d.packing, packing->dimension, dropped, error);
     if (status) return status;

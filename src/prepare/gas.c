@@ -157,7 +157,7 @@ static double solid_fraction_of(const scree_model *model, const scree_config_sta
 static void gas_sides(const scree_model *model, const scree_config_stage *stage, double side[3])
 {
     const scree_prepare_config *prepare = scree_config_prepared(stage);
-    double in_3d = (double)model->config->particles.count * scree_model_mean_solid(model);
+    double in_3d = (double)model->count * scree_model_mean_solid(model);
     double room = in_3d / solid_fraction_of(model, stage);
     side[0] = prepare->width;
     side[1] = prepare->depth;
@@ -176,12 +176,11 @@ static void gas_sides(const scree_model *model, const scree_config_stage *stage,
 /// A periodic gas must be wide enough when it is prepared, and when its cell has shrunk to the loosest packing that
 /// bears a pressure (solid fraction about 0.76 of discs, 0.55 of spheres). What happens later is not known here: the
 /// search for ghosts says it then.
-static scree_status check(const scree_model *model, int64_t index, scree_error *error)
+static scree_status check(const scree_model *model, const scree_config_stage *stage, scree_error *error)
 {
-    const scree_config_stage *stage = &model->config->stages[index];
-    const scree_config *whole = model->config;
-    bool confined = index + 1 < whole->stage_count && scree_modules[whole->stages[index + 1].kind]->numbers->settles;
-    const int periodic = model->config->boundary.periodic;
+    bool last = stage + 1 == model->stages + model->stage_count;
+    bool confined = !last && scree_modules[stage[1].kind]->numbers->settles;
+    const unsigned periodic = model->periodic;
     if (!periodic) return SCREE_OK;
     double side[3], loosest = model->dimension == 3 ? 0.55 : 0.76, needed = 4 * model->radius_max;
     double shrunk = fmin(1, pow(solid_fraction_of(model, stage) / loosest, 1.0 / model->dimension));
@@ -226,7 +225,7 @@ static scree_status fill(const scree_model *model, const scree_config_stage *sta
     if (!status) {
         for (size_t i = 0; i < count; i++) order[i] = (uint32_t)i;
         qsort_r(order, count, sizeof *order, larger_first, packing->radius);
-        size_t placed = add_bodies(&grid, (uint64_t)model->config->seed, order, packing);
+        size_t placed = add_bodies(&grid, model->seed, order, packing);
         double room = 0;
         for (size_t k = 0; k < placed; k++) {
             double r = packing->radius[order[k]];
@@ -260,7 +259,7 @@ static scree_status place(const scree_model *model, const scree_config_stage *st
 
 static void set_moving(const scree_model *model, const scree_config_stage *stage, scree_state *state)
 {
-    uint64_t seed = (uint64_t)model->config->seed, dimension = (uint64_t)state->dimension;
+    uint64_t seed = model->seed, dimension = (uint64_t)state->dimension;
     double mass = 0, momentum[3] = {0}, square = 0;
     for (size_t i = 0; i < state->count; i++) {
         scree_row *row = &state->row[i];

@@ -8,6 +8,8 @@
 /// no two bodies of their true radii overlap. The energy is lowered by FIRE (Bitzek, Koskinen, Gaehler, Moseler and
 /// Gumbsch 2006) with unit masses, pairs from the neighbour list. All lengths are in mean radii.
 ///
+/// In directions in which the box repeats itself there are no walls: bodies push the ghosts of others.
+///
 /// Limits. Random packings jam: equal spheres at 0.64, discs of several sizes at 0.84 (O'Hern et al. 2003), somewhat
 /// less near walls. Beyond what the relaxation reaches is an error that says how far it came.
 ///
@@ -16,6 +18,7 @@
 #include "prepare/growth.h"
 #include "module/key_rows.h"
 #include "prepare/methods.h"
+#include "state/periodic.h"
 #include "state/plates.h"
 
 #include "base/random.h"
@@ -64,19 +67,24 @@ static scree_status begin_growth(growth *g, scree_error *error)
     if (!status) status = scree_allocate(&g->force, packing->count, sizeof *g->force, error);
     if (status) return status;
     g->work.skin = SKIN;
-    uint64_t seed = (uint64_t)g->model->config->seed, axes = (uint64_t)packing->dimension;
+    uint64_t seed = g->model->seed, axes = (uint64_t)packing->dimension;
+    const unsigned periodic = packing->box.periodic;
     for (size_t i = 0; i < packing->count; i++) {
-        double place[3], radius = packing->radius[i] / g->unit;
-        for (uint64_t c = 0; c < axes; c++)
+        double place[3];
+        for (uint64_t c = 0; c < axes; c++) {
+            double radius = periodic >> c & 1 ? 0 : packing->radius[i] / g->unit;
             place[c] =
                 radius + scree_random_uniform(seed, SCREE_RANDOM_POSITION, axes * i + c) * (side[c] - 2 * radius);
+        }
         set_place(&g->state.row[i], in_3d, place);
     }
     for (int axis = 0; axis < packing->dimension; axis++)
         for (int w = 2 * axis; w < 2 * axis + 2; w++) {
-            scree_plates(&g->state)[w] = (scree_wall){.position = w % 2 ? -side[axis] : 0, .active = 1};
+            scree_plates(&g->state)[w] =
+                (scree_wall){.position = w % 2 ? -side[axis] : 0, .active = !(periodic >> axis & 1)};
             scree_plates(&g->state)[w].normal[axis] = w % 2 ? -1 : 1;
         }
+    if (periodic) scree_periodic_set(scree_cell(&g->state), periodic, side);
     return SCREE_OK;
 }
 
@@ -120,8 +128,8 @@ static scree_status evaluate(growth *g, scree_error *error)
         double distance = sqrt(square), overlap = reach - distance;
         double n[3] = {distance > 0 ? dx / distance : 1, distance > 0 ? dy / distance : 0,
                        distance > 0 ? dz / distance : 0};
-        push(g->force[pairs->first[k]], overlap, n);
-        push(g->force[pairs->second[k]], -overlap, n);
+        push(g->force[scree_parent_row(&g->state, &g->work, pairs->first[k])], overlap, n);
+        push(g->force[scree_parent_row(&g->state, &g->work, pairs->second[k])], -overlap, n);
         g->overlap = fmax(g->overlap, overlap);
     }
     for (size_t k = 0; k < walls->count; k++) {
@@ -217,10 +225,15 @@ static scree_status relax(growth *g, double tolerance, int most, scree_error *er
 
 static void take_places(const growth *g, scree_packing *packing)
 {
+    const scree_periodic_cell *cell = scree_cell(&g->state);
     for (size_t i = 0; i < packing->count; i++) {
         scree_vector place;
         scree_body_position(&g->state, g->state.row_of_id[i], place);
-        for (int c = 0; c < packing->dimension; c++) packing->place[c][i] = place[c] * g->unit;
+        for (int c = 0; c < packing->dimension; c++) {
+            double side = cell->lattice[4 * c];
+            if (scree_periodic_repeats(cell, c)) place[c] -= side * floor(place[c] / side);
+            packing->place[c][i] = place[c] * g->unit;
+        }
     }
 }
 
@@ -230,8 +243,10 @@ static double standard_fraction(const scree_model *model, const scree_packing *p
     double fraction = packing->dimension == 3 ? 0.6 : 0.8, share = 1;
     scree_packing guess = *packing;
     scree_packing_fit_box(&guess, scree_packing_solid(packing), fraction, 2 * scree_packing_largest(packing));
-    const double side[3] = {guess.box.width, guess.box.height, guess.box.depth};
-    for (int c = 0; c < packing->dimension; c++) share *= 1 - 2 * WALL * 2 * model->mean_radius / side[c];
+    const bool in_3d = packing->dimension == 3;
+    const double side[3] = {guess.box.width, in_3d ? guess.box.depth : guess.box.height, guess.box.height};
+    for (int c = 0; c < packing->dimension; c++)
+        if (!(packing->box.periodic >> c & 1)) share *= 1 - 2 * WALL * 2 * model->mean_radius / side[c];
     return fraction * fmax(share, 0.5);
 }
 
@@ -241,6 +256,23 @@ static const scree_key keys[] = {
            .meaning = "Area (volume) of the particles over that of the box; auto: 30 % of discs and 15 % of spheres in "
                       "a gas; with growth 80 % and 60 %, less what the walls take."),
 };
+
+/// A sample that repeats itself is wide enough for the search for ghosts.
+static scree_status check_sides(const scree_model *model, const scree_config_stage *stage, const scree_packing *packing,
+                                scree_error *error)
+{
+    const scree_box *box = &packing->box;
+    const double side[3] = {box->width, packing->dimension == 3 ? box->depth : box->height, box->height};
+    double needed = (4 * scree_packing_largest(packing) + 2 * SKIN * model->mean_radius) * (1 + 2 * EXCESS);
+    for (int c = 0; c < packing->dimension; c++)
+        if (box->periodic >> c & 1 && !(side[c] > needed))
+            return scree_prepare_error(error, model, stage, "aspect_ratio",
+                                       "the periodic cell is only %.3g m wide along %c, and must be wider than %.3g m, "
+                                       "two of the largest particles side by side: take more particles or another "
+                                       "aspect_ratio",
+                                       side[c], "xyz"[c], needed);
+    return SCREE_OK;
+}
 
 static scree_status place(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
                           scree_error *error)
@@ -255,8 +287,10 @@ static scree_status place(const scree_model *model, const scree_config_stage *st
         return scree_prepare_error(error, model, stage, "solid_fraction",
                                    "a %s of radius %g m does not fit into a box %g m wide and %g m high",
                                    dimension == 3 ? "sphere" : "disc", largest, box->width, box->height);
+    scree_status status = check_sides(model, stage, packing, error);
+    if (status) return status;
     growth g = {.model = model, .packing = packing, .unit = model->mean_radius};
-    scree_status status = begin_growth(&g, error);
+    status = begin_growth(&g, error);
     for (int k = 0; k < GROWTH_STEPS && !status; k++) {
         set_radii(&g, pow((1 + 2 * (double)k / GROWTH_STEPS) / 3, 1.0 / dimension));
         status = relax(&g, ROUGHLY, ITERATIONS_BETWEEN, error);
@@ -279,7 +313,7 @@ static scree_status place(const scree_model *model, const scree_config_stage *st
     return status;
 }
 
-static const scree_preparation preparation = {.needs_walls = true, .loose = true, .place = place};
+static const scree_preparation preparation = {.periodic = true, .loose = true, .place = place};
 
 const scree_module scree_module_growth = {
     .name = "growth",

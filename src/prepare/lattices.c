@@ -136,11 +136,11 @@ static scree_status place_face_centred(const scree_model *model, const scree_con
     return place_lattice(model, stage, packing, (lattice){{1, 1}, sqrt(2.0), true}, error);
 }
 
-static scree_status check(const scree_model *model, int64_t index, scree_error *error)
+static scree_status check(const scree_model *model, const scree_config_stage *stage, scree_error *error)
 {
     if (!(model->radius_min < model->radius_max)) return SCREE_OK;
     return scree_prepare_error(
-        error, model, &model->config->stages[index], "method",
+        error, model, stage, "method",
         "a lattice needs particles of one radius, and the case has radii from %g m to %g m: set the "
         "distribution of %s to equal",
         model->radius_min, model->radius_max, model->species_count > 1 ? "all species, with one radius," : "particles");

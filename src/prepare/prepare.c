@@ -21,8 +21,8 @@ scree_status scree_prepare_error(scree_error *error, const scree_model *model, c
     va_end(arguments);
     scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "%s", text);
     if (!error) return status;
-    for (int64_t i = 0; i < model->config->stage_count; i++)
-        if (stage == &model->config->stages[i])
+    for (int64_t i = 0; i < model->stage_count; i++)
+        if (stage == &model->stages[i])
             (void)snprintf(error->field, sizeof error->field, "stages.%lld.%s", (long long)i, key);
     return status;
 }
@@ -74,13 +74,14 @@ scree_status scree_prepare(const scree_model *model, const scree_config_stage *s
     const scree_module *module = scree_modules[prepare->method];
     const scree_preparation *method = module->preparation;
     const bool round = prepare->outline != SCREE_SAMPLE_BOX;
-    size_t count = (size_t)model->config->particles.count;
-    unsigned periodic = (unsigned)model->config->boundary.periodic;
+    size_t count = model->count;
+    unsigned periodic = model->periodic;
     if (periodic && !method->periodic)
-        return scree_prepare_error(error, model, stage, "method",
-                                   "%s needs walls and cannot fill a periodic cell: prepare with gas or on a lattice, "
-                                   "and confine",
-                                   module->name);
+        return scree_prepare_error(
+            error, model, stage, "method",
+            "%s needs walls and cannot fill a periodic cell: prepare with gas, growth or on a lattice, "
+            "and confine",
+            module->name);
     scree_status status = scree_state_create(state, model->dimension, count, error);
     if (status) return status;
     scree_packing packing;

@@ -15,12 +15,13 @@
 /// Instants in series.csv and run.h5 are the same bits but for the printed digits.
 #define SAME_TIME 1e-9
 
-void scree_cell_averages_begin(scree_cell_averages *averages, const scree_config *config, const scree_series *series)
+void scree_cell_averages_begin(scree_cell_averages *averages, const scree_config_measure *config,
+                               const scree_series *series)
 {
-    bool window = config->measure.window_count > 0;
+    bool window = config->window_count > 0;
     *averages = (scree_cell_averages){.series = series,
-                                      .from = window ? config->measure.windows[0].from : 0,
-                                      .to = window ? config->measure.windows[0].to : INFINITY,
+                                      .from = window ? config->windows[0].from : 0,
+                                      .to = window ? config->windows[0].to : INFINITY,
                                       .begin = NAN,
                                       .end = NAN};
 }

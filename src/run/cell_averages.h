@@ -22,7 +22,8 @@ typedef struct scree_cell_averages {
 } scree_cell_averages;
 
 /// Forgets everything: a stage begins.
-void scree_cell_averages_begin(scree_cell_averages *averages, const scree_config *config, const scree_series *series);
+void scree_cell_averages_begin(scree_cell_averages *averages, const scree_config_measure *config,
+                               const scree_series *series);
 
 /// Adds a snapshot. ratio: pressure over that of all cells, `count` growing circles around each of SCREE_CIRCLES
 /// places.

@@ -13,6 +13,7 @@
 #include "io/snapshot.h"
 #include "measure/localisation.h"
 #include "run/cell_averages.h"
+#include "run/conclusion.h"
 
 #include <math.h>
 #include <string.h>
@@ -61,7 +62,7 @@ static const scree_series_column band_columns[BAND_COLUMNS] = {
 
 /// The state of the walk through the snapshots.
 typedef struct walk {
-    const scree_config *config;
+    const scree_config_measure *config;
     scree_series_writer circles, bands;
     scree_cell_snapshot first; ///< begin of the present window; no bodies: none
     scree_cell_snapshot last;  ///< the last snapshot of it; no bodies: `first`
@@ -229,7 +230,7 @@ static scree_status follow(walk *w, scree_cell_snapshot *snapshot, scree_error *
     const scree_cell_snapshot *previous = w->last.assembly.count > 0 ? &w->last : &w->first;
     status = scree_cell_averages_strain(&w->averages, previous, snapshot, error);
     // Snapshots lie on samples: a window may miss its length by a little.
-    if (snapshot->axial_strain - w->first.axial_strain < 0.99 * w->config->measure.band_window) {
+    if (snapshot->axial_strain - w->first.axial_strain < 0.99 * w->config->band_window) {
         if (!status) keep(&w->last, snapshot);
         return status;
     }
@@ -290,8 +291,8 @@ static void summarise(const walk *w, scree_summary *summary)
     scree_summary_set_number(summary, "band_percolation", found ? last->band.percolation : NAN);
 }
 
-scree_status scree_cell_results_write(const char *directory, const scree_config *config, const scree_series *series,
-                                      scree_summary *summary, scree_error *error)
+scree_status scree_cell_results_write(const char *directory, const scree_config_measure *config,
+                                      const scree_series *series, scree_summary *summary, scree_error *error)
 {
     walk w = {.config = config, .series = series};
     scree_status status = open_files(&w, directory, error);
@@ -311,3 +312,37 @@ scree_status scree_cell_results_write(const char *directory, const scree_config 
     }
     return status;
 }
+
+// ---- the module --------------------------------------------------------------------------------------------------
+
+static const scree_result results[] = {
+    {"cell_stress_disagreement", "1", "stress of the cells against that of the contacts"},
+    {"cell_strain_disagreement", "1", "strain of the cells against that of the boundary"},
+    {"circle_pressure_spread", "1", "spread of the pressure over circles"},
+    {"circle_pressure_diameter", "1", "diameter from which on circles have the mean pressure, in mean diameters"},
+    {"plate_distortion_ratio", "1", "distortion rate near the plates over that of the core"},
+    {"plate_pressure_ratio", "1", "pressure near the plates over that of the core"},
+    {"side_pressure_ratio", "1", "pressure near the sides over that of the core"},
+    {"bands", NULL, "kind of localisation"},
+    {"band_persistence", "1", "persistence of the bands"},
+    {"localisation_index_last", "1", "localisation index of the last window"},
+    {"band_angle", "degree", "angle of the band"},
+    {"band_thickness_diameters", "1", "thickness of the band in mean diameters"},
+    {"band_share", "1", "share of the band in the distortion"},
+    {"band_contrast", "1", "distortion within the band over that outside"},
+    {"band_percolation", "1", "how far the band goes through the sample"},
+};
+
+static scree_status conclude(const scree_conclusion *run, scree_error *error)
+{
+    const scree_model *model = &run->s->model;
+    if (!model->measure.cells || model->periodic) return SCREE_OK;
+    return scree_cell_results_write(run->directory, &model->measure, run->series, run->summary, error);
+}
+
+const scree_module scree_module_cells = {
+    .name = "cells",
+    .meaning = "Delaunay cells of the snapshots: their averages, and shear bands",
+    .results = SCREE_RESULTS(results, NULL),
+    .conclude = conclude,
+};

@@ -8,7 +8,8 @@
 
 /// Reads the snapshots of the run directory; those without cells, or outside loading, do not count. series: of the run,
 /// what cells are compared with; NULL: with nothing. Errors: disk, memory.
-scree_status scree_cell_results_write(const char *directory, const scree_config *config, const scree_series *series,
-                                      scree_summary *summary, scree_error *error) SCREE_MUST_USE;
+scree_status scree_cell_results_write(const char *directory, const scree_config_measure *config,
+                                      const scree_series *series, scree_summary *summary,
+                                      scree_error *error) SCREE_MUST_USE;
 
 #endif

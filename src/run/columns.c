@@ -17,12 +17,13 @@ static size_t count_told(const scree_module *module, const scree_config *config)
     return count;
 }
 
-static size_t count_columns(const scree_config *config)
+static size_t count_columns(const scree_config *config, size_t times[SCREE_MODULE_COUNT])
 {
     size_t count = SCREE_SAMPLE_COUNT;
-    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
-        if (scree_modules[m]->columns.count > 0)
-            count += count_told(scree_modules[m], config) * scree_modules[m]->columns.count;
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++) {
+        times[m] = scree_modules[m]->columns.count > 0 ? count_told(scree_modules[m], config) : 0;
+        count += times[m] * scree_modules[m]->columns.count;
+    }
     return count;
 }
 
@@ -38,13 +39,12 @@ static scree_status append(scree_columns *columns, const char *about, const scre
     return SCREE_OK;
 }
 
-static scree_status append_module(scree_columns *columns, const scree_module *module, const scree_config *config,
-                                  scree_error *error)
+static scree_status append_module(scree_columns *columns, int slot, const scree_config *config, scree_error *error)
 {
+    const scree_module *module = scree_modules[slot];
     char about[SCREE_RESULT_NAME] = "";
-    size_t times = module->columns.count > 0 ? count_told(module, config) : 0;
     scree_status status = SCREE_OK;
-    for (size_t index = 0; index < times; index++) {
+    for (size_t index = 0; index < columns->times[slot]; index++) {
         if (module->told) (void)module->told(config, index, about);
         for (size_t k = 0; k < module->columns.count && !status; k++)
             status = append(columns, about, &module->columns.row[k], error);
@@ -54,14 +54,13 @@ static scree_status append_module(scree_columns *columns, const scree_module *mo
 
 scree_status scree_columns_create(const scree_config *config, scree_columns *columns, scree_error *error)
 {
-    size_t count = count_columns(config);
     *columns = (scree_columns){0};
+    size_t count = count_columns(config, columns->times);
     scree_status status = scree_allocate(&columns->column, count, sizeof *columns->column, error);
     if (!status) status = scree_allocate(&columns->name, count, sizeof *columns->name, error);
     for (int k = 0; k < SCREE_SAMPLE_COUNT && !status; k++)
         status = append(columns, "", &scree_sample_columns[k], error);
-    for (int m = 0; m < SCREE_MODULE_COUNT && !status; m++)
-        status = append_module(columns, scree_modules[m], config, error);
+    for (int m = 0; m < SCREE_MODULE_COUNT && !status; m++) status = append_module(columns, m, config, error);
     if (status) scree_columns_destroy(columns);
     return status;
 }
@@ -80,15 +79,15 @@ size_t scree_columns_find(const scree_columns *columns, const char *name)
     return k;
 }
 
-scree_status scree_columns_measure(const scree_context *context, double *value, scree_error *error)
+scree_status scree_columns_measure(const scree_columns *columns, const scree_context *context, double *value,
+                                   scree_error *error)
 {
     scree_status status = SCREE_OK;
     value += SCREE_SAMPLE_COUNT;
     for (int m = 0; m < SCREE_MODULE_COUNT; m++) {
-        const scree_results *columns = &scree_modules[m]->columns;
-        size_t times = columns->count > 0 ? count_told(scree_modules[m], context->model->config) : 0;
-        for (size_t index = 0; index < times && !status; index++, value += columns->count)
-            status = columns->measure(context, index, value, error);
+        const scree_results *own = &scree_modules[m]->columns;
+        for (size_t index = 0; index < columns->times[m] && !status; index++, value += own->count)
+            status = own->measure(context, index, value, error);
     }
     return status;
 }

@@ -4,13 +4,14 @@
 
 #include "case/config.h"
 #include "io/series.h"
-#include "module/result.h"
+#include "module/module.h"
 
 /// Those of one case.
 typedef struct scree_columns {
     scree_series_column *column;
     char (*name)[SCREE_RESULT_NAME]; ///< that `column` points to
     size_t count;
+    size_t times[SCREE_MODULE_COUNT]; ///< of how many things each module tells
 } scree_columns;
 
 /// Errors: SCREE_ERROR_INPUT when two columns would have one name; memory.
@@ -22,7 +23,8 @@ void scree_columns_destroy(scree_columns *columns);
 size_t scree_columns_find(const scree_columns *columns, const char *name);
 
 /// Fills the values of the modules' columns; those of run/sample.c are there.
-scree_status scree_columns_measure(const scree_context *context, double *value, scree_error *error) SCREE_MUST_USE;
+scree_status scree_columns_measure(const scree_columns *columns, const scree_context *context, double *value,
+                                   scree_error *error) SCREE_MUST_USE;
 
 /// Whether some case has this column; if not, *nearest is the name that is nearest, or NULL.
 bool scree_column_is_known(const char *name, const char **nearest);

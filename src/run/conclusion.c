@@ -30,7 +30,7 @@ static scree_status measure(const scree_conclusion *run, const scree_module *mod
         return scree_error_set(error, SCREE_ERROR_IO, "module %s has more than %d results", module->name, ROWS);
     if (!module->told) return set_results(run, &module->results, 0, about, error);
     scree_status status = SCREE_OK;
-    for (size_t index = 0; !status && module->told(run->s->model.config, index, about); index++)
+    for (size_t index = 0; !status && module->told(&run->s->c->config, index, about); index++)
         status = set_results(run, &module->results, index, about, error);
     return status;
 }

@@ -58,7 +58,7 @@ static double evaluations_a_tick(const scree_model *model)
 
 static double wave_time(const scree_model *model, int64_t index)
 {
-    double pressure = scree_confining_pressure(model->config, index);
+    double pressure = scree_confining_pressure(model, index);
     return pressure > 0 ? scree_expected_wave_time(model, pressure) : 0;
 }
 
@@ -77,22 +77,22 @@ static const scree_stage *face_of(const scree_config_stage *stage)
 
 scree_stage_cost scree_stage_expect(const scree_model *model, int64_t index, double collision)
 {
-    const scree_config_stage *stage = &model->config->stages[index];
+    const scree_config_stage *stage = &model->stages[index];
     double wave = wave_time(model, index), time = planned_time(model, stage, wave, collision);
     double share = face_of(stage)->loading ? evaluations_a_tick(model) : 1 / (double)model->largest_step;
     scree_stage_cost cost = {.steps = isnan(time) ? 0 : time / model->step * share, .snapshots = 1};
-    if (face_of(stage)->loading) cost.snapshots += 1 + (double)model->config->output.snapshots;
+    if (face_of(stage)->loading) cost.snapshots += 1 + (double)model->output.snapshots;
     if (face_of(stage)->samples_a_wave > 0)
         cost.samples = wave > 0 ? face_of(stage)->samples_a_wave * time / wave : 0;
     else
-        cost.samples = fmin(cost.steps, (double)model->config->measure.samples);
+        cost.samples = fmin(cost.steps, (double)model->measure.samples);
     return cost;
 }
 
 int64_t scree_longest_stage(const scree_model *model)
 {
-    int64_t longest = model->config->stage_count > 1 ? 1 : 0;
-    for (int64_t k = 2; k < model->config->stage_count; k++)
+    int64_t longest = model->stage_count > 1 ? 1 : 0;
+    for (int64_t k = 2; k < model->stage_count; k++)
         if (scree_stage_expect(model, k, NAN).steps > scree_stage_expect(model, longest, NAN).steps) longest = k;
     return longest;
 }
@@ -100,14 +100,14 @@ int64_t scree_longest_stage(const scree_model *model)
 // ---- figures -----------------------------------------------------------------------------------------------------
 
 /// Scenes that are drawn (view/plot_scenes.c), and charts.
-static double scenes_of(const scree_config *config, double *charts)
+static double scenes_of(const scree_model *model, double *charts)
 {
-    bool strained = false, cells = config->measure.cells && !config->boundary.periodic;
-    for (int64_t k = 0; k < config->stage_count; k++)
-        strained = strained || (face_of(&config->stages[k])->loading && face_of(&config->stages[k])->quasistatic);
-    double windows = config->measure.window_count > 0 ? (double)config->measure.window_count : 2;
+    bool strained = false, cells = model->measure.cells && !model->periodic;
+    for (int64_t k = 0; k < model->stage_count; k++)
+        strained = strained || (face_of(&model->stages[k])->loading && face_of(&model->stages[k])->quasistatic);
+    double windows = model->measure.window_count > 0 ? (double)model->measure.window_count : 2;
     *charts = strained ? 10 : 0;
-    if (!config->output.figures) return *charts = 0;
+    if (!model->output.figures) return *charts = 0;
     return 5 + (cells ? 5 : 0) + (strained ? 1 + windows : 0) + (strained && cells ? 4 + windows : 0);
 }
 
@@ -124,36 +124,35 @@ static double cache_factor(const scree_model *model, double count)
 static double step_time(const scree_model *model, const scree_probe *probe, double scale)
 {
     double count = probe->count * scale, cache = cache_factor(model, count) / cache_factor(model, probe->count);
-    bool falls = model->config->wall_count > 0;
+    bool falls = model->wall_count > 0;
     double list = probe->rebuild * scale / (falls ? LIST_STEPS_FALLING : LIST_STEPS_LOADED);
-    double every = (double)model->config->boundary.every * (double)model->largest_step * evaluations_a_tick(model);
+    double every = (double)model->upkeep.every * evaluations_a_tick(model);
     return probe->step * scale * cache + list + probe->upkeep * scale / every;
 }
 
 /// s: a snapshot, ParaView's files and its share of the gathering included; `cells` out: the part that cells take.
 static double snapshot_time(const scree_model *model, const scree_probe *probe, double scale, double *cells)
 {
-    const scree_config *config = model->config;
     const expense *e = &expenses[model->dimension == 3];
     double count = probe->count * scale;
     *cells = probe->cells > 0 ? probe->cells * scale + e->cell_file + e->cell * count : 0;
-    double paraview = config->output.paraview ? e->paraview_file + e->paraview_body * count : 0;
+    double paraview = model->output.paraview ? e->paraview_file + e->paraview_body * count : 0;
     return e->file + e->body * count + *cells + paraview;
 }
 
 void scree_run_expect(const scree_model *model, const scree_probe *probe, scree_run_cost *cost)
 {
-    double count = (double)model->config->particles.count, scale = count / probe->count, cells, charts;
+    double count = (double)model->count, scale = count / probe->count, cells, charts;
     double snapshot = snapshot_time(model, probe, scale, &cells);
     *cost = (scree_run_cost){.output = START + END_OF_CELLS * cells, .memory = scree_memory_expect(model)};
-    for (int64_t k = 0; k < model->config->stage_count; k++) {
+    for (int64_t k = 0; k < model->stage_count; k++) {
         scree_stage_cost stage = scree_stage_expect(model, k, probe->collision);
         cost->steps += stage.steps;
         cost->output += stage.samples * (probe->sample * scale + ROW) + stage.snapshots * snapshot;
     }
     cost->stepping = cost->steps * step_time(model, probe, scale) + probe->preparation * scale;
     cost->rate = count / step_time(model, probe, scale);
-    double scenes = scenes_of(model->config, &charts);
+    double scenes = scenes_of(model, &charts);
     cost->figures = charts * CHART + scenes * (SCENE + SCENE_BODY * count);
 }
 
@@ -161,13 +160,12 @@ void scree_run_expect(const scree_model *model, const scree_probe *probe, scree_
 
 double scree_memory_expect(const scree_model *model)
 {
-    const scree_config *config = model->config;
     const expense *e = &expenses[model->dimension == 3];
-    double charts, scenes = scenes_of(config, &charts), snapshots = 0;
+    double charts, scenes = scenes_of(model, &charts), snapshots = 0;
     // Cells are gone when figures are drawn.
-    double cells = config->measure.cells && !config->boundary.periodic ? e->cell_bytes : 0;
+    double cells = model->measure.cells && !model->periodic ? e->cell_bytes : 0;
     double body = e->step_bytes + fmax(cells, scenes > 0 ? e->figure_bytes : 0);
-    for (int64_t k = 0; k < config->stage_count; k++) snapshots += scree_stage_expect(model, k, NAN).snapshots;
+    for (int64_t k = 0; k < model->stage_count; k++) snapshots += scree_stage_expect(model, k, NAN).snapshots;
     double figures = scenes > 0 ? FIGURE_BYTES + SCENE_BYTES * scenes : 0;
-    return PROGRAM_BYTES + snapshots * SNAPSHOT_BYTES + figures + body * (double)config->particles.count;
+    return PROGRAM_BYTES + snapshots * SNAPSHOT_BYTES + figures + body * (double)model->count;
 }

@@ -38,7 +38,7 @@ static scree_status stop_overlap(const scree_simulation *s, scree_error *error)
                            "(guard.overlap); the load is too high for the stiffness or the motion too fast: "
                            "try a stiffer material, a lower pressure or a slower rate",
                            (unsigned long long)s->state.step, (unsigned long long)s->work.flagged_id, row->x, row->y,
-                           s->model.config->guard.overlap);
+                           s->model.overlap_limit);
 }
 
 scree_status scree_guard_step(const scree_simulation *s, scree_error *error)
@@ -80,7 +80,7 @@ scree_status scree_guard_sample(const scree_simulation *s, double relative_resid
 {
     scree_status status = stop_escaped(s, error);
     if (status) return status;
-    double limit = s->model.config->guard.energy_growth;
+    double limit = s->model.energy_growth;
     if (relative_residual <= limit) return SCREE_OK;
     return scree_error_set(error, SCREE_ERROR_GUARD,
                            "step %llu: the energy balance is open by %.2g of all energy (guard.energy_growth %.2g); "

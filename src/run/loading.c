@@ -59,7 +59,7 @@ scree_stage_plan scree_loading_plan(const scree_simulation *s, double time, doub
     double rise = fmin(RISE_WAVES * scree_loading_of(&s->state)->wave_time, RISE_SHARE * time);
     if (!isnan(rise_time)) rise = rise_time;
     uint64_t expected = scree_stage_ticks(s, time + 0.5 * rise), largest = s->model.largest_step;
-    uint64_t interval = expected / largest / (uint64_t)s->model.config->measure.samples * largest;
+    uint64_t interval = expected / largest / (uint64_t)s->model.measure.samples * largest;
     return (scree_stage_plan){.interval = interval > 0 ? interval : largest, .expected = expected, .ramp_time = rise};
 }
 

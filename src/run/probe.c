@@ -116,14 +116,14 @@ static scree_status prepare(probe_case *probe, scree_error *error)
     scree_simulation *s = &probe->s;
     scree_config *config = &probe->c.config;
     scree_prepare_config *stage = config->stages[0].own;
-    probe->periodic = (unsigned)config->boundary.periodic;
     scree_status status = scree_simulation_open(&probe->c, 1, s, error);
+    probe->periodic = s->model.periodic;
     if (probe->dropped) {
         stage->method = dense_method();
-        config->boundary.periodic = SCREE_PERIODIC_NONE;
+        s->model.periodic = 0;
     }
     if (!status) status = scree_simulation_step(s, error);
-    config->boundary.periodic = (int)probe->periodic;
+    s->model.periodic = probe->periodic;
     return status;
 }
 
@@ -166,7 +166,7 @@ static scree_status stand(probe_case *probe, int64_t stage, scree_error *error)
     scree_simulation *s = &probe->s;
     scree_status status = prepare(probe, error);
     if (status) return status;
-    double pressure = scree_confining_pressure(&probe->c.config, stage);
+    double pressure = scree_confining_pressure(&s->model, stage);
     if (probe->dropped && probe->periodic) close_cell(&s->model, probe->periodic, &s->state);
     if (pressure > 0 && s->state.count > 2) press(&s->model, &s->state, pressure);
     scree_pressure_set(&s->state, pressure > 0 ? pressure : 0);

@@ -30,17 +30,17 @@ static bool means_to_be_quasistatic(const scree_config_stage *stage)
     return scree_modules[stage->kind]->stage->quasistatic;
 }
 
-double scree_confining_pressure(const scree_config *config, int64_t index)
+double scree_confining_pressure(const scree_model *model, int64_t index)
 {
     for (; index >= 0; index--)
-        if (scree_held_pressure(&config->stages[index]) > 0) return scree_held_pressure(&config->stages[index]);
+        if (scree_held_pressure(&model->stages[index]) > 0) return scree_held_pressure(&model->stages[index]);
     return NAN;
 }
 
 double scree_expected_wave_time(const scree_model *model, double pressure)
 {
     double fraction = scree_expected_solid_fraction(model), radius = scree_model_filling_radius(model);
-    double height = scree_expected_height(model, fraction), count = (double)model->config->particles.count;
+    double height = scree_expected_height(model, fraction), count = (double)model->count;
     double section = count * M_PI * radius * radius / (fraction * height);
     double width = model->dimension == 3 ? sqrt(4.0 / 3.0 * radius * section) : section;
     double speed = scree_wave_speed(scree_confined_modulus(model, pressure), scree_model_mean_density(model), fraction);
@@ -55,10 +55,9 @@ static double inertial_number(const scree_model *model, double rate, double pres
 
 scree_quasistatic scree_quasistatic_expect(const scree_model *model, int64_t index)
 {
-    const scree_config_stage *stage = &model->config->stages[index];
-    scree_quasistatic q = {.stage = index,
-                           .rate = scree_model_loading_rate(stage),
-                           .pressure = scree_confining_pressure(model->config, index)};
+    const scree_config_stage *stage = &model->stages[index];
+    scree_quasistatic q = {
+        .stage = index, .rate = scree_model_loading_rate(stage), .pressure = scree_confining_pressure(model, index)};
     for (int k = 0; k < SCREE_QUASISTATIC_COUNT; k++) q.value[k] = NAN;
     if (!means_to_be_quasistatic(stage) || isnan(q.pressure)) return q;
     double fraction = scree_expected_solid_fraction(model), height = scree_expected_height(model, fraction);
@@ -118,9 +117,9 @@ bool scree_quasistatic_explain(const scree_model *model, const scree_quasistatic
 {
     const scree_quasistatic_limit *limit = &scree_quasistatic_limits[criterion];
     if (scree_quasistatic_keeps(criterion, q->value[criterion])) return false;
-    int used = snprintf(text, size, "stage %lld (%s): %s %.3g, %s %g", (long long)q->stage,
-                        model->config->stages[q->stage].name, limit->name, q->value[criterion],
-                        limit->least ? "below" : "above", limit->limit);
+    int used =
+        snprintf(text, size, "stage %lld (%s): %s %.3g, %s %g", (long long)q->stage, model->stages[q->stage].name,
+                 limit->name, q->value[criterion], limit->least ? "below" : "above", limit->limit);
     if (!advice || used < 0 || (size_t)used + 3 > size) return true;
     memcpy(text + used, ": ", 3);
     advise(q, criterion, text + used + 2, size - (size_t)used - 2);
@@ -130,7 +129,7 @@ bool scree_quasistatic_explain(const scree_model *model, const scree_quasistatic
 void scree_quasistatic_warn(const scree_model *model, scree_log *log)
 {
     char text[TEXT];
-    for (int64_t k = 0; k < model->config->stage_count; k++) {
+    for (int64_t k = 0; k < model->stage_count; k++) {
         scree_quasistatic q = scree_quasistatic_expect(model, k);
         for (int c = 0; c < SCREE_QUASISTATIC_COUNT; c++)
             if (scree_quasistatic_explain(model, &q, (scree_quasistatic_criterion)c, true, text, sizeof text))
@@ -145,7 +144,7 @@ double scree_quasistatic_inertial_now(const scree_simulation *s, double mean_str
     double rate = scree_model_loading_rate(scree_stage_config(s)), loaded;
     if (isnan(rate)) return NAN;
     // fmin passes over a pressure that there is not.
-    double pressure = fmin(scree_confining_pressure(s->model.config, s->state.stage.index), mean_stress);
+    double pressure = fmin(scree_confining_pressure(&s->model, s->state.stage.index), mean_stress);
     return inertial_number(&s->model, rate * scree_loading_rise(s, &loaded), pressure);
 }
 
@@ -153,14 +152,14 @@ void scree_quasistatic_follow(scree_quasistatic_watch *watch, const scree_simula
 {
     const double *value = s->sample;
     int64_t stage = (int64_t)value[SCREE_SAMPLE_STAGE];
-    const scree_config_stage *config = &s->model.config->stages[stage];
+    const scree_config_stage *config = &s->model.stages[stage];
     const bool settles = scree_modules[config->kind]->numbers->settles;
     if (stage != watch->stage || watch->samples == 0 || settles) *watch = (scree_quasistatic_watch){.stage = stage};
     watch->kinetic += value[SCREE_SAMPLE_KINETIC];
     watch->elastic += value[SCREE_SAMPLE_ELASTIC_NORMAL] + value[SCREE_SAMPLE_ELASTIC_TANGENTIAL];
     watch->samples++;
     double ratio = watch->kinetic / watch->elastic;
-    bool early = watch->samples * EARLY >= (uint64_t)s->model.config->measure.samples &&
+    bool early = watch->samples * EARLY >= (uint64_t)s->model.measure.samples &&
                  ratio > CLEARLY * scree_quasistatic_limits[SCREE_QUASISTATIC_KINETIC].limit;
     bool enough = s->stage_ended || (early && !settles);
     if (!enough || watch->warned || !means_to_be_quasistatic(config)) return;
@@ -209,16 +208,15 @@ static void append_findings(const scree_model *model, const scree_quasistatic *e
 
 void scree_quasistatic_results(const scree_model *model, const scree_series *series, scree_summary *summary)
 {
-    const scree_config *config = model->config;
     const double *stage = scree_series_get(series, "stage");
     char reason[4 * TEXT] = "";
     bool found = false;
     for (size_t first = 0, last; first < series->row_count; first = last) {
         for (last = first + 1; last < series->row_count && stage[last] == stage[first]; last++) continue;
         int64_t index = (int64_t)stage[first];
-        if (!means_to_be_quasistatic(&config->stages[index])) continue;
+        if (!means_to_be_quasistatic(&model->stages[index])) continue;
         scree_quasistatic expected = scree_quasistatic_expect(model, index), seen = expected;
-        observe(series, first, last, scree_modules[config->stages[index].kind]->numbers->settles, &seen);
+        observe(series, first, last, scree_modules[model->stages[index].kind]->numbers->settles, &seen);
         append_findings(model, &expected, &seen, reason, sizeof reason);
         scree_summary_set_number(summary, "inertial_number", seen.value[SCREE_QUASISTATIC_INERTIAL]);
         scree_summary_set_number(summary, "kinetic_over_elastic", seen.value[SCREE_QUASISTATIC_KINETIC]);

@@ -46,7 +46,7 @@ void scree_quasistatic_follow(scree_quasistatic_watch *watch, const scree_simula
 double scree_quasistatic_inertial_now(const scree_simulation *s, double mean_stress);
 
 /// The pressure [Pa] that stage `index` holds, or the last one before it that held one; NAN: none.
-double scree_confining_pressure(const scree_config *config, int64_t index);
+double scree_confining_pressure(const scree_model *model, int64_t index);
 
 /// Time [s] that a wave needs through the longer side of the sample that a case will have under `pressure` [Pa].
 double scree_expected_wave_time(const scree_model *model, double pressure);

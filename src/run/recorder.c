@@ -100,7 +100,7 @@ static bool snapshot_due(const scree_simulation *s)
     if (s->stage_ended) return true;
     if (!s->sampled || !s->stage->loading) return false;
     if (done == 0) return true;
-    uint64_t wanted = (uint64_t)s->model.config->output.snapshots;
+    uint64_t wanted = (uint64_t)s->model.output.snapshots;
     uint64_t before = done > s->plan.interval ? done - s->plan.interval : 0;
     return done * wanted / s->plan.expected != before * wanted / s->plan.expected;
 }
@@ -134,7 +134,7 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
     scree_wall_triangles walls = {0};
     scree_status status = picture_walls(s, &walls, error);
     info.walls = &walls;
-    if (!status && sound && s->model.config->measure.cells && !scree_cell(&s->state)->directions) {
+    if (!status && sound && s->model.measure.cells && !scree_cell(&s->state)->directions) {
         status = scree_cells_measure(model, &s->state, &s->table, &cells, error);
         // A few bodies, or bodies on a line, have no triangulation and so no cells.
         if (!status) info.cells = &cells;
@@ -145,7 +145,7 @@ static scree_status write_snapshot(scree_recorder *recorder, scree_simulation *s
     s->state.stage.snapshots++;
     if (!status && sound) status = scree_contacts_save(&s->state, &s->work, error);
     if (!status) status = scree_snapshot_write(recorder->directory, model, &s->state, &s->table, &info, error);
-    if (!status && s->model.config->output.paraview)
+    if (!status && s->model.output.paraview)
         status = scree_paraview_write(recorder->directory, model, &s->state, &s->table, &info, error);
     scree_cells_destroy(&cells);
     scree_wall_triangles_destroy(&walls);
@@ -167,8 +167,8 @@ static double ticks_left(const scree_simulation *s)
 {
     if (!s->plan.expected) return NAN;
     double left = (double)s->plan.expected - (double)(s->state.step - s->state.stage.first_step);
-    for (int64_t k = s->state.stage.index + 1; k < s->model.config->stage_count; k++) {
-        const scree_config_stage *stage = &s->model.config->stages[k];
+    for (int64_t k = s->state.stage.index + 1; k < s->model.stage_count; k++) {
+        const scree_config_stage *stage = &s->model.stages[k];
         double (*duration)(const void *own) = scree_modules[stage->kind]->stage->duration;
         left += duration ? duration(stage->own) / s->state.tick : NAN;
     }
@@ -207,7 +207,7 @@ static void report_threads(scree_recorder *recorder, const scree_simulation *s, 
 
 static bool checkpoint_due(const scree_recorder *recorder, const scree_simulation *s, double now)
 {
-    const scree_config_output *output = &s->model.config->output;
+    const scree_config_output *output = &s->model.output;
     uint64_t every = (uint64_t)output->checkpoint_steps;
     return (every > 0 && s->state.evaluations - recorder->checkpoint_evaluations >= every) ||
            now - recorder->last_checkpoint > output->checkpoint_interval;

@@ -27,8 +27,8 @@ scree_status scree_restart_case(const char *directory, scree_case **c, scree_err
 static scree_status check_stage(const scree_simulation *s, const scree_state *state, scree_error *error)
 {
     const scree_stage_state *stage = &state->stage;
-    bool left = stage->index < s->model.config->stage_count;
-    if (left && stage->counter >= 0 && scree_modules[s->model.config->stages[stage->index].kind]->numbers->places)
+    bool left = stage->index < s->model.stage_count;
+    if (left && stage->counter >= 0 && scree_modules[s->model.stages[stage->index].kind]->numbers->places)
         return scree_error_set(error, SCREE_ERROR_IO,
                                "dataset 'stage/counter': %lld (accepted: -1 before the preparation)",
                                (long long)stage->counter);
@@ -124,5 +124,5 @@ scree_status scree_restart_rewind(scree_simulation *s, const char *directory, ui
         if (!status) status = newest_checkpoint(directory, &kept.first_checkpoint, error);
         kept.last_checkpoint = kept.first_checkpoint;
     }
-    return status ? status : scree_run_file_rewind(directory, s->model.config->name, &kept, notes, error);
+    return status ? status : scree_run_file_rewind(directory, s->model.name, &kept, notes, error);
 }

@@ -21,7 +21,6 @@
 #include "io/run_directory.h"
 #include "io/summary.h"
 #include "measure/measure.h"
-#include "run/cell_results.h"
 #include "run/conclusion.h"
 #include "run/quasistatic.h"
 #include "run/sample.h"
@@ -157,10 +156,9 @@ double scree_results_stiffness_share(const scree_state *state)
 /// Friction of the last confinement: its own, or that of the material; NAN without one, or with several materials.
 static double confine_friction(const scree_model *model)
 {
-    const scree_config *config = model->config;
-    for (int64_t k = config->stage_count - 1; k >= 0; k--) {
-        if (!scree_modules[config->stages[k].kind]->numbers->settles) continue;
-        if (!isnan(config->stages[k].friction)) return config->stages[k].friction;
+    for (int64_t k = model->stage_count - 1; k >= 0; k--) {
+        if (!scree_modules[model->stages[k].kind]->numbers->settles) continue;
+        if (!isnan(model->stages[k].friction)) return model->stages[k].friction;
         return model->material_count == 1 ? model->pairs[0][0].value[SCREE_FRICTION] : NAN;
     }
     return NAN;
@@ -210,15 +208,14 @@ static void summarise_series(const scree_series *series, scree_summary *summary)
 
 static void summarise_run(const scree_recorder *recorder, scree_simulation *s, scree_summary *summary)
 {
-    const scree_config *config = s->model.config;
     char checksum[32];
     (void)snprintf(checksum, sizeof checksum, "%016" PRIx64, scree_state_checksum(&s->model, &s->state));
     double steps = (double)(s->state.evaluations - recorder->first_evaluations);
-    scree_summary_set_text(summary, "case", config->name);
+    scree_summary_set_text(summary, "case", s->model.name);
     scree_summary_set_text(summary, "status", ""); // its place; scree_results_write sets it
     scree_summary_set_text(summary, "version", scree_version());
     scree_summary_set_text(summary, "commit", scree_commit());
-    scree_summary_set_integer(summary, "seed", config->seed);
+    scree_summary_set_integer(summary, "seed", (int64_t)s->model.seed);
     scree_summary_set_integer(summary, "particles", (int64_t)scree_grain_count(&s->state));
     scree_summary_set_integer(summary, "steps", (int64_t)s->state.step);
     scree_summary_set_integer(summary, "force_evaluations", (int64_t)s->state.evaluations);
@@ -252,7 +249,7 @@ static scree_status summarise_shape(const scree_simulation *s, scree_summary *su
 {
     double value;
     scree_status status = SCREE_OK;
-    if (scree_config_prepared(s->model.config->stages)->outline == SCREE_SAMPLE_BOX) {
+    if (scree_config_prepared(s->model.stages)->outline == SCREE_SAMPLE_BOX) {
         status = scree_corner_distortion(&s->model, &s->state, &value, error);
         if (!status) scree_summary_set_number(summary, "corner_distortion", value);
     } else if (s->state.dimension == 2) {
@@ -266,7 +263,7 @@ static scree_status summarise_shape(const scree_simulation *s, scree_summary *su
 /// that takes samples evenly; -1: none.
 static int64_t loading_stage(const scree_simulation *s, int64_t wanted)
 {
-    const scree_config_stage *stage = s->model.config->stages;
+    const scree_config_stage *stage = s->model.stages;
     for (int64_t k = wanted; k >= 0; k--)
         if (!isnan(scree_model_loading_rate(&stage[k]))) return k;
     int64_t k = wanted;
@@ -277,12 +274,11 @@ static int64_t loading_stage(const scree_simulation *s, int64_t wanted)
 /// What is known of the loading stage until the next one begins.
 static scree_status summarise_stage(const scree_simulation *s, scree_summary *summary, scree_error *error)
 {
-    const scree_config *config = s->model.config;
-    int64_t last = config->stage_count - 1, present = s->state.stage.index < last ? s->state.stage.index : last;
+    int64_t last = s->model.stage_count - 1, present = s->state.stage.index < last ? s->state.stage.index : last;
     if (s->state.count == 0 || loading_stage(s, present) != present) return SCREE_OK;
     summarise_cost(s, summary);
-    bool plates = scree_boundary_has_plates(scree_config_held_by(config, present));
-    bool strained = !isnan(scree_model_loading_rate(&config->stages[present]));
+    bool plates = scree_boundary_has_plates(scree_model_boundary_of(&s->model, present));
+    bool strained = !isnan(scree_model_loading_rate(&s->model.stages[present]));
     bool cornered = strained && !plates && !scree_cell(&s->state)->directions;
     return cornered ? summarise_shape(s, summary, error) : SCREE_OK;
 }
@@ -306,8 +302,6 @@ scree_status scree_results_collect(const scree_recorder *recorder, scree_simulat
         status = summarise_energy(&series, s, *summary, error);
     }
     if (!status) status = summarise_stage(s, *summary, error);
-    if (!status && s->model.config->measure.cells && !scree_cell(&s->state)->directions)
-        status = scree_cell_results_write(recorder->directory, s->model.config, &series, *summary, error);
     const scree_conclusion run = {recorder->directory, s, &series, *summary};
     if (!status) status = scree_conclude(&run, error);
     const char *unknown = status ? NULL : scree_summary_unknown(*summary);

@@ -2,7 +2,7 @@
 /// degrees.
 #include "run/rotation_results.h"
 #include "integrate/forced_spin.h"
-#include "run/stage_rotate.h"
+#include "run/stage_rotate_config.h"
 
 #include "io/run_directory.h"
 #include "measure/measure.h"
@@ -106,7 +106,7 @@ static void set_interval(scree_summary *summary, const char *name, double value,
 
 static const scree_rotate_config *last_stage(const scree_simulation *s)
 {
-    return s->model.config->stages[s->model.config->stage_count - 1].own;
+    return s->model.stages[s->model.stage_count - 1].own;
 }
 
 /// Rotation of the boundary about the axis of the forced particle in the whole stage, over that of the particle.
@@ -157,7 +157,7 @@ scree_status scree_rotation_conclude(const scree_conclusion *run, scree_error *e
     scree_simulation *s = run->s;
     const scree_state *state = &s->state;
     // Before the end of the stage the angles are not those of the hold.
-    if (!scree_forced(state)->active || state->stage.index < s->model.config->stage_count) return SCREE_OK;
+    if (!scree_forced(state)->active || state->stage.index < s->model.stage_count) return SCREE_OK;
     findings f = {.forced = state->row_of_id[scree_forced(state)->id]};
     double cutoff = last_stage(s)->cutoff;
     scree_status status = scree_contact_table_build(&s->stage_model, state, &s->work, &s->table, error);

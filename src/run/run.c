@@ -33,7 +33,7 @@ static scree_status imposed(scree_recorder *recorder, scree_simulation *s, scree
     double begin = scree_clock();
     scree_status status = SCREE_OK;
     const volatile int *stop = recorder->options->stop;
-    while (!status && s->state.stage.index < s->model.config->stage_count) {
+    while (!status && s->state.stage.index < s->model.stage_count) {
         if (stop && *stop) {
             status = scree_recorder_checkpoint(recorder, s, error);
             if (!status)
@@ -99,7 +99,7 @@ static scree_status draw_figures(scree_recorder *recorder, const scree_simulatio
     scree_error problem;
     scree_status status = SCREE_OK;
     const volatile int *stop = recorder->options->stop;
-    if (!recorder->options->figures || !s->model.config->output.figures) return SCREE_OK;
+    if (!recorder->options->figures || !s->model.output.figures) return SCREE_OK;
     if (!stop || !*stop) status = scree_plot_draw(recorder->directory, NULL, NULL, &problem);
     if (stop && *stop)
         return scree_error_set(error, SCREE_INTERRUPTED,
@@ -168,9 +168,8 @@ static scree_status record(scree_simulation *s, const scree_run_options *options
     scree_status status = scree_recorder_open(&recorder, s, options, options->output, restarted, error);
     recorder.case_checksum = checksum;
     if (!status) {
-        scree_log_write(&recorder.log, SCREE_LOG_INFO, "%s; case %s, %d thread%s%s", scree_version(),
-                        s->model.config->name, s->work.threads, s->work.threads == 1 ? "" : "s",
-                        restarted ? ", restarted" : "");
+        scree_log_write(&recorder.log, SCREE_LOG_INFO, "%s; case %s, %d thread%s%s", scree_version(), s->model.name,
+                        s->work.threads, s->work.threads == 1 ? "" : "s", restarted ? ", restarted" : "");
         scree_notes_visit(notes, log_note, &recorder.log);
         if (lock->unsupported)
             scree_log_write(&recorder.log, SCREE_LOG_WARNING,

@@ -90,13 +90,13 @@ static scree_status change_boundary(scree_simulation *s, scree_error *error)
 scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *error)
 {
     scree_stage_state *stage = &s->state.stage;
-    if (stage->index >= s->model.config->stage_count) {
+    if (stage->index >= s->model.stage_count) {
         s->stage = NULL;
         return SCREE_OK;
     }
     const scree_config_stage *config = scree_stage_config(s);
     s->stage = scree_modules[config->kind]->stage;
-    s->boundary = scree_config_held_by(s->model.config, stage->index);
+    s->boundary = scree_model_boundary_of(&s->model, stage->index);
     s->stage_model = scree_model_with_friction(&s->model, config->friction);
     if (!restart || stage->counter == SCREE_STAGE_NOT_BEGUN) {
         stage->first_time = scree_state_time(&s->state);

@@ -12,7 +12,7 @@
 
 const scree_config_stage *scree_stage_config(const scree_simulation *s)
 {
-    return &s->model.config->stages[s->state.stage.index];
+    return &s->model.stages[s->state.stage.index];
 }
 
 double scree_stage_elapsed(const scree_simulation *s)

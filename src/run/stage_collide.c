@@ -123,7 +123,7 @@ static void plan(scree_simulation *s)
 {
     uint64_t largest = s->model.largest_step;
     uint64_t expected = scree_stage_ticks(s, own_state(s)->duration);
-    uint64_t interval = expected / largest / (uint64_t)s->model.config->measure.samples * largest;
+    uint64_t interval = expected / largest / (uint64_t)s->model.measure.samples * largest;
     s->plan = (scree_stage_plan){.interval = interval > 0 ? interval : largest, .expected = expected};
 }
 
@@ -159,10 +159,10 @@ static scree_status conclude(const scree_conclusion *run, scree_error *error)
 {
     const scree_simulation *s = run->s;
     scree_summary *summary = run->summary;
-    const scree_config *whole = s->model.config;
+    const scree_model *model = &s->model;
     const collision *own = own_state(s);
-    if (s->state.stage.index < whole->stage_count || !has_parted(&s->state) ||
-        whole->stages[whole->stage_count - 1].kind != SCREE_SLOT_collide)
+    if (s->state.stage.index < model->stage_count || !has_parted(&s->state) ||
+        model->stages[model->stage_count - 1].kind != SCREE_SLOT_collide)
         return SCREE_OK;
     double half = 0.5 * (double)s->model.largest_step * s->state.tick;
     scree_impact impact;

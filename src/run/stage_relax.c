@@ -50,7 +50,7 @@ static scree_status check_room(const scree_simulation *s, scree_error *error)
             scree_body_position(state, row, place);
             double radius = scree_body_bounding_radius(state, row);
             double clearance = scree_surface_clearance(wall_set, k, place, radius);
-            if (clearance >= radius * (1 - s->model.config->guard.overlap)) continue;
+            if (clearance >= radius * (1 - s->model.overlap_limit)) continue;
             return scree_error_set(error, SCREE_ERROR_INPUT,
                                    "particle %u at (%.4g, %.4g, %.4g) m, radius %.4g m, is %s wall '%s': its centre "
                                    "is %.4g m from it; move the wall, or change the box of the prepare stage (it "
@@ -76,7 +76,7 @@ static scree_status begin(scree_simulation *s, scree_error *error)
 static void plan(scree_simulation *s)
 {
     uint64_t expected = scree_stage_ticks(s, own_config(s)->duration), largest = s->model.largest_step;
-    uint64_t interval = expected / largest / (uint64_t)s->model.config->measure.samples * largest;
+    uint64_t interval = expected / largest / (uint64_t)s->model.measure.samples * largest;
     s->plan = (scree_stage_plan){.interval = interval > 0 ? interval : largest, .expected = expected};
 }
 

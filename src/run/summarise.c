@@ -11,7 +11,7 @@
 static double first_inertial_number(const scree_model *model)
 {
     double number = NAN;
-    for (int64_t k = 0; k < model->config->stage_count && isnan(number); k++)
+    for (int64_t k = 0; k < model->stage_count && isnan(number); k++)
         number = scree_quasistatic_expect(model, k).value[SCREE_QUASISTATIC_INERTIAL];
     return number;
 }

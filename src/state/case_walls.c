@@ -30,8 +30,8 @@ static uint64_t checksum(const scree_model *model, const scree_state *state, uin
 {
     const scree_case_wall_set *walls = scree_case_walls(state);
     double time = (double)walls->ticks * state->tick;
-    for (int64_t w = 0; w < model->config->wall_count; w++) {
-        const scree_config_wall *wall = &model->config->walls[w];
+    for (int64_t w = 0; w < model->wall_count; w++) {
+        const scree_config_wall *wall = &model->walls_of_case[w];
         for (int k = 0; k < 3; k++) {
             c = scree_checksum_number(c, wall->centre[k] + wall->velocity[k] * time);
             c = scree_checksum_number(c, wall->spin[k] * time);

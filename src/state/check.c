@@ -21,7 +21,7 @@ static double most_of(const scree_field_range *range, const scree_state *state, 
     case SCREE_LIMIT_IDS:
         return SCREE_PRIMITIVE_ID;
     case SCREE_LIMIT_LAST_MATERIAL:
-        return fmax(model->material_count - 1, model->membrane ? model->membrane_material : 0);
+        return model->material_count + model->added_materials - 1;
     case SCREE_LIMIT_LARGEST_RADIUS:
         return scree_model_largest_radius(model) * (1 + 1e-9); // round-off of a packing that has grown
     case SCREE_LIMIT_FARTHEST:
@@ -31,7 +31,7 @@ static double most_of(const scree_field_range *range, const scree_state *state, 
     case SCREE_LIMIT_EVALUATIONS:
         return (double)state->evaluations;
     case SCREE_LIMIT_STAGES:
-        return (double)model->config->stage_count;
+        return (double)model->stage_count;
     case SCREE_LIMIT_MANY:
         return 0x1p53;
     case SCREE_LIMIT_NUMBER:
@@ -164,7 +164,7 @@ static scree_status check_contacts(const scree_state *state, const scree_model *
         bool plate = c->second >= SCREE_WALL_ID, element = !plate && c->second >= SCREE_PRIMITIVE_ID;
         if (plate && c->second >= SCREE_WALL_ID + SCREE_WALL_COUNT)
             return refuse_contact(state, k, "is no plate", error);
-        if (element && model->config->wall_count == 0)
+        if (element && model->wall_count == 0)
             return refuse_contact(state, k, "is of a wall that the case does not have", error);
         bool gone = scree_state_row_of(state, c->second) == SCREE_NO_ROW;
         if (!plate && !element && (gone || c->second < c->first))

@@ -49,6 +49,9 @@ for name in "${modules[@]}"; do
         case $file in "${owner[0]%.c}"*) ;; *) complain "$file knows the module $name of ${owner[0]}" ;; esac
     done < <(grep -rlE "(SCREE_SLOT_|scree_module_)$name\b" src)
 done
+# What the user said is read by what resolves the model, where a module takes its own keys for that; by nobody below.
+while IFS= read -r hit; do complain "$hit: only the model reads the config" ; done \
+    < <(grep -rnE 'model(\.|->)config' src --include='*.[ch]' | grep -vE '^src/model/|scree_config_own\(&scree_module_')
 while IFS= read -r hit; do complain "$hit: the library never exits, aborts or prints"; done \
     < <(grep -nHE '(^|[^a-z_>.])(exit|abort|printf|puts|perror)\(' $(find src -name '*.[ch]' ! -path 'src/cli/*') | grep -vE '///|// ')
 while read -r lines file; do [ "$lines" -gt 600 ] && complain "$file has $lines lines"; done < <(wc -l $(find src include -name '*.[ch]') | grep -v total)

@@ -27,7 +27,6 @@
 #define QUANTUM   0x1p-50
 
 typedef struct bench {
-    scree_config config;
     scree_model model;
     scree_state state;
     scree_work work;
@@ -42,10 +41,6 @@ static inline double uniform(uint64_t counter)
 static inline void bench_begin(bench *b, int dimension, size_t count, double step)
 {
     memset(b, 0, sizeof *b);
-    b->config.boundary.every = 250;
-    b->config.boundary.gap_limit = 0.5;
-    b->config.boundary.servo_gain = 1;
-    b->config.guard.overlap = 0.2;
     b->model = (scree_model){.dimension = dimension,
                              .thickness = dimension == 3 ? 1 : THICKNESS,
                              .law = {.law = SCREE_SLOT_hertz_mindlin},
@@ -56,7 +51,9 @@ static inline void bench_begin(bench *b, int dimension, size_t count, double ste
                              .radius_max = RADIUS,
                              .material_count = 1,
                              .density = {2.675e8, 2.675e8},
-                             .config = &b->config};
+                             .upkeep = {.every = 250, .gap_limit = 0.5},
+                             .servo = {.gain = 1},
+                             .overlap_limit = 0.2};
     for (int k = 0; k < 4; k++) b->model.pairs[k / 2][k % 2] = hertz_pair(2e10, 2e10, k == 0 ? 0.45 : 0, 1);
     b->model.walls[0] = b->model.pairs[0][0];
     b->model.walls[1] = b->model.pairs[1][1];
@@ -99,10 +96,10 @@ static inline void bench_fill(bench *b, size_t side, bool plates)
 /// Foresees a membrane of bodies of this radius, which has taken the pressure over.
 static inline void bench_predict_membrane(bench *b, double radius)
 {
-    b->model.membrane = true;
-    b->model.membrane_material = 1;
-    b->model.membrane_radius = radius;
-    b->model.membrane_stiffness = STIFFNESS;
+    *(scree_membrane_numbers *)scree_model_reserve_numbers(&b->model, SCREE_SLOT_membrane) =
+        (scree_membrane_numbers){.material = 1, .radius = radius, .stiffness = STIFFNESS};
+    b->model.added_materials = 1;
+    b->model.added_radius = radius;
     scree_delaunay_boundary_of(&b->state)->taken_over = 1;
 }
 

@@ -14,7 +14,6 @@
 #include <string.h>
 
 typedef struct fixture {
-    scree_config config;
     scree_model model;
     scree_state state;
     scree_work work;
@@ -78,8 +77,7 @@ static inline void fixture_create_in(fixture *f, int dimension, law_choice law, 
     memset(f, 0, sizeof *f);
     f->model = fixture_model(law);
     f->model.dimension = dimension;
-    f->config.guard.overlap = 0.5;
-    f->model.config = &f->config;
+    f->model.overlap_limit = 0.5;
     assert_int_equal(scree_state_create(&f->state, dimension, count, &error), SCREE_OK);
     f->state.tick = f->state.step_size = f->state.kick_size = step;
     if (scree_model_predicts(&f->model)) assert_int_equal(scree_state_predict(&f->state, &error), SCREE_OK);

@@ -19,7 +19,6 @@
 #include <string.h>
 
 typedef struct periodic_sample {
-    scree_config config;
     scree_model model;
     scree_state state;
     scree_work work;
@@ -41,10 +40,8 @@ static inline void periodic_create(periodic_sample *s, int dimension, size_t cou
                              .radius_max = 1.2e-3,
                              .material_count = 1,
                              .density = {2650},
-                             .config = &s->config};
-    s->config.guard.overlap = 0.5;
-    s->config.boundary.servo_gain = 1;
-    s->config.boundary.servo_velocity = NAN;
+                             .servo = {.gain = 1, .velocity = INFINITY, .travel = 0.8e-5},
+                             .overlap_limit = 0.5};
     s->model.pairs[0][0] = s->model.walls[0] = hertz_pair(4e9, 5e9, 0.5, 0.3);
     law_choose(&s->model, law);
     check(scree_state_create(&s->state, dimension, count, &error), &error);

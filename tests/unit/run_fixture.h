@@ -58,13 +58,13 @@ static inline void simulation_step(scree_simulation *s)
 /// Whether a stage is left.
 static inline bool simulation_goes_on(const scree_simulation *s)
 {
-    return s->state.stage.index < s->model.config->stage_count;
+    return s->state.stage.index < s->model.stage_count;
 }
 
 /// Steps into the last stage; 0 before it has begun, too.
 static inline uint64_t simulation_last_steps(const scree_simulation *s)
 {
-    bool last = s->state.stage.index + 1 == s->model.config->stage_count && s->state.stage.counter >= 0;
+    bool last = s->state.stage.index + 1 == s->model.stage_count && s->state.stage.counter >= 0;
     return last ? s->state.step - s->state.stage.first_step : 0;
 }
 

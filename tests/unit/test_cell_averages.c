@@ -138,7 +138,7 @@ static void circles_are_summed_up(void **unused)
     scree_cell_snapshot s;
     scree_summary *summary;
     make_snapshot(&s, 2, 6, 0);
-    scree_cell_averages_begin(&averages, &config, NULL);
+    scree_cell_averages_begin(&averages, &config.measure, NULL);
     const double strains[] = {0.06, 0.07, 0.08, 0.09};
     for (int k = 0; k < 4; k++) {
         s.axial_strain = strains[k];
@@ -154,7 +154,7 @@ static void circles_are_summed_up(void **unused)
     double other[SCREE_CIRCLES * SIZES];
     memcpy(other, ratio, sizeof other);
     other[2 * SIZES + 4] = 1;
-    scree_cell_averages_begin(&averages, &config, NULL);
+    scree_cell_averages_begin(&averages, &config.measure, NULL);
     scree_cell_averages_add(&averages, &s, other, SIZES); // out of the window
     assert_true(averages.instants == 0);
     s.axial_strain = 0.08;
@@ -195,7 +195,7 @@ static void cells_are_compared_with_the_sample(void **unused)
             columns[5][k] = dimension == 3 ? 1.5 : 1;
         }
         const scree_series series = make_series();
-        scree_cell_averages_begin(&averages, &config, &series);
+        scree_cell_averages_begin(&averages, &config.measure, &series);
         const double ratio[SCREE_CIRCLES] = {1, 1, 1};
         scree_cell_averages_add(&averages, &first, ratio, 1);
         assert_int_equal(scree_cell_averages_strain(&averages, &first, &second, NULL), SCREE_OK);

@@ -15,7 +15,6 @@
 #include <string.h>
 
 typedef struct sample {
-    scree_config config;
     scree_config_wall wall;
     scree_model model;
     scree_state state;
@@ -25,8 +24,7 @@ typedef struct sample {
 static void create(sample *s, int dimension)
 {
     memset(s, 0, sizeof *s);
-    s->config.walls = &s->wall;
-    s->model.config = &s->config;
+    s->model.walls_of_case = &s->wall;
     s->model.dimension = dimension;
     s->model.law.law = SCREE_SLOT_hertz_mindlin;
     s->model.material_count = 2;
@@ -80,7 +78,7 @@ static void create(sample *s, int dimension)
 static void create_full(sample *s, int dimension)
 {
     create(s, dimension);
-    s->config.wall_count = 1;
+    s->model.wall_count = 1;
     s->wall = (scree_config_wall){.velocity = {1, 2, 3}, .spin = {0, 4, 0}, .centre = {0.5, 0.25, 0}};
     scree_case_walls(&s->state)->ticks = 6;
     scree_case_walls(&s->state)->moving = 1;

@@ -64,8 +64,8 @@ static scree_case *read_case(const stage_case *from)
 static void check_stage(const scree_simulation *s, int64_t index, double expected)
 {
     double taken = (double)(s->state.evaluations - s->state.stage.first_evaluations);
-    double factor = s->model.config->stages[index].kind == SCREE_SLOT_confine ? 2.5 : 1.1;
-    print_message("%s: %.0f steps, expected %.0f\n", s->model.config->stages[index].name, taken, expected);
+    double factor = s->model.stages[index].kind == SCREE_SLOT_confine ? 2.5 : 1.1;
+    print_message("%s: %.0f steps, expected %.0f\n", s->model.stages[index].name, taken, expected);
     assert_true(expected > taken / factor && expected < taken * factor);
 }
 

@@ -200,7 +200,7 @@ static void work_is_the_kinetic_energy(void **user)
         scree_state *state = &b.state;
         scree_work work = {.threads = 1};
         b.model.scheme = scheme;
-        b.config.boundary.every = 7; // the hull changes meanwhile
+        b.model.upkeep.every = 7; // the hull changes meanwhile
         const scree_integrator *integrator = scree_integrator_get(b.model.scheme);
         scree_contact_table empty = {0};
         scree_energy energy;

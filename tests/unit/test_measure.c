@@ -25,7 +25,6 @@ static bool near(double value, double expected, double fraction, double scale)
 }
 
 typedef struct bench {
-    scree_config config;
     scree_model model;
     scree_state state;
     scree_contact contact[256];
@@ -35,8 +34,7 @@ typedef struct bench {
 static void bench_create(bench *b, size_t count)
 {
     memset(b, 0, sizeof *b);
-    b->config.boundary = (scree_config_boundary){.every = 250, .gap_limit = 0.5};
-    b->model = (scree_model){.config = &b->config,
+    b->model = (scree_model){.upkeep = {.every = 250, .gap_limit = 0.5},
                              .law = {.law = SCREE_SLOT_hertz_mindlin},
                              .scheme = SCREE_SLOT_position_verlet,
                              .thickness = THICKNESS,
@@ -474,7 +472,7 @@ static void solid_fraction_of_lattices(void **user)
     assert_true(near(solid_fraction(&b.state), M_PI / 4, 1e-14, 1));
     scree_state_destroy(&b.state);
     bench_create(&b, 30);
-    b.config.boundary.gap_limit = 2; // straight sides would do as well: partial discs only at the vertices
+    b.model.upkeep.gap_limit = 2; // straight sides would do as well: partial discs only at the vertices
     for (size_t i = 0; i < 30; i++) place(&b, i, 2.0 * (double)(i % 5) + (double)(i / 5), sqrt(3.0) * (double)(i / 5));
     assert_int_equal(scree_boundary_refresh(&b.model, &b.state, NULL), SCREE_OK);
     assert_true(near(solid_fraction(&b.state), M_PI / sqrt(12.0), 1e-14, 1));

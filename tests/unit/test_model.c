@@ -53,7 +53,9 @@ static void test_walls_have_materials(void **unused)
     char rigid[] = "rigid", steel[] = "steel", unknown[] = "stel";
     biaxial_config_set(&c, 983);
     c.config.contact.law = SCREE_SLOT_hertz_mindlin;
-    scree_config_wall walls[3] = {{.material = steel}, {.material = rigid}, {.material = NULL}};
+    scree_config_wall walls[3] = {{.material = steel, .friction = NAN},
+                                  {.material = rigid, .friction = NAN},
+                                  {.material = NULL, .friction = 0.07}};
     c.config.walls = walls;
     c.config.wall_count = 3;
     c.config.materials[0].wall_material = rigid;
@@ -64,6 +66,9 @@ static void test_walls_have_materials(void **unused)
     assert_close(plate->value[HERTZ_TANGENTIAL], 8 * shear / 1.7);
     assert_true(plate->value[HERTZ_DAMPING] == like->value[HERTZ_DAMPING] && plate->value[SCREE_FRICTION] == 0.45);
     assert_memory_equal(plate, &model.surfaces[1][0], sizeof *plate);
+    // A wall's own friction holds, and the rest is that of plates.
+    assert_true(model.surfaces[2][0].value[SCREE_FRICTION] == 0.07 &&
+                model.surfaces[2][0].value[HERTZ_NORMAL] == plate->value[HERTZ_NORMAL]);
     assert_true(on_steel->value[HERTZ_NORMAL] == model.pairs[0][1].value[HERTZ_NORMAL] &&
                 on_steel->value[SCREE_FRICTION] == 0.3);
     // What is said of the friction on plates holds on walls of any material.
@@ -72,7 +77,8 @@ static void test_walls_have_materials(void **unused)
     assert_true(plate->value[SCREE_FRICTION] == 0.2 && on_steel->value[SCREE_FRICTION] == 0.2);
     scree_model slippery = scree_model_with_friction(&model, 0.01);
     assert_true(slippery.walls[0].value[SCREE_FRICTION] == 0.01 &&
-                slippery.surfaces[0][0].value[SCREE_FRICTION] == 0.01);
+                slippery.surfaces[0][0].value[SCREE_FRICTION] == 0.01 &&
+                slippery.surfaces[2][0].value[SCREE_FRICTION] == 0.01);
     walls[0].material = unknown;
     assert_int_equal(scree_model_build(&c.config, &model, &error), SCREE_ERROR_INPUT);
     assert_string_equal(error.field, "walls.0.material");
@@ -430,17 +436,17 @@ static void test_membrane(void **unused)
     scree_membrane_config *membrane = OWN(&of_boundary, scree_membrane_config, membrane, "boundary");
     *membrane = (scree_membrane_config){.membrane_radius = NAN, .membrane_stiffness = 1e4};
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
-    assert_close(model.membrane_radius, 1.25 * 0.75e-3);
-    assert_close(model.membrane_stiffness, 1e4);
+    assert_close(scree_membrane_numbers_of(&model)->radius, 1.25 * 0.75e-3);
+    assert_close(scree_membrane_numbers_of(&model)->stiffness, 1e4);
     c.config.dimension = 3;
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
     // A triangular net of springs k is a sheet of 2 k / sqrt(3).
-    assert_close(model.membrane_radius, 0.75 * 0.75e-3);
-    assert_close(2 / sqrt(3) * model.membrane_stiffness, 1e4);
+    assert_close(scree_membrane_numbers_of(&model)->radius, 0.75 * 0.75e-3);
+    assert_close(2 / sqrt(3) * scree_membrane_numbers_of(&model)->stiffness, 1e4);
     // Not smaller than every grain.
     biaxial_sizes(&c, SCREE_SLOT_uniform, 0.9e-3, 1e-3);
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
-    assert_close(model.membrane_radius, 0.9e-3);
+    assert_close(scree_membrane_numbers_of(&model)->radius, 0.9e-3);
     biaxial_sizes(&c, SCREE_SLOT_uniform, 0.5e-3, 1e-3);
     // A quarter of the radius of spheres that touch each other and a plate passes between them.
     membrane->membrane_radius = 1.99e-3;

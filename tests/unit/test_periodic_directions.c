@@ -35,6 +35,13 @@ static const char *const texts[] = {
     "particles: {shape: sphere, material: glass, count: 90, radius_min: 0.7 mm, radius_max: 1 mm}\n" STAGES("25 %"),
 };
 
+/// A cell of all directions: relax needs something that stands.
+static const char grown_text[] =
+    HEAD "particles: {shape: disc, material: glass, count: 60, radius_min: 0.5 mm, radius_max: 1 mm}\n"
+         "stages:\n"
+         "  - {stage: prepare, method: gas, aspect_ratio: 1, solid_fraction: 45 %}\n"
+         "  - {stage: confine, pressure: 1 kPa}\n";
+
 typedef struct combination {
     int dimension;
     const char *periodic, *boundary;
@@ -265,6 +272,45 @@ static void a_dilute_gas_keeps_its_energy(void **unused)
     }
 }
 
+/// Grown samples have no overlaps, across faces neither, and their bodies lie in the cell.
+static void samples_grow(void **unused)
+{
+    (void)unused;
+    static const combination kinds[] = {{2, "y", "plates"}, {2, "xy", "periodic"}, {3, "xz", "plates"}};
+    for (int kind = 0; kind < 3; kind++) {
+        const combination *of = &kinds[kind];
+        char periodic[64];
+        const char *overrides[] = {periodic, "stages.prepare.method=growth",
+                                   of->dimension == 2 ? "stages.prepare.solid_fraction=78 %"
+                                                      : "stages.prepare.solid_fraction=54 %"};
+        (void)snprintf(periodic, sizeof periodic, "boundary.periodic=%s", of->periodic);
+        scree_case *c =
+            case_read(strcmp(of->periodic, "xy") == 0 ? grown_text : texts[of->dimension - 2], overrides, 3);
+        scree_simulation s;
+        simulation_open(c, 1, &s);
+        simulation_step(&s);
+        double side[3];
+        sides_of(&s.state, side);
+        for (size_t i = 0; i < s.state.count; i++)
+            for (size_t j = 0; j <= i; j++) {
+                scree_vector a, b, away;
+                scree_body_position(&s.state, i, a);
+                scree_body_position(&s.state, j, b);
+                scree_subtract(a, b, away);
+                double reach = s.state.row[i].radius + s.state.row[j].radius;
+                for (int k = 0; k < of->dimension; k++) {
+                    bool repeats = scree_periodic_repeats(scree_cell(&s.state), k);
+                    double margin = repeats ? 0 : s.state.row[i].radius * (1 - 1e-12);
+                    assert_true(a[k] >= margin && a[k] <= side[k] - margin);
+                    if (repeats) away[k] -= side[k] * rint(away[k] / side[k]);
+                }
+                assert_true(i == j || scree_length(away) >= reach * (1 - 1e-12));
+            }
+        scree_simulation_close(&s);
+        scree_case_free(c);
+    }
+}
+
 static void refuse(const char *text, const char *const overrides[], size_t count, const char *key, const char *message)
 {
     scree_case *c = NULL;
@@ -324,8 +370,11 @@ static void what_cannot_be_is_refused(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(faces_may_lie_anywhere),      cmocka_unit_test(threads_and_lost_work_do_not_show),
-        cmocka_unit_test(restart_gives_the_same_bits), cmocka_unit_test(a_dilute_gas_keeps_its_energy),
+        cmocka_unit_test(faces_may_lie_anywhere),
+        cmocka_unit_test(threads_and_lost_work_do_not_show),
+        cmocka_unit_test(restart_gives_the_same_bits),
+        cmocka_unit_test(a_dilute_gas_keeps_its_energy),
+        cmocka_unit_test(samples_grow),
         cmocka_unit_test(what_cannot_be_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -66,7 +66,7 @@ static uint64_t run_some(const scree_case *c, int threads, uint64_t evaluations,
     while (simulation_goes_on(&s) && s.state.evaluations < last) {
         simulation_step(&s);
         *residual = simulation_residual(&s, *residual);
-        if (last == UINT64_MAX && s.state.stage.index + 1 == s.model.config->stage_count)
+        if (last == UINT64_MAX && s.state.stage.index + 1 == s.model.stage_count)
             last = s.state.evaluations + evaluations;
         if (discard == 0 || s.state.evaluations % discard != 0 || s.state.evaluations == 0) continue;
         simulation_lose_work(&s, threads);
@@ -205,7 +205,6 @@ static void what_cannot_be_is_refused(void **unused)
     refuse("stages.deform.velocity_gradient={xy: 1 1/s, xz: 1 1/s}", "there is no z in two dimensions");
     refuse("stages.deform.velocity_gradient={xx: 1 1/s}", "the same component has a rate");
     refuse("gravity=[0, -9.81 m/s2]", "gravity has nothing to fall on");
-    refuse("stages.prepare.method=growth", "this method needs walls");
     refuse("stages.prepare.outline=circle", "a round sample cannot repeat itself");
     // 12 discs of 0.5 to 1 mm, 23 mm2 at 0.76: 4.5 mm wide at an aspect ratio of 1.5, less than 4 mm at 2.
     accept("particles.count=12", true);

@@ -219,7 +219,7 @@ static void every_figure_of_a_run_is_drawn(void **state)
     make_series("run", COLUMNS, 220);
     make_snapshots("run", SNAPSHOTS);
     assert_int_equal(scree_summary_create(&summary, NULL), SCREE_OK);
-    assert_int_equal(scree_cell_results_write("run", &config, NULL, summary, NULL), SCREE_OK);
+    assert_int_equal(scree_cell_results_write("run", &config.measure, NULL, summary, NULL), SCREE_OK);
     scree_summary_destroy(summary);
     scree_status status = plot("run", &r, &error);
     if (status) fail_msg("%s\n%s", error.message, r.text);

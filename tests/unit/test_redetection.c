@@ -136,9 +136,9 @@ static void check_ledger(int dimension)
     const double move = 0.04;
     bench b;
     bench_begin(&b, dimension, dimension == 3 ? 216 : 144, 1e-5);
-    b.config.boundary.every = 1;
-    b.config.boundary.gap_hysteresis = 0.2;
-    b.config.boundary.gap_limit = 0.3;
+    b.model.upkeep.every = 1;
+    b.model.upkeep.hysteresis = 0.2;
+    b.model.upkeep.gap_limit = 0.3;
     bench_fill(&b, dimension == 3 ? 6 : 12, false);
     scree_state *state = &b.state;
     assert_int_equal(scree_boundary_refresh(&b.model, state, NULL), SCREE_OK);

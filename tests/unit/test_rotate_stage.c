@@ -4,7 +4,7 @@
 
 #include "io_scratch.h"
 #include "measure/rotation.h"
-#include "run/stage_rotate.h"
+#include "run/stage_rotate_config.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -63,7 +63,7 @@ static scree_status parse(const char *text, const char *const *overrides, size_t
 static void open_at_stage(const scree_case *c, int threads, scree_simulation *s)
 {
     simulation_open(c, threads, s);
-    while (s->state.stage.index + 1 < s->model.config->stage_count || s->state.stage.counter < 0) simulation_step(s);
+    while (s->state.stage.index + 1 < s->model.stage_count || s->state.stage.counter < 0) simulation_step(s);
 }
 
 static double spin_of(const scree_simulation *s, size_t id, int axis)

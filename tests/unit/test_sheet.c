@@ -183,7 +183,7 @@ static void pressure_is_the_derivative_of_the_volume(void **unused)
     tube_create(&b, 12, 6, 2 * SHEET);
     scree_state *state = &b.state;
     size_t count = scree_membrane_of(state)->count, around = 12;
-    b.model.membrane_stiffness = 0;
+    ((scree_membrane_numbers *)scree_model_reserve_numbers(&b.model, SCREE_SLOT_membrane))->stiffness = 0;
     // A regular tube, by the rule of prismatoids: sections are 12-gons at the rings, 24-gons half way.
     double radius = hypot(member(&b, 0)->x, member(&b, 0)->y), rise = member(&b, around)->z - SHEET;
     double section = 6 * radius * radius * sin(M_PI / 6);
@@ -251,7 +251,7 @@ static void the_sheet_has_its_stiffness(void **unused)
     for (int n = 0; n < 3; n++) {
         bench b;
         tube_create(&b, AROUND, RINGS, 2 * SHEET);
-        double sheet = 2 / sqrt(3) * b.model.membrane_stiffness;
+        double sheet = 2 / sqrt(3) * scree_membrane_numbers_of(&b.model)->stiffness;
         double radius = hypot(member(&b, 0)->x, member(&b, 0)->y);
         double length = member(&b, scree_membrane_of(&b.state)->count - 1)->z - member(&b, 0)->z;
         assert_true(scree_membrane_energy(&b.model, &b.state) < 1e-18);

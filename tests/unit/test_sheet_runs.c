@@ -165,7 +165,7 @@ static void stress_with_membrane(scree_simulation *s, double stress[9], double i
             for (int i = 0; i < 3; i++) edge[i] -= from[i];
             double length = scree_length(edge), stretch = fmax(0, length - membrane->rest[k][n]);
             bool rim = n == 0 && scree_membrane_plate(state, k) >= 0;
-            double tension = (rim ? 0.5 : 1) * s->stage_model.membrane_stiffness * stretch;
+            double tension = (rim ? 0.5 : 1) * scree_membrane_numbers_of(&s->stage_model)->stiffness * stretch;
             add_product(stress, edge, edge, tension / length / volume);
         }
     for (size_t row = 0; row < state->count; row++) {

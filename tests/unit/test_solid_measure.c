@@ -21,7 +21,6 @@ static double uniform(uint64_t counter)
 }
 
 typedef struct bench {
-    scree_config config;
     scree_model model;
     scree_state state;
     scree_contact contact[2000];
@@ -33,9 +32,7 @@ static bench *bench_create(void)
 {
     bench *b;
     assert_int_equal(scree_allocate(&b, 1, sizeof *b, NULL), SCREE_OK);
-    b->config.boundary.every = 250;
-    b->config.boundary.gap_limit = 0.5;
-    b->model.config = &b->config;
+    b->model.upkeep = (scree_upkeep){.every = 250, .gap_limit = 0.5};
     b->model.dimension = 3;
     b->model.thickness = 1;
     b->model.mean_radius = RADIUS;

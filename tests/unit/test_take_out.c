@@ -138,7 +138,7 @@ static scree_simulation begin(const scree_case *c)
 {
     scree_simulation s;
     simulation_open(c, 1, &s);
-    while (s.state.stage.index + 1 < s.model.config->stage_count || s.state.stage.counter < 0) simulation_step(&s);
+    while (s.state.stage.index + 1 < s.model.stage_count || s.state.stage.counter < 0) simulation_step(&s);
     for (int k = 0; k < 50; k++) simulation_step(&s);
     return s;
 }

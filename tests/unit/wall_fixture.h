@@ -45,12 +45,13 @@ static inline void world_start(world *w, int dimension, law_choice law, int sche
     scree_error error = {0};
     w->config.walls = w->wall;
     w->config.dimension = dimension;
-    w->config.guard.overlap = 0.2;
     w->f.model = fixture_model(law);
     w->f.model.dimension = dimension;
     w->f.model.scheme = scheme;
     w->f.model.largest_step = w->f.model.large_multiple = 1;
-    w->f.model.config = &w->config;
+    w->f.model.overlap_limit = 0.2;
+    w->f.model.walls_of_case = w->wall;
+    w->f.model.wall_count = w->config.wall_count;
     assert_int_equal(scree_state_create(&w->f.state, dimension, count, &error), SCREE_OK);
     if (scree_model_predicts(&w->f.model)) check(scree_state_predict(&w->f.state, &error), &error);
     w->f.state.tick = w->f.state.step_size = w->f.state.kick_size = step;
@@ -67,11 +68,23 @@ static inline void world_close(world *w)
     *w = (world){0};
 }
 
+/// Constants on the walls, as a model resolves them; a test gives those of walls with a material.
+static inline void world_resolve(world *w)
+{
+    scree_model *model = &w->f.model;
+    for (int k = 0; k < w->config.wall_count; k++)
+        for (int m = 0; m < SCREE_MAX_MATERIALS && !w->wall[k].material; m++) {
+            model->surfaces[k][m] = model->walls[m];
+            if (!isnan(w->wall[k].friction)) model->surfaces[k][m].value[SCREE_FRICTION] = w->wall[k].friction;
+        }
+}
+
 /// Forces at the present positions.
 static inline void world_forces(world *w)
 {
     scree_error error;
     fixture *f = &w->f;
+    world_resolve(w);
     assert_int_equal(scree_neighbours_refresh(&f->model, &f->state, &f->work, &error), SCREE_OK);
     scree_contact_set_quanta(&f->model, &f->state, 0);
     scree_contact_forces(&f->model, &f->state, &f->work);

@@ -1,6 +1,6 @@
 /// What a case says of a forced rotation.
-#ifndef SCREE_RUN_STAGE_ROTATE_H
-#define SCREE_RUN_STAGE_ROTATE_H
+#ifndef SCREE_RUN_STAGE_ROTATE_CONFIG_H
+#define SCREE_RUN_STAGE_ROTATE_CONFIG_H
 
 #include "state/state.h"
 
