@@ -47,8 +47,7 @@ static void check_periodic(scree_reader *reader, const scree_config *config)
     const char *wrong = NULL;
     if (boundary->periodic > (1 << config->dimension) - 1)
         wrong = "there is no z in two dimensions";
-    else if (scree_config_is_wholly_periodic(config) &&
-             (config->gravity[0] != 0 || config->gravity[1] != 0 || config->gravity[2] != 0))
+    else if (scree_config_is_wholly_periodic(config) && scree_config_has_gravity(config))
         wrong = "gravity has nothing to fall on: without a floor the sample would fall for ever";
     if (wrong && node) scree_problem_add(reader, node->place, "boundary.periodic", node->text, NULL, "%s", wrong);
 }
@@ -65,7 +64,7 @@ static const char *wrong_order(const scree_boundary *boundary, const scree_bound
 static const char *wrong_boundary(const scree_config *config, const scree_stage_numbers *stage,
                                   const scree_boundary *boundary)
 {
-    const bool falls = config->gravity[0] != 0 || config->gravity[1] != 0 || config->gravity[2] != 0;
+    const bool falls = scree_config_has_gravity(config);
     if (!stage->needs_standing && config->wall_count > 0)
         return "in a case with walls only relax can follow: the other stages need plates or a free surface of the "
                "sample";

@@ -25,8 +25,8 @@ scree_status scree_case_reread(const char *path, const scree_former_key *former,
 
 /// Whether two cases mean the same: equal values of all keys that they use, however they are written.
 bool scree_case_same(const scree_case *one, const scree_case *other);
-/// FNV-1a (Fowler, Noll, Vo) of the values of the resolved case: a checkpoint belongs to one case. Limits that only stop
-/// a run (guard, time_limit) and comments are left out, so that a run goes on when they have been changed. Errors:
+/// FNV-1a (Fowler, Noll, Vo) of the values of the resolved case: a checkpoint belongs to one case. Limits that only
+/// stop a run (guard, time_limit) and comments are left out, so that a run goes on when they have been changed. Errors:
 /// memory.
 scree_status scree_case_checksum(const scree_case *c, uint64_t *checksum, scree_error *error) SCREE_MUST_USE;
 

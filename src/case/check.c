@@ -30,6 +30,7 @@ typedef struct scope {
 } scope;
 
 static void read_section(const scope *s);
+static void leave_unread(const scope *s);
 
 /// A key that another kind of element has (a `rate` in a confine stage): left out when an override chose the kind.
 static bool is_of_another_kind(const scope *s, scree_node *child, const char *path)
@@ -114,6 +115,7 @@ static void read_element(const scope *s, const scree_key *list, scree_node *elem
     if (element->kind != SCREE_NODE_MAPPING) {
         scree_problem_add(s->reader, element->place, path, element->text, NULL,
                           "expected keys with values, e.g. '- %s: ...'", list->sections[0].keys[0].name);
+        if (inner.section) leave_unread(&inner);
         return;
     }
     if (list->section_count > 1) inner.list = list;
@@ -175,8 +177,6 @@ static bool make_room(const scope *s)
         scree_reader_fail(s->reader, s->section->own_size);
     return own != NULL;
 }
-
-static void leave_unread(const scope *s);
 
 /// What a key that was not read leaves: choices are wrong, and sections have room for what modules say.
 static void leave_key(const scope *s, const scree_key *key)

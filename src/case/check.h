@@ -68,14 +68,20 @@ void scree_rules_check_modules(scree_reader *reader, scree_config *config);
 void scree_rule_refuse(scree_reader *reader, const char *path, const char *accepted, const char *format, ...)
     SCREE_PRINTF(4, 5);
 
+/// Gives a key of the case a text, in the tree as in its member. path: of the key, "walls.0.file".
+void scree_rule_set_text(scree_reader *reader, const char *path, const char *text, char **member);
+
+/// Where a file that a case names lies: beside the case file, unless its path is absolute.
+void scree_file_beside(const scree_reader *reader, const char *name, char *path, size_t size);
+
 /// Those of the particles: materials, sizes and shares of the species (particle_rules.c).
 void scree_rules_check_particles(scree_reader *reader, const scree_config *config);
 
 /// Those of the boundaries of stages, and of the velocity gradients that they impose (boundary_rules.c).
 void scree_rules_check_boundaries(scree_reader *reader, const scree_config *config);
 
-/// Those of the walls of the case, and of the stages that they can be used in (wall_rules.c). Finds the files of
-/// meshes: their paths become absolute, and the case holds the checksum of their content.
+/// Those of the walls of the case (wall_rules.c). Files that they name are found: their paths become absolute, and the
+/// case holds the checksum of their content.
 void scree_rules_check_walls(scree_reader *reader, scree_config *config);
 
 #endif

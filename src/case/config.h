@@ -4,6 +4,7 @@
 #ifndef SCREE_CASE_CONFIG_H
 #define SCREE_CASE_CONFIG_H
 
+#include "base/schedule.h"
 #include "module/boundary.h"
 #include "module/preparation.h"
 #include "module/size_distribution.h"
@@ -116,40 +117,30 @@ typedef struct scree_config_stage {
     char *name;      ///< unique among the stages: the kind, numbered (compress_1, compress_2) if there are several
     int boundary;    ///< slot of a module with a boundary; SCREE_CHOICE_AUTO: as in the stage before
     double friction; ///< 1, friction during this stage; auto: the material's
-    void *own;       ///< struct of its kind, and of what else adds keys to it (scree_config_own)
+    scree_schedule gravity[3]; ///< m/s2, by time since its begin; auto: that of the case
+    void *own;                 ///< struct of its kind, and of what else adds keys to it (scree_config_own)
 } scree_config_stage;
 
-/// A wall beside the six plates (shape/wall_set.h). Which members its keys fill depends on the shape.
-typedef enum scree_surface_shape {
-    SCREE_SHAPE_OF_PLANE,
-    SCREE_SHAPE_OF_BOX,
-    SCREE_SHAPE_OF_CYLINDER,
-    SCREE_SHAPE_OF_CONE,
-    SCREE_SHAPE_OF_MESH
-} scree_surface_shape;
-typedef enum scree_side { SCREE_SIDE_INSIDE, SCREE_SIDE_OUTSIDE } scree_side;
-typedef enum scree_ends { SCREE_ENDS_OPEN, SCREE_ENDS_CLOSED } scree_ends;
-
+/// A wall beside the six plates (shape/wall_set.h). What stands in `own` is said by the module of its shape.
 typedef struct scree_config_wall {
-    int shape;                       ///< scree_surface_shape
-    char *name;                      ///< unique among the walls
-    double point[3], normal[3];      ///< m, 1: plane
-    double lower[3], upper[3];       ///< m: box
-    double start[3], end[3];         ///< m: axis of a cylinder or cone
-    double radius;                   ///< m: cylinder
-    double radius_start, radius_end; ///< m: cone
-    int side;                        ///< scree_side, where the bodies are: box, cylinder, cone
-    int ends;                        ///< scree_ends: cylinder, cone
-    char *file;                      ///< mesh: path of an STL file, relative to the case file until the case is read
-    char *checksum;                  ///< mesh: content of that file; auto: whatever it is
-    double scale;                    ///< mesh: m per unit of the file
-    double at[3];                    ///< m, mesh: where the origin of the file lies
-    double smooth;                   ///< rad, mesh: contacts whose normals differ by less are one
-    char *material;                  ///< name, or SCREE_RIGID; auto (NULL): wall_material of the grain's material
-    double friction;                 ///< 1; auto: the material's friction on plates
-    double velocity[3];              ///< m/s
-    double spin[3];                  ///< rad/s
-    double centre[3];                ///< m, about which it turns, at the begin
+    int shape;                      ///< slot of a module with a shape of walls (module/wall_shape.h)
+    char *name;                     ///< unique among the walls
+    char *material;                 ///< name, or SCREE_RIGID; auto (NULL): wall_material of the grain's material
+    double friction;                ///< 1; auto: the material's friction on plates
+    int motion;                     ///< scree_wall_motion_kind (case/wall_motion.h)
+    scree_schedule velocity[3];     ///< m/s, by time of the walls
+    scree_schedule displacement[3]; ///< m, from where its shape is given
+    double amplitude[3];            ///< m: vibration
+    double frequency, phase;        ///< 1/s, rad: vibration
+    double direction[3];            ///< servo: in which it presses, any length
+    scree_schedule force;           ///< N: servo, along its direction
+    double area;                    ///< m2, that it presses with; auto: `face`
+    double face;                    ///< m2, in 2D m: its shape seen along `direction`; 0: it has no end (the rules)
+    double servo_gain;              ///< 1, admittance of the servo over that of the grains
+    double servo_velocity;          ///< m/s, of a wall under servo at most; auto
+    double spin[3];                 ///< rad/s
+    double centre[3];               ///< m, about which it turns, at the begin
+    void *own;                      ///< struct of its shape
 } scree_config_wall;
 
 enum { SCREE_SURFACES = 16 }; ///< walls of a case
@@ -186,7 +177,7 @@ struct scree_config {
     char *title;
     int64_t dimension; ///< 2 or 3
     int64_t seed;
-    double gravity[3]; ///< m/s2
+    scree_schedule gravity[3]; ///< m/s2, by time of the run
     scree_config_material *materials;
     int64_t material_count;
     scree_config_particles particles;
@@ -207,6 +198,31 @@ struct scree_config {
 /// A copy of the stages whose own structs may be changed, as one piece of memory. Errors: memory.
 scree_status scree_config_copy_stages(const scree_config *config, scree_config_stage **stages,
                                       scree_error *error) SCREE_MUST_USE;
+
+/// Whether a vector that a schedule may give was left open: `auto`.
+static inline bool scree_config_is_open(const scree_schedule *given)
+{
+    return isnan(given[0].value);
+}
+
+/// A bound of each component of gravity in all stages, at all times [m/s2].
+static inline void scree_config_largest_gravity(const scree_config *config, double largest[3])
+{
+    for (int k = 0; k < 3; k++) {
+        largest[k] = scree_schedule_largest(&config->gravity[k]);
+        for (int64_t i = 0; i < config->stage_count; i++)
+            if (!scree_config_is_open(config->stages[i].gravity))
+                largest[k] = fmax(largest[k], scree_schedule_largest(&config->stages[i].gravity[k]));
+    }
+}
+
+/// Whether there is gravity at any time.
+static inline bool scree_config_has_gravity(const scree_config *config)
+{
+    double largest[3];
+    scree_config_largest_gravity(config, largest);
+    return largest[0] > 0 || largest[1] > 0 || largest[2] > 0;
+}
 
 /// The struct of `module` among those of modules that a section's `own` points to. section: its path ("integrator"), as
 /// the module's `keys` have it. NULL: there are none.

@@ -2,6 +2,7 @@
 #include "case/csv.h"
 
 #include "base/memory.h"
+#include "case/check.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -140,18 +141,11 @@ static char *read_bytes(scree_reader *reader, const char *name, size_t *length, 
     return whole ? bytes : NULL;
 }
 
-static const char *path_beside(const scree_reader *reader, const char *name, char path[LONGEST_PATH])
-{
-    const char *source = reader->root->place.source, *slash = source ? strrchr(source, '/') : NULL;
-    int folder = name[0] == '/' || !slash ? 0 : (int)(slash - source) + 1;
-    int length = snprintf(path, LONGEST_PATH, "%.*s%s", folder, folder ? source : "", name);
-    return length < LONGEST_PATH ? path : name;
-}
-
 bool scree_csv_expand(scree_reader *reader, scree_node *node, const char *path)
 {
-    char where[LONGEST_PATH];
-    const char *reason, *name = path_beside(reader, node->text, where);
+    char name[LONGEST_PATH];
+    const char *reason;
+    scree_file_beside(reader, node->text, name, sizeof name);
     size_t length = 0;
     char *bytes = read_bytes(reader, name, &length, &reason);
     if (!bytes && reason)

@@ -62,15 +62,10 @@ void scree_rules_check_modules(scree_reader *reader, scree_config *config)
         if (used[m] && scree_modules[m]->rules) scree_modules[m]->rules(reader, config);
 }
 
-void scree_rule_refuse(scree_reader *reader, const char *path, const char *accepted, const char *format, ...)
+/// The key at a path; NULL where the case does not have it. *found: that, or the last section of its path that it has.
+static scree_node *find_node(const scree_reader *reader, const char *path, scree_node **found)
 {
-    char message[320];
-    va_list arguments;
-    va_start(arguments, format);
-    (void)vsnprintf(message, sizeof message, format, arguments);
-    va_end(arguments);
-    // The key, or where the case does not have it the last section of its path that it has.
-    const scree_node *node = reader->root, *found = node;
+    scree_node *node = *found = reader->root;
     for (const char *at = path; node && *at;) {
         char name[SCREE_PATH_BYTES];
         size_t length = strcspn(at, ".");
@@ -78,7 +73,40 @@ void scree_rule_refuse(scree_reader *reader, const char *path, const char *accep
         at += length + (at[length] == '.');
         node =
             node->kind == SCREE_NODE_LIST ? scree_node_at(node, strtoul(name, NULL, 10)) : scree_node_find(node, name);
-        if (node) found = node;
+        if (node) *found = node;
     }
+    return node;
+}
+
+void scree_rule_refuse(scree_reader *reader, const char *path, const char *accepted, const char *format, ...)
+{
+    char message[320];
+    va_list arguments;
+    va_start(arguments, format);
+    (void)vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    scree_node *found, *node = find_node(reader, path, &found);
     scree_problem_add(reader, found->place, path, node ? node->text : NULL, accepted, "%s", message);
+}
+
+void scree_rule_set_text(scree_reader *reader, const char *path, const char *text, char **member)
+{
+    scree_node *section, *node = find_node(reader, path, &section);
+    char *name = node ? NULL : scree_arena_copy(reader->arena, strrchr(path, '.') + 1, strlen(strrchr(path, '.') + 1));
+    *member = scree_arena_copy(reader->arena, text, strlen(text));
+    if (name && *member && (node = scree_arena_take(reader->arena, sizeof *node))) {
+        *node = (scree_node){.key = name, .key_place = section->place, .place = section->place};
+        scree_node_append(section, node);
+    }
+    if (!*member || !node)
+        scree_reader_fail(reader, sizeof *node);
+    else
+        node->text = *member;
+}
+
+void scree_file_beside(const scree_reader *reader, const char *name, char *path, size_t size)
+{
+    const char *source = reader->root->place.source, *slash = source ? strrchr(source, '/') : NULL;
+    size_t folder = name[0] == '/' || !slash ? 0 : (size_t)(slash - source) + 1;
+    (void)snprintf(path, size, "%.*s%s", (int)(folder < size ? folder : 0), folder ? source : "", name);
 }

@@ -137,6 +137,21 @@ static void refuse_dimension(scree_reader *reader, const scree_config *config, i
 }
 
 /// Discs in two dimensions, spheres in three; as many components of gravity.
+/// Components of gravity, or of the rows of its table.
+static void check_gravity(scree_reader *reader, const scree_node *node, const char *path, const scree_schedule *gravity,
+                          bool in_3d)
+{
+    if (!node || node->kind != SCREE_NODE_LIST || !node->first || scree_config_is_open(gravity)) return;
+    bool table = node->first->kind == SCREE_NODE_LIST;
+    size_t given = table ? node->first->count - 1 : node->count;
+    double plane = scree_schedule_largest(&gravity[0]) + scree_schedule_largest(&gravity[1]);
+    if (in_3d ? given != 2 || !(plane > 0) : !(scree_schedule_largest(&gravity[2]) > 0)) return;
+    scree_problem_add(reader, node->place, path, NULL,
+                      in_3d ? (table ? "[time, x, y, z]" : "[x, y, z]") : (table ? "[time, x, y]" : "[x, y]"),
+                      in_3d ? "in three dimensions gravity has three components, z upwards"
+                            : "in two dimensions gravity has two components, y upwards");
+}
+
 static void check_dimension(scree_reader *reader, const scree_config *config)
 {
     const bool in_3d = config->dimension == 3;
@@ -147,12 +162,13 @@ static void check_dimension(scree_reader *reader, const scree_config *config)
                           in_3d ? "in three dimensions particles are spheres: set particles.shape to sphere"
                                 : "spheres need dimension: 3; in two dimensions particles are discs");
     }
-    const scree_node *gravity = scree_node_find(reader->root, "gravity");
-    bool missing = in_3d && gravity && gravity->count == 2 && (config->gravity[0] != 0 || config->gravity[1] != 0);
-    if (missing || (!in_3d && config->gravity[2] != 0))
-        scree_problem_add(reader, gravity->place, "gravity", NULL, in_3d ? "[x, y, z]" : "[x, y]",
-                          in_3d ? "in three dimensions gravity has three components, z upwards"
-                                : "in two dimensions gravity has two components, y upwards");
+    check_gravity(reader, scree_node_find(reader->root, "gravity"), "gravity", config->gravity, in_3d);
+    for (int64_t i = 0; i < config->stage_count; i++) {
+        char path[SCREE_PATH_BYTES];
+        (void)snprintf(path, sizeof path, "stages.%lld.gravity", (long long)i);
+        check_gravity(reader, scree_node_find(element(reader, "stages", i), "gravity"), path, config->stages[i].gravity,
+                      in_3d);
+    }
 }
 
 static void check_preparation(scree_reader *reader, const scree_config *config)
@@ -192,7 +208,7 @@ static void check_pair(scree_reader *reader, const scree_config *config)
     if (config->boundary.periodic > 0)
         scree_problem_add(reader, place, "boundary.periodic", text, "none", "two particles that collide have no cell");
     place = place_of(reader->root, "gravity", &text);
-    if (config->gravity[0] != 0 || config->gravity[1] != 0 || config->gravity[2] != 0)
+    if (scree_config_has_gravity(config))
         scree_problem_add(reader, place, "gravity", NULL, "0",
                           "two particles that collide fall freely: leave gravity out");
 }

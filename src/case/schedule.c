@@ -193,7 +193,11 @@ void scree_schedule_store(scree_reader *reader, const scree_key *key, const scre
 {
     static const scree_place nowhere = {0};
     reading r = {reader, key, path, out, key->components > 0 ? key->components : 1};
-    for (size_t k = 0; k < r.components; k++) out[k] = (scree_schedule){0};
+    // Of a vector `auto` leaves all components open.
+    const char *text = node ? node->text : key->standard;
+    bool open = r.components > 1 && text && strcmp(text, "auto") == 0 && strcmp(key->standard, "auto") == 0;
+    for (size_t k = 0; k < r.components; k++) out[k] = (scree_schedule){.value = open ? NAN : 0};
+    if (open) return;
     bool list = node && node->kind == SCREE_NODE_LIST;
     if (list && node->first && (r.components == 1 || node->first->kind == SCREE_NODE_LIST))
         read_table(&r, node);
@@ -204,6 +208,5 @@ void scree_schedule_store(scree_reader *reader, const scree_key *key, const scre
     else if (node && (list || r.components > 1 || !node->text[0]))
         scree_problem_add(reader, node->place, path, node->text, NULL, "expected %s", scree_key_noun(key));
     else if (r.components == 1)
-        out->value =
-            scree_value_number(reader, key, node ? node->place : nowhere, path, node ? node->text : key->standard);
+        out->value = scree_value_number(reader, key, node ? node->place : nowhere, path, text);
 }

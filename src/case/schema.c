@@ -147,10 +147,13 @@ static const scree_key stage_keys[] = {
            .meaning = "What holds the sample in this stage."),
     NUMBER(stage, friction, "1", .standard = "auto", FROM("0"), TO("10"), .fits = is_held,
            .meaning = "Friction in this stage, e.g. less while confining for a denser sample; auto: the material's."),
+    SCHEDULE(
+        stage, gravity, "m/s2", .standard = "auto", .components = 3, FROM("-1e6 m/s2"), TO("1e6 m/s2"), .fits = is_held,
+        .meaning = "Gravity in this stage, or a table of it over the time since the stage began; auto: `gravity`."),
 };
 
 /// Some stages are not held, and have no key of it.
-static const stage stage_before_reading = {.boundary = SCREE_CHOICE_AUTO};
+static const stage stage_before_reading = {.boundary = SCREE_CHOICE_AUTO, .gravity = {{.value = NAN}}};
 
 typedef scree_config_load load;
 static const scree_key load_keys[] = {
@@ -227,13 +230,15 @@ static const scree_key root_keys[] = {
     INTEGER(scree_config, seed, .standard = "1", FROM("0"), TO("9007199254740992"),
             .meaning = "Seed of the random numbers: the same seed gives the same sample on any machine."),
     {.name = "gravity",
-     .type = SCREE_KEY_VECTOR,
+     .type = SCREE_KEY_SCHEDULE,
+     .components = 3,
      .unit = "m/s2",
      .standard = "[0, 0]",
      FROM("-1e6 m/s2"),
      TO("1e6 m/s2"),
      .offset = offsetof(scree_config, gravity),
-     .meaning = "Acceleration [x, y] or [x, y, z]; the last axis is upwards."},
+     .meaning =
+         "Acceleration [x, y] or [x, y, z], or a table of it over the time of the run; the last axis is upwards."},
     KEY(scree_config, materials, SCREE_KEY_LIST, FROM("1"), TO("16"), .sections = material_table, .section_count = 1,
         .count_offset = offsetof(scree_config, material_count), .element_size = sizeof(material),
         .meaning = "What particles and plates are made of."),

@@ -14,7 +14,7 @@ typedef struct writer {
     FILE *file;
     const scree_node *root;
     bool bare;  ///< without comments and guards: what makes the case
-    bool wraps; ///< a list may go on in the next line
+    bool wraps; ///< a table may go on in the next line
     int column;
 } writer;
 
@@ -79,11 +79,13 @@ static void put_value(writer *w, const scree_node *node)
             put(w, ": ");
         }
         put_value(w, child);
-        if (child->next) put(w, ", ");
-        if (w->wraps && child->next && w->column > WRAP_COLUMN) {
-            (void)fprintf(w->file, "\n%*s", INDENT, "");
-            w->column = INDENT;
-        }
+        if (!child->next) continue;
+        // Rows of a table go on in the next line.
+        bool wraps = w->wraps && child->kind == SCREE_NODE_LIST && w->column > WRAP_COLUMN;
+        put(w, wraps ? "," : ", ");
+        if (!wraps) continue;
+        (void)fprintf(w->file, "\n%*s", INDENT, "");
+        w->column = INDENT;
     }
     put(w, node->kind == SCREE_NODE_LIST ? "]" : "}");
 }

@@ -95,7 +95,7 @@ scree_pair_constants contact_surface_constants(const scree_model *model, const s
 static void see_from_wall(int dimension, const scree_surface *surface, const bodies *body, double step,
                           vector *velocity, vector *spin)
 {
-    const double *v = surface->config->velocity, *w = surface->config->spin;
+    const double *v = surface->velocity, *w = surface->config->spin;
     double turning[3], twice[3], change[3], y[3] = {body->position.x, body->position.y, body->position.z};
     scree_subtract(y, surface->hub, y);
     scree_cross(w, y, turning);
@@ -327,13 +327,14 @@ double contact_surfaces_settle(scree_state *state, const scree_work *work, const
 {
     double whole = 0;
     for (int w = 0; work->wall_set && w < work->wall_set->count; w++) {
-        const scree_config_wall *config = work->wall_set->surface[w].config;
+        const scree_surface *surface = &work->wall_set->surface[w];
+        const double *velocity = surface->velocity, *spin = surface->config->spin;
         scree_surface_load *load = &scree_case_walls(state)->load[w];
         double power = 0;
         for (int k = 0; k < 3; k++) {
             double force = scree_fixed_to((int64_t)totals->surface_force[w][k], state->force_quantum);
             double torque = (double)(int64_t)totals->surface_torque[w][k] / scale->inverse_surface_torque;
-            power -= (force + load->force[k]) * config->velocity[k] + (torque + load->torque[k]) * config->spin[k];
+            power -= (force + load->force[k]) * velocity[k] + (torque + load->torque[k]) * spin[k];
             load->force[k] = force;
             load->torque[k] = torque;
         }

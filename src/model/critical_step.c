@@ -49,6 +49,8 @@
 /// on the energy ledger is.
 #include "model/critical_step.h"
 
+#include "case/wall_motion.h"
+
 #include "base/vectors.h"
 
 #include <math.h>
@@ -109,7 +111,9 @@ double scree_expected_height(const scree_model *model, double phi)
 
 double scree_model_gravity(const scree_model *model)
 {
-    return hypot(hypot(model->gravity[0], model->gravity[1]), model->gravity[2]);
+    double largest[3];
+    scree_config_largest_gravity(model->config, largest);
+    return hypot(hypot(largest[0], largest[1]), largest[2]);
 }
 
 /// Speed [m/s] at which neighbours pass each other in the fastest loading.
@@ -135,6 +139,17 @@ static double strong_static_force(const scree_model *model, double height, doubl
         pressure = fmax(pressure, scree_held_pressure(&config->stages[i]));
     double diameter = 2 * model->mean_radius;
     return STRONG * pressure * diameter * (model->dimension == 3 ? diameter : model->thickness);
+}
+
+/// Speed [m/s] at which the fastest wall of the case meets a body. Of a servo it is not known: it does not strike.
+static double wall_speed(const scree_model *model)
+{
+    double fastest = 0;
+    for (int64_t w = 0; w < model->config->wall_count; w++) {
+        double speed = scree_wall_largest_speed(&model->config->walls[w]);
+        if (!scree_wall_motions[model->config->walls[w].motion].servo) fastest = fmax(fastest, speed);
+    }
+    return fastest;
 }
 
 /// Smallest body that there may be of a material. Of those that are not listed as a species' own, any may be.
@@ -166,6 +181,8 @@ static double estimate_of(const scree_model *model, int one, int other)
     if (method && method->impact_speed)
         force = fmax(force, elastic->impact_force(pair, effective_radius, effective_mass,
                                                   method->impact_speed(model, stage, fall)));
+    if (wall_speed(model) > 0)
+        force = fmax(force, elastic->impact_force(pair, effective_radius, effective_mass, wall_speed(model)));
     double guard = elastic->force(pair, effective_radius, model->config->guard.overlap * fmin(a, b));
     if (!(force > 0 && force < guard)) force = guard;
 

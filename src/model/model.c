@@ -376,7 +376,7 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
         .dimension = (int)config->dimension,
         .law = {.law = config->contact.law},
         .scheme = config->integrator.scheme,
-        .gravity = {config->gravity[0], config->gravity[1], config->gravity[2]},
+        .gravity_of_case = config->gravity,
         .walls_of_case = config->walls,
         .wall_count = config->wall_count,
         .loads = config->loads,
@@ -385,6 +385,7 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
         .stage_count = config->stage_count,
         .config = config,
     };
+    for (int k = 0; k < 3; k++) model->gravity[k] = scree_schedule_at(&config->gravity[k], 0);
     scree_status status = resolve_materials(model, error);
     if (!status) status = resolve_particles(model, error);
     if (!status) status = resolve_pairs(model, error);

@@ -56,7 +56,8 @@ struct scree_model {
     uint64_t large_multiple;   ///< ticks, n of two_timescales, else 1
     uint64_t small_steps;      ///< q of two_timescales, else 0
     double critical_step;      ///< s, estimate at the confining pressure (see model.c)
-    double gravity[3];         ///< m/s2
+    double gravity[3];         ///< m/s2; of a stage's copy what acts at the step that its state is at (load/gravity.h)
+    const scree_schedule *gravity_of_case; ///< m/s2, three components by time of the run
     scree_species species[SCREE_MOST_SPECIES];
     int species_count;
     double mean_radius;            ///< m, of all particles, by number

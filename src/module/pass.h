@@ -31,6 +31,7 @@ typedef struct scree_context {
     scree_work *work;
     const struct scree_boundary *boundary;
     struct scree_simulation *simulation; ///< of the passes of run/ alone
+    double *gravity;                     ///< m/s2, that of `model`; the module of gravity sets it
 } scree_context;
 
 typedef struct scree_pass {

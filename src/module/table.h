@@ -6,7 +6,7 @@
 #define SCREE_MODULE_TABLE_H
 
 #define SCREE_STATE_MODULES(row)                                                                                       \
-    row(plates) row(case_walls) row(periodic_cell) row(delaunay_boundary) row(pressure) row(own_force)                 \
+    row(gravity) row(plates) row(case_walls) row(periodic_cell) row(delaunay_boundary) row(pressure) row(own_force)    \
         row(imposed_gradient) row(persistent)
 
 /// Boundaries, in the order in which the case reference lists them; then those that no key chooses.
@@ -25,8 +25,9 @@
     SCREE_LAWS(row)                                                                                                    \
     row(position_verlet) row(velocity_verlet) row(two_timescales) row(drop_and_roll) row(hexagonal) row(square)        \
         row(face_centred) row(cubic) row(gas) row(growth) row(pair) row(bodies) row(prepare) row(confine)              \
-            row(compress) row(deform) row(rotate_particle) row(relax) row(collide) row(background_damping)             \
-                row(uniform) row(two_sizes) row(equal) row(normal) row(log_normal) row(power_law) row(table)
+            row(compress) row(deform) row(rotate_particle) row(relax) row(collide) row(background_damping) row(plane)  \
+                row(box) row(cylinder) row(cone) row(mesh) row(uniform) row(two_sizes) row(equal) row(normal)          \
+                    row(log_normal) row(power_law) row(table)
 
 /// What is measured at the end of a run, with tables of its own.
 #define SCREE_MEASURE_MODULES(row) row(cells)

@@ -3,6 +3,7 @@
 
 #include "base/processor.h"
 #include "integrate/forced_spin.h"
+#include "load/gravity.h"
 #include "measure/measure.h"
 #include "run/sample.h"
 #include "run/step.h"
@@ -97,7 +98,10 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
     const scree_config_stage *config = scree_stage_config(s);
     s->stage = scree_modules[config->kind]->stage;
     s->boundary = scree_model_boundary_of(&s->model, stage->index);
+    double before[3];
+    memcpy(before, s->stage_model.gravity, sizeof before);
     s->stage_model = scree_model_with_friction(&s->model, config->friction);
+    memcpy(s->stage_model.gravity, before, sizeof before);
     if (!restart || stage->counter == SCREE_STAGE_NOT_BEGUN) {
         stage->first_time = scree_state_time(&s->state);
         stage->first_step = s->state.step;
@@ -105,11 +109,13 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
         stage->counter = 0;
         s->state.spent.stage = s->state.spent.processor = 0;
         scree_forced_spin_end(&s->state);
+        scree_gravity_enter(&s->stage_model, &s->state, s->state.count > 0);
         scree_status status = s->stage->begin(s, error);
         if (status) return status;
         status = s->stage->instant ? open_ledger(s, error) : change_boundary(s, error);
         if (status) return status;
     }
+    if (restart) scree_gravity_enter(&s->stage_model, &s->state, false);
     if (s->stage->plan) s->stage->plan(s);
     scree_step_compile(s);
     return SCREE_OK;

@@ -446,6 +446,7 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     for (size_t k = 0; k < state->count; k++) scree_body_position(state, k, state->rebuild[k]);
     memcpy(search->wall, scree_plates(state), sizeof search->wall);
     search->surface_ticks = scree_case_walls(state)->ticks;
+    if (work->wall_set) scree_wall_set_list(work->wall_set);
     release_scratch(search, state);
     search->listed = work->valid = true;
     work->budget = half_skin(work);
@@ -474,8 +475,9 @@ scree_status scree_neighbours_refresh(const scree_model *model, scree_state *sta
                                       scree_error *error)
 {
     if (work->wall_set) {
-        scree_wall_set_place(work->wall_set, surface_time(state, scree_case_walls(state)->ticks));
-        scree_case_walls(state)->speed = scree_case_walls(state)->moving ? scree_wall_set_speed(work->wall_set) : 0;
+        scree_case_wall_set *walls = scree_case_walls(state);
+        scree_wall_set_place(work->wall_set, walls, scree_case_walls_time(walls, state), state->step_size);
+        walls->speed = walls->moving ? scree_wall_set_speed(work->wall_set) : 0;
     }
     if (!work->valid || !is_of_these_bodies(work->search, state) || scree_held_changed(state, &work->search->held) ||
         walls_need_rebuild(model, state, work))

@@ -2,12 +2,13 @@
 #include "shape/wall_set.h"
 
 #include "base/vectors.h"
+#include "case/wall_motion.h"
 
 #include <string.h>
 
 // ---- motion ------------------------------------------------------------------------------------------------------
 
-void scree_wall_set_place(scree_wall_set *wall_set, double time)
+void scree_wall_set_place(scree_wall_set *wall_set, const scree_case_wall_set *walls, double time, double step)
 {
     wall_set->time = time;
     for (int k = 0; k < wall_set->count; k++) {
@@ -20,9 +21,16 @@ void scree_wall_set_place(scree_wall_set *wall_set, double time)
             double square = axis[i / 3] * axis[i % 3] - (i % 4 == 0 ? scree_dot(axis, axis) : 0);
             surface->rotation[i] = (i % 4 == 0 ? 1 : 0) + sine * generator[i] + rest * square;
         }
-        for (int i = 0; i < 3; i++) surface->shift[i] = config->velocity[i] * time;
+        scree_wall_shift(config, walls ? walls->load[k].travel : 0, time, surface->shift);
+        scree_wall_velocity(config, walls ? walls->load[k].speed : 0, time, step, surface->velocity);
         scree_along(config->centre, 1, surface->shift, surface->hub);
     }
+}
+
+void scree_wall_set_list(scree_wall_set *wall_set)
+{
+    for (int k = 0; k < wall_set->count; k++)
+        memcpy(wall_set->surface[k].listed, wall_set->surface[k].shift, sizeof wall_set->surface[k].listed);
 }
 
 double scree_wall_set_way(const scree_wall_set *wall_set, double time, double margin)
@@ -30,10 +38,11 @@ double scree_wall_set_way(const scree_wall_set *wall_set, double time, double ma
     double longest = 0;
     for (int k = 0; k < wall_set->count; k++) {
         const scree_surface *surface = &wall_set->surface[k];
-        const double *v = surface->config->velocity, *w = surface->config->spin;
-        double speed = surface->shifts ? sqrt(scree_dot(v, v)) : 0;
+        const double *v = surface->velocity, *w = surface->config->spin;
+        double speed = surface->shifts && surface->steady ? sqrt(scree_dot(v, v)) : 0, gone[3] = {0};
         if (surface->turns) speed += sqrt(scree_dot(w, w)) * (surface->reach + margin);
-        longest = fmax(longest, speed * fabs(time));
+        if (!surface->steady) scree_subtract(surface->shift, surface->listed, gone);
+        longest = fmax(longest, speed * fabs(time) + sqrt(scree_dot(gone, gone)));
     }
     return longest;
 }
@@ -42,10 +51,9 @@ double scree_wall_set_speed(const scree_wall_set *wall_set)
 {
     double largest = 0;
     for (int k = 0; k < wall_set->count; k++) {
-        const scree_config_wall *config = wall_set->surface[k].config;
-        double spin = sqrt(scree_dot(config->spin, config->spin));
-        largest =
-            fmax(largest, sqrt(scree_dot(config->velocity, config->velocity)) + spin * wall_set->surface[k].reach);
+        const scree_surface *surface = &wall_set->surface[k];
+        const double *v = surface->velocity, *w = surface->config->spin;
+        largest = fmax(largest, sqrt(scree_dot(v, v)) + sqrt(scree_dot(w, w)) * surface->reach);
     }
     return largest;
 }
@@ -81,14 +89,14 @@ static void closest_on_plane(const scree_surface *surface, size_t k, const doubl
 }
 
 /// A solid box: its nearest face, edge or corner; inside it the nearest face.
-static void closest_on_solid_box(int dimension, const scree_config_wall *config, const double place[3],
+static void closest_on_solid_box(int dimension, const scree_surface *box, const double place[3],
                                  scree_closest_point *closest)
 {
     double nearest = -INFINITY;
     int face = 0;
     *closest = (scree_closest_point){.minimum = true};
     for (int i = 0; i < dimension; i++) {
-        double below = config->lower[i] - place[i], above = place[i] - config->upper[i], out = fmax(below, above);
+        double below = box->lower[i] - place[i], above = place[i] - box->upper[i], out = fmax(below, above);
         closest->normal[i] = out > 0 ? (below > above ? -out : out) : 0;
         if (out > nearest) {
             nearest = out;
@@ -145,9 +153,8 @@ static void closest_on_round(const scree_surface *surface, size_t primitive, con
                              scree_closest_point *closest)
 {
     double from[3], radial[3], normal[2];
-    bool inner = true,
-         solid = surface->config->side == SCREE_SIDE_OUTSIDE && surface->config->ends == SCREE_ENDS_CLOSED;
-    scree_subtract(place, surface->config->start, from);
+    bool inner = true, solid = surface->solid;
+    scree_subtract(place, surface->start, from);
     double s = scree_dot(from, surface->axis);
     scree_along(from, -s, surface->axis, radial);
     double r = scree_normalise(radial);
@@ -170,16 +177,15 @@ void scree_primitive_closest_point(const scree_wall_set *wall_set, size_t primit
                                    scree_closest_point *closest)
 {
     const scree_surface *surface = &wall_set->surface[scree_primitive_surface(wall_set, primitive)];
-    const scree_config_wall *config = surface->config;
     double inner[3];
     primitive -= surface->first;
     enter_frame(surface, place, inner);
-    if (config->shape == SCREE_SHAPE_OF_MESH)
+    if (surface->kind == SCREE_SURFACE_MESH)
         scree_mesh_closest_point(&surface->mesh, primitive, inner, closest);
-    else if (surface->profile_count > 0)
+    else if (surface->kind == SCREE_SURFACE_PROFILE)
         closest_on_round(surface, primitive, inner, closest);
-    else if (config->shape == SCREE_SHAPE_OF_BOX && config->side == SCREE_SIDE_OUTSIDE)
-        closest_on_solid_box(wall_set->dimension, config, inner, closest);
+    else if (surface->kind == SCREE_SURFACE_BOX)
+        closest_on_solid_box(wall_set->dimension, surface, inner, closest);
     else
         closest_on_plane(surface, primitive, inner, closest);
     leave_frame(surface, closest->normal);
@@ -189,8 +195,7 @@ bool scree_closest_point_touches(const scree_wall_set *wall_set, size_t primitiv
                                  double radius)
 {
     const scree_surface *surface = &wall_set->surface[scree_primitive_surface(wall_set, primitive)];
-    bool plane = surface->config->shape == SCREE_SHAPE_OF_PLANE;
-    return closest->minimum && !(closest->distance >= radius) && (plane || !(closest->distance <= -radius));
+    return closest->minimum && !(closest->distance >= radius) && (surface->endless || !(closest->distance <= -radius));
 }
 
 // ---- search ------------------------------------------------------------------------------------------------------
@@ -215,7 +220,7 @@ scree_status scree_wall_set_near(const scree_wall_set *wall_set, const scree_vec
     for (int k = 0; k < wall_set->count && !status; k++) {
         const scree_surface *surface = &wall_set->surface[k];
         double inner[3];
-        if (surface->config->shape == SCREE_SHAPE_OF_MESH) {
+        if (surface->kind == SCREE_SURFACE_MESH) {
             numbered pass = {surface->first, found, context};
             enter_frame(surface, place, inner);
             status = scree_mesh_near(&surface->mesh, inner, reach, pass_on, &pass);
@@ -252,19 +257,18 @@ double scree_surface_clearance(const scree_wall_set *wall_set, int k, const scre
     const scree_surface *surface = &wall_set->surface[k];
     double least = INFINITY, inner[3];
     enter_frame(surface, place, inner);
-    if (surface->config->shape == SCREE_SHAPE_OF_MESH) {
+    if (surface->kind == SCREE_SURFACE_MESH) {
         nearest_point nearest = {&surface->mesh, inner, INFINITY};
         return scree_mesh_near(&surface->mesh, inner, reach, lower_distance, &nearest) ? NAN : nearest.distance;
     }
-    bool convex = surface->config->side == SCREE_SIDE_INSIDE && surface->config->ends == SCREE_ENDS_CLOSED;
     for (size_t e = surface->first; e < surface->first + surface->count; e++) {
         scree_closest_point closest;
         scree_primitive_closest_point(wall_set, e, place, &closest);
         // Behind the end of a closed round wall its lines go on.
-        if (!closest.minimum && surface->profile_count > 0 && convex) {
+        if (!closest.minimum && surface->convex) {
             const scree_profile *line = &surface->profile[e - surface->first];
             double from[3], radial[3];
-            scree_subtract(inner, surface->config->start, from);
+            scree_subtract(inner, surface->start, from);
             double s = scree_dot(from, surface->axis);
             scree_along(from, -s, surface->axis, radial);
             closest.distance =

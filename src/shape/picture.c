@@ -55,7 +55,7 @@ static void add_plane(scree_wall_triangles *triangles, const scree_surface *surf
 
 static void add_box(scree_wall_triangles *triangles, const scree_surface *surface, int wall, int dimension)
 {
-    const double *end[2] = {surface->config->lower, surface->config->upper};
+    const double *end[2] = {surface->lower, surface->upper};
     for (int side = 0; side < 2 * dimension; side++) {
         int axis = side / 2, a = (axis + 1) % 3, b = (axis + 2) % 3;
         double corner[4][3];
@@ -88,7 +88,7 @@ static void add_round(scree_wall_triangles *triangles, const scree_surface *surf
             for (int c = 0; c < 4; c++) {
                 int end = c == 1 || c == 2;
                 double angle = 2 * M_PI * (f + (c >= 2)) / FACETS;
-                scree_along(surface->config->start, line->s[end], axis, corner[c]);
+                scree_along(surface->start, line->s[end], axis, corner[c]);
                 scree_along(corner[c], line->r[end] * cos(angle), side[0], corner[c]);
                 scree_along(corner[c], line->r[end] * sin(angle), side[1], corner[c]);
             }
@@ -118,10 +118,9 @@ scree_status scree_wall_set_triangles(const scree_wall_set *wall_set, const doub
     if (!status) status = scree_allocate(&triangles->wall, room, sizeof *triangles->wall, error);
     for (int k = 0; !status && wall_set && k < wall_set->count; k++) {
         const scree_surface *surface = &wall_set->surface[k];
-        int shape = surface->config->shape;
-        if (shape == SCREE_SHAPE_OF_PLANE) add_plane(triangles, surface, k, wall_set->dimension, low, high);
-        if (shape == SCREE_SHAPE_OF_BOX) add_box(triangles, surface, k, wall_set->dimension);
-        if (shape == SCREE_SHAPE_OF_MESH) add_mesh(triangles, surface, k);
+        if (surface->endless) add_plane(triangles, surface, k, wall_set->dimension, low, high);
+        if (surface->cornered) add_box(triangles, surface, k, wall_set->dimension);
+        add_mesh(triangles, surface, k);
         add_round(triangles, surface, k);
     }
     if (status) scree_wall_triangles_destroy(triangles);

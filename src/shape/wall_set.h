@@ -5,10 +5,11 @@
 /// rod) is one; a mesh has its triangles, edges and vertices. Elements of all walls are numbered through. Contacts are
 /// the local minima of the distance to a wall (shape/mesh.h); walls that meet each other do not know of each other.
 ///
-/// Motion. A wall turns with a constant spin w about a centre that moves with a constant velocity v: with its time t
-/// (scree_case_walls(state)->ticks x tick, never accumulated), x(t) = c + v t + R(w t) (x(0) - c), R a rotation by |w|
-/// t about w (Rodrigues). Geometry stays in the frame of t = 0, into which the centre of the sphere is brought. A wall
-/// that moves in itself (a drum about its axis, a plane along itself) is not moved at all: only its points are.
+/// Motion. A wall turns with a constant spin w about a centre that moves by s(t) (case/wall_motion.h): with its time t
+/// (scree_case_walls(state)->ticks x tick, never accumulated), x(t) = c + s(t) + R(w t) (x(0) - c), R a rotation by |w|
+/// t about w (Rodrigues). Geometry stays in the frame without motion, into which the centre of the sphere is brought. A
+/// wall that moves in itself with a constant velocity (a drum about its axis, a plane along itself) is not moved at
+/// all: only its points are.
 ///
 /// A surface with an inside counts up to one radius behind it, a plane without limit.
 #ifndef SCREE_SHAPE_WALL_SET_H
@@ -24,24 +25,43 @@ typedef struct scree_profile {
     bool free_ends;   ///< its ends are edges of the wall; else another primitive goes on from there
 } scree_profile;
 
+/// What a surface is made of: shapes put theirs together from these (module/wall_shape.h).
+typedef enum scree_surface_kind {
+    SCREE_SURFACE_PLANES,  ///< half-spaces, a primitive each
+    SCREE_SURFACE_BOX,     ///< a solid box, one primitive
+    SCREE_SURFACE_PROFILE, ///< lines that turn about an axis
+    SCREE_SURFACE_MESH,    ///< triangles, edges and vertices
+} scree_surface_kind;
+
 /// One wall.
 typedef struct scree_surface {
     const scree_config_wall *config;
+    scree_surface_kind kind;
     size_t first, count; ///< its primitives
-    // plane, and box seen from inside: half-spaces normal . x >= offset
+    // half-spaces normal . x >= offset
     scree_vector normal[6];
     double offset[6];
-    scree_vector axis; ///< cylinder, cone: unit vector from start to end
+    bool endless; ///< it is a plane
+    // between the corners of a box, seen from inside or outside
+    bool cornered;
+    scree_vector lower, upper; ///< m
+    // body of revolution
+    scree_vector start, axis; ///< m, one end of the axis; unit vector from there to the other
     scree_profile profile[3];
     int profile_count;
+    bool solid;  ///< closed, seen from outside: one primitive
+    bool convex; ///< closed, seen from inside: its lines go on behind their ends
     scree_mesh mesh;
     double smooth; ///< cosine: contacts whose normals are closer than this are one
     // motion
-    bool turns, shifts; ///< the geometry does
-    double reach;       ///< m, no point of it is farther from the centre; 0 of a plane, which cannot spin
-    double rotation[9]; ///< now, 3 x 3 by rows
-    scree_vector shift; ///< m, now
-    scree_vector hub;   ///< m, the centre now
+    bool turns, shifts;    ///< the geometry does
+    bool steady;           ///< its velocity is the same at all times
+    double reach;          ///< m, no point of it is farther from the centre; 0 of a plane, which cannot spin
+    double rotation[9];    ///< now, 3 x 3 by rows
+    scree_vector shift;    ///< m, now
+    scree_vector hub;      ///< m, the centre now
+    scree_vector velocity; ///< m/s, in the last step
+    scree_vector listed;   ///< m, its shift when neighbours were last looked for
 } scree_surface;
 
 typedef struct scree_wall_set {
@@ -58,13 +78,17 @@ scree_status scree_wall_set_create(const scree_config *config, scree_wall_set **
                                    scree_error *error) SCREE_MUST_USE;
 void scree_wall_set_destroy(scree_wall_set **wall_set);
 
-/// Brings all walls to their poses at `time`.
-void scree_wall_set_place(scree_wall_set *wall_set, double time);
+/// Brings all walls to their poses at `time`; step [s]: the last one. walls: what servos have done; NULL: nothing yet.
+void scree_wall_set_place(scree_wall_set *wall_set, const scree_case_wall_set *walls, double time, double step);
 
-/// Bound of the way that a point of any wall, or of its frame beside a body within `margin`, goes in `time` [m].
+/// Neighbours have been looked for at the present poses.
+void scree_wall_set_list(scree_wall_set *wall_set);
+
+/// Bound of the way that a point of any wall, or of its frame beside a body within `margin`, is from where it was when
+/// neighbours were last looked for, `time` [s] ago [m].
 double scree_wall_set_way(const scree_wall_set *wall_set, double time, double margin);
 
-/// Bound of the velocity of a point of any wall [m/s].
+/// Bound of the velocity of a point of any wall in the last step [m/s].
 double scree_wall_set_speed(const scree_wall_set *wall_set);
 
 /// The wall that a primitive belongs to.
@@ -78,8 +102,7 @@ static inline int scree_primitive_surface(const scree_wall_set *wall_set, size_t
 /// Whether the normal of every primitive is the same wherever a body touches it: planes, and boxes seen from inside.
 static inline bool scree_surface_is_flat(const scree_surface *surface)
 {
-    int shape = surface->config->shape;
-    return shape == SCREE_SHAPE_OF_PLANE || (shape == SCREE_SHAPE_OF_BOX && surface->config->side == SCREE_SIDE_INSIDE);
+    return surface->kind == SCREE_SURFACE_PLANES;
 }
 
 /// Where a sphere with its centre at `place` may touch a primitive, now.

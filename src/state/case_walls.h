@@ -5,11 +5,13 @@
 
 #include "state/state.h"
 
-/// What the bodies do to a wall of the case.
+/// What the bodies do to a wall of the case, and what a servo has made of it.
 typedef struct scree_surface_load {
     scree_vector force;  ///< N, by the bodies on the wall at n
     scree_vector torque; ///< N m, the same about its centre at n
     double work;         ///< J, of the wall on the bodies since the begin of the run
+    double travel;       ///< m, of a wall under servo, along its direction
+    double speed;        ///< m/s, of it in the last step
 } scree_surface_load;
 
 /// State of the module `case_walls`.
@@ -19,6 +21,12 @@ typedef struct scree_case_wall_set {
     uint64_t moving;                         ///< 1: they move now
     double speed;                            ///< m/s, bound of their velocity now
 } scree_case_wall_set;
+
+/// Time of the walls at the step of the state [s]; never accumulated.
+static inline double scree_case_walls_time(const scree_case_wall_set *walls, const scree_state *state)
+{
+    return (double)walls->ticks * state->tick;
+}
 
 static inline scree_case_wall_set *scree_case_walls(const scree_state *state)
 {

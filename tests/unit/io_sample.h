@@ -118,7 +118,8 @@ static inline scree_status sample_table(const scree_state *state, scree_contact_
 
 static inline scree_model sample_model(const scree_config *config)
 {
-    return (scree_model){.dimension = 2,
+    return (scree_model){.name = config->name,
+                         .dimension = 2,
                          .thickness = 2e-3,
                          .scheme = SCREE_SLOT_position_verlet,
                          .step = 1e-6,

@@ -255,7 +255,7 @@ static void overrides_change_the_case(void **state)
     assert_int_equal(c->config.measure.window_count, 1);
     assert_true(c->config.measure.windows[0].to == 0.05);
     assert_true(c->config.guard.overlap == 0.1);
-    assert_true(c->config.gravity[1] == -9.81);
+    assert_true(c->config.gravity[1].value == -9.81);
     assert_string_equal(c->config.title, "A test: of --set = \"quoted\" # text");
     assert_int_equal(c->config.particles.count, 100000);
     scree_case_free(c);
@@ -423,6 +423,37 @@ static void assert_held_by(const char *const overrides[], int64_t index, const c
 }
 
 /// A section that is none or misspelt is one problem, also where modules have keys in it.
+/// Elements of lists that are no sections are refused, each with its place; nothing else is said of them.
+static void elements_are_sections(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *line, *place;
+    } lists[] = {
+        {"loads: [5]", "test.yaml:4:9: loads.0"},
+        {"loads: [[1, 2]]", "test.yaml:4:9: loads.0"},
+        {"walls: [plane]", "test.yaml:4:9: walls.0"},
+        {"stages: [prepare]", "test.yaml:4:10: stages.0"},
+        {"materials: [5]", "test.yaml:4:13: materials.0"},
+        {"particles: {count: 10, species: [5]}", "test.yaml:4:34: particles.species.0"},
+    };
+    for (size_t k = 0; k < sizeof lists / sizeof *lists; k++) {
+        char text[512] = "", keys[3][16] = {"materials", "particles", "stages"};
+        const char *rest = minimal;
+        size_t length = 0;
+        // The line stands in the place of the same key, behind comments, in line 4.
+        for (int line = 0; line < 3; line++, rest = strchr(rest, '\n') + 1)
+            if (strncmp(lists[k].line, keys[line], strlen(keys[line])) == 0)
+                length += (size_t)sprintf(text + length, "#\n");
+            else
+                length += (size_t)sprintf(text + length, "%.*s", (int)(strchr(rest, '\n') + 1 - rest), rest);
+        (void)sprintf(text + length, "%s\n", lists[k].line);
+        char message[128];
+        (void)snprintf(message, sizeof message, "%s: expected keys with values", lists[k].place);
+        wrong(text, NULL, message);
+    }
+}
+
 static void sections_are_no_values(void **state)
 {
     (void)state;
@@ -531,6 +562,7 @@ int main(void)
         cmocka_unit_test(later_errors_find_their_place),
         cmocka_unit_test(stages_have_boundaries),
         cmocka_unit_test(sections_are_no_values),
+        cmocka_unit_test(elements_are_sections),
         cmocka_unit_test(nearest_names),
         cmocka_unit_test(lost_memory_is_survived),
     };

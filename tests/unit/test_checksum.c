@@ -79,7 +79,8 @@ static void create_full(sample *s, int dimension)
 {
     create(s, dimension);
     s->model.wall_count = 1;
-    s->wall = (scree_config_wall){.velocity = {1, 2, 3}, .spin = {0, 4, 0}, .centre = {0.5, 0.25, 0}};
+    s->wall = (scree_config_wall){
+        .velocity = {{.value = 1}, {.value = 2}, {.value = 3}}, .spin = {0, 4, 0}, .centre = {0.5, 0.25, 0}};
     scree_case_walls(&s->state)->ticks = 6;
     scree_case_walls(&s->state)->moving = 1;
     scree_cell(&s->state)->directions = 1;
@@ -212,7 +213,7 @@ static void physics_shows(void **unused)
         &scree_plates(state)[SCREE_WALL_TOP].position,
         &scree_plates(state)[SCREE_WALL_TOP].velocity,
         &scree_plates(state)[SCREE_WALL_TOP].tangential_velocity[2],
-        &s.wall.velocity[1],
+        &s.wall.velocity[1].value,
         &s.wall.spin[1],
         &scree_cell(state)->lattice[8],
         &scree_cell(state)->gradient[8],

@@ -209,16 +209,16 @@ static void test_critical_step_of_other_loads(void **unused)
     c.material[0].density = 2675;
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
     double by_guard = model.critical_step;
-    c.config.gravity[1] = -9.81;
+    c.config.gravity[1].value = -9.81;
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
     double by_weight = model.critical_step;
-    c.config.gravity[1] *= 8;
+    c.config.gravity[1].value *= 8;
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
     // k ~ f^(1/3) and c ~ sqrt(k): the step goes as f^(-1/6), exactly.
     assert_close(by_weight / model.critical_step, sqrt(2));
     assert_true(by_guard > 0 && by_guard < by_weight);
 
-    c.config.gravity[1] = 0;
+    c.config.gravity[1].value = 0;
     biaxial_prepare(&c)->method = SCREE_SLOT_gas;
     assert_int_equal(scree_model_build(&c.config, &model, NULL), SCREE_OK);
     double slow = model.critical_step;

@@ -397,7 +397,7 @@ static void round_samples(void **unused)
             biaxial_prepare(&s.c)->outline = dimension == 3 ? SCREE_SAMPLE_BALL : SCREE_SAMPLE_CIRCLE;
             // As the case language leaves keys that are not used.
             biaxial_prepare(&s.c)->width = biaxial_prepare(&s.c)->aspect_ratio = 0;
-            s.c.config.gravity[1] = -9.81;
+            s.c.config.gravity[1].value = -9.81;
             sample_prepare(&s);
             assert_int_equal(s.state.count, 400);
             assert_true(s.model.critical_step > 0);

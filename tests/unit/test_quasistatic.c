@@ -41,7 +41,7 @@ static void test_a_case_before_it_runs(void **unused)
     (void)unused;
     biaxial_config c;
     set_config(&c, 983);
-    c.config.gravity[1] = -9.81e-6;
+    c.config.gravity[1].value = -9.81e-6;
     scree_model model = model_of(&c);
     scree_quasistatic q = scree_quasistatic_expect(&model, 2);
     assert_near(q.value[SCREE_QUASISTATIC_INERTIAL], 5e-3 * sqrt(2.675e8 * M_PI * 7e-6 / 12 / 1e5));
@@ -156,7 +156,7 @@ static void test_warnings_of_modulus_and_weight(void **unused)
     assert_int_equal(warnings_of(&c).count, 0);
 
     set_config(&c, 983);
-    c.config.gravity[1] = -1e-3;
+    c.config.gravity[1].value = -1e-3;
     h = warnings_of(&c);
     assert_int_equal(h.count, 2);
     assert_non_null(strstr(h.text[0], "self-weight over pressure 0.14"));

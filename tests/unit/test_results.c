@@ -98,7 +98,7 @@ static void columns_of_walls_follow_the_case(void **state)
     check(scree_columns_create(&c->config, &bare, &error), &error);
     c->config.wall_count = walls;
     simulation_open(c, 1, &s);
-    assert_true(walls == 3 && s.columns.count == bare.count + 21);
+    assert_true(walls == 3 && s.columns.count == bare.count + 30);
     assert_true(scree_columns_find(&s.columns, "floor_work") < s.columns.count);
     assert_int_equal(scree_columns_find(&bare, "floor_work"), bare.count);
     scree_columns_destroy(&bare);

@@ -253,13 +253,13 @@ static void spin_inside(const carried *c, double time, double duration, double s
 }
 
 /// From the frame of the wall at `time` into space; `at` is turned with it, and moved when it is a position.
-static void leave(const scree_config_wall *wall, double time, bool position, const double at[3], double out[3])
+static void leave(const world_keys *wall, double time, bool position, const double at[3], double out[3])
 {
     double rate = scree_length(wall->spin), axis[3], lever[3];
     for (int k = 0; k < 3; k++) axis[k] = wall->spin[k] / rate;
     for (int k = 0; k < 3; k++) lever[k] = at[k] - (position ? wall->centre[k] : 0);
     turn(axis, rate * time, lever, out);
-    for (int k = 0; k < 3 && position; k++) out[k] += wall->centre[k] + wall->velocity[k] * time;
+    for (int k = 0; k < 3 && position; k++) out[k] += wall->centre[k] + wall->velocity[k].value * time;
 }
 
 static void put_body(world *w, const double place[3], const double velocity[3], const double spin[3])
@@ -282,9 +282,9 @@ static void put_body(world *w, const double place[3], const double velocity[3], 
     w->f.work.valid = false;
 }
 
-static scree_config_wall *make_wall(world *w, const carried *c)
+static world_keys *make_wall(world *w, const carried *c)
 {
-    scree_config_wall *wall = world_wall(w, c->inside ? SCREE_SHAPE_OF_CYLINDER : SCREE_SHAPE_OF_BOX);
+    world_keys *wall = world_wall(w, c->inside ? SCREE_SLOT_cylinder : SCREE_SLOT_box);
     wall->side = c->inside ? SCREE_SIDE_INSIDE : SCREE_SIDE_OUTSIDE;
     wall->ends = SCREE_ENDS_OPEN;
     wall->radius = 0.02;
@@ -293,7 +293,7 @@ static scree_config_wall *make_wall(world *w, const carried *c)
     const double spin[3] = {90, -40, 110}, velocity[3] = {0.1, 0.3, -0.2}, centre[3] = {0.002, -0.001, 0.003};
     for (int k = 0; k < 3; k++) {
         wall->spin[k] = c->dimension == 3 || k == 2 ? spin[k] : 0;
-        wall->velocity[k] = k < c->dimension ? velocity[k] : 0;
+        wall->velocity[k].value = k < c->dimension ? velocity[k] : 0;
         wall->centre[k] = k < c->dimension ? centre[k] : 0;
     }
     return wall;
@@ -304,7 +304,7 @@ static double carry(const carried *c, int steps)
 {
     const double duration = 0.05, dt = duration / steps;
     world w = {0};
-    scree_config_wall *wall = make_wall(&w, c);
+    world_keys *wall = make_wall(&w, c);
     world_start(&w, c->dimension, HERTZ_MINDLIN, SCREE_SLOT_position_verlet, 1, dt);
     scree_case_walls(&w.f.state)->moving = 1;
     w.f.model.walls[0].value[SCREE_FRICTION] = 1e6; // no cap

@@ -43,11 +43,11 @@ static void throw(int dimension, law_choice law, bool built_in, double seen[STEP
     double place[3];
     world w = {0};
     if (!built_in) {
-        scree_config_wall *plane = world_wall(&w, SCREE_SHAPE_OF_PLANE);
+        world_keys *plane = world_wall(&w, SCREE_SLOT_plane);
         for (int k = 0; k < 3; k++) {
             plane->normal[k] = 3 * n[k];
             plane->point[k] = 0.013 * n[k];
-            plane->velocity[k] = towards * n[k] + drag[k];
+            plane->velocity[k].value = towards * n[k] + drag[k];
         }
     }
     world_start(&w, dimension, law, SCREE_SLOT_velocity_verlet, 1, dt);
@@ -106,16 +106,17 @@ static void expected_force(const world *w, const double place[3], const double v
                            const double normal[3], double distance, double force[3], double torque[3])
 {
     const scree_pair_constants *pair = &w->f.model.walls[0];
-    const scree_config_wall *wall = &w->wall[0];
+    const world_keys *wall = &w->wall[0];
     const double *number = w->f.model.law.number;
     const double d = R - distance, arm = R - 0.5 * d;
     double lever[3], turning[3], rolling[3], u[3], slip[3], speed = 0;
     double time = (double)scree_case_walls(&w->f.state)->ticks * w->f.state.tick;
-    for (int k = 0; k < 3; k++) lever[k] = place[k] - arm * normal[k] - wall->centre[k] - wall->velocity[k] * time;
+    for (int k = 0; k < 3; k++)
+        lever[k] = place[k] - arm * normal[k] - wall->centre[k] - wall->velocity[k].value * time;
     scree_cross(wall->spin, lever, turning);
     for (int k = 0; k < 3; k++) lever[k] = -arm * normal[k];
     scree_cross(spin, lever, rolling);
-    for (int k = 0; k < 3; k++) u[k] = velocity[k] - wall->velocity[k] - turning[k];
+    for (int k = 0; k < 3; k++) u[k] = velocity[k] - wall->velocity[k].value - turning[k];
     double parting = scree_dot(u, normal), stiffness = pair->value[HERTZ_NORMAL] * sqrt(R * d);
     for (int k = 0; k < 3; k++) slip[k] = u[k] - parting * normal[k] + rolling[k];
     speed = sqrt(scree_dot(slip, slip));
@@ -172,7 +173,7 @@ static void lift(double angle, double s, double r, double given[3])
 /// Opens a world with a cone that spins about its axis.
 static void make_cone(world *w, double radius_start, double radius_end, scree_side side, scree_ends ends)
 {
-    scree_config_wall *wall = world_wall(w, SCREE_SHAPE_OF_CONE);
+    world_keys *wall = world_wall(w, SCREE_SLOT_cone);
     wall->side = (int)side;
     wall->ends = (int)ends;
     wall->radius_start = radius_start;
@@ -239,11 +240,10 @@ static void speeds_are_bounded(void **unused)
 {
     (void)unused;
     const double centre[3] = {0.01, -0.03, 0.02}, spin[3] = {3, -4, 12}, velocity[3] = {0.02, 0.01, -0.03};
-    for (int shape = SCREE_SHAPE_OF_BOX; shape <= SCREE_SHAPE_OF_MESH; shape++) {
+    for (int shape = SCREE_SLOT_box; shape <= SCREE_SLOT_mesh; shape++) {
         static const triangle_corners triangle[1] = {{{0.01, 0, 0.02}, {0.02, 0.05, 0}, {-0.03, 0, 0.01}}};
         world w = {0};
-        scree_config_wall *wall =
-            shape == SCREE_SHAPE_OF_MESH ? world_mesh(&w, triangle, 1) : world_wall(&w, (scree_surface_shape)shape);
+        world_keys *wall = shape == SCREE_SLOT_mesh ? world_mesh(&w, triangle, 1) : world_wall(&w, shape);
         for (int k = 0; k < 3; k++) {
             wall->lower[k] = wall->start[k] = -0.01 * (k + 1);
             wall->upper[k] = wall->end[k] = 0.02 * (k + 1);
@@ -252,12 +252,12 @@ static void speeds_are_bounded(void **unused)
         wall->radius_start = 0.03;
         memcpy(wall->centre, centre, sizeof centre);
         // Round walls are flat, and turn about their own middle: their extent is their radius.
-        if (shape == SCREE_SHAPE_OF_CYLINDER || shape == SCREE_SHAPE_OF_CONE) {
+        if (shape == SCREE_SLOT_cylinder || shape == SCREE_SLOT_cone) {
             for (int k = 0; k < 3; k++) wall->start[k] = centre[k] - 1e-5 * (k + 1);
             for (int k = 0; k < 3; k++) wall->end[k] = centre[k] + 1e-5 * (k + 1);
         }
         memcpy(wall->spin, spin, sizeof spin);
-        memcpy(wall->velocity, velocity, sizeof velocity);
+        for (int k = 0; k < 3; k++) wall->velocity[k].value = velocity[k];
         world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-6);
         const scree_surface *surface = &w.f.work.wall_set->surface[0];
         double bound = scree_wall_set_speed(w.f.work.wall_set), fastest = 0;
@@ -269,7 +269,7 @@ static void speeds_are_bounded(void **unused)
             double lever[3], moved[3];
             scree_subtract(&drawn.corner[k / 3][3 * (k % 3)], surface->hub, lever);
             scree_cross(wall->spin, lever, moved);
-            scree_along(wall->velocity, 1, moved, moved);
+            scree_along(velocity, 1, moved, moved);
             fastest = fmax(fastest, scree_length(moved));
         }
         assert_true(drawn.count > 0 && fastest > 0.1 && fastest <= bound && fastest * time <= way);
@@ -313,7 +313,7 @@ static void walls_have_their_own_material(void **unused)
     static char name[] = "rigid";
     for (int own = 0; own < 2; own++) {
         world w = {0};
-        scree_config_wall *plane = world_wall(&w, SCREE_SHAPE_OF_PLANE);
+        world_keys *plane = world_wall(&w, SCREE_SLOT_plane);
         plane->normal[1] = 1;
         plane->material = own ? name : NULL;
         world_start(&w, 2, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-7);
@@ -337,12 +337,12 @@ static void walls_have_their_own_material(void **unused)
 static void walls_have_another_side(void **unused)
 {
     (void)unused;
-    for (int shape = SCREE_SHAPE_OF_PLANE; shape <= SCREE_SHAPE_OF_CYLINDER; shape++)
+    for (int shape = SCREE_SLOT_plane; shape <= SCREE_SLOT_cylinder; shape++)
         for (int k = 0; k < 3; k++) {
             const double behind[3] = {-0.5 * R, 0.99 * R, 1.01 * R};
             const scree_vector place = {0.001, 0.002, 0.02 + behind[k]};
             world w = {0};
-            scree_config_wall *wall = world_wall(&w, (scree_surface_shape)shape);
+            world_keys *wall = world_wall(&w, shape);
             wall->normal[2] = -1;
             for (int i = 0; i < 3; i++) wall->lower[i] = -0.02;
             for (int i = 0; i < 3; i++) wall->upper[i] = 0.02;
@@ -355,7 +355,7 @@ static void walls_have_another_side(void **unused)
                 scree_primitive_closest_point(wall_set, e, place, &closest);
                 touching += scree_closest_point_touches(wall_set, e, &closest, R);
             }
-            assert_int_equal(touching, k < 2 || shape == SCREE_SHAPE_OF_PLANE);
+            assert_int_equal(touching, k < 2 || shape == SCREE_SLOT_plane);
             world_close(&w);
         }
 }
@@ -372,7 +372,7 @@ static void rigid_motion_meets_no_resistance(void **unused)
             double velocity[3];
             scree_vector force, torque;
             world w = {0};
-            scree_config_wall *wall = world_wall(&w, SCREE_SHAPE_OF_BOX);
+            world_keys *wall = world_wall(&w, SCREE_SLOT_box);
             wall->side = SCREE_SIDE_OUTSIDE;
             for (int k = 0; k < 3; k++) wall->lower[k] = -0.01;
             for (int k = 0; k < 3; k++) wall->upper[k] = 0.01;
@@ -403,7 +403,7 @@ static const double H = 0.01;
 
 static void make_square(world *w, scree_side side)
 {
-    scree_config_wall *wall = world_wall(w, SCREE_SHAPE_OF_BOX);
+    world_keys *wall = world_wall(w, SCREE_SLOT_box);
     wall->side = (int)side;
     for (int k = 0; k < 2; k++) {
         wall->lower[k] = -H;
@@ -411,7 +411,7 @@ static void make_square(world *w, scree_side side)
     }
     wall->centre[0] = 0.002;
     wall->spin[2] = 11;
-    wall->velocity[1] = 0.07;
+    wall->velocity[1].value = 0.07;
     world_start(w, 2, HERTZ_BRILLIANTOV, SCREE_SLOT_velocity_verlet, 1, 1e-3);
     scree_case_walls(&w->f.state)->moving = 1;
 }
@@ -467,7 +467,7 @@ static void discs_roll(void **unused)
         const double gravity = 10, angle = 0.3, still[3] = {0};
         const int steps = 20000;
         world w = {0};
-        world_wall(&w, SCREE_SHAPE_OF_PLANE)->normal[1] = 1;
+        world_wall(&w, SCREE_SLOT_plane)->normal[1] = 1;
         world_start(&w, 2, (law_choice)law, SCREE_SLOT_velocity_verlet, 1, 2e-6);
         w.f.model.gravity[0] = gravity * sin(angle);
         w.f.model.gravity[1] = -gravity * cos(angle);
@@ -511,9 +511,9 @@ static void refuse(const char *wall, const char *message)
 static void what_has_no_place_in_a_plane_is_refused(void **unused)
 {
     (void)unused;
-    refuse("shape: cylinder, start: [0, 0], end: [0, 10 mm], radius: 5 mm", "in two dimensions walls are");
-    refuse("shape: cone, start: [0, 0], end: [0, 10 mm], radius_start: 5 mm, radius_end: 1 mm", "planes and boxes");
-    refuse("shape: mesh, file: none.stl", "planes and boxes");
+    refuse("shape: cylinder, start: [0, 0], end: [0, 10 mm], radius: 5 mm", "no walls of this shape in two dimensions");
+    refuse("shape: cone, start: [0, 0], end: [0, 10 mm], radius_start: 5 mm, radius_end: 1 mm", "no walls of this shape");
+    refuse("shape: mesh, file: none.stl", "no walls of this shape");
     refuse("shape: plane, normal: [0, 1, 1], point: [0, 0, 0]", "there is no z in two dimensions");
     refuse("shape: box, lower: [0, 0], upper: [1 cm, 1 cm], spin: [1 rad/s, 0, 0]", "turns about z only");
     refuse("shape: box, lower: [0, 0], upper: [1 cm, 1 cm], velocity: [0, 0, 1 m/s]", "there is no z");

@@ -81,34 +81,34 @@ static void test_rest_on_each_shape(void **state)
 {
     (void)state;
     world w = {0};
-    scree_config_wall *wall = world_wall(&w, SCREE_SHAPE_OF_PLANE);
+    world_keys *wall = world_wall(&w, SCREE_SLOT_plane);
     wall->normal[2] = 3;
     wall->point[2] = 0.25;
     check_rest(&w, 0.1, 0.2, 0.25, R);
 
-    wall = world_wall(&w, SCREE_SHAPE_OF_BOX);
+    wall = world_wall(&w, SCREE_SLOT_box);
     for (int k = 0; k < 3; k++) wall->lower[k] = -0.01, wall->upper[k] = 0.01;
     check_rest(&w, 0.001, 0.002, -0.01, R);
 
-    wall = world_wall(&w, SCREE_SHAPE_OF_BOX);
+    wall = world_wall(&w, SCREE_SLOT_box);
     wall->side = SCREE_SIDE_OUTSIDE;
     for (int k = 0; k < 3; k++) wall->lower[k] = -0.01, wall->upper[k] = 0.01;
     check_rest(&w, 0.001, 0.002, 0.01, R);
 
-    wall = world_wall(&w, SCREE_SHAPE_OF_CYLINDER); // lies, bodies inside
+    wall = world_wall(&w, SCREE_SLOT_cylinder); // lies, bodies inside
     wall->start[1] = -0.02, wall->end[1] = 0.02, wall->radius = 0.01;
     check_rest(&w, 0, 0.003, -0.01, R);
 
-    wall = world_wall(&w, SCREE_SHAPE_OF_CYLINDER); // stands, on its end
+    wall = world_wall(&w, SCREE_SLOT_cylinder); // stands, on its end
     wall->start[2] = -0.02, wall->end[2] = 0.02, wall->radius = 0.01;
     check_rest(&w, 0.001, 0.003, -0.02, R);
 
-    wall = world_wall(&w, SCREE_SHAPE_OF_CYLINDER); // stands, bodies on top
+    wall = world_wall(&w, SCREE_SLOT_cylinder); // stands, bodies on top
     wall->side = SCREE_SIDE_OUTSIDE;
     wall->start[2] = -0.02, wall->end[2] = 0.02, wall->radius = 0.01;
     check_rest(&w, 0.001, 0.003, 0.02, R);
 
-    wall = world_wall(&w, SCREE_SHAPE_OF_CONE); // cut off, stands on the small end
+    wall = world_wall(&w, SCREE_SLOT_cone); // cut off, stands on the small end
     wall->start[2] = 0, wall->end[2] = 0.02, wall->radius_start = 0.004, wall->radius_end = 0.01;
     check_rest(&w, 0.001, 0.001, 0, R);
 
@@ -160,7 +160,7 @@ static void test_edges_and_vertices(void **state)
     world w = {0};
     static triangle_corners triangle[12];
     const double low[3] = {-0.01, -0.01, -0.01}, high[3] = {0.01, 0.01, 0.01};
-    scree_config_wall *wall = world_wall(&w, SCREE_SHAPE_OF_BOX);
+    world_keys *wall = world_wall(&w, SCREE_SLOT_box);
     wall->side = SCREE_SIDE_OUTSIDE;
     memcpy(wall->lower, low, sizeof low);
     memcpy(wall->upper, high, sizeof high);
@@ -182,8 +182,7 @@ static void test_deep_contact(void **state)
     (void)state;
     world w = {0};
     static triangle_corners triangle[64];
-    scree_config_wall *wall =
-        world_mesh(&w, (const triangle_corners *)triangle, make_floor(triangle, 4, 1.2e-3, 0.0078125));
+    world_keys *wall = world_mesh(&w, (const triangle_corners *)triangle, make_floor(triangle, 4, 1.2e-3, 0.0078125));
     char *file = wall->file;
     world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 1e-6);
     for (uint64_t k = 0; k < 500; k++) {
@@ -281,7 +280,7 @@ static void test_triangulated_plane(void **state)
         law_choice law = k / 2 ? HERTZ_BRILLIANTOV : HERTZ_MINDLIN;
         double plane[8], mesh[8], time = steps * 2e-6;
         world w = {0};
-        world_wall(&w, SCREE_SHAPE_OF_PLANE)->normal[2] = 1;
+        world_wall(&w, SCREE_SLOT_plane)->normal[2] = 1;
         roll(&w, law, friction[k % 2], steps, plane);
         (void)world_mesh(&w, (const triangle_corners *)triangle, make_floor(triangle, 20, 0.001, 0));
         char *file = w.wall[0].file;
@@ -303,7 +302,7 @@ static void test_oscillation(void **state)
     (void)state;
     for (int rolls = 0; rolls < 2; rolls++) {
         world w = {0};
-        scree_config_wall *wall = world_wall(&w, SCREE_SHAPE_OF_CYLINDER);
+        world_keys *wall = world_wall(&w, SCREE_SLOT_cylinder);
         wall->start[1] = -0.02, wall->end[1] = 0.02, wall->radius = 0.01;
         wall->friction = rolls ? 1 : 0;
         world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 2e-6);
@@ -337,12 +336,11 @@ static void test_moving_wall(void **state)
     for (int mesh = 0; mesh < 2; mesh++) {
         world w = {0};
         static triangle_corners triangle[64];
-        scree_config_wall *wall =
-            mesh ? world_mesh(&w, (const triangle_corners *)triangle, make_floor(triangle, 3, 0.01, 0))
-                 : world_wall(&w, SCREE_SHAPE_OF_PLANE);
+        world_keys *wall = mesh ? world_mesh(&w, (const triangle_corners *)triangle, make_floor(triangle, 3, 0.01, 0))
+                                : world_wall(&w, SCREE_SLOT_plane);
         wall->normal[2] = 1;
-        wall->velocity[2] = 0.05;
-        wall->velocity[0] = 0.02; // drags, too
+        wall->velocity[2].value = 0.05;
+        wall->velocity[0].value = 0.02; // drags, too
         char *file = wall->file;
         world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 2e-7);
         scree_case_walls(&w.f.state)->moving = 1;
@@ -370,7 +368,7 @@ static void test_spinning_drum(void **state)
 {
     (void)state;
     world w = {0};
-    scree_config_wall *wall = world_wall(&w, SCREE_SHAPE_OF_CYLINDER);
+    world_keys *wall = world_wall(&w, SCREE_SLOT_cylinder);
     wall->start[1] = -0.02, wall->end[1] = 0.02, wall->radius = 0.01;
     wall->spin[1] = 3;
     world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 2e-7);
@@ -414,7 +412,7 @@ static void test_faceted_drum(void **state)
         for (int t = 0; t < 2; t++)
             for (int c = 0; c < 3; c++) memcpy(triangle[2 * k + t][c], corner[order[t][c]], sizeof corner[0]);
     }
-    scree_config_wall *wall = world_mesh(&w, (const triangle_corners *)triangle, 2 * PIECES);
+    world_keys *wall = world_mesh(&w, (const triangle_corners *)triangle, 2 * PIECES);
     char *file = wall->file;
     wall->spin[1] = -5;
     world_start(&w, 3, HERTZ_MINDLIN, SCREE_SLOT_velocity_verlet, 1, 2e-6);

@@ -8,6 +8,7 @@
 #include "measure/measure.h"
 #include "search/neighbours.h"
 #include "shape/stl.h"
+#include "shape/wall_keys.h"
 #include "shape/wall_set.h"
 
 #include <stdio.h>
@@ -20,37 +21,107 @@
             fail_msg("line %d: %.17g is not %.17g within %.3g", __LINE__, near_a, near_b, near_t);                     \
     } while (0)
 
+/// What a wall says, whatever its shape: until the world starts.
+typedef struct world_keys {
+    int shape;
+    char *name;
+    double point[3], normal[3];
+    double lower[3], upper[3];
+    double start[3], end[3];
+    double radius, radius_start, radius_end;
+    int side, ends;
+    char *file;
+    double scale, at[3], smooth;
+    char *material;
+    double friction;
+    scree_schedule velocity[3];
+    double spin[3], centre[3];
+} world_keys;
+
+/// The struct of a shape.
+typedef union world_shape {
+    scree_plane_keys plane;
+    scree_box_keys box;
+    scree_round_keys round;
+    scree_mesh_keys mesh;
+} world_shape;
+
 typedef struct world {
     scree_config config;
-    scree_config_wall wall[4];
+    world_keys wall[4];
+    world_shape shape[4];
+    scree_config_wall config_wall[4];
     fixture f; ///< its config is not used
 } world;
 
 /// A quiet wall of a shape, bodies inside, friction of the material.
-static inline scree_config_wall *world_wall(world *w, scree_surface_shape shape)
+static inline world_keys *world_wall(world *w, int shape)
 {
-    scree_config_wall *wall = &w->wall[w->config.wall_count++];
-    *wall = (scree_config_wall){.shape = (int)shape,
-                                .name = "wall",
-                                .side = SCREE_SIDE_INSIDE,
-                                .ends = SCREE_ENDS_CLOSED,
-                                .scale = 1,
-                                .smooth = M_PI / 12,
-                                .friction = NAN};
+    world_keys *wall = &w->wall[w->config.wall_count++];
+    *wall = (world_keys){.shape = shape,
+                         .name = "wall",
+                         .side = SCREE_SIDE_INSIDE,
+                         .ends = SCREE_ENDS_CLOSED,
+                         .scale = 1,
+                         .smooth = M_PI / 12,
+                         .friction = NAN};
     return wall;
+}
+
+static inline void world_copy(double to[3], const double from[3])
+{
+    memcpy(to, from, 3 * sizeof *to);
+}
+
+/// Puts what the walls say into the config.
+static inline void world_say(world *w)
+{
+    for (int64_t k = 0; k < w->config.wall_count; k++) {
+        const world_keys *from = &w->wall[k];
+        world_shape *shape = &w->shape[k];
+        if (from->shape == SCREE_SLOT_plane) {
+            world_copy(shape->plane.point, from->point);
+            world_copy(shape->plane.normal, from->normal);
+        } else if (from->shape == SCREE_SLOT_box) {
+            world_copy(shape->box.lower, from->lower);
+            world_copy(shape->box.upper, from->upper);
+            shape->box.side = from->side;
+        } else if (from->shape == SCREE_SLOT_mesh) {
+            shape->mesh = (scree_mesh_keys){.file = from->file, .scale = from->scale, .smooth = from->smooth};
+            world_copy(shape->mesh.at, from->at);
+        } else {
+            bool cone = from->shape == SCREE_SLOT_cone;
+            shape->round = (scree_round_keys){.radius_start = cone ? from->radius_start : from->radius,
+                                              .radius_end = from->radius_end,
+                                              .side = from->side,
+                                              .ends = from->ends};
+            world_copy(shape->round.start, from->start);
+            world_copy(shape->round.end, from->end);
+        }
+        scree_config_wall *to = &w->config_wall[k];
+        *to = (scree_config_wall){.shape = from->shape,
+                                  .name = from->name,
+                                  .material = from->material,
+                                  .friction = from->friction,
+                                  .own = shape};
+        memcpy(to->velocity, from->velocity, sizeof to->velocity);
+        world_copy(to->spin, from->spin);
+        world_copy(to->centre, from->centre);
+    }
+    w->config.walls = w->config_wall;
 }
 
 static inline void world_start(world *w, int dimension, law_choice law, int scheme, size_t count, double step)
 {
     scree_error error = {0};
-    w->config.walls = w->wall;
+    world_say(w);
     w->config.dimension = dimension;
     w->f.model = fixture_model(law);
     w->f.model.dimension = dimension;
     w->f.model.scheme = scheme;
     w->f.model.largest_step = w->f.model.large_multiple = 1;
     w->f.model.overlap_limit = 0.2;
-    w->f.model.walls_of_case = w->wall;
+    w->f.model.walls_of_case = w->config_wall;
     w->f.model.wall_count = w->config.wall_count;
     assert_int_equal(scree_state_create(&w->f.state, dimension, count, &error), SCREE_OK);
     if (scree_model_predicts(&w->f.model)) check(scree_state_predict(&w->f.state, &error), &error);
@@ -179,13 +250,13 @@ static inline void write_stl(const char *path, const triangle_corners *triangle,
 }
 
 /// A wall from triangles, through a file.
-static inline scree_config_wall *world_mesh(world *w, const triangle_corners *triangle, size_t count)
+static inline world_keys *world_mesh(world *w, const triangle_corners *triangle, size_t count)
 {
     static char path[4][80];
     char *name = path[w->config.wall_count];
     (void)snprintf(name, sizeof path[0], "/tmp/scree_wall_%d_%d.stl", (int)getpid(), (int)w->config.wall_count);
     write_stl(name, triangle, count, count % 2);
-    scree_config_wall *wall = world_wall(w, SCREE_SHAPE_OF_MESH);
+    world_keys *wall = world_wall(w, SCREE_SLOT_mesh);
     wall->file = name;
     return wall;
 }
