@@ -13,6 +13,7 @@
 
 /// Particles of one kind, resolved.
 typedef struct scree_species {
+    const char *name;                            ///< NULL: all particles are of one kind
     int material;                                ///< number of what they are made of
     const scree_size_distribution *distribution; ///< of their radii
     const void *sizes;                           ///< its keys, in the config
@@ -89,6 +90,8 @@ struct scree_model {
     // ---- lists of the case; what an element says beside is for the module of its kind ----
     const scree_config_wall *walls_of_case;
     int64_t wall_count;
+    const scree_config_selection *selections;
+    int64_t selection_count;
     const scree_config_load *loads;
     int64_t load_count;
     const scree_config_stage *stages;

@@ -80,7 +80,7 @@ static scree_status contact_forces(const scree_context *c, scree_error *error)
     return SCREE_OK;
 }
 
-/// Loads may ask how long their forces will act.
+/// Loads and their bounds may ask how long their forces will act.
 static scree_status predict_kick(const scree_context *c, scree_error *error)
 {
     const scree_simulation *s = c->simulation;
@@ -109,8 +109,8 @@ static const scree_pass core[] = {
     {SCREE_PHASE_FIRST_HALF, first_half},
     {SCREE_PHASE_FOLLOW, advance_clock},
     {SCREE_PHASE_SEARCH, refresh_neighbours},
+    {SCREE_PHASE_CONTACTS, predict_kick},
     {SCREE_PHASE_CONTACTS, contact_forces},
-    {SCREE_PHASE_LOADS, predict_kick},
     {SCREE_PHASE_SECOND_HALF, second_half},
     {SCREE_PHASE_GUARD, guard},
 };

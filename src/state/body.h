@@ -95,6 +95,22 @@ static inline scree_mark scree_body_mark(const scree_state *state, size_t row)
     return (scree_mark)state->mark[row];
 }
 
+/// Components of the motion of a body that are prescribed, not found: bits 0 to 2 velocity x, y, z, bits 3 to 5 spin.
+static inline unsigned scree_body_held(const scree_state *state, size_t row)
+{
+    return state->held ? state->held[row] : 0;
+}
+
+/// Takes prescribed components out of a velocity or force, and of a spin or torque.
+static inline void scree_body_leave_free(const scree_state *state, size_t row, double polar[3], double axial[3])
+{
+    unsigned held = scree_body_held(state, row);
+    for (int k = 0; k < 3 && held; k++) {
+        if (held >> k & 1) polar[k] = 0;
+        if (held >> (3 + k) & 1) axial[k] = 0;
+    }
+}
+
 /// The body is of the assembly, not of a membrane or a boundary.
 static inline bool scree_body_is_grain(const scree_state *state, size_t row)
 {

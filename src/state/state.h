@@ -198,6 +198,7 @@ struct scree_state {
     uint32_t *id;                   ///< count
     uint8_t *mark;                  ///< count, scree_mark
     uint8_t *species;               ///< count; SCREE_NO_SPECIES: no particle
+    uint8_t *held;                  ///< count, bits of components of motion that are prescribed; NULL: none is
     double *angle;                  ///< 2D: rad, orientation; NULL in 3D
     scree_vector *reference;        ///< m, positions at the start of the loading stage
     scree_vector *sampled_velocity; ///< m/s, at `sampled_step`: the mean unbalanced force is from them
