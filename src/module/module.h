@@ -65,6 +65,7 @@ struct scree_module {
     size_t pass_count;
     /// Whether it has something to do in the stage that begins. NULL: always.
     bool (*in_use)(const scree_context *context);
+    bool reads_moments; ///< needs the moments of contact forces (scree_body_contact_moment) while it is in use
     /// Largest force that its loads may put on one body in this step [N], for the quanta; up to 2^10 times more is
     /// safe. NULL: none.
     double (*bound)(const scree_context *context);

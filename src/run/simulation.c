@@ -27,6 +27,7 @@ scree_status scree_simulation_open(const scree_case *c, int threads, scree_simul
         return status;
     }
     if ((status = scree_state_open(&s->state, s->model.dimension, error))) return status;
+    scree_state_set_laws(&s->state, &s->model);
     s->state.stage.counter = SCREE_STAGE_NOT_BEGUN;
     s->stage_model = s->model;
     s->integrator = scree_integrator_get(s->model.scheme);

@@ -45,6 +45,16 @@ static inline double scree_body_mass(const scree_state *state, size_t row)
     return state->row[row].mass;
 }
 
+/// Sum over the contacts of the body of branch (x) force [N m], from its centre to the point where the force acts, d x
+/// d by rows: -stress times volume, of what contacts exert. Zero unless someone has asked
+/// (scree_state_ask_for_moments).
+static inline void scree_body_contact_moment(const scree_state *state, size_t row, double moment[9])
+{
+    const size_t size = scree_moment_size(state->dimension), count = (size_t)(state->dimension * state->dimension);
+    for (size_t k = 0; k < count; k++)
+        moment[k] = state->moment ? (double)state->moment[row * size + k] * state->torque_quantum : 0;
+}
+
 /// Moment of inertia [kg m2] about the centre, the same about every axis: m R^2 / 2 of a disc (a cylinder) about its
 /// axis, 2 m R^2 / 5 of a sphere.
 static inline double scree_body_inertia(const scree_state *state, size_t row)
