@@ -110,7 +110,7 @@ static void read_element(const scope *s, const scree_key *list, scree_node *elem
 {
     const scree_key *kind = &list->sections[0].keys[0];
     const int unknown = SCREE_CHOICE_WRONG;
-    scope inner = {s->reader, scree_primitive_section(list, element), NULL, element, element->place, path, base};
+    scope inner = {s->reader, scree_element_section(list, element), NULL, element, element->place, path, base};
     if (list->section_count > 1 && !inner.section) memcpy(scree_key_member(kind, base), &unknown, sizeof unknown);
     if (element->kind != SCREE_NODE_MAPPING) {
         scree_problem_add(s->reader, element->place, path, element->text, NULL,

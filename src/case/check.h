@@ -33,11 +33,11 @@ scree_usage scree_key_usage(const scree_node *root, const scree_section *section
 const char *scree_next_condition(const char *when);
 
 /// The section of `list` that describes `element`, or NULL when its first key is missing or wrong.
-const scree_section *scree_primitive_section(const scree_key *list, const scree_node *element);
+const scree_section *scree_element_section(const scree_key *list, const scree_node *element);
 
 /// Name of an element of a list: its `name`; of a stage without one its kind, numbered from 1 when several such stages
 /// are of the same kind. False when it has none.
-bool scree_primitive_name(const scree_key *list, const scree_node *parent, const scree_node *element, char *name,
+bool scree_element_name(const scree_key *list, const scree_node *parent, const scree_node *element, char *name,
                           size_t size);
 
 /// Reads the whole tree along `section` into the struct at `base` (zeroed before), and notes all problems. False when

@@ -23,7 +23,7 @@ static void mark_list(const scree_key *key, const part *p, bool used[SCREE_MODUL
     memcpy(&array, scree_key_member(key, p->base), sizeof array);
     for (int64_t i = 0; i < count; i++) {
         part element = {p->root, scree_node_at(list, (size_t)i), array + (size_t)i * key->element_size};
-        const scree_section *section = scree_primitive_section(key, element.mapping);
+        const scree_section *section = scree_element_section(key, element.mapping);
         if (section) mark_section(section, &element, used);
     }
 }

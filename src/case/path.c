@@ -38,7 +38,7 @@ static scree_node *find_element(const scree_key *list, const scree_node *parent,
     }
     for (scree_node *element = parent->first; element; element = element->next) {
         char name[64];
-        bool same = scree_primitive_name(list, parent, element, name, sizeof name) && strlen(name) == p.length &&
+        bool same = scree_element_name(list, parent, element, name, sizeof name) && strlen(name) == p.length &&
                     strncmp(name, p.text, p.length) == 0;
         if (same) return element;
     }
@@ -75,7 +75,7 @@ static bool enter_element(scree_target *target, const char **path)
     if (!element) return false;
     target->node = target->parent = element;
     target->element = true;
-    target->section = scree_primitive_section(list, element);
+    target->section = scree_element_section(list, element);
     if (**path && !target->section) {
         // Its kind is missing or wrong, which is a problem of its own; only the kind can be set.
         target->section = &list->sections[0];
@@ -160,10 +160,10 @@ static void consider_section(search *s, const scree_section *section, const scre
         bool list = key->type == SCREE_KEY_LIST && node && node->kind == SCREE_NODE_LIST;
         for (const scree_node *element = list ? node->first : NULL; element; element = element->next, index++) {
             char name[64], deeper[SCREE_PATH_BYTES];
-            if (s->by_index || !scree_primitive_name(key, node, element, name, sizeof name))
+            if (s->by_index || !scree_element_name(key, node, element, name, sizeof name))
                 (void)snprintf(name, sizeof name, "%zu", index);
             scree_key_join(deeper, inner, name);
-            const scree_section *kind = scree_primitive_section(key, element);
+            const scree_section *kind = scree_element_section(key, element);
             if (kind) consider_section(s, kind, element, deeper);
         }
     }

@@ -79,7 +79,7 @@ static void name_stages(scree_reader *reader, scree_config *config)
     for (int64_t i = 0; i < config->stage_count; i++) {
         const scree_node *stage = element(reader, "stages", i);
         char name[80], path[SCREE_PATH_BYTES];
-        if (!scree_primitive_name(key, list, stage, name, sizeof name)) continue;
+        if (!scree_element_name(key, list, stage, name, sizeof name)) continue;
         config->stages[i].name = scree_arena_copy(reader->arena, name, strlen(name));
         if (!config->stages[i].name) {
             scree_reader_fail(reader, sizeof name);

@@ -78,8 +78,8 @@ static bool same_lists(const scree_key *key, const part *one, const part *other)
         size_t at = (size_t)i * key->element_size;
         part first = {one->root, scree_node_at(a, (size_t)i), array_of(key, one) + at};
         part second = {other->root, scree_node_at(b, (size_t)i), array_of(key, other) + at};
-        const scree_section *section = scree_primitive_section(key, first.mapping);
-        if (!section || section != scree_primitive_section(key, second.mapping)) return false;
+        const scree_section *section = scree_element_section(key, first.mapping);
+        if (!section || section != scree_element_section(key, second.mapping)) return false;
         if (!same_section(section, &first, &second)) return false;
     }
     return true;

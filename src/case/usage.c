@@ -61,7 +61,7 @@ const char *scree_next_condition(const char *when)
     return end ? end + 1 : NULL;
 }
 
-const scree_section *scree_primitive_section(const scree_key *list, const scree_node *element)
+const scree_section *scree_element_section(const scree_key *list, const scree_node *element)
 {
     if (list->section_count == 1) return list->sections;
     const scree_node *kind = scree_node_find(element, list->sections[0].keys[0].name);
@@ -78,7 +78,7 @@ static const char *given_text(const scree_node *element, const char *key)
     return given ? node->text : NULL;
 }
 
-bool scree_primitive_name(const scree_key *list, const scree_node *parent, const scree_node *element, char *name,
+bool scree_element_name(const scree_key *list, const scree_node *parent, const scree_node *element, char *name,
                           size_t size)
 {
     const char *own = given_text(element, "name");

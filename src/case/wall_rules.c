@@ -78,7 +78,7 @@ static void name_walls(scree_reader *reader, scree_config *config)
     const scree_key *key = scree_section_find(scree_schema(), "walls", strlen("walls"));
     for (int64_t i = 0; i < config->wall_count; i++) {
         char name[80];
-        if (!scree_primitive_name(key, list, wall_node(reader, i), name, sizeof name)) continue;
+        if (!scree_element_name(key, list, wall_node(reader, i), name, sizeof name)) continue;
         config->walls[i].name = scree_arena_copy(reader->arena, name, strlen(name));
         if (!config->walls[i].name) {
             scree_reader_fail(reader, sizeof name);

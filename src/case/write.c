@@ -107,7 +107,7 @@ static void write_element(writer *w, const scree_section *section, const scree_n
 static void write_primitives(writer *w, const scree_key *list, const scree_node *node, int depth)
 {
     for (const scree_node *element = node->first; element; element = element->next)
-        write_element(w, scree_primitive_section(list, element), element, depth,
+        write_element(w, scree_element_section(list, element), element, depth,
                       list->section_count > 1 || depth == 0 || element == node->first);
 }
 
