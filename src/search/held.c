@@ -10,7 +10,6 @@
 
 #include "comm/comm.h"
 #include "search/ghosts.h"
-#include "search/search.h"
 #include "state/periodic.h"
 #include "state/persistent.h"
 
@@ -115,6 +114,7 @@ scree_status scree_held_find(const scree_model *model, scree_state *state, scree
 scree_status scree_held_list(const scree_state *state, const scree_held_buffer *buffer, scree_pair_list *pairs,
                              scree_error *error)
 {
+    pairs->held_changes = buffer->changes;
     if (buffer->count > pairs->own_capacity) {
         pairs->own_capacity = 0;
         scree_release(&pairs->own);
@@ -142,7 +142,7 @@ void scree_held_collect(scree_state *state, const scree_work *work)
         size_t number = scree_persistent_find(state, state->id[pairs->first[k]], state->id[pairs->second[k]]);
         if (number == SIZE_MAX) continue;
         scree_persistent_member *member = &scree_persistent(state)->member[number];
-        if (member->added > work->search->held.changes) continue; // ended, and held anew
+        if (member->added > work->pairs.held_changes) continue; // ended, and held anew
         member->history = pairs->history[k];
         if (pairs->last_force) member->last_force = pairs->last_force[k];
         if (pairs->rolling) member->rolling = pairs->rolling[k];

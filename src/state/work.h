@@ -23,6 +23,7 @@ typedef struct scree_pair_list {
     scree_rolling *rolling;       ///< with scree_contacts_roll: one a pair; else NULL
     size_t count, capacity;
     size_t held_count, touching_count;
+    uint64_t held_changes; ///< of the persistent list, when this was made
     scree_member_row *own; ///< held_count
     size_t own_capacity;
 } scree_pair_list;
