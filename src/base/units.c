@@ -37,6 +37,7 @@ static const quantity quantities[] = {
     {"rad", "an angle", "30 degrees"},
     {"kg", "a mass", "2 g"},
     {"N", "a force", "10 kN"},
+    {"N m", "a torque", "2 N m"},
     {"N/m", "a stiffness", "10 N/mm"},
     {"Pa s", "a viscosity", "1e9 Pa s"},
     {"J", "an energy", "3 J"},

@@ -71,14 +71,22 @@ void scree_rule_refuse(scree_reader *reader, const char *path, const char *accep
 /// Gives a key of the case a text, in the tree as in its member. path: of the key, "walls.0.file".
 void scree_rule_set_text(scree_reader *reader, const char *path, const char *text, char **member);
 
-/// Where a file that a case names lies: beside the case file, unless its path is absolute.
-void scree_file_beside(const scree_reader *reader, const char *name, char *path, size_t size);
-
 /// Those of the particles: materials, sizes and shares of the species (particle_rules.c).
 void scree_rules_check_particles(scree_reader *reader, const scree_config *config);
 
 /// Those of the boundaries of stages, and of the velocity gradients that they impose (boundary_rules.c).
 void scree_rules_check_boundaries(scree_reader *reader, const scree_config *config);
+
+/// Those of the selections: names (selection_rules.c).
+void scree_rules_check_selections(scree_reader *reader, const scree_config *config);
+
+/// Notes that the case has no THING ("selection") of this name, with the nearest of those that it has.
+void scree_rule_refuse_name(scree_reader *reader, const char *path, const char *thing, const char *wanted,
+                            const char *const *names, size_t count);
+
+/// Whether the case has a selection `name`, which stands at `path`; else that is noted. True for one that is missing or
+/// wrong, and noted.
+bool scree_rule_is_selection(scree_reader *reader, const scree_config *config, const char *path, const char *name);
 
 /// Those of the walls of the case (wall_rules.c). Files that they name are found: their paths become absolute, and the
 /// case holds the checksum of their content.

@@ -111,6 +111,15 @@ typedef struct scree_config_load {
     void *own; ///< its struct
 } scree_config_load;
 
+enum { SCREE_SELECTIONS = 32 }; ///< most of a case
+
+/// Some of the grains, under a name. What stands in `own` is said by the module of its kind.
+typedef struct scree_config_selection {
+    int kind;   ///< slot of a module that selects
+    char *name; ///< unique among the selections
+    void *own;  ///< its struct
+} scree_config_selection;
+
 /// One stage. What stands in `own` is said by the module of its kind.
 typedef struct scree_config_stage {
     int kind;        ///< slot of a module with a stage
@@ -186,6 +195,8 @@ struct scree_config {
     scree_config_boundary boundary;
     scree_config_wall *walls;
     int64_t wall_count;
+    scree_config_selection *selections;
+    int64_t selection_count;
     scree_config_load *loads;
     int64_t load_count;
     scree_config_stage *stages;
@@ -227,6 +238,9 @@ static inline bool scree_config_has_gravity(const scree_config *config)
 /// The struct of `module` among those of modules that a section's `own` points to. section: its path ("integrator"), as
 /// the module's `keys` have it. NULL: there are none.
 const void *scree_config_own(const scree_module *module, const char *section, const void *own);
+
+/// Index of the selection of this name among `count`; -1: there is none.
+int64_t scree_config_selection_find(const scree_config_selection *selections, int64_t count, const char *name);
 
 /// Particles of one kind, by number: the species, or all of them where none are listed.
 static inline scree_config_species scree_config_species_at(const scree_config_particles *particles, int64_t index)

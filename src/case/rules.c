@@ -256,5 +256,6 @@ void scree_rules_check(scree_reader *reader, scree_config *config)
     check_windows(reader, config);
     scree_rules_check_boundaries(reader, config);
     scree_rules_check_walls(reader, config);
+    scree_rules_check_selections(reader, config);
     scree_rules_check_modules(reader, config);
 }

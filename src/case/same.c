@@ -43,6 +43,16 @@ static bool same_texts(const void *one, const void *other)
     return a && b ? strcmp(a, b) == 0 : a == b;
 }
 
+/// Values as they are written.
+static bool same_nodes(const scree_node *one, const scree_node *other)
+{
+    if (!one || !other || one->kind != other->kind || one->count != other->count) return one == other;
+    if (one->kind == SCREE_NODE_SCALAR) return strcmp(one->text, other->text) == 0;
+    const scree_node *a = one->first, *b = other->first;
+    for (; a && same_nodes(a, b); a = a->next) b = b->next;
+    return !a;
+}
+
 static int64_t count_of(const scree_key *key, const part *p)
 {
     int64_t count;
@@ -106,6 +116,7 @@ static bool same_key(const scree_key *key, const part *one, const part *other)
     case SCREE_KEY_LIST:
         return same_lists(key, one, other);
     case SCREE_KEY_VALUES:
+        return same_nodes(first.mapping, second.mapping);
     case SCREE_KEY_PATHS:
     case SCREE_KEY_MODULES: // never in a schema that is put together
         break;              // the quick section: what it changes has been applied, or does not count

@@ -155,6 +155,13 @@ static const scree_key stage_keys[] = {
 /// Some stages are not held, and have no key of it.
 static const stage stage_before_reading = {.boundary = SCREE_CHOICE_AUTO, .gravity = {{.value = NAN}}};
 
+typedef scree_config_selection selection;
+static const scree_key selection_keys[] = {
+    {.name = "select", .type = SCREE_KEY_CHOICE, .offset = offsetof(selection, kind), .meaning = "How they are found."},
+    KEY(selection, name, SCREE_KEY_WORD, FROM("1"), TO("63"), .meaning = "Name, unique among the selections."),
+    MODULE_KEYS,
+};
+
 typedef scree_config_load load;
 static const scree_key load_keys[] = {
     {.name = "load", .type = SCREE_KEY_CHOICE, .offset = offsetof(load, kind), .meaning = "Kind of the load."},
@@ -207,6 +214,8 @@ static const scree_section integrator_table[] = {
 static const scree_section boundary_table[] = {
     OPEN_TABLE("boundary", "What surrounds the sample.", boundary_keys, boundary)};
 static const scree_section stage_table[] = {OPEN_TABLE("stages", "What happens.", stage_keys, stage)};
+static const scree_section selection_table[] = {
+    OPEN_TABLE("selections", "Some of the particles.", selection_keys, selection)};
 static const scree_section load_table[] = {OPEN_TABLE("loads", "What acts on the bodies.", load_keys, load)};
 static const scree_section measure_table[] = {TABLE("measure", "What is recorded.", measure_keys)};
 static const scree_section output_table[] = {TABLE("output", "What is written, and how often.", output_keys)};
@@ -250,6 +259,9 @@ static const scree_key root_keys[] = {
         .section_count = SCREE_WALL_SECTIONS, .count_offset = offsetof(scree_config, wall_count),
         .element_size = sizeof(scree_config_wall),
         .meaning = "Rigid walls beside the plates, fixed or moving; for `relax`."),
+    KEY(scree_config, selections, SCREE_KEY_LIST, .standard = "[]", FROM("0"), TO("32"), .sections = selection_table,
+        .section_count = 1, .count_offset = offsetof(scree_config, selection_count), .element_size = sizeof(selection),
+        .meaning = "Particles under a name, for what acts on some of them; found when a stage begins that needs them."),
     KEY(scree_config, loads, SCREE_KEY_LIST, .standard = "[]", FROM("0"), TO("16"), .sections = load_table,
         .section_count = 1, .count_offset = offsetof(scree_config, load_count), .element_size = sizeof(load),
         .meaning = "What acts on the bodies in all stages, beside contacts, boundary and gravity."),

@@ -6,10 +6,12 @@
 #include "contact/scalar.h"
 
 /// Evaluates the law, advances the memory and accumulates energies, overlap and range.
+/// own: constants of the pair's own; NULL: it has none.
 SCREE_INLINE contact_quanta contact_advance(contact_job *job, variant v, const scree_pair_constants *constants,
-                                            const kinematics *m, bool touching, const memory_rows *rows)
+                                            const scree_member_row *own, const kinematics *m, bool touching,
+                                            const memory_rows *rows)
 {
-    law_constants c = constants_get(constants);
+    law_constants c = constants_get(constants, own);
     law_memory before = memory_get(v, rows), after;
     contact_quanta q = contact_evaluate(v, &c, &job->settings, &job->scale, m, -(lanes_bits)touching, &before, &after);
     memory_set(v, rows, &after);
@@ -18,13 +20,29 @@ SCREE_INLINE contact_quanta contact_advance(contact_job *job, variant v, const s
     totals->friction += q.friction;
     totals->stiffness += q.stiffness;
     totals->in_range &= q.in_range != 0;
-    if (touching) totals->largest_overlap = lanes_at_least(totals->largest_overlap, m->overlap);
+    if (law_holds(v)) {
+        totals->largest_deformation = lanes_at_least(totals->largest_deformation, q.deformation);
+        totals->largest_gap = lanes_at_least(totals->largest_gap, -m->overlap);
+    } else if (touching) {
+        totals->largest_overlap = lanes_at_least(totals->largest_overlap, m->overlap);
+    }
     return q;
 }
 
 static inline bodies contact_body_at(const contact_job *job, size_t row)
 {
     return body_get(job->variant.dimension, &job->row[row], job->turn ? &job->turn[row] : NULL);
+}
+
+/// Adds to the moments of a row, where they are asked for.
+static inline void contact_add_moments(const contact_job *job, size_t row, vector normal, lanes arm, vector force)
+{
+    if (!job->moment) return;
+    const int dimension = job->variant.dimension;
+    uint64_t moment[9];
+    contact_moments(dimension, &job->scale, normal, arm, force, moment);
+    int64_t *sum = job->moment + row * scree_moment_size(dimension);
+    for (int k = 0; k < dimension * dimension; k++) sum[k] = (int64_t)((uint64_t)sum[k] + moment[k]);
 }
 
 /// Adds to the sums of a row, modulo 2^64.

@@ -10,6 +10,7 @@
 /// Cost: materials (materials + walls), a few powers.
 #include "contact/bounds.h"
 #include "state/case_walls.h"
+#include "state/persistent.h"
 #include "state/plates.h"
 
 #include "base/fixed.h"
@@ -50,6 +51,26 @@ static double largest_speed(const scree_state *state)
     return speed;
 }
 
+/// The same for pairs that are held, whose law bounds its forces by the largest deformation. Levers of a pair with a
+/// gap g are longer by g / 2, and the tangential velocity with them.
+static scree_law_bounds bounds_of_held(const scree_model *model, const scree_state *state)
+{
+    const scree_persistent_list *list = scree_persistent(state);
+    const scree_persistent_law *held = &model->persistent;
+    scree_pair_constants most = {{0}};
+    for (int a = 0; a < model->material_count; a++)
+        for (int b = 0; b <= a; b++) extend(&most, &held->pairs[a][b]);
+    double radius = scree_model_largest_radius(model);
+    double relative = 2 * largest_speed(state) * (1 + 0.5 * list->largest_gap / model->radius_min);
+    const scree_law_extent extent = {.speed = relative,
+                                     .overlap = list->largest_deformation + relative * state->step_size +
+                                                ldexp(radius + list->largest_gap, -32),
+                                     .radius = radius,
+                                     .mass = largest_mass(model),
+                                     .step = state->step_size};
+    return scree_law_get(held->law.law)->bound(&held->law, &most, &extent);
+}
+
 scree_law_bounds contact_bounds_get(const scree_model *model, const scree_state *state)
 {
     scree_pair_constants most = largest_constants(model);
@@ -61,13 +82,19 @@ scree_law_bounds contact_bounds_get(const scree_model *model, const scree_state 
                                      .mass = largest_mass(model),
                                      .step = state->step_size};
     scree_law_bounds once = scree_model_law(model)->bound(&model->law, &most, &extent);
+    if (scree_persistent(state)->count > 0) {
+        scree_law_bounds held = bounds_of_held(model, state);
+        once = (scree_law_bounds){.force = fmax(once.force, held.force),
+                                  .damping = fmax(once.damping, held.damping),
+                                  .friction = fmax(once.friction, held.friction)};
+    }
     return (scree_law_bounds){.force = 2 * once.force, .damping = 2 * once.damping, .friction = 2 * once.friction};
 }
 
-int contact_energy_bits(int dimension, size_t count)
+int contact_energy_bits(int dimension, size_t count, size_t held)
 {
     int bits = 0;
-    const uint64_t most = (uint64_t)count * (dimension == 3 ? 16 : 4);
+    const uint64_t most = (uint64_t)count * (dimension == 3 ? 16 : 4) + held;
     while (bits < 60 && (most >> bits) > 0) bits++;
     return 62 - bits < SCREE_FIXED_RANGE_BITS ? 62 - bits : SCREE_FIXED_RANGE_BITS;
 }
@@ -76,7 +103,7 @@ void scree_contact_set_quanta(const scree_model *model, scree_state *state, doub
 {
     double force = fmax(contact_bounds_get(model, state).force, extra);
     int lever;
-    (void)frexp(scree_model_largest_radius(model), &lever);
+    (void)frexp(scree_model_largest_radius(model) + 0.5 * scree_persistent(state)->largest_gap, &lever);
     state->force_quantum = scree_fixed_quantum(force);
     state->torque_quantum = ldexp(state->force_quantum, lever);
 }

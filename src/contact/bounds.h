@@ -8,7 +8,8 @@
 /// assembly of `count` bodies has fewer than 3 contacts a body and at most 4 with walls. In space the mean coordination
 /// of spheres is below 8 + 4 sqrt(3) = 14.93 (Kuperberg and Schramm 1994), that is 7.5 contacts a body; 16 leave room
 /// for overlaps and walls.
-int contact_energy_bits(int dimension, size_t count);
+/// Held: pairs of the persistent list, which come to these.
+int contact_energy_bits(int dimension, size_t count, size_t held);
 
 /// Bounds for the evaluation at the present positions, from the largest overlap of the last evaluation and the largest
 /// speed of the drift since then.

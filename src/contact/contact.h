@@ -33,12 +33,13 @@ typedef struct scree_contact {
     bool ghost;    ///< across a face of the periodic cell: of `first` and `second` one is where its ghost is
     bool membrane; ///< one of the two is a body of a membrane
     bool sliding;
+    bool held;                 ///< a pair of the persistent list: it need not touch, and may pull
     scree_vector normal;       ///< from second to first
     scree_vector tangent;      ///< 2D: (-n_y, n_x); 3D: direction of the tangential force on first, zero without one
     scree_vector point;        ///< m
     scree_vector branch;       ///< m, x_first - x_second; for a wall x_first - contact point
     double overlap;            ///< m
-    double normal_force;       ///< N, >= 0
+    double normal_force;       ///< N, >= 0 unless held
     double tangential_force;   ///< N, along t, on first; in 3D >= 0
     double slip;               ///< m/s along t in 2D, magnitude in 3D
     double elastic_normal;     ///< J
@@ -69,7 +70,8 @@ scree_status scree_contact_table_build(const scree_model *model, const scree_sta
                                        scree_contact_table *table, scree_error *error) SCREE_MUST_USE;
 void scree_contact_table_destroy(scree_contact_table *table);
 
-/// Copies the histories of touching pairs into state->contact, sorted by (first id, second id).
+/// Copies the histories of touching pairs into state->contact, sorted by (first id, second id), and what held pairs
+/// remember to the persistent list.
 scree_status scree_contacts_save(scree_state *state, const scree_work *work, scree_error *error) SCREE_MUST_USE;
 
 /// Takes the forces and torques that bodies which are about to go (going, by row: 1) exert on others out of the sums of

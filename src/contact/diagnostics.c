@@ -34,7 +34,7 @@ static void check_rows(const scree_state *state, diagnostics *f)
 static void check_contact(const scree_contact *c, double overlap_limit, double force_limit, uint64_t id, diagnostics *f)
 {
     if (c->overlap > overlap_limit) lower(&f->overlap, id);
-    if (!(c->normal_force + fabs(c->tangential_force) <= force_limit)) lower(&f->force, id);
+    if (!(fabs(c->normal_force) + fabs(c->tangential_force) <= force_limit)) lower(&f->force, id);
 }
 
 static void check_elements(const scree_model *model, const scree_state *state, const scree_work *work,
@@ -70,8 +70,10 @@ void contact_diagnose(const scree_model *model, const scree_state *state, scree_
                      second = contact_body_get(state, pairs->second[p]);
         memory_rows memory = contact_memory_of(work, CONTACT_PAIR, p);
         double radius = fmin(first.row.radius, second.row.radius);
-        if (contact_of_pair(model, state, &first, &second, &memory, &c))
-            check_contact(&c, limit * radius, force_limit, state->id[pairs->first[p]], &f);
+        // How far a pair that is held overlaps is its own affair.
+        const scree_member_row *own = contact_own_of(work, p);
+        if (contact_of_pair(model, state, &first, &second, own, &memory, &c))
+            check_contact(&c, own ? (double)INFINITY : limit * radius, force_limit, state->id[pairs->first[p]], &f);
     }
     const scree_wall_pair_list *walls = &work->wall_pairs;
     for (size_t p = 0; p < walls->count; p++) {

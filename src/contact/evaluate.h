@@ -19,6 +19,8 @@ typedef struct contact_quanta {
     lanes_bits in_range;                     ///< mask: the force is a number below the limit
     lanes_bits normal;                       ///< the same force along n
     quanta tangential;                       ///< and in the tangent plane (2D: along t)
+    lanes deformation;                       ///< m, with law_holds
+    vector on_first;                         ///< N, the force before it became integers
 } contact_quanta;
 
 SCREE_INLINE quanta quanta_of(int count, vector v, double inverse_quantum)
@@ -56,6 +58,17 @@ SCREE_INLINE quanta torque_on(int dimension, vector moment, lanes arm, const con
     return quanta_of(count, vector_times(count, moment, factor), 1);
 }
 
+/// Branch (x) force of one body of a contact, d x d by rows: -a n_i f_j for the first, with its arm, and as much for
+/// the second with its own, whose branch and force both have the other sign.
+SCREE_INLINE void contact_moments(int dimension, const contact_scale *scale, vector normal, lanes arm, vector force,
+                                  lanes_bits moment[9])
+{
+    const vector branch = vector_times(dimension, normal, arm * -scale->inverse_torque);
+    const lanes s[3] = {branch.x, branch.y, branch.z}, f[3] = {force.x, force.y, force.z};
+    for (int i = 0; i < dimension; i++)
+        for (int j = 0; j < dimension; j++) moment[dimension * i + j] = lanes_fixed(s[i] * f[j], 1);
+}
+
 SCREE_INLINE contact_quanta contact_evaluate(variant v, const law_constants *constants, const law_settings *settings,
                                              const contact_scale *scale, const kinematics *m, lanes_bits touching,
                                              const law_memory *before, law_memory *after)
@@ -64,9 +77,10 @@ SCREE_INLINE contact_quanta contact_evaluate(variant v, const law_constants *con
     const bool pulls = law_traits(v)->pulls;
     law_force f = law_evaluate(v, constants, settings, m, touching, before, after);
     law_forget(v, after);
-    vector moment = moment_of(dimension, m->normal, f.tangential);
+    vector moment = moment_of(dimension, m->normal, f.tangential), force = force_on_first(dimension, &f, m->normal);
     contact_quanta q = {
-        .force = quanta_of(dimension, force_on_first(dimension, &f, m->normal), scale->inverse_force),
+        .on_first = force,
+        .force = quanta_of(dimension, force, scale->inverse_force),
         .torque_first = torque_on(dimension, moment, m->arm_first, scale),
         .torque_second = torque_on(dimension, moment, m->arm_second, scale),
         .count = -touching,
@@ -75,6 +89,7 @@ SCREE_INLINE contact_quanta contact_evaluate(variant v, const law_constants *con
         .in_range = lanes_at_or_below((pulls ? lanes_abs(f.normal) : f.normal) + vector_extent(count, f.tangential),
                                       lanes_all(scale->force_limit)),
     };
+    if (law_holds(v)) q.deformation = f.deformation;
     if (law_rolls(v)) {
         quanta couple = quanta_of(count, f.couple, scale->inverse_torque);
         q.torque_first = quanta_sum(q.torque_first, couple);

@@ -13,6 +13,7 @@
 #include "contact/partition.h"
 #include "contact/reference.h"
 #include "contact/surfaces.h"
+#include "state/persistent.h"
 #include "state/plates.h"
 
 int scree_contact_instruction_set(int wanted)
@@ -36,7 +37,8 @@ static contact_kernel *choose_kernel(int dimension, int wanted)
 static contact_job describe_job(const scree_model *model, const scree_state *state, const scree_work *work)
 {
     scree_law_bounds bounds = contact_bounds_get(model, state);
-    double room = ldexp(1.0, SCREE_FIXED_RANGE_BITS - contact_energy_bits(state->dimension, state->count));
+    const size_t held = scree_persistent(state)->count;
+    double room = ldexp(1.0, SCREE_FIXED_RANGE_BITS - contact_energy_bits(state->dimension, state->count, held));
     return (contact_job){
         .model = model,
         .variant = {.dimension = state->dimension,
@@ -49,16 +51,21 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
         .predicted = state->predicted,
         .sum = state->sum,
         .torque = state->torque,
+        .moment = state->moment,
         .first = work->pairs.first,
         .second = work->pairs.second,
         .history = work->pairs.history,
         .last_force = work->pairs.last_force,
         .rolling = work->pairs.rolling,
+        .own = work->pairs.own,
+        .pairs = model->pairs,
+        .held_end = work->pairs.held_count,
+        .touching_begin = work->pairs.held_count,
         .near = work->pairs.touching_count,
         .touching_end = work->pairs.touching_count,
         .near_begin = work->pairs.touching_count,
         .near_end = work->pairs.count,
-        .settings = law_settings_get(model, state->step_size),
+        .settings = law_settings_get(&model->law, state->step_size),
         .scale = {.inverse_force = 1 / state->force_quantum,
                   .inverse_torque = 1 / state->torque_quantum,
                   .inverse_damping = 1 / (scree_fixed_quantum(bounds.damping) * room),
@@ -80,6 +87,8 @@ static contact_totals evaluate_serially(contact_job *job, scree_state *state, co
 static void prepare_part(contact_part *part, const contact_job *common, uint8_t *near_touched, scree_state *state)
 {
     contact_job job = *common;
+    job.held_begin = part->job.held_begin;
+    job.held_end = part->job.held_end;
     job.touching_begin = part->job.touching_begin;
     job.touching_end = part->job.touching_end;
     job.near_begin = part->job.near_begin;
@@ -103,7 +112,12 @@ static void evaluate_share(void *argument, int index, int count)
     const parts_task *task = argument;
     (void)count;
     prepare_part(&task->scratch->part[index], task->common, task->scratch->near_touched, task->state);
-    task->kernel(&task->scratch->part[index].job);
+    contact_job *job = &task->scratch->part[index].job;
+    task->kernel(job);
+    if (job->held_begin == job->held_end) return;
+    contact_job held = contact_job_of_held(job);
+    task->kernel(&held);
+    contact_totals_add(&job->totals, &held.totals);
 }
 
 /// Makes a range of rows whole, and adds the wall contacts of its bodies.
@@ -118,6 +132,7 @@ static void finish_share(void *argument, int index, int count)
     contact_merge(task->scratch, state, begin, end);
     job->sum = state->sum;
     job->torque = state->torque;
+    job->moment = state->moment;
     contact_walls(job, scree_plates(state), &task->work->wall_pairs, begin, end);
     contact_surfaces(job, state, task->work, begin, end);
 }
@@ -180,6 +195,7 @@ void scree_contact_forces(const scree_model *model, scree_state *state, scree_wo
     contact_job job = describe_job(model, state, work);
     contact_clear_rows(state, work->clear_rows, scree_row_count(state, work));
     work->clear_rows = 0;
+    contact_clear_moments(state, scree_row_count(state, work));
     contact_kernel *kernel = work->reference_kernel ? NULL : choose_kernel(state->dimension, work->instruction_set);
     contact_scratch *scratch = kernel ? contact_scratch_refresh(work, state) : NULL;
     contact_totals totals =
@@ -189,6 +205,8 @@ void scree_contact_forces(const scree_model *model, scree_state *state, scree_wo
     double plates = settle_walls(state, &totals) + contact_surfaces_settle(state, work, &totals, &job.scale);
     if (work->ledger) settle_ledger(&state->ledger, &totals, &job.scale, plates);
     state->largest_overlap = totals.largest_overlap;
+    scree_persistent(state)->largest_deformation = totals.largest_deformation;
+    scree_persistent(state)->largest_gap = totals.largest_gap;
     if (!totals.in_range || totals.largest_overlap > contact_overlap_limit(model) * model->radius_min)
         contact_diagnose(model, state, work, job.scale.force_limit);
 }

@@ -22,7 +22,7 @@ SCREE_INLINE void find_bodies(const contact_job *job, group *g)
 /// Running totals in lanes.
 typedef struct totals {
     lanes_bits damping, friction, stiffness, in_range;
-    lanes largest_overlap;
+    lanes largest_overlap, largest_deformation, largest_gap;
 } totals;
 
 /// Half of the body rows of a group, from number `half` on.
@@ -91,17 +91,26 @@ SCREE_INLINE law_constants load_constants(const contact_job *job, variant v, lan
     law_constants constants = {0};
     const int count = law_is_wide(v) ? 8 : 4;
     if (!v.many_materials) {
-        for (int k = 0; k < count; k++) constants.value[k] = lanes_all(job->model->pairs[0][0].value[k]);
+        for (int k = 0; k < count; k++) constants.value[k] = lanes_all(job->pairs[0][0].value[k]);
         return constants;
     }
     const double *row[SCREE_LANES];
-    LANE_LOOP row[k] = job->model->pairs[(int)first[k]][(int)second[k]].value;
+    LANE_LOOP row[k] = job->pairs[(int)first[k]][(int)second[k]].value;
     columns c = columns_load(row);
-    constants = (law_constants){{c.c0, c.c1, c.c2, c.c3}};
+    constants = (law_constants){.value = {c.c0, c.c1, c.c2, c.c3}};
     if (!law_is_wide(v)) return constants;
     LANE_LOOP row[k] += 4;
     columns more = columns_load(row);
-    return (law_constants){{c.c0, c.c1, c.c2, c.c3, more.c0, more.c1, more.c2, more.c3}};
+    return (law_constants){.value = {c.c0, c.c1, c.c2, c.c3, more.c0, more.c1, more.c2, more.c3}};
+}
+
+/// What a pair that is held has of its own.
+SCREE_INLINE void load_own(const contact_job *job, const group *g, law_constants *constants)
+{
+    const double *row[SCREE_LANES];
+    LANE_LOOP row[k] = job->own[g->pair[k]].value;
+    columns c = columns_load(row);
+    constants->own[0] = c.c0, constants->own[1] = c.c1, constants->own[2] = c.c2, constants->own[3] = c.c3;
 }
 
 SCREE_INLINE void keep_columns(lanes value[4], lanes_bits present, columns c)
@@ -173,12 +182,28 @@ SCREE_INLINE void add_to_sums(int dimension, const contact_job *job, const size_
     LANE_LOOP *(row4_bits *)(void *)((char *)job->torque + offset[k]) += (row4_bits)row[k];
 }
 
+/// Of one body of each pair. Not inline and apart from the hot code: only where a module asks for moments.
+static __attribute__((noinline, cold)) void add_moments(int dimension, const contact_job *job,
+                                                        const size_t offset[SCREE_LANES], const vector *normal,
+                                                        const lanes *arm, const vector *force)
+{
+    lanes_bits moment[12] = {{0}};
+    row4 row[SCREE_LANES];
+    contact_moments(dimension, &job->scale, *normal, *arm, *force, moment);
+    const int rows = dimension == 3 ? SCREE_MOMENTS_3D / 4 : SCREE_MOMENTS_2D / 4;
+    for (int r = 0; r < rows; r++) {
+        rows_of_bits(moment[4 * r], moment[4 * r + 1], moment[4 * r + 2], moment[4 * r + 3], row);
+        LANE_LOOP *(row4_bits *)(void *)((char *)job->moment + (size_t)rows * offset[k] + 32 * (size_t)r) +=
+            (row4_bits)row[k];
+    }
+}
+
 SCREE_INLINE void evaluate_group(const contact_job *job, variant v, group *g, totals *t)
 {
     const int dimension = v.dimension;
     find_bodies(job, g);
     bodies first = load_places(dimension, job, g->first), second = load_places(dimension, job, g->second);
-    lanes_bits touching = g->present & group_touches(dimension, &first, &second);
+    lanes_bits touching = law_holds(v) ? g->present : g->present & group_touches(dimension, &first, &second);
     load_motions(dimension, job, g->first, &first);
     load_motions(dimension, job, g->second, &second);
     load_spins(dimension, job, g->first, &first);
@@ -190,6 +215,7 @@ SCREE_INLINE void evaluate_group(const contact_job *job, variant v, group *g, to
         kinematics_predict(dimension, &m, &first, &ahead, &second, &ahead_second);
     }
     law_constants constants = load_constants(job, v, first.material, second.material);
+    if (law_holds(v)) load_own(job, g, &constants);
 
     law_memory before = load_memory(job, v, g), after;
     contact_quanta q = contact_evaluate(v, &constants, &job->settings, &job->scale, &m, touching, &before, &after);
@@ -197,8 +223,17 @@ SCREE_INLINE void evaluate_group(const contact_job *job, variant v, group *g, to
 
     add_to_sums(dimension, job, g->first, q.force, q.torque_first, q.count);
     add_to_sums(dimension, job, g->second, quanta_opposite(q.force), q.torque_second, q.count);
+    if (__builtin_expect(job->moment != NULL, 0)) {
+        add_moments(dimension, job, g->first, &m.normal, &m.arm_first, &q.on_first);
+        add_moments(dimension, job, g->second, &m.normal, &m.arm_second, &q.on_first);
+    }
     t->in_range &= q.in_range;
-    t->largest_overlap = lanes_at_least(t->largest_overlap, lanes_keep(touching, m.overlap));
+    if (law_holds(v)) {
+        t->largest_deformation = lanes_at_least(t->largest_deformation, lanes_keep(touching, q.deformation));
+        t->largest_gap = lanes_at_least(t->largest_gap, lanes_keep(touching, -m.overlap));
+    } else {
+        t->largest_overlap = lanes_at_least(t->largest_overlap, lanes_keep(touching, m.overlap));
+    }
     t->damping += q.damping;
     t->friction += q.friction;
     t->stiffness += q.stiffness;

@@ -12,6 +12,7 @@
 #include "case/check.h"
 #include "module/integrator.h"
 #include "module/key_rows.h"
+#include "state/memory_fields.h"
 
 /// The slip that an implicit friction sees holds what one step may change: so many times the largest now.
 static const double FORESEEN = 64;
@@ -103,8 +104,16 @@ static scree_status impact(const scree_law_use *use, const scree_pair_constants 
                                      use->number[BRILLIANTOV_TIME], impact_, error);
 }
 
+#define FORCE "tangential_force", "N", "tangential force of the last step on the first body; along t in 2D"
+static const scree_field fields[] = {
+    SCREE_REMEMBERS(hertz_brilliantov, history, 0, SCREE_AXIAL_VECTOR, FORCE, .in_checksum = true),
+    SCREE_REMEMBERS(hertz_brilliantov, history, 1, 1, SCREE_NORMAL_DAMPING_FIELD, .only_dimension = 2),
+    SCREE_REMEMBERS(hertz_brilliantov, history, 3, 1, SCREE_NORMAL_DAMPING_FIELD, .only_dimension = 3),
+};
+
 static const scree_law law = {
     .traits = hertz_brilliantov_traits,
+    .option_count = sizeof hertz_brilliantov_traits / sizeof *hertz_brilliantov_traits,
     .elastic = &scree_elastic_hertz,
     .constant_count = HERTZ_TWISTING + 1,
     .resistances = 1U << SCREE_FRICTION,
@@ -129,4 +138,6 @@ const scree_module scree_module_hertz_brilliantov = {
     .keys_count = 1,
     .rules = rules,
     .law = &law,
+    .fields = fields,
+    .field_count = sizeof fields / sizeof *fields,
 };

@@ -17,8 +17,8 @@
 /// which increases and is convex in y: min(b / g, b^(1/c)) is above the root, and two of Halley's steps are within 0.1
 /// % of it for c = 50 (0.2 % for c = 200) where it is worst, at the corner between sticking and sliding.
 ///
-/// History row, at n - 1: in 2D tangential force and normal damping force [N], in 3D x, y, z of the tangential force
-/// and the normal damping force; the tangential force for the ledger and the implicit update, the other for the ledger.
+/// Memory (the fields in hertz_brilliantov.c), at n - 1: tangential force, for the ledger and the implicit update, and
+/// normal damping force, for the ledger.
 /// Ledger: damping <f_n - K d^1.5> d' dt, friction -<f_t> . s dt (mean forces, rates of the middle of the step:
 /// kinematics.h).
 /// Cost: 2 roots, 2 divisions (3D: 3 and 3), one logarithm, one exponential a contact; implicit: 7 divisions and two

@@ -15,6 +15,7 @@
 
 #include "case/check.h"
 #include "module/key_rows.h"
+#include "state/memory_fields.h"
 
 static const scree_choice tangential_histories[] = {
     {"displacement", SCREE_TANGENTIAL_DISPLACEMENT,
@@ -125,8 +126,32 @@ static scree_status impact(const scree_law_use *use, const scree_pair_constants 
     return status;
 }
 
+// ---- what a contact remembers --------------------------------------------------------------------------------------
+
+#define ROLLS        .options = 1U << MINDLIN_ROLLING | 1U << (MINDLIN_ROLLING | MINDLIN_RESCALED)
+#define K_T          "tangential_stiffness", "N/m", "stiffness of the tangential spring in the last step"
+#define ROLLED       "rolling_displacement", "m", "displacement of rolling"
+#define ROLLING_LAST "rolling_damping_force", "N", "what the dashpot added to the rolling spring in the last step"
+#define TWISTED      "twist", "rad", "angle of twist about the normal"
+#define TWIST_LAST   "twisting_damping_torque", "N m", "what the dashpot added to the twisting spring in the last step"
+static const scree_field fields[] = {
+    SCREE_REMEMBERS(hertz_mindlin, history, 0, SCREE_AXIAL_VECTOR, SCREE_TANGENTIAL_DISPLACEMENT_FIELD,
+                    .in_checksum = true),
+    SCREE_REMEMBERS(hertz_mindlin, history, 1, 1, K_T, .only_dimension = 2),
+    SCREE_REMEMBERS(hertz_mindlin, history, 2, 1, SCREE_NORMAL_DAMPING_FIELD, .only_dimension = 2),
+    SCREE_REMEMBERS(hertz_mindlin, history, 3, 1, SCREE_TANGENTIAL_DAMPING_FIELD, .only_dimension = 2),
+    SCREE_REMEMBERS(hertz_mindlin, history, 3, 1, K_T, .only_dimension = 3),
+    SCREE_REMEMBERS(hertz_mindlin, last_force, 0, 1, SCREE_NORMAL_DAMPING_FIELD, .only_dimension = 3),
+    SCREE_REMEMBERS(hertz_mindlin, last_force, 1, 3, SCREE_TANGENTIAL_DAMPING_FIELD, .only_dimension = 3),
+    SCREE_REMEMBERS(hertz_mindlin, rolling, 0, SCREE_AXIAL_VECTOR, ROLLED, ROLLS, .in_checksum = true),
+    SCREE_REMEMBERS(hertz_mindlin, rolling, 3, 1, TWISTED, ROLLS, .only_dimension = 3, .in_checksum = true),
+    SCREE_REMEMBERS(hertz_mindlin, rolling_last, 0, SCREE_AXIAL_VECTOR, ROLLING_LAST, ROLLS),
+    SCREE_REMEMBERS(hertz_mindlin, rolling_last, 3, 1, TWIST_LAST, ROLLS, .only_dimension = 3),
+};
+
 static const scree_law law = {
     .traits = hertz_mindlin_traits,
+    .option_count = sizeof hertz_mindlin_traits / sizeof *hertz_mindlin_traits,
     .elastic = &scree_elastic_hertz,
     .constant_count = HERTZ_TWISTING + 1,
     .resistances = 1U << SCREE_FRICTION | 1U << HERTZ_ROLLING | 1U << HERTZ_TWISTING,
@@ -150,4 +175,6 @@ const scree_module scree_module_hertz_mindlin = {
     .keys_count = 2,
     .rules = rules,
     .law = &law,
+    .fields = fields,
+    .field_count = sizeof fields / sizeof *fields,
 };

@@ -26,9 +26,9 @@
 /// one step, and only concerns the direction. Two bodies that turn at different rates about n take the spring along at
 /// the mean.
 ///
-/// History row in 2D: h [m], k_t(n - 1) [N/m], and at n - 1 for the ledger: normal damping force, dashpot's part of the
-/// tangential force [N]. In 3D: h and k_t(n - 1); scree_last_force has the normal damping force and the dashpot's part.
-/// scree_rolling: rolling displacement and, in 3D, angle of twist; their dashpots accumulated beside.
+/// Memory (the fields in hertz_mindlin.c): h, k_t(n - 1), and at n - 1 for the ledger the normal damping force and the
+/// dashpot's part of the tangential force; of rolling the displacement and, in 3D, the angle of twist, and their
+/// dashpots.
 ///
 /// Ledger: damping <f_n - k_n d> d' dt with the rate of the middle of the step (kinematics.h), the rest by slider.h.
 /// Cost: 3 roots, 3 divisions a contact in 2D; 3 and 2 in 3D, 5 and 4 in a group of lanes where one slides; rolling and

@@ -23,6 +23,7 @@ typedef struct variant {
 /// are there with the trait `wide` only.
 typedef struct law_constants {
     lanes value[SCREE_PAIR_CONSTANTS];
+    lanes own[SCREE_MEMBER_CONSTANTS]; ///< of the pair alone, with the trait `holds` only
 } law_constants;
 
 /// Numbers of the whole run.
@@ -43,6 +44,7 @@ typedef struct law_force {
     vector tangential;                        ///< N, on first: along t, or in the tangent plane
     vector couple;                            ///< N m, of rolling and twisting resistance, on first
     lanes damping, friction, stiffness;       ///< J, ledger increments of this step
+    lanes deformation;                        ///< m, with the trait `holds`: from it the law bounds its forces
     lanes elastic_normal, elastic_tangential; ///< J; the springs of rolling and twisting count as tangential
 } law_force;
 

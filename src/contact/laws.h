@@ -15,10 +15,10 @@ SCREE_INLINE const scree_law_traits *law_traits(variant v)
     return &all_law_traits[v.law][v.option];
 }
 
-SCREE_INLINE law_settings law_settings_get(const scree_model *model, double step)
+SCREE_INLINE law_settings law_settings_get(const scree_law_use *law, double step)
 {
     law_settings settings = {.step = step};
-    memcpy(settings.number, model->law.number, sizeof settings.number);
+    memcpy(settings.number, law->number, sizeof settings.number);
     return settings;
 }
 
@@ -44,6 +44,12 @@ SCREE_INLINE bool law_keeps_last_force(variant v)
 SCREE_INLINE bool law_rolls(variant v)
 {
     return law_traits(v)->rolling;
+}
+
+/// Whether it is of pairs of the persistent list, which are in contact at any distance.
+SCREE_INLINE bool law_holds(variant v)
+{
+    return law_traits(v)->holds;
 }
 
 /// Whether it reads the second half of the constants.

@@ -6,11 +6,15 @@
 /// (slider.h). M prints d' with the opposite sign (his overlap is negative). A contact without a bond presses only: M's
 /// text at 2.40, and the max here also while a dashpot would pull the parting bodies back.
 ///
+/// Held (LINEAR_HELD, pairs of the persistent list): the spring pulls, too, is at rest at the overlap d_0 of the pair,
+/// and neither it nor the tangential one slides (M 2.23-2.28 without strengths):
+///   f_n = k_n (d - d_0) + c_n d',   f_t = -(k_t h + c_t s)
+///
 /// E A / L: the bar from centre to centre, L = R_1 + R_2. Of discs of thickness t, A = t (R_1 + R_2), so k_n = E t
 /// whatever the radii; of spheres A = pi R_1 R_2, so k_n = pi E R_eff: for equal bodies the section through the centre.
 ///
-/// History row in 2D: h [m], then for the ledger, at n - 1: normal damping force, dashpot's part of the tangential
-/// force [N]. In 3D: h and the normal damping force; scree_last_force has the dashpot's part.
+/// Memory (the fields in linear.c): h, and for the ledger, at n - 1, the normal damping force and the dashpot's part of
+/// the tangential force.
 ///
 /// Ledger: damping <f_n - k_n d> d' dt with the rate of the middle of the step (kinematics.h), the rest by slider.h.
 /// k_t does not change, so springs are given no energy: `stiffness` is zero. Limits: the dashpot jumps to c_n v where
@@ -22,6 +26,9 @@
 #include "contact/law.h"
 #include "contact/slider.h"
 #include "model/law.h"
+
+/// Option.
+enum { LINEAR_HELD = 1 };
 
 /// Constants of a pair, beside SCREE_FRICTION.
 enum {
@@ -43,14 +50,21 @@ typedef struct scree_linear_material {
     double tangential_damping_ratio; ///< 1; auto: the normal one
 } scree_linear_material;
 
-#define linear_KERNELS(row) row(linear, 0, one) row(linear, 0, many)
+#define linear_KERNELS(row) row(linear, 0, one) row(linear, 0, many) row(linear, 1, many)
 
 static const scree_law_traits linear_traits[] = {
-    {.remembers = true,
-     .for_ledger = {0xe, 0x8},
-     .keeps_last_force = {false, true},
-     .displacement = true,
-     .wide = true},
+    [0] = {.remembers = true,
+           .for_ledger = {0xe, 0x8},
+           .keeps_last_force = {false, true},
+           .displacement = true,
+           .wide = true},
+    [LINEAR_HELD] = {.remembers = true,
+                     .for_ledger = {0xe, 0x8},
+                     .keeps_last_force = {false, true},
+                     .displacement = true,
+                     .wide = true,
+                     .pulls = true,
+                     .holds = true},
 };
 
 /// What the slider remembers; a spring that has lost its contact still holds what it held.
@@ -73,17 +87,20 @@ SCREE_INLINE law_force linear(variant v, const law_constants *constants, const l
 {
     const int dimension = v.dimension, count = tangential_count(dimension);
     const lanes *constant = constants->value, none = lanes_all(0);
-    lanes d = lanes_keep(touching, m->overlap);
+    const bool held = v.option & LINEAR_HELD;
+    lanes d = lanes_keep(touching, held ? m->overlap - constants->own[SCREE_MEMBER_REST] : m->overlap);
     lanes whole = constant[LINEAR_NORMAL] + constant[LINEAR_BY_RADIUS] * m->reduced_radius;
     lanes stiffness = lanes_keep(touching, whole);
     lanes root = lanes_root(m->reduced_mass * stiffness);
     lanes elastic = stiffness * d;
-    lanes normal = lanes_at_least(elastic + constant[LINEAR_DAMPING] * root * m->approach, none);
+    lanes normal = elastic + constant[LINEAR_DAMPING] * root * m->approach;
+    if (!held) normal = lanes_at_least(normal, none);
     lanes damping = normal - elastic, damping_before = before->value[dimension == 2 ? 1 : 3];
 
     slider_memory slipped = linear_remembered(dimension, m, before, constant[LINEAR_RATIO] * whole);
     slider slip = slider_move(count, &slipped, m->slip, settings->step, constant[LINEAR_RATIO] * stiffness,
-                              constant[LINEAR_TANGENTIAL_DAMPING] * root, constant[SCREE_FRICTION] * normal, touching);
+                              constant[LINEAR_TANGENTIAL_DAMPING] * root,
+                              held ? lanes_all(INFINITY) : constant[SCREE_FRICTION] * normal, touching);
     vector tangential_displacement = slip.now.displacement, dashpot = slip.now.dashpot;
     *after = (law_memory){.value = {tangential_displacement.x, damping, dashpot.x, none}};
     if (dimension == 3)
@@ -97,6 +114,7 @@ SCREE_INLINE law_force linear(variant v, const law_constants *constants, const l
         .damping = 0.5 * ((damping + damping_before) * (m->approach * settings->step) + slip.damping),
         .friction = 0.5 * slip.friction,
         .stiffness = none,
+        .deformation = held ? lanes_at_least(lanes_abs(d), vector_extent(count, tangential_displacement)) : none,
         .elastic_normal = 0.5 * (elastic * d),
         .elastic_tangential = slip.elastic,
     };

@@ -14,7 +14,7 @@ static bool reference_get(const scree_state *state, const scree_work *work, cons
     if (k < pairs->count) {
         uint32_t a = pairs->first[k], b = pairs->second[k];
         *r = (contact_reference){state->id[a], state->id[b], (uint32_t)k};
-        return pair_touches(state->dimension, &state->row[a], &state->row[b]);
+        return k < pairs->held_count || pair_touches(state->dimension, &state->row[a], &state->row[b]);
     }
     k -= pairs->count;
     if (k >= work->wall_pairs.count) {

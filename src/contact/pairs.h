@@ -118,6 +118,8 @@ static void totals_reduce(const totals *t, contact_totals *out)
         out->friction += t->friction[k];
         out->stiffness += t->stiffness[k];
         if (t->largest_overlap[k] > out->largest_overlap) out->largest_overlap = t->largest_overlap[k];
+        out->largest_deformation = fmax(out->largest_deformation, t->largest_deformation[k]);
+        out->largest_gap = fmax(out->largest_gap, t->largest_gap[k]);
     }
 }
 

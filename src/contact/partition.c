@@ -10,6 +10,7 @@ static void release_parts(contact_scratch *scratch)
     for (int k = 0; k < scratch->part_capacity; k++) {
         scree_release(&scratch->part[k].buffer);
         scree_release(&scratch->part[k].torque);
+        scree_release(&scratch->part[k].moment);
     }
     scree_release(&scratch->part);
     scratch->part_count = scratch->part_capacity = 0;
@@ -60,32 +61,47 @@ static size_t share(size_t count, int k, int parts)
     return k == parts ? count : count / (size_t)parts * (size_t)k / 8 * 8;
 }
 
-static scree_status cut_part(contact_scratch *scratch, const scree_pair_list *pairs, bool in_3d, size_t rows, int k)
+/// Buffers for a window of this many rows; those of moments where they are asked for.
+static scree_status reserve_window(contact_part *part, const scree_state *state, size_t window)
+{
+    const bool moments = state->moment != NULL;
+    if (window <= part->capacity && (!moments || part->moment)) return SCREE_OK;
+    scree_release(&part->buffer);
+    scree_release(&part->torque);
+    scree_release(&part->moment);
+    part->capacity = 0;
+    scree_status status = scree_allocate(&part->buffer, window, sizeof *part->buffer, NULL);
+    if (!status && state->dimension == 3) status = scree_allocate(&part->torque, window, sizeof *part->torque, NULL);
+    if (!status && moments)
+        status =
+            scree_allocate(&part->moment, window, scree_moment_size(state->dimension) * sizeof *part->moment, NULL);
+    if (!status) part->capacity = window;
+    return status;
+}
+
+static scree_status cut_part(contact_scratch *scratch, const scree_pair_list *pairs, const scree_state *state,
+                             size_t rows, int k)
 {
     contact_part *part = &scratch->part[k];
-    size_t touching = pairs->touching_count, near = pairs->count - touching;
+    size_t held = pairs->held_count, first_near = pairs->touching_count;
+    size_t touching = first_near - held, near = pairs->count - first_near;
     int parts = scratch->part_count;
     contact_job *job = &part->job;
-    job->near = touching;
-    job->touching_begin = share(touching, k, parts);
-    job->touching_end = share(touching, k + 1, parts);
-    job->near_begin = touching + share(near, k, parts);
-    job->near_end = touching + share(near, k + 1, parts);
+    job->near = first_near;
+    job->held_begin = share(held, k, parts);
+    job->held_end = share(held, k + 1, parts);
+    job->touching_begin = held + share(touching, k, parts);
+    job->touching_end = held + share(touching, k + 1, parts);
+    job->near_begin = first_near + share(near, k, parts);
+    job->near_end = first_near + share(near, k + 1, parts);
     if (k == 0) return SCREE_OK; // adds to state->sum itself
 
     part->low = rows, part->high = 0;
+    extend_window(part, pairs, job->held_begin, job->held_end);
     extend_window(part, pairs, job->touching_begin, job->touching_end);
     extend_window(part, pairs, job->near_begin, job->near_end);
     if (part->high == 0) part->low = 0;
-    size_t window = part->high - part->low;
-    if (window <= part->capacity) return SCREE_OK;
-    scree_release(&part->buffer);
-    scree_release(&part->torque);
-    part->capacity = 0;
-    scree_status status = scree_allocate(&part->buffer, window, sizeof *part->buffer, NULL);
-    if (!status && in_3d) status = scree_allocate(&part->torque, window, sizeof *part->torque, NULL);
-    if (!status) part->capacity = window;
-    return status;
+    return reserve_window(part, state, part->high - part->low);
 }
 
 static scree_status cut(contact_scratch *scratch, const scree_work *work, const scree_state *state)
@@ -100,21 +116,22 @@ static scree_status cut(contact_scratch *scratch, const scree_work *work, const 
     scratch->part_count = parts;
     scree_status status = mark_near(scratch, &work->pairs);
     for (int k = 0; k < parts && !status; k++)
-        status = cut_part(scratch, &work->pairs, state->dimension == 3, scree_row_count(state, work), k);
+        status = cut_part(scratch, &work->pairs, state, scree_row_count(state, work), k);
     return status;
 }
 
-static bool is_current(const contact_scratch *scratch, const scree_work *work, size_t rows)
+static bool is_current(const contact_scratch *scratch, const scree_work *work, size_t rows, bool moments)
 {
     return scratch->part_count == scree_work_shares(work) && scratch->rebuilds == work->rebuilds &&
            scratch->first == work->pairs.first && scratch->count == work->pairs.count &&
-           scratch->touching_count == work->pairs.touching_count && scratch->rows == rows;
+           scratch->touching_count == work->pairs.touching_count && scratch->rows == rows &&
+           (scratch->moments || !moments);
 }
 
 contact_scratch *contact_scratch_refresh(scree_work *work, const scree_state *state)
 {
     contact_scratch *scratch = work->contact_scratch;
-    if (scratch && is_current(scratch, work, scree_row_count(state, work))) return scratch;
+    if (scratch && is_current(scratch, work, scree_row_count(state, work), state->moment != NULL)) return scratch;
     if (!scratch) {
         if (scree_allocate(&scratch, 1, sizeof *scratch, NULL)) return NULL;
         work->contact_scratch = scratch;
@@ -128,6 +145,7 @@ contact_scratch *contact_scratch_refresh(scree_work *work, const scree_state *st
     scratch->count = work->pairs.count;
     scratch->touching_count = work->pairs.touching_count;
     scratch->rows = scree_row_count(state, work);
+    scratch->moments = state->moment != NULL;
     return scratch;
 }
 
@@ -141,16 +159,27 @@ void contact_clear_rows(scree_state *state, size_t begin, size_t end)
     if (state->torque) memset(state->torque + begin, 0, (end - begin) * sizeof *state->torque);
 }
 
+void contact_clear_moments(scree_state *state, size_t rows)
+{
+    if (state->moment && rows > 0)
+        memset(state->moment, 0, rows * scree_moment_size(state->dimension) * sizeof *state->moment);
+}
+
 void contact_part_clear(contact_part *part, scree_state *state, contact_job *job)
 {
     job->sum = state->sum;
     job->torque = state->torque;
+    job->moment = state->moment;
     if (!part->buffer) return;
     size_t rows = part->high - part->low;
     if (rows > 0) memset(part->buffer, 0, rows * sizeof *part->buffer);
     if (rows > 0 && part->torque) memset(part->torque, 0, rows * sizeof *part->torque);
     job->sum = WINDOW_BASE(part->buffer, part->low);
     if (part->torque) job->torque = WINDOW_BASE(part->torque, part->low);
+    if (!state->moment) return;
+    const size_t size = scree_moment_size(state->dimension);
+    if (rows > 0) memset(part->moment, 0, rows * size * sizeof *part->moment);
+    job->moment = WINDOW_BASE(part->moment, size * part->low);
 }
 
 void contact_merge_range(const contact_scratch *scratch, size_t rows, int index, size_t *begin, size_t *end)
@@ -172,7 +201,19 @@ static void add_buffer(const contact_part *part, scree_state *state, size_t begi
     }
 }
 
+/// The same for moments.
+static void add_moments(const contact_part *part, scree_state *state, size_t begin, size_t end)
+{
+    const size_t size = scree_moment_size(state->dimension);
+    size_t from = begin > part->low ? begin : part->low, to = end < part->high ? end : part->high;
+    for (size_t k = from * size; k < to * size && state->moment; k++)
+        state->moment[k] = (int64_t)((uint64_t)state->moment[k] + (uint64_t)part->moment[k - part->low * size]);
+}
+
 void contact_merge(const contact_scratch *scratch, scree_state *state, size_t begin, size_t end)
 {
-    for (int k = 1; k < scratch->part_count; k++) add_buffer(&scratch->part[k], state, begin, end);
+    for (int k = 1; k < scratch->part_count; k++) {
+        add_buffer(&scratch->part[k], state, begin, end);
+        add_moments(&scratch->part[k], state, begin, end);
+    }
 }

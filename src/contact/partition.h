@@ -15,6 +15,7 @@ typedef struct contact_part {
     size_t low, high;         ///< window: rows that its pairs name; not for part 0
     scree_sum_row *buffer;    ///< sums of the window; none for part 0
     scree_torque_row *torque; ///< 3D: torques of the window
+    int64_t *moment;          ///< moments of the window, where they are asked for
     size_t capacity;
 } contact_part;
 
@@ -27,6 +28,7 @@ typedef struct contact_scratch {
     uint64_t rebuilds;
     const uint32_t *first;
     size_t count, touching_count, rows;
+    bool moments; ///< parts have room for them
 } contact_scratch;
 
 /// The partition of the present list, made anew when the list is. NULL when there is no memory for it.
@@ -37,6 +39,9 @@ void contact_part_clear(contact_part *part, scree_state *state, contact_job *job
 
 /// Clears state->sum (3D: and state->torque) of the rows [begin, end).
 void contact_clear_rows(scree_state *state, size_t begin, size_t end);
+
+/// Clears state->moment of the first rows, where there is one.
+void contact_clear_moments(scree_state *state, size_t rows);
 
 /// Rows that part `index` merges.
 void contact_merge_range(const contact_scratch *scratch, size_t rows, int index, size_t *begin, size_t *end);

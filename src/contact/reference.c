@@ -18,6 +18,8 @@ void contact_totals_add(contact_totals *into, const contact_totals *more)
     into->friction += more->friction;
     into->stiffness += more->stiffness;
     into->largest_overlap = lanes_at_least(into->largest_overlap, more->largest_overlap);
+    into->largest_deformation = lanes_at_least(into->largest_deformation, more->largest_deformation);
+    into->largest_gap = lanes_at_least(into->largest_gap, more->largest_gap);
     into->in_range &= more->in_range;
     for (int w = 0; w < SCREE_WALL_COUNT; w++) {
         into->wall_force[w] += more->wall_force[w];
@@ -35,7 +37,7 @@ static void evaluate_pair(contact_job *job, size_t p)
     const int dimension = job->variant.dimension;
     const size_t first = job->first[p], second = job->second[p];
     memory_rows rows = memory_rows_at(job->history, job->last_force, job->rolling, p);
-    bool touching = pair_touches(dimension, &job->row[first], &job->row[second]);
+    bool touching = law_holds(job->variant) || pair_touches(dimension, &job->row[first], &job->row[second]);
     if (!touching && memory_is_clear(&rows)) return;
     bodies one = contact_body_at(job, first), other = contact_body_at(job, second);
     kinematics m = kinematics_of_pair(dimension, &one, &other, job->settings.step);
@@ -44,17 +46,29 @@ static void evaluate_pair(contact_job *job, size_t p)
         prediction ahead_second = prediction_get(dimension, &job->predicted[second]);
         kinematics_predict(dimension, &m, &one, &ahead, &other, &ahead_second);
     }
-    const scree_pair_constants *constants = &job->model->pairs[(int)one.material][(int)other.material];
-    contact_quanta q = contact_advance(job, job->variant, constants, &m, touching, &rows);
+    const scree_pair_constants *constants = &job->pairs[(int)one.material][(int)other.material];
+    const scree_member_row *own = law_holds(job->variant) ? &job->own[p] : NULL;
+    contact_quanta q = contact_advance(job, job->variant, constants, own, &m, touching, &rows);
     contact_add_to_sums(job, first, q.force, q.torque_first, q.count);
     contact_add_to_sums(job, second, quanta_opposite(q.force), q.torque_second, q.count);
+    contact_add_moments(job, first, m.normal, m.arm_first, q.on_first);
+    contact_add_moments(job, second, m.normal, m.arm_second, q.on_first);
 }
 
-void contact_pairs_reference(contact_job *job)
+static void evaluate_range(contact_job *job)
 {
     job->totals = contact_totals_none();
     for (size_t p = job->touching_begin; p < job->touching_end; p++) evaluate_pair(job, p);
     for (size_t p = job->near_begin; p < job->near_end; p++) evaluate_pair(job, p);
+}
+
+void contact_pairs_reference(contact_job *job)
+{
+    evaluate_range(job);
+    if (job->held_begin == job->held_end) return;
+    contact_job held = contact_job_of_held(job);
+    evaluate_range(&held);
+    contact_totals_add(&job->totals, &held.totals);
 }
 
 /// The bodies at a wall lie apart in memory.
@@ -87,8 +101,9 @@ SCREE_INLINE void evaluate_walls(contact_job *job, variant v, const scree_wall *
             prediction ahead = prediction_get(v.dimension, &job->predicted[row]);
             kinematics_predict(v.dimension, &m, &one, &ahead, NULL, NULL);
         }
-        contact_quanta q = contact_advance(job, v, &job->model->walls[(int)one.material], &m, touching, &rows);
+        contact_quanta q = contact_advance(job, v, &job->model->walls[(int)one.material], NULL, &m, touching, &rows);
         contact_add_to_sums(job, row, q.force, q.torque_first, q.count);
+        contact_add_moments(job, row, m.normal, m.arm_first, q.on_first);
         job->totals.wall_force[w] += q.normal;
         job->totals.wall_shear[w][0] -= q.tangential.x;
         job->totals.wall_shear[w][1] -= q.tangential.y;

@@ -29,10 +29,12 @@ static inline prediction prediction_get(int dimension, const scree_predicted *f)
     return (prediction){.velocity = {f->vx, f->vy, f->vz}, .spin = {f->wx, f->wy, f->wz}, f->contacts};
 }
 
-static inline law_constants constants_get(const scree_pair_constants *c)
+/// own: constants of the pair's own; NULL: it has none.
+static inline law_constants constants_get(const scree_pair_constants *c, const scree_member_row *own)
 {
-    law_constants constants;
+    law_constants constants = {.own = {0}};
     for (int k = 0; k < SCREE_PAIR_CONSTANTS; k++) constants.value[k] = c->value[k];
+    for (int k = 0; k < SCREE_MEMBER_CONSTANTS && own; k++) constants.own[k] = own->value[k];
     return constants;
 }
 

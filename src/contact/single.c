@@ -33,18 +33,21 @@ static void describe_tangent(int dimension, const kinematics *m, const law_force
     contact->slip = sqrt(vector_dot(3, m->slip, m->slip));
 }
 
-static void describe(const scree_model *model, int dimension, const scree_pair_constants *constants, kinematics *m,
-                     const memory_rows *memory, scree_contact *contact)
+/// own: constants of a pair that is held; NULL: of no such pair.
+static void describe(const scree_model *model, int dimension, const scree_pair_constants *constants,
+                     const scree_member_row *own, kinematics *m, const memory_rows *memory, scree_contact *contact)
 {
     kinematics_hold(m);
-    variant v = {.dimension = dimension, .law = model->law.law, .option = model->law.option, .many_materials = true};
-    law_constants c = constants_get(constants);
-    law_settings settings = law_settings_get(model, 0);
+    const scree_law_use *law = own ? &model->persistent.law : &model->law;
+    variant v = {.dimension = dimension, .law = law->law, .option = law->option, .many_materials = true};
+    law_constants c = constants_get(constants, own);
+    law_settings settings = law_settings_get(law, 0);
     law_memory before = memory_get(v, memory), after;
     law_force f = law_evaluate(v, &c, &settings, m, ~UINT64_C(0), &before, &after);
     describe_tangent(dimension, m, &f, contact);
     double cap = constants->value[SCREE_FRICTION] * f.normal;
-    contact->sliding = f.normal > 0 && fabs(contact->tangential_force) >= (1 - SLIDING_TOLERANCE) * cap;
+    contact->held = own != NULL;
+    contact->sliding = !own && f.normal > 0 && fabs(contact->tangential_force) >= (1 - SLIDING_TOLERANCE) * cap;
     set_vector(contact->normal, m->normal);
     contact->overlap = m->overlap;
     contact->normal_force = f.normal;
@@ -60,14 +63,16 @@ static void place(int dimension, const bodies *first, const kinematics *m, scree
 }
 
 bool contact_of_pair(const scree_model *model, const scree_state *state, const contact_body *first,
-                     const contact_body *second, const memory_rows *memory, scree_contact *contact)
+                     const contact_body *second, const scree_member_row *own, const memory_rows *memory,
+                     scree_contact *contact)
 {
     const int dimension = state->dimension;
-    if (!pair_touches(dimension, &first->row, &second->row)) return false;
+    if (!own && !pair_touches(dimension, &first->row, &second->row)) return false;
     bodies one = body_get(dimension, &first->row, &first->turn);
     bodies other = body_get(dimension, &second->row, &second->turn);
     kinematics m = kinematics_of_pair(dimension, &one, &other, state->step_size);
-    describe(model, dimension, &model->pairs[(int)one.material][(int)other.material], &m, memory, contact);
+    const scree_pair_constants(*pairs)[SCREE_MAX_MATERIALS] = own ? model->persistent.pairs : model->pairs;
+    describe(model, dimension, &pairs[(int)one.material][(int)other.material], own, &m, memory, contact);
     place(dimension, &one, &m, contact);
     contact->wall = false;
     set_vector(contact->branch, vector_minus(dimension, one.position, other.position));
@@ -78,7 +83,7 @@ bool contact_of_pair(const scree_model *model, const scree_state *state, const c
 static void describe_wall(const scree_model *model, int dimension, const scree_pair_constants *constants,
                           const bodies *one, kinematics *m, const memory_rows *memory, scree_contact *contact)
 {
-    describe(model, dimension, constants, m, memory, contact);
+    describe(model, dimension, constants, NULL, m, memory, contact);
     place(dimension, one, m, contact);
     contact->wall = true;
     const double centre[3] = {one->position.x, one->position.y, one->position.z};

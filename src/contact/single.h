@@ -35,9 +35,17 @@ static inline memory_rows contact_memory_of(const scree_work *work, contact_list
                                 : memory_rows_at(walls->history, walls->last_force, walls->rolling, k);
 }
 
-/// Two bodies; false when they do not touch. Leaves `first` and `second` of the contact alone.
+/// Constants of its own of pair `p` of the list; NULL where it is not held.
+static inline const scree_member_row *contact_own_of(const scree_work *work, size_t p)
+{
+    return p < work->pairs.held_count ? &work->pairs.own[p] : NULL;
+}
+
+/// Two bodies; false when they do not touch. own: of a pair that is held, which needs no touch; else NULL. Leaves
+/// `first` and `second` of the contact alone.
 bool contact_of_pair(const scree_model *model, const scree_state *state, const contact_body *first,
-                     const contact_body *second, const memory_rows *memory, scree_contact *contact);
+                     const contact_body *second, const scree_member_row *own, const memory_rows *memory,
+                     scree_contact *contact);
 
 /// A body and a wall.
 bool contact_of_wall(const scree_model *model, const scree_state *state, const contact_body *body,

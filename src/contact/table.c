@@ -4,6 +4,7 @@
 #include "contact/order.h"
 #include "contact/single.h"
 #include "module/integrator.h"
+#include "search/held.h"
 #include "state/periodic.h"
 #include "state/plates.h"
 
@@ -92,7 +93,7 @@ static void fill(const scree_model *model, const scree_state *state, const scree
         return;
     }
     contact_body second = contact_body_at_half_step(model, state, work, other);
-    contact_of_pair(model, state, &first, &second, &memory, contact);
+    contact_of_pair(model, state, &first, &second, contact_own_of(work, p), &memory, contact);
     if (one != contact->first) move_point(state, one, contact);
     contact->membrane = contact->membrane || !scree_body_is_grain(state, contact->second);
 }
@@ -124,14 +125,19 @@ scree_status scree_contacts_save(scree_state *state, const scree_work *work, scr
     if (!status) status = scree_state_reserve_contacts(state, count, error);
     if (!status && work->pairs.last_force) status = scree_state_add_last_force(state, error);
     if (!status && work->pairs.rolling) status = scree_state_add_rolling(state, error);
-    state->contact_count = status ? 0 : count;
-    for (size_t k = 0; k < state->contact_count; k++) {
+    size_t saved = 0;
+    for (size_t k = 0; k < count && !status; k++) {
         const contact_reference *r = &order[k];
-        memory_rows memory = contact_memory_of(work, contact_reference_list(r), r->pair);
-        state->contact[k] = (scree_contact_memory){r->first, r->second, *memory.history};
-        if (memory.last_force) state->last_force[k] = *memory.last_force;
-        if (memory.rolling) state->rolling[k] = *memory.rolling;
+        contact_list list = contact_reference_list(r);
+        if (list == CONTACT_PAIR && r->pair < work->pairs.held_count) continue;
+        memory_rows memory = contact_memory_of(work, list, r->pair);
+        state->contact[saved] = (scree_contact_memory){r->first, r->second, *memory.history};
+        if (memory.last_force) state->last_force[saved] = *memory.last_force;
+        if (memory.rolling) state->rolling[saved] = *memory.rolling;
+        saved++;
     }
+    state->contact_count = saved;
+    if (!status) scree_held_collect(state, work);
     scree_release(&order);
     return status;
 }

@@ -14,24 +14,50 @@
 
 // ---- the tables as one list --------------------------------------------------------------------------------------
 
-/// The field with this number; NULL when it is derived and therefore not stored, or of the other dimension.
-static const scree_field *stored_field(int dimension, size_t index)
+/// The field with this number; NULL when it is derived and therefore not stored, of the other dimension or of another
+/// law.
+static const scree_field *stored_field(const scree_state *state, size_t index)
 {
     const scree_field *field = scree_field_at(index);
-    return scree_field_is_stored(field, dimension) ? field : NULL;
+    return scree_field_is_stored(state, field) ? field : NULL;
 }
 
-static uint64_t layout_checksum(int dimension)
+static uint64_t layout_checksum(const scree_state *state)
 {
-    uint64_t checksum = (uint64_t)dimension;
+    uint64_t checksum = (uint64_t)state->dimension;
     for (size_t k = 0; k < scree_field_total(); k++) {
-        const scree_field *field = stored_field(dimension, k);
+        const scree_field *field = stored_field(state, k);
         if (!field) continue;
         checksum = scree_checksum_bytes(checksum, field->name, strlen(field->name));
         checksum = scree_checksum_word(checksum, (uint64_t)field->type << 32 | (uint32_t)field->components);
         checksum = scree_checksum_word(checksum, field->rows);
     }
     return checksum;
+}
+
+// ---- the law whose memory contacts have --------------------------------------------------------------------------
+
+static const char *const law_attributes[SCREE_LISTS][2] = {{"law", "law_option"},
+                                                           {"persistent_law", "persistent_law_option"}};
+
+static void write_laws(scree_hdf5 *part, const char *group, const scree_state *state)
+{
+    for (int list = 0; list < SCREE_LISTS; list++) {
+        const scree_remembered_law *law = &state->law[list];
+        scree_hdf5_set_text(part, group, law_attributes[list][0], law->law ? law->law->name : "");
+        scree_hdf5_set_integer(part, group, law_attributes[list][1], law->option);
+    }
+}
+
+static void read_law(scree_hdf5 *file, const char *group, int list, scree_remembered_law *law)
+{
+    char name[64];
+    uint64_t option = 0;
+    scree_hdf5_get_text(file, group, law_attributes[list][0], name, sizeof name);
+    scree_hdf5_get_integer(file, group, law_attributes[list][1], &option);
+    *law = (scree_remembered_law){.option = (unsigned)option};
+    for (int m = 0; m < SCREE_MODULE_COUNT && !file->status; m++)
+        if (scree_modules[m]->law && strcmp(scree_modules[m]->name, name) == 0) law->law = scree_modules[m];
 }
 
 // ---- writing -----------------------------------------------------------------------------------------------------
@@ -41,13 +67,14 @@ void scree_state_write(scree_hdf5 *part, const char *group, const char *shared, 
 {
     scree_hdf5_group(part, group);
     scree_hdf5_set_text(part, group, "program", "Scree " SCREE_VERSION);
-    scree_hdf5_set_integer(part, group, "layout", layout_checksum(state->dimension));
+    scree_hdf5_set_integer(part, group, "layout", layout_checksum(state));
+    write_laws(part, group, state);
     scree_hdf5_set_integer(part, group, "case_checksum", case_checksum);
     scree_hdf5_set_number(part, group, "wall_time", state->spent.run);
     scree_hdf5_set_number(part, group, "stage_wall_time", state->spent.stage);
     scree_hdf5_set_number(part, group, "stage_processor_time", state->spent.processor);
     for (size_t k = 0; k < scree_field_total() && !part->status; k++) {
-        const scree_field *field = stored_field(state->dimension, k);
+        const scree_field *field = stored_field(state, k);
         if (!field || (shared && field->snapshot)) continue;
         scree_array array;
         part->status = scree_array_from_field(state, field, shared != NULL, &array, part->error);
@@ -59,7 +86,7 @@ void scree_state_write(scree_hdf5 *part, const char *group, const char *shared, 
 // ---- reading -----------------------------------------------------------------------------------------------------
 
 /// Refuses what is whole but not ours: another version of the tables, another case.
-static void check_origin(scree_hdf5 *file, const char *group, int dimension, uint64_t case_checksum)
+static void check_origin(scree_hdf5 *file, const char *group, const scree_state *state, uint64_t case_checksum)
 {
     char program[64];
     uint64_t layout = 0, origin = 0;
@@ -67,7 +94,7 @@ static void check_origin(scree_hdf5 *file, const char *group, int dimension, uin
     scree_hdf5_get_integer(file, group, "layout", &layout);
     scree_hdf5_get_integer(file, group, "case_checksum", &origin);
     if (file->status) return;
-    if (layout != layout_checksum(dimension))
+    if (layout != layout_checksum(state))
         file->status = scree_error_set(file->error, SCREE_ERROR_INPUT,
                                        "'%s' is a checkpoint of another version of the state: it was written by %s, "
                                        "this is Scree %s",
@@ -75,6 +102,18 @@ static void check_origin(scree_hdf5 *file, const char *group, int dimension, uin
     else if (origin != case_checksum)
         file->status =
             scree_error_set(file->error, SCREE_ERROR_INPUT, "'%s' is a checkpoint of another case", file->path);
+}
+
+/// The same for contacts; what lies beside their first array is there where the law needs it.
+static scree_status make_contact_room(scree_state *state, const scree_field *field, size_t rows, scree_error *error)
+{
+    void *array, *pointer = scree_field_array(state, field);
+    scree_status status = SCREE_OK;
+    if (state->contact_count == 0 && !(status = scree_state_reserve_contacts(state, rows, error)))
+        state->contact_count = rows;
+    memcpy(&array, pointer, sizeof array);
+    if (status || array || rows == 0) return status;
+    return scree_allocate(pointer, state->contact_capacity, field->stride, error);
 }
 
 /// Makes the part of `state` that `field` describes have `rows` rows, when it has none yet.
@@ -88,12 +127,7 @@ static scree_status make_room(scree_state *state, const scree_field *field, size
         if (!status) scree_group_set_count(state, field->owner, field->group, rows);
         return status;
     }
-    if (field->rows == SCREE_ROWS_LAST_FORCE && rows > 0) return scree_state_add_last_force(state, error);
-    if (field->rows == SCREE_ROWS_ROLLING && rows > 0) return scree_state_add_rolling(state, error);
-    if (field->rows != SCREE_ROWS_CONTACTS || state->contact_count > 0) return SCREE_OK;
-    scree_status status = scree_state_reserve_contacts(state, rows, error);
-    if (!status) state->contact_count = rows;
-    return status;
+    return field->rows == SCREE_ROWS_CONTACTS ? make_contact_room(state, field, rows, error) : SCREE_OK;
 }
 
 static void read_field(scree_hdf5 *file, const char *group, const scree_field *field, scree_state *state)
@@ -124,13 +158,14 @@ void scree_state_read(scree_hdf5 *file, const char *group, const char *shared, i
 {
     scree_status opened = scree_state_open(state, dimension, file->error);
     if (!file->status) file->status = opened;
-    check_origin(file, group, dimension, case_checksum);
+    for (int list = 0; list < SCREE_LISTS && !file->status; list++) read_law(file, group, list, &state->law[list]);
+    check_origin(file, group, state, case_checksum);
     scree_time_spent spent = {0};
     scree_hdf5_get_number(file, group, "wall_time", &spent.run);
     scree_hdf5_get_number(file, group, "stage_wall_time", &spent.stage);
     scree_hdf5_get_number(file, group, "stage_processor_time", &spent.processor);
     for (size_t k = 0; k < scree_field_total() && !file->status; k++) {
-        const scree_field *field = stored_field(dimension, k);
+        const scree_field *field = stored_field(state, k);
         if (field) read_field(file, shared && field->snapshot ? shared : group, field, state);
     }
     find_rows(file, state);

@@ -5,12 +5,12 @@
 
 #include <string.h>
 
-/// The field of this name that states of this dimension have.
+/// The field of this name that the state has.
 static const scree_field *find(const scree_simulation *s, const char *name)
 {
     for (size_t k = 0; k < scree_field_total(); k++) {
         const scree_field *field = scree_field_at(k);
-        if (scree_field_exists(field, s->model.dimension) && strcmp(field->name, name) == 0) return field;
+        if (scree_field_is_here(&s->state, field) && strcmp(field->name, name) == 0) return field;
     }
     return NULL;
 }
@@ -20,7 +20,7 @@ const char *scree_simulation_view_name(const scree_simulation *s, size_t index)
     handle_assert(s);
     for (size_t k = 0; k < scree_field_total(); k++) {
         const scree_field *field = scree_field_at(k);
-        if (scree_field_exists(field, s->model.dimension) && index-- == 0) return field->name;
+        if (scree_field_is_here(&s->state, field) && index-- == 0) return field->name;
     }
     return NULL;
 }
@@ -55,12 +55,6 @@ static scree_status refuse(const scree_simulation *s, const char *name, scree_er
     return status;
 }
 
-static bool is_of_contacts(const scree_field *field)
-{
-    return field->rows == SCREE_ROWS_CONTACTS || field->rows == SCREE_ROWS_LAST_FORCE ||
-           field->rows == SCREE_ROWS_ROLLING;
-}
-
 /// How far behind the present time the values of a field are [s].
 static double lag_of(const scree_simulation *s, const scree_field *field)
 {
@@ -75,7 +69,7 @@ scree_status scree_simulation_view(scree_simulation *s, const char *name, scree_
     *view = (scree_view){0};
     const scree_field *field = find(s, name);
     if (!field) return refuse(s, name, error);
-    if (is_of_contacts(field)) {
+    if (field->rows == SCREE_ROWS_CONTACTS || field->law) {
         scree_status status = scree_contacts_save(&s->state, &s->work, error);
         if (status) return status;
     }

@@ -81,6 +81,9 @@ static turn plan_body(const scree_context *c, const config *own, size_t row)
         t.force[2] = 0;
         t.torque[2] = scree_fixed_to(sum->torque, state->torque_quantum);
     }
+    // What is prescribed is not damped: whoever prescribes it would have to push against the damping.
+    scree_body_leave_free(state, row, t.force, t.torque);
+    scree_body_leave_free(state, row, t.velocity, t.spin);
     oppose(own, own->translation, t.force, t.velocity, state->force_quantum, t.push);
     oppose(own, own->rotation, t.torque, t.spin, state->torque_quantum, t.twist);
     return t;

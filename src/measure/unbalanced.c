@@ -1,6 +1,7 @@
 /// How far the assembly is from equilibrium: the mean resultant force (contacts, boundary and gravity) on the bodies
 /// that touch something, over the mean contact force. Bodies without contact are left out: they are not part of the
-/// assembly, and many of them at rest would make it look calmer than it is.
+/// assembly, and many of them at rest would make it look calmer than it is. So are prescribed components of the motion,
+/// and bodies without any other.
 ///
 /// The mean ratio takes the resultant as the change of momentum since the last sample over its time: friction that
 /// depends on the sign of a velocity (hertz_brilliantov) turns round at every step in a sample at rest, and its
@@ -31,11 +32,14 @@ static double ratio(const scree_model *model, const scree_state *state, const sc
     scree_integer_sum resultant = {0};
     scree_vector force;
     int64_t number[2] = {0, (int64_t)table->count}; // bodies, contacts
+    const unsigned all = state->dimension == 2 ? 3 : 7;
     while (scree_comm_sum_next(state, &resultant, 1)) {
         number[0] = 0;
         for (size_t row = 0; row < state->count; row++) {
             if (!scree_body_is_grain(state, row) || state->sum[row].contacts == 0) continue;
+            if ((scree_body_held(state, row) & all) == all) continue;
             resultant_on(model, state, row, force);
+            scree_body_leave_free(state, row, force, (scree_vector){0});
             scree_integer_sum_add(&resultant, scree_length(force));
             number[0]++;
         }

@@ -43,6 +43,7 @@ typedef struct scree_law_traits {
     bool rolling;                ///< passes couples on: rolling rows
     bool looks_ahead;            ///< needs kinematics_predict
     bool pulls;                  ///< the normal force may be negative
+    bool holds;                  ///< of pairs of the persistent list: no distance test, constants of the pair's own
     bool wide;                   ///< reads the second half of the constants
 } scree_law_traits;
 
@@ -84,6 +85,8 @@ typedef struct scree_law_bounds {
 
 typedef struct scree_law {
     const scree_law_traits *traits; ///< one for each value of `option`
+    unsigned option_count;          ///< values of `option`
+    unsigned holding;               ///< the option under which it holds pairs of the persistent list; 0: it cannot
     const scree_elastic *elastic;
     int constant_count;    ///< constants of a pair that enter the state checksum
     unsigned resistances;  ///< bits of the constants that vanish with the friction of a body

@@ -301,6 +301,16 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
     return SCREE_OK;
 }
 
+/// The contact law holds pairs together, too, where it can.
+static void resolve_persistent(scree_model *model)
+{
+    const unsigned holding = scree_model_law(model)->holding;
+    if (!holding) return;
+    model->persistent.law = model->law;
+    model->persistent.law.option = holding;
+    memcpy(model->persistent.pairs, model->pairs, sizeof model->pairs);
+}
+
 /// Rounds down to two significant digits.
 static double two_digits_below(double value)
 {
@@ -371,6 +381,8 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
         .wall_count = config->wall_count,
         .loads = config->loads,
         .load_count = config->load_count,
+        .selections = config->selections,
+        .selection_count = config->selection_count,
         .stages = config->stages,
         .stage_count = config->stage_count,
         .config = config,
@@ -380,6 +392,7 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
     if (!status) status = resolve_particles(model, error);
     if (!status) status = resolve_pairs(model, error);
     if (!status) status = resolve_loading(model, error);
+    if (!status) resolve_persistent(model);
     if (!status) status = resolve_step(model, error);
     if (!status) take_numbers(config, model);
     if (!status) status = resolve_boundaries(model, error);

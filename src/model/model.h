@@ -13,6 +13,7 @@
 
 /// Particles of one kind, resolved.
 typedef struct scree_species {
+    const char *name;                            ///< NULL: all particles are of one kind
     int material;                                ///< number of what they are made of
     const scree_size_distribution *distribution; ///< of their radii
     const void *sizes;                           ///< its keys, in the config
@@ -20,6 +21,12 @@ typedef struct scree_species {
     double fraction; ///< of the number of all particles
     uint64_t end;    ///< this and all species before it are as many of the particles of a case
 } scree_species;
+
+/// The law of pairs that are held together (state/persistent.h): that of the contacts, where it can hold.
+typedef struct scree_persistent_law {
+    scree_law_use law; ///< under an option that holds; else there is none
+    scree_pair_constants pairs[SCREE_MAX_MATERIALS][SCREE_MAX_MATERIALS];
+} scree_persistent_law;
 
 /// How the Delaunay boundary is kept.
 typedef struct scree_upkeep {
@@ -63,6 +70,7 @@ struct scree_model {
     scree_pair_constants pairs[SCREE_MAX_MATERIALS][SCREE_MAX_MATERIALS]; ///< grain on grain
     scree_pair_constants walls[SCREE_MAX_MATERIALS];                      ///< grain on a plate
     scree_pair_constants surfaces[SCREE_SURFACES][SCREE_MAX_MATERIALS];   ///< on each wall of the case
+    scree_persistent_law persistent;
     int added_materials;   ///< behind those in use: of bodies that modules add
     double added_radius;   ///< m, largest of such bodies
     uint32_t frictionless; ///< bit m: material m has no friction with anything, in no stage
@@ -82,6 +90,8 @@ struct scree_model {
     // ---- lists of the case; what an element says beside is for the module of its kind ----
     const scree_config_wall *walls_of_case;
     int64_t wall_count;
+    const scree_config_selection *selections;
+    int64_t selection_count;
     const scree_config_load *loads;
     int64_t load_count;
     const scree_config_stage *stages;
@@ -111,6 +121,18 @@ static inline const scree_law *scree_model_law(const scree_model *model)
 static inline const scree_law_traits *scree_model_traits(const scree_model *model)
 {
     return &scree_model_law(model)->traits[model->law.option];
+}
+
+/// Whether pairs may be held together.
+static inline bool scree_model_holds(const scree_model *model)
+{
+    const scree_law *law = scree_law_get(model->persistent.law.law);
+    return law && law->traits[model->persistent.law.option].holds;
+}
+
+static inline const scree_law_traits *scree_model_held_traits(const scree_model *model)
+{
+    return &scree_law_get(model->persistent.law.law)->traits[model->persistent.law.option];
 }
 
 /// Whether the law looks ahead by a step and needs scree_state_predict.

@@ -81,7 +81,8 @@ scree_status scree_model_resolve_species(scree_model *model, scree_error *error)
         scree_size_problem problem;
         *species = (scree_species){.material = scree_model_material(model, said.material),
                                    .distribution = scree_modules[said.distribution]->sizes,
-                                   .sizes = scree_config_sizes(particles, s)};
+                                   .sizes = scree_config_sizes(particles, s),
+                                   .name = said.name};
         if (species->distribution->wrong(species->sizes, &problem)) return refuse_sizes(model, s, &problem, error);
         species->radius = species->distribution->moments(species->sizes, model->dimension);
     }

@@ -21,14 +21,12 @@ typedef enum scree_field_role {
 
 /// What a field has one element of.
 typedef enum scree_field_rows {
-    SCREE_ROWS_ONE,        ///< the run: the value lies in its owner's struct
-    SCREE_ROWS_FIXED,      ///< an array of `fixed` elements in its owner's struct
-    SCREE_ROWS_GROUP,      ///< an array of its owner's, which as many rows as `group` says
-    SCREE_ROWS_BODIES,     ///< bodies: arrays of the state or of a module, which follow the bodies as they come, go and
-                           ///< change rows (state/store.h)
-    SCREE_ROWS_CONTACTS,   ///< contacts: arrays of the state
-    SCREE_ROWS_LAST_FORCE, ///< as many as contacts where the law accumulates them beside the history, else none
-    SCREE_ROWS_ROLLING,    ///< as many as contacts where there is resistance to rolling, else none
+    SCREE_ROWS_ONE,      ///< the run: the value lies in its owner's struct
+    SCREE_ROWS_FIXED,    ///< an array of `fixed` elements in its owner's struct
+    SCREE_ROWS_GROUP,    ///< an array of its owner's, which as many rows as `group` says
+    SCREE_ROWS_BODIES,   ///< bodies: arrays of the state or of a module, which follow the bodies as they come, go and
+                         ///< change rows (state/store.h)
+    SCREE_ROWS_CONTACTS, ///< contacts: arrays of the state; some are there only where the law needs them
 } scree_field_rows;
 
 /// Arrays of a module that have one length: where in its struct their number of rows and their capacity lie (size_t).
@@ -94,6 +92,9 @@ typedef struct scree_field {
     int only_dimension;        ///< 2 or 3: exists in this dimension only; 0: in both
     scree_field_ghosts ghosts; ///< of bodies; if not NONE, the array has rows of ghosts behind those of the bodies
     bool optional;             ///< of bodies: there is no array until scree_state_begin_field asks for it
+    const scree_module *law;   ///< of what contacts remember: there where they follow this law; NULL: always
+    unsigned options;          ///< and one of these of its options, a bit each; 0: any
+    bool in_checksum;          ///< of what contacts remember: enters the state checksum
 } scree_field;
 
 /// Ends of ranges, for the rows of declarations.

@@ -33,14 +33,15 @@ struct scree_module {
     size_t numbers_size;
 
     // ---- faces: what only modules of one kind have ----
-    const struct scree_law *law;                 ///< model/law.h
-    const struct scree_integrator *integrator;   ///< module/integrator.h
-    const struct scree_preparation *preparation; ///< module/preparation.h
-    const struct scree_size_distribution *sizes; ///< module/size_distribution.h
-    const struct scree_wall_shape *wall;         ///< module/wall_shape.h
-    const struct scree_stage_numbers *numbers;   ///< module/stage.h
-    const struct scree_stage *stage;             ///< run/stage.h
-    const struct scree_boundary *boundary;       ///< module/boundary.h
+    const struct scree_law *law;                  ///< model/law.h
+    const struct scree_integrator *integrator;    ///< module/integrator.h
+    const struct scree_preparation *preparation;  ///< module/preparation.h
+    const struct scree_size_distribution *sizes;  ///< module/size_distribution.h
+    const struct scree_wall_shape *wall;          ///< module/wall_shape.h
+    const struct scree_stage_numbers *numbers;    ///< module/stage.h
+    const struct scree_stage *stage;              ///< run/stage.h
+    const struct scree_boundary *boundary;        ///< module/boundary.h
+    const struct scree_selection_kind *selection; ///< selection/selection.h
 
     // ---- state: what it remembers ----
     size_t state_size;         ///< bytes of its struct in the store of the state, zero at first; 0: none
@@ -55,11 +56,16 @@ struct scree_module {
     /// A body is about to be taken out: what refers to it by its id ends. Its row is still there. NULL: nothing does.
     void (*forget)(scree_state *state, uint32_t id);
 
+    /// A stage begins that takes steps (not: is taken up again), and its boundary stands. An error of the user's input
+    /// has its field. NULL: nothing to do.
+    scree_status (*begin)(const scree_context *context, scree_error *error);
+
     // ---- passes: what it does in a step ----
     const scree_pass *passes;
     size_t pass_count;
     /// Whether it has something to do in the stage that begins. NULL: always.
     bool (*in_use)(const scree_context *context);
+    bool reads_moments; ///< needs the moments of contact forces (scree_body_contact_moment) while it is in use
     /// Largest force that its loads may put on one body in this step [N], for the quanta; up to 2^10 times more is
     /// safe. NULL: none.
     double (*bound)(const scree_context *context);

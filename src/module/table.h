@@ -7,7 +7,7 @@
 
 #define SCREE_STATE_MODULES(row)                                                                                       \
     row(gravity) row(plates) row(case_walls) row(periodic_cell) row(delaunay_boundary) row(pressure) row(own_force)    \
-        row(imposed_gradient)
+        row(imposed_gradient) row(selections) row(persistent)
 
 /// Boundaries, in the order in which the case reference lists them; then those that no key chooses.
 #define SCREE_BOUNDARY_MODULES(row)                                                                                    \
@@ -20,20 +20,26 @@
 /// Contact laws, each with its header in contact/laws.h.
 #define SCREE_LAWS(row) row(hertz_brilliantov) row(hertz_mindlin) row(linear)
 
+/// Kinds of selections, in the order in which the case reference lists them.
+#define SCREE_SELECTION_MODULES(row)                                                                                   \
+    row(select_all) row(select_box) row(select_circle) row(select_sphere) row(select_band) row(select_layer)           \
+        row(select_side) row(select_ids) row(select_species) row(select_and) row(select_or) row(select_not)
+
 /// Choices of the case, in the order in which the case reference lists them.
 #define SCREE_CASE_MODULES(row)                                                                                        \
     SCREE_LAWS(row)                                                                                                    \
     row(position_verlet) row(velocity_verlet) row(two_timescales) row(drop_and_roll) row(hexagonal) row(square)        \
         row(face_centred) row(cubic) row(gas) row(growth) row(pair) row(bodies) row(prepare) row(confine)              \
-            row(compress) row(deform) row(rotate_particle) row(relax) row(collide) row(background_damping) row(plane)  \
-                row(box) row(cylinder) row(cone) row(mesh) row(uniform) row(two_sizes) row(equal) row(normal)          \
-                    row(log_normal) row(power_law) row(table)
+            row(compress) row(deform) row(rotate_particle) row(relax) row(collide) row(background_damping)             \
+                row(prescribed) row(plane) row(box) row(cylinder) row(cone) row(mesh) row(uniform) row(two_sizes)      \
+                    row(equal) row(normal) row(log_normal) row(power_law) row(table)
 
 /// What is measured at the end of a run, with tables of its own.
 #define SCREE_MEASURE_MODULES(row) row(cells)
 
 #define SCREE_MODULES(row)                                                                                             \
     SCREE_STATE_MODULES(row)                                                                                           \
-    SCREE_BOUNDARY_MODULES(row) SCREE_STAGE_STATE_MODULES(row) SCREE_CASE_MODULES(row) SCREE_MEASURE_MODULES(row)
+    SCREE_BOUNDARY_MODULES(row)                                                                                        \
+    SCREE_STAGE_STATE_MODULES(row) SCREE_SELECTION_MODULES(row) SCREE_CASE_MODULES(row) SCREE_MEASURE_MODULES(row)
 
 #endif

@@ -27,6 +27,7 @@ scree_status scree_simulation_open(const scree_case *c, int threads, scree_simul
         return status;
     }
     if ((status = scree_state_open(&s->state, s->model.dimension, error))) return status;
+    scree_state_set_laws(&s->state, &s->model);
     s->state.stage.counter = SCREE_STAGE_NOT_BEGUN;
     s->stage_model = s->model;
     s->integrator = scree_integrator_get(s->model.scheme);
@@ -87,6 +88,17 @@ static scree_status change_boundary(scree_simulation *s, scree_error *error)
     return status;
 }
 
+/// Modules that act from this stage on, or no longer.
+static scree_status begin_modules(scree_simulation *s, scree_error *error)
+{
+    const scree_context context = scree_step_context(s);
+    scree_status status = SCREE_OK;
+    for (int m = 0; m < SCREE_MODULE_COUNT && !status; m++)
+        if (scree_modules[m]->begin) status = scree_modules[m]->begin(&context, error);
+    if (status == SCREE_ERROR_INPUT && error) scree_case_locate(s->c, error);
+    return status;
+}
+
 scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *error)
 {
     scree_stage_state *stage = &s->state.stage;
@@ -112,6 +124,7 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
         scree_status status = s->stage->begin(s, error);
         if (status) return status;
         status = s->stage->instant ? open_ledger(s, error) : change_boundary(s, error);
+        if (!status && !s->stage->instant) status = begin_modules(s, error);
         if (status) return status;
     }
     if (restart) scree_gravity_enter(&s->stage_model, &s->state, false);

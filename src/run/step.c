@@ -57,6 +57,12 @@ static scree_status look_ahead(const scree_context *c, scree_error *error)
     return scree_model_predicts(c->model) ? scree_state_predict(c->state, error) : SCREE_OK;
 }
 
+/// What kernels sum beside forces and torques, for the modules that are in use.
+static scree_status ask_for_moments(const scree_context *c, scree_error *error)
+{
+    return scree_state_ask_for_moments(c->state, c->simulation->moments, error);
+}
+
 /// Largest force of the loads of this step on one body [N].
 static double bound_of_loads(const scree_context *c)
 {
@@ -74,7 +80,7 @@ static scree_status contact_forces(const scree_context *c, scree_error *error)
     return SCREE_OK;
 }
 
-/// Loads may ask how long their forces will act.
+/// Loads and their bounds may ask how long their forces will act.
 static scree_status predict_kick(const scree_context *c, scree_error *error)
 {
     const scree_simulation *s = c->simulation;
@@ -96,11 +102,17 @@ static scree_status guard(const scree_context *c, scree_error *error)
 }
 
 static const scree_pass core[] = {
-    {SCREE_PHASE_DECIDE, look_ahead},       {SCREE_PHASE_DECIDE, choose_step},
-    {SCREE_PHASE_DECIDE, control},          {SCREE_PHASE_FIRST_HALF, first_half},
-    {SCREE_PHASE_FOLLOW, advance_clock},    {SCREE_PHASE_SEARCH, refresh_neighbours},
-    {SCREE_PHASE_CONTACTS, contact_forces}, {SCREE_PHASE_LOADS, predict_kick},
-    {SCREE_PHASE_SECOND_HALF, second_half}, {SCREE_PHASE_GUARD, guard},
+    {SCREE_PHASE_DECIDE, look_ahead},
+    {SCREE_PHASE_DECIDE, ask_for_moments},
+    {SCREE_PHASE_DECIDE, choose_step},
+    {SCREE_PHASE_DECIDE, control},
+    {SCREE_PHASE_FIRST_HALF, first_half},
+    {SCREE_PHASE_FOLLOW, advance_clock},
+    {SCREE_PHASE_SEARCH, refresh_neighbours},
+    {SCREE_PHASE_CONTACTS, predict_kick},
+    {SCREE_PHASE_CONTACTS, contact_forces},
+    {SCREE_PHASE_SECOND_HALF, second_half},
+    {SCREE_PHASE_GUARD, guard},
 };
 
 scree_context scree_step_context(scree_simulation *s)
@@ -122,6 +134,10 @@ void scree_step_compile(scree_simulation *s)
 {
     const scree_context context = scree_step_context(s);
     s->pass_count = 0;
+    s->moments = false;
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
+        if (scree_modules[m]->reads_moments && (!scree_modules[m]->in_use || scree_modules[m]->in_use(&context)))
+            s->moments = true;
     for (scree_phase phase = 0; phase < SCREE_PHASE_COUNT; phase++) {
         append(s, phase, core, sizeof core / sizeof *core);
         for (int m = 0; m < SCREE_MODULE_COUNT; m++) {

@@ -124,9 +124,49 @@ scree_status scree_ghosts_make(scree_state *state, scree_work *work, scree_error
     scree_status status = check_range(state, &range, work->skin, error);
     for (size_t row = 0; row < state->count && !status; row++)
         status = append_ghosts(state, work, &range, (uint32_t)row, error);
+    list->by_parent = list->count;
     if (!status) return scree_comm_begin(state, work, error);
     list->count = 0;
     return status;
+}
+
+bool scree_ghosts_nearest(const scree_state *state, const scree_work *work, uint32_t first, uint32_t second,
+                          int shift[3], bool *of_second)
+{
+    double f[3], g[3];
+    fraction_of(state, work, first, f);
+    fraction_of(state, work, second, g);
+    bool across = false;
+    for (int k = 0; k < 3; k++) {
+        double apart = scree_periodic_repeats(scree_cell(state), k) ? rint(f[k] - g[k]) : 0;
+        shift[k] = isfinite(apart) ? (int)apart : 0;
+        across = across || shift[k] != 0;
+    }
+    *of_second = is_positive(shift);
+    for (int k = 0; k < 3 && !*of_second; k++) shift[k] = -shift[k];
+    return across;
+}
+
+scree_status scree_ghosts_row(scree_work *work, uint32_t bodies, uint32_t parent, const int shift[3], uint32_t *row,
+                              scree_error *error)
+{
+    scree_ghost_list *list = &work->ghosts;
+    size_t low = 0, high = list->by_parent;
+    while (low < high) {
+        size_t middle = (low + high) / 2;
+        if (list->ghost[middle].parent < parent)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    for (; low < list->by_parent && list->ghost[low].parent == parent; low++) {
+        const int32_t *found = list->ghost[low].shift;
+        if (found[0] != shift[0] || found[1] != shift[1] || found[2] != shift[2]) continue;
+        *row = bodies + (uint32_t)low;
+        return SCREE_OK;
+    }
+    *row = bodies + (uint32_t)list->count;
+    return append_ghost(list, parent, shift, error);
 }
 
 void scree_ghosts_deformation(const scree_state *state, const scree_work *work, double deformation[9])

@@ -11,6 +11,16 @@
 /// when the cell is narrower than two pairs of its largest bodies side by side (a pair could touch twice).
 scree_status scree_ghosts_make(scree_state *state, scree_work *work, scree_error *error) SCREE_MUST_USE;
 
+/// The nearest ghosts of two bodies: false when they are the bodies themselves; else the one of the second (of_second)
+/// or of the first is a ghost with this shift.
+bool scree_ghosts_nearest(const scree_state *state, const scree_work *work, uint32_t first, uint32_t second,
+                          int shift[3], bool *of_second);
+
+/// Row of a ghost, which is made where there is none yet; then scree_comm_begin is due. bodies: number of them.
+/// Errors: memory.
+scree_status scree_ghosts_row(scree_work *work, uint32_t bodies, uint32_t parent, const int shift[3], uint32_t *row,
+                              scree_error *error) SCREE_MUST_USE;
+
 /// Refills `chunk` with the pairs of a body and a ghost, each physical pair once. Errors: memory.
 scree_status scree_ghosts_search(const scree_state *state, const scree_work *work, scree_pair_chunk *chunk,
                                  scree_error *error) SCREE_MUST_USE;

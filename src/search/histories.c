@@ -4,8 +4,8 @@
 /// which they also come from a checkpoint. When the rows have their new order, a counting sort puts them by the lower
 /// row of their pair; the new list then finds each one among the few of its row. Old and new order differ little, so
 /// all of it runs through memory nearly in order. Linear cost. Booking and rolling rows go along with the histories
-/// where a law has them. A pair that has left the list loses its history; it is
-/// separated by more than the skin then.
+/// where a law has them; those of pairs that are held go back to the persistent list. A pair that has left the list
+/// loses its history; it is separated by more than the skin then.
 #include "search/search.h"
 
 #include <string.h>
@@ -34,13 +34,14 @@ typedef struct entry {
 
 static size_t entry_count(const scree_work *work)
 {
-    return work->pairs.count + work->wall_pairs.count + work->primitive_pairs.count;
+    return work->pairs.count - work->pairs.held_count + work->wall_pairs.count + work->primitive_pairs.count;
 }
 
 static entry entry_get(const scree_state *state, const scree_work *work, size_t k)
 {
     const scree_pair_list *pairs = &work->pairs;
     const scree_wall_pair_list *walls = &work->wall_pairs;
+    k += pairs->held_count;
     if (k < pairs->count)
         return (entry){state->id[pairs->first[k]], state->id[pairs->second[k]], &pairs->history[k],
                        pairs->last_force ? &pairs->last_force[k] : NULL, pairs->rolling ? &pairs->rolling[k] : NULL};
@@ -111,6 +112,7 @@ scree_status scree_histories_collect(scree_state *state, scree_work *work, scree
     if (status) return status;
     scree_thread_pool_run(&work->pool, search->chunks, pack_share, &task);
     state->contact_count = total;
+    scree_held_collect(state, work);
     return SCREE_OK;
 }
 

@@ -136,6 +136,8 @@ void scree_pair_lists_destroy(scree_work *work)
     release_list(&pairs);
     release_list(&walls);
     release_list(&elements);
+    scree_release(&work->pairs.own);
+    work->pairs.own_capacity = 0;
 }
 
 /// Makes room for `count` pairs and the padding, with the rows that the law needs; contents are lost when it grows.
@@ -185,6 +187,8 @@ static void pairs_share(void *argument, int index, int count)
     task->failed[index] =
         task->find(&task->search->grid, state, begin, end, chunk, NULL) ||
         scree_primitives_search(task->work->wall_set, state, begin, end, task->work->skin, &chunk->element, NULL);
+    scree_held_drop(state, &chunk->touching);
+    scree_held_drop(state, &chunk->near);
     if (state->marked[SCREE_MARK_MEMBRANE] == 0) return;
     drop_membrane_pairs(state, &chunk->touching);
     drop_membrane_pairs(state, &chunk->near);
@@ -283,6 +287,7 @@ static void attach_share(void *argument, int index, int count)
     const list_arrays of_pairs = arrays_of_pairs(pairs);
     size_t end = scree_thread_pool_begin(pairs->count, index + 1, count);
     for (size_t k = scree_thread_pool_begin(pairs->count, index, count); k < end; k++) {
+        if (k < pairs->held_count) continue; // what these remember came with them
         uint32_t first = scree_parent_row(state, task->work, pairs->first[k]);
         uint32_t second = scree_parent_row(state, task->work, pairs->second[k]),
                  lower = first < second ? first : second;
@@ -325,25 +330,31 @@ static scree_status assemble(const scree_model *model, scree_state *state, scree
     scree_pair_list *pairs = &work->pairs;
     scree_wall_pair_list *walls = &work->wall_pairs, *elements = &work->primitive_pairs;
     size_t touching = search->ghosts.touching.count, near = search->ghosts.near.count, wall = 0, element = 0;
+    const size_t held = search->held.count;
     for (int c = 0; c < search->chunks; c++) {
         touching += search->chunk[c].touching.count;
         near += search->chunk[c].near.count;
         wall += search->chunk[c].wall.count;
         element += search->chunk[c].element.count;
     }
-    pairs->count = pairs->touching_count = walls->count = elements->count = 0;
+    pairs->count = pairs->held_count = pairs->touching_count = walls->count = elements->count = 0;
     const list_arrays of_pairs = arrays_of_pairs(pairs), of_walls = arrays_of_wall_pairs(walls);
     const list_arrays of_elements = arrays_of_wall_pairs(elements);
     bool books = scree_contacts_add_work(model, state->dimension), rolls = scree_contacts_roll(model);
-    scree_status status = reserve_list(&of_pairs, touching + near, books, rolls, error);
+    bool held_keeps = held > 0 && scree_model_held_traits(model)->keeps_last_force[state->dimension - 2];
+    bool held_rolls = held > 0 && scree_model_held_traits(model)->rolling;
+    touching += held;
+    scree_status status = reserve_list(&of_pairs, touching + near, books || held_keeps, rolls || held_rolls, error);
+    if (!status) status = scree_held_list(state, &search->held, pairs, error);
     if (!status) status = reserve_list(&of_walls, wall, books, rolls, error);
     if (!status && work->wall_set) status = reserve_list(&of_elements, element, books, rolls, error);
     if (status) return status;
     pairs->count = touching + near;
+    pairs->held_count = held;
     pairs->touching_count = touching;
     walls->count = wall;
     elements->count = element;
-    list_pairs(search, pairs, true, 0);
+    list_pairs(search, pairs, true, held);
     list_ghost_pairs(&search->ghosts.touching, pairs, touching - search->ghosts.touching.count);
     list_pairs(search, pairs, false, touching);
     list_ghost_pairs(&search->ghosts.near, pairs, touching + near - search->ghosts.near.count);
@@ -408,8 +419,8 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     search->listed = false;
     search->bodies = state->count;
     search->changes = state->changes;
-    work->pairs.count = work->pairs.touching_count = work->wall_pairs.count = work->primitive_pairs.count = 0;
-    work->ghosts.count = 0;
+    work->pairs.count = work->pairs.held_count = work->pairs.touching_count = 0;
+    work->wall_pairs.count = work->primitive_pairs.count = work->ghosts.count = 0;
     if (state->count >= LARGE) scree_pair_lists_destroy(work);
 
     scree_cell_grid_fit(&search->grid, state, work->skin);
@@ -425,6 +436,10 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     if (!status) status = search_pairs(state, work, error);
     if (!status) status = scree_ghosts_make(state, work, error);
     if (!status) status = scree_ghosts_search(state, work, &search->ghosts, error);
+    scree_held_drop(state, &search->ghosts.touching);
+    scree_held_drop(state, &search->ghosts.near);
+    if (!status) status = scree_held_find(model, state, work, &search->held, error);
+    scree_state_set_laws(state, model);
     if (!status) status = assemble(model, state, work, error);
     if (status) return status;
 
@@ -464,7 +479,8 @@ scree_status scree_neighbours_refresh(const scree_model *model, scree_state *sta
         scree_wall_set_place(work->wall_set, walls, scree_case_walls_time(walls, state), state->step_size);
         walls->speed = walls->moving ? scree_wall_set_speed(work->wall_set) : 0;
     }
-    if (!work->valid || !is_of_these_bodies(work->search, state) || walls_need_rebuild(model, state, work))
+    if (!work->valid || !is_of_these_bodies(work->search, state) || scree_held_changed(state, &work->search->held) ||
+        walls_need_rebuild(model, state, work))
         return rebuild(model, state, work, error);
     scree_status status = work->budget >= 0 ? SCREE_OK : check_list(model, state, work, error);
     if (!status && work->ghosts.count > 0) scree_comm_exchange(state, work);

@@ -2,6 +2,7 @@
 #ifndef SCREE_SEARCH_SEARCH_H
 #define SCREE_SEARCH_SEARCH_H
 
+#include "search/held.h"
 #include "search/pair_search.h"
 #include "state/plates.h"
 #include "state/work.h"
@@ -14,6 +15,7 @@ struct scree_search {
     scree_pair_chunk *chunk; ///< one a thread
     int chunks;
     scree_pair_chunk ghosts;           ///< pairs with ghosts of a periodic cell
+    scree_held_buffer held;            ///< pairs of the persistent list
     bool listed;                       ///< the list in `work` is whole and holds the contact histories
     size_t bodies;                     ///< in the list
     uint64_t changes;                  ///< of the state, when it was made

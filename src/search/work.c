@@ -40,6 +40,7 @@ void scree_work_destroy(scree_work *work)
         for (int c = 0; c < search->chunks; c++) scree_pair_chunk_destroy(&search->chunk[c]);
         scree_release(&search->chunk);
         scree_pair_chunk_destroy(&search->ghosts);
+        scree_release(&search->held.pair);
         scree_cell_grid_destroy(&search->grid);
         scree_release(&search->entry_begin);
         scree_release(&search->entry);

@@ -45,6 +45,16 @@ static inline double scree_body_mass(const scree_state *state, size_t row)
     return state->row[row].mass;
 }
 
+/// Sum over the contacts of the body of branch (x) force [N m], from its centre to the point where the force acts, d x
+/// d by rows: -stress times volume, of what contacts exert. Zero unless someone has asked
+/// (scree_state_ask_for_moments).
+static inline void scree_body_contact_moment(const scree_state *state, size_t row, double moment[9])
+{
+    const size_t size = scree_moment_size(state->dimension), count = (size_t)(state->dimension * state->dimension);
+    for (size_t k = 0; k < count; k++)
+        moment[k] = state->moment ? (double)state->moment[row * size + k] * state->torque_quantum : 0;
+}
+
 /// Moment of inertia [kg m2] about the centre, the same about every axis: m R^2 / 2 of a disc (a cylinder) about its
 /// axis, 2 m R^2 / 5 of a sphere.
 static inline double scree_body_inertia(const scree_state *state, size_t row)
@@ -83,6 +93,22 @@ static inline double scree_body_volume(const scree_state *state, size_t row)
 static inline scree_mark scree_body_mark(const scree_state *state, size_t row)
 {
     return (scree_mark)state->mark[row];
+}
+
+/// Components of the motion of a body that are prescribed, not found: bits 0 to 2 velocity x, y, z, bits 3 to 5 spin.
+static inline unsigned scree_body_held(const scree_state *state, size_t row)
+{
+    return state->held ? state->held[row] : 0;
+}
+
+/// Takes prescribed components out of a velocity or force, and of a spin or torque.
+static inline void scree_body_leave_free(const scree_state *state, size_t row, double polar[3], double axial[3])
+{
+    unsigned held = scree_body_held(state, row);
+    for (int k = 0; k < 3 && held; k++) {
+        if (held >> k & 1) polar[k] = 0;
+        if (held >> (3 + k) & 1) axial[k] = 0;
+    }
 }
 
 /// The body is of the assembly, not of a membrane or a boundary.

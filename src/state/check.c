@@ -81,8 +81,6 @@ static const char *row_of(const scree_state *state, const scree_field *field, si
         *row = state->id[*row];
         return "body";
     case SCREE_ROWS_CONTACTS:
-    case SCREE_ROWS_LAST_FORCE:
-    case SCREE_ROWS_ROLLING:
         return "contact";
     case SCREE_ROWS_FIXED:
         return "wall";
@@ -198,7 +196,7 @@ scree_status scree_state_check(const scree_state *state, const scree_model *mode
     if (state->count == 0) return scree_error_set(error, SCREE_ERROR_IO, "dataset 'position': there is no body");
     scree_status status = SCREE_OK;
     for (size_t k = 0; k < scree_field_total() && !status; k++)
-        if (scree_field_is_stored(scree_field_at(k), state->dimension))
+        if (scree_field_is_stored(state, scree_field_at(k)))
             status = check_field(state, model, scree_field_at(k), error);
     if (!status) status = check_contacts(state, model, error);
     for (int m = 0; m < SCREE_MODULE_COUNT && !status; m++)

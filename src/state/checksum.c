@@ -3,6 +3,7 @@
 /// bytes of a struct, so that structs may change.
 #include "state/body.h"
 #include "state/case_walls.h"
+#include "state/fields.h"
 #include "state/periodic.h"
 #include "state/plates.h"
 
@@ -55,21 +56,6 @@ static uint64_t checksum_bodies(const scree_model *model, const scree_state *sta
     return c;
 }
 
-/// What a contact remembers of its tangential displacement (or force), and of rolling and twisting.
-typedef struct remembered {
-    double slip[3], rolling[4];
-    size_t slips, rollings; ///< of these numbers exist
-} remembered;
-
-static remembered remembered_of(const scree_state *state, size_t contact)
-{
-    bool in_3d = state->dimension == 3;
-    remembered r = {.slips = in_3d ? 3 : 1, .rollings = !state->rolling ? 0 : in_3d ? 4 : 1};
-    for (size_t k = 0; k < r.slips; k++) r.slip[k] = state->contact[contact].history.value[k];
-    for (size_t k = 0; k < r.rollings; k++) r.rolling[k] = state->rolling[contact].value[k];
-    return r;
-}
-
 static bool is_zero(const double *numbers, size_t count)
 {
     size_t zeros = 0;
@@ -92,11 +78,11 @@ static uint64_t checksum_contacts(const scree_state *state, uint64_t c)
 {
     uint64_t count = 0;
     for (size_t k = 0; k < state->contact_count; k++) {
-        remembered r = remembered_of(state, k);
-        if (is_zero(r.slip, r.slips) && is_zero(r.rolling, r.rollings)) continue;
+        double value[SCREE_CHECKSUM_VALUES];
+        size_t values = scree_remembered_values(state, SCREE_LIST_CONTACTS, k, value);
+        if (is_zero(value, values)) continue;
         c = checksum_partner(state->contact[k].second, scree_checksum_word(c, state->contact[k].first));
-        c = scree_checksum_numbers(c, r.slip, r.slips);
-        c = scree_checksum_numbers(c, r.rolling, r.rollings);
+        c = scree_checksum_numbers(c, value, values);
         count++;
     }
     return scree_checksum_word(c, count);

@@ -1,7 +1,9 @@
-/// The fields of the state itself; those of modules stand in their own files. Every member of `scree_state` is in the
+/// The fields of the state itself; those of modules stand in their own files, what contacts remember in those of the
+/// laws. Every member of `scree_state` is in the
 /// table except the counts (they are the lengths of the arrays) and row_of_id (the inverse of `id`).
 #include "state/fields.h"
 
+#include <assert.h>
 #include <float.h>
 #include <stddef.h>
 #include <string.h>
@@ -15,11 +17,6 @@
     {                                                                                                                  \
         "contacts/" name_, type_, components_, unit_, SCREE_FIELD_STATE, false, meaning_,                              \
             IN_ARRAY(contact, scree_contact_memory, member), .rows = SCREE_ROWS_CONTACTS, __VA_ARGS__                  \
-    }
-#define BESIDE_CONTACT(name_, type_, array_, c_type, unit_, member, meaning_, rows_)                                   \
-    {                                                                                                                  \
-        "contacts/" name_, type_, 4, unit_, SCREE_FIELD_STATE, false, meaning_, IN_ARRAY(array_, c_type, member),      \
-            .rows = rows_                                                                                              \
     }
 #define ONE(name_, type_, components_, unit_, member, meaning_, ...)                                                   \
     {                                                                                                                  \
@@ -54,6 +51,9 @@ static const scree_field fields[] = {
     {"species", SCREE_FIELD_UINT8, 1, "1", SCREE_FIELD_STATE, true,
      "number of the species among those of the case; 255: a body of a membrane", PLAIN_ARRAY(species, uint8_t),
      .rows = SCREE_ROWS_BODIES, SCREE_RANGE(0, 255)},
+    {"held", SCREE_FIELD_UINT8, 1, "1", SCREE_FIELD_STATE, false,
+     "bits 0 to 2: velocity x, y, z, bits 3 to 5: spin about x, y, z is prescribed", PLAIN_ARRAY(held, uint8_t),
+     .rows = SCREE_ROWS_BODIES, .optional = true, SCREE_RANGE(0, 63)},
     {"angle", SCREE_FIELD_DOUBLE, 1, "rad", SCREE_FIELD_STATE, true, "rotation since the start, counter-clockwise",
      PLAIN_ARRAY(angle, double), .rows = SCREE_ROWS_BODIES, .only_dimension = 2},
     {"scheme_velocity", SCREE_FIELD_DOUBLE, SCREE_VECTOR, "m/s", SCREE_FIELD_STATE, false,
@@ -79,6 +79,18 @@ static const scree_field fields[] = {
     {"torque_sum", SCREE_FIELD_INT64, 3, "1", SCREE_FIELD_STATE, false,
      "sum of the contact torques, in units of scalars/torque_quantum", IN_ARRAY(torque, scree_torque_row, x),
      .rows = SCREE_ROWS_BODIES, .ghosts = SCREE_GHOSTS_ADD_BACK, .only_dimension = 3, SCREE_RANGE(-SUM, SUM)},
+    {"contact_moment", SCREE_FIELD_INT64, 4, "1", SCREE_FIELD_STATE, false,
+     "sum over the contacts of branch (x) force, from the centre to the point, by rows, in units of "
+     "scalars/torque_quantum",
+     .array_offset = offsetof(scree_state, moment), .stride = SCREE_MOMENTS_2D * sizeof(int64_t),
+     .rows = SCREE_ROWS_BODIES, .ghosts = SCREE_GHOSTS_ADD_BACK, .optional = true, .only_dimension = 2,
+     SCREE_RANGE(-SUM, SUM)},
+    {"contact_moment", SCREE_FIELD_INT64, 9, "1", SCREE_FIELD_STATE, false,
+     "sum over the contacts of branch (x) force, from the centre to the point, by rows, in units of "
+     "scalars/torque_quantum",
+     .array_offset = offsetof(scree_state, moment), .stride = SCREE_MOMENTS_3D * sizeof(int64_t),
+     .rows = SCREE_ROWS_BODIES, .ghosts = SCREE_GHOSTS_ADD_BACK, .optional = true, .only_dimension = 3,
+     SCREE_RANGE(-SUM, SUM)},
     {"coordination", SCREE_FIELD_INT64, 1, "1", SCREE_FIELD_STATE, true, "number of touching neighbours and walls",
      IN_ARRAY(sum, scree_sum_row, contacts), .rows = SCREE_ROWS_BODIES, .ghosts = SCREE_GHOSTS_ADD_BACK,
      SCREE_RANGE_TO(SCREE_LIMIT_MANY)},
@@ -93,15 +105,6 @@ static const scree_field fields[] = {
             "id of the second body, larger than the first; 4294967280 + index for a plate, 2147483648 + primitive for "
             "a wall "
             "of the case"),
-    CONTACT("history", SCREE_FIELD_DOUBLE, SCREE_HISTORY, "1", history, "memory of the contact law, in its own units"),
-    BESIDE_CONTACT("last_force", SCREE_FIELD_FLOAT, last_force, scree_last_force, "N", value,
-                   "damping force and dashpot x, y, z that the ledger needs again, where the history row has no room",
-                   SCREE_ROWS_LAST_FORCE),
-    BESIDE_CONTACT("rolling", SCREE_FIELD_DOUBLE, rolling, scree_rolling, "1", value,
-                   "displacement of rolling and angle of twist: x, y, z [m] and [rad]; 2D: displacement [m]",
-                   SCREE_ROWS_ROLLING),
-    BESIDE_CONTACT("rolling_last", SCREE_FIELD_FLOAT, rolling, scree_rolling, "1", last,
-                   "dashpots of rolling [N] and twisting [N m] that the ledger needs again", SCREE_ROWS_ROLLING),
     ONE("scalars/next_id", SCREE_FIELD_UINT64, 1, "1", next_id, "id of the next body that comes; none is given again",
         SCREE_RANGE_TO(SCREE_LIMIT_IDS)),
     ONE("scalars/step", SCREE_FIELD_UINT64, 1, "1", step, "time since the start of the run, in ticks",
@@ -189,9 +192,17 @@ bool scree_field_exists(const scree_field *field, int dimension)
     return field->only_dimension == 0 || field->only_dimension == dimension;
 }
 
-bool scree_field_is_stored(const scree_field *field, int dimension)
+bool scree_field_is_here(const scree_state *state, const scree_field *field)
 {
-    return field->role == SCREE_FIELD_STATE && scree_field_exists(field, dimension);
+    if (!scree_field_exists(field, state->dimension)) return false;
+    if (!field->law) return true;
+    const scree_remembered_law *law = &state->law[scree_field_list(field)];
+    return field->law == law->law && (field->options == 0 || field->options >> law->option & 1);
+}
+
+bool scree_field_is_stored(const scree_state *state, const scree_field *field)
+{
+    return field->role == SCREE_FIELD_STATE && scree_field_is_here(state, field);
 }
 
 /// The struct that the offsets of a field are of.
@@ -203,7 +214,7 @@ static unsigned char *owner_of(const scree_state *state, const scree_field *fiel
     return state->own[slot];
 }
 
-/// The array that a field of bodies lies in; NULL: there is none.
+/// The array that a field of bodies or contacts lies in; NULL: there is none.
 static const void *array_of(const scree_state *state, const scree_field *field)
 {
     const void *array;
@@ -214,6 +225,7 @@ static const void *array_of(const scree_state *state, const scree_field *field)
 size_t scree_field_rows_count(const scree_state *state, const scree_field *field)
 {
     size_t count = 1;
+    if (field->law && !scree_field_is_here(state, field)) return 0;
     switch (field->rows) {
     case SCREE_ROWS_ONE:
         break;
@@ -225,11 +237,7 @@ size_t scree_field_rows_count(const scree_state *state, const scree_field *field
     case SCREE_ROWS_BODIES:
         return field->optional && !array_of(state, field) ? 0 : state->count;
     case SCREE_ROWS_CONTACTS:
-        return state->contact_count;
-    case SCREE_ROWS_LAST_FORCE:
-        return state->last_force ? state->contact_count : 0;
-    case SCREE_ROWS_ROLLING:
-        return state->rolling ? state->contact_count : 0;
+        return array_of(state, field) ? state->contact_count : 0;
     }
     return count;
 }
@@ -249,4 +257,21 @@ const void *scree_field_get(const scree_state *state, const scree_field *field, 
 void *scree_field_get_mutable(scree_state *state, const scree_field *field, size_t row)
 {
     return (void *)(uintptr_t)scree_field_get(state, field, row);
+}
+
+size_t scree_remembered_values(const scree_state *state, scree_list list, size_t row,
+                               double value[SCREE_CHECKSUM_VALUES])
+{
+    const scree_module *law = state->law[list].law;
+    size_t count = 0;
+    for (size_t k = 0; law && k < law->field_count; k++) {
+        const scree_field *field = &law->fields[k];
+        if (!field->in_checksum || scree_field_list(field) != list || scree_field_rows_count(state, field) == 0)
+            continue;
+        size_t components = (size_t)scree_components(field->components, state->dimension);
+        assert(field->type == SCREE_FIELD_DOUBLE && count + components <= SCREE_CHECKSUM_VALUES);
+        memcpy(value + count, scree_field_get(state, field, row), components * sizeof *value);
+        count += components;
+    }
+    return count;
 }

@@ -15,14 +15,28 @@ const scree_field *scree_own_fields(size_t *count);
 /// Whether states of this dimension have it.
 bool scree_field_exists(const scree_field *field, int dimension);
 
+/// Whether this state has it: what contacts remember depends on their law, too.
+bool scree_field_is_here(const scree_state *state, const scree_field *field);
+
 /// The same for what checkpoints hold.
-bool scree_field_is_stored(const scree_field *field, int dimension);
+bool scree_field_is_stored(const scree_state *state, const scree_field *field);
 
 /// Whether its elements lie behind a pointer, not in the struct of its owner itself.
 static inline bool scree_field_is_array(const scree_field *field)
 {
     return field->rows != SCREE_ROWS_ONE && field->rows != SCREE_ROWS_FIXED;
 }
+
+/// The list of contacts whose law a field is of, where it is of one.
+static inline scree_list scree_field_list(const scree_field *field)
+{
+    return field->rows == SCREE_ROWS_CONTACTS ? SCREE_LIST_CONTACTS : SCREE_LIST_PERSISTENT;
+}
+
+/// What number `row` of a list remembers that physics depends on, as its law declares it; returns how many numbers.
+enum { SCREE_CHECKSUM_VALUES = 16 };
+size_t scree_remembered_values(const scree_state *state, scree_list list, size_t row,
+                               double value[SCREE_CHECKSUM_VALUES]);
 
 /// Number of elements that `state` has of what `field` describes.
 size_t scree_field_rows_count(const scree_state *state, const scree_field *field);

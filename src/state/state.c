@@ -77,6 +77,14 @@ scree_status scree_state_predict(scree_state *state, scree_error *error)
     return scree_allocate(&state->predicted, state->row_capacity, sizeof *state->predicted, error);
 }
 
+scree_status scree_state_ask_for_moments(scree_state *state, bool wanted, scree_error *error)
+{
+    if (!wanted) scree_release(&state->moment);
+    if (!wanted || state->moment) return SCREE_OK;
+    return scree_allocate(&state->moment, state->row_capacity,
+                          scree_moment_size(state->dimension) * sizeof *state->moment, error);
+}
+
 scree_status scree_state_append(scree_state *state, scree_mark mark, size_t more, scree_error *error)
 {
     scree_body_array list[SCREE_BODY_ARRAYS];
@@ -266,6 +274,15 @@ void scree_state_release_contacts(scree_state *state)
     scree_release(&state->last_force);
     scree_release(&state->rolling);
     state->contact_count = state->contact_capacity = 0;
+}
+
+void scree_state_set_laws(scree_state *state, const scree_model *model)
+{
+    const scree_law_use *use = &model->law, *holding = &model->persistent.law;
+    state->law[SCREE_LIST_CONTACTS] = (scree_remembered_law){scree_modules[use->law], use->option};
+    state->law[SCREE_LIST_PERSISTENT] = (scree_remembered_law){NULL, 0};
+    if (scree_model_holds(model))
+        state->law[SCREE_LIST_PERSISTENT] = (scree_remembered_law){scree_modules[holding->law], holding->option};
 }
 
 scree_status scree_state_add_last_force(scree_state *state, scree_error *error)

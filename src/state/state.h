@@ -74,6 +74,9 @@ typedef struct scree_predicted {
     double unused;     ///< zero
 } scree_predicted;
 
+/// Numbers of a row of state->moment: the tensor by rows, in 3D filled up to 96 bytes, which kernels move in three.
+enum { SCREE_MOMENTS_2D = 4, SCREE_MOMENTS_3D = 12 };
+
 /// 3D only: sum of the torques, in torque quanta.
 typedef struct scree_torque_row {
     int64_t x, y, z;
@@ -94,7 +97,7 @@ typedef double scree_vector[3];
 #define SCREE_PRIMITIVES   (SCREE_WALL_ID - SCREE_PRIMITIVE_ID) /* most elements */
 #define SCREE_HISTORY      4
 typedef struct scree_history {
-    double value[SCREE_HISTORY]; ///< meaning depends on the law: see the head of its file in src/contact/
+    double value[SCREE_HISTORY]; ///< meanings: the fields that the law declares
 } scree_history;
 
 /// hertz_mindlin in 3D, for the ledger: damping forces at n - 1 that the ledger needs again. Single precision is
@@ -103,7 +106,7 @@ typedef struct scree_last_force {
     float value[4]; ///< N: normal, tangential x, y, z
 } scree_last_force;
 
-/// Memory of rolling and twisting resistance (only with materials that have it), and its last_force.
+/// More rows where the law wants them: for rolling and twisting resistance, and its last_force.
 typedef struct scree_rolling {
     double value[4]; ///< 2D: rolling displacement; 3D: rolling displacement x, y, z [m], twist [rad]
     float last[4];   ///< dashpots at n - 1, in the same order
@@ -113,6 +116,23 @@ typedef struct scree_contact_memory {
     uint32_t first, second; ///< ids
     scree_history history;
 } scree_contact_memory;
+
+/// Numbers of its own that a pair of the persistent list has (state/persistent.h); what they are is the affair of its
+/// law, but for the overlap [m] at which the pair is at rest.
+enum { SCREE_MEMBER_CONSTANTS = 4, SCREE_MEMBER_REST = 0 };
+typedef struct scree_member_row {
+    double value[SCREE_MEMBER_CONSTANTS];
+} scree_member_row;
+
+/// Lists of contacts whose memory is told apart, as laws differ.
+typedef enum scree_list { SCREE_LIST_CONTACTS, SCREE_LIST_PERSISTENT, SCREE_LISTS } scree_list;
+
+/// Whose memory the contacts of a list have: the law and its option say which fields there are
+/// (state/memory_fields.h).
+typedef struct scree_remembered_law {
+    const scree_module *law; ///< NULL: none yet
+    unsigned option;
+} scree_remembered_law;
 
 /// Energy ledger, J. Work is done ON the bodies; dissipation is positive. Residual of the balance:
 /// kinetic + elastic - initial - (plates + pressure + boundary + periodic + forced + outside + gravity) + damping +
@@ -169,6 +189,7 @@ struct scree_state {
     scree_turn_row *turn;     ///< 3D: count; NULL in 2D
     scree_sum_row *sum;       ///< count, forces at `step`
     scree_torque_row *torque; ///< 3D: count; NULL in 2D
+    int64_t *moment;          ///< of a row: scree_moments_of, torque quanta; NULL unless a module asks for them
     double force_quantum;     ///< N
     double torque_quantum;    ///< N m
     double largest_overlap;   ///< m, over all contacts at `step`
@@ -177,6 +198,7 @@ struct scree_state {
     uint32_t *id;                   ///< count
     uint8_t *mark;                  ///< count, scree_mark
     uint8_t *species;               ///< count; SCREE_NO_SPECIES: no particle
+    uint8_t *held;                  ///< count, bits of components of motion that are prescribed; NULL: none is
     double *angle;                  ///< 2D: rad, orientation; NULL in 3D
     scree_vector *reference;        ///< m, positions at the start of the loading stage
     scree_vector *sampled_velocity; ///< m/s, at `sampled_step`: the mean unbalanced force is from them
@@ -189,7 +211,8 @@ struct scree_state {
     scree_last_force *last_force; ///< beside `contact` where the law has last_force rows; else NULL
     scree_rolling *rolling;       ///< beside `contact` with rolling resistance; else NULL
     size_t contact_count, contact_capacity;
-    void *own[SCREE_MODULE_COUNT]; ///< the struct of each module that has one (module/module.h), by slot
+    scree_remembered_law law[SCREE_LISTS]; ///< of the model (derived; checkpoints say it of their contacts)
+    void *own[SCREE_MODULE_COUNT];         ///< the struct of each module that has one (module/module.h), by slot
     scree_ledger ledger;
     scree_stage_state stage;
     scree_time_spent spent;
@@ -283,6 +306,19 @@ scree_status scree_state_reserve_contacts(scree_state *state, size_t count, scre
 
 /// Frees the contact memory and what lies beside it.
 void scree_state_release_contacts(scree_state *state);
+
+/// From now on contacts, and pairs that are held, remember what the laws of the model say. Those that are there must be
+/// of these laws already.
+void scree_state_set_laws(scree_state *state, const scree_model *model);
+
+/// Integers that a row of state->moment has in this dimension.
+static inline size_t scree_moment_size(int dimension)
+{
+    return dimension == 3 ? SCREE_MOMENTS_3D : SCREE_MOMENTS_2D;
+}
+
+/// From the next evaluation on the moments of contact forces are summed, or no longer. Errors: memory.
+scree_status scree_state_ask_for_moments(scree_state *state, bool wanted, scree_error *error) SCREE_MUST_USE;
 
 /// Puts last_force rows, and rolling rows, beside the contact memory; nothing happens where there are some.
 scree_status scree_state_add_last_force(scree_state *state, scree_error *error) SCREE_MUST_USE;

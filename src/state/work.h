@@ -13,15 +13,18 @@ enum {
     SCREE_FLAG_ESCAPED = 8,     ///< a body left the domain
 };
 
-/// Neighbour pairs in row indices, along the curve; pairs [0, touching_count) touched at the rebuild (padded groups are
-/// the kernel's own affair). Row indices are valid until the next rebuild.
+/// Neighbour pairs in row indices, along the curve: pairs [0, held_count) are those of the persistent list, pairs
+/// [held_count, touching_count) touched at the rebuild (padded groups are the kernel's own affair). Row indices are
+/// valid until the next rebuild.
 typedef struct scree_pair_list {
     uint32_t *first, *second;     ///< rows; id[first] < id[second]
     scree_history *history;       ///< one a pair, seen from `first`
     scree_last_force *last_force; ///< with scree_contacts_add_work: one a pair; else NULL
     scree_rolling *rolling;       ///< with scree_contacts_roll: one a pair; else NULL
     size_t count, capacity;
-    size_t touching_count;
+    size_t held_count, touching_count;
+    scree_member_row *own; ///< held_count
+    size_t own_capacity;
 } scree_pair_list;
 
 typedef struct scree_wall_pair_list {
@@ -43,6 +46,7 @@ typedef struct scree_ghost {
 typedef struct scree_ghost_list {
     scree_ghost *ghost;
     size_t count, capacity;
+    size_t by_parent;          ///< the first ones, in the order of their parents
     double lattice_inverse[9]; ///< 1/m, at the last rebuild
     double largest_radius;     ///< m, of all bodies
 } scree_ghost_list;

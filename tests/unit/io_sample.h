@@ -77,12 +77,13 @@ static inline scree_status sample_loop(scree_state *state, size_t count, scree_e
     return SCREE_OK;
 }
 
-/// Contact memories of neighbours in the id order.
+/// Contact memories of neighbours in the id order, of law hertz_mindlin, which fills whole rows.
 static inline scree_status sample_contacts(scree_state *state, size_t count, scree_error *error)
 {
     scree_status status = scree_state_reserve_contacts(state, count, error);
     if (status) return status;
     state->contact_count = count;
+    state->law[SCREE_LIST_CONTACTS] = (scree_remembered_law){&scree_module_hertz_mindlin, 0};
     for (size_t k = 0; k < count; k++) {
         state->contact[k] = (scree_contact_memory){.first = (uint32_t)k, .second = (uint32_t)k + 1};
         for (int h = 0; h < SCREE_HISTORY; h++) state->contact[k].history.value[h] = 1e-6 * (double)k + h;
@@ -117,7 +118,8 @@ static inline scree_status sample_table(const scree_state *state, scree_contact_
 
 static inline scree_model sample_model(const scree_config *config)
 {
-    return (scree_model){.dimension = 2,
+    return (scree_model){.name = config->name,
+                         .dimension = 2,
                          .thickness = 2e-3,
                          .scheme = SCREE_SLOT_position_verlet,
                          .step = 1e-6,

@@ -57,6 +57,7 @@ static void create(sample *s, int dimension)
     }
     assert_int_equal(scree_state_reserve_contacts(state, 4, NULL), SCREE_OK);
     assert_int_equal(scree_state_add_rolling(state, NULL), SCREE_OK);
+    state->law[SCREE_LIST_CONTACTS] = (scree_remembered_law){&scree_module_hertz_mindlin, 2}; // with rolling
     state->contact[0] = (scree_contact_memory){0, 1, {{0.5, 0.25, 0.125, 9}}};
     state->contact[1] = (scree_contact_memory){0, 2, {{0, 0, 0, 8}}};
     state->contact[2] = (scree_contact_memory){1, SCREE_PRIMITIVE_ID + 3, {{-1, -2, -3, 7}}};

@@ -22,6 +22,7 @@ static contact_totals evaluate(fixture *f, const variant *v, contact_kernel *ker
     contact_part_clear(&scratch->part[0], &f->state, &job);
     job.model = &f->model;
     job.variant = *v;
+    job.pairs = (const scree_pair_constants(*)[SCREE_MAX_MATERIALS])f->model.pairs;
     job.row = f->state.row;
     job.turn = f->state.turn;
     job.predicted = f->state.predicted;
@@ -31,7 +32,7 @@ static contact_totals evaluate(fixture *f, const variant *v, contact_kernel *ker
     job.last_force = f->work.pairs.last_force;
     job.rolling = f->work.pairs.rolling;
     job.near_touched = scratch->near_touched;
-    job.settings = law_settings_get(&f->model, f->state.step_size);
+    job.settings = law_settings_get(&f->model.law, f->state.step_size);
     job.scale = (contact_scale){.inverse_force = 1 / f->state.force_quantum,
                                 .inverse_torque = 1 / f->state.torque_quantum,
                                 .inverse_damping = 0x1p60,

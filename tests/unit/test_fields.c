@@ -1,5 +1,7 @@
 /// The tables of fields: names, units, places, and that nothing of a state is missing from them.
 #include "measure/delaunay_boundary.h"
+#include "model/law.h"
+#include "state/persistent.h"
 #include "state/plates.h"
 #include "testing.h"
 
@@ -24,8 +26,9 @@ static void every_name_is_unique_and_explained(void **unused)
     for (size_t k = 0; k < all_count(); k++) {
         assert_true(strlen(all(k)->name) > 1);
         assert_true(strlen(all(k)->meaning) > 3);
+        // Laws may remember the same thing: a state is of one of them.
         for (size_t j = 0; j < k; j++)
-            if (all(k)->only_dimension + all(j)->only_dimension != 5)
+            if (all(k)->only_dimension + all(j)->only_dimension != 5 && (!all(k)->law || all(k)->law == all(j)->law))
                 assert_string_not_equal(all(k)->name, all(j)->name);
     }
 }
@@ -105,7 +108,8 @@ static void fields_lie_where_their_names_say(void **unused)
         {"coordination", &state.sum[2].contacts},
         {"rebuild", state.rebuild[2]},
         {"contacts/second", &state.contact[2].second},
-        {"contacts/history", state.contact[2].history.value},
+        {"contacts/tangential_displacement", state.contact[2].history.value},
+        {"contacts/tangential_damping_force", state.contact[2].history.value + 3},
         {"boundary/force_y", &scree_loop_of(&state)->fy[2]},
         {"boundary/loaded", &scree_loop_of(&state)->loaded[2]},
         {"walls/normal", scree_plates(&state)[2].normal},
@@ -114,7 +118,7 @@ static void fields_lie_where_their_names_say(void **unused)
     for (size_t e = 0; e < sizeof expected / sizeof *expected; e++) {
         const void *found = NULL;
         for (size_t k = 0; k < all_count(); k++)
-            if (strcmp(all(k)->name, expected[e].name) == 0 && scree_field_exists(all(k), 2))
+            if (strcmp(all(k)->name, expected[e].name) == 0 && scree_field_is_here(&state, all(k)))
                 found = scree_field_get(&state, all(k), 2);
         if (found != expected[e].place) fail_msg("'%s' lies elsewhere", expected[e].name);
     }
@@ -155,8 +159,7 @@ static void no_member_of_the_state_is_missing(void **unused)
     EXCEPT(row_capacity);
     EXCEPT(id_count);
     EXCEPT(id_capacity);
-    EXCEPT(last_force); // beside `contact`
-    EXCEPT(rolling);
+    EXCEPT(law);   // of the model
     EXCEPT(spent); // kept by checkpoints, but no part of what is computed
     EXCEPT(own);   // of the modules
     mark_fields(NULL, covered);
@@ -189,15 +192,14 @@ static void no_member_of_an_element_is_missing(void **unused)
                   {offsetof(scree_state, sum), sizeof(scree_sum_row), 0, 0},
                   {offsetof(scree_state, turn), sizeof(scree_turn_row), 3, 0},
                   {offsetof(scree_state, torque), sizeof(scree_torque_row), 3, 8},
-                  {offsetof(scree_state, contact), sizeof(scree_contact_memory), 0, 0},
-                  {offsetof(scree_state, last_force), sizeof(scree_last_force), 0, 0},
-                  {offsetof(scree_state, rolling), sizeof(scree_rolling), 0, 0}};
+                  {offsetof(scree_state, contact), sizeof(scree_contact_memory), 0, sizeof(scree_history)}};
     for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++)
         for (int dimension = 2; dimension <= 3; dimension++) {
             if (arrays[a].dimension && arrays[a].dimension != dimension) continue;
             size_t bytes = arrays[a].unused;
             for (size_t k = 0; k < all_count(); k++) {
-                if (all(k)->owner || all(k)->array_offset != arrays[a].offset || !scree_field_is_array(all(k)))
+                if (all(k)->owner || all(k)->array_offset != arrays[a].offset || !scree_field_is_array(all(k)) ||
+                    all(k)->law)
                     continue;
                 if (!scree_field_exists(all(k), dimension)) continue;
                 bytes += (size_t)scree_components(all(k)->components, dimension) * scree_field_size(all(k)->type);
@@ -205,6 +207,69 @@ static void no_member_of_an_element_is_missing(void **unused)
             }
             assert_int_equal(bytes, arrays[a].size);
         }
+}
+
+/// Where the values of a row lie in a list of contacts.
+typedef struct memory_row {
+    size_t array, first, size;
+} memory_row;
+
+enum { HISTORY, BOOKING, ROLLING, BOOKED, CONSTANT, MEMORY_ROWS };
+
+#define HELD(member_, type)                                                                                            \
+    {                                                                                                                  \
+        offsetof(scree_persistent_list, member), offsetof(scree_persistent_member, member_), sizeof(type)              \
+    }
+static const memory_row memory_rows_of[SCREE_LISTS][MEMORY_ROWS] = {
+    {{offsetof(scree_state, contact), offsetof(scree_contact_memory, history), sizeof(double)},
+     {offsetof(scree_state, last_force), 0, sizeof(float)},
+     {offsetof(scree_state, rolling), offsetof(scree_rolling, value), sizeof(double)},
+     {offsetof(scree_state, rolling), offsetof(scree_rolling, last), sizeof(float)},
+     {SIZE_MAX, 0, 1}},
+    {HELD(history.value, double), HELD(last_force.value, float), HELD(rolling.value, double), HELD(rolling.last, float),
+     HELD(constant, double)},
+};
+
+/// Number of values of a row that the fields of a law speak of; no two of the same one.
+static int number_used(const scree_state *state, scree_list list, int which)
+{
+    const memory_row *row = &memory_rows_of[list][which];
+    const scree_module *law = state->law[list].law;
+    int used[4] = {0};
+    for (size_t k = 0; k < law->field_count; k++) {
+        const scree_field *field = &law->fields[k];
+        if (!scree_field_is_here(state, field) || scree_field_list(field) != list) continue;
+        if (field->array_offset != row->array) continue;
+        if (field->offset < row->first || field->offset >= row->first + 4 * row->size) continue;
+        assert_int_equal(scree_field_size(field->type), row->size);
+        size_t at = (field->offset - row->first) / row->size;
+        assert_int_equal((field->offset - row->first) % row->size, 0);
+        for (int c = scree_components(field->components, state->dimension); c-- > 0;) {
+            assert_true(at + (size_t)c < 4);
+            if (used[at + (size_t)c]++) fail_msg("'%s' lies on another value", field->name);
+        }
+    }
+    return used[0] + used[1] + used[2] + used[3];
+}
+
+/// What a law declares lies in the rows that its traits ask for, each of them has something in it, and no two fields
+/// are the same value.
+static void memory_is_what_the_traits_say(void **unused)
+{
+    (void)unused;
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
+        for (unsigned option = 0; scree_modules[m]->law && option < scree_modules[m]->law->option_count; option++)
+            for (int dimension = 2; dimension <= 3; dimension++) {
+                const scree_law_traits *traits = &scree_modules[m]->law->traits[option];
+                const scree_list list = traits->holds ? SCREE_LIST_PERSISTENT : SCREE_LIST_CONTACTS;
+                scree_state state = {.dimension = dimension};
+                state.law[list] = (scree_remembered_law){scree_modules[m], option};
+                assert_true(number_used(&state, list, HISTORY) > 0);
+                assert_true((number_used(&state, list, BOOKING) > 0) == traits->keeps_last_force[dimension - 2]);
+                assert_true((number_used(&state, list, ROLLING) > 0) == traits->rolling);
+                assert_true((number_used(&state, list, CONSTANT) > 0) == traits->holds);
+                assert_int_equal(number_used(&state, list, ROLLING), number_used(&state, list, BOOKED));
+            }
 }
 
 static void packing_and_unpacking_agree(void **unused)
@@ -354,6 +419,7 @@ int main(void)
         cmocka_unit_test(no_member_of_the_state_is_missing),
         cmocka_unit_test(no_member_of_a_module_is_missing),
         cmocka_unit_test(no_member_of_an_element_is_missing),
+        cmocka_unit_test(memory_is_what_the_traits_say),
         cmocka_unit_test(packing_and_unpacking_agree),
         cmocka_unit_test(permuting_moves_whole_elements),
         cmocka_unit_test(the_manual_lists_every_dataset),

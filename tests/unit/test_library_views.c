@@ -45,7 +45,7 @@ static void views_are_the_fields(const char *text)
     size_t seen = 0, filled = 0;
     for (size_t k = 0; k < scree_field_total(); k++) {
         const scree_field *field = scree_field_at(k);
-        if (!scree_field_exists(field, s->model.dimension)) continue;
+        if (!scree_field_is_here(&s->state, field)) continue;
         assert_string_equal(scree_simulation_view_name(s, seen++), field->name);
         scree_view view = library_view(s, field->name);
         assert_true(view.count == scree_field_rows_count(&s->state, field));

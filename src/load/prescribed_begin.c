@@ -1,0 +1,151 @@
+/// Who is prescribed what: settled when a stage begins. Selections are found here, when they are needed first.
+#include "integrate/forced_spin.h"
+#include "load/prescribed.h"
+#include "selection/selection.h"
+#include "state/fields.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const char *const names[] = {"velocity x", "velocity y", "velocity z", "spin x", "spin y", "spin z", "surface"};
+
+bool scree_prescribed_drives(const scree_prescribed_config *own, int component)
+{
+    const double *row = &own->gradient[3 * (component % 3)];
+    bool linear = component < 3 && !(isnan(row[0]) && isnan(row[1]) && isnan(row[2]));
+    return linear || !isnan(scree_schedule_at(&own->motion[component], 0));
+}
+
+bool scree_prescribed_pushes(const scree_prescribed_config *own, int component)
+{
+    return !isnan(scree_schedule_at(&own->push[component], 0));
+}
+
+static int64_t find_stage(const scree_config_stage *stages, int64_t count, const char *name, int64_t standard)
+{
+    for (int64_t i = 0; name && i < count; i++)
+        if (stages[i].name && strcmp(stages[i].name, name) == 0) return i;
+    return name ? -1 : standard;
+}
+
+void scree_prescribed_stages(const scree_config_stage *stages, int64_t count, const scree_prescribed_config *own,
+                             int64_t range[2])
+{
+    range[0] = find_stage(stages, count, own->from, 0);
+    range[1] = find_stage(stages, count, own->until, count - 1);
+}
+
+static bool acts_now(const scree_context *c, int64_t load)
+{
+    int64_t range[2];
+    const scree_prescribed_config *own = scree_prescribed_config_of(c->model->loads, load);
+    if (!own) return false;
+    scree_prescribed_stages(c->model->stages, c->model->stage_count, own, range);
+    return c->state->stage.index >= range[0] && c->state->stage.index <= range[1];
+}
+
+static bool has_any(const scree_model *model)
+{
+    for (int64_t i = 0; i < model->load_count; i++)
+        if (scree_prescribed_config_of(model->loads, i)) return true;
+    return false;
+}
+
+/// Where an error that has been set stands in the case.
+static scree_status refuse(int64_t load, scree_error *error, scree_status status)
+{
+    if (error) (void)snprintf(error->field, sizeof error->field, "loads.%lld", (long long)load);
+    return status;
+}
+
+/// A component of a body becomes that of a load.
+static scree_status own_component(const scree_context *c, int64_t load, size_t row, int component, scree_error *error)
+{
+    const scree_config_load *loads = c->model->loads;
+    scree_owners *owner = &scree_prescribed_of(c->state)->owner[row];
+    int before = (*owner)[component];
+    if (before)
+        return refuse(load, error,
+                      scree_error_set(error, SCREE_ERROR_INPUT,
+                                      "'%s' and '%s' both prescribe the %s of particle %u: leave it to one of them",
+                                      scree_prescribed_name(scree_prescribed_config_of(loads, before - 1)),
+                                      scree_prescribed_name(scree_prescribed_config_of(loads, load)), names[component],
+                                      c->state->id[row]));
+    (*owner)[component] = (uint8_t)(load + 1);
+    return SCREE_OK;
+}
+
+/// All components of a body that a load says something of.
+static scree_status own_body(const scree_context *c, int64_t load, size_t row, scree_error *error)
+{
+    const scree_prescribed_config *own = scree_prescribed_config_of(c->model->loads, load);
+    scree_state *state = c->state;
+    scree_status status = SCREE_OK;
+    for (int d = 0; d < SCREE_COMPONENTS && !status; d++) {
+        bool drives = scree_prescribed_drives(own, d);
+        if (!scree_component_exists(state->dimension, d) || !(drives || scree_prescribed_pushes(own, d))) continue;
+        status = own_component(c, load, row, d, error);
+        if (drives) state->held[row] |= (uint8_t)(1 << d);
+    }
+    if (!status && own->attack == SCREE_ATTACK_SURFACE) status = own_component(c, load, row, SCREE_LEVER, error);
+    bool forced = scree_forced(state)->active && scree_forced(state)->id == state->id[row];
+    if (!status && forced && state->held[row] >> 3)
+        status = refuse(load, error,
+                        scree_error_set(error, SCREE_ERROR_INPUT,
+                                        "'%s' prescribes the spin of particle %u, which this stage turns",
+                                        scree_prescribed_name(own), state->id[row]));
+    return status;
+}
+
+static scree_status own_selection(const scree_context *c, int64_t load, scree_error *error)
+{
+    const scree_prescribed_config *own = scree_prescribed_config_of(c->model->loads, load);
+    int64_t selection = scree_config_selection_find(c->model->selections, c->model->selection_count, own->selection);
+    scree_status status = scree_selection_resolve(c->model, c->state, selection, error);
+    for (size_t row = 0; row < c->state->count && !status; row++)
+        if (scree_selection_has(c->state, selection, row)) status = own_body(c, load, row, error);
+    return status;
+}
+
+/// Room for what there is of each body.
+static scree_status begin_fields(scree_state *state, scree_error *error)
+{
+    size_t count;
+    scree_status status = SCREE_OK;
+    for (size_t k = 0; k < scree_module_prescribed.field_count && !status; k++)
+        if (scree_module_prescribed.fields[k].rows == SCREE_ROWS_BODIES)
+            status = scree_state_begin_field(state, &scree_module_prescribed.fields[k], error);
+    const scree_field *own = scree_own_fields(&count);
+    for (size_t k = 0; k < count && !status; k++)
+        if (strcmp(own[k].name, "held") == 0) status = scree_state_begin_field(state, &own[k], error);
+    return status;
+}
+
+/// Bodies that come to be driven now have their place as reference.
+static void refer(scree_state *state, size_t row, uint8_t before)
+{
+    if (state->held[row] && !before) scree_body_position(state, row, scree_prescribed_of(state)->reference[row]);
+}
+
+scree_status scree_prescribed_begin(const scree_context *c, scree_error *error)
+{
+    scree_state *state = c->state;
+    scree_prescribed *all = scree_prescribed_of(state);
+    uint8_t *before = NULL;
+    if (!has_any(c->model)) return SCREE_OK;
+    scree_status status = begin_fields(state, error);
+    if (!status) status = scree_allocate(&before, state->count + 1, sizeof *before, error);
+    if (status) return status;
+    memcpy(before, state->held, state->count);
+    memset(state->held, 0, state->count);
+    memset(all->owner, 0, state->count * sizeof *all->owner);
+    for (int64_t load = 0; load < c->model->load_count && !status; load++) {
+        bool acts = acts_now(c, load);
+        if (acts && !all->acts[load]) all->begun[load] = scree_state_time(state);
+        all->acts[load] = acts;
+        if (acts) status = own_selection(c, load, error);
+    }
+    for (size_t row = 0; row < state->count; row++) refer(state, row, before[row]);
+    scree_release(&before);
+    return status;
+}
