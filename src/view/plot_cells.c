@@ -222,19 +222,19 @@ const scree_figure_family scree_figures_distortion = {
 
 enum { BOTTOM, CENTRE, TOP, MEAN, CIRCLE_LINES };
 
+enum { CIRCLE_COLUMNS = 4 };
+static const char *const circle_column[CIRCLE_COLUMNS] = {"snapshot", "position", "diameter_ratio", "pressure_ratio"};
+
 /// Draws the rows of one snapshot; x and y have room for all of them.
 static scree_status draw_circles(const char *path, const scree_series *circles, const scree_cell_snapshot *snapshot,
                                  double *x, double *y, scree_error *error)
 {
     static const char *const labels[CIRCLE_LINES] = {"near the bottom", "centre", "near the top", "whole sample"};
-    const double *column[4] = {scree_series_get(circles, "snapshot"), scree_series_get(circles, "position"),
-                               scree_series_get(circles, "diameter_ratio"),
-                               scree_series_get(circles, "pressure_ratio")};
+    const double *column[CIRCLE_COLUMNS];
     char title[160], label[2][80];
     scree_chart_line line[CIRCLE_LINES];
     size_t used = 0;
-    for (int k = 0; k < 4; k++)
-        if (!column[k]) return scree_error_set(error, SCREE_ERROR_INPUT, "%s has other columns", SCREE_FILE_CELLS);
+    for (int k = 0; k < CIRCLE_COLUMNS; k++) column[k] = scree_series_get(circles, circle_column[k]);
     for (int p = BOTTOM; p <= TOP; p++) {
         line[p] = (scree_chart_line){.x = x + used, .y = y + used, .label = labels[p], .colour = p + 1};
         for (size_t k = 0; k < circles->row_count; k++) {
@@ -260,30 +260,43 @@ static scree_status draw_circles(const char *path, const scree_series *circles, 
     return scree_chart_draw(path, &chart, error);
 }
 
-static scree_status has_circles(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
+/// cells.csv with the columns that the figure needs. It is there for the caller to destroy in any case.
+static scree_status read_circles(const scree_plot_run *run, scree_series *circles, scree_error *error)
 {
     char path[PATH_MAX];
+    *circles = (scree_series){0};
+    scree_status status = scree_path_join(path, sizeof path, run->directory, SCREE_FILE_CELLS, error);
+    if (status) return status;
+    if (access(path, F_OK) != 0) return scree_error_set(error, SCREE_ERROR_INPUT, "there is no %s", SCREE_FILE_CELLS);
+    status = scree_series_read(circles, path, error);
+    for (int k = 0; !status && k < CIRCLE_COLUMNS; k++)
+        if (!scree_series_get(circles, circle_column[k]))
+            status = scree_error_set(error, SCREE_ERROR_INPUT, "%s has other columns", SCREE_FILE_CELLS);
+    return status;
+}
+
+static scree_status has_circles(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
+{
+    scree_series circles = {0};
     size_t which;
     (void)job;
     scree_status status = scree_plot_find_snapshot(run, SCREE_AT_WINDOW, &which, error);
     if (!status) status = scree_cell_snapshot_find(run->directory, which, error);
-    if (!status) status = scree_path_join(path, sizeof path, run->directory, SCREE_FILE_CELLS, error);
-    if (status || access(path, F_OK) == 0) return status;
-    return scree_error_set(error, SCREE_ERROR_INPUT, "there is no %s", SCREE_FILE_CELLS);
+    if (!status) status = read_circles(run, &circles, error);
+    scree_series_destroy(&circles);
+    return status;
 }
 
 static scree_status plot_circles(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
 {
-    char source[PATH_MAX];
     size_t which;
-    scree_series circles = {0};
+    scree_series circles;
     scree_cell_snapshot snapshot;
     double *value = NULL;
-    scree_status status = scree_path_join(source, sizeof source, run->directory, SCREE_FILE_CELLS, error);
-    if (!status) status = scree_plot_find_snapshot(run, SCREE_AT_WINDOW, &which, error);
+    scree_status status = scree_plot_find_snapshot(run, SCREE_AT_WINDOW, &which, error);
     if (!status) status = scree_cell_snapshot_read(run->directory, which, &snapshot, error);
     if (status) return status;
-    status = scree_series_read(&circles, source, error);
+    status = read_circles(run, &circles, error);
     if (!status) status = scree_allocate(&value, 2 * circles.row_count, sizeof *value, error);
     if (!status) status = draw_circles(job->path, &circles, &snapshot, value, value + circles.row_count, error);
     scree_release(&value);
