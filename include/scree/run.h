@@ -74,6 +74,18 @@ SCREE_API scree_status scree_result_visit(const char *directory,
 SCREE_API scree_status scree_plot(const char *directory, void (*message)(void *user, const char *path), void *user,
                                   scree_error *error);
 
+/// The same for the figures in `names`, separated by commas; NULL: all. Errors beside those of scree_plot:
+/// SCREE_ERROR_INPUT when the run has no figure of a name (`accepted` holds the nearest; nothing is drawn), or lacks
+/// what a figure that was asked for needs.
+SCREE_API scree_status scree_plot_only(const char *directory, const char *names,
+                                       void (*message)(void *user, const char *path), void *user, scree_error *error);
+
+/// Calls `visit` for every figure that can be drawn of a run, in the order in which they are drawn. Errors as of
+/// scree_plot; figures of the files that can be read are told all the same.
+SCREE_API scree_status scree_figure_visit(const char *directory,
+                                          void (*visit)(void *user, const char *name, const char *meaning), void *user,
+                                          scree_error *error);
+
 #ifdef __cplusplus
 }
 #endif

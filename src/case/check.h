@@ -71,9 +71,6 @@ void scree_rule_refuse(scree_reader *reader, const char *path, const char *accep
 /// Gives a key of the case a text, in the tree as in its member. path: of the key, "walls.0.file".
 void scree_rule_set_text(scree_reader *reader, const char *path, const char *text, char **member);
 
-/// Where a file that a case names lies: beside the case file, unless its path is absolute.
-void scree_file_beside(const scree_reader *reader, const char *name, char *path, size_t size);
-
 /// Those of the particles: materials, sizes and shares of the species (particle_rules.c).
 void scree_rules_check_particles(scree_reader *reader, const scree_config *config);
 

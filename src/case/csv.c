@@ -2,7 +2,6 @@
 #include "case/csv.h"
 
 #include "base/memory.h"
-#include "case/check.h"
 
 #include <errno.h>
 #include <stdio.h>

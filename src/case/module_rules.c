@@ -103,10 +103,3 @@ void scree_rule_set_text(scree_reader *reader, const char *path, const char *tex
     else
         node->text = *member;
 }
-
-void scree_file_beside(const scree_reader *reader, const char *name, char *path, size_t size)
-{
-    const char *source = reader->root->place.source, *slash = source ? strrchr(source, '/') : NULL;
-    size_t folder = name[0] == '/' || !slash ? 0 : (size_t)(slash - source) + 1;
-    (void)snprintf(path, size, "%.*s%s", (int)(folder < size ? folder : 0), folder ? source : "", name);
-}

@@ -153,3 +153,10 @@ void scree_reader_fail(scree_reader *reader, size_t bytes)
 {
     if (!reader->failure.status) scree_error_set_memory(&reader->failure, bytes);
 }
+
+void scree_file_beside(const scree_reader *reader, const char *name, char *path, size_t size)
+{
+    const char *source = reader->root->place.source, *slash = source ? strrchr(source, '/') : NULL;
+    size_t folder = name[0] == '/' || !slash ? 0 : (size_t)(slash - source) + 1;
+    (void)snprintf(path, size, "%.*s%s", (int)(folder < size ? folder : 0), folder ? source : "", name);
+}

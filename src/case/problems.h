@@ -34,6 +34,9 @@ void scree_problems_replace(scree_problems *problems, const scree_error *failure
 /// Notes that memory ran out.
 void scree_reader_fail(scree_reader *reader, size_t bytes);
 
+/// Where a file that a case names lies: beside the case file, unless its path is absolute.
+void scree_file_beside(const scree_reader *reader, const char *name, char *path, size_t size);
+
 /// `text` for a message: at most 60 bytes, whole characters, "..." where something is left out.
 typedef struct scree_shown {
     char text[72];

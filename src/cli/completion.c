@@ -19,6 +19,8 @@ static const char *candidates(scree_value_kind kind)
                "compgen -W \"$(scree list --sweeps | cut -d ' ' -f 1)\" -- \"$word\"";
     case SCREE_VALUE_RESULT:
         return "compgen -W \"$(scree get \"${COMP_WORDS[2]}\" 2>/dev/null | cut -d ' ' -f 1)\" -- \"$word\"";
+    case SCREE_VALUE_FIGURE:
+        return "compgen -W \"$(scree plot \"${COMP_WORDS[2]}\" --list 2>/dev/null | cut -d ' ' -f 1)\" -- \"$word\"";
     case SCREE_VALUE_VERB:
         return "compgen -W \"$verbs\" -- \"$word\"";
     case SCREE_VALUE_TEXT:

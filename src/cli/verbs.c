@@ -283,9 +283,20 @@ const scree_verb scree_verbs[] = {
         .meaning = "draw the figures of a run again",
         .text = "Draws charts and scenes as SVG and PNG into DIR/figures and prints the path of each. The gnuplot "
                 "script and "
-                "the data of a chart are kept beside it.",
+                "the data of a chart are kept beside it. A figure for which the run lacks a column, a snapshot or "
+                "another result is left out, with the reason; when it was asked for with `--only`, that is an error.",
         .argument = {{"DIR", "folder of a run", SCREE_VALUE_FOLDER, false, false}},
-        .example = {{"scree plot out", "after a run with --no-figures"}},
+        .option = {{.name = "list",
+                    .letter = 'l',
+                    .meaning = "list the figures of the run, one line each, draw nothing"},
+                   {.name = "only",
+                    .value = "NAME,...",
+                    .meaning = "draw the figures of these names",
+                    .preset = "all that `--list` names",
+                    .kind = SCREE_VALUE_FIGURE}},
+        .example = {{"scree plot out", "after a run with --no-figures"},
+                    {"scree plot out --list", "what there is to draw"},
+                    {"scree plot out --only stress-ratio,packing-end", "two figures"}},
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO},
         .function = scree_verb_plot,
     },

@@ -15,6 +15,7 @@ typedef enum scree_value_kind {
     SCREE_VALUE_CASE,    ///< a case file or the name of a built-in case
     SCREE_VALUE_BUILTIN, ///< the name of a built-in case
     SCREE_VALUE_RESULT,  ///< the name of a result of the run in the first argument
+    SCREE_VALUE_FIGURE,  ///< the name of a figure of the run in the first argument
     SCREE_VALUE_VERB,
     SCREE_VALUE_SWEEP, ///< a sweep file or the name of a built-in sweep
 } scree_value_kind;

@@ -163,14 +163,20 @@ static void read_bodies(scree_hdf5 *run, const char *group, scree_assembly *asse
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) scree_array_destroy(all[k]);
 }
 
+/// The group of the cells into `name`, which has to be there.
+static void need_cells(scree_hdf5 *run, const char *group, int64_t index, char *name, size_t size)
+{
+    (void)snprintf(name, size, "%s/cells", group);
+    if (!run->status && H5Lexists(run->file, name, H5P_DEFAULT) <= 0)
+        run->status = scree_error_set(run->error, SCREE_ERROR_INPUT, "snapshot %lld of '%s' has no cells",
+                                      (long long)index, run->path);
+}
+
 static void read_group(scree_hdf5 *run, const char *group, scree_cell_snapshot *snapshot)
 {
     char name[80];
     uint64_t dimension = 0;
-    (void)snprintf(name, sizeof name, "%s/cells", group);
-    if (!run->status && H5Lexists(run->file, name, H5P_DEFAULT) <= 0)
-        run->status = scree_error_set(run->error, SCREE_ERROR_INPUT, "snapshot %lld of '%s' has no cells",
-                                      (long long)snapshot->index, run->path);
+    need_cells(run, group, snapshot->index, name, sizeof name);
     scree_hdf5_get_integer(run, name, "dimension", &dimension);
     if (!run->status && dimension != 2 && dimension != 3) scree_hdf5_damaged(run, "cells are of no dimension");
     if (run->status) return;
@@ -186,25 +192,44 @@ static void read_group(scree_hdf5 *run, const char *group, scree_cell_snapshot *
     check_numbers(run, &snapshot->assembly, &snapshot->cells);
 }
 
+/// Opens run.h5 and finds the group of a snapshot and its index. What is wrong is in run->status.
+static void open_group(scree_hdf5 *run, const char *path, size_t which, int64_t *index, char *group, size_t size,
+                       scree_error *error)
+{
+    scree_part_list list;
+    scree_hdf5_open(run, path, error);
+    if (!scree_run_file_list(run, SCREE_PART_SNAPSHOT, false, &list)) {
+        if (which < list.count)
+            *index = list.index[which];
+        else
+            run->status = scree_error_set(error, SCREE_ERROR_INPUT, "'%s' holds %zu snapshots: there is no number %zu",
+                                          path, list.count, which);
+    }
+    scree_part_list_destroy(&list);
+    scree_part_group(SCREE_PART_SNAPSHOT, *index, group, size);
+}
+
+scree_status scree_cell_snapshot_find(const char *directory, size_t which, scree_error *error)
+{
+    char path[PATH_MAX], group[64], name[80];
+    int64_t index = 0;
+    scree_hdf5 run;
+    scree_status status = scree_run_file_path(directory, path, sizeof path, error);
+    if (status) return status;
+    open_group(&run, path, which, &index, group, sizeof group, error);
+    need_cells(&run, group, index, name, sizeof name);
+    return scree_hdf5_close(&run);
+}
+
 scree_status scree_cell_snapshot_read(const char *directory, size_t which, scree_cell_snapshot *snapshot,
                                       scree_error *error)
 {
     char path[PATH_MAX], group[64];
+    scree_hdf5 run;
     *snapshot = (scree_cell_snapshot){0};
     scree_status status = scree_run_file_path(directory, path, sizeof path, error);
     if (status) return status;
-    scree_hdf5 run;
-    scree_part_list list;
-    scree_hdf5_open(&run, path, error);
-    if (!scree_run_file_list(&run, SCREE_PART_SNAPSHOT, false, &list)) {
-        if (which < list.count)
-            snapshot->index = list.index[which];
-        else
-            run.status = scree_error_set(error, SCREE_ERROR_INPUT, "'%s' holds %zu snapshots: there is no number %zu",
-                                         path, list.count, which);
-    }
-    scree_part_list_destroy(&list);
-    scree_part_group(SCREE_PART_SNAPSHOT, snapshot->index, group, sizeof group);
+    open_group(&run, path, which, &snapshot->index, group, sizeof group, error);
     read_group(&run, group, snapshot);
     status = scree_hdf5_close(&run);
     if (status) scree_cell_snapshot_destroy(snapshot);

@@ -24,6 +24,8 @@ typedef struct scree_cell_snapshot {
     scree_cells cells;
 } scree_cell_snapshot;
 
+/// SCREE_OK when there is a snapshot `which` with cells. Errors as of scree_cell_snapshot_read.
+scree_status scree_cell_snapshot_find(const char *directory, size_t which, scree_error *error) SCREE_MUST_USE;
 /// Errors: SCREE_ERROR_INPUT: no such snapshot, or it has no cells; SCREE_ERROR_IO.
 scree_status scree_cell_snapshot_read(const char *directory, size_t which, scree_cell_snapshot *snapshot,
                                       scree_error *error) SCREE_MUST_USE;

@@ -39,7 +39,7 @@ typedef struct scree_law_traits {
     bool remembers;              ///< history rows live from step to step; else the ledger alone needs them
     unsigned char for_ledger[2]; ///< in 2D, 3D: bits of the values of the history that nothing but the ledger reads
     bool keeps_last_force[2];    ///< in 2D, 3D: last_force rows beside the history, for the ledger
-    bool displacement;           ///< the history begins with a displacement in the tangent plane (else with a force)
+    bool displacement;           ///< the history begins with a displacement in the tangent plane, which walls turn
     bool rolling;                ///< passes couples on: rolling rows
     bool looks_ahead;            ///< needs kinematics_predict
     bool pulls;                  ///< the normal force may be negative

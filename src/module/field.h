@@ -67,7 +67,8 @@ typedef enum scree_field_ghosts {
     SCREE_GHOSTS_FOLLOW,   ///< copied to them in every step
     SCREE_GHOSTS_POSITION, ///< a vector, copied in every step, plus the lattice vectors from the body to the ghost [m]
     SCREE_GHOSTS_VELOCITY, ///< a vector, copied in every step, plus the velocity of these lattice vectors [m/s]
-    SCREE_GHOSTS_ADD_BACK  ///< integers that they collect: added to the body modulo 2^64, then zero again
+    SCREE_GHOSTS_ADD_BACK  ///< integers that they collect: added to the body modulo 2^64, then zero again. The contact
+                           ///< forces end with it; a pass that collects later calls scree_comm_add_back itself
 } scree_field_ghosts;
 
 /// Numbers of components that depend on the dimension: d of a vector; 1 in 2D and 3 in 3D of a spin or torque.
@@ -91,10 +92,11 @@ typedef struct scree_field {
     size_t fixed;
     int only_dimension;        ///< 2 or 3: exists in this dimension only; 0: in both
     scree_field_ghosts ghosts; ///< of bodies; if not NONE, the array has rows of ghosts behind those of the bodies
-    bool optional;             ///< of bodies: there is no array until scree_state_begin_field asks for it
-    const scree_module *law;   ///< of what contacts remember: there where they follow this law; NULL: always
-    unsigned options;          ///< and one of these of its options, a bit each; 0: any
-    bool in_checksum;          ///< of what contacts remember: enters the state checksum
+    bool optional; ///< of bodies: there is no array, and no part of messages, until scree_state_begin_field asks for
+                   ///< it, in `begin` of the module; without it every run has the array, used or not
+    const scree_module *law; ///< of what contacts remember: there where they follow this law; NULL: always
+    unsigned options;        ///< and one of these of its options, a bit each; 0: any
+    bool in_checksum;        ///< of what contacts remember: enters the state checksum
 } scree_field;
 
 /// Ends of ranges, for the rows of declarations.

@@ -1,5 +1,5 @@
 /// Passes: functions of modules with the phase of the step in which they run. A stage begin puts those of all modules
-/// in use into one array (run/passes.c), by phase, then by row of the table of modules, the core's own first; the step
+/// in use into one array (run/step.c), by phase, then by row of the table of modules, the core's own first; the step
 /// runs it.
 #ifndef SCREE_MODULE_PASS_H
 #define SCREE_MODULE_PASS_H
@@ -15,8 +15,10 @@ typedef enum scree_phase {
     SCREE_PHASE_FIRST_HALF,  ///< kick and drift: positions at n + 1; rows hold v(n + 1/2)
     SCREE_PHASE_FOLLOW,      ///< what moves by itself follows; second half of the work of the forces at n
     SCREE_PHASE_SEARCH,      ///< neighbour lists, outlines
-    SCREE_PHASE_CONTACTS,    ///< quanta from the bounds, then contact forces; sums hold nothing else
-    SCREE_PHASE_BODIES,      ///< from contacts to bodies: forces on ghosts are added back
+    SCREE_PHASE_CONTACTS,    ///< quanta from the bounds, then contact forces, with those on ghosts added back; sums
+                             ///< hold nothing else
+    SCREE_PHASE_BODIES,      ///< from contacts to bodies; what a pass collects on ghosts it adds back itself
+                             ///< (scree_comm_add_back)
     SCREE_PHASE_LOADS,       ///< all other forces, each on top of those before it; first half of their work
     SCREE_PHASE_RESULTANTS,  ///< loads that depend on the resultant of all others on a body: damping of its motion
     SCREE_PHASE_SECOND_HALF, ///< velocities with the forces at n + 1

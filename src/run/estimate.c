@@ -99,7 +99,7 @@ int64_t scree_longest_stage(const scree_model *model)
 
 // ---- figures -----------------------------------------------------------------------------------------------------
 
-/// Scenes that are drawn (view/plot_scenes.c), and charts.
+/// Scenes that are drawn (view/figures.c), and charts.
 static double scenes_of(const scree_model *model, double *charts)
 {
     bool strained = false, cells = model->measure.cells && !model->periodic;

@@ -100,7 +100,7 @@ static scree_status draw_figures(scree_recorder *recorder, const scree_simulatio
     scree_status status = SCREE_OK;
     const volatile int *stop = recorder->options->stop;
     if (!recorder->options->figures || !s->model.output.figures) return SCREE_OK;
-    if (!stop || !*stop) status = scree_plot_draw(recorder->directory, NULL, NULL, &problem);
+    if (!stop || !*stop) status = scree_plot_draw(recorder->directory, NULL, NULL, NULL, &problem);
     if (stop && *stop)
         return scree_error_set(error, SCREE_INTERRUPTED,
                                "interrupted while figures were drawn, all else is written; draw them with "

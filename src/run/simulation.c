@@ -121,7 +121,7 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
         s->state.spent.stage = s->state.spent.processor = 0;
         scree_forced_spin_end(&s->state);
         scree_gravity_enter(&s->stage_model, &s->state, s->state.count > 0);
-        scree_status status = s->stage->begin(s, error);
+        scree_status status = s->stage->begin ? s->stage->begin(s, error) : SCREE_OK;
         if (status) return status;
         status = s->stage->instant ? open_ledger(s, error) : change_boundary(s, error);
         if (!status && !s->stage->instant) status = begin_modules(s, error);

@@ -37,15 +37,16 @@ typedef struct scree_stage {
     // ---- while a simulation is in it ----
     /// Strain that the stage imposes, as far as it has come. NULL: none.
     double (*strain)(const scree_simulation *s);
-    /// Once, when the stage begins: what the sample is like now goes into its own state.
+    /// Once, when the stage begins: what the sample is like now goes into its own state. NULL: nothing to do.
     scree_status (*begin)(scree_simulation *s, scree_error *error);
-    /// Derives the plan from the state; at begin and after a restart.
+    /// Derives the plan from the state; at begin and after a restart. NULL: for instant stages alone.
     void (*plan)(scree_simulation *s);
     /// Every step, before the plates move: velocities of plates, pressure. NULL: nothing to do.
     void (*control)(scree_simulation *s);
-    /// At every sample: has the stage ended? Then writes the reason. May fail: time limit.
+    /// At every sample: has the stage ended? Then writes the reason. May fail: time limit. NULL: for instant
+    /// stages alone.
     scree_status (*finished)(scree_simulation *s, bool *done, scree_error *error);
-    /// Fraction done, NAN when not known.
+    /// Fraction done, NAN when not known. NULL: never known.
     double (*fraction)(const scree_simulation *s);
 } scree_stage;
 

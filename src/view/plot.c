@@ -1,164 +1,248 @@
-/// All figures of a run directory. A figure that cannot be drawn does not keep the others from being drawn: the first
-/// failure is what scree_plot returns at the end.
+/// The figures of a run directory, a loop over the table of figures. A figure that cannot be drawn does not keep the
+/// others from being drawn: the first failure is what scree_plot returns at the end.
 #include "view/plot.h"
 
 #include "view/plot_parts.h"
 
 #include "base/memory.h"
-#include "case/case.h"
 #include "io/run_directory.h"
 
 #include <scree/scree.h>
 
 #include <errno.h>
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-static void tell(const scree_plot_run *run, const char *line)
+// ---- the figures of a run ----------------------------------------------------------------------------------------
+
+typedef void figure_visitor(const scree_plot_run *run, const scree_figure_job *job, void *user);
+
+/// Files are named after the window that was asked for.
+static void name_job(const scree_plot_run *run, scree_figure_job *job)
 {
-    if (run->message) run->message(run->user, line);
+    char begin[16], end[16];
+    (void)snprintf(job->name, sizeof job->name, "%s", job->figure->name);
+    if (job->window) {
+        scree_plot_percent(begin, sizeof begin, job->window->from, true);
+        scree_plot_percent(end, sizeof end, job->window->to, true);
+        (void)snprintf(job->name, sizeof job->name, "%.24s-%s-%s", job->figure->name, begin, end);
+    }
+    // scree_plot_open_folder leaves room for the name.
+    (void)snprintf(job->path, sizeof job->path, "%.*s/%s", PATH_MAX - SCREE_FIGURE_NAME - 2, run->figures, job->name);
 }
 
-void scree_plot_report(scree_plot_run *run, const char *name, scree_status status, const scree_error *error)
+/// Calls `visit` for all figures that runs of this kind have, in the order of the table.
+static void visit_figures(const scree_plot_run *run, figure_visitor *visit, void *user)
+{
+    for (const scree_figure_family *const *each = scree_figure_families; *each; each++) {
+        scree_figure_job job = {.family = *each};
+        for (size_t k = 0; k < job.family->count; k++) {
+            job.figure = (const scree_figure *)((const char *)job.family->row + k * job.family->size);
+            if (job.family->meant && !job.family->meant(run, job.figure)) continue;
+            for (size_t w = 0; w < (job.family->of_windows ? run->window_count : 1); w++) {
+                job.window = job.family->of_windows ? &run->window[w] : NULL;
+                name_job(run, &job);
+                visit(run, &job, user);
+            }
+        }
+    }
+}
+
+// ---- names that were asked for -----------------------------------------------------------------------------------
+
+/// Whether `name` stands in a list with commas. NULL is a list of everything.
+static bool is_asked(const char *names, const char *name)
+{
+    size_t length = strlen(name);
+    if (!names) return true;
+    for (const char *at = names; at; at = strchr(at, ',')) {
+        at += *at == ',';
+        if (strncmp(at, name, length) == 0 && (at[length] == 0 || at[length] == ',')) return true;
+    }
+    return false;
+}
+
+typedef struct name_list {
+    char (*text)[SCREE_FIGURE_NAME]; ///< NULL: only counted
+    const char **name;
+    size_t count;
+} name_list;
+
+static void take_name(const scree_plot_run *run, const scree_figure_job *job, void *user)
+{
+    name_list *list = user;
+    (void)run;
+    if (list->text) {
+        memcpy(list->text[list->count], job->name, sizeof job->name);
+        list->name[list->count] = list->text[list->count];
+    }
+    list->count++;
+}
+
+/// The first name of `names` that no figure of the run has, with the nearest that one has.
+static scree_status refuse_unknown(const scree_plot_run *run, const name_list *list, const char *names,
+                                   scree_error *error)
+{
+    char name[SCREE_FIGURE_NAME];
+    for (const char *at = names; at; at = strchr(at, ',')) {
+        at += *at == ',';
+        (void)snprintf(name, sizeof name, "%.*s", (int)strcspn(at, ","), at);
+        size_t k = 0;
+        while (k < list->count && strcmp(list->name[k], name) != 0) k++;
+        if (k < list->count) continue;
+        // What could not be read may be what the figure is of.
+        if (run->series_status || run->snapshot_status) {
+            if (error) *error = run->series_status ? run->series_error : run->snapshot_error;
+            return run->series_status ? run->series_status : run->snapshot_status;
+        }
+        scree_status status =
+            scree_error_set(error, SCREE_ERROR_INPUT, "the run in '%s' has no figure of this name", run->directory);
+        const char *nearest = scree_nearest(name, list->name, list->count);
+        if (!error) return status;
+        (void)snprintf(error->field, sizeof error->field, "%s", name);
+        (void)snprintf(error->accepted, sizeof error->accepted, "%s", nearest ? nearest : "scree plot DIR --list");
+        return status;
+    }
+    return SCREE_OK;
+}
+
+static scree_status check_names(const scree_plot_run *run, const char *names, scree_error *error)
+{
+    name_list list = {0};
+    if (!names) return SCREE_OK;
+    visit_figures(run, take_name, &list);
+    size_t count = list.count;
+    list.count = 0;
+    scree_status status = scree_allocate(&list.text, count, sizeof *list.text, error);
+    if (!status) status = scree_allocate(&list.name, count, sizeof *list.name, error);
+    if (!status) {
+        visit_figures(run, take_name, &list);
+        status = refuse_unknown(run, &list, names, error);
+    }
+    scree_release(&list.text);
+    scree_release(&list.name);
+    return status;
+}
+
+// ---- drawing -----------------------------------------------------------------------------------------------------
+
+typedef struct drawing {
+    const char *names; ///< NULL: all figures
+    void (*message)(void *user, const char *line);
+    void *user;
+    scree_status status; ///< of the first figure that failed; the others are drawn all the same
+    scree_error error;
+} drawing;
+
+/// Tells that `name` was drawn, was left out (SCREE_ERROR_INPUT: the run does not have what it shows), or failed.
+static void report(drawing *d, const char *name, const char *path, scree_status status, const scree_error *error)
 {
     char line[PATH_MAX + 300];
     if (status == SCREE_OK)
-        (void)snprintf(line, sizeof line, "%s/%s.svg", run->figures, name);
+        (void)snprintf(line, sizeof line, "%s.svg", path);
     else
         (void)snprintf(line, sizeof line, "%s %s: %.900s", name, status == SCREE_ERROR_INPUT ? "left out" : "failed",
                        error->message);
-    tell(run, line);
-    if (status == SCREE_OK || status == SCREE_ERROR_INPUT || run->status) return;
-    run->status = status;
-    run->error = *error;
+    if (d->message) d->message(d->user, line);
+    // To leave out what was asked for by its name is a failure.
+    if (status == SCREE_OK || (status == SCREE_ERROR_INPUT && !d->names) || d->status) return;
+    d->status = status;
+    d->error = *error;
+    if (d->names) (void)snprintf(d->error.field, sizeof d->error.field, "%s", name);
 }
 
-static scree_status read_series(scree_plot_run *run, scree_error *error)
+static void draw_figure(const scree_plot_run *run, const scree_figure_job *job, void *user)
 {
-    char path[PATH_MAX];
-    scree_status status = scree_path_join(path, sizeof path, run->directory, SCREE_FILE_SERIES, error);
-    if (!status) status = scree_series_read(&run->series, path, error);
-    if (status) return status;
-    scree_loading_rows rows = scree_loading_rows_find(&run->series);
-    run->first_row = rows.first;
-    run->row_count = rows.last - rows.first;
+    drawing *d = user;
+    scree_error error = {0};
+    if (!is_asked(d->names, job->name)) return;
+    scree_status status = job->family->applies(run, job, &error);
+    if (!status) status = job->family->draw(run, job, &error);
+    report(d, job->name, job->path, status, &error);
+}
+
+static scree_status make_folder(scree_plot_run *run, scree_error *error)
+{
+    scree_status status = scree_path_join(run->figures, sizeof run->figures - SCREE_FIGURE_NAME - 2, run->directory,
+                                          SCREE_FOLDER_FIGURES, error);
+    if (!status && mkdir(run->figures, 0777) != 0 && errno != EEXIST)
+        status = scree_error_set_errno(error, SCREE_ERROR_IO, "cannot create the folder '%s'", run->figures);
     return status;
 }
 
-/// Leaves only the strains of the loading stage, the last `count` of the snapshots up to `last`.
-static void keep_loading_stage(scree_plot_run *run, size_t last, size_t count)
+scree_status scree_plot_draw(const char *directory, const char *names, void (*message)(void *user, const char *path),
+                             void *user, scree_error *error)
 {
-    for (size_t k = 0; k < run->snapshot_count; k++)
-        if (k > last || k + count <= last) run->strain[k] = NAN;
-}
-
-/// Only the strain of each snapshot is kept: a scene reads the snapshots that it needs again.
-static scree_status read_strains(scree_plot_run *run, scree_error *error)
-{
-    scree_snapshot snapshot;
-    char stage[sizeof snapshot.stage] = "";
-    size_t count = 0, last = 0, of_stage = 0;
-    scree_status status = scree_snapshot_count(run->directory, &count, error);
-    if (!status) status = scree_allocate(&run->strain, count, sizeof *run->strain, error);
-    for (size_t k = 0; !status && k < count; k++) {
-        status = scree_snapshot_read(run->directory, k, &snapshot, error);
-        if (status) break;
-        run->strain[run->snapshot_count++] = snapshot.axial_strain;
-        run->of_cell = snapshot.periodic.directions == (1u << snapshot.dimension) - 1;
-        if (isfinite(snapshot.axial_strain)) {
-            of_stage = scree_snapshot_begins_stage(stage, snapshot.stage, snapshot.axial_strain) ? 1 : of_stage + 1;
-            last = k;
-        }
-        memcpy(stage, snapshot.stage, sizeof stage);
-        scree_snapshot_destroy(&snapshot);
+    scree_plot_run run;
+    drawing d = {.names = names, .message = message, .user = user};
+    scree_status status = scree_plot_run_open(&run, directory, error);
+    if (!status) status = check_names(&run, names, error);
+    if (!status) status = make_folder(&run, error);
+    if (!status) {
+        if (run.series_status) report(&d, SCREE_FILE_SERIES, NULL, run.series_status, &run.series_error);
+        if (run.snapshot_status) report(&d, SCREE_FILE_RUN, NULL, run.snapshot_status, &run.snapshot_error);
+        visit_figures(&run, draw_figure, &d);
+        status = d.status;
+        if (status && error) *error = d.error;
     }
-    keep_loading_stage(run, last, of_stage);
+    scree_plot_run_close(&run);
     return status;
 }
 
-/// Windows of the case, when case.yaml can be read and has some.
-static scree_status read_case_windows(scree_plot_run *run, scree_error *error)
+/// Without a folder there is no run, and reading says so.
+static scree_status lock(scree_folder_lock *taken, const char *directory, scree_error *error)
 {
-    char path[PATH_MAX];
-    scree_case *c = NULL;
-    scree_problems *problems = NULL;
-    scree_status status = scree_path_join(path, sizeof path, run->directory, SCREE_FILE_CASE, error);
-    if (status) return status;
-    if (scree_case_reread(path, scree_former_keys, &c, &problems)) {
-        scree_problems_free(problems);
-        return SCREE_OK;
-    }
-    size_t count = (size_t)c->config.measure.window_count;
-    status = scree_allocate(&run->window, count, sizeof *run->window, error);
-    if (!status) run->window_count = count;
-    for (size_t k = 0; k < run->window_count; k++) run->window[k] = c->config.measure.windows[k];
-    scree_case_free(c);
-    return status;
+    *taken = (scree_folder_lock){0};
+    if (access(directory, F_OK) != 0) return SCREE_OK;
+    return scree_folder_lock_take(taken, directory, "scree plot", error);
 }
 
-/// Without a case: the first and the last quarter of the loading.
-static scree_status find_windows(scree_plot_run *run, scree_error *error)
+scree_status scree_plot_only(const char *directory, const char *names, void (*message)(void *user, const char *path),
+                             void *user, scree_error *error)
 {
-    scree_status status = read_case_windows(run, error);
-    if (status || run->window_count > 0) return status;
-    double low = INFINITY, high = -INFINITY;
-    for (size_t k = 0; k < run->snapshot_count; k++) {
-        low = fmin(low, run->strain[k]);
-        high = fmax(high, run->strain[k]);
-    }
-    scree_release(&run->window);
-    status = scree_allocate(&run->window, 2, sizeof *run->window, error);
-    if (status) return status;
-    run->window[0] = (scree_config_window){low, low + (high - low) / 4};
-    run->window[1] = (scree_config_window){high - (high - low) / 4, high};
-    run->window_count = 2;
-    return SCREE_OK;
+    scree_folder_lock taken;
+    scree_status status = lock(&taken, directory, error);
+    if (!status) status = scree_plot_draw(directory, names, message, user, error);
+    scree_folder_lock_release(&taken);
+    return status;
 }
 
 scree_status scree_plot(const char *directory, void (*message)(void *user, const char *path), void *user,
                         scree_error *error)
 {
-    scree_folder_lock lock = {0};
-    scree_status status = SCREE_OK;
-    // Without a folder there is no run, and drawing says so.
-    if (access(directory, F_OK) == 0) status = scree_folder_lock_take(&lock, directory, "scree plot", error);
-    if (!status) status = scree_plot_draw(directory, message, user, error);
-    scree_folder_lock_release(&lock);
-    return status;
+    return scree_plot_only(directory, NULL, message, user, error);
 }
 
-scree_status scree_plot_draw(const char *directory, void (*message)(void *user, const char *path), void *user,
-                             scree_error *error)
+// ---- listing -----------------------------------------------------------------------------------------------------
+
+typedef struct listing {
+    void (*visit)(void *user, const char *name, const char *meaning);
+    void *user;
+} listing;
+
+static void list_figure(const scree_plot_run *run, const scree_figure_job *job, void *user)
 {
-    scree_plot_run run = {.directory = directory, .message = message, .user = user};
-    scree_error series_error = {0}, snapshot_error = {0};
-    scree_status series = read_series(&run, &series_error);
-    scree_status snapshots = read_strains(&run, &snapshot_error);
-    scree_status status = SCREE_OK;
-    if (series && snapshots && run.snapshot_count == 0) {
-        status = scree_error_set(error, SCREE_ERROR_IO, "no run to draw in '%s': %s", directory, series_error.message);
-    } else {
-        status = scree_path_join(run.figures, sizeof run.figures, directory, SCREE_FOLDER_FIGURES, error);
-        if (!status && mkdir(run.figures, 0777) != 0 && errno != EEXIST)
-            status = scree_error_set_errno(error, SCREE_ERROR_IO, "cannot create the folder '%s'", run.figures);
-        if (!status) status = find_windows(&run, error);
-    }
+    const listing *l = user;
+    scree_error error = {0};
+    if (!job->family->applies(run, job, &error)) l->visit(l->user, job->name, job->figure->meaning);
+}
+
+scree_status scree_figure_visit(const char *directory, void (*visit)(void *user, const char *name, const char *meaning),
+                                void *user, scree_error *error)
+{
+    scree_folder_lock taken;
+    scree_plot_run run = {0};
+    listing l = {visit, user};
+    scree_status status = lock(&taken, directory, error);
+    if (!status) status = scree_plot_run_open(&run, directory, error);
     if (!status) {
-        if (series)
-            scree_plot_report(&run, SCREE_FILE_SERIES, series, &series_error);
-        else
-            scree_plot_charts(&run);
-        if (snapshots) scree_plot_report(&run, SCREE_FILE_RUN, snapshots, &snapshot_error);
-        scree_plot_scenes(&run);
-        scree_plot_rotation(&run);
-        status = run.status;
-        if (status && error) *error = run.error;
+        visit_figures(&run, list_figure, &l);
+        status = run.series_status ? run.series_status : run.snapshot_status;
+        if (status && error) *error = run.series_status ? run.series_error : run.snapshot_error;
     }
-    scree_series_destroy(&run.series);
-    scree_release(&run.strain);
-    scree_release(&run.window);
+    scree_plot_run_close(&run);
+    scree_folder_lock_release(&taken);
     return status;
 }

@@ -38,28 +38,96 @@ static scree_status draw_cells(const char *path, const scree_snapshot *snapshot,
     return status;
 }
 
-scree_status scree_plot_cell_map(const scree_plot_run *run, const scree_snapshot *snapshot, size_t which,
-                                 const scree_cell_map *map, scree_error *error)
+// ---- maps --------------------------------------------------------------------------------------------------------
+
+typedef struct map_row {
+    scree_figure figure;
+    const char *title;
+    scree_plot_when when;
+    bool pressure;    ///< else the rate of distortion
+    double threshold; ///< shaded above so many times the mean; 0: coloured
+} map_row;
+
+static const map_row map_rows[] = {
+    {{"distortion-rate-peak", "cells that distort fast, at the peak of the stress ratio"},
+     "Rate of distortion at the peak of the stress ratio",
+     SCREE_AT_PEAK,
+     .threshold = 2},
+    {{"distortion-rate-window", "cells that distort fast, in the middle of the first strain window"},
+     "Rate of distortion in the first strain window",
+     SCREE_AT_WINDOW,
+     .threshold = 2},
+    {{"distortion-rate-end", "cells that distort fast, at the end"},
+     "Rate of distortion at the end",
+     SCREE_AT_END,
+     .threshold = 2},
+    {{"distortion-rate-colour-end", "cells at the end, coloured by their rate of distortion"},
+     "Rate of distortion at the end",
+     SCREE_AT_END,
+     .pressure = false},
+    {{"pressure-peak", "cells under high pressure, at the peak of the stress ratio"},
+     "Pressure at the peak of the stress ratio",
+     SCREE_AT_PEAK,
+     .pressure = true,
+     .threshold = 1.75},
+    {{"pressure-window", "cells under high pressure, in the middle of the first strain window"},
+     "Pressure in the first strain window",
+     SCREE_AT_WINDOW,
+     .pressure = true,
+     .threshold = 1.75},
+    {{"pressure-end", "cells under high pressure, at the end"},
+     "Pressure at the end",
+     SCREE_AT_END,
+     .pressure = true,
+     .threshold = 1.75},
+    {{"pressure-colour-end", "cells at the end, coloured by their pressure"},
+     "Pressure at the end",
+     SCREE_AT_END,
+     .pressure = true},
+};
+
+static scree_status has_cells(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
 {
-    char path[PATH_MAX];
+    size_t which;
+    scree_status status = scree_plot_find_snapshot(run, ((const map_row *)job->figure)->when, &which, error);
+    return status ? status : scree_cell_snapshot_find(run->directory, which, error);
+}
+
+static scree_status draw_map(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
+{
+    const map_row *row = (const map_row *)job->figure;
+    size_t which;
+    scree_snapshot snapshot;
     scree_cell_snapshot cells;
-    scree_status status = scree_path_join(path, sizeof path, run->figures, map->name, error);
-    if (!status) status = scree_cell_snapshot_read(run->directory, which, &cells, error);
+    scree_status status = scree_plot_find_snapshot(run, row->when, &which, error);
+    if (!status) status = scree_snapshot_read(run->directory, which, &snapshot, error);
     if (status) return status;
-    scree_scene scene = {.title = map->title,
-                         .field_name = map->field == SCREE_CELL_PRESSURE ? "mean pressure p of the cells (Pa)"
-                                                                         : "rate of distortion L_II of the cells (1/s)",
-                         .cells = &cells.cells,
-                         .cell_place = cells.assembly.position,
-                         .cell_field =
-                             map->field == SCREE_CELL_PRESSURE ? cells.cells.pressure : cells.cells.distortion,
-                         .cell_threshold = map->threshold,
-                         .of_cell = run->of_cell,
-                         .plates = true};
-    status = draw_cells(path, snapshot, &scene, error);
-    scree_cell_snapshot_destroy(&cells);
+    status = scree_cell_snapshot_read(run->directory, which, &cells, error);
+    if (!status) {
+        scree_scene scene = {.title = row->title,
+                             .field_name = row->pressure ? "mean pressure p of the cells (Pa)"
+                                                         : "rate of distortion L_II of the cells (1/s)",
+                             .cells = &cells.cells,
+                             .cell_place = cells.assembly.position,
+                             .cell_field = row->pressure ? cells.cells.pressure : cells.cells.distortion,
+                             .cell_threshold = row->threshold,
+                             .of_cell = run->of_cell,
+                             .plates = true};
+        status = draw_cells(job->path, &snapshot, &scene, error);
+        scree_cell_snapshot_destroy(&cells);
+    }
+    scree_snapshot_destroy(&snapshot);
     return status;
 }
+
+const scree_figure_family scree_figures_cell_maps = {
+    SCREE_FIGURE_ROWS(map_rows),
+    .meant = scree_plot_has_snapshot,
+    .applies = has_cells,
+    .draw = draw_map,
+};
+
+// ---- distortion of strain windows --------------------------------------------------------------------------------
 
 /// Distortion of the cells of `first` on the way to `second`, in percent, and the band in it.
 static scree_status find_distortion(const scree_cell_snapshot *first, const scree_cell_snapshot *second,
@@ -84,20 +152,23 @@ static scree_status find_distortion(const scree_cell_snapshot *first, const scre
     return status;
 }
 
-scree_status scree_plot_distortion(const scree_plot_run *run, const scree_snapshot *from, size_t first, size_t second,
-                                   const char *name, const char *title, scree_error *error)
+/// Discs and title are of `from`, the snapshot `first`.
+static scree_status draw_between(const scree_plot_run *run, const scree_snapshot *from, size_t first, size_t second,
+                                 const scree_figure_job *job, scree_error *error)
 {
-    char path[PATH_MAX];
+    char begin[16], end[16], title[160];
     scree_cell_snapshot a = {0}, b = {0};
     scree_band band;
     double *distortion = NULL;
-    scree_status status = scree_path_join(path, sizeof path, run->figures, name, error);
-    if (!status) status = scree_cell_snapshot_read(run->directory, first, &a, error);
+    scree_status status = scree_cell_snapshot_read(run->directory, first, &a, error);
     if (!status) status = scree_cell_snapshot_read(run->directory, second, &b, error);
     if (!status && !scree_cell_snapshots_agree(&a, &b))
         status = scree_error_set(error, SCREE_ERROR_INPUT, "the snapshots are not of the same grains");
     if (!status) status = find_distortion(&a, &b, &distortion, &band, error);
     if (!status) {
+        scree_plot_percent(begin, sizeof begin, a.axial_strain, false);
+        scree_plot_percent(end, sizeof end, b.axial_strain, false);
+        (void)snprintf(title, sizeof title, "Distortion, %s %s to %s %%", scree_strain_name(run->of_cell), begin, end);
         scree_scene scene = {.title = title,
                              .field_name = "distortion of the cells (%)",
                              .cells = &a.cells,
@@ -106,7 +177,7 @@ scree_status scree_plot_distortion(const scree_plot_run *run, const scree_snapsh
                              .band = &band,
                              .of_cell = run->of_cell,
                              .plates = true};
-        status = draw_cells(path, from, &scene, error);
+        status = draw_cells(job->path, from, &scene, error);
     }
     scree_release(&distortion);
     scree_cell_snapshot_destroy(&a);
@@ -114,23 +185,56 @@ scree_status scree_plot_distortion(const scree_plot_run *run, const scree_snapsh
     return status;
 }
 
+static scree_status has_window(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
+{
+    size_t first, second;
+    scree_status status = scree_plot_find_window(run, job->window, &first, &second, error);
+    if (!status) status = scree_cell_snapshot_find(run->directory, first, error);
+    return status ? status : scree_cell_snapshot_find(run->directory, second, error);
+}
+
+/// What fluctuations of the same window show as shear between blocks is distortion here.
+static scree_status draw_distortion(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
+{
+    scree_snapshot from;
+    size_t first, second;
+    scree_status status = scree_plot_find_window(run, job->window, &first, &second, error);
+    if (!status) status = scree_snapshot_read(run->directory, first, &from, error);
+    if (status) return status;
+    status = draw_between(run, &from, first, second, job, error);
+    scree_snapshot_destroy(&from);
+    return status;
+}
+
+static const scree_figure distortion_rows[] = {
+    {"distortion", "distortion of the cells in a strain window, with the shear band found in it"},
+};
+
+const scree_figure_family scree_figures_distortion = {
+    SCREE_FIGURE_ROWS(distortion_rows),
+    .of_windows = true,
+    .meant = scree_plot_has_snapshot,
+    .applies = has_window,
+    .draw = draw_distortion,
+};
+
 // ---- circles -----------------------------------------------------------------------------------------------------
 
 enum { BOTTOM, CENTRE, TOP, MEAN, CIRCLE_LINES };
+
+enum { CIRCLE_COLUMNS = 4 };
+static const char *const circle_column[CIRCLE_COLUMNS] = {"snapshot", "position", "diameter_ratio", "pressure_ratio"};
 
 /// Draws the rows of one snapshot; x and y have room for all of them.
 static scree_status draw_circles(const char *path, const scree_series *circles, const scree_cell_snapshot *snapshot,
                                  double *x, double *y, scree_error *error)
 {
     static const char *const labels[CIRCLE_LINES] = {"near the bottom", "centre", "near the top", "whole sample"};
-    const double *column[4] = {scree_series_get(circles, "snapshot"), scree_series_get(circles, "position"),
-                               scree_series_get(circles, "diameter_ratio"),
-                               scree_series_get(circles, "pressure_ratio")};
+    const double *column[CIRCLE_COLUMNS];
     char title[160], label[2][80];
     scree_chart_line line[CIRCLE_LINES];
     size_t used = 0;
-    for (int k = 0; k < 4; k++)
-        if (!column[k]) return scree_error_set(error, SCREE_ERROR_INPUT, "%s has other columns", SCREE_FILE_CELLS);
+    for (int k = 0; k < CIRCLE_COLUMNS; k++) column[k] = scree_series_get(circles, circle_column[k]);
     for (int p = BOTTOM; p <= TOP; p++) {
         line[p] = (scree_chart_line){.x = x + used, .y = y + used, .label = labels[p], .colour = p + 1};
         for (size_t k = 0; k < circles->row_count; k++) {
@@ -156,23 +260,58 @@ static scree_status draw_circles(const char *path, const scree_series *circles, 
     return scree_chart_draw(path, &chart, error);
 }
 
-scree_status scree_plot_circles(const scree_plot_run *run, size_t which, const char *name, scree_error *error)
+/// cells.csv with the columns that the figure needs. It is there for the caller to destroy in any case.
+static scree_status read_circles(const scree_plot_run *run, scree_series *circles, scree_error *error)
 {
-    char source[PATH_MAX], path[PATH_MAX];
+    char path[PATH_MAX];
+    *circles = (scree_series){0};
+    scree_status status = scree_path_join(path, sizeof path, run->directory, SCREE_FILE_CELLS, error);
+    if (status) return status;
+    if (access(path, F_OK) != 0) return scree_error_set(error, SCREE_ERROR_INPUT, "there is no %s", SCREE_FILE_CELLS);
+    status = scree_series_read(circles, path, error);
+    for (int k = 0; !status && k < CIRCLE_COLUMNS; k++)
+        if (!scree_series_get(circles, circle_column[k]))
+            status = scree_error_set(error, SCREE_ERROR_INPUT, "%s has other columns", SCREE_FILE_CELLS);
+    return status;
+}
+
+static scree_status has_circles(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
+{
     scree_series circles = {0};
+    size_t which;
+    (void)job;
+    scree_status status = scree_plot_find_snapshot(run, SCREE_AT_WINDOW, &which, error);
+    if (!status) status = scree_cell_snapshot_find(run->directory, which, error);
+    if (!status) status = read_circles(run, &circles, error);
+    scree_series_destroy(&circles);
+    return status;
+}
+
+static scree_status plot_circles(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
+{
+    size_t which;
+    scree_series circles;
     scree_cell_snapshot snapshot;
     double *value = NULL;
-    scree_status status = scree_path_join(source, sizeof source, run->directory, SCREE_FILE_CELLS, error);
-    if (!status) status = scree_path_join(path, sizeof path, run->figures, name, error);
+    scree_status status = scree_plot_find_snapshot(run, SCREE_AT_WINDOW, &which, error);
     if (!status) status = scree_cell_snapshot_read(run->directory, which, &snapshot, error);
     if (status) return status;
-    if (access(source, F_OK) != 0)
-        status = scree_error_set(error, SCREE_ERROR_INPUT, "there is no %s", SCREE_FILE_CELLS);
-    if (!status) status = scree_series_read(&circles, source, error);
+    status = read_circles(run, &circles, error);
     if (!status) status = scree_allocate(&value, 2 * circles.row_count, sizeof *value, error);
-    if (!status) status = draw_circles(path, &circles, &snapshot, value, value + circles.row_count, error);
+    if (!status) status = draw_circles(job->path, &circles, &snapshot, value, value + circles.row_count, error);
     scree_release(&value);
     scree_series_destroy(&circles);
     scree_cell_snapshot_destroy(&snapshot);
     return status;
 }
+
+static const scree_figure circle_rows[] = {
+    {"pressure-circles", "mean pressure over growing circles or spheres, in the middle of the first strain window"},
+};
+
+const scree_figure_family scree_figures_circles = {
+    SCREE_FIGURE_ROWS(circle_rows),
+    .meant = scree_plot_has_snapshot,
+    .applies = has_circles,
+    .draw = plot_circles,
+};

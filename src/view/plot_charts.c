@@ -22,29 +22,39 @@ typedef struct curve {
 } curve;
 
 // clang-format off
-static const struct chart_entry {
-    const char *name, *title;
+typedef struct chart_row {
+    scree_figure figure;
+    const char *title;
     const char *y_label; ///< "@" stands for the SI prefix that suits the values
     bool log_y;
+    bool of_cell; ///< of samples that are loaded as a periodic cell alone
     curve curve[CURVES]; ///< ended by a column that is NULL
-} charts[] = {
-    {"volumetric-strain", "Volumetric strain", "dilation −ε_v (%), positive: volume grows", false, {
+} chart_row;
+
+static const chart_row rows[] = {
+    {{"volumetric-strain", "volumetric strain, by increments, enclosed volume and solid fraction"},
+     "Volumetric strain", "dilation −ε_v (%), positive: volume grows", false, false, {
         {"volumetric_strain", "sum of increments", -100, BLUE, false},
         {"volumetric_strain_enclosed", "enclosed volume", -100, SKY, true},
         {"volumetric_strain_solid", "solid fraction", -100, VERMILLION, false}}},
-    {"stress-ratio", "Stress ratio", "axial over lateral stress (1)", false, {
+    {{"stress-ratio", "axial over lateral stress, applied and from contacts"},
+     "Stress ratio", "axial over lateral stress (1)", false, false, {
         {"stress_ratio", "applied", 1, BLUE, false},
         {"stress_ratio_contacts", "from contacts", 1, VERMILLION, true}}},
-    {"shear-ratio", "Shear stress over normal stress", "shear over axial stress (1)", false, {
+    {{"shear-ratio", "shear stress over axial stress"},
+     "Shear stress over normal stress", "shear over axial stress (1)", false, true, {
         {"shear_ratio", NULL, 1, BLUE, false}}},
-    {"slip", "Slip at contacts", "mean slip speed / v_R (1)", false, {
+    {{"slip", "mean slip speed at contacts over the reference velocity"},
+     "Slip at contacts", "mean slip speed / v_R (1)", false, false, {
         {"slip_ratio", NULL, 1, BLUE, false}}},
-    {"stress", "Stress, applied and from contacts", "stress (@Pa), compression positive", false, {
+    {{"stress", "axial and lateral stress, applied and from contacts"},
+     "Stress, applied and from contacts", "stress (@Pa), compression positive", false, false, {
         {"stress_axial_plates", "axial, applied", 1, BLUE, false},
         {"stress_axial_contacts", "axial, contacts", 1, SKY, true},
         {"stress_lateral_applied", "lateral, applied", 1, VERMILLION, false},
         {"stress_lateral_contacts", "lateral, contacts", 1, ORANGE, true}}},
-    {"energy", "Energy ledger", "energy (@J)", false, {
+    {{"energy", "works, losses, stored energies and the residual of their balance"},
+     "Energy ledger", "energy (@J)", false, false, {
         {"work_plates", "work of plates", 1, BLUE, false},
         {"work_pressure", "work of pressure", 1, SKY, false},
         {"work_periodic", "work of the cell", 1, BLUE, true},
@@ -56,18 +66,22 @@ static const struct chart_entry {
         {"kinetic", "kinetic", 1, BLACK, true},
         {"stiffness_work", "change of stiffness", 1, GREEN, true},
         {"energy_residual", "residual", 1, BLACK, false}}},
-    {"energy-stored", "Stored energy and residual", "energy (@J)", false, {
+    {{"energy-stored", "stored energies and the residual of the balance"},
+     "Stored energy and residual", "energy (@J)", false, false, {
         {"elastic_normal", "elastic, normal", 1, PINK, false},
         {"elastic_tangential", "elastic, tangential", 1, PINK, true},
         {"kinetic", "kinetic", 1, BLACK, true},
         {"stiffness_work", "change of stiffness", 1, GREEN, true},
         {"energy_residual", "residual", 1, BLACK, false}}},
-    {"coordination", "Coordination", "contacts per particle (1)", false, {
+    {{"coordination", "contacts per particle, with and without rattlers"},
+     "Coordination", "contacts per particle (1)", false, false, {
         {"coordination", "all particles", 1, BLUE, false},
         {"coordination_without_rattlers", "without rattlers", 1, VERMILLION, true}}},
-    {"solid-fraction", "Solid fraction", "solid fraction (1)", false, {
+    {{"solid-fraction", "solid fraction"},
+     "Solid fraction", "solid fraction (1)", false, false, {
         {"solid_fraction", NULL, 1, BLUE, false}}},
-    {"unbalanced-force", "Unbalanced force", "mean unbalanced over mean contact force (1)", true, {
+    {{"unbalanced-force", "mean unbalanced over mean contact force"},
+     "Unbalanced force", "mean unbalanced over mean contact force (1)", true, false, {
         {"unbalanced_ratio", NULL, 1, BLUE, false}}},
 };
 // clang-format on
@@ -110,56 +124,64 @@ static bool is_nothing(const double *value, size_t count)
     return true;
 }
 
-static scree_status draw_chart(const scree_plot_run *run, const struct chart_entry *entry, double *value,
-                               scree_error *error)
+/// Gathers the curves behind `value`, the strain in percent, one behind the other.
+static size_t gather_curves(const scree_plot_run *run, const chart_row *row, double *value, scree_chart_line *line)
 {
-    char path[PATH_MAX], label[128], strain[48];
-    scree_chart_line line[CURVES];
-    scree_status status = scree_path_join(path, sizeof path, run->figures, entry->name, error);
-    if (status) return status;
-    if (run->row_count == 0)
-        return scree_error_set(error, SCREE_ERROR_INPUT, "%s has no rows of a loading stage", SCREE_FILE_SERIES);
     size_t count = 0;
-    (void)snprintf(strain, sizeof strain, "%s (%%)", scree_strain_name(run->of_cell));
     (void)gather(run, "axial_strain", 100, value);
-    for (const curve *c = entry->curve; c->column; c++) {
+    for (const curve *c = row->curve; c->column; c++) {
         double *y = value + (count + 1) * run->row_count;
-        bool there = gather(run, c->column, c->factor, y);
-        // The first curve makes the chart; others may be missing in runs of earlier versions.
-        if (!there && c == entry->curve)
-            return scree_error_set(error, SCREE_ERROR_INPUT, "%s has no column '%s'", SCREE_FILE_SERIES, c->column);
-        // Of many curves those that are nothing throughout, such as the work of gravity where there is none, are left
-        // out.
-        if (!there || (entry->curve[2].column && is_nothing(y, run->row_count))) continue;
+        // The first curve makes the chart; others may be missing in runs of earlier versions. Of many curves those that
+        // are nothing throughout, such as the work of gravity where there is none, are left out.
+        if (!gather(run, c->column, c->factor, y)) continue;
+        if (row->curve[2].column && is_nothing(y, run->row_count)) continue;
         line[count++] = (scree_chart_line){
             .x = value, .y = y, .count = run->row_count, .label = c->label, .dashed = c->dashed, .colour = c->colour};
     }
+    return count;
+}
+
+static bool is_meant(const scree_plot_run *run, const scree_figure *figure)
+{
+    return !run->series_status && (run->of_cell || !((const chart_row *)figure)->of_cell);
+}
+
+static scree_status has_columns(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
+{
+    const char *column = ((const chart_row *)job->figure)->curve[0].column;
+    if (run->row_count == 0)
+        return scree_error_set(error, SCREE_ERROR_INPUT, "%s has no rows of a loading stage", SCREE_FILE_SERIES);
+    if (scree_series_get(&run->series, column)) return SCREE_OK;
+    return scree_error_set(error, SCREE_ERROR_INPUT, "%s has no column '%s'", SCREE_FILE_SERIES, column);
+}
+
+static scree_status draw(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
+{
+    const chart_row *row = (const chart_row *)job->figure;
+    char label[128], strain[48];
+    double *value = NULL;
+    scree_chart_line line[CURVES];
+    scree_status status = scree_allocate(&value, (CURVES + 1) * run->row_count, sizeof *value, error);
+    if (status) return status;
+    (void)snprintf(strain, sizeof strain, "%s (%%)", scree_strain_name(run->of_cell));
+    size_t count = gather_curves(run, row, value, line);
     double *first = value + run->row_count;
-    double scale = write_label(label, sizeof label, entry->y_label, largest_magnitude(first, count * run->row_count));
+    double scale = write_label(label, sizeof label, row->y_label, largest_magnitude(first, count * run->row_count));
     for (size_t k = 0; k < count * run->row_count; k++) first[k] *= scale;
-    scree_chart chart = {.title = entry->title,
+    scree_chart chart = {.title = row->title,
                          .x_label = strain,
                          .y_label = label,
                          .line = line,
                          .line_count = count,
-                         .log_y = entry->log_y};
-    return scree_chart_draw(path, &chart, error);
+                         .log_y = row->log_y};
+    status = scree_chart_draw(job->path, &chart, error);
+    scree_release(&value);
+    return status;
 }
 
-void scree_plot_charts(scree_plot_run *run)
-{
-    double *value;
-    scree_error error = {0};
-    scree_status status = scree_allocate(&value, (CURVES + 1) * run->row_count, sizeof *value, &error);
-    if (status) {
-        scree_plot_report(run, "charts", status, &error);
-        return;
-    }
-    for (size_t k = 0; k < sizeof charts / sizeof charts[0]; k++) {
-        bool of_cell = strcmp(charts[k].curve[0].column, "shear_ratio") == 0;
-        if (of_cell && !run->of_cell) continue;
-        status = draw_chart(run, &charts[k], value, &error);
-        scree_plot_report(run, charts[k].name, status, &error);
-    }
-    scree_release(&value);
-}
+const scree_figure_family scree_figures_charts = {
+    SCREE_FIGURE_ROWS(rows),
+    .meant = is_meant,
+    .applies = has_columns,
+    .draw = draw,
+};

@@ -1,56 +1,58 @@
-/// What the charts and the scenes of a run share. Private to src/view/.
+/// What the figures of a run share: the run as they see it, and its snapshots. Private to src/view/.
 #ifndef SCREE_VIEW_PLOT_PARTS_H
 #define SCREE_VIEW_PLOT_PARTS_H
 
 #include "case/config.h"
 #include "io/loading_stage.h"
 #include "io/snapshot.h"
+#include "view/figures.h"
+#include "view/scene.h"
 
 #include <limits.h>
 #include <stdbool.h>
 
 typedef struct scree_plot_run {
     const char *directory;
-    char figures[PATH_MAX]; ///< folder that the figures go to
-    void (*message)(void *user, const char *line);
-    void *user;
-    scree_series series;     ///< no column when it could not be read
+    char figures[PATH_MAX];                      ///< folder that the figures go to
+    scree_series series;                         ///< no column when it could not be read
+    scree_status series_status, snapshot_status; ///< of reading series.csv, and the snapshots of run.h5
+    scree_error series_error, snapshot_error;
     size_t first_row, row_count; ///< rows of the loading stage
-    double *strain;          ///< axial strain of each snapshot of the loading stage, NAN of the others
-    bool of_cell;            ///< the sample was loaded as a cell that is periodic in all directions
+    double *strain;              ///< axial strain of each snapshot of the loading stage, NAN of the others
+    bool of_cell;                ///< the sample was loaded as a cell that is periodic in all directions
+    int dimension;               ///< of the last snapshot
     size_t snapshot_count;
     scree_config_window *window; ///< axial strains of the displacement fluctuations
     size_t window_count;
-    scree_status status; ///< of the first figure that failed; the others are drawn all the same
-    scree_error error;
 } scree_plot_run;
 
-/// Tells that the figure `name` was drawn, was left out (SCREE_ERROR_INPUT: the run does not have what it shows), or
-/// failed.
-void scree_plot_report(scree_plot_run *run, const char *name, scree_status status, const scree_error *error);
+/// Reads what there is of the run. SCREE_ERROR_IO: there is none; memory. Close *run in any case.
+scree_status scree_plot_run_open(scree_plot_run *run, const char *directory, scree_error *error) SCREE_MUST_USE;
+void scree_plot_run_close(scree_plot_run *run);
 
-/// Draws all charts from run->series, and all scenes from the snapshots.
-void scree_plot_charts(scree_plot_run *run);
-void scree_plot_scenes(scree_plot_run *run);
-/// Draws the figures of a stage rotate_particle, when the run has had one.
-void scree_plot_rotation(scree_plot_run *run);
+/// Which snapshot a figure shows. WINDOW: in the middle of the first strain window.
+typedef enum scree_plot_when { SCREE_AT_START, SCREE_AT_PEAK, SCREE_AT_WINDOW, SCREE_AT_END } scree_plot_when;
 
-typedef enum scree_cell_field { SCREE_CELL_NONE, SCREE_CELL_DISTORTION_RATE, SCREE_CELL_PRESSURE } scree_cell_field;
+/// First, or last, snapshot of the loading stage; of all when nothing was loaded. There has to be one.
+size_t scree_plot_end_snapshot(const scree_plot_run *run, bool last);
+/// SCREE_ERROR_INPUT: there is no stress ratio to find the peak of.
+scree_status scree_plot_find_snapshot(const scree_plot_run *run, scree_plot_when when, size_t *which,
+                                      scree_error *error) SCREE_MUST_USE;
+/// The snapshots next to both ends of a strain window. SCREE_ERROR_INPUT: they are not two of the loading.
+scree_status scree_plot_find_window(const scree_plot_run *run, const scree_config_window *window, size_t *first,
+                                    size_t *second, scree_error *error) SCREE_MUST_USE;
+/// Reads two snapshots of the same bodies. Neither is left behind on failure.
+scree_status scree_plot_read_two(const scree_plot_run *run, size_t first, size_t second, scree_snapshot *a,
+                                 scree_snapshot *b, scree_error *error) SCREE_MUST_USE;
 
-/// A map of the cells of a snapshot.
-typedef struct scree_cell_map {
-    const char *name, *title;
-    scree_cell_field field;
-    double threshold; ///< shaded above so many times the mean; 0: coloured
-} scree_cell_map;
-
-/// Draws one figure of the cells (plot_cells.c). `which`, `first`, `second` number the snapshots of the run; the discs
-/// of `snapshot` and `from` are those. Errors: SCREE_ERROR_INPUT: the snapshots have no cells.
-scree_status scree_plot_cell_map(const scree_plot_run *run, const scree_snapshot *snapshot, size_t which,
-                                 const scree_cell_map *map, scree_error *error) SCREE_MUST_USE;
-scree_status scree_plot_distortion(const scree_plot_run *run, const scree_snapshot *from, size_t first, size_t second,
-                                   const char *name, const char *title, scree_error *error) SCREE_MUST_USE;
-scree_status scree_plot_circles(const scree_plot_run *run, size_t which, const char *name,
+/// Draws spheres where a plane cuts them.
+scree_status scree_plot_section(const char *path, const scree_snapshot *now, scree_scene *scene,
                                 scree_error *error) SCREE_MUST_USE;
+
+/// Strain as text of a file name or a title: whole percents where it is one.
+void scree_plot_percent(char *text, size_t size, double strain, bool name);
+
+/// For scree_figure_family.meant: the run has a snapshot.
+bool scree_plot_has_snapshot(const scree_plot_run *run, const scree_figure *figure);
 
 #endif

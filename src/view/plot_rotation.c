@@ -8,7 +8,6 @@
 #include "io/run_directory.h"
 #include "view/chart.h"
 #include "view/page.h"
-#include "view/projection.h"
 #include "view/scale.h"
 #include "view/scene.h"
 
@@ -39,6 +38,12 @@ static scree_status read_table(const scree_plot_run *run, const char *name, scre
     *table = (scree_series){0};
     scree_status status = scree_path_join(path, sizeof path, run->directory, name, error);
     return status ? status : scree_series_read(table, path, error);
+}
+
+static bool has_file(const scree_plot_run *run, const char *name)
+{
+    char path[PATH_MAX];
+    return !scree_path_join(path, sizeof path, run->directory, name, NULL) && access(path, F_OK) == 0;
 }
 
 /// A column that has to be there.
@@ -79,10 +84,10 @@ static void select_bodies(const decay_columns *c, size_t bodies, double lowest, 
     }
 }
 
-static scree_status chart_decay(const scree_plot_run *run, const scree_series *bodies, const scree_series *bins,
-                                const decay_columns *c, double *room, scree_error *error)
+static scree_status chart_decay(const scree_plot_run *run, const char *path, const scree_series *bodies,
+                                const scree_series *bins, const decay_columns *c, double *room, scree_error *error)
 {
-    char path[PATH_MAX], fit[64], title[160];
+    char fit[64], title[160];
     double *ratio = room, *low = ratio + bodies->row_count, *high = low + bins->row_count, lowest = INFINITY;
     double far = 0;
     for (size_t k = 0; k < bins->row_count; k++) {
@@ -131,21 +136,29 @@ static scree_status chart_decay(const scree_plot_run *run, const scree_series *b
                          .line = line,
                          .line_count = sizeof line / sizeof *line,
                          .log_y = true};
-    scree_status status = scree_path_join(path, sizeof path, run->figures, "rotation-decay", error);
-    return status ? status : scree_chart_draw(path, &chart, error);
+    return scree_chart_draw(path, &chart, error);
 }
 
-static scree_status draw_decay(const scree_plot_run *run, const scree_series *bodies, scree_error *error)
+static scree_status has_decay(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
 {
-    scree_series bins;
+    (void)job;
+    if (has_file(run, FILE_DECAY)) return SCREE_OK;
+    return scree_error_set(error, SCREE_ERROR_INPUT, "there is no %s", FILE_DECAY);
+}
+
+static scree_status draw_decay(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
+{
+    scree_series bodies, bins = {0};
     decay_columns c;
     double *room = NULL;
-    scree_status status = read_table(run, FILE_DECAY, &bins, error);
-    if (!status) status = get_decay(bodies, &bins, &c, error);
-    if (!status) status = scree_allocate(&room, bodies->row_count + 2 * bins.row_count, sizeof *room, error);
-    if (!status) status = chart_decay(run, bodies, &bins, &c, room, error);
+    scree_status status = read_table(run, FILE_BODIES, &bodies, error);
+    if (!status) status = read_table(run, FILE_DECAY, &bins, error);
+    if (!status) status = get_decay(&bodies, &bins, &c, error);
+    if (!status) status = scree_allocate(&room, bodies.row_count + 2 * bins.row_count, sizeof *room, error);
+    if (!status) status = chart_decay(run, job->path, &bodies, &bins, &c, room, error);
     scree_release(&room);
     scree_series_destroy(&bins);
+    scree_series_destroy(&bodies);
     return status;
 }
 
@@ -275,9 +288,15 @@ static void draw_rose_page(cairo_t *cairo, void *user)
     draw_rose_legend(cairo, r);
 }
 
-static scree_status draw_rose(const scree_plot_run *run, scree_error *error)
+static scree_status has_plane(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
 {
-    char path[PATH_MAX];
+    (void)job;
+    if (isfinite(result(run, "rotation_tensor_angle"))) return SCREE_OK;
+    return scree_error_set(error, SCREE_ERROR_INPUT, "a rose is drawn in two dimensions only");
+}
+
+static scree_status draw_rose(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
+{
     scree_series table;
     rose r = {.axis = result(run, "rotation_tensor_angle"),
               .first = result(run, "rotation_tensor_first"),
@@ -290,17 +309,15 @@ static scree_status draw_rose(const scree_plot_run *run, scree_error *error)
               .across = result(run, "rotation_across_chains"),
               .across_low = result(run, "rotation_across_chains_low"),
               .across_high = result(run, "rotation_across_chains_high")};
-    if (isnan(r.axis)) return scree_error_set(error, SCREE_ERROR_INPUT, "a rose is drawn in two dimensions only");
     scree_status status = read_table(run, FILE_ROSE, &table, error);
     if (!status) status = get_column(&table, FILE_ROSE, "angle", &r.angle, error);
     if (!status) status = get_column(&table, FILE_ROSE, "radial_strength", &r.strength, error);
-    if (!status) status = scree_path_join(path, sizeof path, run->figures, "rotation-rose", error);
     if (!status) {
         r.count = table.row_count;
         r.size = 360.0 / (double)r.count;
         for (size_t k = 0; k < r.count; k++) r.largest = fmax(r.largest, r.strength[k]);
         const scree_page page = {ROSE_WIDTH, ROSE_HEIGHT, r.count, draw_rose_page, &r};
-        status = r.largest > 0 ? scree_page_write(path, &page, error)
+        status = r.largest > 0 ? scree_page_write(job->path, &page, error)
                                : scree_error_set(error, SCREE_ERROR_INPUT, "no contact near the forced particle");
     }
     scree_series_destroy(&table);
@@ -309,62 +326,107 @@ static scree_status draw_rose(const scree_plot_run *run, scree_error *error)
 
 // ---- map ---------------------------------------------------------------------------------------------------------
 
-static scree_status draw_map(const scree_plot_run *run, const scree_series *bodies, scree_error *error)
+static scree_status has_last(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
 {
-    char path[PATH_MAX];
+    (void)job;
+    if (run->snapshot_count > 0) return SCREE_OK;
+    return scree_error_set(error, SCREE_ERROR_INPUT, "there is no snapshot");
+}
+
+/// `field`: a row a body of the snapshot.
+static scree_status draw_field(const char *path, const scree_snapshot *now, const double *field, size_t marked,
+                               scree_error *error)
+{
+    const bool in_3d = now->dimension == 3;
+    scree_scene scene = {.title = in_3d ? "Rotations around the forced sphere, section"
+                                        : "Rotations around the forced disc and the force network",
+                         .field = field,
+                         .field_name = "spin over that of the forced particle (1), same sense positive",
+                         .map = SCREE_COLOUR_DIVERGING,
+                         .force_network = !in_3d,
+                         .marked = &marked,
+                         .marked_name = "forced particle"};
+    return in_3d ? scree_plot_section(path, now, &scene, error) : scree_scene_draw(path, now, &scene, error);
+}
+
+/// The rotation of each body that counts, NAN of those that nothing holds: they turn as they like.
+static scree_status gather_rotations(const scree_series *bodies, double **field, scree_error *error)
+{
     const double *with = NULL, *counts = NULL;
-    double *field = NULL, forced = result(run, "forced_particle");
-    scree_snapshot now, plane;
-    if (run->snapshot_count == 0) return scree_error_set(error, SCREE_ERROR_INPUT, "there is no snapshot");
     scree_status status = get_column(bodies, FILE_BODIES, "rotation_with", &with, error);
     if (!status) status = get_column(bodies, FILE_BODIES, "counts", &counts, error);
-    if (!status) status = scree_path_join(path, sizeof path, run->figures, "rotation-map", error);
-    if (!status) status = scree_allocate(&field, bodies->row_count, sizeof *field, error);
-    // Particles that nothing holds turn as they like.
-    for (size_t k = 0; !status && k < bodies->row_count; k++) field[k] = counts[k] > 0 ? with[k] : NAN;
-    if (!status) status = scree_snapshot_read(run->directory, run->snapshot_count - 1, &now, error);
-    if (status) {
-        scree_release(&field);
-        return status;
-    }
-    size_t marked = now.count;
-    if (forced >= 0) marked = scree_position_of_id(now.id, now.count, (uint32_t)forced);
-    if (now.count != bodies->row_count || marked == now.count) {
-        status = scree_error_set(error, SCREE_ERROR_INPUT, "%s is not of the last snapshot", FILE_BODIES);
-    } else {
-        bool in_3d = now.dimension == 3;
-        if (in_3d) status = scree_section_create(&now, &plane, error);
-        scree_scene scene = {.title = in_3d ? "Rotations around the forced sphere, section"
-                                            : "Rotations around the forced disc and the force network",
-                             .field = field,
-                             .field_name = "spin over that of the forced particle (1), same sense positive",
-                             .map = SCREE_COLOUR_DIVERGING,
-                             .force_network = !in_3d,
-                             .section = in_3d,
-                             .marked = &marked,
-                             .marked_name = "forced particle"};
-        if (!status) status = scree_scene_draw(path, in_3d ? &plane : &now, &scene, error);
-        if (in_3d) scree_snapshot_destroy(&plane);
-    }
-    scree_snapshot_destroy(&now);
-    scree_release(&field);
+    if (!status) status = scree_allocate(field, bodies->row_count, sizeof **field, error);
+    for (size_t k = 0; !status && k < bodies->row_count; k++) (*field)[k] = counts[k] > 0 ? with[k] : NAN;
     return status;
 }
 
-void scree_plot_rotation(scree_plot_run *run)
+static scree_status draw_last(const scree_plot_run *run, const scree_figure_job *job, const double *field, size_t count,
+                              scree_error *error)
 {
-    char path[PATH_MAX];
-    scree_series bodies;
-    scree_error error = {0};
-    scree_status status = scree_path_join(path, sizeof path, run->directory, FILE_BODIES, &error);
-    if (!status && access(path, F_OK) != 0) return;
-    if (!status) status = read_table(run, FILE_BODIES, &bodies, &error);
-    if (status) {
-        scree_plot_report(run, "rotation", status, &error);
-        return;
-    }
-    scree_plot_report(run, "rotation-decay", draw_decay(run, &bodies, &error), &error);
-    scree_plot_report(run, "rotation-rose", draw_rose(run, &error), &error);
-    scree_plot_report(run, "rotation-map", draw_map(run, &bodies, &error), &error);
-    scree_series_destroy(&bodies);
+    const double forced = result(run, "forced_particle");
+    scree_snapshot now;
+    scree_status status = scree_snapshot_read(run->directory, run->snapshot_count - 1, &now, error);
+    if (status) return status;
+    size_t marked = now.count;
+    if (forced >= 0) marked = scree_position_of_id(now.id, now.count, (uint32_t)forced);
+    if (now.count != count || marked == now.count)
+        status = scree_error_set(error, SCREE_ERROR_INPUT, "%s is not of the last snapshot", FILE_BODIES);
+    else
+        status = draw_field(job->path, &now, field, marked, error);
+    scree_snapshot_destroy(&now);
+    return status;
 }
+
+static scree_status draw_map(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
+{
+    scree_series bodies;
+    double *field = NULL;
+    scree_status status = read_table(run, FILE_BODIES, &bodies, error);
+    if (!status) status = gather_rotations(&bodies, &field, error);
+    if (!status) status = draw_last(run, job, field, bodies.row_count, error);
+    scree_release(&field);
+    scree_series_destroy(&bodies);
+    return status;
+}
+
+// ---- family ------------------------------------------------------------------------------------------------------
+
+typedef scree_status job_function(const scree_plot_run *run, const scree_figure_job *job, scree_error *error);
+
+typedef struct rotation_row {
+    scree_figure figure;
+    job_function *applies, *draw;
+} rotation_row;
+
+static const rotation_row rows[] = {
+    {{"rotation-decay", "spins over the distance from the forced particle, with the fit of their decay"},
+     has_decay,
+     draw_decay},
+    {{"rotation-rose", "radial strength of the contacts near the forced particle by direction"}, has_plane, draw_rose},
+    {{"rotation-map", "particles coloured by their spin over that of the forced one, with the contact forces"},
+     has_last,
+     draw_map},
+};
+
+static bool was_forced(const scree_plot_run *run, const scree_figure *figure)
+{
+    (void)figure;
+    return has_file(run, FILE_BODIES);
+}
+
+static scree_status applies(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
+{
+    return ((const rotation_row *)job->figure)->applies(run, job, error);
+}
+
+static scree_status draw(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
+{
+    return ((const rotation_row *)job->figure)->draw(run, job, error);
+}
+
+const scree_figure_family scree_figures_rotation = {
+    SCREE_FIGURE_ROWS(rows),
+    .meant = was_forced,
+    .applies = applies,
+    .draw = draw,
+};

@@ -110,6 +110,17 @@ awk -v kept="$("$scree" get kept stiffness_share)" -v less="$("$scree" get resca
 # --- plot
 expect 0 '\.svg$' "$scree" plot out
 while read -r path; do [ -s "$path" ] || complain "plot names $path, which is not there"; done <<<"$output"
+drawn=$(sed -nE 's/^out\/figures\/(.*)\.svg$/\1/p' <<<"$output")
+expect 0 '^stress-ratio +[a-z]' "$scree" plot out --list
+same "$(cut -d ' ' -f 1 <<<"$output")" "$drawn" "the figures of plot --list against those that plot draws"
+same "$(complete_line scree plot out --only stress-)" stress-ratio
+rm -r out/figures
+expect 0 'figures' "$scree" plot out --only packing-end,stress-ratio
+same "$output" $'out/figures/stress-ratio.svg\nout/figures/packing-end.svg'
+same "$(ls out/figures | tr '\n' ' ')" 'packing-end.png packing-end.svg stress-ratio.csv stress-ratio.gp stress-ratio.png stress-ratio.svg '
+expect 2 "^scree plot: stress-ration: .*\(accepted: stress-ratio\)$" "$scree" plot out --only packing-end,stress-ration
+expect 2 '^scree plot: --only: does not go with --list' "$scree" plot out --only stress --list
+expect 2 'shear-ratio: .*no figure of this name' "$scree" plot out --only shear-ratio # of periodic cells
 
 # --- a run that is interrupted or killed and continued ends where an uninterrupted one does
 long=("${small[@]}" --threads 1 --set 'stages.compress.strain=2 %')

@@ -234,6 +234,73 @@ static void every_figure_of_a_run_is_drawn(void **state)
     assert_int_equal(r.left_out + r.failed, 0);
 }
 
+typedef struct listed {
+    size_t count;
+    char text[8192];
+} listed;
+
+static void take_listed(void *user, const char *name, const char *meaning)
+{
+    listed *l = user;
+    l->count++;
+    assert_true(strlen(meaning) > 10 && !strchr(meaning, '\n'));
+    (void)snprintf(l->text + strlen(l->text), sizeof l->text - strlen(l->text), "%s.svg\n", name);
+}
+
+static void the_list_names_what_is_drawn(void **state)
+{
+    (void)state;
+    listed l = {0};
+    report r;
+    scree_error error = {0};
+    if (scree_figure_visit("run", take_listed, &l, &error)) fail_msg("%s", error.message);
+    assert_int_equal(plot("run", &r, &error), SCREE_OK);
+    assert_int_equal(l.count, r.drawn);
+    char *line = r.text, *name = l.text;
+    for (; *line && *name; line = strchr(line, '\n') + 1, name = strchr(name, '\n') + 1) {
+        const size_t length = (size_t)(strchr(name, '\n') - name);
+        assert_memory_equal(line + strlen("run/figures/"), name, length);
+    }
+    assert_true(!*line && !*name);
+}
+
+static scree_status plot_only(const char *directory, const char *wanted, report *r, scree_error *error)
+{
+    *r = (report){0};
+    *error = (scree_error){0};
+    return scree_plot_only(directory, wanted, take, r, error);
+}
+
+static void figures_are_drawn_by_name(void **state)
+{
+    (void)state;
+    report r;
+    scree_error error;
+    assert_int_equal(plot_only("run", "distortion-00-03.8,slip,stress", &r, &error), SCREE_OK);
+    assert_string_equal(r.text, "run/figures/slip.svg\nrun/figures/stress.svg\nrun/figures/distortion-00-03.8.svg\n");
+}
+
+static void unknown_figures_are_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *names, *field, *accepted;
+    } row[] = {{"slip,stres", "stres", "stress"},
+               {"distortion-00-03.7", "distortion-00-03.7", "distortion-00-03.8"},
+               {"section-end", "section-end", "scree plot DIR --list"}, // of spheres
+               {"slip,", "", "scree plot DIR --list"},
+               {"zzzzzzzzzz", "zzzzzzzzzz", "scree plot DIR --list"}};
+    report r;
+    scree_error error;
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+        assert_int_equal(plot_only("run", row[k].names, &r, &error), SCREE_ERROR_INPUT);
+        assert_string_equal(error.field, row[k].field);
+        assert_string_equal(error.accepted, row[k].accepted);
+        assert_string_equal(r.text, "");
+        assert_int_equal(scree_plot_only("run", row[k].names, NULL, NULL, NULL), SCREE_ERROR_INPUT);
+    }
+}
+
 /// Strain in percent, dilation positive, confinement left out: the first line of the data is the first row of loading,
 /// the last but one line of 200 has 0.15 * 198 / 199 of strain.
 static void charts_hold_the_loading_stage_only(void **state)
@@ -274,6 +341,10 @@ static void missing_columns_leave_out_their_charts(void **state)
     assert_int_equal(r.left_out, 7);
     assert_non_null(strstr(r.text, "slip left out: series.csv has no column 'slip_ratio'"));
     assert_figure("short/figures/stress-ratio");
+    // No snapshots: what the series has is listed.
+    listed l = {0};
+    assert_int_equal(scree_figure_visit("short", take_listed, &l, &error), SCREE_ERROR_IO);
+    assert_string_equal(l.text, "volumetric-strain.svg\nstress-ratio.svg\n");
 }
 
 static void empty_series_is_told(void **state)
@@ -289,8 +360,8 @@ static void empty_series_is_told(void **state)
     assert_non_null(strstr(r.text, "slip left out: series.csv has no rows of a loading stage"));
 }
 
-/// One snapshot, before any loading: nine charts, the three scenes at the peak, two windows and the circles are left
-/// out; start and end are that snapshot.
+/// One snapshot, before any loading: nine charts, the three scenes at the peak and the circles are left out, and there
+/// are no strain windows; start and end are that snapshot.
 static void run_without_loading_has_its_packing_drawn(void **state)
 {
     (void)state;
@@ -301,8 +372,13 @@ static void run_without_loading_has_its_packing_drawn(void **state)
     make_snapshots("few", 1);
     scree_status status = plot("few", &r, &error);
     if (status) fail_msg("%s\n%s", error.message, r.text);
-    assert_int_equal(r.left_out, 15);
+    assert_int_equal(r.left_out, 13);
+    assert_null(strstr(r.text, "nan"));
     assert_int_equal(r.drawn, 11);
+    assert_int_equal(plot_only("few", "slip,packing-end", &r, &error), SCREE_ERROR_INPUT);
+    assert_string_equal(error.field, "slip");
+    assert_string_equal(error.message, "series.csv has no rows of a loading stage");
+    assert_int_equal(r.drawn, 1);
 }
 
 /// Two snapshots of loading, at 0 and 5 %: the windows that are the default without a case need more of them.
@@ -359,6 +435,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_figure_of_a_run_is_drawn),
+        cmocka_unit_test(the_list_names_what_is_drawn),
+        cmocka_unit_test(figures_are_drawn_by_name),
+        cmocka_unit_test(unknown_figures_are_refused),
         cmocka_unit_test(charts_hold_the_loading_stage_only),
         cmocka_unit_test(curves_of_nothing_are_left_out),
         cmocka_unit_test(missing_columns_leave_out_their_charts),

@@ -1,0 +1,21 @@
+/// The table of figures: a row a family. To add one: a file in src/view/ with its descriptor, and a row here.
+#include "view/figures.h"
+
+#include <stddef.h>
+
+// clang-format off
+#define SCREE_FIGURE_FAMILIES(row) \
+    row(charts)       /* columns over the strain of loading */ \
+    row(scenes)       /* single snapshots */ \
+    row(cell_maps)    /* cells of a snapshot */ \
+    row(fluctuations) /* displacements in the strain windows */ \
+    row(distortion)   /* cells in the strain windows */ \
+    row(circles)      /* pressure over growing circles */ \
+    row(rotation)     /* a particle that was turned */
+// clang-format on
+
+#define DECLARE(name) extern const scree_figure_family scree_figures_##name;
+SCREE_FIGURE_FAMILIES(DECLARE)
+
+#define ADDRESS(name) &scree_figures_##name,
+const scree_figure_family *const scree_figure_families[] = {SCREE_FIGURE_FAMILIES(ADDRESS) NULL};
