@@ -20,7 +20,7 @@ SCREE_INLINE contact_quanta contact_advance(contact_job *job, variant v, const s
     totals->friction += q.friction;
     totals->stiffness += q.stiffness;
     totals->in_range &= q.in_range != 0;
-    if (law_holds(v)) {
+    if (own) {
         totals->largest_deformation = lanes_at_least(totals->largest_deformation, q.deformation);
         totals->largest_gap = lanes_at_least(totals->largest_gap, -m->overlap);
     } else if (touching) {

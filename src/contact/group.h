@@ -182,14 +182,13 @@ SCREE_INLINE void add_to_sums(int dimension, const contact_job *job, const size_
     LANE_LOOP *(row4_bits *)(void *)((char *)job->torque + offset[k]) += (row4_bits)row[k];
 }
 
-/// Of one body of each pair. Not inline and apart from the hot code: only where a module asks for moments.
-static __attribute__((noinline, cold)) void add_moments(int dimension, const contact_job *job,
-                                                        const size_t offset[SCREE_LANES], const vector *normal,
-                                                        const lanes *arm, const vector *force)
+/// Of one body of each pair.
+SCREE_INLINE void add_moments(int dimension, const contact_job *job, const size_t offset[SCREE_LANES], vector normal,
+                              lanes arm, vector force)
 {
     lanes_bits moment[12] = {{0}};
     row4 row[SCREE_LANES];
-    contact_moments(dimension, &job->scale, *normal, *arm, *force, moment);
+    contact_moments(dimension, &job->scale, normal, arm, force, moment);
     const int rows = dimension == 3 ? SCREE_MOMENTS_3D / 4 : SCREE_MOMENTS_2D / 4;
     for (int r = 0; r < rows; r++) {
         rows_of_bits(moment[4 * r], moment[4 * r + 1], moment[4 * r + 2], moment[4 * r + 3], row);
@@ -223,9 +222,9 @@ SCREE_INLINE void evaluate_group(const contact_job *job, variant v, group *g, to
 
     add_to_sums(dimension, job, g->first, q.force, q.torque_first, q.count);
     add_to_sums(dimension, job, g->second, quanta_opposite(q.force), q.torque_second, q.count);
-    if (__builtin_expect(job->moment != NULL, 0)) {
-        add_moments(dimension, job, g->first, &m.normal, &m.arm_first, &q.on_first);
-        add_moments(dimension, job, g->second, &m.normal, &m.arm_second, &q.on_first);
+    if (v.moments) {
+        add_moments(dimension, job, g->first, m.normal, m.arm_first, q.on_first);
+        add_moments(dimension, job, g->second, m.normal, m.arm_second, q.on_first);
     }
     t->in_range &= q.in_range;
     if (law_holds(v)) {

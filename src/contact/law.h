@@ -17,6 +17,7 @@ typedef struct variant {
     unsigned option; ///< bits whose meaning the law declares
     bool many_materials;
     bool ledger;
+    bool moments; ///< of contact forces are summed; only with the ledger
 } variant;
 
 /// Constants of the pair of materials, one value a lane: model/law.h, scree_pair_constants. Those of the second half

@@ -143,14 +143,16 @@ SCREE_INLINE void run(contact_job *given, variant v)
 #define KERNEL_NAME(name, isa) PASTE(name, isa)
 
 /// `run` with a variant as a constant, as a function of its own: one that held them all would be too large for some
-/// of the compiler's optimisations.
+/// of the compiler's optimisations. Moments are summed by the kernels for many materials alone, with the ledger.
 #define VARIANT(name, dimension, law, option, many_materials)                                                          \
     static __attribute__((noinline)) void name(contact_job *job)                                                       \
     {                                                                                                                  \
-        if (job->variant.ledger)                                                                                       \
-            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, true});                            \
+        if (many_materials && job->variant.moments)                                                                    \
+            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, true, true});                      \
+        else if (job->variant.ledger)                                                                                  \
+            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, true, false});                     \
         else                                                                                                           \
-            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, false});                           \
+            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, false, false});                    \
     }
 
 /// How many materials a kernel is for, as the rows of laws say it.
@@ -178,7 +180,7 @@ enum { MOST_OPTIONS = 4 };
         static contact_kernel *const kernels[SCREE_MODULE_COUNT][MOST_OPTIONS][2] = {SCREE_LAWS(NAME##_ENTRIES)};      \
         const variant *v = &job->variant;                                                                              \
         contact_kernel *const *kernel = kernels[v->law][v->option];                                                    \
-        (v->many_materials || !kernel[OF_one] ? kernel[OF_many] : kernel[OF_one])(job);                                \
+        (v->many_materials || v->moments || !kernel[OF_one] ? kernel[OF_many] : kernel[OF_one])(job);                  \
     }
 
 #endif

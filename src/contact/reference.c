@@ -113,10 +113,11 @@ SCREE_INLINE void evaluate_walls(contact_job *job, variant v, const scree_wall *
 
 #define WALLS_OF_LAW(law_)                                                                                             \
     if (v.law == SCREE_SLOT_##law_ && v.dimension == 3)                                                                \
-        evaluate_walls(job, (variant){3, SCREE_SLOT_##law_, v.option, true, v.ledger}, wall, pairs, row_begin,         \
-                       row_end);                                                                                       \
+        evaluate_walls(job, (variant){3, SCREE_SLOT_##law_, v.option, true, v.ledger, v.moments}, wall, pairs,         \
+                       row_begin, row_end);                                                                            \
     if (v.law == SCREE_SLOT_##law_ && v.dimension == 2)                                                                \
-        evaluate_walls(job, (variant){2, SCREE_SLOT_##law_, v.option, true, v.ledger}, wall, pairs, row_begin, row_end);
+        evaluate_walls(job, (variant){2, SCREE_SLOT_##law_, v.option, true, v.ledger, v.moments}, wall, pairs,         \
+                       row_begin, row_end);
 
 void contact_walls(contact_job *job, const scree_wall *wall, const scree_wall_pair_list *pairs, size_t row_begin,
                    size_t row_end)

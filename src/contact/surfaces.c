@@ -288,7 +288,7 @@ static bool holds_memory(const group *g)
 /// In space, where it pays, the law is known.
 #define GROUP_OF_LAW(law_)                                                                                             \
     if (v.dimension == 3 && v.law == SCREE_SLOT_##law_)                                                                \
-        evaluate_group(job, (variant){3, SCREE_SLOT_##law_, v.option, true, v.ledger}, state, &g);
+        evaluate_group(job, (variant){3, SCREE_SLOT_##law_, v.option, true, v.ledger, v.moments}, state, &g);
 
 void contact_surfaces(contact_job *job, const scree_state *state, const scree_work *work, size_t begin, size_t end)
 {
@@ -303,7 +303,7 @@ void contact_surfaces(contact_job *job, const scree_state *state, const scree_wo
         place_of(v.dimension, &job->row[row], g.position);
         pass_memory(&g);
         SCREE_LAWS(GROUP_OF_LAW)
-        if (v.dimension == 2) evaluate_group(job, (variant){2, v.law, v.option, true, v.ledger}, state, &g);
+        if (v.dimension == 2) evaluate_group(job, (variant){2, v.law, v.option, true, v.ledger, v.moments}, state, &g);
     }
 }
 
