@@ -14,13 +14,6 @@ typedef scree_prescribed_config config;
 
 // ---- keys --------------------------------------------------------------------------------------------------------
 
-static const scree_choice components[] = {
-    {"xx", 0, "d v_x / d x"}, {"xy", 1, "d v_x / d y"},
-    {"xz", 2, "d v_x / d z"}, {"yx", 3, "d v_y / d x"},
-    {"yy", 4, "d v_y / d y"}, {"yz", 5, "d v_y / d z"},
-    {"zx", 6, "d v_z / d x"}, {"zy", 7, "d v_z / d y"},
-    {"zz", 8, "d v_z / d z"}, {0},
-};
 static const scree_choice pers[] = {
     {"body", SCREE_PER_BODY, "forces and torques are on each particle"},
     {"selection", SCREE_PER_SELECTION, "they are on the whole selection, in equal parts on those that are there"},
@@ -58,7 +51,7 @@ static const scree_key keys[] = {
     SPIN("x", 0),
     SPIN("y", 1),
     SPIN("z", 2),
-    TENSOR(config, gradient, components, "1/s", FROM("-1e9 1/s"), TO("1e9 1/s"),
+    TENSOR(config, gradient, scree_gradient_components, "1/s", FROM("-1e9 1/s"), TO("1e9 1/s"),
            .meaning = "Velocity gradient, added to the velocities: gradient x (place at the begin - `origin`)."),
     {.name = "gradient_factor",
      .type = SCREE_KEY_SCHEDULE,

@@ -45,6 +45,10 @@ typedef struct scree_choice {
     const char *meaning;
 } scree_choice;
 
+/// Components of a velocity gradient: ij is the derivative of velocity i by coordinate j; the value is its place in a
+/// 3 x 3 tensor by rows.
+extern const scree_choice scree_gradient_components[];
+
 /// Values of choices that select a module, where they select none.
 enum {
     SCREE_CHOICE_WRONG = -1, ///< there is no such choice, and a problem has been noted

@@ -17,14 +17,6 @@
 #include <string.h>
 
 typedef scree_deform_config config;
-// Component ij is the derivative of velocity i by coordinate j; its value is its place in a 3 x 3 tensor by rows.
-static const scree_choice components[] = {
-    {"xx", 0, "d v_x / d x"}, {"xy", 1, "d v_x / d y"},
-    {"xz", 2, "d v_x / d z"}, {"yx", 3, "d v_y / d x"},
-    {"yy", 4, "d v_y / d y"}, {"yz", 5, "d v_y / d z"},
-    {"zx", 6, "d v_z / d x"}, {"zy", 7, "d v_z / d y"},
-    {"zz", 8, "d v_z / d z"}, {0},
-};
 static const scree_choice symmetric_components[] = {
     {"xx", 0, "strain rate along x"},
     {"yy", 4, "strain rate along y"},
@@ -44,7 +36,7 @@ static const scree_choice symmetric_stresses[] = {
     {0},
 };
 static const scree_key keys[] = {
-    TENSOR(config, velocity_gradient, components, "1/s", FROM("-1e6 1/s"), TO("1e6 1/s"),
+    TENSOR(config, velocity_gradient, scree_gradient_components, "1/s", FROM("-1e6 1/s"), TO("1e6 1/s"),
            .meaning = "Prescribed components of the velocity gradient, e.g. {xy: 5e-3 1/s, yx: 0}; extension positive; "
                       "the others are free, in a periodic cell zero."),
     TENSOR(config, strain_rate, symmetric_components, "1/s", FROM("-1e6 1/s"), TO("1e6 1/s"),
