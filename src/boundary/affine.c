@@ -58,10 +58,13 @@ static void move_bodies(scree_state *state, const scree_vector centre, double ki
     }
 }
 
-static void add_forces(const scree_model *model, scree_state *state, scree_work *work)
+static scree_status add_forces(const scree_context *c, scree_error *error)
 {
+    const scree_model *model = c->model;
+    scree_state *state = c->state;
     scree_imposed_gradient *imposed = scree_imposed(state);
-    if (imposed->count == 0) return;
+    (void)error;
+    if (imposed->count == 0) return SCREE_OK;
     double rate[9];
     scree_vector centre;
     scree_boundary_areas(model, state, imposed->force);
@@ -69,8 +72,9 @@ static void add_forces(const scree_model *model, scree_state *state, scree_work 
     scree_imposed_record(state, rate);
     memset(imposed->force, 0, imposed->count * sizeof *imposed->force);
     find_centre(state, centre);
-    move_bodies(state, centre, work->next_kick);
+    move_bodies(state, centre, c->work->next_kick);
     scree_imposed_add_work(state);
+    return SCREE_OK;
 }
 
 static double bound(const scree_context *c)
@@ -89,25 +93,11 @@ static double bound(const scree_context *c)
     return largest;
 }
 
-static scree_status load(const scree_context *c, scree_error *error)
-{
-    (void)error;
-    add_forces(c->model, c->state, c->work);
-    return SCREE_OK;
-}
-
-static const scree_pass passes[] = {
-    {SCREE_PHASE_FOLLOW, scree_imposed_work}, {SCREE_PHASE_SEARCH, scree_imposed_refresh}, {SCREE_PHASE_LOADS, load}};
+static const scree_pass passes[] = SCREE_IMPOSED_PASSES(add_forces);
 
 static const scree_boundary face = {
-    .free = true,
-    .round = true,
-    .equal_steps = true,
     .needs_gradient = "affine needs all components of a velocity gradient: use a deform stage",
     .needs_all = "affine moves every body of the boundary: all components must be given",
-    .needs_ends = SCREE_IMPOSED_ENDS,
-    .kept = SCREE_IMPOSED_KEPT,
-    .begin = scree_imposed_begin,
     .passes = passes,
     .pass_count = COUNT(passes),
     .bound = bound,

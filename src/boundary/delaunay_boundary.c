@@ -34,9 +34,8 @@ static const scree_field fields[] = {
          SCREE_RANGE_TO(SCREE_LIMIT_FARTHEST)),
     LOOP(fx, double, "force_x", SCREE_FIELD_DOUBLE, "N", "x component of the force of the pressure on this body"),
     LOOP(fy, double, "force_y", SCREE_FIELD_DOUBLE, "N", "y component of the force of the pressure on this body"),
-    SCREE_FIELD_GROUP(delaunay_boundary, own, scree_loop_group, loop.power, double, "boundary/power",
-                      SCREE_FIELD_DOUBLE, 1, "W", "power of this force", .role = SCREE_FIELD_DERIVED,
-                      .only_dimension = 2),
+    SCREE_FIELD_GROUP(delaunay_boundary, own, scree_loop_group, loop.term, double, "boundary/term", SCREE_FIELD_DOUBLE,
+                      1, "1", "term of a sum along the boundary", .role = SCREE_FIELD_DERIVED, .only_dimension = 2),
 
     HULL(scree_hull_nodes, id, uint32_t, "id", SCREE_FIELD_UINT32, 1, "1", "bodies on the hull, by id, ascending",
          SCREE_RANGE_TO(SCREE_LIMIT_BODY)),

@@ -39,16 +39,22 @@ void scree_imposed_fit(const scree_context *context, double pressure);
 void scree_imposed_compress(const scree_context *context, const scree_compression *compression);
 void scree_imposed_deform(const scree_context *context, const scree_demand *demand, double rise);
 
-/// What is wrong where one with plates follows it.
-#define SCREE_IMPOSED_ENDS                                                                                             \
-    "its forces act on the Delaunay boundary, which goes around a sample that does not repeat itself: give boundary: " \
-    "plates, or make the sample periodic in all directions"
-#define SCREE_IMPOSED_KEPT                                                                                             \
-    "plates cannot come back to a sample that has deformed freely: only minimal or affine can follow"
+/// The passes of such a boundary; add_forces: a pass, its forces and the first half of their work.
+#define SCREE_IMPOSED_PASSES(add_forces)                                                                               \
+    {                                                                                                                  \
+        {SCREE_PHASE_FOLLOW, scree_imposed_work}, {SCREE_PHASE_SEARCH, scree_imposed_refresh},                         \
+        {                                                                                                              \
+            SCREE_PHASE_LOADS, add_forces                                                                              \
+        }                                                                                                              \
+    }
 
-/// The members of such a boundary.
+/// Its members that are always the same.
 #define SCREE_IMPOSED                                                                                                  \
-    .wave_time = scree_imposed_wave_time, .fit = scree_imposed_fit, .compress = scree_imposed_compress,                \
-    .deform = scree_imposed_deform, .patience = 400
+    .free = true, .round = true, .equal_steps = true,                                                                  \
+    .needs_ends = "its forces act on the Delaunay boundary, which goes around a sample that does not repeat itself: "  \
+                  "give boundary: plates, or make the sample periodic in all directions",                              \
+    .kept = "plates cannot come back to a sample that has deformed freely: only minimal or affine can follow",         \
+    .begin = scree_imposed_begin, .wave_time = scree_imposed_wave_time, .fit = scree_imposed_fit,                      \
+    .compress = scree_imposed_compress, .deform = scree_imposed_deform, .patience = 400
 
 #endif

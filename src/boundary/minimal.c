@@ -173,25 +173,29 @@ static bool stress_fits(const scree_model *model, const scree_state *state, cons
     return 2 * largest * scale * reach < ldexp(state->force_quantum, 60);
 }
 
-static void add_forces(const scree_model *model, scree_state *state, scree_work *work)
+static scree_status add_forces(const scree_context *c, scree_error *error)
 {
+    const scree_model *model = c->model;
+    scree_state *state = c->state;
     scree_imposed_gradient *imposed = scree_imposed(state);
-    if (imposed->count == 0) return;
+    (void)error;
+    if (imposed->count == 0) return SCREE_OK;
     double actual[9], predicted[9], mobility[9];
     // The array of the forces holds the area vectors until they are known.
     scree_boundary_areas(model, state, imposed->force);
     double volume = scree_imposed_measure(state, imposed->force, actual);
     scree_imposed_record(state, actual);
-    predict(state, imposed->force, volume, work->next_kick, actual, predicted, mobility);
-    find_stress(imposed, predicted, mobility, work->next_kick, imposed->stress);
+    predict(state, imposed->force, volume, c->work->next_kick, actual, predicted, mobility);
+    find_stress(imposed, predicted, mobility, c->work->next_kick, imposed->stress);
     memset(imposed->force, 0, imposed->count * sizeof *imposed->force);
     if (!stress_fits(model, state, imposed->stress)) {
-        work->flags |= SCREE_FLAG_FORCE_RANGE;
-        work->flagged_id = state->id[scree_boundary_row(state, 0)];
-        return;
+        c->work->flags |= SCREE_FLAG_FORCE_RANGE;
+        c->work->flagged_id = state->id[scree_boundary_row(state, 0)];
+        return SCREE_OK;
     }
     scree_imposed_apply_stress(model, state, imposed->stress);
     scree_imposed_add_work(state);
+    return SCREE_OK;
 }
 
 static double bound(const scree_context *c)
@@ -226,25 +230,11 @@ double scree_minimal_viscosity_at(const scree_model *model, double pressure, dou
     return own && own->viscosity > 0 ? own->viscosity : scree_minimal_viscosity(pressure, target);
 }
 
-static scree_status load(const scree_context *c, scree_error *error)
-{
-    (void)error;
-    add_forces(c->model, c->state, c->work);
-    return SCREE_OK;
-}
-
-static const scree_pass passes[] = {
-    {SCREE_PHASE_FOLLOW, scree_imposed_work}, {SCREE_PHASE_SEARCH, scree_imposed_refresh}, {SCREE_PHASE_LOADS, load}};
+static const scree_pass passes[] = SCREE_IMPOSED_PASSES(add_forces);
 
 static const scree_boundary face = {
-    .free = true,
-    .round = true,
-    .equal_steps = true,
     .full_mirrors = true,
-    .needs_ends = SCREE_IMPOSED_ENDS,
-    .kept = SCREE_IMPOSED_KEPT,
     .resolve = resolve,
-    .begin = scree_imposed_begin,
     .passes = passes,
     .pass_count = COUNT(passes),
     .bound = bound,

@@ -146,9 +146,9 @@ static double loop_power(const scree_state *state)
     const scree_loop *loop = scree_loop_of(state);
     for (size_t k = 0; k < loop->count; k++) {
         const scree_row *row = &state->row[state->row_of_id[loop->id[k]]];
-        loop->power[k] = loop->fx[k] * row->vx + loop->fy[k] * row->vy;
+        loop->term[k] = loop->fx[k] * row->vx + loop->fy[k] * row->vy;
     }
-    return scree_integer_sum_of(loop->power, loop->count);
+    return scree_integer_sum_of(loop->term, loop->count);
 }
 
 /// 1/2 F . v dt with the velocities that the rows hold now.

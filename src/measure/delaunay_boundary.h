@@ -13,7 +13,7 @@ typedef struct scree_loop {
     double *x, *y;   ///< m, positions at `updated`; the strain increment since then is measured from them
     double *fx,
         *fy; ///< N, pressure force on each body of the loop at the present step (first half of the next work increment)
-    double *power; ///< W, of these forces at the rows' velocities; derived
+    double *term; ///< derived: terms of one sum along the loop, at most one an edge
     size_t count, capacity;
     uint64_t updated; ///< step of the last update
 } scree_loop;

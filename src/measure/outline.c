@@ -104,33 +104,23 @@ double scree_outline_area(const scree_state *state, double centre[2])
     return area;
 }
 
-enum { FEW_RUNS = 32 };
-
 typedef struct plate_length {
     int wall;
-    scree_integer_sum length;
+    double *term;
     size_t count;
-    double few[FEW_RUNS]; ///< the first terms
 } plate_length;
 
 static void add_plate_length(void *user, const scree_outline_segment *segment)
 {
     plate_length *sum = user;
     if (segment->kind != SCREE_OUTLINE_BARE || segment->wall != sum->wall) return;
-    double length = hypot(segment->to[0] - segment->from[0], segment->to[1] - segment->from[1]);
-    if (sum->count < FEW_RUNS) sum->few[sum->count] = length;
-    sum->count++;
-    scree_integer_sum_add(&sum->length, length);
+    sum->term[sum->count++] = hypot(segment->to[0] - segment->from[0], segment->to[1] - segment->from[1]);
 }
 
-/// Servos ask for it in every step, and mostly one run faces a plate: terms that were kept are not found twice.
+/// Servos ask for it in every step: the outline is walked once.
 double scree_outline_plate_length(const scree_state *state, int wall)
 {
-    plate_length sum = {.wall = wall};
-    (void)scree_integer_sum_next(&sum.length, 1);
+    plate_length sum = {.wall = wall, .term = scree_loop_of(state)->term};
     scree_outline_visit(state, add_plate_length, &sum);
-    if (sum.count <= FEW_RUNS) return scree_integer_sum_of(sum.few, sum.count);
-    (void)scree_integer_sum_next(&sum.length, 1);
-    scree_outline_visit(state, add_plate_length, &sum);
-    return scree_integer_sum_total(&sum.length);
+    return scree_integer_sum_of(sum.term, sum.count);
 }

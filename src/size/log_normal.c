@@ -19,25 +19,7 @@ static scree_gaussian gaussian(const void *own)
     return (scree_gaussian){{c->radius_min, c->radius_max}, c->median, log(c->geometric_deviation), true};
 }
 
-static scree_size_moments moments(const void *own, int dimension)
-{
-    (void)dimension;
-    scree_gaussian g = gaussian(own);
-    return scree_gaussian_moments(&g);
-}
-
-static double radius(const void *own, int dimension, double uniform)
-{
-    (void)dimension;
-    scree_gaussian g = gaussian(own);
-    return scree_gaussian_radius(&g, uniform);
-}
-
-static bool wrong(const void *own, scree_size_problem *problem)
-{
-    scree_gaussian g = gaussian(own);
-    return scree_gaussian_wrong(&g, "median", problem);
-}
+SIZE_GAUSSIAN(gaussian, "median");
 
 const scree_module scree_module_log_normal = {
     .name = "log_normal",
@@ -45,5 +27,5 @@ const scree_module scree_module_log_normal = {
     .choice_of = SIZE_CHOICE,
     .keys = SIZE_KEYS(keys, config),
     .keys_count = 2,
-    .sizes = &(const scree_size_distribution){.moments = moments, .radius = radius, .wrong = wrong},
+    .sizes = &face,
 };

@@ -16,25 +16,7 @@ static scree_gaussian gaussian(const void *own)
     return (scree_gaussian){{c->radius_min, c->radius_max}, c->mean, c->deviation, false};
 }
 
-static scree_size_moments moments(const void *own, int dimension)
-{
-    (void)dimension;
-    scree_gaussian g = gaussian(own);
-    return scree_gaussian_moments(&g);
-}
-
-static double radius(const void *own, int dimension, double uniform)
-{
-    (void)dimension;
-    scree_gaussian g = gaussian(own);
-    return scree_gaussian_radius(&g, uniform);
-}
-
-static bool wrong(const void *own, scree_size_problem *problem)
-{
-    scree_gaussian g = gaussian(own);
-    return scree_gaussian_wrong(&g, "mean", problem);
-}
+SIZE_GAUSSIAN(gaussian, "mean");
 
 const scree_module scree_module_normal = {
     .name = "normal",
@@ -42,5 +24,5 @@ const scree_module scree_module_normal = {
     .choice_of = SIZE_CHOICE,
     .keys = SIZE_KEYS(keys, config),
     .keys_count = 2,
-    .sizes = &(const scree_size_distribution){.moments = moments, .radius = radius, .wrong = wrong},
+    .sizes = &face,
 };

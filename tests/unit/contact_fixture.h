@@ -246,4 +246,17 @@ static inline void fixture_create_assembly(fixture *f, law_choice law, size_t si
     fixture_find_pairs(f, 3e-4);
 }
 
+/// J, of all contacts.
+static inline double fixture_elastic(const fixture *f)
+{
+    scree_contact_table table = {0};
+    scree_error error;
+    double energy = 0;
+    assert_int_equal(scree_contact_table_build(&f->model, &f->state, &f->work, &table, &error), SCREE_OK);
+    for (size_t k = 0; k < table.count; k++)
+        energy += table.contact[k].elastic_normal + table.contact[k].elastic_tangential;
+    scree_contact_table_destroy(&table);
+    return energy;
+}
+
 #endif

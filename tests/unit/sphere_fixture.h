@@ -104,17 +104,4 @@ static inline double fixture_kinetic(const fixture *f)
     return energy;
 }
 
-/// J, of all contacts.
-static inline double fixture_elastic(const fixture *f)
-{
-    scree_contact_table table = {0};
-    scree_error error;
-    double energy = 0;
-    assert_int_equal(scree_contact_table_build(&f->model, &f->state, &f->work, &table, &error), SCREE_OK);
-    for (size_t k = 0; k < table.count; k++)
-        energy += table.contact[k].elastic_normal + table.contact[k].elastic_tangential;
-    scree_contact_table_destroy(&table);
-    return energy;
-}
-
 #endif

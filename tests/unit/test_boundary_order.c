@@ -85,9 +85,7 @@ static void boundaries_are_ordered_by_stiffness(void **unused)
                                      "boundary.penalty=1e12 Pa s", "stages.3.boundary=affine",
                                      "stages.3.strain=0.01 %"};
     const char *const minimal[] = {overrides[0], overrides[1], overrides[2], "stages.3.boundary=minimal", overrides[4]};
-    static const scree_pass passes[] = {{SCREE_PHASE_FOLLOW, scree_imposed_work},
-                                        {SCREE_PHASE_SEARCH, scree_imposed_refresh},
-                                        {SCREE_PHASE_LOADS, apply_traction}};
+    static const scree_pass passes[] = SCREE_IMPOSED_PASSES(apply_traction);
     static const scree_boundary traction = {.passes = passes, .pass_count = 3, .deform = impose_nothing};
     double strain[3][9], stress[3][9];
     load(BOUNDARY_COMMON BOUNDARY_SETTLE BOUNDARY_AFFINE, overrides, 5, NULL, strain[0], stress[0]);

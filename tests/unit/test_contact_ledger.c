@@ -48,22 +48,10 @@ static double kinetic(const fixture *f)
     return energy;
 }
 
-static double elastic(const fixture *f)
-{
-    scree_contact_table table = {0};
-    scree_error error;
-    double energy = 0;
-    assert_int_equal(scree_contact_table_build(&f->model, &f->state, &f->work, &table, &error), SCREE_OK);
-    for (size_t k = 0; k < table.count; k++)
-        energy += table.contact[k].elastic_normal + table.contact[k].elastic_tangential;
-    scree_contact_table_destroy(&table);
-    return energy;
-}
-
 static double balance(const fixture *f)
 {
     const scree_ledger *l = &f->state.ledger;
-    return kinetic(f) + elastic(f) + l->damping + l->friction - l->stiffness - l->plates;
+    return kinetic(f) + fixture_elastic(f) + l->damping + l->friction - l->stiffness - l->plates;
 }
 
 /// Largest imbalance over 2 ms, relative to the turnover.
@@ -115,7 +103,7 @@ static void opening_books_the_spring(void **unused)
     fixture_find_pairs(&f, 1e-4);
     fixture_measure_speed(&f);
     fixture_forces(&f);
-    double held = elastic(&f);
+    double held = fixture_elastic(&f);
     const scree_history *history = &f.work.pairs.history[0];
     double spring = 0.5 * history->value[1] * history->value[0] * history->value[0];
     assert_true(spring > 0 && held > spring);

@@ -2,6 +2,7 @@
 /// the state's own fields and of those of a module that nobody has written a line for. The table of modules is one of
 /// this test. Lists of ghosts are compared with all ghosts that there are within reach, found by brute force.
 #include "periodic_fixture.h"
+#include "test_module.h"
 
 #include "comm/comm.h"
 #include "integrate/forced_spin.h"
@@ -23,14 +24,6 @@ typedef struct own {
     double *late;       ///< follows, when there is an array
 } own;
 
-static const scree_module test_module;
-
-#define BODY_FIELD(array_, element, name_, type_, components_, ...)                                                    \
-    {                                                                                                                  \
-        .name = name_, .type = type_, .components = components_, .unit = "1", .meaning = "of the test",                \
-        .owner = &test_module, .rows = SCREE_ROWS_BODIES, .array_offset = offsetof(own, array_),                       \
-        .stride = sizeof(element), __VA_ARGS__                                                                         \
-    }
 static const scree_field test_fields[] = {
     BODY_FIELD(colour, float[3], "colour", SCREE_FIELD_FLOAT, 3, .ghosts = SCREE_GHOSTS_KEEP),
     BODY_FIELD(strain, double, "strain", SCREE_FIELD_DOUBLE, 1, .ghosts = SCREE_GHOSTS_FOLLOW),
@@ -51,10 +44,7 @@ static const scree_module test_module = {
     .field_count = sizeof test_fields / sizeof *test_fields,
 };
 
-// In place of src/modules.c.
-#define scree_module_forced_spin test_module
-#define ROW(name)                [SCREE_SLOT_##name] = &scree_module_##name,
-const scree_module *const scree_modules[SCREE_MODULE_COUNT] = {SCREE_MODULES(ROW)};
+TEST_MODULES
 
 static own *own_of(const scree_state *state)
 {

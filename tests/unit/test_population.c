@@ -1,6 +1,7 @@
 /// Bodies that come and go: ids are never given again and find their rows, every declared field follows its body, marks
 /// are counted, and a body costs a constant number of allocations. The table of modules is one of this test, in which a
 /// module declares fields of bodies of its own.
+#include "test_module.h"
 #include "testing.h"
 
 #include "base/random.h"
@@ -20,14 +21,6 @@ typedef struct own {
     size_t forgotten;
 } own;
 
-static const scree_module test_module;
-
-#define BODY_FIELD(array_, element, name_, type_, components_, ...)                                                    \
-    {                                                                                                                  \
-        .name = name_, .type = type_, .components = components_, .unit = "1", .meaning = "of the test",                \
-        .owner = &test_module, .rows = SCREE_ROWS_BODIES, .array_offset = offsetof(own, array_),                       \
-        .stride = sizeof(element), __VA_ARGS__                                                                         \
-    }
 static const scree_field test_fields[] = {
     BODY_FIELD(wear, double, "wear", SCREE_FIELD_DOUBLE, 1, .ghosts = SCREE_GHOSTS_FOLLOW),
     BODY_FIELD(colour, uint8_t[3], "colour", SCREE_FIELD_UINT8, 2, .offset = 0),
@@ -63,10 +56,7 @@ static const scree_module test_module = {
     .forget = forget,
 };
 
-// In place of src/modules.c.
-#define scree_module_forced_spin test_module
-#define ROW(name)                [SCREE_SLOT_##name] = &scree_module_##name,
-const scree_module *const scree_modules[SCREE_MODULE_COUNT] = {SCREE_MODULES(ROW)};
+TEST_MODULES
 
 // ---- what each body should have ----------------------------------------------------------------------------------
 
