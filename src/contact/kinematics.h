@@ -44,12 +44,15 @@ typedef struct bodies {
     vector position, velocity;
     vector spin; ///< one component in two dimensions
     lanes radius, mass, material;
+    lanes strain[6]; ///< 1, of bodies that deform: xx, yy, xy in 2D; xx, yy, zz, yz, xz, xy in 3D
+    lanes reach;     ///< m, no point of the surface has moved out by more
 } bodies;
 
 /// Rates are those of the middle of the step.
 typedef struct kinematics {
     vector normal;               ///< n, from second to first
     lanes overlap;               ///< m, negative when apart
+    lanes expansion;             ///< m, the part of it that the strains of the bodies add
     lanes approach;              ///< m/s, d'
     vector slip;                 ///< m/s, s
     vector roll;                 ///< m/s
@@ -192,7 +195,32 @@ SCREE_INLINE kinematics kinematics_of_pair(int dimension, const bodies *first, c
     m.tilted = vector_times(count, along, step * inverse_distance);
     kinematics_advance(dimension, &m, velocity, along, lever, first->spin, second->spin, step);
     if (dimension == 3) m.half = 0.5 - (0.5 * step) * (m.approach * inverse_distance);
+    m.expansion = lanes_all(0);
     return m;
+}
+
+/// n . strain n R [m]: how far the strain moves the surface out where the contact is (M 2.52).
+SCREE_INLINE lanes strain_along(int dimension, const bodies *body, vector n)
+{
+    const lanes *e = body->strain;
+    if (dimension == 2) return body->radius * (e[0] * n.x * n.x + e[1] * n.y * n.y + 2 * (e[2] * n.x * n.y));
+    lanes own = e[0] * n.x * n.x + e[1] * n.y * n.y + e[2] * n.z * n.z;
+    return body->radius * (own + 2 * (e[3] * n.y * n.z + e[4] * n.x * n.z + e[5] * n.x * n.y));
+}
+
+/// Of bodies that deform: the overlap of the deformed surfaces (M 2.53). Arms and rates stay those of the circles: the
+/// contact point and the normal are taken to be where they were (M 2.6). second: NULL beside a wall.
+SCREE_INLINE void kinematics_expand(int dimension, kinematics *m, const bodies *first, const bodies *second)
+{
+    m->expansion = strain_along(dimension, first, m->normal);
+    if (second) m->expansion += strain_along(dimension, second, m->normal);
+    m->overlap += m->expansion;
+}
+
+/// Set where they are in contact then; also where it is not a number.
+SCREE_INLINE lanes_bits expanded_touch(const kinematics *m)
+{
+    return ~lanes_at_or_below(m->overlap, lanes_all(0));
 }
 
 #endif

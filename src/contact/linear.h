@@ -27,8 +27,8 @@
 #include "contact/slider.h"
 #include "model/law.h"
 
-/// Option.
-enum { LINEAR_HELD = 1 };
+/// Options.
+enum { LINEAR_HELD = 1, LINEAR_DEFORMS = 2 };
 
 /// Constants of a pair, beside SCREE_FRICTION.
 enum {
@@ -50,21 +50,19 @@ typedef struct scree_linear_material {
     double tangential_damping_ratio; ///< 1; auto: the normal one
 } scree_linear_material;
 
-#define linear_KERNELS(row) row(linear, 0, one) row(linear, 0, many) row(linear, 1, many)
+#define linear_KERNELS(row)                                                                                            \
+    row(linear, 0, one) row(linear, 0, many) row(linear, 1, many) row(linear, 2, many) row(linear, 3, many)
 
+#define LINEAR_TRAITS(...)                                                                                             \
+    {                                                                                                                  \
+        .remembers = true, .for_ledger = {0xe, 0x8}, .keeps_last_force = {false, true}, .displacement = true,          \
+        .wide = true, __VA_ARGS__                                                                                      \
+    }
 static const scree_law_traits linear_traits[] = {
-    [0] = {.remembers = true,
-           .for_ledger = {0xe, 0x8},
-           .keeps_last_force = {false, true},
-           .displacement = true,
-           .wide = true},
-    [LINEAR_HELD] = {.remembers = true,
-                     .for_ledger = {0xe, 0x8},
-                     .keeps_last_force = {false, true},
-                     .displacement = true,
-                     .wide = true,
-                     .pulls = true,
-                     .holds = true},
+    [0] = LINEAR_TRAITS(),
+    [LINEAR_HELD] = LINEAR_TRAITS(.pulls = true, .holds = true),
+    [LINEAR_DEFORMS] = LINEAR_TRAITS(.deforms = true),
+    [LINEAR_HELD | LINEAR_DEFORMS] = LINEAR_TRAITS(.pulls = true, .holds = true, .deforms = true),
 };
 
 /// What the slider remembers; a spring that has lost its contact still holds what it held.

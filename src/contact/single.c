@@ -67,10 +67,11 @@ bool contact_of_pair(const scree_model *model, const scree_state *state, const c
                      scree_contact *contact)
 {
     const int dimension = state->dimension;
-    if (!own && !pair_touches(dimension, &first->row, &second->row)) return false;
-    bodies one = body_get(dimension, &first->row, &first->turn);
-    bodies other = body_get(dimension, &second->row, &second->turn);
+    const double *const strains[2] = {first->strain, second->strain};
+    if (!own && !pair_touches(dimension, &first->row, &second->row, strains)) return false;
+    bodies one = contact_body_lane(dimension, first), other = contact_body_lane(dimension, second);
     kinematics m = kinematics_of_pair(dimension, &one, &other, state->step_size);
+    if (state->strain) kinematics_expand(dimension, &m, &one, &other);
     const scree_pair_constants(*pairs)[SCREE_MAX_MATERIALS] = own ? model->persistent.pairs : model->pairs;
     describe(model, dimension, &pairs[(int)one.material][(int)other.material], own, &m, memory, contact);
     place(dimension, &one, &m, contact);
@@ -94,9 +95,10 @@ bool contact_of_wall(const scree_model *model, const scree_state *state, const c
                      const scree_wall *wall, const memory_rows *memory, scree_contact *contact)
 {
     const int dimension = state->dimension;
-    if (!wall_touches(dimension, &body->row, wall)) return false;
-    bodies one = body_get(dimension, &body->row, &body->turn);
+    if (!wall_touches(dimension, &body->row, wall, body->strain)) return false;
+    bodies one = contact_body_lane(dimension, body);
     kinematics m = kinematics_of_wall(dimension, &one, wall, state->step_size);
+    if (state->strain) kinematics_expand(dimension, &m, &one, NULL);
     describe_wall(model, dimension, &model->walls[(int)one.material], &one, &m, memory, contact);
     return true;
 }
@@ -106,7 +108,7 @@ void contact_of_primitive(const scree_model *model, const scree_state *state, co
                           scree_contact *contact)
 {
     const int dimension = state->dimension;
-    bodies one = body_get(dimension, &body->row, &body->turn);
+    bodies one = contact_body_lane(dimension, body);
     scree_closest_point closest;
     scree_primitive_closest_point(work->wall_set, primitive,
                                   (const double[3]){one.position.x, one.position.y, one.position.z}, &closest);

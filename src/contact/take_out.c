@@ -22,8 +22,9 @@ static contact_quanta evaluate(const scree_model *model, const scree_state *stat
     const int dimension = state->dimension;
     contact_body first = contact_body_at_half_step(model, state, work, work->pairs.first[p]);
     contact_body second = contact_body_at_half_step(model, state, work, work->pairs.second[p]);
-    bodies one = body_get(dimension, &first.row, &first.turn), other = body_get(dimension, &second.row, &second.turn);
+    bodies one = contact_body_lane(dimension, &first), other = contact_body_lane(dimension, &second);
     kinematics m = kinematics_of_pair(dimension, &one, &other, state->step_size);
+    if (state->strain) kinematics_expand(dimension, &m, &one, &other);
     kinematics_hold(&m);
     *kinematics_of = m;
     const scree_member_row *own = contact_own_of(work, p);
@@ -44,8 +45,10 @@ static contact_quanta evaluate(const scree_model *model, const scree_state *stat
 static bool is_cut(const scree_state *state, const scree_work *work, const uint8_t *going, size_t p)
 {
     uint32_t first = work->pairs.first[p], second = work->pairs.second[p];
+    const double *const strains[2] = {scree_strain_row(state, first), scree_strain_row(state, second)};
     return going[scree_parent_row(state, work, first)] != going[scree_parent_row(state, work, second)] &&
-           (p < work->pairs.held_count || pair_touches(state->dimension, &state->row[first], &state->row[second]));
+           (p < work->pairs.held_count ||
+            pair_touches(state->dimension, &state->row[first], &state->row[second], strains));
 }
 
 static void take_out_moment(scree_state *state, const exerted *e)
@@ -85,12 +88,12 @@ scree_status scree_contacts_take_out(const scree_model *model, scree_state *stat
         exerted e = {.row = scree_parent_row(state, work, work->pairs.first[p]),
                      .quanta = evaluate(model, state, work, p, &m)};
         e.normal = m.normal;
-        e.arm = m.arm_first;
+        e.arm = state->strain ? state->row[e.row].radius : m.arm_first;
         if (going[e.row]) {
             e.row = scree_parent_row(state, work, work->pairs.second[p]);
             e.quanta.force = quanta_opposite(e.quanta.force);
             e.quanta.torque_first = e.quanta.torque_second;
-            e.arm = m.arm_second;
+            e.arm = state->strain ? state->row[e.row].radius : m.arm_second;
         }
         list[found++] = e;
     }

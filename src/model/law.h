@@ -45,6 +45,7 @@ typedef struct scree_law_traits {
     bool pulls;                  ///< the normal force may be negative
     bool holds;                  ///< of pairs of the persistent list: no distance test, constants of the pair's own
     bool wide;                   ///< reads the second half of the constants
+    bool deforms; ///< overlaps follow the strains of the bodies (state->strain), whose moments are summed
 } scree_law_traits;
 
 /// The elastic part of the normal force of two bodies of an effective radius [m]: closed forms of a static or undamped
@@ -87,6 +88,7 @@ typedef struct scree_law {
     const scree_law_traits *traits; ///< one for each value of `option`
     unsigned option_count;          ///< values of `option`
     unsigned holding;               ///< the option under which it holds pairs of the persistent list; 0: it cannot
+    unsigned deforming;             ///< that under which bodies deform (`deforms`); 0: it cannot
     const scree_elastic *elastic;
     int constant_count;    ///< constants of a pair that enter the state checksum
     unsigned resistances;  ///< bits of the constants that vanish with the friction of a body

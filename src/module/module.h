@@ -31,6 +31,9 @@ struct scree_module {
 
     // ---- numbers: what its keys become, once, with the model at hand (scree_model_numbers); no `auto` is left ----
     size_t numbers_size;
+    /// Fills them, and may change what the law of the contacts is asked for. The materials and pairs of the model
+    /// stand, its loading and step do not. Errors: a field of the case. NULL: there is nothing to do.
+    scree_status (*resolve)(scree_model *model, scree_error *error);
 
     // ---- faces: what only modules of one kind have ----
     const struct scree_law *law;                  ///< model/law.h
