@@ -23,9 +23,12 @@
 ///     given += V (stress(n) + stress(n+1)) / 2 : (strain(n+1) - strain(n)),
 /// without error. Stored of it is 1/2 V strain : D^-1 : strain; the rest is what the lag has taken out of the motion.
 ///
-/// Limits: small strains; normals and contact points stay those of the circles (M 2.6); k_t > 0 has no potential, since
-/// the tangential force enters the stress but the strain not the slip (M 2.27). The first forces of a run are those of
-/// rigid bodies. Cost: two passes over the bodies a step, two rows more a body and contact.
+/// With k_t > 0 M's form has no potential: the tangential force enters the stress, but the strain not the slip
+/// (M 2.27). What strains take up there without anyone giving it is in the ledger's `stiffness`. `corrected` moves the
+/// contact points along the surfaces, too: then nothing is left.
+///
+/// Limits: small strains; normals and contact points stay those of the circles (M 2.6). The first forces of a run are
+/// those of rigid bodies. Cost: two passes over the bodies a step, two rows more a body and contact.
 #include "state/deformation.h"
 #include "base/checksum.h"
 #include "base/integer_sum.h"
@@ -42,11 +45,15 @@
 // ---- the case ----------------------------------------------------------------------------------------------------
 
 enum { RIGID, EXPLICIT, RELAXED };
+enum { AS_PUBLISHED, CORRECTED };
+enum { STRAIN, LOOSE };
 
 typedef struct config {
     int deformation;   ///< RIGID ...
     int plane;         ///< scree_plane_condition
     double relaxation; ///< 1, theta; auto: from the contacts
+    int tangential;    ///< AS_PUBLISHED or CORRECTED
+    int dashpots;      ///< STRAIN or LOOSE
 } config;
 
 static const scree_choice deformations[] = {
@@ -60,6 +67,18 @@ static const scree_choice planes[] = {
     {"stress", SCREE_PLANE_STRESS, "discs are free to change it"},
     {0},
 };
+static const scree_choice tangentials[] = {
+    {"as_published", AS_PUBLISHED,
+     "tangential forces strain particles, but strains do not move contact points along the "
+     "surfaces (Madan 2019, 2.27): no potential"},
+    {"corrected", CORRECTED, "strains stretch tangential springs, too: elastic"},
+    {0},
+};
+static const scree_choice dashpot_choices[] = {
+    {"strain", STRAIN, "they strain particles as the springs do: the whole contact force"},
+    {"loose", LOOSE, "only springs strain particles"},
+    {0},
+};
 #define DEFORMED .when = "deformation=explicit|relaxed"
 static const scree_key keys[] = {
     CHOICE(config, deformation, deformations, .standard = "none",
@@ -69,6 +88,10 @@ static const scree_key keys[] = {
            .meaning = "Plane condition of discs; spheres: none."),
     NUMBER(config, relaxation, "1", .standard = "auto", ABOVE("0"), TO("1"), .when = "deformation=relaxed",
            .meaning = "Share of the way to the strain of the forces that a step goes; auto: from the contacts."),
+    CHOICE(config, tangential, tangentials, .standard = "as_published", DEFORMED,
+           .meaning = "Whether the strains of particles stretch tangential springs."),
+    CHOICE(config, dashpots, dashpot_choices, .standard = "strain", DEFORMED,
+           .meaning = "Whether the dashpots of contacts strain particles."),
 };
 
 static const config *own_config(const scree_config *whole)
@@ -161,6 +184,8 @@ static scree_status resolve(scree_model *model, scree_error *error)
                 fmax(n->soft, 2 * stiffest(model, k, radius) * radius * radius * along / volume_of(model, radius));
         }
     }
+    model->law.number[SCREE_LAW_LOOSE] = own->dashpots == LOOSE;
+    model->law.number[SCREE_LAW_CORRECTED] = own->tangential == CORRECTED;
     model->law.option |= scree_model_law(model)->deforming;
     return SCREE_OK;
 }
@@ -175,10 +200,10 @@ static const scree_field fields[] = {
                     "no surface of a body has moved out by more", SCREE_RANGE(0, DBL_MAX)),
     SCREE_FIELD_ONE(deformation, memory, growth, "deformation/growth", SCREE_FIELD_DOUBLE, 1, "m",
                     "largest way of a surface in the last change of the strains", .role = SCREE_FIELD_DERIVED),
-    SCREE_FIELD_BODY(deformation, memory, change, scree_strain_change, "deformation/change", SCREE_FIELD_DOUBLE, 8, "1",
-                     "last change of the strain", .role = SCREE_FIELD_DERIVED, .optional = true),
+    SCREE_FIELD_BODY(deformation, memory, term, double, "deformation/term", SCREE_FIELD_DOUBLE, 1, "J",
+                     "work of its last change of strain", .role = SCREE_FIELD_DERIVED, .optional = true),
 };
-static const scree_field *const change_field = &fields[COUNT(fields) - 1];
+static const scree_field *const term_field = &fields[COUNT(fields) - 1];
 
 // ---- a step ------------------------------------------------------------------------------------------------------
 
@@ -218,11 +243,15 @@ static double contract(int dimension, const double a[6], const double b[6])
     return sum;
 }
 
+static void get_tensor(const scree_state *state, const double *from, double tensor[6])
+{
+    for (int k = 0; k < component_count(state->dimension); k++)
+        tensor[k] = from[components_of(state->dimension)[k].row];
+}
+
 static void get_strain(const scree_state *state, size_t row, double strain[6])
 {
-    const double *from = scree_strain_row(state, row);
-    for (int k = 0; k < component_count(state->dimension); k++)
-        strain[k] = from[components_of(state->dimension)[k].row];
+    get_tensor(state, scree_strain_row(state, row), strain);
 }
 
 static double shape_volume(const scree_model *model, const scree_state *state, size_t row)
@@ -248,20 +277,21 @@ static double strain_body(const scree_context *c, size_t row, double theta)
     scree_state *state = c->state;
     const int d = state->dimension;
     const scree_compliance *by = &own_numbers(c->model)->compliance[scree_body_material(state, row)];
-    scree_strain_change *change = &scree_deformation_of(state)->change[row];
-    double *own = scree_strain_row(state, row), volume = shape_volume(c->model, state, row);
-    double stress[6], strain[6], trace = 0, size = 0;
+    double *own = scree_strain_row(state, row), *change = own + scree_strain_size(d) / 2,
+           volume = shape_volume(c->model, state, row);
+    double stress[6], strain[6], changed[6], trace = 0, size = 0;
     stress_energy(state, row, stress);
     get_strain(state, row, strain);
     for (int k = 0; k < d; k++) trace += stress[k];
     for (int k = 0; k < component_count(d); k++) {
         double wanted = (by->shear * stress[k] + (k < d ? by->trace * trace : 0)) / volume;
         double next = theta == 1 ? wanted : strain[k] + theta * (wanted - strain[k]);
-        change->value[k] = next - strain[k];
-        size += (k < d ? 1 : 2) * change->value[k] * change->value[k];
-        own[components_of(d)[k].row] = strain[k] = next;
+        const int place = components_of(d)[k].row;
+        changed[k] = change[place] = next - strain[k];
+        size += (k < d ? 1 : 2) * changed[k] * changed[k];
+        own[place] = strain[k] = next;
     }
-    change->term = 0.5 * contract(d, stress, change->value);
+    scree_deformation_of(state)->term[row] = 0.5 * contract(d, stress, changed);
     const double radius = scree_body_bounding_radius(state, row);
     own[SCREE_STRAIN_REACH] = fmax(0, radius * largest_stretch(d, strain));
     return radius * sqrt(size);
@@ -285,7 +315,7 @@ static void give(scree_state *state)
     scree_deformation *all = scree_deformation_of(state);
     scree_integer_sum sum = {0};
     while (scree_comm_sum_next(state, &sum, 1))
-        for (size_t row = 0; row < state->count; row++) scree_integer_sum_add(&sum, all->change[row].term);
+        for (size_t row = 0; row < state->count; row++) scree_integer_sum_add(&sum, all->term[row]);
     const double given = scree_integer_sum_total(&sum);
     all->given += given;
     state->ledger.turnover += fabs(given);
@@ -312,7 +342,7 @@ static scree_status strain_bodies(const scree_context *c, scree_error *error)
     scree_state *state = c->state;
     scree_deformation *all = scree_deformation_of(state);
     if (!state->moment) return SCREE_OK;
-    scree_status status = scree_state_begin_field(state, change_field, error);
+    scree_status status = scree_state_begin_field(state, term_field, error);
     if (status) return status;
     double theta = relaxation(c), extremes[2] = {0, 0};
     for (size_t row = 0; row < state->count; row++) {
@@ -335,10 +365,10 @@ static scree_status settle(const scree_context *c, scree_error *error)
     scree_state *state = c->state;
     (void)error;
     for (size_t row = 0; row < state->count; row++) {
-        scree_strain_change *change = &scree_deformation_of(state)->change[row];
-        double stress[6];
+        double stress[6], changed[6];
         stress_energy(state, row, stress);
-        change->term = 0.5 * contract(state->dimension, stress, change->value);
+        get_tensor(state, scree_strain_row(state, row) + scree_strain_size(state->dimension) / 2, changed);
+        scree_deformation_of(state)->term[row] = 0.5 * contract(state->dimension, stress, changed);
     }
     give(state);
     return SCREE_OK;

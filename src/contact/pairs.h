@@ -56,10 +56,8 @@ SCREE_INLINE unsigned near_contacts(variant v, const contact_job *job, size_t p)
     find_bodies(job, &g);
     bodies first = load_places(dimension, job, g.first), second = load_places(dimension, job, g.second);
     if (law_deforms(v)) {
-        load_strains(dimension, job, g.first, &first);
-        load_strains(dimension, job, g.second, &second);
-        first.radius += first.reach;
-        second.radius += second.reach;
+        load_reach(dimension, job, g.first, &first);
+        load_reach(dimension, job, g.second, &second);
     }
     return lanes_ones(group_touches(dimension, &first, &second));
 }

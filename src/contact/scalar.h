@@ -5,15 +5,16 @@
 #include "contact/evaluate.h"
 #include "state/plates.h"
 
-/// The strain of a body from its row (state/state.h); NULL: it is rigid.
+/// The strain of a body, and its last change, from its row (state/state.h); NULL: it is rigid.
 static inline void body_strain(int dimension, const double *strain, bodies *body)
 {
+    const int half = dimension == 3 ? SCREE_STRAINS_3D / 2 : SCREE_STRAINS_2D / 2;
     if (!strain) return;
-    for (int k = 0; k < 3; k++) {
-        body->strain[k] = strain[k];
-        body->strain[3 + k] = dimension == 3 ? strain[4 + k] : 0;
+    for (int k = 0; k < (dimension == 3 ? 6 : 3); k++) {
+        const int place = k < 3 ? k : k + 1;
+        body->strain[k] = strain[place];
+        body->strained[k] = strain[half + place];
     }
-    body->reach = strain[SCREE_STRAIN_REACH];
 }
 
 /// `turn` is not read in two dimensions.
@@ -125,7 +126,7 @@ static inline bool pair_touches(int dimension, const scree_row *first, const scr
     double distance = sqrt(vector_dot(dimension, apart, apart));
     kinematics m = {.normal = vector_times(dimension, apart, 1 / distance),
                     .overlap = first->radius + second->radius - distance};
-    kinematics_expand(dimension, &m, &one, &other);
+    kinematics_expand(dimension, &m, &one, &other, 0);
     return expanded_touch(&m) != 0;
 }
 
@@ -169,7 +170,8 @@ static inline bool wall_touches(int dimension, const scree_row *body, const scre
     if (strain) {
         bodies one = {.radius = radius};
         body_strain(dimension, strain, &one);
-        radius += strain_along(dimension, &one, (vector){wall->normal[0], wall->normal[1], wall->normal[2]});
+        vector normal = {wall->normal[0], wall->normal[1], wall->normal[2]};
+        radius += vector_dot(dimension, normal, strain_across(dimension, one.strain, one.radius, normal));
     }
     return wall->active && !(radius <= height - wall->position);
 }

@@ -71,7 +71,7 @@ bool contact_of_pair(const scree_model *model, const scree_state *state, const c
     if (!own && !pair_touches(dimension, &first->row, &second->row, strains)) return false;
     bodies one = contact_body_lane(dimension, first), other = contact_body_lane(dimension, second);
     kinematics m = kinematics_of_pair(dimension, &one, &other, state->step_size);
-    if (state->strain) kinematics_expand(dimension, &m, &one, &other);
+    if (state->strain) kinematics_expand(dimension, &m, &one, &other, state->step_size);
     const scree_pair_constants(*pairs)[SCREE_MAX_MATERIALS] = own ? model->persistent.pairs : model->pairs;
     describe(model, dimension, &pairs[(int)one.material][(int)other.material], own, &m, memory, contact);
     place(dimension, &one, &m, contact);
@@ -98,7 +98,7 @@ bool contact_of_wall(const scree_model *model, const scree_state *state, const c
     if (!wall_touches(dimension, &body->row, wall, body->strain)) return false;
     bodies one = contact_body_lane(dimension, body);
     kinematics m = kinematics_of_wall(dimension, &one, wall, state->step_size);
-    if (state->strain) kinematics_expand(dimension, &m, &one, NULL);
+    if (state->strain) kinematics_expand(dimension, &m, &one, NULL, state->step_size);
     describe_wall(model, dimension, &model->walls[(int)one.material], &one, &m, memory, contact);
     return true;
 }

@@ -24,7 +24,7 @@ static contact_quanta evaluate(const scree_model *model, const scree_state *stat
     contact_body second = contact_body_at_half_step(model, state, work, work->pairs.second[p]);
     bodies one = contact_body_lane(dimension, &first), other = contact_body_lane(dimension, &second);
     kinematics m = kinematics_of_pair(dimension, &one, &other, state->step_size);
-    if (state->strain) kinematics_expand(dimension, &m, &one, &other);
+    if (state->strain) kinematics_expand(dimension, &m, &one, &other, state->step_size);
     kinematics_hold(&m);
     *kinematics_of = m;
     const scree_member_row *own = contact_own_of(work, p);
@@ -57,7 +57,7 @@ static void take_out_moment(scree_state *state, const exerted *e)
     const int dimension = state->dimension;
     const contact_scale scale = {.inverse_torque = 1 / state->torque_quantum};
     int64_t *sum = state->moment + e->row * scree_moment_size(dimension);
-    contact_moments(dimension, &scale, e->normal, e->arm, e->quanta.on_first, moment);
+    contact_moments(dimension, &scale, e->normal, e->arm, e->quanta.straining, moment);
     for (int k = 0; k < dimension * dimension; k++) sum[k] = (int64_t)((uint64_t)sum[k] - moment[k]);
 }
 

@@ -25,7 +25,6 @@
 #include "comm/comm.h"
 #include "integrate/integrate.h"
 #include "load/prescribed.h"
-#include "state/deformation.h"
 
 #include <string.h>
 
@@ -185,12 +184,13 @@ static void find_arm(const scree_state *state, size_t row, const order *said, do
 /// Work [J] of a force on the surface of a body as its strain changes from step to step.
 static double surface_work(const scree_state *state, size_t row)
 {
-    const scree_strain_change *change = scree_deformation_of(state)->change;
-    const double *spread = scree_prescribed_of(state)->exerted[row].spread;
-    static const int plane[] = {0, 1, 5}, space[] = {0, 1, 2, 3, 4, 5};
-    const int *place = state->dimension == 3 ? space : plane, count = state->dimension == 3 ? 6 : 3;
+    const double *strain = scree_strain_row(state, row), *spread = scree_prescribed_of(state)->exerted[row].spread;
+    static const int plane[] = {0, 1, -1, -1, -1, 2}, space[] = {0, 1, 2, 4, 5, 6};
+    const int *place = state->dimension == 3 ? space : plane;
+    const size_t change = scree_strain_size(state->dimension) / 2;
     double work = 0;
-    for (int k = 0; k < count && change; k++) work += (place[k] < 3 ? 1 : 2) * spread[place[k]] * change[row].value[k];
+    for (int k = 0; k < 6 && strain; k++)
+        if (place[k] >= 0) work += (k < 3 ? 1 : 2) * spread[k] * strain[change + (size_t)place[k]];
     return work;
 }
 

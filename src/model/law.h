@@ -11,7 +11,9 @@
 enum {
     SCREE_PAIR_CONSTANTS = 8,
     SCREE_LAW_NUMBERS = 8,
-    SCREE_FRICTION = 2, ///< which of the constants of a pair is Coulomb's coefficient, in every law
+    SCREE_LAW_LOOSE = 6,     ///< which of its numbers, where bodies deform: 1 if dashpots do not strain them, else 0
+    SCREE_LAW_CORRECTED = 7, ///< the same: 1 if their strains move contact points along the surfaces, too
+    SCREE_FRICTION = 2,      ///< which of the constants of a pair is Coulomb's coefficient, in every law
 };
 
 /// Constants of a contact between two materials (or a grain and a wall), symmetric in the two. What they mean is the

@@ -25,7 +25,8 @@ struct scree_module {
     const scree_choice_of *choice_of; ///< the keys whose choice it is; NULL: none
     const scree_keys *keys;           ///< those that it adds to sections of the case
     size_t keys_count;                ///< sections
-    /// Notes what it cannot be combined with, once for a case that has chosen it. Values that are missing or wrong have
+    /// Notes what it cannot be combined with, once for a case that has chosen it, or for every case where no key chooses
+    /// it. Values that are missing or wrong have
     /// been noted: of such nothing is said. NULL: nothing.
     void (*rules)(scree_reader *reader, const scree_config *config);
 

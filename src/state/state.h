@@ -78,8 +78,9 @@ typedef struct scree_predicted {
 enum { SCREE_MOMENTS_2D = 4, SCREE_MOMENTS_3D = 12 };
 
 /// Numbers of a row of state->strain, which kernels move whole: 2D xx, yy, xy and the reach [m]; 3D xx, yy, zz, the
-/// reach, yz, xz, xy and zero. The reach: no point of the surface has moved out by more.
-enum { SCREE_STRAINS_2D = 4, SCREE_STRAINS_3D = 8, SCREE_STRAIN_REACH = 3 };
+/// reach, yz, xz, xy and zero. The reach: no point of the surface has moved out by more. Behind them, as many, the
+/// changes of the strain in the last step.
+enum { SCREE_STRAINS_2D = 8, SCREE_STRAINS_3D = 16, SCREE_STRAIN_REACH = 3 };
 
 /// 3D only: sum of the torques, in torque quanta.
 typedef struct scree_torque_row {
