@@ -30,9 +30,13 @@
 
 /// Of eigenvalues; steps go as their roots.
 #define ACCURACY 1e-8
-/// Relative change of the step at which its iteration ends.
-#define SETTLED         1e-9
-#define SETTLED_BETWEEN 1e-7
+/// Of general maps, whose steps are found between two.
+#define ACCURACY_BETWEEN 1e-7
+/// Of those on the way to a step.
+#define COARSE 1e-4
+/// Relative change of a step at which its iteration ends: the next one of a quadratic iteration would be its square;
+/// regula falsi comes as near as it says.
+#define SETTLED 1e-6
 enum { MOST_ITERATIONS = 40 };
 
 typedef struct operator_context {
@@ -101,7 +105,7 @@ scree_status scree_spectral_radius(const scree_specimen *s, double *radius, doub
         if (force) memset(force, 0, scree_specimen_contact_forces(s) * sizeof *force);
         return SCREE_OK;
     }
-    scree_status status = create(&o, s, scree_strain_explicit(), error);
+    scree_status status = create(&o, s, scree_strain_rigid(), error);
     const scree_linear_map map = {apply_iteration, &o, scree_specimen_contact_forces(s), true};
     if (!status) status = scree_eigen_largest(&map, ACCURACY, &largest, force, error);
     if (!status && force) answer_root(s, force, force);
@@ -161,23 +165,33 @@ static double step_of_motion(operator_context *o, const double *x)
     return 4 * mass / (damping + sqrt(damping * damping + 4 * stiffness * mass));
 }
 
+/// Whether a step is the last one of its iteration; else sees to it that the last ones are accurate.
+static bool has_settled(double step, double last, double *accuracy)
+{
+    const double change = fabs(step - last);
+    const bool settled = change <= SETTLED * step && *accuracy == ACCURACY;
+    if (change <= 0.01 * step) *accuracy = ACCURACY;
+    return settled;
+}
+
 /// From above, see the head of this file. x: the mode.
 static scree_status find_rigid(operator_context *o, double *step, double *x, scree_error *error)
 {
     const scree_linear_map map = {apply_rigid, o, scree_specimen_motions(o->s), true};
-    double last = INFINITY;
+    const bool damped = scree_specimen_is_damped(o->s);
+    double last = INFINITY, accuracy = damped ? COARSE : ACCURACY;
     // Any step shows the fastest mode of springs; the first guess takes one at which springs and dashpots count alike.
     o->step = scree_step_of_extremes(o->s);
     if (!isfinite(o->step)) o->step = 1;
     for (int k = 0; k < MOST_ITERATIONS; k++) {
         scree_eigenvalue largest;
-        scree_status status = scree_eigen_largest(&map, ACCURACY, &largest, x, error);
+        scree_status status = scree_eigen_largest(&map, accuracy, &largest, x, error);
         if (status) return status;
         *step = INFINITY;
         if (!(largest.value > 0)) return SCREE_OK;
         divide_by_root_of_mass(o->s, x, x);
         *step = step_of_motion(o, x);
-        if (!scree_specimen_is_damped(o->s) || fabs(*step - last) <= SETTLED * *step) return SCREE_OK;
+        if (!damped || has_settled(*step, last, &accuracy)) return SCREE_OK;
         last = o->step = *step;
     }
     return scree_error_set(error, SCREE_ERROR_GUARD, "the critical step was not found in %d iterations",
@@ -272,44 +286,56 @@ static double step_of_forces(operator_context *o, const double *g, double quotie
 static scree_status find_symmetric(operator_context *o, double *g, scree_error *error)
 {
     const scree_linear_map map = {apply_deformable, o, scree_specimen_contact_forces(o->s), true};
+    double accuracy = COARSE;
     for (int k = 0; k < MOST_ITERATIONS; k++) {
         scree_eigenvalue largest;
-        scree_status status = scree_eigen_largest(&map, ACCURACY, &largest, g, error);
+        scree_status status = scree_eigen_largest(&map, accuracy, &largest, g, error);
         if (status) return status;
         const double last = o->step;
         o->step = step_of_forces(o, g, largest.value);
-        if (fabs(o->step - last) <= SETTLED * last || o->step == 0) return SCREE_OK;
+        if (o->step == 0 || has_settled(o->step, last, &accuracy)) return SCREE_OK;
     }
     return scree_error_set(error, SCREE_ERROR_GUARD, "the critical step was not found in %d iterations",
                            MOST_ITERATIONS);
 }
 
 /// Largest real part of an eigenvalue at a step, less 1: its root is the critical step.
-static scree_status excess(operator_context *o, double step, double *value, double *g, scree_error *error)
+static scree_status excess(operator_context *o, double step, double accuracy, double *value, double *g,
+                           scree_error *error)
 {
     const scree_linear_map map = {apply_deformable, o, scree_specimen_contact_forces(o->s), false};
     scree_eigenvalue largest;
     o->step = step;
-    scree_status status = scree_eigen_largest(&map, ACCURACY, &largest, g, error);
+    scree_status status = scree_eigen_largest(&map, accuracy, &largest, g, error);
     *value = largest.value - 1;
     return status;
 }
 
-/// Steps below and above the root, the present one among them, and the excess there.
+/// Where the eigenvalue would have passed 1 if it went as the square of the step, and a little beyond: the more, the
+/// more often it has not.
+static double step_across(double step, double value, int attempt)
+{
+    const double guess = step / sqrt(1 + value), beyond = 1.02 * ldexp(1, attempt);
+    return fmin(fmax(value > 0 ? guess / beyond : guess * beyond, 0.1 * step), 10 * step);
+}
+
+/// Steps below and above the root, and the excess there.
 static scree_status bracket(operator_context *o, double step[2], double value[2], double *g, scree_error *error)
 {
-    step[0] = step[1] = o->step;
-    scree_status status = excess(o, o->step, &value[0], g, error);
-    const bool above = value[0] > 0;
-    value[1] = value[0];
-    for (int k = 0; k < MOST_ITERATIONS && !status && (value[0] > 0 || value[1] <= 0); k++) {
-        const int other = above ? 1 : 0, end = 1 - other;
-        if (k > 0) step[other] = step[end], value[other] = value[end];
-        step[end] *= above ? 0.5 : 2;
-        status = excess(o, step[end], &value[end], g, error);
+    double at = o->step;
+    bool found[2] = {false, false};
+    scree_status status = SCREE_OK;
+    for (int k = 0; k < MOST_ITERATIONS && !status && !(found[0] && found[1]); k++) {
+        double there;
+        status = excess(o, at, COARSE, &there, g, error);
+        const int end = there > 0;
+        found[end] = true;
+        step[end] = at;
+        value[end] = there;
+        at = step_across(at, there, k);
     }
-    if (status || (value[0] <= 0 && value[1] > 0)) return status;
-    return scree_error_set(error, SCREE_ERROR_GUARD, "no step near %.3g s is critical", o->step);
+    if (status || (found[0] && found[1])) return status;
+    return scree_error_set(error, SCREE_ERROR_GUARD, "no critical step was found down to %.3g s", at);
 }
 
 /// Regula falsi as the Illinois algorithm has it: an end that stays twice counts half.
@@ -318,16 +344,16 @@ static scree_status find_between(operator_context *o, double *g, scree_error *er
     double step[2], value[2];
     int last = -1;
     scree_status status = bracket(o, step, value, g, error);
-    for (int k = 0; k < MOST_ITERATIONS && !status && step[1] - step[0] > SETTLED_BETWEEN * step[1]; k++) {
+    for (int k = 0; k < MOST_ITERATIONS && !status && step[1] - step[0] > SETTLED * step[1]; k++) {
         const double at = (step[0] * value[1] - step[1] * value[0]) / (value[1] - value[0]);
         double there;
-        status = excess(o, at, &there, g, error);
+        status = excess(o, at, ACCURACY_BETWEEN, &there, g, error);
         const int end = there > 0;
         if (end == last) value[1 - end] *= 0.5;
         step[end] = at;
         value[end] = there;
         last = end;
-        if (fabs(there) <= ACCURACY) break;
+        if (fabs(there) <= SETTLED) break;
     }
     return status;
 }
@@ -335,12 +361,9 @@ static scree_status find_between(operator_context *o, double *g, scree_error *er
 /// g holds the mode. With a share of the spectral radius at or above 1 no step is stable.
 static scree_status find_deformable(operator_context *o, double *step, double *g, scree_error *error)
 {
-    double radius;
-    scree_status status = scree_spectral_radius(o->s, &radius, NULL, error);
-    if (status) return status;
     *step = 0;
-    if (o->scheme.share * radius >= 1) return SCREE_OK;
-    status = has_symmetric_scheme(o->s) ? find_symmetric(o, g, error) : find_between(o, g, error);
+    if (o->scheme.share * o->scheme.radius >= 1) return SCREE_OK;
+    scree_status status = has_symmetric_scheme(o->s) ? find_symmetric(o, g, error) : find_between(o, g, error);
     *step = o->step;
     return status;
 }
@@ -364,14 +387,15 @@ scree_status scree_critical_step(const scree_specimen *s, scree_strain_scheme sc
 {
     operator_context o;
     double *motion = NULL, *forces = NULL;
+    const bool deforms = scheme.share != 0 && scree_specimen_is_deformable(s);
     *step = INFINITY;
     scree_status status = create(&o, s, scheme, error);
     if (!status) status = scree_allocate(&motion, scree_specimen_motions(s), sizeof *motion, error);
-    if (!status) status = find_rigid(&o, step, motion, error);
-    bool deforms = scheme.share != 0 && scree_specimen_is_deformable(s) && isfinite(*step);
-    if (!status && deforms) {
-        // Near enough: the limits of the other schemes lie around that of rigid particles.
-        o.step = *step;
+    // Where the search begins does not matter; without springs it is the step that dashpots bear.
+    o.step = scree_step_of_extremes(s);
+    if (!status && (!deforms || isinf(o.step))) status = find_rigid(&o, step, motion, error);
+    if (!status && deforms && !(isinf(o.step) && isinf(*step))) {
+        if (isinf(o.step)) o.step = *step;
         status = scree_allocate(&forces, scree_specimen_contact_forces(s), sizeof *forces, error);
         if (!status) status = find_deformable(&o, step, forces, error);
         if (!status && *step > 0) motion_of_forces(&o, forces, motion);

@@ -5,30 +5,31 @@
 
 #include "specimen/specimen.h"
 
-/// How the strain follows the forces from step to step, as the factor by which it answers a mode that changes sign in
-/// every step.
+/// How the strain follows the forces from step to step.
 typedef struct scree_strain_scheme {
-    double share; ///< 1 explicit, theta / (2 - theta) relaxed, -1 implicit, 0 without deformation
+    double share;  ///< with which a mode that changes sign in every step is answered: 1 explicit, theta / (2 - theta)
+                   ///< relaxed, -1 implicit, 0 without deformation
+    double radius; ///< spectral radius of B
 } scree_strain_scheme;
 
 static inline scree_strain_scheme scree_strain_rigid(void)
 {
-    return (scree_strain_scheme){0};
+    return (scree_strain_scheme){0, 0};
 }
 
-static inline scree_strain_scheme scree_strain_explicit(void)
+static inline scree_strain_scheme scree_strain_explicit(double radius)
 {
-    return (scree_strain_scheme){1};
+    return (scree_strain_scheme){1, radius};
 }
 
-static inline scree_strain_scheme scree_strain_relaxed(double theta)
+static inline scree_strain_scheme scree_strain_relaxed(double theta, double radius)
 {
-    return (scree_strain_scheme){theta / (2 - theta)};
+    return (scree_strain_scheme){theta / (2 - theta), radius};
 }
 
-static inline scree_strain_scheme scree_strain_implicit(void)
+static inline scree_strain_scheme scree_strain_implicit(double radius)
 {
-    return (scree_strain_scheme){-1};
+    return (scree_strain_scheme){-1, radius};
 }
 
 /// Spectral radius of B. force: contact forces of its mode, or NULL. Errors: memory; no convergence.

@@ -268,8 +268,9 @@ static double growth(const scree_specimen *s, marched scheme, double theta, doub
 
 static double critical_step(const scree_specimen *s, marched scheme, double theta)
 {
-    const scree_strain_scheme schemes[SCHEMES] = {scree_strain_rigid(), scree_strain_explicit(),
-                                                  scree_strain_relaxed(theta), scree_strain_implicit()};
+    const double radius = radius_of(s);
+    const scree_strain_scheme schemes[SCHEMES] = {scree_strain_rigid(), scree_strain_explicit(radius),
+                                                  scree_strain_relaxed(theta, radius), scree_strain_implicit(radius)};
     double step;
     scree_error error;
     check(scree_critical_step(s, schemes[scheme], &step, NULL, &error), &error);

@@ -1,0 +1,56 @@
+/// The specimen as it stands, as a linear operator: what explicit steps it bears, and how it deforms.
+#ifndef SCREE_SPECIMEN_H
+#define SCREE_SPECIMEN_H
+
+#include <scree/simulation.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Reads the newest state in the folder of a run (the newest checkpoint, else a snapshot), without changing anything
+/// there. Free both; the case outlives the simulation. Errors: SCREE_ERROR_INPUT, SCREE_ERROR_IO; memory.
+SCREE_API scree_status scree_simulation_open_run(const char *directory, scree_case **c, scree_simulation **out,
+                                                 scree_error *error);
+
+/// Runs until the stage of this name has begun; NULL: the first one that takes steps. Errors: SCREE_ERROR_INPUT for a
+/// name that no stage has (`accepted` holds the nearest), or one that the simulation is past; those of
+/// scree_simulation_advance.
+SCREE_API scree_status scree_simulation_begin_stage(scree_simulation *s, const char *stage, scree_error *error);
+
+/// Particles as if they were elastic (Madan 2019, DDEM): discs in plane strain. NULL in place of it: as the case says.
+typedef struct scree_particle_elasticity {
+    double young_modulus; ///< Pa
+    double poisson_ratio;
+} scree_particle_elasticity;
+
+/// Steps and stiffnesses that explicit schemes bear, from eigenvalues of the specimen as it stands
+/// (docs/theory/ddem.md). Numbers that do not exist are NAN; steps are INFINITY without contacts, and 0 where none is
+/// stable.
+typedef struct scree_stability {
+    size_t bodies, contacts;
+    double step;                                       ///< s, of the case
+    double critical_step;                              ///< s, rigid particles, dashpots counted
+    double critical_step_undamped;                     ///< s, the same without dashpots
+    double step_of_bodies;                             ///< s, from single bodies (M 2.18)
+    double step_of_extremes;                           ///< s, sqrt(m_min / k_max) (M 2.19 with alpha = 1)
+    double normal_stiffness;                           ///< N/m, mean over the contacts
+    double spectral_radius;                            ///< 1, of the iteration of forces
+    double stiffness_ratio;                            ///< mean k_n over E_p [m]
+    double largest_ratio;                              ///< the same at the limit of the explicit scheme
+    double row_ratio;                                  ///< limit of an unbounded row [m] (M 3.27)
+    double square_ratio;                               ///< of a square lattice (M 3.43); in 3D simple cubic
+    double hexagonal_ratio;                            ///< of a hexagonal one (M 3.78); in 3D face-centred cubic
+    double explicit_step, relaxed_step, implicit_step; ///< s, critical steps with deformable particles
+    double relaxation;                                 ///< theta that `relaxed_step` stands for
+} scree_stability;
+
+/// Errors: SCREE_ERROR_INPUT without bodies or for an elasticity that is none; SCREE_ERROR_GUARD when an eigenvalue is
+/// not found; memory.
+SCREE_API scree_status scree_simulation_stability(scree_simulation *s, const scree_particle_elasticity *elasticity,
+                                                  scree_stability *out, scree_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
