@@ -23,6 +23,7 @@ static void set_bodies(const scree_model *model, const scree_state *state, const
         s->mass[body] = scree_body_mass(state, row);
         s->inertia[body] = scree_body_inertia(state, row);
         s->radius[body] = scree_body_bounding_radius(state, row);
+        scree_body_position(state, row, s->position[body]);
         s->volume[body] = scree_body_volume(state, row) * length;
         s->held[body] = (uint8_t)scree_body_held(state, row);
     }

@@ -22,6 +22,7 @@ scree_status scree_specimen_create(int dimension, size_t bodies, size_t contacts
         {&s->mass, bodies, sizeof *s->mass},
         {&s->inertia, bodies, sizeof *s->inertia},
         {&s->radius, bodies, sizeof *s->radius},
+        {&s->position, bodies, sizeof *s->position},
         {&s->volume, bodies, sizeof *s->volume},
         {&s->held, bodies, sizeof *s->held},
         {&s->compliance, bodies, sizeof *s->compliance},
@@ -42,6 +43,7 @@ void scree_specimen_destroy(scree_specimen *s)
     scree_release(&s->mass);
     scree_release(&s->inertia);
     scree_release(&s->radius);
+    scree_release(&s->position);
     scree_release(&s->volume);
     scree_release(&s->held);
     scree_release(&s->compliance);

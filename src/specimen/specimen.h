@@ -58,6 +58,7 @@ typedef struct scree_specimen {
     double *mass;                 ///< kg
     double *inertia;              ///< kg m2
     double *radius;               ///< m
+    double (*position)[3];        ///< m
     double *volume;               ///< m3, of discs area times thickness
     uint8_t *held;                ///< bits of components that do not move, 0 to 2 velocity, 3 to 5 spin (state/body.h)
     scree_compliance *compliance; ///< of each body; all zero: rigid

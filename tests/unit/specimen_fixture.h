@@ -121,7 +121,10 @@ static inline scree_specimen specimen_of(const discs *d, int dimension, double g
     scree_specimen s;
     scree_error error;
     check(scree_specimen_create(dimension, d->count, discs_pairs(d, gap, NULL, NULL), &s, &error), &error);
-    for (size_t k = 0; k < d->count; k++) scree_specimen_set_body(&s, k, d->radius[k], 2000, 1);
+    for (size_t k = 0; k < d->count; k++) {
+        scree_specimen_set_body(&s, k, d->radius[k], 2000, 1);
+        memcpy(s.position[k], d->place[k], sizeof s.position[k]);
+    }
     bond.specimen = &s;
     discs_pairs(d, gap, discs_join, &bond);
     double volume = 1;
