@@ -50,6 +50,31 @@ typedef struct scree_stability {
 SCREE_API scree_status scree_simulation_stability(scree_simulation *s, const scree_particle_elasticity *elasticity,
                                                   scree_stability *out, scree_error *error);
 
+/// Isotropic moduli [Pa, 1, Pa, Pa]. In the plane those of the plane: `bulk` of areas, `young` and `poisson` of a
+/// stress along one of its axes, K = E / (2 (1 - nu)).
+typedef struct scree_isotropic_moduli {
+    double young, poisson, bulk, shear;
+} scree_isotropic_moduli;
+
+/// How a periodic specimen deforms as it stands, from static solutions. Compression and extension alike: contacts keep
+/// what they are.
+typedef struct scree_moduli {
+    int dimension;
+    size_t bodies, contacts, iterations;
+    double stiffness[36]; ///< Pa, C_ijkl by rows, 3 x 3 of xx, yy, xy in 2D; 6 x 6 of xx, yy, zz, yz, xz, xy in 3D
+    scree_isotropic_moduli isotropic; ///< of the nearest isotropic tensor
+    scree_isotropic_moduli voigt;     ///< the same if rigid particles followed the mean strain without turning
+    scree_isotropic_moduli estimate;  ///< the same from number of contacts and mean square radius (M 4.15-4.18)
+    double anisotropy;                ///< 1, distance from the nearest isotropic tensor over the size of the tensor
+    double asymmetry;                 ///< 1, skew part over the size of the tensor
+    double fabric[9];                 ///< mean of n n over the contacts, 3 x 3
+} scree_moduli;
+
+/// Errors: SCREE_ERROR_INPUT without bodies, for an elasticity that is none, or a sample that does not repeat itself in
+/// all directions; SCREE_ERROR_GUARD when no solution is found; memory.
+SCREE_API scree_status scree_simulation_moduli(scree_simulation *s, const scree_particle_elasticity *elasticity,
+                                               scree_moduli *out, scree_error *error);
+
 #ifdef __cplusplus
 }
 #endif

@@ -155,6 +155,25 @@ const scree_verb scree_verbs[] = {
         .function = scree_verb_stability,
     },
     {
+        .name = "moduli",
+        .meaning = "print the elastic moduli of a specimen",
+        .text =
+            "Takes a specimen as `scree stability` does, periodic in all directions, imposes each component of a mean "
+            "strain, lets particles find their places, and prints the elasticity tensor: its components C_ijkl, the "
+            "nearest isotropic moduli, how far from isotropic and from symmetric it is, the fabric of the contacts, "
+            "and for comparison the moduli if all particles followed the mean strain (Voigt). Nothing is run but what "
+            "leads to the specimen. Contacts stay as they are: none opens, closes or slides.\n\n"
+            "In 2D the moduli are those of the plane: K of areas, K = E / (2 (1 - nu)). Lines are name, value, unit, "
+            "meaning.",
+        .argument = {{"CASE", "a case file, the name of a built-in case, or the folder of a run", SCREE_VALUE_CASE,
+                      false, false}},
+        .option = {OPTION_SET, OPTION_QUICK, OPTION_AT, OPTION_YOUNG, OPTION_POISSON},
+        .example = {{"scree moduli out", "of a run as it stands"},
+                    {"scree moduli periodic-shear --at deform", "before it is sheared"}},
+        .status = {SCREE_ERROR_INPUT, SCREE_ERROR_GUARD, SCREE_ERROR_IO},
+        .function = scree_verb_moduli,
+    },
+    {
         .name = "run",
         .meaning = "run a case into a folder of results, or continue a run",
         .text =
