@@ -141,17 +141,17 @@ void scree_specimen_forces(const scree_specimen *s, const double *x, double *f)
 
 // ---- deformation of particles ------------------------------------------------------------------------------------
 
-/// m += arm sym(n f), off-diagonal components times sqrt 2, so that the product of two tensors is that of the numbers.
-static inline void add_moment(int dimension, const double *n, double arm, const double *f, double *m)
+/// m += R sym(n f), off-diagonal components times sqrt 2, so that the product of two tensors is that of the numbers.
+static inline void add_moment(int dimension, const double *n, double reach, const double *f, double *m)
 {
-    for (int k = 0; k < dimension; k++) m[k] += arm * n[k] * f[k];
+    for (int k = 0; k < dimension; k++) m[k] += reach * n[k] * f[k];
     if (dimension == 2) {
-        m[2] += arm * M_SQRT1_2 * (n[0] * f[1] + n[1] * f[0]);
+        m[2] += reach * M_SQRT1_2 * (n[0] * f[1] + n[1] * f[0]);
         return;
     }
     for (int k = 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        m[3 + k] += arm * M_SQRT1_2 * (n[i] * f[j] + n[j] * f[i]);
+        m[3 + k] += reach * M_SQRT1_2 * (n[i] * f[j] + n[j] * f[i]);
     }
 }
 
@@ -161,9 +161,10 @@ void scree_specimen_moments(const scree_specimen *s, const double *f, double *mo
     memset(moment, 0, s->body_count * size * sizeof *moment);
     for (size_t c = 0; c < s->contact_count; c++) {
         const scree_specimen_contact *contact = &s->contact[c];
-        add_moment(s->dimension, contact->normal, contact->arm_first, f + c * width, moment + contact->first * size);
+        add_moment(s->dimension, contact->normal, contact->reach_first, f + c * width, moment + contact->first * size);
         if (contact->second == SCREE_SPECIMEN_WALL) continue;
-        add_moment(s->dimension, contact->normal, contact->arm_second, f + c * width, moment + contact->second * size);
+        add_moment(s->dimension, contact->normal, contact->reach_second, f + c * width,
+                   moment + contact->second * size);
     }
 }
 
@@ -181,19 +182,19 @@ void scree_specimen_strain(const scree_specimen *s, const double *moment, double
     }
 }
 
-/// z += arm (strain n)
-static inline void add_surface(int dimension, const double *n, double arm, const double *e, double *z)
+/// z += R (strain n)
+static inline void add_surface(int dimension, const double *n, double reach, const double *e, double *z)
 {
-    for (int k = 0; k < dimension; k++) z[k] += arm * e[k] * n[k];
+    for (int k = 0; k < dimension; k++) z[k] += reach * e[k] * n[k];
     if (dimension == 2) {
-        z[0] += arm * M_SQRT1_2 * e[2] * n[1];
-        z[1] += arm * M_SQRT1_2 * e[2] * n[0];
+        z[0] += reach * M_SQRT1_2 * e[2] * n[1];
+        z[1] += reach * M_SQRT1_2 * e[2] * n[0];
         return;
     }
     for (int k = 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        z[i] += arm * M_SQRT1_2 * e[3 + k] * n[j];
-        z[j] += arm * M_SQRT1_2 * e[3 + k] * n[i];
+        z[i] += reach * M_SQRT1_2 * e[3 + k] * n[j];
+        z[j] += reach * M_SQRT1_2 * e[3 + k] * n[i];
     }
 }
 
@@ -203,9 +204,9 @@ void scree_specimen_surfaces(const scree_specimen *s, const double *strain, doub
     memset(surface, 0, scree_specimen_contact_forces(s) * sizeof *surface);
     for (size_t c = 0; c < s->contact_count; c++) {
         const scree_specimen_contact *t = &s->contact[c];
-        add_surface(s->dimension, t->normal, t->arm_first, strain + t->first * size, surface + c * width);
+        add_surface(s->dimension, t->normal, t->reach_first, strain + t->first * size, surface + c * width);
         if (t->second == SCREE_SPECIMEN_WALL) continue;
-        add_surface(s->dimension, t->normal, t->arm_second, strain + t->second * size, surface + c * width);
+        add_surface(s->dimension, t->normal, t->reach_second, strain + t->second * size, surface + c * width);
     }
 }
 

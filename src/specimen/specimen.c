@@ -73,10 +73,12 @@ void scree_specimen_set_contact(scree_specimen *s, size_t contact, uint32_t firs
     memcpy(c->normal, branch, sizeof c->normal);
     const double distance = scree_normalise(c->normal);
     c->arm_first = distance;
+    c->reach_first = s->radius[first];
     if (second == SCREE_SPECIMEN_WALL) return;
     const double half = 0.5 * (s->radius[first] + s->radius[second] - distance);
     c->arm_first = s->radius[first] - half;
     c->arm_second = s->radius[second] - half;
+    c->reach_second = s->radius[second];
 }
 
 bool scree_specimen_is_deformable(const scree_specimen *s)

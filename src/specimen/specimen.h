@@ -8,7 +8,7 @@
 /// with the arms of contact/kinematics.h. Force on first [N], and forces and torques on the bodies
 ///     f = -D q,  D = k_n n n + k_t (1 - n n),      F = G^T f,      K = G^T D G,  C = G^T D' G (c_n, c_t in D')
 ///
-/// Deformable particles. With L f = sum over the contacts of a particle of arm sym(n f) [N m], its strain is
+/// Deformable particles. With L f = sum over the contacts of a particle of R sym(n f) [N m], its strain is
 /// -(compliance / V) L f (M 2.41, 2.44, 2.46), and surfaces move by L^T strain towards each other (M 2.52). So
 ///     f = -D q + B f,   B = -D_B H,   H = L^T (compliance / V) L
 /// D_B = k_n n n as published (M 2.53: overlaps alone feel the strain), D_B = D corrected (the tangential displacement
@@ -45,9 +45,10 @@ typedef struct scree_specimen_contact {
     uint32_t first, second; ///< bodies; second may be SCREE_SPECIMEN_WALL
     double normal[3];       ///< from second to first
     double branch[3];       ///< m, centre of first less that of second (of its image); of a wall less the contact point
-    double arm_first, arm_second; ///< m; the second is 0 for a wall
-    scree_springs stiffness;      ///< N/m
-    scree_springs damping;        ///< N s/m
+    double arm_first, arm_second;     ///< m, of slip and torque; the second is 0 for a wall
+    double reach_first, reach_second; ///< m, of stress and strain: radii; the second is 0 for a wall
+    scree_springs stiffness;          ///< N/m
+    scree_springs damping;            ///< N s/m
 } scree_specimen_contact;
 
 typedef struct scree_specimen {

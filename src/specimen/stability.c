@@ -37,6 +37,8 @@
 /// Relative change of a step at which its iteration ends: the next one of a quadratic iteration would be its square;
 /// regula falsi comes as near as it says.
 #define SETTLED 1e-6
+/// Part of an eigenvalue below which its mode does not move.
+#define STILL 1e-9
 enum { MOST_ITERATIONS = 40 };
 
 typedef struct operator_context {
@@ -280,7 +282,9 @@ static double step_of_forces(operator_context *o, const double *g, double quotie
     mobilise(o, o->contact[0], o->contact[1]);
     // f . A f = g . S A S g
     double moved = product(s->force, o->contact[0], o->contact[1], size), deformed = quotient - moved;
-    return deformed < 1 ? o->step * sqrt((1 - deformed) / moved) : 0;
+    if (deformed >= 1) return 0;
+    // A mode in which nothing moves, such as slip without springs: those that do show at a larger step.
+    return moved > STILL ? o->step * sqrt((1 - deformed) / moved) : 2 * o->step;
 }
 
 static scree_status find_symmetric(operator_context *o, double *g, scree_error *error)

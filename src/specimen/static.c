@@ -139,7 +139,7 @@ static void add_motion_diagonal(const scree_specimen *s, const scree_specimen_co
 }
 
 /// The same of the strains: a unit strain moves the surface by z, which D_B answers.
-static void add_strain_diagonal(const scree_specimen *s, const scree_specimen_contact *c, uint32_t body, double arm,
+static void add_strain_diagonal(const scree_specimen *s, const scree_specimen_contact *c, uint32_t body, double reach,
                                 double *diagonal)
 {
     const scree_springs k = scree_specimen_answer(s, c);
@@ -148,20 +148,21 @@ static void add_strain_diagonal(const scree_specimen *s, const scree_specimen_co
         double z[3] = {0}, answer[3];
         const int i = d == 2 ? 0 : (m - d + 1) % 3, j = d == 2 ? 1 : (m - d + 2) % 3;
         if (m < d) {
-            z[m] = arm * c->normal[m];
+            z[m] = reach * c->normal[m];
         } else {
-            z[i] = arm * M_SQRT1_2 * c->normal[j];
-            z[j] = arm * M_SQRT1_2 * c->normal[i];
+            z[i] = reach * M_SQRT1_2 * c->normal[j];
+            z[j] = reach * M_SQRT1_2 * c->normal[i];
         }
         scree_specimen_along(d, c, k.normal, k.tangential, z, answer);
         for (int n = 0; n < d; n++) diagonal[body * (size_t)s->strain_components + (size_t)m] += z[n] * answer[n];
     }
 }
 
-static void add_side_diagonal(const static_system *y, const scree_specimen_contact *c, uint32_t body, double arm)
+static void add_side_diagonal(const static_system *y, const scree_specimen_contact *c, uint32_t body, double arm,
+                              double reach)
 {
     add_motion_diagonal(y->s, c, body, arm, y->diagonal);
-    if (y->deformable) add_strain_diagonal(y->s, c, body, arm, y->diagonal + y->motions);
+    if (y->deformable) add_strain_diagonal(y->s, c, body, reach, y->diagonal + y->motions);
 }
 
 static void invert_diagonal(static_system *y)
@@ -170,8 +171,8 @@ static void invert_diagonal(static_system *y)
     memset(y->diagonal, 0, y->size * sizeof *y->diagonal);
     for (size_t k = 0; k < s->contact_count; k++) {
         const scree_specimen_contact *c = &s->contact[k];
-        add_side_diagonal(y, c, c->first, c->arm_first);
-        if (c->second != SCREE_SPECIMEN_WALL) add_side_diagonal(y, c, c->second, c->arm_second);
+        add_side_diagonal(y, c, c->first, c->arm_first, c->reach_first);
+        if (c->second != SCREE_SPECIMEN_WALL) add_side_diagonal(y, c, c->second, c->arm_second, c->reach_second);
     }
     for (size_t k = 0; k < y->strains; k++) {
         const size_t body = k / (size_t)s->strain_components;

@@ -224,8 +224,8 @@ static inline dense dense_force_iteration(const scree_specimen *s)
             const scree_specimen_contact *c = &s->contact[from];
             const uint32_t body = side ? c->second : c->first;
             if (body == SCREE_SPECIMEN_WALL) continue;
-            // Contact point from the centre, and force on this body: both turn round on the other side.
-            const double arm = side ? c->arm_second : -c->arm_first, push = side ? -1 : 1;
+            // Surface point from the centre, and force on this body: both turn round on the other side.
+            const double arm = side ? c->reach_second : -c->reach_first, push = side ? -1 : 1;
             double stress[9] = {0}, strain[9];
             for (int i = 0; i < d; i++)
                 for (int j = 0; j < d; j++)
@@ -238,7 +238,7 @@ static inline dense dense_force_iteration(const scree_specimen *s)
                     double along = 0;
                     for (int i = 0; i < d; i++)
                         for (int j = 0; j < d; j++) along += t->normal[i] * strain[d * i + j] * t->normal[j];
-                    *dense_at(&b, to, from) += t->stiffness.normal * (end ? t->arm_second : t->arm_first) * along;
+                    *dense_at(&b, to, from) += t->stiffness.normal * (end ? t->reach_second : t->reach_first) * along;
                 }
         }
     return b;
