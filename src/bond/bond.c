@@ -17,7 +17,7 @@ typedef scree_bonds own;
 
 static const scree_group breaks = {
     .row = "broken bond",
-    .symbol = "k",
+    .symbol = "z",
     .count_offset = offsetof(own, count),
     .capacity_offset = offsetof(own, capacity),
 };
