@@ -21,6 +21,7 @@ SCREE_INLINE contact_quanta contact_advance(contact_job *job, variant v, const s
     totals->stiffness += q.stiffness;
     totals->in_range &= q.in_range != 0;
     if (own) {
+        totals->settle |= q.settle != 0;
         totals->largest_deformation = lanes_at_least(totals->largest_deformation, q.deformation);
         totals->largest_gap = lanes_at_least(totals->largest_gap, m->expansion - m->overlap);
     } else if (touching) {
@@ -40,13 +41,6 @@ static inline bodies contact_body_at(const contact_job *job, size_t row)
     bodies body = body_get(job->variant.dimension, &job->row[row], job->turn ? &job->turn[row] : NULL);
     body_strain(job->variant.dimension, contact_strain_at(job, row), &body);
     return body;
-}
-
-/// Lever [m] of the moment of a contact force: to the contact point, of a body that deforms to its surface at rest (M
-/// 2.41), so that moments are conjugate to the expansion of the overlap.
-SCREE_INLINE lanes contact_lever(bool deforms, const bodies *body, lanes arm)
-{
-    return deforms ? body->radius : arm;
 }
 
 /// Adds to the moments of a row, where they are asked for.

@@ -30,11 +30,12 @@
 /// Limits: small strains; normals and contact points stay those of the circles (M 2.6). The first forces of a run are
 /// those of rigid bodies. Cost: two passes over the bodies a step, two rows more a body and contact.
 #include "state/deformation.h"
+#include "contact/deformation.h"
+
 #include "base/checksum.h"
 #include "base/integer_sum.h"
 #include "case/check.h"
 #include "comm/comm.h"
-#include "model/compliance.h"
 #include "model/critical_step.h"
 #include "module/boundary.h"
 #include "module/key_rows.h"
@@ -144,6 +145,18 @@ typedef struct numbers {
 static const numbers *own_numbers(const scree_model *model)
 {
     return scree_model_numbers(model, SCREE_SLOT_deformation);
+}
+
+scree_compliance scree_deformation_compliance(const scree_model *model, int material)
+{
+    const numbers *n = own_numbers(model);
+    return n ? n->compliance[material] : (scree_compliance){0, 0};
+}
+
+double scree_deformation_share(const scree_model *model)
+{
+    const numbers *n = own_numbers(model);
+    return n ? n->relaxation : 0;
 }
 
 /// m3

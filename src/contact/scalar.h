@@ -41,6 +41,13 @@ static inline prediction prediction_get(int dimension, const scree_predicted *f)
     return (prediction){.velocity = {f->vx, f->vy, f->vz}, .spin = {f->wx, f->wy, f->wz}, f->contacts};
 }
 
+/// Lever [m] of the moment of a contact force: to the contact point, of a body that deforms to its surface at rest (M
+/// 2.41), so that moments are conjugate to the expansion of the overlap.
+SCREE_INLINE lanes contact_lever(bool deforms, const bodies *body, lanes arm)
+{
+    return deforms ? body->radius : arm;
+}
+
 /// own: constants of the pair's own; NULL: it has none.
 static inline law_constants constants_get(const scree_pair_constants *c, const scree_member_row *own)
 {
