@@ -36,6 +36,7 @@
 #include "base/integer_sum.h"
 #include "case/check.h"
 #include "comm/comm.h"
+#include "contact/contact.h"
 #include "model/critical_step.h"
 #include "module/boundary.h"
 #include "module/key_rows.h"
@@ -428,6 +429,27 @@ static scree_status sample(const scree_context *c, size_t index, double *value, 
     return SCREE_OK;
 }
 
+static const scree_result results[] = {
+    {"force", "N", "mean normal force of the contacts at the end"},
+    {"energy_particles", "J", "elastic energy of the strains of the particles at the end"},
+    {"energy_lag", "J", "what was taken out of the motion since strains follow the forces a step later"},
+};
+
+static scree_status summarise(const scree_context *c, size_t index, double *value, scree_error *error)
+{
+    scree_contact_table table = {0};
+    scree_integer_sum sum = {0};
+    (void)index;
+    scree_status status = scree_contact_table_build(c->model, c->state, c->work, &table, error);
+    while (!status && scree_comm_sum_next(c->state, &sum, 1))
+        for (size_t k = 0; k < table.count; k++) scree_integer_sum_add(&sum, table.contact[k].normal_force);
+    if (!status) value[0] = table.count > 0 ? scree_integer_sum_total(&sum) / (double)table.count : 0;
+    scree_contact_table_destroy(&table);
+    value[1] = energy(c);
+    value[2] = scree_deformation_of(c->state)->given - value[1];
+    return status;
+}
+
 static bool told(const scree_config *whole, size_t index, char name[SCREE_RESULT_NAME])
 {
     name[0] = 0;
@@ -484,5 +506,6 @@ const scree_module scree_module_deformation = {
     .reads_moments = true,
     .work = work,
     .columns = SCREE_RESULTS(columns, sample),
+    .results = SCREE_RESULTS(results, summarise),
     .told = told,
 };
