@@ -117,7 +117,7 @@ static const scree_pass core[] = {
 
 scree_context scree_step_context(scree_simulation *s)
 {
-    return (scree_context){&s->stage_model, &s->state, &s->work, s->boundary, s, s->stage_model.gravity};
+    return (scree_context){&s->stage_model, &s->state, &s->work, s->boundary, s, s->stage_model.gravity, &s->table};
 }
 
 /// Appends those of `passes` that belong to a phase.
