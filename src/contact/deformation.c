@@ -180,7 +180,7 @@ static double stiffest(const scree_model *model, int material, double radius)
     return most;
 }
 
-static scree_status resolve(scree_model *model, scree_error *error)
+static scree_status resolve_law(scree_model *model, scree_error *error)
 {
     const config *own = own_config(model->config);
     (void)error;
@@ -494,7 +494,7 @@ const scree_module scree_module_deformation = {
     .keys_count = 1,
     .rules = rules,
     .numbers_size = sizeof(numbers),
-    .resolve = resolve,
+    .resolve_law = resolve_law,
     .state_size = sizeof(memory),
     .fields = fields,
     .field_count = COUNT(fields),

@@ -25,15 +25,17 @@ struct scree_module {
     const scree_choice_of *choice_of; ///< the keys whose choice it is; NULL: none
     const scree_keys *keys;           ///< those that it adds to sections of the case
     size_t keys_count;                ///< sections
-    /// Notes what it cannot be combined with, once for a case that has chosen it, or for every case where no key chooses
-    /// it. Values that are missing or wrong have
-    /// been noted: of such nothing is said. NULL: nothing.
+    /// Notes what it cannot be combined with, once for a case that has chosen it, or for every case where no key
+    /// chooses it. Values that are missing or wrong have been noted: of such nothing is said. NULL: nothing.
     void (*rules)(scree_reader *reader, const scree_config *config);
 
     // ---- numbers: what its keys become, once, with the model at hand (scree_model_numbers); no `auto` is left ----
     size_t numbers_size;
-    /// Fills them, and may change what the law of the contacts is asked for. The materials and pairs of the model
-    /// stand, its loading and step do not. Errors: a field of the case. NULL: there is nothing to do.
+    /// For one that asks the law of the contacts for something: changes model->law, when materials and pairs stand, and
+    /// nothing else of the model does. NULL: it asks for nothing.
+    scree_status (*resolve_law)(scree_model *model, scree_error *error);
+    /// Takes its keys from the config and fills its numbers (scree_model_reserve_numbers), when all else of the
+    /// model is there. For modules without a face that does so. NULL: nothing to take.
     scree_status (*resolve)(scree_model *model, scree_error *error);
 
     // ---- faces: what only modules of one kind have ----
