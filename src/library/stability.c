@@ -80,6 +80,7 @@ scree_status scree_simulation_stability(scree_simulation *s, const scree_particl
     scree_status status = library_specimen(s, elasticity, &specimen, error);
     *out = (scree_stability){.bodies = specimen.body_count,
                              .contacts = specimen.contact_count,
+                             .has_potential = true,
                              .step = s->model.step * (double)s->model.largest_step,
                              .spectral_radius = NAN,
                              .stiffness_ratio = NAN,
@@ -93,6 +94,7 @@ scree_status scree_simulation_stability(scree_simulation *s, const scree_particl
                              .relaxation = NAN};
     if (status) return status;
     out->normal_stiffness = mean_normal_stiffness(&specimen);
+    out->has_potential = scree_specimen_has_potential(&specimen);
     status = find_limits(s, elasticity ? elasticity->young_modulus : (double)NAN, &specimen, out, error);
     scree_specimen_destroy(&specimen);
     return status;

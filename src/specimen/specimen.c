@@ -101,3 +101,9 @@ bool scree_specimen_is_damped(const scree_specimen *s)
         if (s->contact[k].damping.normal > 0 || s->contact[k].damping.tangential > 0) return true;
     return false;
 }
+
+bool scree_specimen_has_potential(const scree_specimen *s)
+{
+    return s->tangential == SCREE_TANGENTIAL_CORRECTED || !scree_specimen_is_deformable(s) ||
+           !scree_specimen_resists_slip(s);
+}

@@ -25,6 +25,7 @@
 #include "base/error.h"
 #include "model/compliance.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -102,6 +103,9 @@ bool scree_specimen_is_deformable(const scree_specimen *specimen);
 /// A tangential spring acts anywhere; a dashpot does.
 bool scree_specimen_resists_slip(const scree_specimen *specimen);
 bool scree_specimen_is_damped(const scree_specimen *specimen);
+
+/// What deformation does has a potential: particles are rigid, or no tangential spring acts, or the form is corrected.
+bool scree_specimen_has_potential(const scree_specimen *specimen);
 
 // ---- products: results do not overlap arguments ------------------------------------------------------------------
 // Components that are held count as zero in x, and come out as zero, in those of K, C, M.
