@@ -101,6 +101,7 @@ static scree_status copy(const scree_specimen *s, scree_specimen *out, scree_err
     memcpy(out->compliance, s->compliance, s->body_count * sizeof *s->compliance);
     memcpy(out->contact, s->contact, s->contact_count * sizeof *s->contact);
     out->tangential = s->tangential;
+    out->condition = s->condition;
     out->dashpots_strain = s->dashpots_strain;
     return SCREE_OK;
 }

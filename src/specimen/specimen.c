@@ -14,6 +14,7 @@ scree_status scree_specimen_create(int dimension, size_t bodies, size_t contacts
                           .strain_components = components,
                           .body_count = bodies,
                           .contact_count = contacts,
+                          .condition = dimension == 3 ? SCREE_SOLID : SCREE_PLANE_STRAIN,
                           .extent = NAN};
     const struct {
         void *array;

@@ -64,6 +64,7 @@ typedef struct scree_specimen {
     double *volume;               ///< m3, of discs area times thickness
     uint8_t *held;                ///< bits of components that do not move, 0 to 2 velocity, 3 to 5 spin (state/body.h)
     scree_compliance *compliance; ///< of each body; all zero: rigid
+    scree_plane_condition condition; ///< that of `compliance`; plane strain (in 3D: a solid) unless someone says else
     scree_specimen_contact *contact;
     scree_tangential_form tangential;
     bool dashpots_strain; ///< dashpot forces are part of the stress of particles, too
