@@ -1,9 +1,11 @@
 /// Static solutions and moduli: lattices against closed forms, dense solutions, loads that nothing holds.
 #include "lattice_fixture.h"
 
+#include "base/memory.h"
 #include "base/vectors.h"
 #include "specimen/box.h"
 #include "specimen/moduli.h"
+#include "specimen/stability.h"
 #include "specimen/static.h"
 
 #define assert_within(value, expected, tolerance)                                                                      \
@@ -306,6 +308,38 @@ static void boxes_are_near_their_periodic_cells(void **unused)
     discs_destroy(&round);
 }
 
+/// Every allocation fails once: status 4, nothing kept, and the same numbers when there is memory again.
+static void memory_that_runs_out(void **unused)
+{
+    (void)unused;
+    scree_specimen s = irregular(2, 0.5, 0.3);
+    const scree_specimen_moduli expected = moduli_of(&s);
+    double rigid, lagged, radius;
+    size_t before, after;
+    scree_error error;
+    check(scree_spectral_radius(&s, &radius, NULL, &error), &error);
+    scree_allocation_statistics(&before, NULL);
+    for (int what = 0; what < 2; what++) {
+        scree_status status = SCREE_ERROR_IO;
+        uint64_t failed = 0;
+        while (status) {
+            scree_specimen_moduli m = {0};
+            (void)scree_allocation_fail_after(++failed);
+            status = what == 0 ? scree_specimen_find_moduli(&s, &m, &error)
+                               : scree_critical_step(&s, scree_strain_rigid(), &rigid, NULL, &error);
+            if (!status && what == 1)
+                status = scree_critical_step(&s, scree_strain_explicit(radius), &lagged, NULL, &error);
+            assert_true(!status || status == SCREE_ERROR_IO);
+            scree_allocation_statistics(&after, NULL);
+            assert_int_equal(before, after);
+            if (!status && what == 0) assert_memory_equal(&m, &expected, sizeof m);
+        }
+        (void)scree_allocation_fail_after(0);
+        assert_true(failed > 10);
+    }
+    scree_specimen_destroy(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -316,6 +350,7 @@ int main(void)
         cmocka_unit_test(loads_on_the_whole),
         cmocka_unit_test(boxes_are_their_lattice),
         cmocka_unit_test(boxes_are_near_their_periodic_cells),
+        cmocka_unit_test(memory_that_runs_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
