@@ -21,6 +21,7 @@
 
 #include "base/fixed.h"
 #include "base/integer_sum.h"
+#include "base/wrapping.h"
 #include "boundary/hull.h"
 #include "boundary/loaded_edges.h"
 #include "boundary/loaded_triangles.h"
@@ -122,8 +123,8 @@ static void add_force(pressure_forces *forces, size_t k, int64_t fx, int64_t fy)
 {
     scree_state *state = forces->state;
     scree_sum_row *sum = &state->sum[state->row_of_id[scree_loop_of(state)->id[k]]];
-    sum->fx += fx;
-    sum->fy += fy;
+    scree_wrapping_add(&sum->fx, fx);
+    scree_wrapping_add(&sum->fy, fy);
     scree_loop_of(state)->fx[k] += (double)fx * state->force_quantum;
     scree_loop_of(state)->fy[k] += (double)fy * state->force_quantum;
 }

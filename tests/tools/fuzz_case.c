@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// What libfyaml and udunits2 lose themselves on malformed text (16 kB in 100,000 files) is not Scree's to free. Exported, else the
-/// sanitizer does not see it.
+/// What libfyaml and udunits2 lose themselves on malformed text (16 kB in 100,000 files) is not Scree's to free.
+/// Exported, else the sanitizer does not see it.
 SCREE_API const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void)
 {

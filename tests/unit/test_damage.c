@@ -8,7 +8,8 @@
 #include "io_scratch.h"
 #include "state_bits.h"
 
-/// Frames of HDF5, which has no frame pointers, are seen by the suppression in leaks.supp. Exported, else the sanitizer does not see it.
+/// Frames of HDF5, which has no frame pointers, are seen by the suppression in leaks.supp. Exported, else the sanitizer
+/// does not see it.
 SCREE_API const char *__asan_default_options(void);
 const char *__asan_default_options(void)
 {
