@@ -16,6 +16,7 @@
 #include <scree/error.h>
 #include <scree/run.h>
 #include <scree/simulation.h>
+#include <scree/specimen.h>
 #include <scree/sweep.h>
 
 #ifdef __cplusplus

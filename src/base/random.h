@@ -13,6 +13,7 @@ typedef enum scree_random_stream {
     SCREE_RANDOM_BED = 4,
     SCREE_RANDOM_SPECIES = 5,
     SCREE_RANDOM_SHUFFLE = 9,
+    SCREE_RANDOM_EIGENVECTOR = 10,
     SCREE_RANDOM_TEST = 100,
 } scree_random_stream;
 

@@ -1,11 +1,11 @@
 /// scree check CASE: the resolved case, and what it amounts to as comments below it. scree check DIR: what is whole in
 /// the folder of a run, and from where it can go on.
 #include "cli/case_argument.h"
+#include "cli/specimen_argument.h"
 #include "cli/terminal.h"
 
 #include <math.h>
 #include <string.h>
-#include <sys/stat.h>
 
 enum { TEXT = 64 };
 
@@ -107,15 +107,6 @@ static void print_item(void *user, const scree_folder_item *item)
         (void)snprintf(report->snapshots + length, room, " %lld", (long long)item->index);
 }
 
-/// A folder with a case in it, which every run writes first.
-static bool is_run(const char *folder)
-{
-    char path[4096];
-    struct stat information;
-    int length = snprintf(path, sizeof path, "%s/case.yaml", folder);
-    return length > 0 && (size_t)length < sizeof path && stat(path, &information) == 0;
-}
-
 static scree_status check_folder(const char *folder)
 {
     scree_error error = {0};
@@ -132,7 +123,7 @@ static scree_status check_folder(const char *folder)
 
 scree_status scree_verb_check(const scree_command *command)
 {
-    if (is_run(command->argument[0])) return check_folder(command->argument[0]);
+    if (scree_argument_is_run(command->argument[0])) return check_folder(command->argument[0]);
     scree_case *c;
     scree_status status = scree_case_argument_read(command, command->argument[0], &c);
     if (status) return status;

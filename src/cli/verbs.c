@@ -39,6 +39,21 @@ const scree_verb_option scree_common_options[] = {
         .name = "quick", .meaning = "apply the `quick` section of the case: the same physics, smaller"                 \
     }
 
+#define OPTION_AT                                                                                                      \
+    {                                                                                                                  \
+        .name = "at", .value = "STAGE", .meaning = "run the case until STAGE begins",                                  \
+        .preset = "the first stage that takes steps"                                                                   \
+    }
+#define OPTION_YOUNG                                                                                                   \
+    {                                                                                                                  \
+        .name = "young-modulus", .value = "PA",                                                                        \
+        .meaning = "as if particles were elastic with this modulus; discs in plane strain"                             \
+    }
+#define OPTION_POISSON                                                                                                 \
+    {                                                                                                                  \
+        .name = "poisson-ratio", .value = "NU", .meaning = "and this Poisson's ratio", .preset = "0"                   \
+    }
+
 #define OPTION_QUIET                                                                                                   \
     {                                                                                                                  \
         .name = "quiet", .letter = 'q', .meaning = "no progress, warnings and errors only"                             \
@@ -118,6 +133,45 @@ const scree_verb scree_verbs[] = {
                     {"scree check out", "what is whole in a folder, and from where it can go on"}},
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO},
         .function = scree_verb_check,
+    },
+    {
+        .name = "stability",
+        .meaning = "print the steps and stiffnesses that a specimen bears",
+        .text =
+            "Takes the specimen of a case as it stands when its first stage that takes steps begins, or as the newest "
+            "checkpoint in the folder of a run has it, and prints what explicit schemes bear: the critical step from "
+            "the eigenvalues of all its contacts, dashpots counted, and estimates from single bodies beside it.\n\n"
+            "For elastic particles also: the spectral radius of the iteration of forces, the largest k_n / E_p, those "
+            "of regular lattices, and the critical steps with the strain of the last forces (explicit), relaxed, and "
+            "solved for in every step (implicit). Lines are name, value, unit, meaning; docs/theory/ddem.md has the "
+            "derivations. Contacts that slide count as if they stuck; forces that turn with a contact do not count.",
+        .argument = {{"CASE", "a case file, the name of a built-in case, or the folder of a run", SCREE_VALUE_CASE,
+                      false, false}},
+        .option = {OPTION_SET, OPTION_QUICK, OPTION_AT, OPTION_YOUNG, OPTION_POISSON},
+        .example = {{"scree stability my.yaml", "before a run"},
+                    {"scree stability out --young-modulus 2e11 --poisson-ratio 0.35",
+                     "a finished run, as if its particles were elastic"}},
+        .status = {SCREE_ERROR_INPUT, SCREE_ERROR_GUARD, SCREE_ERROR_IO},
+        .function = scree_verb_stability,
+    },
+    {
+        .name = "moduli",
+        .meaning = "print the elastic moduli of a specimen",
+        .text =
+            "Takes a specimen as `scree stability` does, periodic in all directions, imposes each component of a mean "
+            "strain, lets particles find their places, and prints the elasticity tensor: its components C_ijkl, the "
+            "nearest isotropic moduli, how far from isotropic and from symmetric it is, the fabric of the contacts, "
+            "and for comparison the moduli if all particles followed the mean strain (Voigt). Nothing is run but what "
+            "leads to the specimen. Contacts stay as they are: none opens, closes or slides.\n\n"
+            "In 2D the moduli are those of the plane: K of areas, K = E / (2 (1 - nu)). Lines are name, value, unit, "
+            "meaning.",
+        .argument = {{"CASE", "a case file, the name of a built-in case, or the folder of a run", SCREE_VALUE_CASE,
+                      false, false}},
+        .option = {OPTION_SET, OPTION_QUICK, OPTION_AT, OPTION_YOUNG, OPTION_POISSON},
+        .example = {{"scree moduli out", "of a run as it stands"},
+                    {"scree moduli periodic-shear --at deform", "before it is sheared"}},
+        .status = {SCREE_ERROR_INPUT, SCREE_ERROR_GUARD, SCREE_ERROR_IO},
+        .function = scree_verb_moduli,
     },
     {
         .name = "run",

@@ -85,6 +85,8 @@ scree_status scree_verb_refuse(const char *name);
 scree_status scree_verb_list(const struct scree_command *command);
 scree_status scree_verb_new(const struct scree_command *command);
 scree_status scree_verb_check(const struct scree_command *command);
+scree_status scree_verb_stability(const struct scree_command *command);
+scree_status scree_verb_moduli(const struct scree_command *command);
 scree_status scree_verb_run(const struct scree_command *command);
 scree_status scree_verb_sweep(const struct scree_command *command);
 scree_status scree_verb_reproduce(const struct scree_command *command);

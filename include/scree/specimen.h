@@ -1,0 +1,81 @@
+/// The specimen as it stands, as a linear operator: what explicit steps it bears, and how it deforms.
+#ifndef SCREE_SPECIMEN_H
+#define SCREE_SPECIMEN_H
+
+#include <scree/simulation.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Reads the newest state in the folder of a run (the newest checkpoint, else a snapshot), without changing anything
+/// there. Free both; the case outlives the simulation. Errors: SCREE_ERROR_INPUT, SCREE_ERROR_IO; memory.
+SCREE_API scree_status scree_simulation_open_run(const char *directory, scree_case **c, scree_simulation **out,
+                                                 scree_error *error);
+
+/// Runs until the stage of this name has begun; NULL: the first one that takes steps. Errors: SCREE_ERROR_INPUT for a
+/// name that no stage has (`accepted` holds the nearest), or one that the simulation is past; those of
+/// scree_simulation_advance.
+SCREE_API scree_status scree_simulation_begin_stage(scree_simulation *s, const char *stage, scree_error *error);
+
+/// Particles as if they were elastic (Madan 2019, DDEM): discs in plane strain. NULL in place of it: as the case says.
+typedef struct scree_particle_elasticity {
+    double young_modulus; ///< Pa
+    double poisson_ratio;
+} scree_particle_elasticity;
+
+/// Steps and stiffnesses that explicit schemes bear, from eigenvalues of the specimen as it stands
+/// (docs/theory/ddem.md). Numbers that do not exist are NAN; steps are INFINITY without contacts, and 0 where none is
+/// stable.
+typedef struct scree_stability {
+    size_t bodies, contacts;
+    double step;                                       ///< s, of the case
+    double critical_step;                              ///< s, rigid particles, dashpots counted
+    double critical_step_undamped;                     ///< s, the same without dashpots
+    double step_of_bodies;                             ///< s, from single bodies (M 2.18)
+    double step_of_extremes;                           ///< s, sqrt(m_min / k_max) (M 2.19 with alpha = 1)
+    double normal_stiffness;                           ///< N/m, mean over the contacts
+    double spectral_radius;                            ///< 1, of the iteration of forces
+    double stiffness_ratio;                            ///< mean k_n over E_p [m]
+    double largest_ratio;                              ///< the same at the limit of the explicit scheme
+    double row_ratio;                                  ///< limit of an unbounded row [m] (M 3.27)
+    double square_ratio;                               ///< of a square lattice (M 3.43); in 3D simple cubic
+    double hexagonal_ratio;                            ///< of a hexagonal one (M 3.78); in 3D face-centred cubic
+    double explicit_step, relaxed_step, implicit_step; ///< s, critical steps with deformable particles
+    double relaxation;                                 ///< theta that `relaxed_step` stands for
+} scree_stability;
+
+/// Errors: SCREE_ERROR_INPUT without bodies or for an elasticity that is none; SCREE_ERROR_GUARD when an eigenvalue is
+/// not found; memory.
+SCREE_API scree_status scree_simulation_stability(scree_simulation *s, const scree_particle_elasticity *elasticity,
+                                                  scree_stability *out, scree_error *error);
+
+/// Isotropic moduli [Pa, 1, Pa, Pa]. In the plane those of the plane: `bulk` of areas, `young` and `poisson` of a
+/// stress along one of its axes, K = E / (2 (1 - nu)).
+typedef struct scree_isotropic_moduli {
+    double young, poisson, bulk, shear;
+} scree_isotropic_moduli;
+
+/// How a periodic specimen deforms as it stands, from static solutions. Compression and extension alike: contacts keep
+/// what they are.
+typedef struct scree_moduli {
+    int dimension;
+    size_t bodies, contacts, iterations;
+    double stiffness[36]; ///< Pa, C_ijkl by rows, 3 x 3 of xx, yy, xy in 2D; 6 x 6 of xx, yy, zz, yz, xz, xy in 3D
+    scree_isotropic_moduli isotropic; ///< of the nearest isotropic tensor
+    scree_isotropic_moduli voigt;     ///< the same if rigid particles followed the mean strain without turning
+    scree_isotropic_moduli estimate;  ///< the same from number of contacts and mean square radius (M 4.15-4.18)
+    double anisotropy;                ///< 1, distance from the nearest isotropic tensor over the size of the tensor
+    double asymmetry;                 ///< 1, skew part over the size of the tensor
+    double fabric[9];                 ///< mean of n n over the contacts, 3 x 3
+} scree_moduli;
+
+/// Errors: SCREE_ERROR_INPUT without bodies, for an elasticity that is none, or a sample that does not repeat itself in
+/// all directions; SCREE_ERROR_GUARD when no solution is found; memory.
+SCREE_API scree_status scree_simulation_moduli(scree_simulation *s, const scree_particle_elasticity *elasticity,
+                                               scree_moduli *out, scree_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

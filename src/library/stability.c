@@ -1,0 +1,99 @@
+/// Limits of explicit schemes for the specimen of a simulation, for programs.
+#include "specimen/stability.h"
+#include "library/handle.h"
+#include "library/specimen.h"
+#include "theory/lattice.h"
+
+#include <string.h>
+
+static double mean_normal_stiffness(const scree_specimen *s)
+{
+    double sum = 0;
+    for (size_t c = 0; c < s->contact_count; c++) sum += s->contact[c].stiffness.normal;
+    return s->contact_count > 0 ? sum / (double)s->contact_count : (double)NAN;
+}
+
+/// Without dashpots, which are put aside for it.
+static scree_status undamped_step(scree_specimen *s, double damped, double *step, scree_error *error)
+{
+    scree_specimen bare = *s;
+    bare.contact = NULL;
+    *step = damped;
+    if (!scree_specimen_is_damped(s)) return SCREE_OK;
+    scree_status status = scree_allocate(&bare.contact, s->contact_count, sizeof *bare.contact, error);
+    if (status) return status;
+    memcpy(bare.contact, s->contact, s->contact_count * sizeof *bare.contact);
+    for (size_t c = 0; c < s->contact_count; c++) bare.contact[c].damping = (scree_springs){0, 0};
+    status = scree_critical_step(&bare, scree_strain_rigid(), step, NULL, error);
+    scree_release(&bare.contact);
+    return status;
+}
+
+/// Limits of unbounded lattices of the mean particle.
+static void compare_lattices(const scree_model *model, const scree_specimen *s, double young, scree_stability *out)
+{
+    const bool solid = s->dimension == 3;
+    const scree_lattice_material unit = {.radius = model->mean_radius,
+                                         .length = model->thickness,
+                                         .normal = 1,
+                                         .shear = young * s->compliance[0].shear,
+                                         .trace = young * s->compliance[0].trace};
+    out->row_ratio = 1 / scree_row_radius(s->dimension, &unit);
+    out->square_ratio = 1 / scree_lattice_radius(solid ? SCREE_LATTICE_SIMPLE_CUBIC : SCREE_LATTICE_SQUARE, &unit);
+    out->hexagonal_ratio =
+        1 / scree_lattice_radius(solid ? SCREE_LATTICE_FACE_CENTRED : SCREE_LATTICE_HEXAGONAL, &unit);
+}
+
+static scree_status deformable_limits(const scree_specimen *s, scree_stability *out, scree_error *error)
+{
+    scree_status status = scree_spectral_radius(s, &out->spectral_radius, NULL, error);
+    out->relaxation = scree_relaxation(out->spectral_radius);
+    if (!status)
+        status = scree_critical_step(s, scree_strain_explicit(out->spectral_radius), &out->explicit_step, NULL, error);
+    if (!status)
+        status = scree_critical_step(s, scree_strain_relaxed(out->relaxation, out->spectral_radius), &out->relaxed_step,
+                                     NULL, error);
+    if (!status)
+        status = scree_critical_step(s, scree_strain_implicit(out->spectral_radius), &out->implicit_step, NULL, error);
+    return status;
+}
+
+static scree_status find_limits(const scree_simulation *simulation, double young, scree_specimen *s,
+                                scree_stability *out, scree_error *error)
+{
+    scree_status status = scree_critical_step(s, scree_strain_rigid(), &out->critical_step, NULL, error);
+    if (!status) status = undamped_step(s, out->critical_step, &out->critical_step_undamped, error);
+    if (!status) status = scree_step_of_bodies(s, &out->step_of_bodies, error);
+    out->step_of_extremes = scree_step_of_extremes(s);
+    if (status || !scree_specimen_is_deformable(s)) return status;
+    status = deformable_limits(s, out, error);
+    out->stiffness_ratio = out->normal_stiffness / young;
+    out->largest_ratio = out->stiffness_ratio / out->spectral_radius;
+    compare_lattices(&simulation->model, s, young, out);
+    return status;
+}
+
+scree_status scree_simulation_stability(scree_simulation *s, const scree_particle_elasticity *elasticity,
+                                        scree_stability *out, scree_error *error)
+{
+    scree_specimen specimen;
+    scree_status status = library_specimen(s, elasticity, &specimen, error);
+    *out = (scree_stability){.bodies = specimen.body_count,
+                             .contacts = specimen.contact_count,
+                             .step = s->model.step * (double)s->model.largest_step,
+                             .spectral_radius = NAN,
+                             .stiffness_ratio = NAN,
+                             .largest_ratio = NAN,
+                             .row_ratio = NAN,
+                             .square_ratio = NAN,
+                             .hexagonal_ratio = NAN,
+                             .explicit_step = NAN,
+                             .relaxed_step = NAN,
+                             .implicit_step = NAN,
+                             .relaxation = NAN};
+    if (status) return status;
+    out->normal_stiffness = mean_normal_stiffness(&specimen);
+    status = find_limits(s, elasticity ? elasticity->young_modulus : (double)NAN, &specimen, out, error);
+    scree_specimen_destroy(&specimen);
+    return status;
+}

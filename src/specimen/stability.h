@@ -1,0 +1,56 @@
+/// What an explicit run of a specimen stands: the largest steps, and of deformable particles the largest stiffness of
+/// their contacts. stability.c has the method, docs/theory/ddem.md the derivations.
+#ifndef SCREE_SPECIMEN_STABILITY_H
+#define SCREE_SPECIMEN_STABILITY_H
+
+#include "specimen/specimen.h"
+
+/// How the strain follows the forces from step to step.
+typedef struct scree_strain_scheme {
+    double share;  ///< with which a mode that changes sign in every step is answered: 1 explicit, theta / (2 - theta)
+                   ///< relaxed, -1 implicit, 0 without deformation
+    double radius; ///< spectral radius of B
+} scree_strain_scheme;
+
+static inline scree_strain_scheme scree_strain_rigid(void)
+{
+    return (scree_strain_scheme){0, 0};
+}
+
+static inline scree_strain_scheme scree_strain_explicit(double radius)
+{
+    return (scree_strain_scheme){1, radius};
+}
+
+static inline scree_strain_scheme scree_strain_relaxed(double theta, double radius)
+{
+    return (scree_strain_scheme){theta / (2 - theta), radius};
+}
+
+static inline scree_strain_scheme scree_strain_implicit(double radius)
+{
+    return (scree_strain_scheme){-1, radius};
+}
+
+/// Spectral radius of B. force: contact forces of its mode, or NULL. Errors: memory; no convergence.
+scree_status scree_spectral_radius(const scree_specimen *specimen, double *radius, double *force, scree_error *error)
+    __attribute__((warn_unused_result));
+
+/// Relaxation of the strain for a spectral radius: 1 / (1 + radius), rounded down to a multiple of 2^-10, so that the
+/// last bits of an eigenvalue do not steer a run. No mode of the iteration changes its sign then, at any stiffness,
+/// and the critical step is at least 0.7 times that of rigid particles.
+double scree_relaxation(double radius);
+
+/// Critical step [s] of the leapfrog schemes with this treatment of the strain; INFINITY without springs and dashpots,
+/// 0 where no step is stable. mode: motions of its mode (scree_specimen_motions), or NULL. Errors: memory; no
+/// convergence.
+scree_status scree_critical_step(const scree_specimen *specimen, scree_strain_scheme scheme, double *step, double *mode,
+                                 scree_error *error) __attribute__((warn_unused_result));
+
+/// Steps [s] from single bodies: 2 sqrt(m / k) least over the bodies with the largest stiffness k of each while its
+/// neighbours stand (M 2.17, 2.18), and sqrt(m_min / k_max) (M 2.19 with alpha = 1). Errors: memory.
+scree_status scree_step_of_bodies(const scree_specimen *specimen, double *step, scree_error *error)
+    __attribute__((warn_unused_result));
+double scree_step_of_extremes(const scree_specimen *specimen);
+
+#endif

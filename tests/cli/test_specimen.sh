@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# scree stability and scree moduli: numbers that belong together, where a specimen is taken from, what is refused.
+# shellcheck source=tests/cli/check.sh
+. "$(dirname "$0")/check.sh"
+small=(periodic-shear --quick --set particles.count=100)
+value() { awk -v name="$1" '$1 == name { print $2 }' <<<"$output"; }
+holds() {
+    checks=$((checks + 1))
+    awk "BEGIN { exit !($1) }" || complain "not so: $1"
+}
+
+# --- stability
+expect 0 '^critical_step +[0-9.e-]+ +s ' "$scree" stability "${small[@]}" --at deform
+rigid=$(value critical_step)
+holds "$rigid > 0 && $rigid < $(value critical_step_undamped) && $(value step) < $rigid"
+holds "$(value contacts) > 100 && $(value step_of_extremes) > 0"
+[ -z "$(value spectral_radius)" ] || complain 'rigid particles have a spectral radius'
+again=$output
+same "$("$scree" stability "${small[@]}" --at deform)" "$again" 'the same specimen twice'
+expect 0 '^spectral_radius ' "$scree" stability "${small[@]}" --at deform --young-modulus 1e8 --poisson-ratio 0.3
+ratio=$(value spectral_radius) most=$(value largest_ratio)
+holds "$ratio > 0 && $ratio < 1 && ($(value stiffness_ratio) / $ratio - $most)^2 < 1e-8 * $most^2"
+# Slip governs, which this form leaves to rigid particles.
+for name in explicit_step relaxed_step implicit_step; do holds "($(value "$name") / $rigid - 1)^2 < 1e-4"; done
+# Ten times as soft as the limit: no explicit step.
+soft=$(awk "BEGIN { print 1e8 * $ratio / 10 }")
+expect 0 '^explicit_step +0 ' "$scree" stability "${small[@]}" --at deform --young-modulus "$soft" --poisson-ratio 0.3
+holds "($(value spectral_radius) / 10 - 1)^2 < 1e-8 && $(value relaxed_step) > 0.7 * $rigid"
+
+# --- moduli
+expect 0 '^young_modulus +[0-9.e+]+ +Pa ' "$scree" moduli "${small[@]}" --at deform
+stiff=$(value young_modulus)
+holds "$stiff > 0 && $stiff < $(value voigt_young_modulus) && $(value asymmetry) < 1e-6"
+holds "($(value fabric_xx) + $(value fabric_yy) - 1)^2 < 1e-8"
+holds "($stiff / (2 * (1 - $(value poisson_ratio))) / $(value bulk_modulus) - 1)^2 < 1e-8"
+expect 0 '^young_modulus ' "$scree" moduli "${small[@]}" --at deform --young-modulus 1e8
+holds "$(value young_modulus) < $stiff"
+
+# --- the folder of a run, which stays as it is
+expect 0 '' "$scree" run "${small[@]}" --no-figures --quiet --set 'stages.deform.strain=0.1 %' --set 'measure.windows=[]' -o out
+before=$(cd out && find . -type f -exec md5sum {} + | sort)
+expect 0 '^critical_step +[0-9.e-]+ +s ' "$scree" stability out
+expect 0 '^young_modulus ' "$scree" moduli out
+same "$(cd out && find . -type f -exec md5sum {} + | sort)" "$before" 'the folder after its specimen was looked at'
+
+# --- refused
+expect 2 "no stage 'defrom'; did you mean 'deform'" "$scree" stability "${small[@]}" --at defrom
+expect 2 'boundary.periodic: xy' "$scree" moduli biaxial --quick --set particles.count=100
+expect 2 'between -1 and 0.5' "$scree" stability "${small[@]}" --young-modulus 1e8 --poisson-ratio 0.5
+expect 2 'alone' "$scree" stability "${small[@]}" --poisson-ratio 0.3
+expect 2 'is no number' "$scree" stability "${small[@]}" --young-modulus soft
+expect 2 'read as it stands' "$scree" stability out --at deform
+finish 'specimens'
