@@ -21,6 +21,7 @@
 
 #include "base/fixed.h"
 #include "base/integer_sum.h"
+#include "base/wrapping.h"
 #include "boundary/hull.h"
 #include "boundary/loaded_edges.h"
 #include "boundary/loaded_triangles.h"
@@ -138,8 +139,8 @@ static inline void add_force(const pressure_forces *forces, size_t k, const int6
 {
     scree_state *state = forces->state;
     scree_sum_row *sum = &state->sum[state->row_of_id[forces->loop->id[k]]];
-    sum->fx += f[0];
-    sum->fy += f[1];
+    scree_wrapping_add(&sum->fx, f[0]);
+    scree_wrapping_add(&sum->fy, f[1]);
     forces->loop->fx[k] += newtons[0];
     forces->loop->fy[k] += newtons[1];
 }

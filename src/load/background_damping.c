@@ -14,6 +14,7 @@
 #include "base/checksum.h"
 #include "base/fixed.h"
 #include "base/integer_sum.h"
+#include "base/wrapping.h"
 #include "case/check.h"
 #include "comm/comm.h"
 #include "load/load.h"
@@ -93,16 +94,16 @@ static turn plan_body(const scree_context *c, const config *own, size_t row)
 static void apply(scree_state *state, size_t row, const turn *t)
 {
     scree_sum_row *sum = &state->sum[row];
-    sum->fx += t->push[0];
-    sum->fy += t->push[1];
+    scree_wrapping_add(&sum->fx, t->push[0]);
+    scree_wrapping_add(&sum->fy, t->push[1]);
     if (state->dimension == 2) {
-        sum->torque += t->twist[2];
+        scree_wrapping_add(&sum->torque, t->twist[2]);
         return;
     }
-    sum->fz += t->push[2];
-    state->torque[row].x += t->twist[0];
-    state->torque[row].y += t->twist[1];
-    state->torque[row].z += t->twist[2];
+    scree_wrapping_add(&sum->fz, t->push[2]);
+    scree_wrapping_add(&state->torque[row].x, t->twist[0]);
+    scree_wrapping_add(&state->torque[row].y, t->twist[1]);
+    scree_wrapping_add(&state->torque[row].z, t->twist[2]);
 }
 
 /// Power [W] of the damping at v(n - 1/2) and at v(n + 1/2), to which the next kick leads.
