@@ -29,12 +29,14 @@ typedef struct scree_particle_elasticity {
 /// stable.
 typedef struct scree_stability {
     size_t bodies, contacts;
-    double step;                                       ///< s, of the case
-    double critical_step;                              ///< s, rigid particles, dashpots counted
-    double critical_step_undamped;                     ///< s, the same without dashpots
-    double step_of_bodies;                             ///< s, from single bodies (M 2.18)
-    double step_of_extremes;                           ///< s, sqrt(m_min / k_max) (M 2.19 with alpha = 1)
-    double normal_stiffness;                           ///< N/m, mean over the contacts
+    double step;                   ///< s, of the case
+    double critical_step;          ///< s, rigid particles, dashpots counted
+    double critical_step_undamped; ///< s, the same without dashpots
+    double step_of_bodies;         ///< s, from single bodies (M 2.18)
+    double step_of_extremes;       ///< s, sqrt(m_min / k_max) (M 2.19 with alpha = 1)
+    double normal_stiffness;       ///< N/m, mean over the contacts
+    bool has_potential; ///< elastic particles: the strain acts on slips as slips act on the strain (or there is no
+                        ///< k_t); if not, vibrations may grow at any step where nothing damps them
     double spectral_radius;                            ///< 1, of the iteration of forces
     double stiffness_ratio;                            ///< mean k_n over E_p [m]
     double largest_ratio;                              ///< the same at the limit of the explicit scheme
@@ -56,8 +58,8 @@ typedef struct scree_isotropic_moduli {
     double young, poisson, bulk, shear;
 } scree_isotropic_moduli;
 
-/// How a periodic specimen deforms as it stands, from static solutions. Compression and extension alike: contacts keep
-/// what they are.
+/// How a specimen deforms as it stands, periodic or a box strained by its outermost particles, from static solutions.
+/// Compression and extension alike: contacts keep what they are.
 typedef struct scree_moduli {
     int dimension;
     size_t bodies, contacts, iterations;
@@ -70,8 +72,8 @@ typedef struct scree_moduli {
     double fabric[9];                 ///< mean of n n over the contacts, 3 x 3
 } scree_moduli;
 
-/// Errors: SCREE_ERROR_INPUT without bodies, for an elasticity that is none, or a sample that does not repeat itself in
-/// all directions; SCREE_ERROR_GUARD when no solution is found; memory.
+/// Errors: SCREE_ERROR_INPUT without bodies, for an elasticity that is none, or a sample that is neither periodic in
+/// all directions nor a box; SCREE_ERROR_GUARD when no solution is found; memory.
 SCREE_API scree_status scree_simulation_moduli(scree_simulation *s, const scree_particle_elasticity *elasticity,
                                                scree_moduli *out, scree_error *error);
 

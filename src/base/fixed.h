@@ -41,7 +41,9 @@ static inline int64_t scree_fixed_from(double value, double inverse)
 /// hurled away, they are cut, so that sums stay inside of the integers until a guard stops the run.
 static inline int64_t scree_fixed_round(double quanta)
 {
-    return llrint(fmin(fmax(quanta, -0x1p58), 0x1p58));
+    // Comparisons are two instructions where fmin and fmax are calls. What is not a number becomes -2^58, as there.
+    const double above = quanta > -0x1p58 ? quanta : -0x1p58;
+    return llrint(above < 0x1p58 ? above : 0x1p58);
 }
 
 static inline double scree_fixed_to(int64_t sum, double quantum)

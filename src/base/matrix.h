@@ -23,6 +23,17 @@ static inline void scree_matrix_apply(const double m[9], const double v[3], doub
     for (int i = 0; i < 3; i++) w[i] = m[3 * i] * v[0] + m[3 * i + 1] * v[1] + m[3 * i + 2] * v[2];
 }
 
+/// The first `dimension` components of it, where the others of v are zero: those of a plane need no more. For loops
+/// over bodies, in which the dimension is a constant.
+static inline __attribute__((always_inline)) void scree_matrix_apply_in(int dimension, const double m[9],
+                                                                        const double v[3], double w[3])
+{
+    for (int i = 0; i < dimension; i++) {
+        w[i] = m[3 * i] * v[0] + m[3 * i + 1] * v[1];
+        if (dimension == 3) w[i] += m[3 * i + 2] * v[2];
+    }
+}
+
 /// b = unit + factor a; b may be a.
 static inline void scree_matrix_unit_plus(double factor, const double a[9], double b[9])
 {

@@ -13,6 +13,7 @@
 #include "state/plates.h"
 
 #include "base/integer_sum.h"
+#include "base/wrapping.h"
 #include "boundary/loaded_triangles.h"
 #include "boundary/pressed_facet.h"
 #include "measure/facets.h"
@@ -120,9 +121,9 @@ scree_status scree_hull_renew(const scree_model *model, scree_state *state, scre
 static void add_force(scree_state *state, size_t node, const int64_t force[3])
 {
     scree_sum_row *sum = &state->sum[state->row_of_id[scree_hull_of(state)->id[node]]];
-    sum->fx += force[0];
-    sum->fy += force[1];
-    sum->fz += force[2];
+    scree_wrapping_add(&sum->fx, force[0]);
+    scree_wrapping_add(&sum->fy, force[1]);
+    scree_wrapping_add(&sum->fz, force[2]);
     for (int k = 0; k < 3; k++) scree_hull_of(state)->force[node][k] += (double)force[k] * state->force_quantum;
 }
 

@@ -14,6 +14,7 @@
 
 #include "base/fixed.h"
 #include "base/integer_sum.h"
+#include "base/wrapping.h"
 #include "measure/facets.h"
 #include "state/fields.h"
 
@@ -44,9 +45,9 @@ scree_status scree_imposed_refresh(const scree_context *context, scree_error *er
 void scree_imposed_add(scree_state *state, size_t node, const int64_t quanta[3])
 {
     scree_sum_row *sum = &state->sum[scree_boundary_row(state, node)];
-    sum->fx += quanta[0];
-    sum->fy += quanta[1];
-    if (state->dimension == 3) sum->fz += quanta[2];
+    scree_wrapping_add(&sum->fx, quanta[0]);
+    scree_wrapping_add(&sum->fy, quanta[1]);
+    if (state->dimension == 3) scree_wrapping_add(&sum->fz, quanta[2]);
     for (int i = 0; i < state->dimension; i++)
         scree_imposed(state)->force[node][i] += (double)quanta[i] * state->force_quantum;
 }

@@ -29,6 +29,7 @@
 
 #include "base/fixed.h"
 #include "base/integer_sum.h"
+#include "base/wrapping.h"
 #include "boundary/axial_plates.h"
 #include "boundary/plates.h"
 #include "boundary/sheet.h"
@@ -115,9 +116,9 @@ double scree_membrane_energy(const scree_model *model, const scree_state *state)
 static void add_force(scree_state *state, size_t k, const int64_t force[3])
 {
     scree_sum_row *sum = &state->sum[scree_membrane_row(state, k)];
-    sum->fx += force[0];
-    sum->fy += force[1];
-    if (state->dimension == 3) sum->fz += force[2];
+    scree_wrapping_add(&sum->fx, force[0]);
+    scree_wrapping_add(&sum->fy, force[1]);
+    if (state->dimension == 3) scree_wrapping_add(&sum->fz, force[2]);
     for (int i = 0; i < 3; i++) scree_membrane_of(state)->force[k][i] += (double)force[i] * state->force_quantum;
 }
 

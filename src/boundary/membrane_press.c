@@ -15,6 +15,7 @@
 #include "state/body.h"
 
 #include "base/fixed.h"
+#include "base/wrapping.h"
 #include "boundary/pressed_facet.h"
 #include "boundary/sheet.h"
 #include "state/plates.h"
@@ -25,9 +26,9 @@
 static void add_press(scree_state *state, size_t k, const int64_t force[3])
 {
     scree_sum_row *sum = &state->sum[scree_membrane_row(state, k)];
-    sum->fx += force[0];
-    sum->fy += force[1];
-    if (state->dimension == 3) sum->fz += force[2];
+    scree_wrapping_add(&sum->fx, force[0]);
+    scree_wrapping_add(&sum->fy, force[1]);
+    if (state->dimension == 3) scree_wrapping_add(&sum->fz, force[2]);
     for (int i = 0; i < 3; i++) scree_membrane_of(state)->press[k][i] += (double)force[i] * state->force_quantum;
 }
 

@@ -147,9 +147,10 @@ void scree_periodic_control(const scree_model *model, scree_state *state, const 
 
 /// Matrices of a step.
 typedef struct step_maps {
-    double slow[9];    ///< (1 + h L)^-1
-    double forward[9]; ///< (1 - h L)^-1
-    double map[9];     ///< (1 - h L)^-1 (1 + h L)
+    double slow[9];     ///< (1 + h L)^-1
+    double forward[9];  ///< (1 - h L)^-1
+    double map[9];      ///< (1 - h L)^-1 (1 + h L)
+    double gradient[9]; ///< L
 } step_maps;
 
 static step_maps maps_of(const scree_state *state)
@@ -161,49 +162,60 @@ static step_maps maps_of(const scree_state *state)
     scree_matrix_invert(plus, maps.slow);
     scree_matrix_invert(minus, maps.forward);
     scree_matrix_multiply(maps.forward, plus, maps.map);
+    memcpy(maps.gradient, scree_cell(state)->gradient, sizeof maps.gradient);
     return maps;
 }
 
-static void velocity_of(const scree_state *state, size_t row, scree_vector velocity)
+// Loops over all bodies are made once for each dimension, a constant there.
+#define PERIODIC_INLINE static inline __attribute__((always_inline))
+
+PERIODIC_INLINE void place_of(int dimension, const scree_row *row, scree_vector position)
 {
-    scree_vector spin;
-    scree_body_motion(state, row, velocity, spin);
+    position[0] = row->x;
+    position[1] = row->y;
+    position[2] = dimension == 3 ? row->z : 0;
 }
 
-static void set_place(scree_state *state, size_t row, const scree_vector position)
+PERIODIC_INLINE void velocity_of(int dimension, const scree_row *row, scree_vector velocity)
 {
-    state->row[row].x = position[0];
-    state->row[row].y = position[1];
-    if (state->dimension == 3) state->row[row].z = position[2];
+    velocity[0] = row->vx;
+    velocity[1] = row->vy;
+    velocity[2] = dimension == 3 ? row->vz : 0;
 }
 
-static void set_velocity(scree_state *state, size_t row, const scree_vector velocity)
+PERIODIC_INLINE void set_place(int dimension, scree_row *row, const scree_vector position)
 {
-    state->row[row].vx = velocity[0];
-    state->row[row].vy = velocity[1];
-    if (state->dimension == 3) state->row[row].vz = velocity[2];
+    row->x = position[0];
+    row->y = position[1];
+    if (dimension == 3) row->z = position[2];
+}
+
+PERIODIC_INLINE void set_velocity(int dimension, scree_row *row, const scree_vector velocity)
+{
+    row->vx = velocity[0];
+    row->vy = velocity[1];
+    if (dimension == 3) row->vz = velocity[2];
 }
 
 /// From a row after `first`, at x(n) + dt c- with the velocity c-, to x(n+1) and v; `relative` becomes c+.
-static void move_body(scree_state *state, const step_maps *maps, size_t row, scree_vector relative)
+PERIODIC_INLINE void move_body(int dimension, const step_maps *maps, double dt, scree_row *row, scree_vector relative)
 {
-    const double dt = state->step_size, *gradient = scree_cell(state)->gradient;
     scree_vector before, position, middle, affine, sum, velocity;
-    velocity_of(state, row, before);
-    scree_body_position(state, row, position);
-    scree_matrix_apply(maps->slow, before, middle);
-    for (int k = 0; k < 3; k++) {
+    velocity_of(dimension, row, before);
+    place_of(dimension, row, position);
+    scree_matrix_apply_in(dimension, maps->slow, before, middle);
+    for (int k = 0; k < dimension; k++) {
         relative[k] = 2 * middle[k] - before[k];
         position[k] -= dt * before[k];
     }
-    scree_matrix_apply(gradient, position, affine);
-    for (int k = 0; k < 3; k++) sum[k] = position[k] + 0.5 * dt * affine[k] + dt * middle[k];
-    scree_matrix_apply(maps->forward, sum, position);
-    scree_matrix_apply(gradient, position, affine);
-    for (int k = 0; k < 3; k++) sum[k] = middle[k] + affine[k];
-    scree_matrix_apply(maps->slow, sum, velocity);
-    set_place(state, row, position);
-    set_velocity(state, row, velocity);
+    scree_matrix_apply_in(dimension, maps->gradient, position, affine);
+    for (int k = 0; k < dimension; k++) sum[k] = position[k] + 0.5 * dt * affine[k] + dt * middle[k];
+    scree_matrix_apply_in(dimension, maps->forward, sum, position);
+    scree_matrix_apply_in(dimension, maps->gradient, position, affine);
+    for (int k = 0; k < dimension; k++) sum[k] = middle[k] + affine[k];
+    scree_matrix_apply_in(dimension, maps->slow, sum, velocity);
+    set_place(dimension, row, position);
+    set_velocity(dimension, row, velocity);
 }
 
 /// What the members of the thread pool share.
@@ -217,12 +229,25 @@ typedef struct bodies_task {
     double largest[SCREE_TEAM_MOST]; ///< m
 } bodies_task;
 
+/// The maps are copied, so that the compiler knows that rows do not overlap them.
+PERIODIC_INLINE void move_rows(int dimension, const bodies_task *task, size_t begin, size_t end)
+{
+    const step_maps maps = *task->maps;
+    const double dt = task->state->step_size;
+    scree_row *row = task->state->row;
+    scree_vector *relative = task->work->relative;
+    for (size_t k = begin; k < end; k++) move_body(dimension, &maps, dt, &row[k], relative[k]);
+}
+
 static void move_share(void *argument, int index, int count)
 {
     const bodies_task *task = argument;
+    size_t begin = scree_thread_pool_begin(task->state->count, index, count);
     size_t end = scree_thread_pool_begin(task->state->count, index + 1, count);
-    for (size_t row = scree_thread_pool_begin(task->state->count, index, count); row < end; row++)
-        move_body(task->state, task->maps, row, task->work->relative[row]);
+    if (task->state->dimension == 3)
+        move_rows(3, task, begin, end);
+    else
+        move_rows(2, task, begin, end);
 }
 
 /// A task whose sums, which the shares fill, are not cleared: they are large.
@@ -269,21 +294,32 @@ static double mass_bound(const scree_model *model)
     return heaviest;
 }
 
+PERIODIC_INLINE void sum_motion(int dimension, bodies_task *task, size_t begin, size_t end, scree_wide_sum *sum)
+{
+    const double inverse = 1 / task->quantum;
+    const scree_row *row = task->state->row;
+    double slow[9];
+    memcpy(slow, task->maps->slow, sizeof slow);
+    for (size_t k = begin; k < end; k++) {
+        scree_vector before, c;
+        velocity_of(dimension, &row[k], before);
+        scree_matrix_apply_in(dimension, slow, before, c);
+        for (int i = 0; i < dimension; i++)
+            for (int j = 0; j < dimension; j++)
+                sum->value[3 * i + j] += scree_fixed_from(row[k].mass * c[i] * c[j], inverse);
+    }
+}
+
 static void kinematics_share(void *argument, int index, int count)
 {
     bodies_task *task = argument;
-    const scree_state *state = task->state;
-    const double inverse = 1 / task->quantum;
     scree_wide_sum sum = {{0}};
-    size_t end = scree_thread_pool_begin(state->count, index + 1, count);
-    for (size_t row = scree_thread_pool_begin(state->count, index, count); row < end; row++) {
-        scree_vector before, c;
-        velocity_of(state, row, before);
-        scree_matrix_apply(task->maps->slow, before, c);
-        for (int i = 0; i < state->dimension; i++)
-            for (int j = 0; j < state->dimension; j++)
-                sum.value[3 * i + j] += scree_fixed_from(state->row[row].mass * c[i] * c[j], inverse);
-    }
+    size_t begin = scree_thread_pool_begin(task->state->count, index, count);
+    size_t end = scree_thread_pool_begin(task->state->count, index + 1, count);
+    if (task->state->dimension == 3)
+        sum_motion(3, task, begin, end, &sum);
+    else
+        sum_motion(2, task, begin, end, &sum);
     task->sum[index] = sum;
 }
 
@@ -406,7 +442,7 @@ static void put_back(scree_state *state, const double inverse[9], const double v
     scree_vector position, speed, shift, by, reference, faster;
     if (!find_shift(state, inverse, row, shift)) return;
     scree_body_position(state, row, position);
-    velocity_of(state, row, speed);
+    velocity_of(state->dimension, &state->row[row], speed);
     scree_matrix_apply(scree_cell(state)->lattice, shift, by);
     scree_matrix_apply(scree_cell(state)->reference, shift, reference);
     scree_matrix_apply(velocity, shift, faster);
@@ -415,8 +451,8 @@ static void put_back(scree_state *state, const double inverse[9], const double v
         speed[k] += faster[k];
         state->reference[row][k] += reference[k];
     }
-    set_place(state, row, position);
-    set_velocity(state, row, speed);
+    set_place(state->dimension, &state->row[row], position);
+    set_velocity(state->dimension, &state->row[row], speed);
 }
 
 /// Looked at in every CHECKED-th step, since bodies go much less than a radius between; the number of force evaluations
@@ -473,7 +509,7 @@ static void settle_share(void *argument, int index, int count)
     const bodies_task *task = argument;
     size_t end = scree_thread_pool_begin(task->state->count, index + 1, count);
     for (size_t row = scree_thread_pool_begin(task->state->count, index, count); row < end; row++)
-        set_velocity(task->state, row, task->work->relative[row]);
+        set_velocity(task->state->dimension, &task->state->row[row], task->work->relative[row]);
 }
 
 void scree_periodic_settle(scree_state *state, scree_work *work)

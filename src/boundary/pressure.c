@@ -21,6 +21,7 @@
 
 #include "base/fixed.h"
 #include "base/integer_sum.h"
+#include "base/wrapping.h"
 #include "boundary/hull.h"
 #include "boundary/loaded_edges.h"
 #include "boundary/loaded_triangles.h"
@@ -112,32 +113,49 @@ scree_status scree_boundary_refresh(const scree_model *model, scree_state *state
     return status;
 }
 
+/// A point of the outline in quanta of the force.
+typedef struct outline_point {
+    double x[2]; ///< m
+    int64_t quanta[2];
+} outline_point;
+
 typedef struct pressure_forces {
     scree_state *state;
-    double origin[2]; ///< m, so that the integers stay small
-    double scale;     ///< quanta a metre: p t / 2 / quantum
+    scree_loop *loop;
+    double origin[2];  ///< m, so that the integers stay small
+    double scale;      ///< quanta a metre: p t / 2 / quantum
+    outline_point end; ///< of the last segment: the next one mostly begins there
 } pressure_forces;
 
-static void add_force(pressure_forces *forces, size_t k, int64_t fx, int64_t fy)
+static outline_point point_of(const pressure_forces *forces, const double x[2])
+{
+    outline_point point = {.x = {x[0], x[1]}};
+    for (int i = 0; i < 2; i++) point.quanta[i] = scree_fixed_round((x[i] - forces->origin[i]) * forces->scale);
+    return point;
+}
+
+/// Half of the force of a segment, f quanta or `newtons`, on one of its bodies.
+static inline void add_force(const pressure_forces *forces, size_t k, const int64_t f[2], const double newtons[2])
 {
     scree_state *state = forces->state;
-    scree_sum_row *sum = &state->sum[state->row_of_id[scree_loop_of(state)->id[k]]];
-    sum->fx += fx;
-    sum->fy += fy;
-    scree_loop_of(state)->fx[k] += (double)fx * state->force_quantum;
-    scree_loop_of(state)->fy[k] += (double)fy * state->force_quantum;
+    scree_sum_row *sum = &state->sum[state->row_of_id[forces->loop->id[k]]];
+    scree_wrapping_add(&sum->fx, f[0]);
+    scree_wrapping_add(&sum->fy, f[1]);
+    forces->loop->fx[k] += newtons[0];
+    forces->loop->fy[k] += newtons[1];
 }
 
 static void press_segment(void *user, const scree_outline_segment *segment)
 {
     pressure_forces *forces = user;
     if (segment->kind == SCREE_OUTLINE_BARE) return;
-    int64_t half[2];
-    for (int i = 0; i < 2; i++)
-        half[i] = scree_fixed_round((segment->to[i] - forces->origin[i]) * forces->scale) -
-                  scree_fixed_round((segment->from[i] - forces->origin[i]) * forces->scale);
-    add_force(forces, segment->first, -half[1], half[0]);
-    add_force(forces, segment->second, -half[1], half[0]);
+    outline_point from = forces->end;
+    if (from.x[0] != segment->from[0] || from.x[1] != segment->from[1]) from = point_of(forces, segment->from);
+    forces->end = point_of(forces, segment->to);
+    const int64_t f[2] = {-(forces->end.quanta[1] - from.quanta[1]), forces->end.quanta[0] - from.quanta[0]};
+    const double quantum = forces->state->force_quantum, newtons[2] = {(double)f[0] * quantum, (double)f[1] * quantum};
+    add_force(forces, segment->first, f, newtons);
+    add_force(forces, segment->second, f, newtons);
 }
 
 /// The terms are found once for both passes of the sum: rows of bodies along a loop lie all over the memory.
@@ -173,8 +191,10 @@ void scree_pressure_forces(const scree_model *model, scree_state *state)
     memset(loop->fy, 0, loop->count * sizeof *loop->fy);
     double pressure = scree_direct_pressure(state);
     if (!(pressure > 0)) return;
-    pressure_forces forces = {.state = state, .scale = 0.5 * pressure * model->thickness / state->force_quantum};
+    pressure_forces forces = {
+        .state = state, .loop = loop, .scale = 0.5 * pressure * model->thickness / state->force_quantum};
     scree_loop_position(state, 0, forces.origin);
+    forces.end = point_of(&forces, forces.origin);
     scree_outline_walk(state, press_segment, &forces);
     add_half_work(state);
 }

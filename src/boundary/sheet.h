@@ -34,7 +34,7 @@ static inline void scree_sheet_triangle(size_t around, size_t count, size_t t, s
 }
 
 /// Largest radius [m] that a ball which slips through the sheet of the membrane can have, between three of its bodies
-/// or between two of its ends and their plate. Cost: O(bodies of the membrane).
+/// or between two of its ends and their plate (sheet_hole.c). Cost: O(bodies of the membrane).
 double scree_sheet_hole(const scree_state *state);
 
 /// Places the sheet of a membrane around the grains (sheet_place.c).

@@ -163,8 +163,8 @@ typedef struct scree_config_measure {
     int64_t samples;              ///< rows of series.csv per loading stage
     scree_config_window *windows; ///< strain windows of the displacement fluctuations
     int64_t window_count;
-    bool cells;         ///< Delaunay cells in snapshots, their averages and shear bands
-    double band_window; ///< least axial strain over which shear bands are looked for
+    bool cells; ///< Delaunay cells in snapshots, their averages and shear bands
+    void *own;  ///< structs of modules (scree_config_own)
 } scree_config_measure;
 
 typedef struct scree_config_output {

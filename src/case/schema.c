@@ -177,8 +177,7 @@ static const scree_key measure_keys[] = {
         .meaning = "Windows [from, to] of axial strain over which displacement fluctuations are taken."),
     FLAG(measure, cells, .standard = "yes",
          .meaning = "Fields of the Delaunay cells in snapshots; shear bands between them. Not in periodic samples."),
-    NUMBER(measure, band_window, "1", .standard = "1 %", ABOVE("0 %"), TO("90 %"), .when = "cells=yes",
-           .meaning = "Shear bands are looked for between snapshots at least this far apart in axial strain."),
+    MODULE_KEYS,
 };
 
 typedef scree_config_output output;
@@ -217,7 +216,7 @@ static const scree_section stage_table[] = {OPEN_TABLE("stages", "What happens."
 static const scree_section selection_table[] = {
     OPEN_TABLE("selections", "Some of the particles.", selection_keys, selection)};
 static const scree_section load_table[] = {OPEN_TABLE("loads", "What acts on the bodies.", load_keys, load)};
-static const scree_section measure_table[] = {TABLE("measure", "What is recorded.", measure_keys)};
+static const scree_section measure_table[] = {OPEN_TABLE("measure", "What is recorded.", measure_keys, measure)};
 static const scree_section output_table[] = {TABLE("output", "What is written, and how often.", output_keys)};
 static const scree_section guard_table[] = {TABLE("guard", "Limits that stop a run that went wrong.", guard_keys)};
 

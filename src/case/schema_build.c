@@ -75,13 +75,15 @@ static size_t find_key(const draft *d, const char *name)
     return d->count;
 }
 
-/// Condition `one`, or with it what stands behind the '=' of `other`, which is of the same chooser.
+/// The first condition of `one`, or with it what stands behind the '=' of `other`, which is of the same chooser;
+/// further conditions, of keys that one of the two modules alone has, stand behind.
 static const char *join_conditions(const char *one, const char *other)
 {
     const char *alternatives = strchr(other, '=') + 1;
     size_t size = strlen(one) + strlen(alternatives) + 2;
     char *text = &all_text[take(&text_length, size, ALL_TEXT)];
-    (void)snprintf(text, size, "%s|%s", one, alternatives);
+    const int first = (int)strcspn(one, "&");
+    (void)snprintf(text, size, "%.*s|%s%s", first, one, alternatives, one + first);
     return text;
 }
 

@@ -2,7 +2,7 @@
 #ifndef SCREE_CASE_SCHEMA_WALLS_H
 #define SCREE_CASE_SCHEMA_WALLS_H
 
-#include "case/schema.h"
+#include "module/key.h"
 
 enum { SCREE_WALL_SECTIONS = 1 };
 extern const scree_section scree_wall_sections[SCREE_WALL_SECTIONS];

@@ -30,9 +30,9 @@ static scree_usage condition_usage(const scree_node *root, const scree_section *
         name += dot + 1;
     }
     usage.chooser = scree_section_find(section, name, (size_t)(when + equals - name));
-    // What depends on a key that is not used is not used.
+    // What depends on a choice that is not used is not used; a number that is not used is nothing to depend on.
     scree_usage chooser = scree_key_usage(root, section, mapping, usage.chooser);
-    if (chooser.use == SCREE_UNUSED) return chooser;
+    if (chooser.use == SCREE_UNUSED) return usage.chooser->type == SCREE_KEY_NUMBER ? usage : chooser;
     usage.choice = scree_node_find(mapping, usage.chooser->name);
     const char *text = usage.choice ? usage.choice->text : usage.chooser->standard;
     if (usage.chooser->type == SCREE_KEY_LIST) text = usage.choice && usage.choice->count > 0 ? "given" : "[]";
@@ -79,7 +79,7 @@ static const char *given_text(const scree_node *element, const char *key)
 }
 
 bool scree_element_name(const scree_key *list, const scree_node *parent, const scree_node *element, char *name,
-                          size_t size)
+                        size_t size)
 {
     const char *own = given_text(element, "name");
     const char *kind_key = list->sections[0].keys[0].name;

@@ -39,6 +39,8 @@ static void print_deformation(const scree_stability *s)
     print_row("relaxed_step", s->relaxed_step, "s", "critical step, strain relaxed by `relaxation`");
     print_row("relaxation", s->relaxation, "1", "");
     print_row("implicit_step", s->implicit_step, "s", "critical step, strain solved for");
+    print_row("has_potential", s->has_potential, "1",
+              s->has_potential ? "" : "strains do not act on slips: vibrations may grow at any step without damping");
 }
 
 scree_status scree_verb_stability(const scree_command *command)

@@ -158,8 +158,9 @@ const scree_verb scree_verbs[] = {
         .name = "moduli",
         .meaning = "print the elastic moduli of a specimen",
         .text =
-            "Takes a specimen as `scree stability` does, periodic in all directions, imposes each component of a mean "
-            "strain, lets particles find their places, and prints the elasticity tensor: its components C_ijkl, the "
+            "Takes a specimen as `scree stability` does, periodic in all directions or filling a box, imposes each "
+            "component of a mean strain (on a box by its outermost particles, whose spins are free), lets particles "
+            "find their places, and prints the elasticity tensor: its components C_ijkl, the "
             "nearest isotropic moduli, how far from isotropic and from symmetric it is, the fabric of the contacts, "
             "and for comparison the moduli if all particles followed the mean strain (Voigt). Nothing is run but what "
             "leads to the specimen. Contacts stay as they are: none opens, closes or slides.\n\n"

@@ -16,26 +16,37 @@
 
 #include <math.h>
 
+// Loops over all bodies and ghosts are made once for each dimension, a constant there.
+#define VIRIAL_INLINE static inline __attribute__((always_inline))
+
 /// Force sums of a row.
-static void sum_of(const scree_state *state, size_t row, int64_t force[3])
+VIRIAL_INLINE void sum_of(int dimension, const scree_sum_row *sum, int64_t force[3])
 {
-    const scree_sum_row *sum = &state->sum[row];
     force[0] = sum->fx;
     force[1] = sum->fy;
-    force[2] = state->dimension == 3 ? sum->fz : 0;
+    force[2] = dimension == 3 ? sum->fz : 0;
+}
+
+VIRIAL_INLINE void add_faces(int dimension, const scree_sum_row *sum, const scree_ghost_list *list, int64_t faces[9])
+{
+    uint64_t total[9] = {0};
+    for (size_t k = 0; k < list->count; k++) {
+        int64_t force[3];
+        sum_of(dimension, &sum[k], force);
+        for (int i = 0; i < dimension; i++)
+            for (int j = 0; j < dimension; j++)
+                total[3 * i + j] += (uint64_t)force[i] * (uint64_t)(int64_t)list->ghost[k].shift[j];
+    }
+    for (int k = 0; k < 9; k++) faces[k] = (int64_t)total[k];
 }
 
 /// Sum of force (x) shift [quanta] over the ghosts, modulo 2^64.
 static void sum_faces(const scree_state *state, const scree_ghost_list *list, int64_t faces[9])
 {
-    for (size_t k = 0; k < list->count; k++) {
-        int64_t force[3];
-        sum_of(state, state->count + k, force);
-        for (int i = 0; i < state->dimension; i++)
-            for (int j = 0; j < state->dimension; j++)
-                faces[3 * i + j] =
-                    (int64_t)((uint64_t)faces[3 * i + j] + (uint64_t)(force[i] * list->ghost[k].shift[j]));
-    }
+    if (state->dimension == 3)
+        add_faces(3, state->sum + state->count, list, faces);
+    else
+        add_faces(2, state->sum + state->count, list, faces);
 }
 
 typedef struct virial_task {
@@ -48,32 +59,43 @@ typedef struct virial_task {
 static void bound_share(void *argument, int index, int count)
 {
     virial_task *task = argument;
+    const scree_row *row = task->state->row;
+    const bool in_3d = task->state->dimension == 3;
     double largest = 0;
     size_t end = scree_thread_pool_begin(task->state->count, index + 1, count);
-    for (size_t row = scree_thread_pool_begin(task->state->count, index, count); row < end; row++) {
-        scree_vector position;
-        scree_body_position(task->state, row, position);
-        for (int k = 0; k < 3; k++) largest = fabs(position[k]) > largest ? fabs(position[k]) : largest;
+    for (size_t k = scree_thread_pool_begin(task->state->count, index, count); k < end; k++) {
+        largest = fabs(row[k].x) > largest ? fabs(row[k].x) : largest;
+        largest = fabs(row[k].y) > largest ? fabs(row[k].y) : largest;
+        if (in_3d) largest = fabs(row[k].z) > largest ? fabs(row[k].z) : largest;
     }
     task->largest[index] = largest;
+}
+
+VIRIAL_INLINE void sum_rows(int dimension, const virial_task *task, size_t begin, size_t end, scree_wide_sum *sum)
+{
+    const double inverse = 1 / task->bound;
+    const scree_state *state = task->state;
+    for (size_t row = begin; row < end; row++) {
+        const scree_row *body = &state->row[row];
+        const double position[3] = {body->x, body->y, dimension == 3 ? body->z : 0};
+        int64_t force[3];
+        sum_of(dimension, &state->sum[row], force);
+        for (int i = 0; i < dimension; i++)
+            for (int j = 0; j < dimension; j++)
+                sum->value[3 * i + j] += llrint((double)force[i] * (position[j] * inverse));
+    }
 }
 
 static void sum_share(void *argument, int index, int count)
 {
     virial_task *task = argument;
-    const scree_state *state = task->state;
-    const double inverse = 1 / task->bound;
     scree_wide_sum sum = {{0}};
-    size_t end = scree_thread_pool_begin(state->count, index + 1, count);
-    for (size_t row = scree_thread_pool_begin(state->count, index, count); row < end; row++) {
-        scree_vector position;
-        int64_t force[3];
-        scree_body_position(state, row, position);
-        sum_of(state, row, force);
-        for (int i = 0; i < state->dimension; i++)
-            for (int j = 0; j < state->dimension; j++)
-                sum.value[3 * i + j] += (int64_t)rint((double)force[i] * (position[j] * inverse));
-    }
+    size_t begin = scree_thread_pool_begin(task->state->count, index, count);
+    size_t end = scree_thread_pool_begin(task->state->count, index + 1, count);
+    if (task->state->dimension == 3)
+        sum_rows(3, task, begin, end, &sum);
+    else
+        sum_rows(2, task, begin, end, &sum);
     task->sum[index] = sum;
 }
 

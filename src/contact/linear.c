@@ -31,7 +31,8 @@
 typedef scree_linear_material material;
 #define WITH_LINEAR .when = "contact.law=linear"
 static const scree_key material_keys[] = {
-    NUMBER(material, restitution, "1", .standard = "0.2", ABOVE("0"), TO("1"), WITH_LINEAR,
+    NUMBER(material, restitution, "1", .standard = "0.2", ABOVE("0"), TO("1"),
+           .when = "contact.law=linear&damping_ratio=auto",
            .meaning = "Coefficient of restitution of a normal impact; sets the damping."),
     NUMBER(material, normal_stiffness, "N/m", .standard = "auto", FROM("1e-9 N/m"), TO("1e18 N/m"), WITH_LINEAR,
            .meaning = "Normal stiffness k_n of a contact of two such grains; auto: E A / L, of discs `young_modulus` "
@@ -42,8 +43,8 @@ static const scree_key material_keys[] = {
     NUMBER(material, stiffness_ratio, "1", .standard = "auto", FROM("0"), TO("100"), WITH_LINEAR,
            .meaning = "k_t over k_n, in place of `tangential_stiffness`; 0: no tangential force; auto: 1."),
     NUMBER(material, damping_ratio, "1", .standard = "auto", FROM("0"), TO("1000"), WITH_LINEAR,
-           .meaning = "Normal dashpot over the critical damping of the pair; auto: that which gives `restitution`, "
-                      "whose place it takes."),
+           .meaning = "Normal dashpot over the critical damping of the pair; auto: that which gives `restitution`; "
+                      "one of the two is given."),
     NUMBER(material, tangential_damping_ratio, "1", .standard = "auto", FROM("0"), TO("1000"), WITH_LINEAR,
            .meaning = "Tangential dashpot over the critical damping of the pair's tangential spring; auto: that of the "
                       "normal one."),
@@ -104,6 +105,12 @@ static void put_in(const scree_config_material *of, double *normal, double *tang
     *normal = isnan(m->normal_stiffness) ? of->young_modulus : m->normal_stiffness;
     const double ratio = isnan(m->stiffness_ratio) ? 1 : m->stiffness_ratio;
     *tangential = isnan(m->tangential_stiffness) ? ratio * *normal : m->tangential_stiffness;
+}
+
+/// E of k_n = E A / L: that of `constants`, the other way round.
+static double modulus(const scree_contact_space *space, const scree_config_material *of, double radius)
+{
+    return own_material(of)->normal_stiffness / (space->dimension == 3 ? M_PI * 0.5 * radius : space->thickness);
 }
 
 static double damping_of(const material *m)
@@ -277,6 +284,8 @@ static const scree_law law = {
     .material_problem = material_problem,
     .options = options,
     .constants = constants,
+    .modulus = modulus,
+    .modulus_key = "normal_stiffness",
     .bound = bound,
     .tangent = tangent,
     .impact = impact,

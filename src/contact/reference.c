@@ -104,7 +104,7 @@ SCREE_INLINE void evaluate_walls(contact_job *job, variant v, const scree_wall *
         }
         contact_quanta q = contact_advance(job, v, &job->model->walls[(int)one.material], NULL, &m, touching, &rows);
         contact_add_to_sums(job, row, q.force, q.torque_first, q.count);
-        contact_add_moments(job, row, m.normal, m.arm_first, q.on_first);
+        if (v.moments) contact_add_moments(job, row, m.normal, m.arm_first, q.on_first);
         job->totals.wall_force[w] += q.normal;
         job->totals.wall_shear[w][0] -= q.tangential.x;
         job->totals.wall_shear[w][1] -= q.tangential.y;

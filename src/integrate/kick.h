@@ -22,14 +22,24 @@ typedef struct scree_kick_scale {
     double whole;
 } scree_kick_scale;
 
+/// The arrays of the state, in registers while a loop runs.
+typedef struct scree_kick_rows {
+    scree_row *row;
+    scree_turn_row *turn;
+    scree_sum_row *sum;
+    scree_torque_row *torque;
+    double *angle;
+    scree_predicted *predicted;
+} scree_kick_rows;
+
 #define KICK_INLINE static inline __attribute__((always_inline))
 
 /// Adds to velocity and spin; returns what it has added, and the number of contacts.
-KICK_INLINE scree_predicted scree_kick_velocity(int dimension, scree_state *state, size_t i,
+KICK_INLINE scree_predicted scree_kick_velocity(int dimension, const scree_kick_rows *rows, size_t i,
                                                 const scree_kick_scale *scale)
 {
-    scree_row *row = &state->row[i];
-    const scree_sum_row *sum = &state->sum[i];
+    scree_row *row = &rows->row[i];
+    const scree_sum_row *sum = &rows->sum[i];
     // One division for mass and inertia.
     double square = row->radius * row->radius, inverse = 1.0 / (row->mass * square), inverse_mass = inverse * square;
     scree_predicted added = {.vx = (double)sum->fx * scale->force * inverse_mass + scale->gravity[0],
@@ -42,8 +52,8 @@ KICK_INLINE scree_predicted scree_kick_velocity(int dimension, scree_state *stat
         row->spin += added.spin;
         return added;
     }
-    scree_turn_row *turn = &state->turn[i];
-    const scree_torque_row *torque = &state->torque[i];
+    scree_turn_row *turn = &rows->turn[i];
+    const scree_torque_row *torque = &rows->torque[i];
     double inverse_inertia = scale->torque * 2.5 * inverse;
     added.vz = (double)sum->fz * scale->force * inverse_mass + scale->gravity[2];
     added.wx = (double)torque->x * inverse_inertia;
@@ -70,18 +80,18 @@ KICK_INLINE void scree_kick_predict(int dimension, scree_predicted *row, scree_p
 }
 
 /// Moves a body; returns |v|^2, and R |w| in 2D, its square in 3D.
-KICK_INLINE scree_speeds scree_drift(int dimension, scree_state *state, size_t i, double dt)
+KICK_INLINE scree_speeds scree_drift(int dimension, const scree_kick_rows *rows, size_t i, double dt)
 {
-    scree_row *row = &state->row[i];
+    scree_row *row = &rows->row[i];
     row->x += dt * row->vx;
     row->y += dt * row->vy;
     double speed2 = row->vx * row->vx + row->vy * row->vy;
     if (dimension == 2) {
-        state->angle[i] += dt * row->spin;
+        rows->angle[i] += dt * row->spin;
         return (scree_speeds){.surface = row->radius * fabs(row->spin), .centre = speed2};
     }
     row->z += dt * row->vz;
-    const scree_turn_row *turn = &state->turn[i];
+    const scree_turn_row *turn = &rows->turn[i];
     double spin2 = turn->wx * turn->wx + turn->wy * turn->wy + turn->wz * turn->wz;
     return (scree_speeds){.surface = row->radius * row->radius * spin2, .centre = speed2 + row->vz * row->vz};
 }
@@ -94,18 +104,22 @@ typedef struct scree_kick_task {
     scree_speeds speeds[SCREE_TEAM_MOST]; ///< as of scree_drift
 } scree_kick_task;
 
-KICK_INLINE scree_speeds scree_kick_loop(int dimension, const scree_kick_task *task, size_t begin, size_t end)
+/// Dimension and drift are constants here, and what is added is a copy, so that rows do not overlap it.
+KICK_INLINE scree_speeds scree_kick_loop(int dimension, bool drift, const scree_kick_task *task, size_t begin,
+                                         size_t end)
 {
-    scree_state *state = task->state;
+    const scree_state *state = task->state;
+    const scree_kick_rows rows = {state->row, state->turn, state->sum, state->torque, state->angle, state->predicted};
+    const scree_kick_scale scale = task->scale;
     const double dt = state->step_size;
     double surface = 0, centre = 0;
     for (size_t i = begin; i < end; i++) {
-        scree_predicted added = scree_kick_velocity(dimension, state, i, &task->scale);
-        if (!task->drift) continue;
-        state->sum[i] = (scree_sum_row){0};
-        if (dimension == 3) state->torque[i] = (scree_torque_row){0};
-        if (state->predicted) scree_kick_predict(dimension, &state->predicted[i], added, task->scale.whole);
-        scree_speeds moved = scree_drift(dimension, state, i, dt);
+        scree_predicted added = scree_kick_velocity(dimension, &rows, i, &scale);
+        if (!drift) continue;
+        rows.sum[i] = (scree_sum_row){0};
+        if (dimension == 3) rows.torque[i] = (scree_torque_row){0};
+        if (rows.predicted) scree_kick_predict(dimension, &rows.predicted[i], added, scale.whole);
+        scree_speeds moved = scree_drift(dimension, &rows, i, dt);
         centre = moved.centre > centre ? moved.centre : centre;
         surface = moved.surface > surface ? moved.surface : surface;
         // A speed that is not a number would be lost by the comparisons above.
@@ -119,8 +133,13 @@ static void scree_kick_share(void *argument, int index, int count)
     scree_kick_task *task = argument;
     size_t begin = task->state->count * (size_t)index / (size_t)count;
     size_t end = task->state->count * (size_t)(index + 1) / (size_t)count;
-    task->speeds[index] =
-        task->state->dimension == 3 ? scree_kick_loop(3, task, begin, end) : scree_kick_loop(2, task, begin, end);
+    const bool in_3d = task->state->dimension == 3;
+    if (task->drift)
+        task->speeds[index] =
+            in_3d ? scree_kick_loop(3, true, task, begin, end) : scree_kick_loop(2, true, task, begin, end);
+    else
+        task->speeds[index] =
+            in_3d ? scree_kick_loop(3, false, task, begin, end) : scree_kick_loop(2, false, task, begin, end);
 }
 
 static inline scree_speeds scree_kick(const scree_model *model, scree_state *state, scree_work *work, double h,

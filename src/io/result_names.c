@@ -101,13 +101,16 @@ const scree_result *scree_result_name_find(const char *name, const scree_module 
     *module = NULL;
     for (size_t i = 0; i < scree_run_results_count; i++)
         if (fits(&scree_run_results[i], name)) return &scree_run_results[i];
+    // Of two endings that fit, `_force_x` and `_exerted_force_x`, the longer one is meant.
+    const scree_result *found = NULL;
     for (int m = 0; m < SCREE_MODULE_COUNT; m++)
         for (size_t k = 0; k < scree_modules[m]->results.count; k++) {
+            const scree_result *row = &scree_modules[m]->results.row[k];
+            if (!fits(row, name) || (found && strlen(row->name) <= strlen(found->name))) continue;
+            found = row;
             *module = scree_modules[m];
-            if (fits(&(*module)->results.row[k], name)) return &(*module)->results.row[k];
         }
-    *module = NULL;
-    return NULL;
+    return found;
 }
 
 const char *scree_result_name_nearest(const char *name)

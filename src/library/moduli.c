@@ -2,6 +2,8 @@
 #include "specimen/moduli.h"
 #include "library/handle.h"
 #include "library/specimen.h"
+#include "specimen/box.h"
+#include "state/plates.h"
 #include "theory/lattice.h"
 
 static scree_isotropic_moduli public_moduli(scree_isotropic m)
@@ -33,6 +35,32 @@ static scree_isotropic_moduli estimate(const scree_specimen *s)
     return (scree_isotropic_moduli){m.young, m.poisson, m.bulk, m.shear};
 }
 
+/// Where plates stand the sample ends there, elsewhere with its bodies.
+static void find_faces(const scree_state *state, scree_box_faces *faces)
+{
+    for (int w = 0; w < SCREE_WALL_COUNT; w++) {
+        const int axis = w / 2 == 0 ? state->dimension - 1 : w / 2 - 1;
+        const scree_wall *plate = &scree_plates(state)[w];
+        if (axis < state->dimension)
+            faces->end[w % 2][axis] = plate->active ? plate->position * plate->normal[axis] : NAN;
+    }
+}
+
+/// What is strained: the specimen, or the piece of it within its outermost bodies.
+static scree_status take_piece(const scree_state *state, scree_specimen *specimen, scree_error *error)
+{
+    const unsigned all = (1U << specimen->dimension) - 1;
+    scree_box_faces faces = {{{NAN, NAN, NAN}, {NAN, NAN, NAN}}};
+    if (specimen->periodic == all) return SCREE_OK;
+    scree_specimen piece;
+    find_faces(state, &faces);
+    scree_status status = scree_specimen_cut_box(specimen, &faces, &piece, error);
+    if (status) return status;
+    scree_specimen_destroy(specimen);
+    *specimen = piece;
+    return SCREE_OK;
+}
+
 scree_status scree_simulation_moduli(scree_simulation *s, const scree_particle_elasticity *elasticity,
                                      scree_moduli *out, scree_error *error)
 {
@@ -41,7 +69,8 @@ scree_status scree_simulation_moduli(scree_simulation *s, const scree_particle_e
     *out = (scree_moduli){.dimension = s->model.dimension};
     scree_status status = library_specimen(s, elasticity, &specimen, error);
     if (status) return status;
-    status = scree_specimen_find_moduli(&specimen, &found, error);
+    status = take_piece(&s->state, &specimen, error);
+    if (!status) status = scree_specimen_find_moduli(&specimen, &found, error);
     if (!status) {
         out->bodies = specimen.body_count;
         out->contacts = specimen.contact_count;

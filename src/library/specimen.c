@@ -99,8 +99,8 @@ scree_status library_specimen(scree_simulation *s, const scree_particle_elastici
     if (!status) status = scree_neighbours_refresh(&s->stage_model, &s->state, &s->work, error);
     if (!status) status = scree_specimen_of_state(&s->stage_model, &s->state, &s->work, specimen, error);
     if (status || !elasticity) return status;
-    const scree_plane_condition condition = s->model.dimension == 3 ? SCREE_SOLID : SCREE_PLANE_STRAIN;
-    scree_specimen_deform(specimen,
-                          scree_compliance_of(condition, elasticity->young_modulus, elasticity->poisson_ratio));
+    specimen->condition = s->model.dimension == 3 ? SCREE_SOLID : SCREE_PLANE_STRAIN;
+    scree_specimen_deform(
+        specimen, scree_compliance_of(specimen->condition, elasticity->young_modulus, elasticity->poisson_ratio));
     return SCREE_OK;
 }

@@ -13,6 +13,18 @@ static double mean_normal_stiffness(const scree_specimen *s)
     return s->contact_count > 0 ? sum / (double)s->contact_count : (double)NAN;
 }
 
+/// Young's modulus of the particles that deform [Pa], mean by number.
+static double mean_modulus(const scree_specimen *s)
+{
+    double sum = 0, count = 0;
+    for (size_t body = 0; body < s->body_count; body++) {
+        if (!(s->compliance[body].shear > 0)) continue;
+        sum += scree_compliance_modulus(s->condition, s->compliance[body]);
+        count++;
+    }
+    return sum / count;
+}
+
 /// Without dashpots, which are put aside for it.
 static scree_status undamped_step(scree_specimen *s, double damped, double *step, scree_error *error)
 {
@@ -58,8 +70,8 @@ static scree_status deformable_limits(const scree_specimen *s, scree_stability *
     return status;
 }
 
-static scree_status find_limits(const scree_simulation *simulation, double young, scree_specimen *s,
-                                scree_stability *out, scree_error *error)
+static scree_status find_limits(const scree_simulation *simulation, scree_specimen *s, scree_stability *out,
+                                scree_error *error)
 {
     scree_status status = scree_critical_step(s, scree_strain_rigid(), &out->critical_step, NULL, error);
     if (!status) status = undamped_step(s, out->critical_step, &out->critical_step_undamped, error);
@@ -67,6 +79,7 @@ static scree_status find_limits(const scree_simulation *simulation, double young
     out->step_of_extremes = scree_step_of_extremes(s);
     if (status || !scree_specimen_is_deformable(s)) return status;
     status = deformable_limits(s, out, error);
+    const double young = mean_modulus(s);
     out->stiffness_ratio = out->normal_stiffness / young;
     out->largest_ratio = out->stiffness_ratio / out->spectral_radius;
     compare_lattices(&simulation->model, s, young, out);
@@ -80,6 +93,7 @@ scree_status scree_simulation_stability(scree_simulation *s, const scree_particl
     scree_status status = library_specimen(s, elasticity, &specimen, error);
     *out = (scree_stability){.bodies = specimen.body_count,
                              .contacts = specimen.contact_count,
+                             .has_potential = true,
                              .step = s->model.step * (double)s->model.largest_step,
                              .spectral_radius = NAN,
                              .stiffness_ratio = NAN,
@@ -93,7 +107,8 @@ scree_status scree_simulation_stability(scree_simulation *s, const scree_particl
                              .relaxation = NAN};
     if (status) return status;
     out->normal_stiffness = mean_normal_stiffness(&specimen);
-    status = find_limits(s, elasticity ? elasticity->young_modulus : (double)NAN, &specimen, out, error);
+    out->has_potential = scree_specimen_has_potential(&specimen);
+    status = find_limits(s, &specimen, out, error);
     scree_specimen_destroy(&specimen);
     return status;
 }

@@ -9,10 +9,12 @@
 ///
 /// Work. F_d(n) does 1/2 F_d . v(n-1/2) h(n) in the step before, which is accumulated at once, and 1/2 F_d . v(n+1/2)
 /// h(n+1) in the one after, which is known, too, since nothing is added behind this phase: it waits until the next step
-/// has begun. Work is a sum in integers (base/fixed.h). Cost: one pass over the bodies, some 5 ns each.
+/// has begun. Work is a sum in integers (base/fixed.h). Cost: one pass over the bodies, some 5 ns each. Limit: no stage
+/// with a boundary that imposes velocities, which would be braked as well.
 #include "base/checksum.h"
 #include "base/fixed.h"
 #include "base/integer_sum.h"
+#include "base/wrapping.h"
 #include "case/check.h"
 #include "comm/comm.h"
 #include "load/load.h"
@@ -92,16 +94,16 @@ static turn plan_body(const scree_context *c, const config *own, size_t row)
 static void apply(scree_state *state, size_t row, const turn *t)
 {
     scree_sum_row *sum = &state->sum[row];
-    sum->fx += t->push[0];
-    sum->fy += t->push[1];
+    scree_wrapping_add(&sum->fx, t->push[0]);
+    scree_wrapping_add(&sum->fy, t->push[1]);
     if (state->dimension == 2) {
-        sum->torque += t->twist[2];
+        scree_wrapping_add(&sum->torque, t->twist[2]);
         return;
     }
-    sum->fz += t->push[2];
-    state->torque[row].x += t->twist[0];
-    state->torque[row].y += t->twist[1];
-    state->torque[row].z += t->twist[2];
+    scree_wrapping_add(&sum->fz, t->push[2]);
+    scree_wrapping_add(&state->torque[row].x, t->twist[0]);
+    scree_wrapping_add(&state->torque[row].y, t->twist[1]);
+    scree_wrapping_add(&state->torque[row].z, t->twist[2]);
 }
 
 /// Power [W] of the damping at v(n - 1/2) and at v(n + 1/2), to which the next kick leads.
@@ -169,6 +171,20 @@ static uint64_t checksum(const scree_model *model, const scree_state *state, uin
     return first_config(model) ? scree_checksum_number(c, own_state(state)->work) : c;
 }
 
+/// A boundary that imposes velocities finds its forces from the sums before the damping, which then brakes its bodies.
+static void check_boundaries(scree_reader *reader, const scree_config *whole, const char *path)
+{
+    for (int64_t i = 0; i < whole->stage_count; i++) {
+        const scree_boundary *boundary = scree_config_held_by(whole, i);
+        if (!boundary || !boundary->equal_steps) continue;
+        scree_rule_refuse(reader, path, NULL,
+                          "the boundary of stages.%lld imposes velocities, which background_damping would brake: give "
+                          "the stage plates or a pressure on its sides, or leave the damping out",
+                          (long long)i);
+        return;
+    }
+}
+
 static void rules(scree_reader *reader, const scree_config *whole)
 {
     int64_t first = -1;
@@ -179,6 +195,8 @@ static void rules(scree_reader *reader, const scree_config *whole)
         if (first >= 0)
             scree_rule_refuse(reader, path, NULL, "loads.%lld damps the same bodies: give one background_damping",
                               (long long)first);
+        else
+            check_boundaries(reader, whole, path);
         first = first < 0 ? i : first;
     }
 }

@@ -22,6 +22,7 @@
 #include "base/fixed.h"
 #include "base/integer_sum.h"
 #include "base/vectors.h"
+#include "base/wrapping.h"
 #include "comm/comm.h"
 #include "integrate/integrate.h"
 #include "load/prescribed.h"
@@ -280,7 +281,7 @@ static void exert(const scree_context *c, size_t row, int component, double quan
         quanta = 0;
     }
     *exerted = llrint(quanta);
-    *sum_of(c->state, row, component) += *exerted;
+    scree_wrapping_add(sum_of(c->state, row, component), *exerted);
 }
 
 /// Torque [N m] of a force on the surface, about the centre.
@@ -335,8 +336,8 @@ static void hold_body(const scree_context *c, size_t row, const order *list)
         double whole = inertia_of(state, row, d) * acceleration / quantum_of(state, d);
         int64_t others = *sum_of(state, row, d);
         exert(c, row, d, whole, &all->exerted[row].quanta[d]);
-        all->exerted[row].quanta[d] -= others;
-        *sum_of(state, row, d) -= others;
+        scree_wrapping_subtract(&all->exerted[row].quanta[d], others);
+        scree_wrapping_subtract(sum_of(state, row, d), others);
     }
 }
 

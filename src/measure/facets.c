@@ -5,6 +5,8 @@
 /// as integers, which its area holds until they are all there, in quanta so small that a node could have all triangles:
 /// 62 bits less those of their number are left for a share.
 #include "measure/facets.h"
+
+#include "base/wrapping.h"
 #include "measure/delaunay_boundary.h"
 #include "state/body.h"
 
@@ -95,7 +97,7 @@ static void add_quanta(double *position, int64_t quanta)
 {
     int64_t sum;
     memcpy(&sum, position, sizeof sum);
-    sum += quanta;
+    scree_wrapping_add(&sum, quanta);
     memcpy(position, &sum, sizeof sum);
 }
 

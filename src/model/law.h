@@ -100,6 +100,10 @@ typedef struct scree_law {
     /// Constants of two materials; b is NULL for something rigid.
     scree_pair_constants (*constants)(const scree_contact_space *space, const scree_config_material *a,
                                       const scree_config_material *b);
+    /// Young's modulus [Pa] that would make grains of a material and radius [m] as stiff as they are, where its springs
+    /// do not follow young_modulus; NAN where they do. NULL: they always do.
+    double (*modulus)(const scree_contact_space *space, const scree_config_material *material, double radius);
+    const char *modulus_key; ///< the key that sets it then
     /// Strict bounds; most: the largest of each constant over all pairs.
     scree_law_bounds (*bound)(const scree_law_use *use, const scree_pair_constants *most,
                               const scree_law_extent *extent);

@@ -161,9 +161,12 @@ double scree_model_mean_solid(const scree_model *model);
 /// Density [kg/m3] of all particles together, mass over volume.
 double scree_model_mean_density(const scree_model *model);
 
-/// Constants of a contact of two particles taken at random, and Young's modulus [Pa] of one: means by number.
+/// Constants of a contact of two particles taken at random, and Young's modulus [Pa] of one: means by number. Where the
+/// case gives stiffnesses of springs, the modulus that grains of the mean radius would have with these.
 scree_pair_constants scree_model_mean_pair(const scree_model *model);
 double scree_model_mean_modulus(const scree_model *model);
+/// The key of materials that it comes from; NULL: young_modulus.
+const char *scree_model_modulus_key(const scree_model *model);
 
 /// Radius [m] that stands for all in estimates of the size of a sample: the mean one where sizes are narrow, else that
 /// of the mean area (volume).

@@ -146,14 +146,31 @@ scree_pair_constants scree_model_mean_pair(const scree_model *model)
     return mean;
 }
 
+/// Of a species: that of the springs of its grains, or its own.
+static double modulus_of(const scree_model *model, const scree_species *species, const char **key)
+{
+    const scree_config_material *material = &model->config->materials[model->listed[species->material]];
+    const scree_contact_space space = {.dimension = model->dimension, .thickness = model->thickness};
+    const scree_law *law = scree_law_get(model->law.law);
+    double modulus = law->modulus ? law->modulus(&space, material, model->mean_radius) : NAN;
+    *key = isnan(modulus) ? NULL : law->modulus_key;
+    return isnan(modulus) ? material->young_modulus : modulus;
+}
+
 double scree_model_mean_modulus(const scree_model *model)
 {
     double sum = 0;
-    for (int s = 0; s < model->species_count; s++) {
-        const scree_species *species = &model->species[s];
-        sum += species->fraction * model->config->materials[model->listed[species->material]].young_modulus;
-    }
+    const char *key;
+    for (int s = 0; s < model->species_count; s++)
+        sum += model->species[s].fraction * modulus_of(model, &model->species[s], &key);
     return sum;
+}
+
+const char *scree_model_modulus_key(const scree_model *model)
+{
+    const char *key;
+    (void)modulus_of(model, &model->species[0], &key);
+    return key;
 }
 
 double scree_model_filling_radius(const scree_model *model)

@@ -43,6 +43,11 @@ struct scree_module {
     const struct scree_boundary *boundary;        ///< module/boundary.h
     const struct scree_selection_kind *selection; ///< selection/selection.h
 
+    // ---- numbers: what its keys come to ----
+    /// Takes its keys from the config and fills its numbers (scree_model_reserve_numbers), when all else of the
+    /// model is there. For modules without a face that does so. NULL: nothing to take.
+    scree_status (*resolve)(scree_model *model, scree_error *error);
+
     // ---- state: what it remembers ----
     size_t state_size;         ///< bytes of its struct in the store of the state, zero at first; 0: none
     const scree_field *fields; ///< of this struct and the arrays that it points to

@@ -34,6 +34,9 @@ typedef struct scree_context {
     const struct scree_boundary *boundary;
     struct scree_simulation *simulation; ///< of the passes of run/ alone
     double *gravity;                     ///< m/s2, that of `model`; the module of gravity sets it
+    /// Contacts as measures see them (contact/contact.h), for columns and results: those of the sample, or of the end.
+    /// A pass finds those of the last sample.
+    const struct scree_contact_table *table;
 } scree_context;
 
 typedef struct scree_pass {

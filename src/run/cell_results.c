@@ -12,6 +12,7 @@
 #include "io/run_directory.h"
 #include "io/snapshot.h"
 #include "measure/localisation.h"
+#include "module/key_rows.h"
 #include "run/cell_averages.h"
 #include "run/conclusion.h"
 
@@ -62,7 +63,8 @@ static const scree_series_column band_columns[BAND_COLUMNS] = {
 
 /// The state of the walk through the snapshots.
 typedef struct walk {
-    const scree_config_measure *config;
+    const scree_config_measure *measure;
+    double band_window; ///< 1, least axial strain over which shear bands are looked for
     scree_series_writer circles, bands;
     scree_cell_snapshot first; ///< begin of the present window; no bodies: none
     scree_cell_snapshot last;  ///< the last snapshot of it; no bodies: `first`
@@ -218,7 +220,7 @@ static scree_status follow(walk *w, scree_cell_snapshot *snapshot, scree_error *
 {
     bool same = scree_cell_snapshots_agree(&w->first, snapshot) &&
                 !scree_snapshot_begins_stage(w->first.stage, snapshot->stage, snapshot->axial_strain);
-    if (!same) scree_cell_averages_begin(&w->averages, w->config, w->series);
+    if (!same) scree_cell_averages_begin(&w->averages, w->measure, w->series);
     w->dimension = snapshot->assembly.dimension;
     scree_status status = write_circles(w, snapshot, error);
     if (status) return status;
@@ -230,7 +232,7 @@ static scree_status follow(walk *w, scree_cell_snapshot *snapshot, scree_error *
     const scree_cell_snapshot *previous = w->last.assembly.count > 0 ? &w->last : &w->first;
     status = scree_cell_averages_strain(&w->averages, previous, snapshot, error);
     // Snapshots lie on samples: a window may miss its length by a little.
-    if (snapshot->axial_strain - w->first.axial_strain < 0.99 * w->config->band_window) {
+    if (snapshot->axial_strain - w->first.axial_strain < 0.99 * w->band_window) {
         if (!status) keep(&w->last, snapshot);
         return status;
     }
@@ -291,10 +293,10 @@ static void summarise(const walk *w, scree_summary *summary)
     scree_summary_set_number(summary, "band_percolation", found ? last->band.percolation : NAN);
 }
 
-scree_status scree_cell_results_write(const char *directory, const scree_config_measure *config,
+scree_status scree_cell_results_write(const char *directory, const scree_config_measure *measure, double band_window,
                                       const scree_series *series, scree_summary *summary, scree_error *error)
 {
-    walk w = {.config = config, .series = series};
+    walk w = {.measure = measure, .band_window = band_window, .series = series};
     scree_status status = open_files(&w, directory, error);
     if (!status) status = follow_all(&w, directory, error);
     if (!status) summarise(&w, summary);
@@ -314,6 +316,25 @@ scree_status scree_cell_results_write(const char *directory, const scree_config_
 }
 
 // ---- the module --------------------------------------------------------------------------------------------------
+
+/// Its keys, and its numbers.
+typedef struct config {
+    double band_window; ///< 1
+} config;
+
+static const scree_key keys[] = {
+    NUMBER(config, band_window, "1", .standard = "1 %", ABOVE("0 %"), TO("90 %"), .when = "cells=yes",
+           .meaning = "Shear bands are looked for between snapshots at least this far apart in axial strain."),
+};
+
+static scree_status resolve(scree_model *model, scree_error *error)
+{
+    const config *own = scree_config_own(&scree_module_cells, "measure", model->config->measure.own);
+    (void)error;
+    if (!own) return SCREE_OK; // a config made by hand, which no run is of
+    *(config *)scree_model_reserve_numbers(model, SCREE_SLOT_cells) = *own;
+    return SCREE_OK;
+}
 
 static const scree_result results[] = {
     {"cell_stress_disagreement", "1", "stress of the cells against that of the contacts"},
@@ -337,12 +358,18 @@ static scree_status conclude(const scree_conclusion *run, scree_error *error)
 {
     const scree_model *model = &run->s->model;
     if (!model->measure.cells || model->periodic) return SCREE_OK;
-    return scree_cell_results_write(run->directory, &model->measure, run->series, run->summary, error);
+    const config *own = scree_model_numbers(model, SCREE_SLOT_cells);
+    return scree_cell_results_write(run->directory, &model->measure, own->band_window, run->series, run->summary,
+                                    error);
 }
 
 const scree_module scree_module_cells = {
     .name = "cells",
     .meaning = "Delaunay cells of the snapshots: their averages, and shear bands",
+    .keys = (const scree_keys[]){KEYS_OF("measure", keys, config)},
+    .keys_count = 1,
+    .numbers_size = sizeof(config),
+    .resolve = resolve,
     .results = SCREE_RESULTS(results, NULL),
     .conclude = conclude,
 };

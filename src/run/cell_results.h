@@ -7,8 +7,9 @@
 #include "io/summary.h"
 
 /// Reads the snapshots of the run directory; those without cells, or outside loading, do not count. series: of the run,
-/// what cells are compared with; NULL: with nothing. Errors: disk, memory.
-scree_status scree_cell_results_write(const char *directory, const scree_config_measure *config,
+/// what cells are compared with; NULL: with nothing. band_window: least axial strain over which shear bands are looked
+/// for. Errors: disk, memory.
+scree_status scree_cell_results_write(const char *directory, const scree_config_measure *measure, double band_window,
                                       const scree_series *series, scree_summary *summary,
                                       scree_error *error) SCREE_MUST_USE;
 

@@ -15,6 +15,7 @@
 
 #include "base/fixed.h"
 #include "base/integer_sum.h"
+#include "base/wrapping.h"
 #include "comm/comm.h"
 #include "run/simulation.h"
 #include "state/fields.h"
@@ -121,16 +122,16 @@ static void add_to_bodies(scree_state *state)
     for (size_t row = 0; row < state->count; row++) {
         const int64_t *force = sums->force[state->id[row]], *torque = sums->torque[state->id[row]];
         scree_sum_row *sum = &state->sum[row];
-        sum->fx += force[0];
-        sum->fy += force[1];
+        scree_wrapping_add(&sum->fx, force[0]);
+        scree_wrapping_add(&sum->fy, force[1]);
         if (state->dimension == 2) {
-            sum->torque += torque[2];
+            scree_wrapping_add(&sum->torque, torque[2]);
             continue;
         }
-        sum->fz += force[2];
-        state->torque[row].x += torque[0];
-        state->torque[row].y += torque[1];
-        state->torque[row].z += torque[2];
+        scree_wrapping_add(&sum->fz, force[2]);
+        scree_wrapping_add(&state->torque[row].x, torque[0]);
+        scree_wrapping_add(&state->torque[row].y, torque[1]);
+        scree_wrapping_add(&state->torque[row].z, torque[2]);
     }
 }
 

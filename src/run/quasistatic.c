@@ -79,7 +79,8 @@ static double two_digits(double value, bool up)
 }
 
 /// What to change, so that the number keeps its limit: up to the value that does.
-static void advise(const scree_quasistatic *q, scree_quasistatic_criterion criterion, char *text, size_t size)
+static void advise(const scree_model *model, const scree_quasistatic *q, scree_quasistatic_criterion criterion,
+                   char *text, size_t size)
 {
     double excess = q->value[criterion] / scree_quasistatic_limits[criterion].limit, pressure = q->pressure;
     switch (criterion) {
@@ -96,9 +97,14 @@ static void advise(const scree_quasistatic *q, scree_quasistatic_criterion crite
                            two_digits(q->rate / sqrt(excess), false));
         break;
     case SCREE_QUASISTATIC_MODULUS:
-        (void)snprintf(text, size, "overlaps matter; young_modulus of %.2g Pa, or a pressure of %.2g Pa, keeps it",
-                       two_digits(pressure * scree_quasistatic_limits[criterion].limit, true),
-                       two_digits(pressure * excess, false));
+        if (scree_model_modulus_key(model))
+            (void)snprintf(text, size, "overlaps matter; %.2g times the %s, or a pressure of %.2g Pa, keeps it",
+                           two_digits(1 / excess, true), scree_model_modulus_key(model),
+                           two_digits(pressure * excess, false));
+        else
+            (void)snprintf(text, size, "overlaps matter; young_modulus of %.2g Pa, or a pressure of %.2g Pa, keeps it",
+                           two_digits(pressure * scree_quasistatic_limits[criterion].limit, true),
+                           two_digits(pressure * excess, false));
         break;
     case SCREE_QUASISTATIC_WEIGHT:
         (void)snprintf(text, size, "the stress grows with depth; a pressure of %.2g Pa, or less gravity, keeps it",
@@ -122,7 +128,7 @@ bool scree_quasistatic_explain(const scree_model *model, const scree_quasistatic
                  limit->name, q->value[criterion], limit->least ? "below" : "above", limit->limit);
     if (!advice || used < 0 || (size_t)used + 3 > size) return true;
     memcpy(text + used, ": ", 3);
-    advise(q, criterion, text + used + 2, size - (size_t)used - 2);
+    advise(model, q, criterion, text + used + 2, size - (size_t)used - 2);
     return true;
 }
 

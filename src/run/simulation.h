@@ -32,6 +32,8 @@ struct scree_simulation {
     const scree_boundary *boundary;  ///< of the present stage
     scree_pass passes[SCREE_PASSES]; ///< of the step of this stage, in their order
     size_t pass_count;
+    double (*bounds[SCREE_MODULE_COUNT])(const scree_context *context); ///< of the loads of all modules
+    size_t bound_count;
     bool moments; ///< a module that is in use reads the moments of contact forces
     scree_stage_plan plan;
     scree_columns columns; ///< of series.csv

@@ -20,7 +20,7 @@ static bool has_aspect_ratio(const scree_module *module)
 
 static const scree_key keys[] = {
     CHOICE(config, method, NULL, .standard = "drop_and_roll", .meaning = "How the particles are placed."),
-    NUMBER(config, aspect_ratio, "1", .standard = "2", FROM("0.01"), TO("100"), .when = "width=auto",
+    NUMBER(config, aspect_ratio, "1", .standard = "2", FROM("0.01"), TO("100"), .when = "outline=box&width=auto",
            .chooser = "method", .fits = has_aspect_ratio, .meaning = "Height over width of the sample."),
     CHOICE(config, outline, outlines, .standard = "box", .meaning = "Outline of the sample."),
     NUMBER(config, width, "m", .standard = "auto", FROM("1 nm"), TO("100 km"), .when = "outline=box",

@@ -67,8 +67,8 @@ static scree_status ask_for_moments(const scree_context *c, scree_error *error)
 static double bound_of_loads(const scree_context *c)
 {
     double bound = c->boundary->bound ? c->boundary->bound(c) : 0;
-    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
-        if (scree_modules[m]->bound) bound = fmax(bound, scree_modules[m]->bound(c));
+    const scree_simulation *s = c->simulation;
+    for (size_t k = 0; k < s->bound_count; k++) bound = fmax(bound, s->bounds[k](c));
     return bound;
 }
 
@@ -117,7 +117,7 @@ static const scree_pass core[] = {
 
 scree_context scree_step_context(scree_simulation *s)
 {
-    return (scree_context){&s->stage_model, &s->state, &s->work, s->boundary, s, s->stage_model.gravity};
+    return (scree_context){&s->stage_model, &s->state, &s->work, s->boundary, s, s->stage_model.gravity, &s->table};
 }
 
 /// Appends those of `passes` that belong to a phase.
@@ -133,8 +133,10 @@ static void append(scree_simulation *s, scree_phase phase, const scree_pass *pas
 void scree_step_compile(scree_simulation *s)
 {
     const scree_context context = scree_step_context(s);
-    s->pass_count = 0;
+    s->pass_count = s->bound_count = 0;
     s->moments = false;
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
+        if (scree_modules[m]->bound) s->bounds[s->bound_count++] = scree_modules[m]->bound;
     for (int m = 0; m < SCREE_MODULE_COUNT; m++)
         if (scree_modules[m]->reads_moments && (!scree_modules[m]->in_use || scree_modules[m]->in_use(&context)))
             s->moments = true;

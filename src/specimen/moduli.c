@@ -2,7 +2,8 @@
 ///
 /// A periodic specimen under the mean strain E: bodies move by E x and by a periodic part, so each contact is given
 /// offset = E branch (specimen/static.h), and the stress is -1/V sum f branch (tension positive). The sum is made
-/// symmetric; torques balance in a static solution, so it is.
+/// symmetric; torques balance in a static solution, so it is. A box is strained in the same way, where bodies at its
+/// faces move by E x and have no other part (box.h).
 /// Affine (Voigt): the same forces before bodies and particles have moved. The nearest isotropic tensor is that of the
 /// same bulk and mean shear: in d dimensions d K = (1/d) sum C_iijj, and of the d (d + 1) / 2 - 1 other eigenvalues 2 G
 /// is the mean.
@@ -87,12 +88,17 @@ static void measure_departure(const scree_specimen *s, scree_specimen_moduli *m)
     m->asymmetry = sqrt(skew / whole);
 }
 
+/// Of contacts that resist: walls do not touch a piece that is cut out of a box.
 static void measure_fabric(const scree_specimen *s, double *fabric)
 {
-    for (size_t c = 0; c < s->contact_count; c++)
+    double count = 0;
+    for (size_t c = 0; c < s->contact_count; c++) {
+        if (!(s->contact[c].stiffness.normal > 0)) continue;
+        count++;
         for (int i = 0; i < 3; i++)
-            for (int j = 0; j < 3; j++)
-                fabric[3 * i + j] += s->contact[c].normal[i] * s->contact[c].normal[j] / (double)s->contact_count;
+            for (int j = 0; j < 3; j++) fabric[3 * i + j] += s->contact[c].normal[i] * s->contact[c].normal[j];
+    }
+    for (int k = 0; k < 9; k++) fabric[k] /= count;
 }
 
 static scree_status find_column(const scree_specimen *s, int component, double *offset, double *motion, double *force,
@@ -117,11 +123,8 @@ scree_status scree_specimen_find_moduli(const scree_specimen *s, scree_specimen_
 {
     double *offset = NULL, *motion = NULL, *force = NULL;
     *out = (scree_specimen_moduli){0};
-    if (s->periodic != (1U << s->dimension) - 1 || !(s->extent > 0))
-        return scree_error_set(error, SCREE_ERROR_INPUT,
-                               "moduli are those of a specimen that repeats itself in all directions: give "
-                               "boundary.periodic: %s",
-                               s->dimension == 3 ? "xyz" : "xy");
+    if (!(s->extent > 0))
+        return scree_error_set(error, SCREE_ERROR_INPUT, "the volume of the specimen is not known: no moduli");
     if (s->contact_count == 0) return scree_error_set(error, SCREE_ERROR_INPUT, "no particles touch: no moduli");
     scree_status status = scree_allocate(&offset, scree_specimen_contact_forces(s), sizeof *offset, error);
     if (!status) status = scree_allocate(&force, scree_specimen_contact_forces(s), sizeof *force, error);

@@ -25,8 +25,9 @@ typedef struct scree_specimen_moduli {
     size_t iterations;
 } scree_specimen_moduli;
 
-/// Of a specimen that repeats itself in all directions: the mean strain is imposed, bodies and particles find their
-/// places. Errors: SCREE_ERROR_INPUT for another specimen; SCREE_ERROR_GUARD without convergence; memory.
+/// Of a specimen that repeats itself in all directions, or a box that has been cut out (box.h): the mean strain is
+/// imposed, bodies and particles find their places. Errors: SCREE_ERROR_INPUT without contacts or a volume;
+/// SCREE_ERROR_GUARD without convergence; memory.
 scree_status scree_specimen_find_moduli(const scree_specimen *specimen, scree_specimen_moduli *out, scree_error *error)
     __attribute__((warn_unused_result));
 

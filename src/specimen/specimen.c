@@ -14,6 +14,7 @@ scree_status scree_specimen_create(int dimension, size_t bodies, size_t contacts
                           .strain_components = components,
                           .body_count = bodies,
                           .contact_count = contacts,
+                          .condition = dimension == 3 ? SCREE_SOLID : SCREE_PLANE_STRAIN,
                           .extent = NAN};
     const struct {
         void *array;
@@ -100,4 +101,10 @@ bool scree_specimen_is_damped(const scree_specimen *s)
     for (size_t k = 0; k < s->contact_count; k++)
         if (s->contact[k].damping.normal > 0 || s->contact[k].damping.tangential > 0) return true;
     return false;
+}
+
+bool scree_specimen_has_potential(const scree_specimen *s)
+{
+    return s->tangential == SCREE_TANGENTIAL_CORRECTED || !scree_specimen_is_deformable(s) ||
+           !scree_specimen_resists_slip(s);
 }

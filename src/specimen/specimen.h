@@ -25,6 +25,7 @@
 #include "base/error.h"
 #include "model/compliance.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -63,6 +64,7 @@ typedef struct scree_specimen {
     double *volume;               ///< m3, of discs area times thickness
     uint8_t *held;                ///< bits of components that do not move, 0 to 2 velocity, 3 to 5 spin (state/body.h)
     scree_compliance *compliance; ///< of each body; all zero: rigid
+    scree_plane_condition condition; ///< that of `compliance`; plane strain (in 3D: a solid) unless someone says else
     scree_specimen_contact *contact;
     scree_tangential_form tangential;
     bool dashpots_strain; ///< dashpot forces are part of the stress of particles, too
@@ -102,6 +104,9 @@ bool scree_specimen_is_deformable(const scree_specimen *specimen);
 /// A tangential spring acts anywhere; a dashpot does.
 bool scree_specimen_resists_slip(const scree_specimen *specimen);
 bool scree_specimen_is_damped(const scree_specimen *specimen);
+
+/// What deformation does has a potential: particles are rigid, or no tangential spring acts, or the form is corrected.
+bool scree_specimen_has_potential(const scree_specimen *specimen);
 
 // ---- products: results do not overlap arguments ------------------------------------------------------------------
 // Components that are held count as zero in x, and come out as zero, in those of K, C, M.

@@ -264,8 +264,7 @@ static void apply_deformable(void *context, const double *x, double *y)
 
 static bool has_symmetric_scheme(const scree_specimen *s)
 {
-    bool potential = s->tangential == SCREE_TANGENTIAL_CORRECTED || !scree_specimen_resists_slip(s);
-    return potential && !scree_specimen_is_damped(s);
+    return scree_specimen_has_potential(s) && !scree_specimen_is_damped(s);
 }
 
 /// The step at which the Rayleigh quotient of g, of length 1, is 1, from that at the present step: without dashpots the

@@ -52,7 +52,7 @@ static scree_status create(static_system *y, const scree_specimen *s, scree_erro
     *y = (static_system){.s = s, .motions = scree_specimen_motions(s), .deformable = scree_specimen_is_deformable(s)};
     y->strains = y->deformable ? s->body_count * (size_t)s->strain_components : 0;
     y->size = y->motions + y->strains;
-    y->symmetric = !y->deformable || s->tangential == SCREE_TANGENTIAL_CORRECTED || !scree_specimen_resists_slip(s);
+    y->symmetric = scree_specimen_has_potential(s);
     scree_status status = scree_allocate(&y->diagonal, y->size, sizeof(double), error);
     if (!status) status = scree_allocate(&y->terms, y->size, sizeof(double), error);
     for (int k = 0; k < VECTORS && !status; k++) status = scree_allocate(&y->vector[k], y->size, sizeof(double), error);

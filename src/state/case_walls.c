@@ -115,8 +115,12 @@ static scree_status sample(const scree_context *c, size_t index, double *value, 
 
 static const scree_result results[] = {
     {"_work", "J", "work of the wall of this name on the bodies"},
-    {"_force", "N", "magnitude of the last force on it"},
-    {"_torque", "N m", "magnitude of the last torque on it"},
+    {"_force_x", "N", "last force of the bodies on the wall of this name"},
+    {"_force_y", "N", "last force of the bodies on the wall of this name"},
+    {"_force_z", "N", "last force of the bodies on the wall of this name"},
+    {"_torque_x", "N m", "last torque of the bodies on the wall of this name, about its centre"},
+    {"_torque_y", "N m", "last torque of the bodies on the wall of this name, about its centre"},
+    {"_torque_z", "N m", "last torque of the bodies on the wall of this name, about its centre"},
 };
 
 static scree_status conclude(const scree_context *c, size_t index, double *value, scree_error *error)
@@ -124,8 +128,8 @@ static scree_status conclude(const scree_context *c, size_t index, double *value
     const scree_surface_load *load = &scree_case_walls(c->state)->load[index];
     (void)error;
     value[0] = load->work;
-    value[1] = scree_length(load->force);
-    value[2] = scree_length(load->torque);
+    memcpy(value + 1, load->force, sizeof load->force);
+    memcpy(value + 4, load->torque, sizeof load->torque);
     return SCREE_OK;
 }
 

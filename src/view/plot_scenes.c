@@ -162,6 +162,19 @@ static scree_status has_snapshot(const scree_plot_run *run, const scree_figure_j
     return scree_plot_find_snapshot(run, ((const scene_row *)job->figure)->when, &which, error);
 }
 
+/// Without a loading stage the start is the end of the preparation, whose plates need not stay: only those that stand
+/// in the next snapshot, too, are left.
+static scree_status keep_standing(const scree_plot_run *run, size_t which, scree_snapshot *now, scree_error *error)
+{
+    scree_snapshot next;
+    if (which > 0 || isfinite(run->strain[which]) || run->snapshot_count < 2) return SCREE_OK;
+    scree_status status = scree_snapshot_read(run->directory, which + 1, &next, error);
+    if (status) return status;
+    for (int w = 0; w < SCREE_WALL_COUNT; w++) now->wall[w].active = now->wall[w].active && next.wall[w].active;
+    scree_snapshot_destroy(&next);
+    return SCREE_OK;
+}
+
 static scree_status draw(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
 {
     scree_snapshot start, now;
@@ -169,7 +182,8 @@ static scree_status draw(const scree_plot_run *run, const scree_figure_job *job,
     scree_status status = scree_plot_find_snapshot(run, ((const scene_row *)job->figure)->when, &which, error);
     if (!status) status = scree_plot_read_two(run, scree_plot_end_snapshot(run, false), which, &start, &now, error);
     if (status) return status;
-    status = draw_scene(run, job, &start, &now, error);
+    status = keep_standing(run, which, &now, error);
+    if (!status) status = draw_scene(run, job, &start, &now, error);
     scree_snapshot_destroy(&start);
     scree_snapshot_destroy(&now);
     return status;

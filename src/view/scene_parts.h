@@ -5,7 +5,7 @@
 #include "view/page.h"
 #include "view/projection.h"
 #include "view/scale.h"
-#include "view/scene.h"
+#include "view/scene_content.h"
 
 /// Colours and line widths are drawn in so many steps, one path each, which keeps files small. Odd: zero is one of the
 /// colours of a diverging map.

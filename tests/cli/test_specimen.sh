@@ -36,6 +36,21 @@ holds "($stiff / (2 * (1 - $(value poisson_ratio))) / $(value bulk_modulus) - 1)
 expect 0 '^young_modulus ' "$scree" moduli "${small[@]}" --at deform --young-modulus 1e8
 holds "$(value young_modulus) < $stiff"
 
+# A square lattice between plates: C_xxxx = k_n / t, C_xyxy = k_t / (2 t), with the overlap of 10 kPa, 1e-4 of k_n.
+cat >box.yaml <<'END'
+name: box
+materials: [{name: glass, young_modulus: 1 GPa, density: 2500 kg/m3, friction: 0.4, normal_stiffness: 1e7 N/m, stiffness_ratio: 0.5}]
+contact: {law: linear}
+particles: {material: glass, count: 100, distribution: equal, radius: 1 mm, thickness: 1 m}
+measure: {windows: []}
+stages:
+  - {stage: prepare, method: square, aspect_ratio: 1}
+  - {stage: confine, pressure: 10 kPa, boundary: plates}
+  - {stage: relax, duration: 1 ms, boundary: plates}
+END
+expect 0 '^stiffness_xxxx ' "$scree" moduli box.yaml --at relax
+holds "($(value stiffness_xxxx) / 1e7 - 1)^2 < 1e-6 && ($(value stiffness_xyxy) / 2.5e6 - 1)^2 < 1e-6"
+
 # --- the folder of a run, which stays as it is
 expect 0 '' "$scree" run "${small[@]}" --no-figures --quiet --set 'stages.deform.strain=0.1 %' --set 'measure.windows=[]' -o out
 before=$(cd out && find . -type f -exec md5sum {} + | sort)
@@ -45,7 +60,7 @@ same "$(cd out && find . -type f -exec md5sum {} + | sort)" "$before" 'the folde
 
 # --- refused
 expect 2 "no stage 'defrom'; did you mean 'deform'" "$scree" stability "${small[@]}" --at defrom
-expect 2 'boundary.periodic: xy' "$scree" moduli biaxial --quick --set particles.count=100
+expect 2 'periodic in all directions, or fills a box' "$scree" moduli minimal-shear-circle --quick
 expect 2 'between -1 and 0.5' "$scree" stability "${small[@]}" --young-modulus 1e8 --poisson-ratio 0.5
 expect 2 'alone' "$scree" stability "${small[@]}" --poisson-ratio 0.3
 expect 2 'is no number' "$scree" stability "${small[@]}" --young-modulus soft

@@ -10,7 +10,8 @@
 #include <string.h>
 
 /// What libfyaml and udunits2 lose themselves on malformed text (16 kB in 100,000 files) is not Scree's to free.
-const char *__lsan_default_suppressions(void);
+/// Exported, else the sanitizer does not see it.
+SCREE_API const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void)
 {
     return "leak:libfyaml\nleak:libudunits2\n";

@@ -127,6 +127,33 @@ static void one_is_enough(void **unused)
     scree_problems_free(problems);
 }
 
+/// Bodies that a boundary moves are not to be braked: the rule names the stage; plates and a pressure are free of it.
+static void no_boundary_that_moves_its_bodies(void **unused)
+{
+    (void)unused;
+    const char *const stages[] = {
+        "stages=[{stage: prepare, method: gas}, {stage: confine, pressure: 1 kPa}, {stage: deform, boundary: affine, "
+        "velocity_gradient: {xx: 0 1/s, xy: 0 1/s, yx: 0 1/s, yy: -0.1 1/s}, strain: 1 %}]",
+        "stages=[{stage: prepare, method: gas}, {stage: confine, pressure: 1 kPa}, {stage: compress, strain: 1 %, "
+        "rate: "
+        "0.1 1/s}]"};
+    for (int k = 0; k < 2; k++) {
+        scree_case *c = NULL;
+        scree_problems *problems = NULL;
+        const char *const overrides[] = {"loads=[{load: background_damping}]", "particles.count=50", "gravity=[0, 0]",
+                                         "walls=[]", stages[k]};
+        scree_status status = case_parse(BALL, overrides, 5, &c, &problems);
+        assert_int_equal(status, k == 0 ? SCREE_ERROR_INPUT : SCREE_OK);
+        if (k == 0) {
+            const scree_error *problem = scree_problems_get(problems, 0);
+            assert_string_equal(problem->field, "loads.0.load");
+            assert_non_null(strstr(problem->message, "the boundary of stages.2 imposes velocities"));
+        }
+        scree_problems_free(problems);
+        scree_case_free(c);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -134,6 +161,7 @@ int main(void)
         cmocka_unit_test(a_ball_bounces_lower),
         cmocka_unit_test(books_of_energy_are_closed),
         cmocka_unit_test(one_is_enough),
+        cmocka_unit_test(no_boundary_that_moves_its_bodies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -17,7 +17,7 @@
 
 #define SPACING 1.5e-3
 
-static const scree_config config = {.measure = {.cells = true, .band_window = 0.01}};
+static const scree_config config = {.measure = {.cells = true}};
 
 static scree_model model_of(int dimension)
 {
@@ -160,7 +160,7 @@ static void test_bands_of_a_run(void **unused)
         shear(&state, 8 * SPACING, 0.1 * SPACING);
     }
     assert_int_equal(scree_summary_create(&summary, NULL), SCREE_OK);
-    assert_int_equal(scree_cell_results_write(directory, &config.measure, NULL, summary, NULL), SCREE_OK);
+    assert_int_equal(scree_cell_results_write(directory, &config.measure, 0.01, NULL, summary, NULL), SCREE_OK);
     assert_int_equal(scree_path_join(path, sizeof path, directory, SCREE_FILE_SUMMARY, NULL), SCREE_OK);
     assert_int_equal(scree_summary_write(summary, path, NULL), SCREE_OK);
     assert_int_equal(scree_result_get(directory, "bands", value, sizeof value, NULL), SCREE_OK);

@@ -61,6 +61,17 @@ static void plane_stress_is_free_along_the_axis(void **state)
     assert_close(back[3], strain[4], 1e-3);
 }
 
+static void gives_the_modulus_back(void **unused)
+{
+    (void)unused;
+    for (int condition = SCREE_PLANE_STRAIN; condition <= SCREE_SOLID; condition++)
+        for (int k = -9; k < 5; k++) {
+            const scree_plane_condition c = (scree_plane_condition)condition;
+            assert_close(scree_compliance_modulus(c, scree_compliance_of(c, YOUNG, 0.1 * k)), YOUNG, 10 * YOUNG);
+        }
+    assert_true(isinf(scree_compliance_modulus(SCREE_SOLID, (scree_compliance){0})));
+}
+
 static void limits_of_constants(void **state)
 {
     (void)state;
@@ -79,6 +90,7 @@ int main(void)
         cmocka_unit_test(inverts_hooke_in_space),
         cmocka_unit_test(plane_strain_keeps_the_length),
         cmocka_unit_test(plane_stress_is_free_along_the_axis),
+        cmocka_unit_test(gives_the_modulus_back),
         cmocka_unit_test(limits_of_constants),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

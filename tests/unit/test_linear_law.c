@@ -498,6 +498,46 @@ static void stiffnesses_of_pairs(void **unused)
     assert_true(m.pairs[0][1].value[LINEAR_RATIO] == 0 && m.pairs[0][1].value[LINEAR_INVERSE_RATIO] == 0);
 }
 
+/// The dashpot is given once: by the restitution or by the ratio. A case that gives both is told where and why.
+static void damping_is_given_once(void **unused)
+{
+    (void)unused;
+    for (int k = 0; k < 2; k++) {
+        scree_case *c = NULL;
+        scree_problems *problems = NULL;
+        const char *const overrides[] = {"materials.0.restitution=0.5", "materials.0.damping_ratio=0.7"};
+        scree_status status = case_parse(materials_text, overrides, k == 0 ? 1 : 2, &c, &problems);
+        assert_int_equal(status, k == 0 ? SCREE_OK : SCREE_ERROR_INPUT);
+        if (k == 1) {
+            assert_string_equal(scree_problems_get(problems, 0)->field, "materials.0.restitution");
+            assert_non_null(strstr(scree_problems_get(problems, 0)->message, "damping_ratio"));
+        }
+        scree_problems_free(problems);
+        scree_case_free(c);
+    }
+}
+
+/// The modulus that grains of the mean radius would have with the springs that are given: k_n = E t of discs, pi E
+/// R_eff of spheres; without stiffnesses their own.
+static void stiffnesses_have_a_modulus(void **unused)
+{
+    (void)unused;
+    const char *const given[] = {"materials.0.normal_stiffness=6e6 N/m", "materials.1.normal_stiffness=3e6 N/m",
+                                 "dimension=3", "particles.shape=sphere"};
+    const size_t counts[] = {0, 2, 4};
+    for (int k = 0; k < 3; k++) {
+        scree_case *c = case_read(materials_text, given, counts[k]);
+        scree_model m;
+        scree_error error;
+        check(scree_model_build(&c->config, &m, &error), &error);
+        const double wanted[] = {30e9, 6e6 / 3e-3, 6e6 / (M_PI * 0.5 * m.mean_radius)};
+        near_to(scree_model_mean_modulus(&m), wanted[k]);
+        const char *key = scree_model_modulus_key(&m);
+        assert_true(k == 0 ? !key : strcmp(key, "normal_stiffness") == 0);
+        scree_case_free(c);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -510,6 +550,8 @@ int main(void)
         cmocka_unit_test(kernels_and_threads_give_the_same_bits),
         cmocka_unit_test(a_restart_changes_no_bit),
         cmocka_unit_test(stiffnesses_of_pairs),
+        cmocka_unit_test(damping_is_given_once),
+        cmocka_unit_test(stiffnesses_have_a_modulus),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,11 @@
 /// Static solutions and moduli: lattices against closed forms, dense solutions, loads that nothing holds.
 #include "lattice_fixture.h"
 
+#include "base/memory.h"
 #include "base/vectors.h"
+#include "specimen/box.h"
 #include "specimen/moduli.h"
+#include "specimen/stability.h"
 #include "specimen/static.h"
 
 #define assert_within(value, expected, tolerance)                                                                      \
@@ -230,9 +233,111 @@ static void loads_on_the_whole(void **unused)
     assert_non_null(strstr(error.message, "nothing resists"));
     scree_specimen_moduli m;
     assert_int_equal(scree_specimen_find_moduli(&s, &m, &error), SCREE_ERROR_INPUT);
-    assert_non_null(strstr(error.message, "boundary.periodic"));
+    assert_non_null(strstr(error.message, "volume"));
     scree_specimen_destroy(&s);
     discs_destroy(&d);
+}
+
+static scree_specimen cut(const scree_specimen *s)
+{
+    const scree_box_faces ends = {{{NAN, NAN, NAN}, {NAN, NAN, NAN}}};
+    scree_specimen piece;
+    scree_error error;
+    check(scree_specimen_cut_box(s, &ends, &piece, &error), &error);
+    return piece;
+}
+
+/// A box of a square or simple cubic lattice of rigid particles is the lattice, edges and corners included: 1e-9.
+static void boxes_are_their_lattice(void **unused)
+{
+    (void)unused;
+    for (int d = 2; d <= 3; d++) {
+        discs places = discs_lattice(d == 2 ? SCREE_LATTICE_SQUARE : SCREE_LATTICE_SIMPLE_CUBIC, 5);
+        memset(places.lattice, 0, sizeof places.lattice);
+        scree_specimen s = specimen_of(&places, d, 1e-6, (discs_bond){.stiffness = {7e10, 3e10}}), piece = cut(&s);
+        const scree_lattice_material m = {.radius = 1e-3, .length = 1, .normal = 7e10, .tangential = 3e10};
+        const scree_lattice kind = d == 2 ? SCREE_LATTICE_SQUARE : SCREE_LATTICE_SIMPLE_CUBIC;
+        const scree_specimen_moduli found = moduli_of(&piece);
+        const int n = s.strain_components;
+        assert_within(found.stiffness[0], scree_lattice_modulus(kind, SCREE_LATTICE_ALL_ROUND, &m), 1e-9);
+        assert_true(fabs(found.stiffness[1]) < 1e-9 * found.stiffness[0]);
+        assert_within(found.stiffness[n * n - 1], scree_lattice_modulus(kind, SCREE_LATTICE_SHEAR, &m), 1e-9);
+        scree_specimen_destroy(&piece);
+        scree_specimen_destroy(&s);
+        discs_destroy(&places);
+    }
+}
+
+/// The same net as a periodic cell and as a box of 40 x 40 discs: faces that move with the strain change little, 4 %
+/// at the most, elastic particles or rigid ones. A disc of discs is no box.
+static void boxes_are_near_their_periodic_cells(void **unused)
+{
+    (void)unused;
+    const size_t side = 40;
+    discs d = discs_irregular(2, side);
+    for (int elastic = 0; elastic < 2; elastic++) {
+        scree_specimen box = specimen_of(&d, 2, 0.25, (discs_bond){.stiffness = {7e10, 2e10}});
+        discs cell = d;
+        cell.lattice[0] = 2e-3 * (double)side;
+        cell.lattice[1] = 1e-3 * sqrt(3) * (double)side;
+        scree_specimen periodic = specimen_of(&cell, 2, 0.25, (discs_bond){.stiffness = {7e10, 2e10}});
+        const scree_compliance c = scree_compliance_of(SCREE_PLANE_STRAIN, 2e11, 0.3);
+        if (elastic) specimen_set_compliance(&box, c), specimen_set_compliance(&periodic, c);
+        scree_specimen piece = cut(&box);
+        const scree_specimen_moduli one = moduli_of(&piece), other = moduli_of(&periodic);
+        print_message("box: E %.5g, nu %.4f; periodic: E %.5g, nu %.4f\n", one.isotropic.young, one.isotropic.poisson,
+                      other.isotropic.young, other.isotropic.poisson);
+        assert_within(one.isotropic.bulk, other.isotropic.bulk, 0.04);
+        assert_within(one.isotropic.shear, other.isotropic.shear, 0.04);
+        scree_specimen_destroy(&piece);
+        scree_specimen_destroy(&box);
+        scree_specimen_destroy(&periodic);
+    }
+    discs_destroy(&d);
+    discs round = discs_create(400);
+    for (int k = 0; k < 400; k++) {
+        const double x = 2e-3 * (k % 20) - 19e-3, y = 2e-3 * (k / 20) - 19e-3;
+        if (hypot(x, y) < 20e-3) discs_add(&round, x, y, 0, 1e-3);
+    }
+    scree_specimen s = specimen_of(&round, 2, 1e-6, (discs_bond){.stiffness = {1, 1}}), piece;
+    scree_error error;
+    const scree_box_faces ends = {{{NAN, NAN, NAN}, {NAN, NAN, NAN}}};
+    assert_int_equal(scree_specimen_cut_box(&s, &ends, &piece, &error), SCREE_ERROR_INPUT);
+    assert_non_null(strstr(error.message, "fills a box"));
+    scree_specimen_destroy(&s);
+    discs_destroy(&round);
+}
+
+/// Every allocation fails once: status 4, nothing kept, and the same numbers when there is memory again.
+static void memory_that_runs_out(void **unused)
+{
+    (void)unused;
+    scree_specimen s = irregular(2, 0.5, 0.3);
+    const scree_specimen_moduli expected = moduli_of(&s);
+    double rigid, lagged, radius;
+    size_t before, after;
+    scree_error error;
+    check(scree_spectral_radius(&s, &radius, NULL, &error), &error);
+    scree_allocation_statistics(&before, NULL);
+    for (int what = 0; what < 2; what++) {
+        scree_status status = SCREE_ERROR_IO;
+        uint64_t failed = 0;
+        while (status) {
+            scree_specimen_moduli m = {0};
+            (void)scree_allocation_fail_after(++failed);
+            status = what == 0 ? scree_specimen_find_moduli(&s, &m, &error)
+                               : scree_critical_step(&s, scree_strain_rigid(), &rigid, NULL, &error);
+            if (!status && what == 1)
+                status = scree_critical_step(&s, scree_strain_explicit(radius), &lagged, NULL, &error);
+            assert_true(!status || status == SCREE_ERROR_IO);
+            scree_allocation_statistics(&after, NULL);
+            assert_int_equal(before, after);
+            if (!status && what == 0) assert_memory_equal(&m, &expected, sizeof m);
+        }
+        (void)scree_allocation_fail_after(0);
+        assert_true(failed > 10);
+    }
+    scree_specimen_destroy(&s);
 }
 
 int main(void)
@@ -243,6 +348,9 @@ int main(void)
         cmocka_unit_test(forces_against_dense_solutions),
         cmocka_unit_test(irregular_moduli),
         cmocka_unit_test(loads_on_the_whole),
+        cmocka_unit_test(boxes_are_their_lattice),
+        cmocka_unit_test(boxes_are_near_their_periodic_cells),
+        cmocka_unit_test(memory_that_runs_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

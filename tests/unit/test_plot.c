@@ -88,7 +88,7 @@ static void make_series(const char *directory, size_t columns, int rows)
     assert_int_equal(scree_series_close(&writer, NULL), SCREE_OK);
 }
 
-static const scree_config config = {.boundary = {.gap_limit = 1}, .measure = {.cells = true, .band_window = 0.01}};
+static const scree_config config = {.boundary = {.gap_limit = 1}, .measure = {.cells = true}};
 
 /// Writes `s` as snapshot `index` of the run.
 static void put_snapshot(const char *directory, const scree_snapshot *s, int64_t index)
@@ -219,7 +219,7 @@ static void every_figure_of_a_run_is_drawn(void **state)
     make_series("run", COLUMNS, 220);
     make_snapshots("run", SNAPSHOTS);
     assert_int_equal(scree_summary_create(&summary, NULL), SCREE_OK);
-    assert_int_equal(scree_cell_results_write("run", &config.measure, NULL, summary, NULL), SCREE_OK);
+    assert_int_equal(scree_cell_results_write("run", &config.measure, 0.01, NULL, summary, NULL), SCREE_OK);
     scree_summary_destroy(summary);
     scree_status status = plot("run", &r, &error);
     if (status) fail_msg("%s\n%s", error.message, r.text);

@@ -75,8 +75,10 @@ static void results_of_walls_are_found_by_their_ending(void **state)
 {
     const scree_module *module;
     (void)state;
-    assert_string_equal(scree_result_name_find("big_drum_torque", &module)->unit, "N m");
+    assert_string_equal(scree_result_name_find("big_drum_torque_x", &module)->unit, "N m");
     assert_ptr_equal(module, scree_modules[SCREE_SLOT_case_walls]);
+    assert_non_null(scree_result_name_find("top_exerted_force_x", &module));
+    assert_ptr_equal(module, scree_modules[SCREE_SLOT_prescribed]);
     assert_null(scree_result_name_find("_work", &module));
     assert_null(scree_result_name_find("drum_wrk", &module));
     assert_string_equal(scree_result_name_find("phi", &module)->unit, "1");

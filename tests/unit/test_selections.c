@@ -108,6 +108,7 @@ static void membership_is_state(void **unused)
         if (s.state.id[row] >= 30) s.state.row[row].radius = s.state.row[row].mass = 1e-3;
     check(scree_checkpoint_write(scratch, &s.state, 7, &error), &error);
     simulation_open(c, 1, &other);
+    scree_state_destroy(&other.state);
     check(scree_checkpoint_read(scratch, 2, &other.state, 7, &error), &error);
     for (size_t id = 0; id < 70; id++)
         if (id != 3 && id != 7) assert_true(has(&other, "core", id) == has(&s, "core", id));

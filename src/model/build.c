@@ -1,0 +1,348 @@
+/// From what the user said to the constants that kernels use.
+///
+/// The constants of two materials are the affair of the law (contact/laws.h). Everything here is O(materials^2 +
+/// stages).
+#include "model/model.h"
+
+#include "model/critical_step.h"
+#include "module/integrator.h"
+#include "theory/quasistatic.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/// An input error at `field`; the caller adds value and accepted range when it knows them.
+#define FIELD_ERROR(error, path, ...) set_field(error, scree_error_set(error, SCREE_ERROR_INPUT, __VA_ARGS__), path)
+
+static scree_status set_field(scree_error *error, scree_status status, const char *path)
+{
+    if (error) (void)snprintf(error->field, sizeof error->field, "%s", path);
+    return status;
+}
+
+static scree_status indexed_error(scree_error *error, const char *list, int64_t index, const char *key,
+                                  const char *text)
+{
+    char path[64];
+    (void)snprintf(path, sizeof path, "%s.%lld.%s", list, (long long)index, key);
+    return FIELD_ERROR(error, path, "%s", text);
+}
+
+static scree_status check_materials(const scree_model *model, scree_error *error)
+{
+    const scree_config *config = model->config;
+    if (config->material_count < 1 || config->material_count > SCREE_MAX_MATERIALS)
+        return FIELD_ERROR(error, "materials", "a case has 1 to %d materials, this one has %lld", SCREE_MAX_MATERIALS,
+                           (long long)config->material_count);
+    for (int i = 0; i < config->material_count; i++) {
+        for (int j = 0; j < i; j++)
+            if (strcmp(config->materials[i].name, config->materials[j].name) == 0)
+                return indexed_error(error, "materials", i, "name", "two materials have the same name");
+        const scree_law *law = scree_model_law(model);
+        const char *key, *problem = law->material_problem ? law->material_problem(&config->materials[i], &key) : NULL;
+        if (problem) return indexed_error(error, "materials", i, key, problem);
+    }
+    return SCREE_OK;
+}
+
+/// Materials in the order of their use: that of the particles (of the first species), others that something is made of,
+/// and the rest, which has constants but counts in nothing.
+static int rank_of(const scree_config *config, const scree_config_material *material)
+{
+    const scree_config_particles *particles = &config->particles;
+    for (int64_t s = 0; s < scree_config_species_count(particles); s++)
+        if (strcmp(material->name, scree_config_species_at(particles, s).material) == 0) return s > 0;
+    const scree_preparation *method = scree_config_preparation(config);
+    return method && method->uses && method->uses(scree_config_prepare(config), material->name) ? 1 : 2;
+}
+
+/// Numbers the materials; none is in use when there is none of the particles.
+static void number_materials(scree_model *model)
+{
+    const scree_config *config = model->config;
+    int count = 0;
+    for (int rank = 0; rank < 3; rank++) {
+        for (int i = 0; i < config->material_count; i++)
+            if (rank_of(config, &config->materials[i]) == rank) model->listed[count++] = i;
+        if (rank == 0 && count == 0) return;
+        if (rank < 2) model->material_count = count;
+    }
+}
+
+/// Place of a material in the list of the case; -1: there is none of this name.
+static int find_material(const scree_config *config, const char *name)
+{
+    for (int i = 0; i < config->material_count; i++)
+        if (strcmp(config->materials[i].name, name) == 0) return i;
+    return -1;
+}
+
+static scree_contact_space space_of(const scree_model *model)
+{
+    return (scree_contact_space){.dimension = model->dimension, .thickness = model->thickness};
+}
+
+/// Material `grain` of the list on a wall of `material` (NULL: like the grain); at LIST.INDEX.KEY the user said so.
+static scree_status wall_constants(const scree_model *model, int64_t grain, const char *material, const char *list,
+                                   int64_t index, const char *key, scree_pair_constants *constants, scree_error *error)
+{
+    const scree_config_material *body = &model->config->materials[grain], *wall = body;
+    bool rigid = material && strcmp(material, SCREE_RIGID) == 0;
+    int found = material && !rigid ? find_material(model->config, material) : (int)grain;
+    if (found < 0) return indexed_error(error, list, index, key, "there is no material of this name");
+    wall = rigid ? NULL : &model->config->materials[found];
+    const scree_contact_space space = space_of(model);
+    *constants = scree_model_law(model)->constants(&space, body, wall);
+    if (!isnan(body->wall_friction)) constants->value[SCREE_FRICTION] = body->wall_friction;
+    return SCREE_OK;
+}
+
+/// Grains of every material on plates and on each wall of the case.
+static scree_status resolve_walls(scree_model *model, scree_error *error)
+{
+    const scree_config *config = model->config;
+    scree_status status = SCREE_OK;
+    for (int i = 0; i < model->config->material_count && !status; i++) {
+        const int64_t place = model->listed[i];
+        const scree_config_material *grain = &config->materials[place];
+        status = wall_constants(model, place, grain->wall_material, "materials", place, "wall_material",
+                                &model->walls[i], error);
+        for (int64_t w = 0; w < config->wall_count && !status; w++) {
+            scree_pair_constants *pair = &model->surfaces[w][i];
+            *pair = model->walls[i];
+            if (config->walls[w].material)
+                status = wall_constants(model, place, config->walls[w].material, "walls", w, "material", pair, error);
+            if (!isnan(config->walls[w].friction)) pair->value[SCREE_FRICTION] = config->walls[w].friction;
+        }
+    }
+    return status;
+}
+
+static scree_status resolve_materials(scree_model *model, scree_error *error)
+{
+    const scree_config *config = model->config;
+    scree_status status = check_materials(model, error);
+    if (status) return status;
+    model->material_count = 0;
+    number_materials(model);
+    for (int i = 0; model->material_count > 0 && i < config->material_count; i++)
+        model->density[i] = config->materials[model->listed[i]].density;
+    return SCREE_OK;
+}
+
+/// Constants of all pairs, which may depend on sizes.
+static scree_status resolve_pairs(scree_model *model, scree_error *error)
+{
+    const scree_config *config = model->config;
+    const scree_config_material *listed = config->materials;
+    const scree_law *law = scree_model_law(model);
+    const scree_contact_space space = space_of(model);
+    for (int i = 0; i < config->material_count; i++) {
+        const scree_config_material *material = &listed[model->listed[i]];
+        for (int j = 0; j <= i; j++)
+            model->pairs[i][j] = model->pairs[j][i] = law->constants(&space, material, &listed[model->listed[j]]);
+        if (i < model->material_count) model->law.option |= law->options(&config->contact, material);
+    }
+    return resolve_walls(model, error);
+}
+
+/// Every species is made of something.
+static scree_status check_species(const scree_model *model, scree_error *error)
+{
+    const scree_config *config = model->config;
+    const scree_config_particles *particles = &config->particles;
+    for (int64_t s = 0; s < scree_config_species_count(particles); s++) {
+        const char *material = scree_config_species_at(particles, s).material;
+        if (find_material(config, material) >= 0) continue;
+        if (particles->species_count > 0)
+            return indexed_error(error, "particles.species", s, "material", "there is no such material in this case");
+        scree_status status =
+            FIELD_ERROR(error, "particles.material", "there is no material '%s' in this case", material);
+        for (int i = 0; error && i < config->material_count; i++) {
+            size_t used = strlen(error->accepted);
+            (void)snprintf(error->accepted + used, sizeof error->accepted - used, "%s%s", i ? ", " : "",
+                           config->materials[i].name);
+        }
+        return status;
+    }
+    return SCREE_OK;
+}
+
+static scree_status resolve_particles(scree_model *model, scree_error *error)
+{
+    scree_status status = check_species(model, error);
+    if (!status) status = scree_model_resolve_species(model, error);
+    if (status) return status;
+    double thickness = model->config->particles.thickness;
+    model->thickness = isnan(thickness) ? 2 * model->mean_radius : thickness;
+    if (model->dimension == 3) model->thickness = 1;
+    return SCREE_OK;
+}
+
+/// Numbers of the boundaries that the stages have.
+static scree_status resolve_boundaries(scree_model *model, scree_error *error)
+{
+    const scree_config *config = model->config;
+    bool used[SCREE_MODULE_COUNT] = {0};
+    for (int64_t i = 0; i < config->stage_count; i++)
+        if (!scree_modules[config->stages[i].kind]->numbers->places) used[scree_config_boundary_of(config, i)] = true;
+    scree_status status = SCREE_OK;
+    for (int m = 0; m < SCREE_MODULE_COUNT && !status; m++)
+        if (used[m] && scree_modules[m]->boundary->resolve) status = scree_modules[m]->boundary->resolve(model, error);
+    return status;
+}
+
+/// Does the packing of a prepare stage exist?
+static scree_status check_prepare(const scree_model *model, int64_t index, scree_error *error)
+{
+    const scree_config_stage *stage = &model->config->stages[index];
+    const scree_prepare_config *prepare = scree_config_prepared(stage);
+    const scree_preparation *method = scree_modules[prepare->method]->preparation;
+    bool in_3d = model->dimension == 3;
+    scree_status status = method->check ? method->check(model, stage, error) : SCREE_OK;
+    // A round sample's sides are not the user's; and a method that makes its box has judged it.
+    if (status || prepare->outline != SCREE_SAMPLE_BOX || method->sizes_box) return status;
+    bool shallow = in_3d && !isnan(prepare->depth) && prepare->depth < 2 * model->radius_max;
+    if (shallow || (!isnan(prepare->width) && prepare->width < 2 * model->radius_max)) {
+        char text[160];
+        (void)snprintf(text, sizeof text, "a %s of radius %g m does not fit into a box %g m %s",
+                       in_3d ? "sphere" : "disc", model->radius_max, shallow ? prepare->depth : prepare->width,
+                       shallow ? "deep" : "wide");
+        return indexed_error(error, "stages", index, shallow ? "depth" : "width", text);
+    }
+    return SCREE_OK;
+}
+
+/// Reference velocity, phi and psi: those of the first loading stage under the pressure that it holds or that of the
+/// last confine stage before it.
+static scree_status resolve_loading(scree_model *model, scree_error *error)
+{
+    const scree_config *config = model->config;
+    double pressure = NAN, rate = NAN;
+    for (int64_t i = 0; i < config->stage_count && isnan(rate); i++) {
+        const scree_config_stage *stage = &config->stages[i];
+        if (scree_modules[stage->kind]->numbers->places) {
+            scree_status status = check_prepare(model, i, error);
+            if (status) return status;
+        }
+        if (scree_held_pressure(stage) > 0) pressure = scree_held_pressure(stage);
+        rate = scree_model_loading_rate(stage);
+    }
+    model->reference_velocity = config->contact.reference_velocity;
+    if (isnan(model->reference_velocity) && !isnan(rate)) model->reference_velocity = 2 * rate * model->mean_radius;
+    const scree_law *law = scree_model_law(model);
+    if (law->needs_slip_scale && !(model->reference_velocity > 0))
+        return FIELD_ERROR(error, "contact.reference_velocity",
+                           "%s needs a reference slip velocity: without a loading stage (2 rate <R>) "
+                           "give contact.reference_velocity",
+                           scree_modules[model->law.law]->name);
+    if (law->resolve) law->resolve(&config->contact, model->reference_velocity, &model->law);
+    model->phi = model->psi = NAN;
+    if (isnan(rate) || isnan(pressure)) return SCREE_OK;
+    double mass = scree_model_mean_mass(model);
+    scree_quasistatic_numbers(model->dimension, (double)config->particles.count, mass, model->mean_radius,
+                              model->thickness, rate, pressure, &model->phi, &model->psi);
+    return SCREE_OK;
+}
+
+/// The contact law holds pairs together, too, where it can.
+static void resolve_persistent(scree_model *model)
+{
+    const unsigned holding = scree_model_law(model)->holding;
+    if (!holding) return;
+    model->persistent.law = model->law;
+    model->persistent.law.option = holding;
+    memcpy(model->persistent.pairs, model->pairs, sizeof model->pairs);
+}
+
+/// Rounds down to two significant digits.
+static double two_digits_below(double value)
+{
+    double unit = pow(10, floor(log10(value)) - 1);
+    return floor(value / unit) * unit;
+}
+
+/// What needs no more than a unit or the mean radius.
+static void take_numbers(const scree_config *config, scree_model *model)
+{
+    const scree_config_boundary *boundary = &config->boundary;
+    bool bounded = !isnan(boundary->servo_velocity);
+    model->upkeep = (scree_upkeep){.every = (uint64_t)boundary->every * model->largest_step,
+                                   .gap_limit = boundary->gap_limit,
+                                   .hysteresis = boundary->gap_hysteresis};
+    // Auto: a plate or a face may not cross a hundredth of the smallest radius in a step.
+    model->servo = (scree_servo_limits){.gain = boundary->servo_gain,
+                                        .velocity = bounded ? boundary->servo_velocity : INFINITY,
+                                        .travel = bounded ? INFINITY : 0.01 * model->radius_min};
+    model->overlap_limit = config->guard.overlap;
+    model->energy_growth = config->guard.energy_growth;
+    model->measure = config->measure;
+    model->output = config->output;
+}
+
+static scree_status resolve_step(scree_model *model, scree_error *error)
+{
+    const scree_config_integrator *integrator = &model->config->integrator;
+    model->critical_step = scree_critical_step_estimate(model);
+    scree_steps (*lengths)(const void *own) = scree_integrator_get(model->scheme)->steps;
+    scree_steps steps = lengths ? lengths(integrator->own) : (scree_steps){1, 1, 0};
+    model->largest_step = steps.largest;
+    model->large_multiple = steps.multiple;
+    model->small_steps = steps.small;
+    double ticks = (double)model->largest_step;
+    model->step = isnan(integrator->step) ? integrator->step_fraction * model->critical_step / ticks : integrator->step;
+    if (ticks * model->step <= model->critical_step) return SCREE_OK;
+    if (model->largest_step > 1)
+        return FIELD_ERROR(
+            error, "integrator.step",
+            "the large step, %g steps of %.3g s, is above the critical step of this case, %.3g s, and may "
+            "be unstable; give %.2g s, or auto",
+            ticks, model->step, model->critical_step, two_digits_below(0.5 * model->critical_step / ticks));
+    scree_status status =
+        FIELD_ERROR(error, "integrator.step",
+                    "a step of %.3g s is above the critical step of this case, %.3g s, and may be unstable; "
+                    "give %.2g s, or auto",
+                    model->step, model->critical_step, two_digits_below(0.5 * model->critical_step));
+    if (error) {
+        (void)snprintf(error->value, sizeof error->value, "%.6g s", model->step);
+        (void)snprintf(error->accepted, sizeof error->accepted, "up to %.3g s", two_digits_below(model->critical_step));
+    }
+    return status;
+}
+
+scree_status scree_model_build(const scree_config *config, scree_model *model, scree_error *error)
+{
+    *model = (scree_model){
+        .name = config->name,
+        .seed = (uint64_t)config->seed,
+        .count = (uint64_t)config->particles.count,
+        .periodic = (unsigned)config->boundary.periodic,
+        .dimension = (int)config->dimension,
+        .law = {.law = config->contact.law},
+        .scheme = config->integrator.scheme,
+        .gravity_of_case = config->gravity,
+        .walls_of_case = config->walls,
+        .wall_count = config->wall_count,
+        .loads = config->loads,
+        .load_count = config->load_count,
+        .selections = config->selections,
+        .selection_count = config->selection_count,
+        .stages = config->stages,
+        .stage_count = config->stage_count,
+        .config = config,
+    };
+    for (int k = 0; k < 3; k++) model->gravity[k] = scree_schedule_at(&config->gravity[k], 0);
+    scree_status status = resolve_materials(model, error);
+    if (!status) status = resolve_particles(model, error);
+    if (!status) status = resolve_pairs(model, error);
+    if (!status) status = resolve_loading(model, error);
+    if (!status) resolve_persistent(model);
+    if (!status) status = resolve_step(model, error);
+    if (!status) take_numbers(config, model);
+    if (!status) status = resolve_boundaries(model, error);
+    for (int m = 0; m < SCREE_MODULE_COUNT && !status; m++)
+        if (scree_modules[m]->resolve) status = scree_modules[m]->resolve(model, error);
+    return status;
+}

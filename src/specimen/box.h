@@ -1,0 +1,19 @@
+/// A specimen that fills a box and does not repeat itself: which bodies make its faces.
+#ifndef SCREE_SPECIMEN_BOX_H
+#define SCREE_SPECIMEN_BOX_H
+
+#include "specimen/specimen.h"
+
+/// Where a sample ends along each axis [m]; NAN: where its bodies do.
+typedef struct scree_box_faces {
+    double end[2][3]; ///< low and high
+} scree_box_faces;
+
+/// The piece within the centres of the outermost bodies, to be strained by moving these: a copy, to be destroyed.
+/// They are held but for their spins; contacts within a face count half, within an edge a quarter, as they belong to
+/// what lies outside as well; walls do not touch it. Its extent is that between the mean planes of these bodies.
+/// Errors: SCREE_ERROR_INPUT when it is periodic in some direction, or no box; memory.
+scree_status scree_specimen_cut_box(const scree_specimen *specimen, const scree_box_faces *faces, scree_specimen *out,
+                                    scree_error *error) __attribute__((warn_unused_result));
+
+#endif
