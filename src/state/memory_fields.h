@@ -46,7 +46,7 @@
     }
 
 /// Name, unit and meaning of what several laws remember.
-#define SCREE_REST_FIELD                    "rest_overlap", "m", "overlap at which the pair is at rest; negative: a gap"
+#define SCREE_REST_FIELD "rest_overlap", "m", "overlap at which the pair is at rest; negative: a gap"
 #define SCREE_TENSILE_STRENGTH_FIELD                                                                                   \
     "tensile_strength", "N", "strength of the bond in tension, infinite: it does not break so; negative: it is broken"
 #define SCREE_SHEAR_STRENGTH_FIELD "shear_strength", "N", "strength of the bond in shear, without a normal force"
