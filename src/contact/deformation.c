@@ -114,7 +114,7 @@ static void judge_material(scree_reader *reader, const scree_config *whole, int6
 static void judge_stage(scree_reader *reader, const scree_config *whole, int64_t index)
 {
     char path[SCREE_PATH_BYTES];
-    if (scree_modules[whole->stages[index].kind]->numbers->places) return;
+    if (!scree_modules[whole->stages[index].kind]->numbers->held) return;
     const scree_boundary *boundary = scree_config_held_by(whole, index);
     (void)snprintf(path, sizeof path, "stages.%lld.boundary", (long long)index);
     if (boundary && boundary->needs_rigid)
@@ -138,6 +138,7 @@ static void rules(scree_reader *reader, const scree_config *whole)
 // ---- numbers -----------------------------------------------------------------------------------------------------
 
 typedef struct numbers {
+    scree_plane_condition condition;
     double relaxation;                                ///< theta; NAN: from the contacts
     double soft;                                      ///< 1, of theta: 2 k_n R^2 (n.D(n n)n) / V of the softest body
     scree_compliance compliance[SCREE_MAX_MATERIALS]; ///< by material
@@ -152,6 +153,12 @@ scree_compliance scree_deformation_compliance(const scree_model *model, int mate
 {
     const numbers *n = own_numbers(model);
     return n ? n->compliance[material] : (scree_compliance){0, 0};
+}
+
+scree_plane_condition scree_deformation_condition(const scree_model *model)
+{
+    const numbers *n = own_numbers(model);
+    return n ? n->condition : model->dimension == 3 ? SCREE_SOLID : SCREE_PLANE_STRAIN;
 }
 
 double scree_deformation_share(const scree_model *model)
@@ -182,15 +189,15 @@ static double stiffest(const scree_model *model, int material, double radius)
 
 static scree_status resolve_law(scree_model *model, scree_error *error)
 {
-    const config *own = own_config(model->config);
+    const config *own = scree_config_own(&scree_module_deformation, "contact", model->config->contact.own);
     (void)error;
     if (own->deformation == RIGID) return SCREE_OK;
     numbers *n = scree_model_reserve_numbers(model, SCREE_SLOT_deformation);
     n->relaxation = own->deformation == EXPLICIT ? 1 : own->relaxation;
+    n->condition = model->dimension == 3 ? SCREE_SOLID : (scree_plane_condition)own->plane;
     for (int k = 0; k < model->material_count; k++) {
-        const scree_config_material *material = &model->config->materials[model->listed[k]];
-        const scree_plane_condition plane = model->dimension == 3 ? SCREE_SOLID : (scree_plane_condition)own->plane;
-        n->compliance[k] = scree_compliance_of(plane, material->young_modulus, material->poisson_ratio);
+        const scree_config_material *material = scree_model_material(model, k);
+        n->compliance[k] = scree_compliance_of(n->condition, material->young_modulus, material->poisson_ratio);
         const double along = n->compliance[k].shear + n->compliance[k].trace;
         for (int side = 0; side < 2; side++) {
             double radius = side ? model->radius_max : model->radius_min;

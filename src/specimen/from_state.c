@@ -94,6 +94,7 @@ scree_status scree_specimen_of_state(const scree_model *model, const scree_state
     if (!status) status = fill(model, state, work, &table, s, error);
     scree_contact_table_destroy(&table);
     const scree_periodic_cell *cell = scree_cell(state);
+    s->condition = scree_deformation_condition(model);
     const bool corrected = model->law.number[SCREE_LAW_CORRECTED] > 0;
     s->tangential = corrected ? SCREE_TANGENTIAL_CORRECTED : SCREE_TANGENTIAL_AS_PUBLISHED;
     s->dashpots_strain = !(model->law.number[SCREE_LAW_LOOSE] > 0);
