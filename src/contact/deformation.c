@@ -196,7 +196,7 @@ static scree_status resolve_law(scree_model *model, scree_error *error)
     n->relaxation = own->deformation == EXPLICIT ? 1 : own->relaxation;
     n->condition = model->dimension == 3 ? SCREE_SOLID : (scree_plane_condition)own->plane;
     for (int k = 0; k < model->material_count; k++) {
-        const scree_config_material *material = scree_model_material(model, k);
+        const scree_config_material *material = scree_model_material_said(model, k);
         n->compliance[k] = scree_compliance_of(n->condition, material->young_modulus, material->poisson_ratio);
         const double along = n->compliance[k].shear + n->compliance[k].trace;
         for (int side = 0; side < 2; side++) {

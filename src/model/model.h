@@ -111,7 +111,7 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
 bool scree_model_is_wholly_periodic(const scree_model *model);
 
 /// What the case says of the material with this number; for what resolves a model alone.
-static inline const scree_config_material *scree_model_material(const scree_model *model, int material)
+static inline const scree_config_material *scree_model_material_said(const scree_model *model, int material)
 {
     return &model->config->materials[model->listed[material]];
 }
