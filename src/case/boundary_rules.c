@@ -99,6 +99,11 @@ void scree_rules_check_boundaries(scree_reader *reader, const scree_config *conf
             if (wrong) refuse(reader, i, key, wrong);
             continue;
         }
+        if (numbers->instant) {
+            if (numbers->wrong) wrong = numbers->wrong(config, i, &key);
+            if (wrong) refuse(reader, i, key, wrong);
+            continue;
+        }
         if (config->boundary.periodic > 0) wrong = wrong_in_cell(config, stage, numbers, boundary, &key);
         if (!wrong && !boundary->periodic) wrong = wrong_boundary(config, numbers, boundary);
         if (round && !boundary->periodic && !boundary->round)

@@ -216,6 +216,12 @@ static void read_inner_section(const scope *s, const scree_key *key, scree_node 
     leave_unread(&inner);
 }
 
+/// Whether its rows may stand in a file.
+static bool takes_table(const scree_key *key)
+{
+    return key->type == SCREE_KEY_SCHEDULE || key->type == SCREE_KEY_PAIRS;
+}
+
 static void read_key(const scope *s, const scree_key *key)
 {
     char path[SCREE_PATH_BYTES];
@@ -232,7 +238,7 @@ static void read_key(const scope *s, const scree_key *key)
         refuse_missing(s, key, path);
     else if (key->type == SCREE_KEY_LIST)
         read_list(s, key, child, path);
-    else if (key->type != SCREE_KEY_SCHEDULE || !scree_csv_is_named(child) || scree_csv_expand(s->reader, child, path))
+    else if (!takes_table(key) || !scree_csv_is_named(child) || scree_csv_expand(s->reader, child, path))
         scree_value_store(s->reader, key, child, path, s->base);
 }
 

@@ -112,7 +112,7 @@ static void check_stage_order(scree_reader *reader, const scree_config *config)
             wrong = stage->needs_pressure;
         else if (i > 0 && stage->needs_approach && method && !method->approaching)
             wrong = stage->needs_approach;
-        else if (i > 0 && !stage->collides && method && method->binary)
+        else if (i > 0 && !stage->collides && !stage->instant && method && method->binary)
             wrong = "two particles can only collide";
         confined = confined || stage->settles;
         if (!wrong) continue;

@@ -21,6 +21,7 @@ SCREE_INLINE contact_quanta contact_advance(contact_job *job, variant v, const s
     totals->stiffness += q.stiffness;
     totals->in_range &= q.in_range != 0;
     if (own) {
+        totals->settle |= q.settle != 0;
         totals->largest_deformation = lanes_at_least(totals->largest_deformation, q.deformation);
         totals->largest_gap = lanes_at_least(totals->largest_gap, -m->overlap);
     } else if (touching) {

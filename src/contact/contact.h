@@ -33,13 +33,14 @@ typedef struct scree_contact {
     bool ghost;    ///< across a face of the periodic cell: of `first` and `second` one is where its ghost is
     bool membrane; ///< one of the two is a body of a membrane
     bool sliding;
-    bool held;                 ///< a pair of the persistent list: it need not touch, and may pull
+    bool held;                 ///< a pair of the persistent list: it need not touch
+    bool bonded;               ///< one whose bond stands: it may pull
     scree_vector normal;       ///< from second to first
     scree_vector tangent;      ///< 2D: (-n_y, n_x); 3D: direction of the tangential force on first, zero without one
     scree_vector point;        ///< m
     scree_vector branch;       ///< m, x_first - x_second; for a wall x_first - contact point
     double overlap;            ///< m
-    double normal_force;       ///< N, >= 0 unless held
+    double normal_force;       ///< N, >= 0 unless bonded
     double tangential_force;   ///< N, along t, on first; in 3D >= 0
     double slip;               ///< m/s along t in 2D, magnitude in 3D
     double elastic_normal;     ///< J

@@ -20,6 +20,7 @@ typedef struct contact_quanta {
     lanes_bits normal;                       ///< the same force along n
     quanta tangential;                       ///< and in the tangent plane (2D: along t)
     lanes deformation;                       ///< m, with law_holds
+    lanes_bits settle;                       ///< mask, with law_holds
     vector on_first;                         ///< N, the force before it became integers
 } contact_quanta;
 
@@ -89,7 +90,11 @@ SCREE_INLINE contact_quanta contact_evaluate(variant v, const law_constants *con
         .in_range = lanes_at_or_below((pulls ? lanes_abs(f.normal) : f.normal) + vector_extent(count, f.tangential),
                                       lanes_all(scale->force_limit)),
     };
-    if (law_holds(v)) q.deformation = f.deformation;
+    if (law_holds(v)) {
+        q.deformation = f.deformation;
+        q.settle = f.settle;
+        q.count = -f.in_contact;
+    }
     if (law_rolls(v)) {
         quanta couple = quanta_of(count, f.couple, scale->inverse_torque);
         q.torque_first = quanta_sum(q.torque_first, couple);

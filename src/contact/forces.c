@@ -205,6 +205,7 @@ void scree_contact_forces(const scree_model *model, scree_state *state, scree_wo
     scree_ghosts_add_back(state, work);
     double plates = settle_walls(state, &totals) + contact_surfaces_settle(state, work, &totals, &job.scale);
     if (work->ledger) settle_ledger(&state->ledger, &totals, &job.scale, plates);
+    work->settle = totals.settle;
     state->largest_overlap = totals.largest_overlap;
     scree_persistent(state)->largest_deformation = totals.largest_deformation;
     scree_persistent(state)->largest_gap = totals.largest_gap;

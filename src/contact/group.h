@@ -21,7 +21,7 @@ SCREE_INLINE void find_bodies(const contact_job *job, group *g)
 
 /// Running totals in lanes.
 typedef struct totals {
-    lanes_bits damping, friction, stiffness, in_range;
+    lanes_bits damping, friction, stiffness, in_range, settle;
     lanes largest_overlap, largest_deformation, largest_gap;
 } totals;
 
@@ -228,6 +228,7 @@ SCREE_INLINE void evaluate_group(const contact_job *job, variant v, group *g, to
     }
     t->in_range &= q.in_range;
     if (law_holds(v)) {
+        t->settle |= q.settle;
         t->largest_deformation = lanes_at_least(t->largest_deformation, lanes_keep(touching, q.deformation));
         t->largest_gap = lanes_at_least(t->largest_gap, lanes_keep(touching, -m.overlap));
     } else {

@@ -19,6 +19,7 @@ typedef struct contact_totals {
     uint64_t damping, friction, stiffness;    ///< energy quanta, two's complement
     double largest_overlap;                   ///< m
     double largest_deformation, largest_gap;  ///< m, of pairs that are held
+    bool settle;                              ///< a pair that is held breaks, or is broken and has parted
     bool in_range;                            ///< no force is NaN or above the limit of the quanta
     uint64_t wall_force[SCREE_WALL_COUNT];    ///< force quanta, normal, by the bodies
     uint64_t wall_shear[SCREE_WALL_COUNT][3]; ///< the same in the plane of the wall; 2D: the first, along t

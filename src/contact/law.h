@@ -46,6 +46,8 @@ typedef struct law_force {
     vector couple;                            ///< N m, of rolling and twisting resistance, on first
     lanes damping, friction, stiffness;       ///< J, ledger increments of this step
     lanes deformation;                        ///< m, with the trait `holds`: from it the law bounds its forces
+    lanes_bits in_contact;                    ///< mask, with `holds`: there may be a force
+    lanes_bits settle;                        ///< mask, with `holds`: it breaks, or is broken and has parted
     lanes elastic_normal, elastic_tangential; ///< J; the springs of rolling and twisting count as tangential
 } law_force;
 

@@ -16,7 +16,8 @@
 /// (2 / w) (sqrt(1 + z^2) - z) (model/critical_step.c), and modes of a packing have larger ratios than its pairs: by
 /// sqrt 2 in a row, where a ratio of 5 makes the step 14 times shorter. M 2.19 leaves it out.
 ///
-/// Held pairs: f_n <= k_n |d - d_0| + c_n u, f_t <= k_t |h| + c_t u, both lengths below one bound.
+/// Held pairs: f_n <= k_n |d - d_0| + c_n u, f_t <= k_t |h| + c_t u, both lengths below one bound, broken or not; when
+/// a broken one opens, friction takes what its tangential spring holds.
 ///
 /// Bounds, for an overlap d and a relative velocity u: f_n <= k_n d + c_n u, f <= f_n (1 + mu). Energies of one contact
 /// and step: damping 2 (c_n + c_t) u (u dt); friction f (u dt) plus what a tangential spring may hold, S^2 / k_t with
@@ -155,6 +156,9 @@ static const scree_field fields[] = {
     SCREE_REMEMBERS(linear, history, 3, 1, SCREE_NORMAL_DAMPING_FIELD, .only_dimension = 3),
     SCREE_REMEMBERS(linear, last_force, 0, 3, SCREE_TANGENTIAL_DAMPING_FIELD, .only_dimension = 3),
     SCREE_HELD_REMEMBERS(linear, constant, SCREE_MEMBER_REST, 1, SCREE_REST_FIELD, .in_checksum = true),
+    SCREE_HELD_REMEMBERS(linear, constant, SCREE_MEMBER_TENSION, 1, SCREE_TENSILE_STRENGTH_FIELD, .in_checksum = true),
+    SCREE_HELD_REMEMBERS(linear, constant, SCREE_MEMBER_SHEAR, 1, SCREE_SHEAR_STRENGTH_FIELD, .in_checksum = true),
+    SCREE_HELD_REMEMBERS(linear, constant, SCREE_MEMBER_SLOPE, 1, SCREE_STRENGTH_SLOPE_FIELD, .in_checksum = true),
     SCREE_HELD_REMEMBERS(linear, history, 0, SCREE_AXIAL_VECTOR, SCREE_TANGENTIAL_DISPLACEMENT_FIELD,
                          .in_checksum = true),
     SCREE_HELD_REMEMBERS(linear, history, 1, 1, SCREE_NORMAL_DAMPING_FIELD, .only_dimension = 2),
@@ -206,14 +210,14 @@ static double impact_length(const scree_pair_constants *pair, double effective_r
     return speed * sqrt(effective_mass / stiffness_of(pair, effective_radius));
 }
 
-/// Of a pair that is held: nothing slides, and `overlap` bounds the tangential displacement, too.
+/// Of a pair that is held: `overlap` bounds the tangential displacement, too.
 static scree_law_bounds bound_held(const scree_pair_constants *most, const scree_law_extent *e)
 {
     const double ratio = most->value[LINEAR_RATIO];
     double whole = stiffness_of(most, e->radius), root = sqrt(e->mass * whole);
     double viscous = (most->value[LINEAR_DAMPING] + most->value[LINEAR_TANGENTIAL_DAMPING]) * root * e->speed;
     double force = whole * (1 + ratio) * e->overlap + viscous, way = e->speed * e->step;
-    return (scree_law_bounds){.force = force, .damping = 2 * viscous * way, .friction = 2 * force * way};
+    return (scree_law_bounds){.force = force, .damping = 2 * viscous * way, .friction = 2 * force * (way + e->overlap)};
 }
 
 static scree_law_bounds bound(const scree_law_use *use, const scree_pair_constants *most, const scree_law_extent *e)

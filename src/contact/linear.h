@@ -7,8 +7,11 @@
 /// text at 2.40, and the max here also while a dashpot would pull the parting bodies back.
 ///
 /// Held (LINEAR_HELD, pairs of the persistent list): the spring pulls, too, is at rest at the overlap d_0 of the pair,
-/// and neither it nor the tangential one slides (M 2.23-2.28 without strengths):
+/// and neither it nor the tangential one slides (M 2.23-2.28):
 ///   f_n = k_n (d - d_0) + c_n d',   f_t = -(k_t h + c_t s)
+/// It stands until -f_n >= S_n (M 2.38) or |f_t| >= max(S_t + q f_n, 0) (M 2.39; q: the slope of Mohr and Coulomb); the
+/// law only says so (settle), bond/ breaks it. A broken one is a contact without a bond, with d - d_0 in place of d,
+/// until d <= min(0, d_0): then an ordinary one has no force either.
 ///
 /// E A / L: the bar from centre to centre, L = R_1 + R_2. Of discs of thickness t, A = t (R_1 + R_2), so k_n = E t
 /// whatever the radii; of spheres A = pi R_1 R_2, so k_n = pi E R_eff: for equal bodies the section through the centre.
@@ -82,42 +85,67 @@ SCREE_INLINE slider_memory linear_remembered(int dimension, const kinematics *m,
                            kinematics_carry(3, m, dashpot)};
 }
 
+/// Lanes whose bond is not broken.
+SCREE_INLINE lanes_bits linear_sound(const law_constants *constants)
+{
+    return lanes_at_or_below(lanes_all(0), constants->own[SCREE_MEMBER_TENSION]);
+}
+
+/// Lanes whose bond breaks, or is broken and the two have parted.
+SCREE_INLINE lanes_bits linear_settle(int count, const lanes own[], lanes overlap, lanes_bits sound, lanes normal,
+                                      vector tangential)
+{
+    lanes limit = lanes_at_least(own[SCREE_MEMBER_SHEAR] + own[SCREE_MEMBER_SLOPE] * normal, lanes_all(0));
+    lanes_bits pulled = lanes_at_or_below(own[SCREE_MEMBER_TENSION], -normal);
+    lanes_bits sheared = lanes_at_or_below(limit * limit, vector_dot(count, tangential, tangential));
+    lanes_bits parted = lanes_at_or_below(overlap, lanes_at_most(own[SCREE_MEMBER_REST], lanes_all(0)));
+    return (sound & (pulled | sheared)) | (~sound & parted);
+}
+
 SCREE_INLINE law_force linear(variant v, const law_constants *constants, const law_settings *settings,
                               const kinematics *m, lanes_bits touching, const law_memory *before, law_memory *after)
 {
     const int dimension = v.dimension, count = tangential_count(dimension);
     const lanes *constant = constants->value, none = lanes_all(0);
     const bool held = v.option & LINEAR_HELD;
-    lanes d = lanes_keep(touching, held ? m->overlap - constants->own[SCREE_MEMBER_REST] : m->overlap);
+    const lanes_bits present = touching, sound = held ? linear_sound(constants) : lanes_as_bits(none);
+    lanes from_rest = held ? m->overlap - constants->own[SCREE_MEMBER_REST] : m->overlap;
+    if (held) touching &= sound | ~lanes_at_or_below(from_rest, none);
+    lanes d = lanes_keep(touching, from_rest);
     lanes whole = constant[LINEAR_NORMAL] + constant[LINEAR_BY_RADIUS] * m->reduced_radius;
     lanes stiffness = lanes_keep(touching, whole);
     lanes root = lanes_root(m->reduced_mass * stiffness);
     lanes elastic = stiffness * d;
     lanes normal = elastic + constant[LINEAR_DAMPING] * root * m->approach;
-    if (!held) normal = lanes_at_least(normal, none);
+    normal = lanes_select(sound, normal, lanes_at_least(normal, none));
+    lanes cap = lanes_select(sound, lanes_all(INFINITY), constant[SCREE_FRICTION] * normal);
     lanes damping = normal - elastic, damping_before = before->value[dimension == 2 ? 1 : 3];
 
     slider_memory slipped = linear_remembered(dimension, m, before, constant[LINEAR_RATIO] * whole);
     slider slip = slider_move(count, &slipped, m->slip, settings->step, constant[LINEAR_RATIO] * stiffness,
-                              constant[LINEAR_TANGENTIAL_DAMPING] * root,
-                              held ? lanes_all(INFINITY) : constant[SCREE_FRICTION] * normal, touching);
+                              constant[LINEAR_TANGENTIAL_DAMPING] * root, cap, touching);
     vector tangential_displacement = slip.now.displacement, dashpot = slip.now.dashpot;
     *after = (law_memory){.value = {tangential_displacement.x, damping, dashpot.x, none}};
     if (dimension == 3)
         *after = (law_memory){
             .value = {tangential_displacement.x, tangential_displacement.y, tangential_displacement.z, damping},
             .last = {dashpot.x, dashpot.y, dashpot.z, none}};
-    return (law_force){
+    law_force force = {
         .normal = normal,
         .tangential = vector_opposite(count, slip.resistance),
         .couple = vector_none(),
         .damping = 0.5 * ((damping + damping_before) * (m->approach * settings->step) + slip.damping),
         .friction = 0.5 * slip.friction,
         .stiffness = none,
-        .deformation = held ? lanes_at_least(lanes_abs(d), vector_extent(count, tangential_displacement)) : none,
         .elastic_normal = 0.5 * (elastic * d),
         .elastic_tangential = slip.elastic,
     };
+    if (held) {
+        force.deformation = lanes_at_least(lanes_abs(d), vector_extent(count, tangential_displacement));
+        force.in_contact = touching;
+        force.settle = present & linear_settle(count, constants->own, m->overlap, sound, normal, force.tangential);
+    }
+    return force;
 }
 
 #endif

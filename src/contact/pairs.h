@@ -111,7 +111,7 @@ SCREE_INLINE size_t evaluate_touching(const contact_job *job, variant v, totals 
 static void totals_reduce(const totals *t, contact_totals *out)
 {
     unsigned all = (1U << SCREE_LANES) - 1;
-    *out = (contact_totals){.in_range = lanes_ones(t->in_range) == all};
+    *out = (contact_totals){.in_range = lanes_ones(t->in_range) == all, .settle = lanes_ones(t->settle) != 0};
     LANE_LOOP
     {
         out->damping += t->damping[k];

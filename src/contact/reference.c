@@ -20,6 +20,7 @@ void contact_totals_add(contact_totals *into, const contact_totals *more)
     into->largest_overlap = lanes_at_least(into->largest_overlap, more->largest_overlap);
     into->largest_deformation = lanes_at_least(into->largest_deformation, more->largest_deformation);
     into->largest_gap = lanes_at_least(into->largest_gap, more->largest_gap);
+    into->settle |= more->settle;
     into->in_range &= more->in_range;
     for (int w = 0; w < SCREE_WALL_COUNT; w++) {
         into->wall_force[w] += more->wall_force[w];

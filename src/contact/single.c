@@ -33,8 +33,8 @@ static void describe_tangent(int dimension, const kinematics *m, const law_force
     contact->slip = sqrt(vector_dot(3, m->slip, m->slip));
 }
 
-/// own: constants of a pair that is held; NULL: of no such pair.
-static void describe(const scree_model *model, int dimension, const scree_pair_constants *constants,
+/// own: constants of a pair that is held; NULL: of no such pair. False when such a pair is broken and apart.
+static bool describe(const scree_model *model, int dimension, const scree_pair_constants *constants,
                      const scree_member_row *own, kinematics *m, const memory_rows *memory, scree_contact *contact)
 {
     kinematics_hold(m);
@@ -47,12 +47,15 @@ static void describe(const scree_model *model, int dimension, const scree_pair_c
     describe_tangent(dimension, m, &f, contact);
     double cap = constants->value[SCREE_FRICTION] * f.normal;
     contact->held = own != NULL;
-    contact->sliding = !own && f.normal > 0 && fabs(contact->tangential_force) >= (1 - SLIDING_TOLERANCE) * cap;
+    contact->bonded = own && own->value[SCREE_MEMBER_TENSION] >= 0;
+    contact->sliding =
+        !contact->bonded && f.normal > 0 && fabs(contact->tangential_force) >= (1 - SLIDING_TOLERANCE) * cap;
     set_vector(contact->normal, m->normal);
     contact->overlap = m->overlap;
     contact->normal_force = f.normal;
     contact->elastic_normal = f.elastic_normal;
     contact->elastic_tangential = f.elastic_tangential;
+    return !own || f.in_contact;
 }
 
 /// The contact point lies in the middle of the overlap, one lever arm from the centre of `first`.
@@ -72,18 +75,47 @@ bool contact_of_pair(const scree_model *model, const scree_state *state, const c
     bodies other = body_get(dimension, &second->row, &second->turn);
     kinematics m = kinematics_of_pair(dimension, &one, &other, state->step_size);
     const scree_pair_constants(*pairs)[SCREE_MAX_MATERIALS] = own ? model->persistent.pairs : model->pairs;
-    describe(model, dimension, &pairs[(int)one.material][(int)other.material], own, &m, memory, contact);
+    const scree_pair_constants *constants = &pairs[(int)one.material][(int)other.material];
+    const bool in_contact = describe(model, dimension, constants, own, &m, memory, contact);
     place(dimension, &one, &m, contact);
     contact->wall = false;
     set_vector(contact->branch, vector_minus(dimension, one.position, other.position));
-    return true;
+    return in_contact;
+}
+
+contact_evaluation contact_evaluate_again(const scree_model *model, const scree_state *state, bool ledger,
+                                          const contact_body *first, const contact_body *second,
+                                          const scree_member_row *own, const memory_rows *memory)
+{
+    const int dimension = state->dimension;
+    const scree_law_use *law = own ? &model->persistent.law : &model->law;
+    contact_evaluation e = {.variant = {.dimension = dimension,
+                                        .law = law->law,
+                                        .option = law->option,
+                                        .many_materials = true,
+                                        .ledger = ledger},
+                            .first = body_get(dimension, &first->row, &first->turn),
+                            .second = body_get(dimension, &second->row, &second->turn)};
+    e.kinematics = kinematics_of_pair(dimension, &e.first, &e.second, state->step_size);
+    kinematics_hold(&e.kinematics);
+    const contact_scale scale = {.inverse_force = 1 / state->force_quantum,
+                                 .inverse_torque = 1 / state->torque_quantum,
+                                 .force_limit = INFINITY};
+    const scree_pair_constants(*pairs)[SCREE_MAX_MATERIALS] = own ? model->persistent.pairs : model->pairs;
+    law_constants constants = constants_get(&pairs[(int)e.first.material][(int)e.second.material], own);
+    law_settings settings = law_settings_get(law, 0);
+    law_memory before = memory_get(e.variant, memory);
+    e.force = law_evaluate(e.variant, &constants, &settings, &e.kinematics, ~UINT64_C(0), &before, &e.memory);
+    e.quanta =
+        contact_evaluate(e.variant, &constants, &settings, &scale, &e.kinematics, ~UINT64_C(0), &before, &e.memory);
+    return e;
 }
 
 /// Between a body and anything that is not one.
 static void describe_wall(const scree_model *model, int dimension, const scree_pair_constants *constants,
                           const bodies *one, kinematics *m, const memory_rows *memory, scree_contact *contact)
 {
-    describe(model, dimension, constants, NULL, m, memory, contact);
+    (void)describe(model, dimension, constants, NULL, m, memory, contact);
     place(dimension, one, m, contact);
     contact->wall = true;
     const double centre[3] = {one->position.x, one->position.y, one->position.z};

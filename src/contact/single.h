@@ -41,11 +41,33 @@ static inline const scree_member_row *contact_own_of(const scree_work *work, siz
     return p < work->pairs.held_count ? &work->pairs.own[p] : NULL;
 }
 
-/// Two bodies; false when they do not touch. own: of a pair that is held, which needs no touch; else NULL. Leaves
-/// `first` and `second` of the contact alone.
+/// Two bodies; false when they are not in contact. own: of a pair that is held, which needs no touch while its bond
+/// stands; else NULL. Leaves `first` and `second` of the contact alone.
 bool contact_of_pair(const scree_model *model, const scree_state *state, const contact_body *first,
                      const contact_body *second, const scree_member_row *own, const memory_rows *memory,
                      scree_contact *contact);
+
+/// What a pair of bodies exerts on each other at n, evaluated again.
+typedef struct contact_evaluation {
+    variant variant;
+    bodies first, second;
+    kinematics kinematics; ///< rates of the middle of the step before n
+    contact_quanta quanta; ///< in the quanta of the state
+    law_force force;
+    law_memory memory; ///< what the contact remembers then
+} contact_evaluation;
+
+/// Evaluates the law of a pair that is taken to touch, or is held, with a step of zero. Of one without a bond, or whose
+/// bond has just broken, springs come out as long as its friction allows.
+contact_evaluation contact_evaluate_again(const scree_model *model, const scree_state *state, bool ledger,
+                                          const contact_body *first, const contact_body *second,
+                                          const scree_member_row *own, const memory_rows *memory);
+
+/// Its part in the energy of the springs [J].
+static inline double contact_elastic_energy(const contact_evaluation *e)
+{
+    return e->force.elastic_normal + e->force.elastic_tangential;
+}
 
 /// A body and a wall.
 bool contact_of_wall(const scree_model *model, const scree_state *state, const contact_body *body,

@@ -68,8 +68,8 @@ static void move_point(const scree_state *state, uint32_t ghost, scree_contact *
     for (int k = 0; k < 3; k++) contact->point[k] += here[k] - there[k];
 }
 
-/// The contact of `reference`, which touches.
-static void fill(const scree_model *model, const scree_state *state, const scree_work *work,
+/// The contact of `reference`; false when it is none: a pair that is held, broken and apart.
+static bool fill(const scree_model *model, const scree_state *state, const scree_work *work,
                  const contact_reference *reference, scree_contact *contact)
 {
     size_t p = reference->pair;
@@ -85,17 +85,19 @@ static void fill(const scree_model *model, const scree_state *state, const scree
     contact_body first = contact_body_at_half_step(model, state, work, one);
     if (list == CONTACT_PLATE) {
         contact_of_wall(model, state, &first, &scree_plates(state)[other], &memory, contact);
-        return;
+        return true;
     }
     if (list == CONTACT_ELEMENT) {
         contact_of_primitive(model, state, work, &first, other, &memory, contact);
         contact->second += SCREE_PRIMITIVE_ID;
-        return;
+        return true;
     }
     contact_body second = contact_body_at_half_step(model, state, work, other);
-    contact_of_pair(model, state, &first, &second, contact_own_of(work, p), &memory, contact);
+    const scree_member_row *own = contact_own_of(work, p);
+    const bool in_contact = contact_of_pair(model, state, &first, &second, own, &memory, contact);
     if (one != contact->first) move_point(state, one, contact);
     contact->membrane = contact->membrane || !scree_body_is_grain(state, contact->second);
+    return in_contact || !own;
 }
 
 scree_status scree_contact_table_build(const scree_model *model, const scree_state *state, const scree_work *work,
@@ -105,8 +107,9 @@ scree_status scree_contact_table_build(const scree_model *model, const scree_sta
     size_t count;
     scree_status status = contact_order(state, work, &order, &count, error);
     if (!status) status = reserve(table, count, error);
-    table->count = status ? 0 : count;
-    for (size_t k = 0; k < table->count; k++) fill(model, state, work, &order[k], &table->contact[k]);
+    table->count = 0;
+    for (size_t k = 0; k < count && !status; k++)
+        table->count += fill(model, state, work, &order[k], &table->contact[table->count]);
     scree_release(&order);
     return status;
 }

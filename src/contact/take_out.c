@@ -15,29 +15,13 @@ typedef struct exerted {
     double arm;            ///< m, of this body
 } exerted;
 
-/// Force and torques of pair `p` [quanta], and its kinematics.
-static contact_quanta evaluate(const scree_model *model, const scree_state *state, const scree_work *work, size_t p,
-                               kinematics *kinematics_of)
+/// Pair `p` at n.
+static contact_evaluation evaluate(const scree_model *model, const scree_state *state, const scree_work *work, size_t p)
 {
-    const int dimension = state->dimension;
-    contact_body first = contact_body_at_half_step(model, state, work, work->pairs.first[p]);
-    contact_body second = contact_body_at_half_step(model, state, work, work->pairs.second[p]);
-    bodies one = body_get(dimension, &first.row, &first.turn), other = body_get(dimension, &second.row, &second.turn);
-    kinematics m = kinematics_of_pair(dimension, &one, &other, state->step_size);
-    kinematics_hold(&m);
-    *kinematics_of = m;
-    const scree_member_row *own = contact_own_of(work, p);
-    const scree_law_use *law = own ? &model->persistent.law : &model->law;
-    const variant v = {.dimension = dimension, .law = law->law, .option = law->option, .many_materials = true};
-    const contact_scale scale = {.inverse_force = 1 / state->force_quantum,
-                                 .inverse_torque = 1 / state->torque_quantum,
-                                 .force_limit = INFINITY};
-    const scree_pair_constants(*pairs)[SCREE_MAX_MATERIALS] = own ? model->persistent.pairs : model->pairs;
-    law_constants constants = constants_get(&pairs[(int)one.material][(int)other.material], own);
-    law_settings settings = law_settings_get(law, 0);
-    memory_rows rows = contact_memory_of(work, CONTACT_PAIR, p);
-    law_memory before = memory_get(v, &rows), after;
-    return contact_evaluate(v, &constants, &settings, &scale, &m, ~UINT64_C(0), &before, &after);
+    const contact_body first = contact_body_at_half_step(model, state, work, work->pairs.first[p]);
+    const contact_body second = contact_body_at_half_step(model, state, work, work->pairs.second[p]);
+    const memory_rows rows = contact_memory_of(work, CONTACT_PAIR, p);
+    return contact_evaluate_again(model, state, false, &first, &second, contact_own_of(work, p), &rows);
 }
 
 /// Pair `p` is a contact, and one of its bodies goes.
@@ -64,10 +48,10 @@ static void take_out(scree_state *state, const exerted *e)
     const quanta force = quanta_opposite(e->quanta.force), torque = quanta_opposite(e->quanta.torque_first);
     scree_sum_row *sum = &state->sum[e->row];
     if (state->dimension == 2) {
-        sum_row_add(sum, force.x, force.y, torque.x, -UINT64_C(1));
+        sum_row_add(sum, force.x, force.y, torque.x, -e->quanta.count);
         return;
     }
-    sum_row_add(sum, force.x, force.y, force.z, -UINT64_C(1));
+    sum_row_add(sum, force.x, force.y, force.z, -e->quanta.count);
     torque_row_add(&state->torque[e->row], torque.x, torque.y, torque.z);
 }
 
@@ -81,16 +65,16 @@ scree_status scree_contacts_take_out(const scree_model *model, scree_state *stat
     if (status) return status;
     for (size_t p = 0; p < work->pairs.count; p++) {
         if (!is_cut(state, work, going, p)) continue;
-        kinematics m;
+        const contact_evaluation of = evaluate(model, state, work, p);
         exerted e = {.row = scree_parent_row(state, work, work->pairs.first[p]),
-                     .quanta = evaluate(model, state, work, p, &m)};
-        e.normal = m.normal;
-        e.arm = m.arm_first;
+                     .quanta = of.quanta,
+                     .normal = of.kinematics.normal,
+                     .arm = of.kinematics.arm_first};
         if (going[e.row]) {
             e.row = scree_parent_row(state, work, work->pairs.second[p]);
             e.quanta.force = quanta_opposite(e.quanta.force);
             e.quanta.torque_first = e.quanta.torque_second;
-            e.arm = m.arm_second;
+            e.arm = of.kinematics.arm_second;
         }
         list[found++] = e;
     }

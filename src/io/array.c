@@ -190,6 +190,7 @@ static const contact_member contact_members[] = {
     {"slip", SCREE_FIELD_DOUBLE, 1, "m/s", "slip velocity of the first past the second, along t in 2D, magnitude in 3D",
      offsetof(scree_contact, slip)},
     {"sliding", SCREE_FIELD_UINT8, 1, "1", "1: friction is fully mobilised", offsetof(scree_contact, sliding)},
+    {"bonded", SCREE_FIELD_UINT8, 1, "1", "1: a bond, which may pull", offsetof(scree_contact, bonded)},
     {"elastic_normal", SCREE_FIELD_DOUBLE, 1, "J", "elastic energy of the overlap",
      offsetof(scree_contact, elastic_normal)},
     {"elastic_tangential", SCREE_FIELD_DOUBLE, 1, "J", "elastic energy of the tangential spring",

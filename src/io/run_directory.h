@@ -13,6 +13,7 @@
 #define SCREE_FILE_SERIES     "series.csv"
 #define SCREE_FILE_CELLS      "cells.csv"
 #define SCREE_FILE_BANDS      "bands.csv"
+#define SCREE_FILE_BREAKS     "breaks.csv"
 #define SCREE_FILE_RUN        "run.h5"
 #define SCREE_FILE_RUN_WHOLE  "run.h5.whole" ///< run.h5 while it is gathered
 #define SCREE_FILE_LOG        "log.txt"

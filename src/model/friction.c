@@ -24,6 +24,8 @@ void scree_model_make_frictionless(scree_model *model, int material)
     for (int i = 0; i < SCREE_MAX_MATERIALS; i++) {
         take_friction(model, &model->pairs[i][material]);
         model->pairs[material][i] = model->pairs[i][material];
+        take_friction(model, &model->persistent.pairs[i][material]);
+        model->persistent.pairs[material][i] = model->persistent.pairs[i][material];
     }
 }
 
@@ -34,8 +36,11 @@ scree_model scree_model_with_friction(const scree_model *model, double friction)
         if (is_frictionless(model, i)) continue;
         copy.walls[i].value[SCREE_FRICTION] = friction;
         for (int w = 0; w < SCREE_SURFACES; w++) copy.surfaces[w][i].value[SCREE_FRICTION] = friction;
-        for (int j = 0; j < SCREE_MAX_MATERIALS; j++)
-            if (!is_frictionless(model, j)) copy.pairs[i][j].value[SCREE_FRICTION] = friction;
+        for (int j = 0; j < SCREE_MAX_MATERIALS; j++) {
+            if (is_frictionless(model, j)) continue;
+            copy.pairs[i][j].value[SCREE_FRICTION] = friction;
+            copy.persistent.pairs[i][j].value[SCREE_FRICTION] = friction;
+        }
     }
     return copy;
 }

@@ -19,7 +19,8 @@ typedef enum scree_key_type {
     SCREE_KEY_FLAG,     ///< bool
     SCREE_KEY_CHOICE,   ///< int, one of `choices`: of those that select a module its slot
     SCREE_KEY_VECTOR,   ///< three doubles, one beside the other; the third may be left out in a case, and is zero then
-    SCREE_KEY_PAIRS,    ///< array of pairs of doubles, and its count; the limits hold for each number
+    SCREE_KEY_PAIRS,    ///< array of pairs of doubles, and its count, here or in a .csv file; the limits hold for each
+                        ///< number
     SCREE_KEY_SCHEDULE, ///< scree_schedule (base/schedule.h), or `components` of them side by side: a value that stays,
                         ///< a table of times and values, here or in a .csv file, a ramp, a harmonic; the limits hold
                         ///< for each value; the constant NAN for `auto`

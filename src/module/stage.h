@@ -9,10 +9,12 @@ struct scree_config_stage;
 
 /// `config` is the stage's own struct, in which its keys are.
 typedef struct scree_stage_numbers {
-    bool places;                ///< places the particles: the first stage of a case, and no other
-    bool held;                  ///< something holds the sample, which has the keys boundary and friction
-    bool settles;               ///< waits until the sample is at rest under the pressure
-    bool collides;              ///< nothing holds or drives the bodies, which meet and part
+    bool places;   ///< places the particles: the first stage of a case, and no other
+    bool instant;  ///< takes no steps: no boundary matters to it, and it may stand anywhere behind the first
+    bool bonds;    ///< makes bonds
+    bool held;     ///< something holds the sample, which has the keys boundary and friction
+    bool settles;  ///< waits until the sample is at rest under the pressure
+    bool collides; ///< nothing holds or drives the bodies, which meet and part
     const char *needs_pressure; ///< what is wrong where no stage before settles; NULL: it needs none
     const char *needs_approach; ///< what is wrong where the particles cannot be about to collide; NULL: they need not
     const char *needs_standing; ///< what is wrong where nothing stands around the sample; NULL: nothing need stand

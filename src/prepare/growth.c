@@ -252,7 +252,7 @@ static double standard_fraction(const scree_model *model, const scree_packing *p
 
 typedef scree_growth_config config;
 static const scree_key keys[] = {
-    NUMBER(config, solid_fraction, "1", .standard = "auto", ABOVE("0"), TO("90 %"), .when = "method=growth",
+    NUMBER(config, solid_fraction, "1", .standard = "auto", ABOVE("0"), TO("99.9 %"), .when = "method=growth",
            .meaning = "Area (volume) of the particles over that of the box; auto: 30 % of discs and 15 % of spheres in "
                       "a gas; with growth 80 % and 60 %, less what the walls take."),
 };

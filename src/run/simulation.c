@@ -53,8 +53,8 @@ void scree_simulation_close(scree_simulation *s)
     scree_state_destroy(&s->state);
 }
 
-/// A stage that has placed the bodies opens the energy ledger with what they hold: motion, and overlaps that they were
-/// placed with.
+/// A stage before the first step, as the one that has placed the bodies, opens the energy ledger with what they hold:
+/// motion, and overlaps that they were placed with.
 static scree_status open_ledger(scree_simulation *s, scree_error *error)
 {
     scree_state *state = &s->state;
@@ -111,7 +111,8 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
     s->boundary = scree_model_boundary_of(&s->model, stage->index);
     double before[3];
     memcpy(before, s->stage_model.gravity, sizeof before);
-    s->stage_model = scree_model_with_friction(&s->model, config->friction);
+    // What contacts exert between two stages is that of the stage before.
+    if (!s->stage->instant) s->stage_model = scree_model_with_friction(&s->model, config->friction);
     memcpy(s->stage_model.gravity, before, sizeof before);
     if (!restart || stage->counter == SCREE_STAGE_NOT_BEGUN) {
         stage->first_time = scree_state_time(&s->state);
@@ -123,7 +124,10 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
         scree_gravity_enter(&s->stage_model, &s->state, s->state.count > 0);
         scree_status status = s->stage->begin ? s->stage->begin(s, error) : SCREE_OK;
         if (status) return status;
-        status = s->stage->instant ? open_ledger(s, error) : change_boundary(s, error);
+        if (!s->stage->instant)
+            status = change_boundary(s, error);
+        else if (scree_modules[config->kind]->numbers->places || s->state.evaluations == 0)
+            status = open_ledger(s, error);
         if (!status && !s->stage->instant) status = begin_modules(s, error);
         if (status) return status;
     }

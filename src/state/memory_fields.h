@@ -46,7 +46,12 @@
     }
 
 /// Name, unit and meaning of what several laws remember.
-#define SCREE_REST_FIELD                    "rest_overlap", "m", "overlap at which the pair is at rest; negative: a gap"
+#define SCREE_REST_FIELD "rest_overlap", "m", "overlap at which the pair is at rest; negative: a gap"
+#define SCREE_TENSILE_STRENGTH_FIELD                                                                                   \
+    "tensile_strength", "N", "strength of the bond in tension, infinite: it does not break so; negative: it is broken"
+#define SCREE_SHEAR_STRENGTH_FIELD "shear_strength", "N", "strength of the bond in shear, without a normal force"
+#define SCREE_STRENGTH_SLOPE_FIELD                                                                                     \
+    "strength_slope", "1", "strength in shear that the bond gains with a compressive normal force"
 #define SCREE_TANGENTIAL_DISPLACEMENT_FIELD "tangential_displacement", "m", "tangential displacement; along t in 2D"
 #define SCREE_NORMAL_DAMPING_FIELD          "normal_damping_force", "N", "damping part of the normal force of the last step"
 #define SCREE_TANGENTIAL_DAMPING_FIELD                                                                                 \

@@ -102,35 +102,60 @@ static scree_status refuse(scree_error *error, uint32_t a, uint32_t b, const cha
 scree_status scree_persistent_add(scree_state *state, uint32_t id_a, uint32_t id_b,
                                   const double constant[SCREE_MEMBER_CONSTANTS], scree_error *error)
 {
-    own *list = scree_persistent(state);
     if (id_a == id_b) return refuse(error, id_a, id_b, "they are one");
     if (scree_state_row_of(state, id_a) == SCREE_NO_ROW || scree_state_row_of(state, id_b) == SCREE_NO_ROW)
         return refuse(error, id_a, id_b, "there is no body with one of these ids");
     if (scree_persistent_find(state, id_a, id_b) != SIZE_MAX) return refuse(error, id_a, id_b, "they are already");
-    scree_status status =
-        scree_group_reserve(state, &scree_module_persistent, &scree_persistent_group, list->count + 1, error);
-    if (status) return status;
     scree_persistent_member member = {.first = id_a < id_b ? id_a : id_b, .second = id_a < id_b ? id_b : id_a};
     memcpy(member.constant, constant, sizeof member.constant);
-    size_t k = lower_bound(list, member.first, member.second);
-    memmove(list->member + k + 1, list->member + k, (list->count - k) * sizeof *list->member);
-    member.added = ++list->changes;
-    list->member[k] = member;
-    list->count++;
-    widen_bounds(state, list, &member);
+    return scree_persistent_merge(state, &member, 1, error);
+}
+
+scree_status scree_persistent_merge(scree_state *state, const scree_persistent_member *member, size_t count,
+                                    scree_error *error)
+{
+    own *list = scree_persistent(state);
+    scree_status status =
+        scree_group_reserve(state, &scree_module_persistent, &scree_persistent_group, list->count + count, error);
+    if (status) return status;
+    const size_t total = list->count + count;
+    size_t left = list->count;
+    for (size_t k = count; k-- > 0;) {
+        // From behind: those that come after it make their way at once.
+        list->count = left;
+        const size_t at = lower_bound(list, member[k].first, member[k].second);
+        memmove(list->member + at + k + 1, list->member + at, (left - at) * sizeof *list->member);
+        list->member[at + k] = member[k];
+        list->member[at + k].added = list->changes + 1 + k;
+        left = at;
+    }
+    list->changes += count;
+    list->count = total;
+    for (size_t k = 0; k < count; k++) widen_bounds(state, list, &member[k]);
     return SCREE_OK;
 }
 
 scree_status scree_persistent_remove(scree_state *state, uint32_t id_a, uint32_t id_b, scree_error *error)
 {
-    own *list = scree_persistent(state);
     size_t k = scree_persistent_find(state, id_a, id_b);
     if (k == SIZE_MAX)
         return scree_error_set(error, SCREE_ERROR_INPUT, "bodies %u and %u are not held together", id_a, id_b);
-    list->count--;
-    memmove(list->member + k, list->member + k + 1, (list->count - k) * sizeof *list->member);
-    list->changes++;
+    scree_persistent_drop(state, &k, 1);
     return SCREE_OK;
+}
+
+void scree_persistent_drop(scree_state *state, const size_t *number, size_t count)
+{
+    own *list = scree_persistent(state);
+    if (count == 0) return;
+    size_t to = number[0];
+    for (size_t k = 0; k < count; k++) {
+        const size_t begin = number[k] + 1, end = k + 1 < count ? number[k + 1] : list->count;
+        memmove(list->member + to, list->member + begin, (end - begin) * sizeof *list->member);
+        to += end - begin;
+    }
+    list->count = to;
+    list->changes += count;
 }
 
 /// With a body go the pairs that it is in.

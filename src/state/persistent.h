@@ -44,6 +44,14 @@ size_t scree_persistent_find(const scree_state *state, uint32_t id_a, uint32_t i
 scree_status scree_persistent_add(scree_state *state, uint32_t id_a, uint32_t id_b,
                                   const double constant[SCREE_MEMBER_CONSTANTS], scree_error *error) SCREE_MUST_USE;
 
+/// Adds many at once, with what they remember. member: count, in the order of ids, the lower id of each first, none of
+/// them held already, all bodies there. Errors: memory. Cost: linear in all members.
+scree_status scree_persistent_merge(scree_state *state, const scree_persistent_member *member, size_t count,
+                                    scree_error *error) SCREE_MUST_USE;
+
+/// Ends those with these numbers, which increase. Cost: linear in all members.
+void scree_persistent_drop(scree_state *state, const size_t *number, size_t count);
+
 /// Ends it; from the next evaluation on the two are like all others, and touch anew if they touch. Errors:
 /// SCREE_ERROR_INPUT: they are not held.
 scree_status scree_persistent_remove(scree_state *state, uint32_t id_a, uint32_t id_b,

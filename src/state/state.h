@@ -117,9 +117,16 @@ typedef struct scree_contact_memory {
     scree_history history;
 } scree_contact_memory;
 
-/// Numbers of its own that a pair of the persistent list has (state/persistent.h); what they are is the affair of its
-/// law, but for the overlap [m] at which the pair is at rest.
-enum { SCREE_MEMBER_CONSTANTS = 4, SCREE_MEMBER_REST = 0 };
+/// Numbers of its own that a pair of the persistent list has (state/persistent.h). What they are is the affair of its
+/// law, but for these: the overlap at which the pair is at rest [m], and the strengths of its bond.
+enum {
+    SCREE_MEMBER_REST = 0,
+    SCREE_MEMBER_TENSION = 1, ///< N; infinite: the bond does not break so; negative: it is broken
+    SCREE_MEMBER_SHEAR = 2,   ///< N, without normal force; infinite in the same way
+    SCREE_MEMBER_SLOPE = 3,   ///< 1, what a compressive normal force adds to the strength in shear
+    SCREE_MEMBER_CONSTANTS = 4
+};
+#define SCREE_MEMBER_BROKEN (-1.0) ///< in place of the strength in tension
 typedef struct scree_member_row {
     double value[SCREE_MEMBER_CONSTANTS];
 } scree_member_row;

@@ -10,6 +10,7 @@
     row(cell_maps)    /* cells of a snapshot */ \
     row(fluctuations) /* displacements in the strain windows */ \
     row(distortion)   /* cells in the strain windows */ \
+    row(breaks)       /* bonds that broke */ \
     row(circles)      /* pressure over growing circles */ \
     row(rotation)     /* a particle that was turned */
 // clang-format on

@@ -8,6 +8,7 @@
 #include "base/fixed.h"
 #include "base/matrix.h"
 #include "base/random.h"
+#include "bond/bond.h"
 #include "boundary/periodic.h"
 #include "contact/contact.h"
 #include "integrate/integrate.h"
@@ -81,13 +82,15 @@ static inline void periodic_place(periodic_sample *s, size_t row, const double p
     scree_body_position(&s->state, row, s->state.reference[row]);
 }
 
-/// Forces at the present positions.
+/// Forces at the present positions; bonds break.
 static inline void periodic_forces(periodic_sample *s)
 {
+    const scree_context context = {.model = &s->model, .state = &s->state, .work = &s->work};
     scree_error error;
     check(scree_neighbours_refresh(&s->model, &s->state, &s->work, &error), &error);
     scree_contact_set_quanta(&s->model, &s->state, 0);
     scree_contact_forces(&s->model, &s->state, &s->work);
+    check(scree_module_bonds.passes[0].run(&context, &error), &error);
 }
 
 /// A step as run/step.c makes it, with the gradient that the cell has.

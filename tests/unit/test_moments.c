@@ -68,7 +68,7 @@ static void create_net(periodic_sample *s, int dimension, bool periodic, int thr
     s->work.reference_kernel = reference;
     // Along the diagonal, across the corner of the cell or from the first to the next inner one.
     const uint32_t n = dimension == 2 ? 6 : 4, inner = dimension == 2 ? n + 1 : n * n + n + 1;
-    const double rest[SCREE_MEMBER_CONSTANTS] = {2e-3 - 1.97e-3 * sqrt(dimension)};
+    const double rest[SCREE_MEMBER_CONSTANTS] = {2e-3 - 1.97e-3 * sqrt(dimension), INFINITY, INFINITY};
     const uint32_t other = periodic ? (uint32_t)s->state.count - 1 : inner;
     assert_int_equal(scree_persistent_add(&s->state, 0, other, rest, NULL), SCREE_OK);
     assert_int_equal(scree_state_ask_for_moments(&s->state, true, NULL), SCREE_OK);

@@ -31,7 +31,8 @@ static void put(periodic_sample *s, size_t row, double x, double y, double z)
 static void hold(periodic_sample *s, uint32_t a, uint32_t b, double rest)
 {
     scree_error error;
-    check(scree_persistent_add(&s->state, a, b, (const double[SCREE_MEMBER_CONSTANTS]){rest}, &error), &error);
+    const double constant[SCREE_MEMBER_CONSTANTS] = {rest, INFINITY, INFINITY}; // it never breaks
+    check(scree_persistent_add(&s->state, a, b, constant, &error), &error);
 }
 
 static uint64_t checksum_of(periodic_sample *s)

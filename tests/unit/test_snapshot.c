@@ -158,9 +158,9 @@ static void every_dataset_tells_its_unit_and_meaning(void **unused)
     int stored = 0;
     const scree_state any = {.dimension = 2}; // like the sample's, of no law
     for (size_t k = 0; k < scree_field_total(); k++) stored += scree_field_is_stored(&any, scree_field_at(k));
-    // 9 fields and 5 results of bodies, 13 of contacts, 6 of the loop, 8 of plates, 5 of walls, 8 of the cell; the
+    // 9 fields and 5 results of bodies, 14 of contacts, 6 of the loop, 8 of plates, 5 of walls, 8 of the cell; the
     // tables without derived fields.
-    assert_int_equal(all.datasets, 9 + 5 + 13 + 6 + 8 + 5 + 8 + stored);
+    assert_int_equal(all.datasets, 9 + 5 + 14 + 6 + 8 + 5 + 8 + stored);
     assert_int_equal(all.bare, 0);
 }
 

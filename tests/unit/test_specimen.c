@@ -39,7 +39,7 @@ static void create_bonded(const bonded *b, periodic_sample *s)
                 if (b->periodic) apart -= side * round(apart / side);
                 square += apart * apart;
             }
-            const double rest[SCREE_MEMBER_CONSTANTS] = {d.radius[i] + d.radius[j] - sqrt(square)};
+            const double rest[SCREE_MEMBER_CONSTANTS] = {d.radius[i] + d.radius[j] - sqrt(square), INFINITY, INFINITY};
             if (square > 2.2e-3 * 2.2e-3) continue;
             assert_int_equal(scree_persistent_add(&s->state, i, j, rest, NULL), SCREE_OK);
         }

@@ -1,0 +1,150 @@
+/// Breaking in the middle of a step: settle.h.
+#include "contact/settle.h"
+
+#include "state/periodic.h"
+#include "state/persistent.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+// ---- exchange of forces ------------------------------------------------------------------------------------------
+
+/// One body of a contact: its part of an evaluation, `sign` times.
+static void add_sums(scree_state *state, uint32_t row, const contact_evaluation *e, bool is_first, bool minus)
+{
+    const contact_quanta *q = &e->quanta;
+    quanta force = is_first == minus ? quanta_opposite(q->force) : q->force;
+    quanta torque = is_first ? q->torque_first : q->torque_second;
+    if (minus) torque = quanta_opposite(torque);
+    const uint64_t count = minus ? -q->count : q->count;
+    if (state->dimension == 2) {
+        sum_row_add(&state->sum[row], force.x, force.y, torque.x, count);
+        return;
+    }
+    sum_row_add(&state->sum[row], force.x, force.y, force.z, count);
+    torque_row_add(&state->torque[row], torque.x, torque.y, torque.z);
+}
+
+static void add_moments(scree_state *state, uint32_t row, const contact_evaluation *e, lanes arm, bool minus)
+{
+    const int dimension = state->dimension;
+    const contact_scale scale = {.inverse_torque = 1 / state->torque_quantum};
+    uint64_t moment[9];
+    contact_moments(dimension, &scale, e->kinematics.normal, arm, e->quanta.on_first, moment);
+    int64_t *sum = state->moment + row * scree_moment_size(dimension);
+    for (int k = 0; k < dimension * dimension; k++)
+        sum[k] = (int64_t)((uint64_t)sum[k] + (minus ? -moment[k] : moment[k]));
+}
+
+static void add_virial(scree_state *state, const contact_evaluation *e, bool minus)
+{
+    const int dimension = state->dimension;
+    const vector apart = vector_minus(dimension, e->first.position, e->second.position);
+    const double branch[3] = {apart.x, apart.y, dimension == 3 ? apart.z : 0};
+    const uint64_t force[3] = {e->quanta.force.x, e->quanta.force.y, dimension == 3 ? e->quanta.force.z : 0};
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            scree_cell(state)->virial[3 * i + j] +=
+                (minus ? -1 : 1) * (scree_fixed_to((int64_t)force[i], state->force_quantum) * branch[j]);
+}
+
+static void add(scree_state *state, uint32_t first, uint32_t second, const contact_evaluation *e, bool minus)
+{
+    if (!e) return;
+    add_sums(state, first, e, true, minus);
+    add_sums(state, second, e, false, minus);
+    if (state->moment) {
+        add_moments(state, first, e, e->kinematics.arm_first, minus);
+        add_moments(state, second, e, e->kinematics.arm_second, minus);
+    }
+    if (scree_periodic_is_whole(state)) add_virial(state, e, minus);
+}
+
+void contact_exchange(scree_state *state, uint32_t first, uint32_t second, const contact_evaluation *before,
+                      const contact_evaluation *after)
+{
+    add(state, first, second, before, true);
+    add(state, first, second, after, false);
+}
+
+// ---- breaking ----------------------------------------------------------------------------------------------------
+
+/// Pair `p` as the forces of this step were evaluated: rows, ghosts among them, hold the motion in the step before.
+static contact_evaluation evaluate(const scree_model *model, const scree_state *state, const scree_work *work, size_t p)
+{
+    const contact_body first = contact_body_get(state, work->pairs.first[p]);
+    const contact_body second = contact_body_get(state, work->pairs.second[p]);
+    const memory_rows memory = contact_memory_of(work, CONTACT_PAIR, p);
+    return contact_evaluate_again(model, state, work->ledger || state->moment, &first, &second, &work->pairs.own[p],
+                                  &memory);
+}
+
+static void describe(const scree_state *state, const scree_work *work, const contact_evaluation *e,
+                     contact_settled *settled)
+{
+    const int dimension = state->dimension, count = tangential_count(dimension);
+    const kinematics *m = &e->kinematics;
+    const scree_member_row *own = &work->pairs.own[settled->pair];
+    settled->normal_force = e->force.normal;
+    settled->tangential_force = sqrt(vector_dot(count, e->force.tangential, e->force.tangential));
+    settled->in_tension = -e->force.normal >= own->value[SCREE_MEMBER_TENSION];
+    const double normal[3] = {m->normal.x, m->normal.y, dimension == 3 ? m->normal.z : 0};
+    // The first body may be a ghost: the place is told where the body itself is.
+    scree_body_position(state, scree_parent_row(state, work, work->pairs.first[settled->pair]), settled->place);
+    for (int k = 0; k < 3; k++) {
+        settled->normal[k] = normal[k];
+        settled->place[k] -= m->arm_first * normal[k];
+    }
+}
+
+/// From the bond to the contact that is left of it; `before`: the bond.
+static void fracture(const scree_model *model, scree_state *state, scree_work *work, const contact_evaluation *before,
+                     contact_settled *settled)
+{
+    const size_t p = settled->pair;
+    const int count = tangential_count(state->dimension);
+    work->pairs.own[p].value[SCREE_MEMBER_TENSION] = SCREE_MEMBER_BROKEN;
+    scree_persistent(state)->member[settled->member].constant[SCREE_MEMBER_TENSION] = SCREE_MEMBER_BROKEN;
+    const contact_evaluation after = evaluate(model, state, work, p);
+    const memory_rows memory = contact_memory_of(work, CONTACT_PAIR, p);
+    memory_set(after.variant, &memory, &after.memory);
+    const double normal = before->force.normal - after.force.normal;
+    const vector tangential = vector_minus(count, before->force.tangential, after.force.tangential);
+    const double power = normal * before->kinematics.approach - vector_dot(count, tangential, before->kinematics.slip);
+    settled->energy = contact_elastic_energy(before) - contact_elastic_energy(&after) - 0.5 * power * state->step_size;
+    contact_exchange(state, scree_parent_row(state, work, work->pairs.first[p]),
+                     scree_parent_row(state, work, work->pairs.second[p]), before, &after);
+}
+
+static int compare(const void *a, const void *b)
+{
+    const contact_settled *p = a, *q = b;
+    return p->member < q->member ? -1 : p->member > q->member;
+}
+
+scree_status contact_settle(const scree_model *model, scree_state *state, scree_work *work, contact_settled **settled,
+                            size_t *count, scree_error *error)
+{
+    const scree_pair_list *pairs = &work->pairs;
+    *count = 0;
+    *settled = NULL;
+    for (size_t p = 0; p < pairs->held_count; p++) *count += evaluate(model, state, work, p).force.settle != 0;
+    scree_status status = scree_allocate(settled, *count, sizeof **settled, error);
+    if (status) return status;
+    size_t found = 0;
+    for (size_t p = 0; p < pairs->held_count && found < *count; p++) {
+        if (!evaluate(model, state, work, p).force.settle) continue;
+        (*settled)[found++] = (contact_settled){
+            .pair = p,
+            .member = scree_persistent_find(state, state->id[pairs->first[p]], state->id[pairs->second[p]]),
+            .parted = pairs->own[p].value[SCREE_MEMBER_TENSION] < 0};
+    }
+    qsort(*settled, *count, sizeof **settled, compare);
+    for (size_t k = 0; k < *count; k++) {
+        if ((*settled)[k].parted) continue;
+        const contact_evaluation before = evaluate(model, state, work, (*settled)[k].pair);
+        describe(state, work, &before, &(*settled)[k]);
+        fracture(model, state, work, &before, &(*settled)[k]);
+    }
+    return SCREE_OK;
+}
