@@ -7,7 +7,6 @@
 #include "bond/make.h"
 
 #include "bond/bond.h"
-#include "bond/candidates.h"
 #include "contact/settle.h"
 #include "measure/measure.h"
 #include "search/neighbours.h"

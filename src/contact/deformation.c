@@ -123,7 +123,8 @@ static void judge_stage(scree_reader *reader, const scree_config *whole, int64_t
 
 static void rules(scree_reader *reader, const scree_config *whole)
 {
-    if (own_config(whole)->deformation == RIGID || whole->contact.law < 0) return;
+    // Of a section that could not be read more has been said.
+    if (!whole->contact.own || own_config(whole)->deformation == RIGID || whole->contact.law < 0) return;
     if (!scree_law_get(whole->contact.law)->deforming)
         scree_rule_refuse(reader, "contact.deformation", "none",
                           "the law of the contacts does not carry particles that deform: take law: linear");
