@@ -348,6 +348,7 @@ static const scree_key keys[] = {
 static const scree_boundary face = {
     .walls = SCREE_AXIAL_WALLS,
     .equal_steps = true,
+    .needs_rigid = "particles that deform cannot touch a membrane yet: give boundary: plates",
     .needs_ends = "a membrane goes around a sample that does not repeat itself: give boundary: plates",
     .kept = "a membrane cannot be taken away: the stages after it must keep it",
     .resolve = scree_membrane_resolve,

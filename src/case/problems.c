@@ -60,6 +60,7 @@ static size_t whole_characters(const char *text, size_t limit)
 scree_shown scree_show(const char *text)
 {
     scree_shown shown;
+    if (!text) text = "..."; // of a list or a mapping
     size_t length = whole_characters(text, SHOWN_BYTES);
     (void)snprintf(shown.text, sizeof shown.text, "%.*s%s", (int)length, text, text[length] ? "..." : "");
     return shown;

@@ -23,16 +23,24 @@ SCREE_INLINE contact_quanta contact_advance(contact_job *job, variant v, const s
     if (own) {
         totals->settle |= q.settle != 0;
         totals->largest_deformation = lanes_at_least(totals->largest_deformation, q.deformation);
-        totals->largest_gap = lanes_at_least(totals->largest_gap, -m->overlap);
+        totals->largest_gap = lanes_at_least(totals->largest_gap, m->expansion - m->overlap);
     } else if (touching) {
         totals->largest_overlap = lanes_at_least(totals->largest_overlap, m->overlap);
     }
     return q;
 }
 
+/// Row of the strain of a body; NULL: it is rigid.
+static inline const double *contact_strain_at(const contact_job *job, size_t row)
+{
+    return job->strain ? job->strain + row * scree_strain_size(job->variant.dimension) : NULL;
+}
+
 static inline bodies contact_body_at(const contact_job *job, size_t row)
 {
-    return body_get(job->variant.dimension, &job->row[row], job->turn ? &job->turn[row] : NULL);
+    bodies body = body_get(job->variant.dimension, &job->row[row], job->turn ? &job->turn[row] : NULL);
+    body_strain(job->variant.dimension, contact_strain_at(job, row), &body);
+    return body;
 }
 
 /// Adds to the moments of a row, where they are asked for.

@@ -10,6 +10,7 @@
 /// Cost: materials (materials + walls), a few powers.
 #include "contact/bounds.h"
 #include "state/case_walls.h"
+#include "state/deformation.h"
 #include "state/persistent.h"
 #include "state/plates.h"
 
@@ -51,6 +52,12 @@ static double largest_speed(const scree_state *state)
     return speed;
 }
 
+/// By which the overlap of two bodies that deform may grow with their strains [m].
+static double growth_of(const scree_state *state)
+{
+    return 2 * scree_deformation_of(state)->growth;
+}
+
 /// The same for pairs that are held, whose law bounds its forces by the largest deformation. Levers of a pair with a
 /// gap g are longer by g / 2, and the tangential velocity with them.
 static scree_law_bounds bounds_of_held(const scree_model *model, const scree_state *state)
@@ -64,7 +71,7 @@ static scree_law_bounds bounds_of_held(const scree_model *model, const scree_sta
     double relative = 2 * largest_speed(state) * (1 + 0.5 * list->largest_gap / model->radius_min);
     const scree_law_extent extent = {.speed = relative,
                                      .overlap = list->largest_deformation + relative * state->step_size +
-                                                ldexp(radius + list->largest_gap, -32),
+                                                growth_of(state) + ldexp(radius + list->largest_gap, -32),
                                      .radius = radius,
                                      .mass = largest_mass(model),
                                      .step = state->step_size};
@@ -77,7 +84,8 @@ scree_law_bounds contact_bounds_get(const scree_model *model, const scree_state 
     double relative = 2 * largest_speed(state), radius = scree_model_largest_radius(model);
     double before = state->largest_overlap > 0 ? state->largest_overlap : contact_overlap_limit(model) * radius;
     const scree_law_extent extent = {.speed = relative,
-                                     .overlap = before + relative * state->step_size + ldexp(radius, -32),
+                                     .overlap =
+                                         before + relative * state->step_size + growth_of(state) + ldexp(radius, -32),
                                      .radius = radius,
                                      .mass = largest_mass(model),
                                      .step = state->step_size};

@@ -20,8 +20,8 @@ typedef struct contact_quanta {
     lanes_bits normal;                       ///< the same force along n
     quanta tangential;                       ///< and in the tangent plane (2D: along t)
     lanes deformation;                       ///< m, with law_holds
-    lanes_bits settle;                       ///< mask, with law_holds
-    vector on_first;                         ///< N, the force before it became integers
+    vector straining;  ///< N, on first, what moments are of: the force before it became integers, or a part of it
+    lanes_bits settle; ///< mask, with law_holds
 } contact_quanta;
 
 SCREE_INLINE quanta quanta_of(int count, vector v, double inverse_quantum)
@@ -49,6 +49,13 @@ SCREE_INLINE vector force_on_first(int dimension, const law_force *f, vector n)
     if (dimension == 2)
         return (vector){.x = f->normal * n.x - f->tangential.x * n.y, .y = f->normal * n.y + f->tangential.x * n.x};
     return vector_plus(3, vector_times(3, n, f->normal), f->tangential);
+}
+
+/// The part of it that does not strain the bodies.
+SCREE_INLINE vector dashpot_on_first(int dimension, const law_force *f, vector n)
+{
+    const law_force part = {.normal = f->loose_normal, .tangential = f->loose};
+    return force_on_first(dimension, &part, n);
 }
 
 /// -a n x f_t, for both bodies.
@@ -80,7 +87,8 @@ SCREE_INLINE contact_quanta contact_evaluate(variant v, const law_constants *con
     law_forget(v, after);
     vector moment = moment_of(dimension, m->normal, f.tangential), force = force_on_first(dimension, &f, m->normal);
     contact_quanta q = {
-        .on_first = force,
+        .straining =
+            law_deforms(v) ? vector_minus(dimension, force, dashpot_on_first(dimension, &f, m->normal)) : force,
         .force = quanta_of(dimension, force, scale->inverse_force),
         .torque_first = torque_on(dimension, moment, m->arm_first, scale),
         .torque_second = torque_on(dimension, moment, m->arm_second, scale),

@@ -80,6 +80,41 @@ SCREE_INLINE void load_spins(int dimension, const contact_job *job, const size_t
     b->material = turn.c3;
 }
 
+/// Rows of the strains of bodies that deform.
+SCREE_INLINE void strain_rows(int dimension, const contact_job *job, const size_t offset[SCREE_LANES],
+                              const double *row[SCREE_LANES])
+{
+    LANE_LOOP row[k] = (const double *)(const void *)((const char *)job->strain + (dimension == 3 ? 4 : 2) * offset[k]);
+}
+
+/// Six components from rows, and what lies in the place of the reach.
+SCREE_INLINE lanes load_tensor(int dimension, const double *row[SCREE_LANES], lanes tensor[6])
+{
+    columns c = columns_load(row);
+    tensor[0] = c.c0, tensor[1] = c.c1, tensor[2] = c.c2;
+    if (dimension == 2) return c.c3;
+    LANE_LOOP row[k] += 4;
+    columns more = columns_load(row);
+    tensor[3] = more.c0, tensor[4] = more.c1, tensor[5] = more.c2;
+    return c.c3;
+}
+
+SCREE_INLINE void load_reach(int dimension, const contact_job *job, const size_t offset[SCREE_LANES], bodies *b)
+{
+    const double *row[SCREE_LANES];
+    strain_rows(dimension, job, offset, row);
+    b->radius += load_tensor(2, row, b->strain);
+}
+
+SCREE_INLINE void load_strains(int dimension, const contact_job *job, const size_t offset[SCREE_LANES], bodies *b)
+{
+    const double *row[SCREE_LANES];
+    strain_rows(dimension, job, offset, row);
+    (void)load_tensor(dimension, row, b->strain);
+    LANE_LOOP row[k] += 4;
+    (void)load_tensor(dimension, row, b->strained);
+}
+
 SCREE_INLINE lanes_bits group_touches(int dimension, const bodies *first, const bodies *second)
 {
     return bodies_touch(dimension, vector_minus(dimension, first->position, second->position),
@@ -202,12 +237,19 @@ SCREE_INLINE void evaluate_group(const contact_job *job, variant v, group *g, to
     const int dimension = v.dimension;
     find_bodies(job, g);
     bodies first = load_places(dimension, job, g->first), second = load_places(dimension, job, g->second);
-    lanes_bits touching = law_holds(v) ? g->present : g->present & group_touches(dimension, &first, &second);
+    lanes_bits touching = g->present;
+    if (!law_holds(v) && !law_deforms(v)) touching &= group_touches(dimension, &first, &second);
     load_motions(dimension, job, g->first, &first);
     load_motions(dimension, job, g->second, &second);
     load_spins(dimension, job, g->first, &first);
     load_spins(dimension, job, g->second, &second);
     kinematics m = kinematics_of_pair(dimension, &first, &second, job->settings.step);
+    if (law_deforms(v)) {
+        load_strains(dimension, job, g->first, &first);
+        load_strains(dimension, job, g->second, &second);
+        kinematics_expand(dimension, &m, &first, &second, job->settings.step);
+        if (!law_holds(v)) touching &= expanded_touch(&m);
+    }
     if (law_predicts(v)) {
         prediction ahead = load_predicted(dimension, job, job->first, g);
         prediction ahead_second = load_predicted(dimension, job, job->second, g);
@@ -223,14 +265,15 @@ SCREE_INLINE void evaluate_group(const contact_job *job, variant v, group *g, to
     add_to_sums(dimension, job, g->first, q.force, q.torque_first, q.count);
     add_to_sums(dimension, job, g->second, quanta_opposite(q.force), q.torque_second, q.count);
     if (v.moments) {
-        add_moments(dimension, job, g->first, m.normal, m.arm_first, q.on_first);
-        add_moments(dimension, job, g->second, m.normal, m.arm_second, q.on_first);
+        const bool deforms = law_deforms(v);
+        add_moments(dimension, job, g->first, m.normal, deforms ? first.radius : m.arm_first, q.straining);
+        add_moments(dimension, job, g->second, m.normal, deforms ? second.radius : m.arm_second, q.straining);
     }
     t->in_range &= q.in_range;
     if (law_holds(v)) {
         t->settle |= q.settle;
         t->largest_deformation = lanes_at_least(t->largest_deformation, lanes_keep(touching, q.deformation));
-        t->largest_gap = lanes_at_least(t->largest_gap, lanes_keep(touching, -m.overlap));
+        t->largest_gap = lanes_at_least(t->largest_gap, lanes_keep(touching, m.expansion - m.overlap));
     } else {
         t->largest_overlap = lanes_at_least(t->largest_overlap, lanes_keep(touching, m.overlap));
     }

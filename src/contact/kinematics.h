@@ -44,16 +44,22 @@ typedef struct bodies {
     vector position, velocity;
     vector spin; ///< one component in two dimensions
     lanes radius, mass, material;
+    lanes strain[6];   ///< 1, of bodies that deform: xx, yy, xy in 2D; xx, yy, zz, yz, xz, xy in 3D
+    lanes strained[6]; ///< 1, change of it in the last step
 } bodies;
 
 /// Rates are those of the middle of the step.
 typedef struct kinematics {
-    vector normal;               ///< n, from second to first
-    lanes overlap;               ///< m, negative when apart
-    lanes approach;              ///< m/s, d'
-    vector slip;                 ///< m/s, s
-    vector roll;                 ///< m/s
-    lanes twist;                 ///< rad/s, in space
+    vector normal;    ///< n, from second to first
+    lanes overlap;    ///< m, negative when apart
+    lanes expansion;  ///< m, the part of it that the strains of the bodies add
+    lanes expanding;  ///< m/s, its rate
+    vector spreading; ///< m/s, at which the strains move the surfaces past each other, as slip
+    lanes turning;    ///< m, by which the overlap has changed since the normal turned past the strained bodies
+    lanes approach;   ///< m/s, d'
+    vector slip;      ///< m/s, s
+    vector roll;      ///< m/s
+    lanes twist;      ///< rad/s, in space
     lanes arm_first, arm_second; ///< m
     lanes reduced_radius;        ///< m, R_eff
     lanes reduced_mass;          ///< kg, m_eff
@@ -192,7 +198,46 @@ SCREE_INLINE kinematics kinematics_of_pair(int dimension, const bodies *first, c
     m.tilted = vector_times(count, along, step * inverse_distance);
     kinematics_advance(dimension, &m, velocity, along, lever, first->spin, second->spin, step);
     if (dimension == 3) m.half = 0.5 - (0.5 * step) * (m.approach * inverse_distance);
+    m.expansion = m.expanding = m.turning = lanes_all(0);
+    m.spreading = vector_none();
     return m;
+}
+
+/// R strain n [m]: the way of the surface from the centre, where the normal is n (M 2.52).
+SCREE_INLINE vector strain_across(int dimension, const lanes e[6], lanes radius, vector n)
+{
+    if (dimension == 2)
+        return (vector){.x = radius * (e[0] * n.x + e[2] * n.y), .y = radius * (e[2] * n.x + e[1] * n.y)};
+    return (vector){radius * (e[0] * n.x + e[5] * n.y + e[4] * n.z), radius * (e[5] * n.x + e[1] * n.y + e[3] * n.z),
+                    radius * (e[4] * n.x + e[3] * n.y + e[2] * n.z)};
+}
+
+/// Of bodies that deform: the overlap of the deformed surfaces (M 2.53), and the rates at which strains change it and
+/// move the surfaces past each other. Arms and the other rates stay those of the circles: the contact point and the
+/// normal are taken to be where they were (M 2.6). second: NULL beside a wall.
+SCREE_INLINE void kinematics_expand(int dimension, kinematics *m, const bodies *first, const bodies *second,
+                                    double step)
+{
+    vector way = strain_across(dimension, first->strain, first->radius, m->normal);
+    vector change = strain_across(dimension, first->strained, first->radius, m->normal);
+    if (second) {
+        way = vector_plus(dimension, way, strain_across(dimension, second->strain, second->radius, m->normal));
+        change = vector_plus(dimension, change, strain_across(dimension, second->strained, second->radius, m->normal));
+    }
+    const int count = tangential_count(dimension);
+    vector middle = vector_minus(dimension, way, vector_times(dimension, change, lanes_all(0.5)));
+    change = vector_times(dimension, change, lanes_all(step > 0 ? 1 / step : 0));
+    m->turning = 2 * vector_dot(count, vector_across(dimension, middle, m->normal), m->tilted);
+    m->expansion = vector_dot(dimension, m->normal, way);
+    m->overlap += m->expansion;
+    m->expanding = vector_dot(dimension, m->normal, change);
+    m->spreading = vector_opposite(count, vector_across(dimension, change, m->normal));
+}
+
+/// Set where they are in contact then; also where it is not a number.
+SCREE_INLINE lanes_bits expanded_touch(const kinematics *m)
+{
+    return ~lanes_at_or_below(m->overlap, lanes_all(0));
 }
 
 #endif

@@ -41,11 +41,13 @@ typedef struct law_memory {
 } law_memory;
 
 typedef struct law_force {
-    lanes normal;                             ///< N, along n, on first
-    vector tangential;                        ///< N, on first: along t, or in the tangent plane
-    vector couple;                            ///< N m, of rolling and twisting resistance, on first
-    lanes damping, friction, stiffness;       ///< J, ledger increments of this step
-    lanes deformation;                        ///< m, with the trait `holds`: from it the law bounds its forces
+    lanes normal;                       ///< N, along n, on first
+    vector tangential;                  ///< N, on first: along t, or in the tangent plane
+    vector couple;                      ///< N m, of rolling and twisting resistance, on first
+    lanes damping, friction, stiffness; ///< J, ledger increments of this step
+    lanes loose_normal; ///< N, with the trait `deforms`: the part of the normal force that does not strain the bodies
+    vector loose;       ///< N, the same of the tangential one
+    lanes deformation;  ///< m, with the trait `holds`: from it the law bounds its forces
     lanes_bits in_contact;                    ///< mask, with `holds`: there may be a force
     lanes_bits settle;                        ///< mask, with `holds`: it breaks, or is broken and has parted
     lanes elastic_normal, elastic_tangential; ///< J; the springs of rolling and twisting count as tangential

@@ -52,6 +52,12 @@ SCREE_INLINE bool law_holds(variant v)
     return law_traits(v)->holds;
 }
 
+/// Whether the overlap follows the strains of the bodies.
+SCREE_INLINE bool law_deforms(variant v)
+{
+    return law_traits(v)->deforms;
+}
+
 /// Whether it reads the second half of the constants.
 SCREE_INLINE bool law_is_wide(variant v)
 {

@@ -278,6 +278,7 @@ static const scree_law law = {
     .traits = linear_traits,
     .option_count = sizeof linear_traits / sizeof *linear_traits,
     .holding = LINEAR_HELD,
+    .deforming = LINEAR_DEFORMS,
     .elastic = &elastic,
     .constant_count = LINEAR_TANGENTIAL_DAMPING + 1,
     .resistances = 1U << SCREE_FRICTION,

@@ -30,8 +30,44 @@
 #include "contact/slider.h"
 #include "model/law.h"
 
-/// Option.
-enum { LINEAR_HELD = 1 };
+/// Options.
+enum { LINEAR_HELD = 1, LINEAR_DEFORMS = 2 };
+
+/// Bodies that deform: how strains go into the law, and what of it their ledger does not get from the slider and the
+/// contact, per step: strains take up f_t . w dt of the spreading w, the slider only where slip has w in it.
+typedef struct linear_strained {
+    vector slip; ///< m/s
+    lanes rate;  ///< m/s, along the normal, that the dashpot dissipates with
+    double loose, corrected;
+} linear_strained;
+
+SCREE_INLINE linear_strained linear_strain(variant v, const law_settings *settings, const kinematics *m)
+{
+    const int count = tangential_count(v.dimension);
+    if (!(v.option & LINEAR_DEFORMS)) return (linear_strained){.slip = m->slip, .rate = m->approach};
+    linear_strained s = {.loose = settings->number[SCREE_LAW_LOOSE],
+                         .corrected = settings->number[SCREE_LAW_CORRECTED]};
+    s.slip = vector_plus(count, m->slip, vector_times(count, m->spreading, lanes_all(s.corrected)));
+    s.rate = m->approach + (1 - s.loose) * m->expanding;
+    return s;
+}
+
+/// Twice the energy [J] that nobody has given in a step: what strains take up by tangential forces (M's form has no
+/// potential), and what the spring takes up, from `elastic` on at n - 1, since the normal has turned past them.
+SCREE_INLINE lanes linear_unpaid(variant v, const linear_strained *s, const slider *slip, const slider_memory *before,
+                                 const kinematics *m, lanes elastic, lanes stiffness, lanes_bits pulls, double step)
+{
+    const int count = tangential_count(v.dimension);
+    if (!(v.option & LINEAR_DEFORMS)) return lanes_all(0);
+    lanes elastic_before = elastic - stiffness * ((m->approach + m->expanding) * step + m->turning);
+    elastic_before = lanes_select(pulls, elastic_before, lanes_at_least(elastic_before, lanes_all(0)));
+    vector springs = vector_plus(count, slip->now.spring, before->spring);
+    vector dashpots = vector_plus(count, slip->now.dashpot, before->dashpot);
+    vector unpaid = vector_plus(count, vector_times(count, springs, lanes_all(s->corrected - 1)),
+                                vector_times(count, dashpots, lanes_all(s->corrected - 1 + s->loose)));
+    return vector_dot(count, unpaid, vector_times(count, m->spreading, lanes_all(step))) +
+           (elastic + elastic_before) * m->turning;
+}
 
 /// Constants of a pair, beside SCREE_FRICTION.
 enum {
@@ -53,21 +89,19 @@ typedef struct scree_linear_material {
     double tangential_damping_ratio; ///< 1; auto: the normal one
 } scree_linear_material;
 
-#define linear_KERNELS(row) row(linear, 0, one) row(linear, 0, many) row(linear, 1, many)
+#define linear_KERNELS(row)                                                                                            \
+    row(linear, 0, one) row(linear, 0, many) row(linear, 1, many) row(linear, 2, many) row(linear, 3, many)
 
+#define LINEAR_TRAITS(...)                                                                                             \
+    {                                                                                                                  \
+        .remembers = true, .for_ledger = {0xe, 0x8}, .keeps_last_force = {false, true}, .displacement = true,          \
+        .wide = true, __VA_ARGS__                                                                                      \
+    }
 static const scree_law_traits linear_traits[] = {
-    [0] = {.remembers = true,
-           .for_ledger = {0xe, 0x8},
-           .keeps_last_force = {false, true},
-           .displacement = true,
-           .wide = true},
-    [LINEAR_HELD] = {.remembers = true,
-                     .for_ledger = {0xe, 0x8},
-                     .keeps_last_force = {false, true},
-                     .displacement = true,
-                     .wide = true,
-                     .pulls = true,
-                     .holds = true},
+    [0] = LINEAR_TRAITS(),
+    [LINEAR_HELD] = LINEAR_TRAITS(.pulls = true, .holds = true),
+    [LINEAR_DEFORMS] = LINEAR_TRAITS(.deforms = true),
+    [LINEAR_HELD | LINEAR_DEFORMS] = LINEAR_TRAITS(.pulls = true, .holds = true, .deforms = true),
 };
 
 /// What the slider remembers; a spring that has lost its contact still holds what it held.
@@ -121,8 +155,9 @@ SCREE_INLINE law_force linear(variant v, const law_constants *constants, const l
     lanes cap = lanes_select(sound, lanes_all(INFINITY), constant[SCREE_FRICTION] * normal);
     lanes damping = normal - elastic, damping_before = before->value[dimension == 2 ? 1 : 3];
 
+    const linear_strained strained = linear_strain(v, settings, m);
     slider_memory slipped = linear_remembered(dimension, m, before, constant[LINEAR_RATIO] * whole);
-    slider slip = slider_move(count, &slipped, m->slip, settings->step, constant[LINEAR_RATIO] * stiffness,
+    slider slip = slider_move(count, &slipped, strained.slip, settings->step, constant[LINEAR_RATIO] * stiffness,
                               constant[LINEAR_TANGENTIAL_DAMPING] * root, cap, touching);
     vector tangential_displacement = slip.now.displacement, dashpot = slip.now.dashpot;
     *after = (law_memory){.value = {tangential_displacement.x, damping, dashpot.x, none}};
@@ -134,9 +169,11 @@ SCREE_INLINE law_force linear(variant v, const law_constants *constants, const l
         .normal = normal,
         .tangential = vector_opposite(count, slip.resistance),
         .couple = vector_none(),
-        .damping = 0.5 * ((damping + damping_before) * (m->approach * settings->step) + slip.damping),
+        .damping = 0.5 * ((damping + damping_before) * (strained.rate * settings->step) + slip.damping),
+        .loose_normal = strained.loose * damping,
+        .loose = vector_times(count, dashpot, lanes_all(-strained.loose)),
         .friction = 0.5 * slip.friction,
-        .stiffness = none,
+        .stiffness = 0.5 * linear_unpaid(v, &strained, &slip, &slipped, m, elastic, stiffness, sound, settings->step),
         .elastic_normal = 0.5 * (elastic * d),
         .elastic_tangential = slip.elastic,
     };

@@ -47,19 +47,25 @@ SCREE_INLINE void prefetch_bodies(int dimension, const contact_job *job, size_t 
 }
 
 /// Bits of the near pairs p .. p + lanes - 1 that touch.
-SCREE_INLINE unsigned near_contacts(int dimension, const contact_job *job, size_t p)
+/// Of bodies that deform those that may touch.
+SCREE_INLINE unsigned near_contacts(variant v, const contact_job *job, size_t p)
 {
+    const int dimension = v.dimension;
     group g;
     LANE_LOOP g.pair[k] = p + (size_t)k;
     find_bodies(job, &g);
     bodies first = load_places(dimension, job, g.first), second = load_places(dimension, job, g.second);
+    if (law_deforms(v)) {
+        load_reach(dimension, job, g.first, &first);
+        load_reach(dimension, job, g.second, &second);
+    }
     return lanes_ones(group_touches(dimension, &first, &second));
 }
 
 /// Renews the bits of the near pairs p .. p + lanes - 1; returns those of pairs that touch or did so in the last step.
-SCREE_INLINE unsigned near_renew(int dimension, const contact_job *job, size_t p)
+SCREE_INLINE unsigned near_renew(variant v, const contact_job *job, size_t p)
 {
-    unsigned now = near_contacts(dimension, job, p);
+    unsigned now = near_contacts(v, job, p);
     uint8_t *byte = &job->near_touched[(p - job->near) / 8];
     unsigned shift = (unsigned)((p - job->near) % 8), all = (1U << SCREE_LANES) - 1;
     unsigned before = (unsigned)*byte >> shift & all;
@@ -68,12 +74,12 @@ SCREE_INLINE unsigned near_renew(int dimension, const contact_job *job, size_t p
 }
 
 /// Queues near pairs from p on, until the queue is full or the job's near pairs have ended; returns the next p.
-SCREE_INLINE size_t queue_near(int dimension, queue *q, const contact_job *job, size_t p)
+SCREE_INLINE size_t queue_near(variant v, queue *q, const contact_job *job, size_t p)
 {
     for (; p + SCREE_LANES <= job->near_end && q->count + SCREE_LANES <= QUEUE_SIZE; p += SCREE_LANES) {
         if (p + PREFETCH_AHEAD + SCREE_LANES <= job->near_end)
-            prefetch_bodies(dimension, job, p + PREFETCH_AHEAD, false);
-        for (unsigned bits = near_renew(dimension, job, p); bits; bits &= bits - 1)
+            prefetch_bodies(v.dimension, job, p + PREFETCH_AHEAD, false);
+        for (unsigned bits = near_renew(v, job, p); bits; bits &= bits - 1)
             q->pair[q->count++] = (uint32_t)(p + (size_t)__builtin_ctz(bits));
     }
     if (p + SCREE_LANES > job->near_end)
@@ -132,7 +138,7 @@ SCREE_INLINE void run(contact_job *given, variant v)
     for (size_t p = evaluate_touching(job, v, &t); p < job->touching_end; p++) q.pair[q.count++] = (uint32_t)p;
     size_t p = job->near_begin;
     do {
-        p = queue_near(v.dimension, &q, job, p);
+        p = queue_near(v, &q, job, p);
         queue_evaluate(&q, job, v, &t);
         q.count = 0;
     } while (p < job->near_end);
@@ -142,12 +148,15 @@ SCREE_INLINE void run(contact_job *given, variant v)
 #define PASTE(a, b)            a##b
 #define KERNEL_NAME(name, isa) PASTE(name, isa)
 
+#define DEFORMS(law, option)   law##_traits[option].deforms
+
 /// `run` with a variant as a constant, as a function of its own: one that held them all would be too large for some
-/// of the compiler's optimisations. Moments are summed by the kernels for many materials alone, with the ledger.
+/// of the compiler's optimisations. Moments are summed by the kernels for many materials alone, with the ledger; always
+/// where bodies deform.
 #define VARIANT(name, dimension, law, option, many_materials)                                                          \
     static __attribute__((noinline)) void name(contact_job *job)                                                       \
     {                                                                                                                  \
-        if (many_materials && job->variant.moments)                                                                    \
+        if (DEFORMS(law, option) || (many_materials && job->variant.moments))                                          \
             run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, true, true});                      \
         else if (job->variant.ledger)                                                                                  \
             run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, true, false});                     \

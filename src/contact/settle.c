@@ -30,7 +30,7 @@ static void add_moments(scree_state *state, uint32_t row, const contact_evaluati
     const int dimension = state->dimension;
     const contact_scale scale = {.inverse_torque = 1 / state->torque_quantum};
     uint64_t moment[9];
-    contact_moments(dimension, &scale, e->kinematics.normal, arm, e->quanta.on_first, moment);
+    contact_moments(dimension, &scale, e->kinematics.normal, arm, e->quanta.straining, moment);
     int64_t *sum = state->moment + row * scree_moment_size(dimension);
     for (int k = 0; k < dimension * dimension; k++)
         sum[k] = (int64_t)((uint64_t)sum[k] + (minus ? -moment[k] : moment[k]));
@@ -54,8 +54,8 @@ static void add(scree_state *state, uint32_t first, uint32_t second, const conta
     add_sums(state, first, e, true, minus);
     add_sums(state, second, e, false, minus);
     if (state->moment) {
-        add_moments(state, first, e, e->kinematics.arm_first, minus);
-        add_moments(state, second, e, e->kinematics.arm_second, minus);
+        add_moments(state, first, e, e->lever_first, minus);
+        add_moments(state, second, e, e->lever_second, minus);
     }
     if (scree_periodic_is_whole(state)) add_virial(state, e, minus);
 }
@@ -97,6 +97,16 @@ static void describe(const scree_state *state, const scree_work *work, const con
     }
 }
 
+/// What the strains of the bodies no longer get of the force [W]; zero of rigid ones.
+static double straining_power(int count, const contact_evaluation *before, const contact_evaluation *after)
+{
+    const law_force *a = &before->force, *b = &after->force;
+    const double normal = (a->normal - a->loose_normal) - (b->normal - b->loose_normal);
+    const vector tangential =
+        vector_minus(count, vector_minus(count, a->tangential, a->loose), vector_minus(count, b->tangential, b->loose));
+    return normal * before->kinematics.expanding - vector_dot(count, tangential, before->kinematics.spreading);
+}
+
 /// From the bond to the contact that is left of it; `before`: the bond.
 static void fracture(const scree_model *model, scree_state *state, scree_work *work, const contact_evaluation *before,
                      contact_settled *settled)
@@ -110,7 +120,8 @@ static void fracture(const scree_model *model, scree_state *state, scree_work *w
     memory_set(after.variant, &memory, &after.memory);
     const double normal = before->force.normal - after.force.normal;
     const vector tangential = vector_minus(count, before->force.tangential, after.force.tangential);
-    const double power = normal * before->kinematics.approach - vector_dot(count, tangential, before->kinematics.slip);
+    const double power = normal * before->kinematics.approach - vector_dot(count, tangential, before->kinematics.slip) +
+                         straining_power(count, before, &after);
     settled->energy = contact_elastic_energy(before) - contact_elastic_energy(&after) - 0.5 * power * state->step_size;
     contact_exchange(state, scree_parent_row(state, work, work->pairs.first[p]),
                      scree_parent_row(state, work, work->pairs.second[p]), before, &after);

@@ -70,10 +70,11 @@ bool contact_of_pair(const scree_model *model, const scree_state *state, const c
                      scree_contact *contact)
 {
     const int dimension = state->dimension;
-    if (!own && !pair_touches(dimension, &first->row, &second->row)) return false;
-    bodies one = body_get(dimension, &first->row, &first->turn);
-    bodies other = body_get(dimension, &second->row, &second->turn);
+    const double *const strains[2] = {first->strain, second->strain};
+    if (!own && !pair_touches(dimension, &first->row, &second->row, strains)) return false;
+    bodies one = contact_body_lane(dimension, first), other = contact_body_lane(dimension, second);
     kinematics m = kinematics_of_pair(dimension, &one, &other, state->step_size);
+    if (state->strain) kinematics_expand(dimension, &m, &one, &other, state->step_size);
     const scree_pair_constants(*pairs)[SCREE_MAX_MATERIALS] = own ? model->persistent.pairs : model->pairs;
     const scree_pair_constants *constants = &pairs[(int)one.material][(int)other.material];
     const bool in_contact = describe(model, dimension, constants, own, &m, memory, contact);
@@ -94,9 +95,12 @@ contact_evaluation contact_evaluate_again(const scree_model *model, const scree_
                                         .option = law->option,
                                         .many_materials = true,
                                         .ledger = ledger},
-                            .first = body_get(dimension, &first->row, &first->turn),
-                            .second = body_get(dimension, &second->row, &second->turn)};
+                            .first = contact_body_lane(dimension, first),
+                            .second = contact_body_lane(dimension, second)};
     e.kinematics = kinematics_of_pair(dimension, &e.first, &e.second, state->step_size);
+    if (state->strain) kinematics_expand(dimension, &e.kinematics, &e.first, &e.second, state->step_size);
+    e.lever_first = contact_lever(state->strain != NULL, &e.first, e.kinematics.arm_first);
+    e.lever_second = contact_lever(state->strain != NULL, &e.second, e.kinematics.arm_second);
     kinematics_hold(&e.kinematics);
     const contact_scale scale = {.inverse_force = 1 / state->force_quantum,
                                  .inverse_torque = 1 / state->torque_quantum,
@@ -126,9 +130,10 @@ bool contact_of_wall(const scree_model *model, const scree_state *state, const c
                      const scree_wall *wall, const memory_rows *memory, scree_contact *contact)
 {
     const int dimension = state->dimension;
-    if (!wall_touches(dimension, &body->row, wall)) return false;
-    bodies one = body_get(dimension, &body->row, &body->turn);
+    if (!wall_touches(dimension, &body->row, wall, body->strain)) return false;
+    bodies one = contact_body_lane(dimension, body);
     kinematics m = kinematics_of_wall(dimension, &one, wall, state->step_size);
+    if (state->strain) kinematics_expand(dimension, &m, &one, NULL, state->step_size);
     describe_wall(model, dimension, &model->walls[(int)one.material], &one, &m, memory, contact);
     return true;
 }
@@ -138,7 +143,7 @@ void contact_of_primitive(const scree_model *model, const scree_state *state, co
                           scree_contact *contact)
 {
     const int dimension = state->dimension;
-    bodies one = body_get(dimension, &body->row, &body->turn);
+    bodies one = contact_body_lane(dimension, body);
     scree_closest_point closest;
     scree_primitive_closest_point(work->wall_set, primitive,
                                   (const double[3]){one.position.x, one.position.y, one.position.z}, &closest);

@@ -28,8 +28,10 @@ static contact_evaluation evaluate(const scree_model *model, const scree_state *
 static bool is_cut(const scree_state *state, const scree_work *work, const uint8_t *going, size_t p)
 {
     uint32_t first = work->pairs.first[p], second = work->pairs.second[p];
+    const double *const strains[2] = {scree_strain_row(state, first), scree_strain_row(state, second)};
     return going[scree_parent_row(state, work, first)] != going[scree_parent_row(state, work, second)] &&
-           (p < work->pairs.held_count || pair_touches(state->dimension, &state->row[first], &state->row[second]));
+           (p < work->pairs.held_count ||
+            pair_touches(state->dimension, &state->row[first], &state->row[second], strains));
 }
 
 static void take_out_moment(scree_state *state, const exerted *e)
@@ -38,7 +40,7 @@ static void take_out_moment(scree_state *state, const exerted *e)
     const int dimension = state->dimension;
     const contact_scale scale = {.inverse_torque = 1 / state->torque_quantum};
     int64_t *sum = state->moment + e->row * scree_moment_size(dimension);
-    contact_moments(dimension, &scale, e->normal, e->arm, e->quanta.on_first, moment);
+    contact_moments(dimension, &scale, e->normal, e->arm, e->quanta.straining, moment);
     for (int k = 0; k < dimension * dimension; k++) sum[k] = (int64_t)((uint64_t)sum[k] - moment[k]);
 }
 
@@ -69,12 +71,12 @@ scree_status scree_contacts_take_out(const scree_model *model, scree_state *stat
         exerted e = {.row = scree_parent_row(state, work, work->pairs.first[p]),
                      .quanta = of.quanta,
                      .normal = of.kinematics.normal,
-                     .arm = of.kinematics.arm_first};
+                     .arm = of.lever_first};
         if (going[e.row]) {
             e.row = scree_parent_row(state, work, work->pairs.second[p]);
             e.quanta.force = quanta_opposite(e.quanta.force);
             e.quanta.torque_first = e.quanta.torque_second;
-            e.arm = of.kinematics.arm_second;
+            e.arm = of.lever_second;
         }
         list[found++] = e;
     }

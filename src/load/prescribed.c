@@ -97,6 +97,9 @@ static const scree_field fields[] = {
          "force, torque, torque of forces on the surface, of the loads, in units of scalars/force_quantum and "
          "torque_quantum",
          SCREE_RANGE(-0x1p61, 0x1p61)),
+    BODY(exerted, scree_exerted, "spread", SCREE_FIELD_DOUBLE, 6, "J",
+         "symmetric part of arm (x) force of a force on the surface of a body that deforms: xx, yy, zz, yz, xz, xy",
+         .offset = offsetof(scree_exerted, spread)),
     BODY(reference, scree_vector, "reference", SCREE_FIELD_DOUBLE, 3, "m", "place when it came to be driven"),
     BODY(departure, scree_departure, "departure", SCREE_FIELD_DOUBLE, 10, "1", "place and acceleration before a step",
          .role = SCREE_FIELD_DERIVED),

@@ -38,6 +38,8 @@ typedef uint8_t scree_owners[8];
 typedef struct scree_exerted {
     int64_t quanta[SCREE_COMPONENTS]; ///< force and torque quanta: applied, or the reaction that drives it
     int64_t lever[3];                 ///< torque quanta of a force on the surface
+    double
+        spread[6]; ///< J, arm (x) force of it, symmetric: xx, yy, zz, yz, xz, xy; what strains of the body work against
 } scree_exerted;
 
 /// Before the first half of a step. Derived.

@@ -173,15 +173,39 @@ static void keep_work(scree_state *state, const scree_integer_sum sum[SCREE_LOAD
     }
 }
 
+/// From the centre to where a force on the surface acts [m]; without a direction the force points at the centre.
+static void find_arm(const scree_state *state, size_t row, const order *said, double arm[3])
+{
+    const double *direction = said->own->direction, length = scree_length(direction), *push = said->push;
+    const double radius = scree_body_bounding_radius(state, row), size = scree_length(push);
+    for (int k = 0; k < 3; k++)
+        arm[k] = length > 0 ? radius * direction[k] / length : size > 0 ? -radius * push[k] / size : 0;
+}
+
+/// Work [J] of a force on the surface of a body as its strain changes from step to step.
+static double surface_work(const scree_state *state, size_t row)
+{
+    const double *strain = scree_strain_row(state, row), *spread = scree_prescribed_of(state)->exerted[row].spread;
+    static const int plane[] = {0, 1, -1, -1, -1, 2}, space[] = {0, 1, 2, 4, 5, 6};
+    const int *place = state->dimension == 3 ? space : plane;
+    const size_t change = scree_strain_size(state->dimension) / 2;
+    double work = 0;
+    for (int k = 0; k < 6 && strain; k++)
+        if (place[k] >= 0) work += (k < 3 ? 1 : 2) * spread[k] * strain[change + (size_t)place[k]];
+    return work;
+}
+
 /// Power of what is exerted on a body [W], with the velocities that the rows hold.
 static void add_power(scree_state *state, size_t row, scree_integer_sum power[SCREE_LOADS])
 {
     const scree_prescribed *all = scree_prescribed_of(state);
     const scree_exerted *exerted = &all->exerted[row];
+    const int lever = all->by[row][SCREE_LEVER];
+    if (lever) scree_integer_sum_add(&power[lever - 1], surface_work(state, row) / state->step_size);
     for (int d = 0; d < SCREE_COMPONENTS; d++) {
         if (!scree_component_exists(state->dimension, d)) continue;
         double velocity = *velocity_of(state, row, d), quantum = quantum_of(state, d);
-        int load = all->by[row][d], lever = all->by[row][SCREE_LEVER];
+        int load = all->by[row][d];
         if (load) scree_integer_sum_add(&power[load - 1], scree_fixed_to(exerted->quanta[d], quantum) * velocity);
         if (lever && d >= 3)
             scree_integer_sum_add(&power[lever - 1], scree_fixed_to(exerted->lever[d - 3], quantum) * velocity);
@@ -284,15 +308,12 @@ static void exert(const scree_context *c, size_t row, int component, double quan
     scree_wrapping_add(sum_of(c->state, row, component), *exerted);
 }
 
-/// Torque [N m] of a force on the surface, about the centre.
-static void find_lever(const scree_state *state, size_t row, const order *said, double torque[3])
+/// The force strains the body.
+static void spread_force(scree_state *state, size_t row, const double arm[3], const double force[3], double spread[6])
 {
-    double radius = scree_body_bounding_radius(state, row), arm[3], direction[3];
-    for (int k = 0; k < 3; k++) direction[k] = said->own->direction[k];
-    // Without a direction the force points at the centre.
-    double length = scree_length(direction);
-    for (int k = 0; k < 3; k++) arm[k] = length > 0 ? radius * direction[k] / length : 0;
-    scree_cross(arm, said->push, torque);
+    static const int i[] = {0, 1, 2, 1, 0, 0}, j[] = {0, 1, 2, 2, 2, 1};
+    for (int k = 0; k < 6; k++) spread[k] = 0.5 * (arm[i[k]] * force[j[k]] + arm[j[k]] * force[i[k]]);
+    scree_body_add_moment(state, row, arm, force);
 }
 
 static void push_body(const scree_context *c, size_t row, const order *list)
@@ -304,9 +325,12 @@ static void push_body(const scree_context *c, size_t row, const order *list)
     for (int d = 0; d < SCREE_COMPONENTS; d++)
         if (all->owner[row][d] && !drives(state, row, d))
             exert(c, row, d, list[all->owner[row][d] - 1].push[d] / quantum_of(state, d), &exerted->quanta[d]);
-    double torque[3];
-    if (lever) find_lever(state, row, &list[lever - 1], torque);
-    for (int k = 0; k < 3 && lever; k++)
+    double torque[3], arm[3];
+    if (!lever) return;
+    find_arm(state, row, &list[lever - 1], arm);
+    scree_cross(arm, list[lever - 1].push, torque);
+    if (state->strain) spread_force(state, row, arm, list[lever - 1].push, exerted->spread);
+    for (int k = 0; k < 3; k++)
         if (scree_component_exists(state->dimension, 3 + k))
             exert(c, row, 3 + k, torque[k] / state->torque_quantum, &exerted->lever[k]);
 }

@@ -247,13 +247,21 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
     return SCREE_OK;
 }
 
+static scree_status resolve_law(scree_model *model, scree_error *error)
+{
+    scree_status status = SCREE_OK;
+    for (int m = 0; m < SCREE_MODULE_COUNT && !status; m++)
+        if (scree_modules[m]->resolve_law) status = scree_modules[m]->resolve_law(model, error);
+    return status;
+}
+
 /// The contact law holds pairs together, too, where it can.
 static void resolve_persistent(scree_model *model)
 {
     const unsigned holding = scree_model_law(model)->holding;
     if (!holding) return;
     model->persistent.law = model->law;
-    model->persistent.law.option = holding;
+    model->persistent.law.option = model->law.option | holding;
     memcpy(model->persistent.pairs, model->pairs, sizeof model->pairs);
 }
 
@@ -337,6 +345,7 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
     scree_status status = resolve_materials(model, error);
     if (!status) status = resolve_particles(model, error);
     if (!status) status = resolve_pairs(model, error);
+    if (!status) status = resolve_law(model, error);
     if (!status) status = resolve_loading(model, error);
     if (!status) resolve_persistent(model);
     if (!status) status = resolve_step(model, error);

@@ -11,7 +11,9 @@
 enum {
     SCREE_PAIR_CONSTANTS = 8,
     SCREE_LAW_NUMBERS = 8,
-    SCREE_FRICTION = 2, ///< which of the constants of a pair is Coulomb's coefficient, in every law
+    SCREE_LAW_LOOSE = 6,     ///< which of its numbers, where bodies deform: 1 if dashpots do not strain them, else 0
+    SCREE_LAW_CORRECTED = 7, ///< the same: 1 if their strains move contact points along the surfaces, too
+    SCREE_FRICTION = 2,      ///< which of the constants of a pair is Coulomb's coefficient, in every law
 };
 
 /// Constants of a contact between two materials (or a grain and a wall), symmetric in the two. What they mean is the
@@ -45,6 +47,7 @@ typedef struct scree_law_traits {
     bool pulls;                  ///< the normal force may be negative
     bool holds;                  ///< of pairs of the persistent list: no distance test, constants of the pair's own
     bool wide;                   ///< reads the second half of the constants
+    bool deforms; ///< overlaps follow the strains of the bodies (state->strain), whose moments are summed
 } scree_law_traits;
 
 /// The elastic part of the normal force of two bodies of an effective radius [m]: closed forms of a static or undamped
@@ -87,6 +90,7 @@ typedef struct scree_law {
     const scree_law_traits *traits; ///< one for each value of `option`
     unsigned option_count;          ///< values of `option`
     unsigned holding;               ///< the option under which it holds pairs of the persistent list; 0: it cannot
+    unsigned deforming;             ///< that under which bodies deform (`deforms`); 0: it cannot
     const scree_elastic *elastic;
     int constant_count;    ///< constants of a pair that enter the state checksum
     unsigned resistances;  ///< bits of the constants that vanish with the friction of a body

@@ -110,6 +110,12 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
 /// The sample is periodic in all directions of space.
 bool scree_model_is_wholly_periodic(const scree_model *model);
 
+/// What the case says of the material with this number; for what resolves a model alone.
+static inline const scree_config_material *scree_model_material_said(const scree_model *model, int material)
+{
+    return &model->config->materials[model->listed[material]];
+}
+
 /// Largest normal stress that a stage holds [Pa, compression positive], NAN when it holds none.
 double scree_held_pressure(const scree_config_stage *stage);
 

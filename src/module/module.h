@@ -25,12 +25,18 @@ struct scree_module {
     const scree_choice_of *choice_of; ///< the keys whose choice it is; NULL: none
     const scree_keys *keys;           ///< those that it adds to sections of the case
     size_t keys_count;                ///< sections
-    /// Notes what it cannot be combined with, once for a case that has chosen it. Values that are missing or wrong have
-    /// been noted: of such nothing is said. NULL: nothing.
+    /// Notes what it cannot be combined with, once for a case that has chosen it, or for every case where no key
+    /// chooses it. Values that are missing or wrong have been noted: of such nothing is said. NULL: nothing.
     void (*rules)(scree_reader *reader, const scree_config *config);
 
     // ---- numbers: what its keys become, once, with the model at hand (scree_model_numbers); no `auto` is left ----
     size_t numbers_size;
+    /// For one that asks the law of the contacts for something: changes model->law, when materials and pairs stand, and
+    /// nothing else of the model does. NULL: it asks for nothing.
+    scree_status (*resolve_law)(scree_model *model, scree_error *error);
+    /// Takes its keys from the config and fills its numbers (scree_model_reserve_numbers), when all else of the
+    /// model is there. For modules without a face that does so. NULL: nothing to take.
+    scree_status (*resolve)(scree_model *model, scree_error *error);
 
     // ---- faces: what only modules of one kind have ----
     const struct scree_law *law;                  ///< model/law.h
@@ -42,11 +48,6 @@ struct scree_module {
     const struct scree_stage *stage;              ///< run/stage.h
     const struct scree_boundary *boundary;        ///< module/boundary.h
     const struct scree_selection_kind *selection; ///< selection/selection.h
-
-    // ---- numbers: what its keys come to ----
-    /// Takes its keys from the config and fills its numbers (scree_model_reserve_numbers), when all else of the
-    /// model is there. For modules without a face that does so. NULL: nothing to take.
-    scree_status (*resolve)(scree_model *model, scree_error *error);
 
     // ---- state: what it remembers ----
     size_t state_size;         ///< bytes of its struct in the store of the state, zero at first; 0: none

@@ -80,9 +80,10 @@ static void check_material(const listed *l, int64_t index, const char *name)
     const char *names[MOST_MATERIALS];
     char accepted[256] = "", message[200];
     size_t count = 0, length = 0;
+    if (!name || l->config->material_count == 0) return; // wrong and noted
     for (int64_t k = 0; k < l->config->material_count && k < MOST_MATERIALS; k++) {
         const char *one = l->config->materials[k].name;
-        if (!one || !name || strcmp(one, name) == 0) return; // wrong and noted, or found
+        if (!one || strcmp(one, name) == 0) return; // wrong and noted, or found
         if (length < sizeof accepted)
             length += (size_t)snprintf(accepted + length, sizeof accepted - length, "%s%s", k > 0 ? ", " : "", one);
         names[count++] = one;

@@ -4,9 +4,10 @@
 /// body has moved by half the skin (a body and a wall together). work->budget is a distance that no body can have left
 /// to go without reaching that: a rebuild sets it to skin / 2, and the integrator subtracts |v|_max dt in every drift,
 /// |v|_max over all bodies (NaN counts as infinite). Walls do not concern the integrator: their positions are compared
-/// here, in every step. When the budget is used up, true displacements decide: below half the skin, the budget
-/// becomes what is left; else the list is rebuilt. Half the skin is taken 1e-6 short against round-off, so that a list
-/// never misses a contact and results do not depend on when lists were built.
+/// here, in every step. Surfaces of bodies that deform go a way, too: the largest is taken from the budget. When it is
+/// used up, true displacements decide: below half the skin, the budget becomes what is left; else the list is rebuilt.
+/// Half the skin is taken 1e-6 short against round-off, so that a list never misses a contact and results do not depend
+/// on when lists were built.
 ///
 /// A rebuild: histories to state->contact; levels, keys and order of the bodies; permutation of the state; cells;
 /// search by ranges of rows, a thread each; the ranges one after the other into the list, touching pairs first, each
@@ -17,6 +18,7 @@
 /// state->contact and about 150 a disc, 250 a sphere, for cells and buffers, which only small samples keep.
 #include "search/neighbours.h"
 #include "state/case_walls.h"
+#include "state/deformation.h"
 #include "state/periodic.h"
 #include "state/plates.h"
 
@@ -449,7 +451,7 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     if (work->wall_set) scree_wall_set_list(work->wall_set);
     release_scratch(search, state);
     search->listed = work->valid = true;
-    work->budget = half_skin(work);
+    work->budget = half_skin(work) - scree_deformation_of(state)->largest_reach;
     work->rebuilds++;
     return SCREE_OK;
 }
@@ -465,7 +467,7 @@ static scree_status check_list(const scree_model *model, scree_state *state, scr
         for (int k = 0; k < 9; k++) change[k] = deformation[k] - (k % 4 == 0);
         shrunk = scree_matrix_norm(change) * (work->ghosts.largest_radius + 0.5 * work->skin);
     }
-    double moved = largest_displacement(state, deformation, work) + shrunk;
+    double moved = largest_displacement(state, deformation, work) + shrunk + scree_deformation_of(state)->largest_reach;
     if (!(moved < half_skin(work))) return rebuild(model, state, work, error);
     work->budget = half_skin(work) - moved;
     return SCREE_OK;

@@ -2,6 +2,7 @@
 /// infinite radius and mass.
 #include "specimen/from_state.h"
 
+#include "contact/deformation.h"
 #include "contact/surfaces.h"
 #include "model/critical_step.h"
 #include "state/periodic.h"
@@ -26,6 +27,7 @@ static void set_bodies(const scree_model *model, const scree_state *state, const
         scree_body_position(state, row, s->position[body]);
         s->volume[body] = scree_body_volume(state, row) * length;
         s->held[body] = (uint8_t)scree_body_held(state, row);
+        s->compliance[body] = scree_deformation_compliance(model, scree_body_material(state, row));
     }
 }
 
@@ -92,6 +94,10 @@ scree_status scree_specimen_of_state(const scree_model *model, const scree_state
     if (!status) status = fill(model, state, work, &table, s, error);
     scree_contact_table_destroy(&table);
     const scree_periodic_cell *cell = scree_cell(state);
+    s->condition = scree_deformation_condition(model);
+    const bool corrected = model->law.number[SCREE_LAW_CORRECTED] > 0;
+    s->tangential = corrected ? SCREE_TANGENTIAL_CORRECTED : SCREE_TANGENTIAL_AS_PUBLISHED;
+    s->dashpots_strain = !(model->law.number[SCREE_LAW_LOOSE] > 0);
     s->periodic = (unsigned)cell->directions;
     // Area in 2D.
     if (cell->directions && scree_periodic_is_whole(state))

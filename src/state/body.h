@@ -55,6 +55,17 @@ static inline void scree_body_contact_moment(const scree_state *state, size_t ro
         moment[k] = state->moment ? (double)state->moment[row * size + k] * state->torque_quantum : 0;
 }
 
+/// Adds that of a force [N] that acts at `arm` [m] from the centre to the moments of the body, where these are summed.
+static inline void scree_body_add_moment(scree_state *state, size_t row, const double arm[3], const double force[3])
+{
+    const int d = state->dimension;
+    if (!state->moment) return;
+    for (int i = 0; i < d; i++)
+        for (int j = 0; j < d; j++)
+            state->moment[row * scree_moment_size(d) + (size_t)(d * i + j)] +=
+                llrint(arm[i] * force[j] / state->torque_quantum);
+}
+
 /// Moment of inertia [kg m2] about the centre, the same about every axis: m R^2 / 2 of a disc (a cylinder) about its
 /// axis, 2 m R^2 / 5 of a sphere.
 static inline double scree_body_inertia(const scree_state *state, size_t row)

@@ -91,6 +91,18 @@ static const scree_field fields[] = {
      .array_offset = offsetof(scree_state, moment), .stride = SCREE_MOMENTS_3D * sizeof(int64_t),
      .rows = SCREE_ROWS_BODIES, .ghosts = SCREE_GHOSTS_ADD_BACK, .optional = true, .only_dimension = 3,
      SCREE_RANGE(-SUM, SUM)},
+    {"particle_strain", SCREE_FIELD_DOUBLE, 8, "1", SCREE_FIELD_STATE, false,
+     "strain of the body that the contact forces are made with: xx, yy, xy, the largest way of its surface [m]; behind "
+     "them the changes in the last step",
+     .array_offset = offsetof(scree_state, strain), .stride = SCREE_STRAINS_2D * sizeof(double),
+     .rows = SCREE_ROWS_BODIES, .ghosts = SCREE_GHOSTS_FOLLOW, .optional = true, .only_dimension = 2,
+     SCREE_RANGE(-1, 1)},
+    {"particle_strain", SCREE_FIELD_DOUBLE, 16, "1", SCREE_FIELD_STATE, false,
+     "strain of the body that the contact forces are made with: xx, yy, zz, the largest way of its surface [m], yz, "
+     "xz, xy, 0; behind them the changes in the last step",
+     .array_offset = offsetof(scree_state, strain), .stride = SCREE_STRAINS_3D * sizeof(double),
+     .rows = SCREE_ROWS_BODIES, .ghosts = SCREE_GHOSTS_FOLLOW, .optional = true, .only_dimension = 3,
+     SCREE_RANGE(-1, 1)},
     {"coordination", SCREE_FIELD_INT64, 1, "1", SCREE_FIELD_STATE, true, "number of touching neighbours and walls",
      IN_ARRAY(sum, scree_sum_row, contacts), .rows = SCREE_ROWS_BODIES, .ghosts = SCREE_GHOSTS_ADD_BACK,
      SCREE_RANGE_TO(SCREE_LIMIT_MANY)},

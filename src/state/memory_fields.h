@@ -15,9 +15,9 @@
     .offset = offsetof(element, member) + (at) * sizeof(c_type)
 #define SCREE_MEMORY_history(at)                                                                                       \
     SCREE_MEMORY_ROW(contact, scree_contact_memory, history.value, at, SCREE_FIELD_DOUBLE, double)
-#define SCREE_MEMORY_last_force(at)                       SCREE_MEMORY_ROW(last_force, scree_last_force, value, at, SCREE_FIELD_FLOAT, float)
+#define SCREE_MEMORY_last_force(at)                    SCREE_MEMORY_ROW(last_force, scree_last_force, value, at, SCREE_FIELD_FLOAT, float)
 #define SCREE_MEMORY_rolling(at)                       SCREE_MEMORY_ROW(rolling, scree_rolling, value, at, SCREE_FIELD_DOUBLE, double)
-#define SCREE_MEMORY_rolling_last(at)                SCREE_MEMORY_ROW(rolling, scree_rolling, last, at, SCREE_FIELD_FLOAT, float)
+#define SCREE_MEMORY_rolling_last(at)                  SCREE_MEMORY_ROW(rolling, scree_rolling, last, at, SCREE_FIELD_FLOAT, float)
 
 #define SCREE_REMEMBERS(law, row, at, components, ...) SCREE_REMEMBERS_(law, row, at, components, __VA_ARGS__)
 #define SCREE_REMEMBERS_(law_, row_, at, components_, name_, unit_, meaning_, ...)                                     \
@@ -33,9 +33,9 @@
     .offset = offsetof(scree_persistent_member, member_) + (at) * sizeof(c_type)
 #define SCREE_HELD_constant(at)                             SCREE_HELD_ROW(constant, at, SCREE_FIELD_DOUBLE, double)
 #define SCREE_HELD_history(at)                              SCREE_HELD_ROW(history.value, at, SCREE_FIELD_DOUBLE, double)
-#define SCREE_HELD_last_force(at)                              SCREE_HELD_ROW(last_force.value, at, SCREE_FIELD_FLOAT, float)
+#define SCREE_HELD_last_force(at)                           SCREE_HELD_ROW(last_force.value, at, SCREE_FIELD_FLOAT, float)
 #define SCREE_HELD_rolling(at)                              SCREE_HELD_ROW(rolling.value, at, SCREE_FIELD_DOUBLE, double)
-#define SCREE_HELD_rolling_last(at)                       SCREE_HELD_ROW(rolling.last, at, SCREE_FIELD_FLOAT, float)
+#define SCREE_HELD_rolling_last(at)                         SCREE_HELD_ROW(rolling.last, at, SCREE_FIELD_FLOAT, float)
 
 #define SCREE_HELD_REMEMBERS(law, row, at, components, ...) SCREE_HELD_REMEMBERS_(law, row, at, components, __VA_ARGS__)
 #define SCREE_HELD_REMEMBERS_(law_, row_, at, components_, name_, unit_, meaning_, ...)                                \

@@ -1,0 +1,519 @@
+/// Deformable particles (DDEM; Rojek et al. 2018; Madan 2019, "M", chapter 2): the strain of each body is uniform and
+/// follows from the forces on it.
+///
+///     V stress = sym sum s (x) f             over all forces f on the body, s from its centre to the surface
+///     M 2.41, 2.44 strain   = D : stress                  plane strain, plane stress, or in space (model/compliance.h)
+///     M 2.46 - 2.49 overlap  = circles' + R n.strain n of both bodies (contact/kinematics.h) M 2.52, 2.53
+///
+/// The arm s is R along the normal, as in M's Table 3.1 (503.1 kN; the arm to the middle of the overlap gives 504.6),
+/// in stress and overlap alike, so that both are conjugate. Forces at centres (reactions of bodies that are held,
+/// gravity) have no arm. f is the whole contact force, dashpots included (M's f^c).
+///
+/// Schemes. The strain that the forces at n + 1 are made with is found from the forces at n,
+///     explicit    strain(n+1) = D : stress(n)                                                               M 3.17
+///     relaxed     strain(n+1) = strain(n) + theta (D : stress(n) - strain(n))
+/// in one pass over the bodies a step. Explicit forces converge, and the run is stable, only while the spectral radius
+/// of M 3.8's B is below 1, about k_n/E < 0.55 to 0.85 in regular packings. B has eigenvalues 0 >= b of bonded normal
+/// springs, so the relaxed ones, 1 - theta (1 - b), are stable for theta < 2 / (1 + |b|); auto takes theta = 1 / (1 +
+/// bound), bound = 2 max over bodies of (contacts) k_n R^2 (n.D(n n)n) / V: each body's forces have at most (their
+/// number) times the energy of one alone, and each force is in two bodies.
+///
+/// Energy. Contacts and bodies take up the work of the trapezoid, (f(n) + f(n+1))/2 times the change of the circles'
+/// overlap; the bodies' part of it is
+///     given += V (stress(n) + stress(n+1)) / 2 : (strain(n+1) - strain(n)),
+/// without error. Stored of it is 1/2 V strain : D^-1 : strain; the rest is what the lag has taken out of the motion.
+///
+/// With k_t > 0 M's form has no potential: the tangential force enters the stress, but the strain not the slip
+/// (M 2.27). What strains take up there without anyone giving it is in the ledger's `stiffness`. `corrected` moves the
+/// contact points along the surfaces, too: then nothing is left.
+///
+/// Limits: small strains; normals and contact points stay those of the circles (M 2.6). The first forces of a run are
+/// those of rigid bodies. Cost: two passes over the bodies a step, two rows more a body and contact.
+#include "state/deformation.h"
+#include "contact/deformation.h"
+
+#include "base/checksum.h"
+#include "base/integer_sum.h"
+#include "case/check.h"
+#include "comm/comm.h"
+#include "contact/contact.h"
+#include "model/critical_step.h"
+#include "module/boundary.h"
+#include "module/key_rows.h"
+#include "state/body.h"
+
+#include <float.h>
+
+// ---- the case ----------------------------------------------------------------------------------------------------
+
+enum { RIGID, EXPLICIT, RELAXED };
+enum { AS_PUBLISHED, CORRECTED };
+enum { STRAIN, LOOSE };
+
+typedef struct config {
+    int deformation;   ///< RIGID ...
+    int plane;         ///< scree_plane_condition
+    double relaxation; ///< 1, theta; auto: from the contacts
+    int tangential;    ///< AS_PUBLISHED or CORRECTED
+    int dashpots;      ///< STRAIN or LOOSE
+} config;
+
+static const scree_choice deformations[] = {
+    {"none", RIGID, "particles are rigid"},
+    {"explicit", EXPLICIT, "the strain follows the forces of the step before (Madan 2019, 3.17); limits k_n/E"},
+    {"relaxed", RELAXED, "it goes by a share of the way to them in each step: stable at any k_n/E"},
+    {0},
+};
+static const scree_choice planes[] = {
+    {"strain", SCREE_PLANE_STRAIN, "discs keep their thickness"},
+    {"stress", SCREE_PLANE_STRESS, "discs are free to change it"},
+    {0},
+};
+static const scree_choice tangentials[] = {
+    {"as_published", AS_PUBLISHED,
+     "tangential forces strain particles, but strains do not move contact points along the "
+     "surfaces (Madan 2019, 2.27): no potential"},
+    {"corrected", CORRECTED, "strains stretch tangential springs, too: elastic"},
+    {0},
+};
+static const scree_choice dashpot_choices[] = {
+    {"strain", STRAIN, "they strain particles as the springs do: the whole contact force"},
+    {"loose", LOOSE, "only springs strain particles"},
+    {0},
+};
+#define DEFORMED .when = "deformation=explicit|relaxed"
+static const scree_key keys[] = {
+    CHOICE(config, deformation, deformations, .standard = "none",
+           .meaning = "Whether particles deform uniformly under the forces on them, by their `young_modulus` and "
+                      "`poisson_ratio`."),
+    CHOICE(config, plane, planes, .standard = "strain", DEFORMED,
+           .meaning = "Plane condition of discs; spheres: none."),
+    NUMBER(config, relaxation, "1", .standard = "auto", ABOVE("0"), TO("1"), .when = "deformation=relaxed",
+           .meaning = "Share of the way to the strain of the forces that a step goes; auto: from the contacts."),
+    CHOICE(config, tangential, tangentials, .standard = "as_published", DEFORMED,
+           .meaning = "Whether the strains of particles stretch tangential springs."),
+    CHOICE(config, dashpots, dashpot_choices, .standard = "strain", DEFORMED,
+           .meaning = "Whether the dashpots of contacts strain particles."),
+};
+
+static const config *own_config(const scree_config *whole)
+{
+    return scree_config_own(&scree_module_deformation, "contact", whole->contact.own);
+}
+
+static void judge_material(scree_reader *reader, const scree_config *whole, int64_t index)
+{
+    const scree_config_material *material = &whole->materials[index];
+    char path[SCREE_PATH_BYTES];
+    (void)snprintf(path, sizeof path, "materials.%lld.poisson_ratio", (long long)index);
+    if (!scree_elasticity_is_stable(material->young_modulus, material->poisson_ratio))
+        scree_rule_refuse(reader, path, "above -1 and below 0.5",
+                          "a particle that deforms needs a Poisson's ratio between -1 and 0.5");
+}
+
+static void judge_stage(scree_reader *reader, const scree_config *whole, int64_t index)
+{
+    char path[SCREE_PATH_BYTES];
+    if (!scree_modules[whole->stages[index].kind]->numbers->held) return;
+    const scree_boundary *boundary = scree_config_held_by(whole, index);
+    (void)snprintf(path, sizeof path, "stages.%lld.boundary", (long long)index);
+    if (boundary && boundary->needs_rigid)
+        scree_rule_refuse(reader, path, "plates, periodic, none", boundary->needs_rigid);
+}
+
+static void rules(scree_reader *reader, const scree_config *whole)
+{
+    // Of a section that could not be read more has been said.
+    if (!whole->contact.own || own_config(whole)->deformation == RIGID || whole->contact.law < 0) return;
+    if (!scree_law_get(whole->contact.law)->deforming)
+        scree_rule_refuse(reader, "contact.deformation", "none",
+                          "the law of the contacts does not carry particles that deform: take law: linear");
+    if (whole->wall_count > 0)
+        scree_rule_refuse(reader, "contact.deformation", "none",
+                          "particles that deform cannot touch the walls of a case yet: take plates");
+    for (int64_t i = 0; i < whole->material_count; i++) judge_material(reader, whole, i);
+    for (int64_t i = 0; i < whole->stage_count; i++)
+        if (whole->stages[i].kind >= 0) judge_stage(reader, whole, i);
+}
+
+// ---- numbers -----------------------------------------------------------------------------------------------------
+
+typedef struct numbers {
+    scree_plane_condition condition;
+    double relaxation;                                ///< theta; NAN: from the contacts
+    double soft;                                      ///< 1, of theta: 2 k_n R^2 (n.D(n n)n) / V of the softest body
+    scree_compliance compliance[SCREE_MAX_MATERIALS]; ///< by material
+} numbers;
+
+static const numbers *own_numbers(const scree_model *model)
+{
+    return scree_model_numbers(model, SCREE_SLOT_deformation);
+}
+
+scree_compliance scree_deformation_compliance(const scree_model *model, int material)
+{
+    const numbers *n = own_numbers(model);
+    return n ? n->compliance[material] : (scree_compliance){0, 0};
+}
+
+scree_plane_condition scree_deformation_condition(const scree_model *model)
+{
+    const numbers *n = own_numbers(model);
+    return n ? n->condition : model->dimension == 3 ? SCREE_SOLID : SCREE_PLANE_STRAIN;
+}
+
+double scree_deformation_share(const scree_model *model)
+{
+    const numbers *n = own_numbers(model);
+    return n ? n->relaxation : 0;
+}
+
+/// m3
+static double volume_of(const scree_model *model, double radius)
+{
+    return M_PI * radius * radius * (model->dimension == 3 ? 4.0 / 3 * radius : model->thickness);
+}
+
+/// Stiffness [N/m] of the stiffest contact that a body of this material and radius may have.
+static double stiffest(const scree_model *model, int material, double radius)
+{
+    const scree_law *law = scree_model_law(model);
+    scree_contact_tangent t = law->tangent(&model->law, &model->walls[material], radius, 1, 0);
+    double most = t.normal_stiffness;
+    for (int other = 0; other < model->material_count; other++) {
+        double reduced = radius * model->radius_max / (radius + model->radius_max);
+        t = law->tangent(&model->law, &model->pairs[material][other], reduced, 1, 0);
+        most = fmax(most, t.normal_stiffness);
+    }
+    return most;
+}
+
+static scree_status resolve_law(scree_model *model, scree_error *error)
+{
+    const config *own = scree_config_own(&scree_module_deformation, "contact", model->config->contact.own);
+    (void)error;
+    if (own->deformation == RIGID) return SCREE_OK;
+    numbers *n = scree_model_reserve_numbers(model, SCREE_SLOT_deformation);
+    n->relaxation = own->deformation == EXPLICIT ? 1 : own->relaxation;
+    n->condition = model->dimension == 3 ? SCREE_SOLID : (scree_plane_condition)own->plane;
+    for (int k = 0; k < model->material_count; k++) {
+        const scree_config_material *material = scree_model_material_said(model, k);
+        n->compliance[k] = scree_compliance_of(n->condition, material->young_modulus, material->poisson_ratio);
+        const double along = n->compliance[k].shear + n->compliance[k].trace;
+        for (int side = 0; side < 2; side++) {
+            double radius = side ? model->radius_max : model->radius_min;
+            n->soft =
+                fmax(n->soft, 2 * stiffest(model, k, radius) * radius * radius * along / volume_of(model, radius));
+        }
+    }
+    model->law.number[SCREE_LAW_LOOSE] = own->dashpots == LOOSE;
+    model->law.number[SCREE_LAW_CORRECTED] = own->tangential == CORRECTED;
+    model->law.option |= scree_model_law(model)->deforming;
+    return SCREE_OK;
+}
+
+// ---- state -------------------------------------------------------------------------------------------------------
+
+typedef scree_deformation memory;
+static const scree_field fields[] = {
+    SCREE_FIELD_ONE(deformation, memory, given, "deformation/given", SCREE_FIELD_DOUBLE, 1, "J",
+                    "energy that the bodies have taken up with their strains"),
+    SCREE_FIELD_ONE(deformation, memory, largest_reach, "deformation/largest_reach", SCREE_FIELD_DOUBLE, 1, "m",
+                    "no surface of a body has moved out by more", SCREE_RANGE(0, DBL_MAX)),
+    SCREE_FIELD_ONE(deformation, memory, growth, "deformation/growth", SCREE_FIELD_DOUBLE, 1, "m",
+                    "largest way of a surface in the last change of the strains", .role = SCREE_FIELD_DERIVED),
+    SCREE_FIELD_BODY(deformation, memory, term, double, "deformation/term", SCREE_FIELD_DOUBLE, 1, "J",
+                     "work of its last change of strain", .role = SCREE_FIELD_DERIVED, .optional = true),
+};
+static const scree_field *const term_field = &fields[COUNT(fields) - 1];
+
+// ---- a step ------------------------------------------------------------------------------------------------------
+
+/// Places of the tensor's components in a row of state->strain, and in the moments.
+typedef struct component {
+    int row, i, j;
+} component;
+static const component plane_components[] = {{0, 0, 0}, {1, 1, 1}, {2, 0, 1}};
+static const component space_components[] = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {4, 1, 2}, {5, 0, 2}, {6, 0, 1}};
+
+static int component_count(int dimension)
+{
+    return dimension == 3 ? 6 : 3;
+}
+
+static const component *components_of(int dimension)
+{
+    return dimension == 3 ? space_components : plane_components;
+}
+
+/// V times the stress of a body [J], from the moments of the forces on it.
+static void stress_energy(const scree_state *state, size_t row, double stress[6])
+{
+    const int d = state->dimension;
+    const component *list = components_of(d);
+    double moment[9];
+    scree_body_contact_moment(state, row, moment);
+    for (int k = 0; k < component_count(d); k++)
+        stress[k] = 0.5 * (moment[d * list[k].i + list[k].j] + moment[d * list[k].j + list[k].i]);
+}
+
+/// a : b
+static double contract(int dimension, const double a[6], const double b[6])
+{
+    double sum = 0;
+    for (int k = 0; k < component_count(dimension); k++) sum += (k < dimension ? 1 : 2) * a[k] * b[k];
+    return sum;
+}
+
+static void get_tensor(const scree_state *state, const double *from, double tensor[6])
+{
+    for (int k = 0; k < component_count(state->dimension); k++)
+        tensor[k] = from[components_of(state->dimension)[k].row];
+}
+
+static void get_strain(const scree_state *state, size_t row, double strain[6])
+{
+    get_tensor(state, scree_strain_row(state, row), strain);
+}
+
+static double shape_volume(const scree_model *model, const scree_state *state, size_t row)
+{
+    return scree_body_volume(state, row) * (state->dimension == 2 ? model->thickness : 1);
+}
+
+/// Largest eigenvalue of a tensor, or more: the mean of its diagonal and what it deviates by.
+static double largest_stretch(int dimension, const double strain[6])
+{
+    double mean = 0, square = 0;
+    for (int k = 0; k < dimension; k++) mean += strain[k] / dimension;
+    for (int k = 0; k < component_count(dimension); k++) {
+        double own = k < dimension ? strain[k] - mean : strain[k];
+        square += (k < dimension ? 1 : 2) * own * own;
+    }
+    return mean + sqrt(square * (1 - 1.0 / dimension));
+}
+
+/// Strain and reach of a body with its next strain; returns how far its surface goes at most [m].
+static double strain_body(const scree_context *c, size_t row, double theta)
+{
+    scree_state *state = c->state;
+    const int d = state->dimension;
+    const scree_compliance *by = &own_numbers(c->model)->compliance[scree_body_material(state, row)];
+    double *own = scree_strain_row(state, row), *change = own + scree_strain_size(d) / 2,
+           volume = shape_volume(c->model, state, row);
+    double stress[6], strain[6], changed[6], trace = 0, size = 0;
+    stress_energy(state, row, stress);
+    get_strain(state, row, strain);
+    for (int k = 0; k < d; k++) trace += stress[k];
+    for (int k = 0; k < component_count(d); k++) {
+        double wanted = (by->shear * stress[k] + (k < d ? by->trace * trace : 0)) / volume;
+        double next = theta == 1 ? wanted : strain[k] + theta * (wanted - strain[k]);
+        const int place = components_of(d)[k].row;
+        changed[k] = change[place] = next - strain[k];
+        size += (k < d ? 1 : 2) * changed[k] * changed[k];
+        own[place] = strain[k] = next;
+    }
+    scree_deformation_of(state)->term[row] = 0.5 * contract(d, stress, changed);
+    const double radius = scree_body_bounding_radius(state, row);
+    own[SCREE_STRAIN_REACH] = fmax(0, radius * largest_stretch(d, strain));
+    return radius * sqrt(size);
+}
+
+static double relaxation(const scree_context *c)
+{
+    const numbers *n = own_numbers(c->model);
+    int64_t contacts = 0;
+    if (!isnan(n->relaxation)) return n->relaxation;
+    for (size_t row = 0; row < c->state->count; row++)
+        contacts = c->state->sum[row].contacts > contacts ? c->state->sum[row].contacts : contacts;
+    double most = (double)contacts;
+    scree_comm_maximum(c->state, &most, 1);
+    return 1 / (1 + n->soft * most);
+}
+
+/// Adds up `term` of all bodies.
+static void give(scree_state *state)
+{
+    scree_deformation *all = scree_deformation_of(state);
+    scree_integer_sum sum = {0};
+    while (scree_comm_sum_next(state, &sum, 1))
+        for (size_t row = 0; row < state->count; row++) scree_integer_sum_add(&sum, all->term[row]);
+    const double given = scree_integer_sum_total(&sum);
+    all->given += given;
+    state->ledger.turnover += fabs(given);
+}
+
+/// A strain beyond this is not small.
+static const double MOST_STRAIN = 0.1;
+
+static scree_status check_strain(const scree_context *c, double reach, double growth, scree_error *error)
+{
+    const double limit = MOST_STRAIN * c->model->radius_max;
+    if (reach <= limit && growth <= limit) return SCREE_OK;
+    return scree_error_set(
+        error, SCREE_ERROR_GUARD,
+        "step %llu: the strain of a particle leaves the small ones, above %g %%: the load is too "
+        "large for young_modulus, or k_n/E too large for contact.deformation: explicit; take stiffer "
+        "particles, softer contacts, or deformation: relaxed",
+        (unsigned long long)c->state->step, 100 * MOST_STRAIN);
+}
+
+/// From the forces at n to the strains that those at n + 1 are made with.
+static scree_status strain_bodies(const scree_context *c, scree_error *error)
+{
+    scree_state *state = c->state;
+    scree_deformation *all = scree_deformation_of(state);
+    if (!state->moment) return SCREE_OK;
+    scree_status status = scree_state_begin_field(state, term_field, error);
+    if (status) return status;
+    double theta = relaxation(c), extremes[2] = {0, 0};
+    for (size_t row = 0; row < state->count; row++) {
+        double way = strain_body(c, row, theta), reach = scree_strain_row(state, row)[SCREE_STRAIN_REACH];
+        // What is not a number is large.
+        extremes[0] = reach <= extremes[0] ? extremes[0] : reach;
+        extremes[1] = way <= extremes[1] ? extremes[1] : way;
+    }
+    scree_comm_maximum(state, extremes, 2);
+    give(state);
+    if (extremes[0] > all->largest_reach) c->work->budget -= extremes[0] - all->largest_reach;
+    all->largest_reach = extremes[0];
+    all->growth = extremes[1];
+    return check_strain(c, extremes[0], extremes[1], error);
+}
+
+/// The other half of the work, with the forces at n + 1.
+static scree_status settle(const scree_context *c, scree_error *error)
+{
+    scree_state *state = c->state;
+    (void)error;
+    for (size_t row = 0; row < state->count; row++) {
+        double stress[6], changed[6];
+        stress_energy(state, row, stress);
+        get_tensor(state, scree_strain_row(state, row) + scree_strain_size(state->dimension) / 2, changed);
+        scree_deformation_of(state)->term[row] = 0.5 * contract(state->dimension, stress, changed);
+    }
+    give(state);
+    return SCREE_OK;
+}
+
+// ---- what it tells -----------------------------------------------------------------------------------------------
+
+/// Elastic energy of a body [J]: 1/2 V strain : D^-1 : strain.
+static double energy_of_body(const scree_context *c, size_t row)
+{
+    const scree_state *state = c->state;
+    const int d = state->dimension;
+    const scree_compliance *by = &own_numbers(c->model)->compliance[scree_body_material(state, row)];
+    double strain[6], stress[6], trace = 0;
+    get_strain(state, row, strain);
+    for (int k = 0; k < d; k++) trace += strain[k];
+    const double back = by->trace / (by->shear + d * by->trace);
+    for (int k = 0; k < component_count(d); k++) stress[k] = (strain[k] - (k < d ? back * trace : 0)) / by->shear;
+    return 0.5 * shape_volume(c->model, state, row) * contract(d, stress, strain);
+}
+
+static double energy(const scree_context *c)
+{
+    scree_integer_sum sum = {0};
+    if (!c->state->strain) return 0;
+    while (scree_comm_sum_next(c->state, &sum, 1))
+        for (size_t row = 0; row < c->state->count; row++) scree_integer_sum_add(&sum, energy_of_body(c, row));
+    return scree_integer_sum_total(&sum);
+}
+
+static const scree_result columns[] = {
+    {"energy_particles", "J", "elastic energy of the strains of the particles"},
+    {"energy_lag", "J", "taken out of the motion since strains follow the forces a step later"},
+    {"strain_largest", "1", "largest way of a particle's surface over the largest radius"},
+};
+
+static scree_status sample(const scree_context *c, size_t index, double *value, scree_error *error)
+{
+    const scree_deformation *all = scree_deformation_of(c->state);
+    (void)index, (void)error;
+    value[0] = energy(c);
+    value[1] = all->given - value[0];
+    value[2] = all->largest_reach / c->model->radius_max;
+    return SCREE_OK;
+}
+
+static const scree_result results[] = {
+    {"force", "N", "mean normal force of the contacts at the end"},
+    {"energy_particles", "J", "elastic energy of the strains of the particles at the end"},
+    {"energy_lag", "J", "what was taken out of the motion since strains follow the forces a step later"},
+};
+
+static scree_status summarise(const scree_context *c, size_t index, double *value, scree_error *error)
+{
+    scree_contact_table table = {0};
+    scree_integer_sum sum = {0};
+    (void)index;
+    scree_status status = scree_contact_table_build(c->model, c->state, c->work, &table, error);
+    while (!status && scree_comm_sum_next(c->state, &sum, 1))
+        for (size_t k = 0; k < table.count; k++) scree_integer_sum_add(&sum, table.contact[k].normal_force);
+    if (!status) value[0] = table.count > 0 ? scree_integer_sum_total(&sum) / (double)table.count : 0;
+    scree_contact_table_destroy(&table);
+    value[1] = energy(c);
+    value[2] = scree_deformation_of(c->state)->given - value[1];
+    return status;
+}
+
+static bool told(const scree_config *whole, size_t index, char name[SCREE_RESULT_NAME])
+{
+    name[0] = 0;
+    return index == 0 && own_config(whole)->deformation != RIGID;
+}
+
+// ---- module ------------------------------------------------------------------------------------------------------
+
+static bool in_use(const scree_context *c)
+{
+    return scree_model_traits(c->model)->deforms;
+}
+
+static double work(const scree_state *state)
+{
+    return -scree_deformation_of(state)->given;
+}
+
+static uint64_t checksum(const scree_model *model, const scree_state *state, uint64_t c)
+{
+    size_t next = 0;
+    double strain[6];
+    if (!scree_model_traits(model)->deforms || !state->strain) return c;
+    for (uint32_t row; (row = scree_next_by_id(state, &next)) != SCREE_NO_ROW;) {
+        get_strain(state, row, strain);
+        c = scree_checksum_numbers(c, strain, (size_t)component_count(state->dimension));
+    }
+    return scree_checksum_number(c, scree_deformation_of(state)->given);
+}
+
+static scree_status begin(const scree_context *c, scree_error *error)
+{
+    return in_use(c) ? scree_state_ask_for_strains(c->state, error) : SCREE_OK;
+}
+
+static const scree_pass passes[] = {{SCREE_PHASE_DECIDE, strain_bodies}, {SCREE_PHASE_SECOND_HALF, settle}};
+
+const scree_module scree_module_deformation = {
+    .name = "deformation",
+    .meaning = "particles that deform uniformly under the forces on them",
+    .keys = (const scree_keys[]){KEYS_OF("contact", keys, config)},
+    .keys_count = 1,
+    .rules = rules,
+    .numbers_size = sizeof(numbers),
+    .resolve_law = resolve_law,
+    .state_size = sizeof(memory),
+    .fields = fields,
+    .field_count = COUNT(fields),
+    .checksum = checksum,
+    .begin = begin,
+    .passes = passes,
+    .pass_count = COUNT(passes),
+    .in_use = in_use,
+    .reads_moments = true,
+    .work = work,
+    .columns = SCREE_RESULTS(columns, sample),
+    .results = SCREE_RESULTS(results, summarise),
+    .told = told,
+};

@@ -1,0 +1,18 @@
+/// What a case says of bodies that deform (deformation.c), for those who look at a specimen before a run.
+#ifndef SCREE_CONTACT_DEFORMATION_H
+#define SCREE_CONTACT_DEFORMATION_H
+
+#include "model/compliance.h"
+#include "model/model.h"
+
+/// Of bodies of this material; zero where they are rigid.
+scree_compliance scree_deformation_compliance(const scree_model *model, int material);
+
+/// Of what these are, plane strain or stress, or a solid.
+scree_plane_condition scree_deformation_condition(const scree_model *model);
+
+/// Share of the way to the strain of the forces that a step goes: 1 explicit, below 1 relaxed, NAN relaxed by a share
+/// that follows from the contacts, 0 rigid.
+double scree_deformation_share(const scree_model *model);
+
+#endif

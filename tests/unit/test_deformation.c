@@ -1,0 +1,304 @@
+/// Particles that deform, against closed forms: a row that is held, neighbours across, loads on the surface; energy,
+/// momentum and bits of gases.
+#include "run_fixture.h"
+
+#include "state/deformation.h"
+
+#define STEEL(poisson)                                                                                                 \
+    "materials:\n  - {name: steel, young_modulus: 200 GPa, poisson_ratio: " poisson ", density: 2000 kg/m3,\n"         \
+    "     friction: 0, normal_stiffness: 7e10 N/m, stiffness_ratio: 0, damping_ratio: 0}\n"
+#define EQUAL(count)                                                                                                   \
+    "particles: {shape: disc, material: steel, count: " count ", distribution: equal, radius: 1 mm, thickness: 1 m}\n"
+#define QUIET "measure: {cells: no, samples: 10}\noutput: {figures: no, paraview: no}\n"
+#define HELD                                                                                                           \
+    "selections: [{select: all, name: all}]\n"                                                                         \
+    "loads: [{load: prescribed, selection: all, velocity_x: 0, velocity_y: 0, spin_z: 0}]\n"
+#define ROW                                                                                                            \
+    "scree: 1\nname: row\n" STEEL("0.35")                                                                              \
+        EQUAL("4") "contact: {law: linear, deformation: explicit}\n" HELD                                              \
+                   "integrator: {step: 1e-7 s}\nboundary: {periodic: x}\n" QUIET "stages:\n"                           \
+                   "  - {stage: prepare, method: bodies, width: 7.96 mm, bodies: [{position: [0.5 mm, 1 mm]},\n"       \
+                   "     {position: [2.49 mm, 1 mm]}, {position: [4.48 mm, 1 mm]}, {position: [6.47 mm, 1 mm]}]}\n"    \
+                   "  - {stage: relax, duration: 200 us, boundary: none}\n"
+
+static const double NORMAL = 7e10, THICKNESS = 1;
+
+/// Stiffness of a disc that is pressed along its diameter, M 2.72 (2.67 has 1 / k = 1 / k_n + 2 / k_p).
+static double disc_stiffness(double modulus, double poisson)
+{
+    return M_PI * modulus * THICKNESS / (2 * (1 - poisson * poisson));
+}
+
+/// Normal force of the first contact between bodies with these ids; 0: there is none.
+static double force_between(const scree_simulation *s, uint32_t a, uint32_t b)
+{
+    scree_contact_table table = {0};
+    scree_error error;
+    double force = 0;
+    check(scree_contact_table_build(&s->stage_model, &s->state, &s->work, &table, &error), &error);
+    for (size_t k = 0; k < table.count; k++)
+        if (!table.contact[k].wall && s->state.id[table.contact[k].first] == a &&
+            s->state.id[table.contact[k].second] == b)
+            force = table.contact[k].normal_force;
+    scree_contact_table_destroy(&table);
+    return force;
+}
+
+// ---- a row that is held ------------------------------------------------------------------------------------------
+
+/// The forces of `count` steps of the row.
+static void row_forces(const char *modulus, const char *scheme, int count, double *force)
+{
+    char young[64], how[64];
+    (void)snprintf(young, sizeof young, "materials.steel.young_modulus=%s", modulus);
+    (void)snprintf(how, sizeof how, "contact.deformation=%s", scheme);
+    const char *const overrides[] = {young, how};
+    scree_case *c = case_read(ROW, overrides, 2);
+    scree_simulation s;
+    simulation_open(c, 1, &s);
+    for (int k = 0; k < count; k++) {
+        simulation_step(&s);
+        force[k] = force_between(&s, 0, 1);
+        assert_true(fabs(force_between(&s, 1, 2) / force[k] - 1) < 1e-6);
+    }
+    scree_simulation_close(&s);
+    scree_case_free(c);
+}
+
+/// f = k h with 1 / k = 1 / k_n + 2 / k_p; from step to step the difference to it is multiplied by -2 k_n / k_p.
+static void a_held_row_has_the_closed_force(void **unused)
+{
+    static const struct {
+        const char *text;
+        double modulus;
+    } cases[] = {{"5e11", 5e11}, {"2e11", 2e11}, {"1e11", 1e11}, {"8e10", 8e10}, {"6e10", 6e10}, {"1e10", 1e10}};
+    enum { STEPS = 1000 };
+    static double force[STEPS];
+    (void)unused;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        const double disc = disc_stiffness(cases[k].modulus, 0.35), factor = 2 * NORMAL / disc;
+        const double expected = NORMAL / (1 + factor) * 1e-5;
+        if (factor < 1) {
+            row_forces(cases[k].text, "explicit", STEPS, force);
+            print_message("E %s: factor %.4f, force %.5g N, departure %.2g\n", cases[k].text,
+                          (force[6] - force[5]) / (force[5] - force[4]), force[STEPS - 1],
+                          force[STEPS - 1] / expected - 1);
+            assert_true(fabs((force[6] - force[5]) / (force[5] - force[4]) + factor) < 1e-6);
+            assert_true(fabs(force[STEPS - 1] / expected - 1) < fmax(1e-10, 2 * pow(factor, STEPS - 3)));
+        }
+        row_forces(cases[k].text, "relaxed", STEPS, force);
+        assert_true(fabs(force[STEPS - 1] / expected - 1) < 1e-9);
+    }
+}
+
+// ---- neighbours across -------------------------------------------------------------------------------------------
+
+#define CROSS                                                                                                          \
+    "scree: 1\nname: cross\n" STEEL("0.35") EQUAL(                                                                     \
+        "5") "contact: {law: linear, deformation: explicit}\n" HELD "integrator: {step: 1e-7 s}\n" QUIET "stages:\n"   \
+             "  - {stage: prepare, method: bodies, bodies: [{position: [5 mm, 5 mm]}, {position: [3 mm, 5 mm]},\n"     \
+             "     {position: [7.0000001 mm, 5 mm]}, {position: [5 mm, 3.01 mm]}, {position: [5 mm, 6.99 mm]}]}\n"     \
+             "  - {stage: relax, duration: 20 us, boundary: none}\n"
+
+/// M figure 2.4: a disc that is pressed from two sides touches those that lie beside it.
+static void a_pressed_disc_touches_its_neighbours(void **unused)
+{
+    (void)unused;
+    for (int deforms = 0; deforms < 2; deforms++) {
+        const char *const overrides[] = {deforms ? "contact.deformation=explicit" : "contact.deformation=none"};
+        scree_case *c = case_read(CROSS, overrides, 1);
+        scree_simulation s;
+        simulation_open(c, 1, &s);
+        for (int k = 0; k < 100; k++) simulation_step(&s);
+        double along = force_between(&s, 0, 3), left = force_between(&s, 0, 1), right = force_between(&s, 0, 2);
+        print_message("deforms %d: %.4g N along, %.4g and %.4g N across\n", deforms, along, left, right);
+        assert_true(along > 4e5);
+        if (deforms)
+            assert_true(left > 0.01 * along && right > 0.01 * along && right < left);
+        else
+            assert_true(left == 0 && right == 0);
+        scree_simulation_close(&s);
+        scree_case_free(c);
+    }
+}
+
+// ---- loads on the surface ----------------------------------------------------------------------------------------
+
+#define PRESSED                                                                                                        \
+    "scree: 1\nname: pressed\n" STEEL("0.35") EQUAL(                                                                   \
+        "3") "contact: {law: linear, deformation: explicit}\n"                                                         \
+             "selections: [{select: ids, name: low, ids: [0]}, {select: ids, name: high, ids: [2]}]\n"                 \
+             "loads:\n  - {load: prescribed, selection: low, attack: surface, force_y: {from: 0 N, to: 10 kN, begin: " \
+             "0 s,\n"                                                                                                  \
+             "     end: 0.1 ms}}\n"                                                                                    \
+             "  - {load: prescribed, selection: high, attack: surface, force_y: {from: 0 N, to: -10 kN, begin: 0 s,\n" \
+             "     end: 0.1 ms}}\n"                                                                                    \
+             "integrator: {step: 2e-8 s}\n" QUIET "stages:\n"                                                          \
+             "  - {stage: prepare, method: bodies, bodies: [{position: [5 mm, 5 mm]}, {position: [5 mm, 7 mm]},\n"     \
+             "     {position: [5 mm, 9 mm]}]}\n"                                                                       \
+             "  - {stage: relax, duration: 0.3 ms, boundary: none}\n"
+
+/// A column under 10 kN: f^2 / (2 k_n) a contact, f^2 / k_p a disc, each strained from both sides, the loaded ones too.
+/// The work of the loads is theirs, that on the surfaces counted: the balance closes while it vibrates.
+static void loads_on_the_surface_strain_it(void **unused)
+{
+    (void)unused;
+    const char *const overrides[] = {"materials.steel.damping_ratio=1", "materials.steel.tangential_damping_ratio=0"};
+    const double disc = disc_stiffness(2e11, 0.35);
+    for (int damped = 0; damped < 2; damped++) {
+        scree_case *c = case_read(PRESSED, overrides, damped ? 2 : 0);
+        scree_simulation s;
+        scree_error error;
+        simulation_open(c, 1, &s);
+        double worst = 0;
+        scree_energy energy = {0};
+        while (simulation_goes_on(&s)) {
+            simulation_step(&s);
+            if (simulation_last_steps(&s) > 0) worst = simulation_residual(&s, worst);
+            if (!simulation_goes_on(&s)) break;
+            scree_contact_table table = {0};
+            check(scree_contact_table_build(&s.stage_model, &s.state, &s.work, &table, &error), &error);
+            scree_energy_measure(&s.stage_model, &s.state, &table, &energy);
+            scree_contact_table_destroy(&table);
+        }
+        const double contacts = 2 * 1e4 * 1e4 / (2 * NORMAL), discs = 3 * 1e4 * 1e4 / disc;
+        print_message(
+            "residual %.2g of all energy, at worst %.2g; contacts %.6g of %.6g J, discs took %.6g of %.6g J\n",
+            energy.relative, worst, energy.elastic_normal, contacts, scree_deformation_of(&s.state)->given, discs);
+        // Dashpots are second order in the step; while next to nothing has been done yet, so is nearly all.
+        assert_true(worst < (damped ? 1e-3 : 1e-9) && energy.relative < (damped ? 1e-6 : 1e-9));
+        if (damped) assert_true(fabs(energy.elastic_normal / contacts - 1) < 1e-3);
+        scree_simulation_close(&s);
+        scree_case_free(c);
+    }
+}
+
+// ---- gases -------------------------------------------------------------------------------------------------------
+
+#define GAS                                                                                                            \
+    "scree: 1\nname: gas\nseed: 3\n"                                                                                   \
+    "materials: [{name: rubber, young_modulus: 0.3 GPa, poisson_ratio: 0.3, density: 2650 kg/m3, friction: 0.4,\n"     \
+    "   normal_stiffness: 1e5 N/m, stiffness_ratio: 0.5, damping_ratio: 0.02}]\n"                                      \
+    "contact: {law: linear, deformation: explicit}\nintegrator: {step_fraction: 0.05}\n" QUIET "stages:\n"             \
+    "  - {stage: prepare, method: gas, velocity: 2 m/s, solid_fraction: 40 %}\n"
+#define PLANE_GAS                                                                                                      \
+    GAS "  - {stage: relax, duration: 3 ms}\nboundary: {periodic: xy}\n"                                               \
+        "particles: {shape: disc, material: rubber, count: 80, radius_min: 0.8 mm, radius_max: 1.2 mm,\n"              \
+        "  thickness: 1 mm}\n"
+#define SPACE_GAS                                                                                                      \
+    GAS "  - {stage: relax, duration: 3 ms}\nboundary: {periodic: xyz}\ndimension: 3\n"                                \
+        "particles: {shape: sphere, material: rubber, count: 100, radius_min: 0.8 mm, radius_max: 1.2 mm}\n"
+#define BOXED_GAS                                                                                                      \
+    GAS "  - {stage: relax, duration: 3 ms, boundary: plates}\n"                                                       \
+        "particles: {shape: disc, material: rubber, count: 80, radius_min: 0.8 mm, radius_max: 1.2 mm,\n"              \
+        "  thickness: 1 mm}\n"
+static const char *const gases[] = {PLANE_GAS, SPACE_GAS, BOXED_GAS};
+
+static void momentum_of(const scree_state *state, double momentum[3], double *scale)
+{
+    momentum[0] = momentum[1] = momentum[2] = *scale = 0;
+    for (size_t row = 0; row < state->count; row++) {
+        scree_vector velocity, spin;
+        scree_body_motion(state, row, velocity, spin);
+        for (int k = 0; k < 3; k++) momentum[k] += scree_body_mass(state, row) * velocity[k];
+        *scale += scree_body_mass(state, row) * scree_length(velocity);
+    }
+}
+
+/// What the bodies take up with their strains closes the balance, at the order of the scheme; nothing else moves them.
+static void books_of_energy_are_closed(void **unused)
+{
+    (void)unused;
+    for (size_t k = 0; k < sizeof gases / sizeof *gases; k++)
+        for (int relaxed = 0; relaxed < 2; relaxed++) {
+            double worst[2] = {0, 0}, given = 0, before[3], after[3], scale;
+            for (int fine = 0; fine < 2; fine++) {
+                const char *const overrides[] = {
+                    relaxed ? "contact.deformation=relaxed" : "contact.deformation=explicit",
+                    fine ? "integrator.step_fraction=0.025" : "integrator.step_fraction=0.05"};
+                scree_case *c = case_read(gases[k], overrides, 2);
+                scree_simulation s;
+                simulation_open(c, 1, &s);
+                simulation_load(&s);
+                momentum_of(&s.state, before, &scale);
+                while (simulation_goes_on(&s)) {
+                    simulation_step(&s);
+                    if (simulation_last_steps(&s) > 0) worst[fine] = simulation_residual(&s, worst[fine]);
+                }
+                momentum_of(&s.state, after, &scale);
+                given = scree_deformation_of(&s.state)->given / s.state.ledger.initial;
+                for (int i = 0; i < 3 && k < 2; i++) assert_true(fabs(after[i] - before[i]) < 1e-12 * scale);
+                scree_simulation_close(&s);
+                scree_case_free(c);
+            }
+            print_message("gas %zu, relaxed %d: residual %.2g, %.2g at half the step; bodies took %.3g\n", k, relaxed,
+                          worst[0], worst[1], given);
+            assert_true(worst[0] < 1e-4 && worst[1] < 0.6 * worst[0] && given > 1e-5);
+        }
+}
+
+/// Bits of a gas after its stage: number of threads, instruction set (0: the best; -1: the scalar reference), and
+/// whether it loses its work on the way.
+static uint64_t end_of_gas(const char *text, int threads, int set, bool loses)
+{
+    scree_case *c = case_read(text, NULL, 0);
+    scree_simulation s;
+    scree_error error;
+    simulation_open(c, threads, &s);
+    s.work.keep_threads = true;
+    s.work.instruction_set = set > 0 ? set : 0;
+    s.work.reference_kernel = set < 0;
+    for (int k = 0; simulation_goes_on(&s) && k < 1500; k++) {
+        simulation_step(&s);
+        if (loses && k % 40 == 7) scree_neighbours_invalidate(&s.work);
+    }
+    check(scree_contacts_save(&s.state, &s.work, &error), &error);
+    uint64_t checksum = scree_state_checksum(&s.stage_model, &s.state);
+    scree_simulation_close(&s);
+    scree_case_free(c);
+    return checksum;
+}
+
+static void nothing_but_the_state_decides(void **unused)
+{
+    (void)unused;
+    for (size_t k = 0; k < sizeof gases / sizeof *gases; k++) {
+        const uint64_t expected = end_of_gas(gases[k], 1, -1, false);
+        for (int set = 2; set <= scree_contact_instruction_set(0); set++)
+            assert_true(end_of_gas(gases[k], 1, set, false) == expected);
+        for (int threads = 2; threads <= 7; threads += threads == 3 ? 4 : 1)
+            assert_true(end_of_gas(gases[k], threads, 0, false) == expected);
+        assert_true(end_of_gas(gases[k], 2, 0, true) == expected);
+    }
+}
+
+// ---- what is refused ---------------------------------------------------------------------------------------------
+
+static void expect_refusal(const char *text, const char *override, const char *message)
+{
+    scree_case *c;
+    scree_problems *problems;
+    assert_int_equal(case_parse(text, &override, 1, &c, &problems), SCREE_ERROR_INPUT);
+    assert_non_null(strstr(scree_problems_get(problems, 0)->message, message));
+    scree_problems_free(problems);
+}
+
+static void what_cannot_deform_is_refused(void **unused)
+{
+    (void)unused;
+    expect_refusal(BOXED_GAS, "materials.rubber.poisson_ratio=0.5", "between -1 and 0.5");
+    expect_refusal(BOXED_GAS,
+                   "stages=[{stage: prepare, method: gas}, {stage: confine, pressure: 1 kPa, boundary: pressure}]",
+                   "plates");
+    expect_refusal(BOXED_GAS, "walls=[{shape: plane, name: floor, point: [0, 0], normal: [0, 1]}]", "walls of a case");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_held_row_has_the_closed_force), cmocka_unit_test(a_pressed_disc_touches_its_neighbours),
+        cmocka_unit_test(loads_on_the_surface_strain_it),  cmocka_unit_test(books_of_energy_are_closed),
+        cmocka_unit_test(nothing_but_the_state_decides),   cmocka_unit_test(what_cannot_deform_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
