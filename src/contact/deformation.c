@@ -229,6 +229,9 @@ static const scree_field *const term_field = &fields[COUNT(fields) - 1];
 
 // ---- a step ------------------------------------------------------------------------------------------------------
 
+/// Functions of one body are compiled for each dimension `d`, as a constant.
+#define OF_BODY static inline __attribute__((always_inline))
+
 /// Places of the tensor's components in a row of state->strain, and in the moments.
 typedef struct component {
     int row, i, j;
@@ -236,87 +239,88 @@ typedef struct component {
 static const component plane_components[] = {{0, 0, 0}, {1, 1, 1}, {2, 0, 1}};
 static const component space_components[] = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {4, 1, 2}, {5, 0, 2}, {6, 0, 1}};
 
-static int component_count(int dimension)
+OF_BODY int component_count(int d)
 {
-    return dimension == 3 ? 6 : 3;
+    return d == 3 ? 6 : 3;
 }
 
-static const component *components_of(int dimension)
+OF_BODY const component *components_of(int d)
 {
-    return dimension == 3 ? space_components : plane_components;
+    return d == 3 ? space_components : plane_components;
 }
 
 /// V times the stress of a body [J], from the moments of the forces on it.
-static void stress_energy(const scree_state *state, size_t row, double stress[6])
+OF_BODY void stress_energy(int d, const scree_state *state, size_t row, double stress[6])
 {
-    const int d = state->dimension;
     const component *list = components_of(d);
-    double moment[9];
-    scree_body_contact_moment(state, row, moment);
+    const int64_t *moment = state->moment + row * scree_moment_size(d);
     for (int k = 0; k < component_count(d); k++)
-        stress[k] = 0.5 * (moment[d * list[k].i + list[k].j] + moment[d * list[k].j + list[k].i]);
+        stress[k] = 0.5 * state->torque_quantum *
+                    ((double)moment[d * list[k].i + list[k].j] + (double)moment[d * list[k].j + list[k].i]);
 }
 
 /// a : b
-static double contract(int dimension, const double a[6], const double b[6])
+OF_BODY double contract(int d, const double a[6], const double b[6])
 {
     double sum = 0;
-    for (int k = 0; k < component_count(dimension); k++) sum += (k < dimension ? 1 : 2) * a[k] * b[k];
+    for (int k = 0; k < component_count(d); k++) sum += (k < d ? 1 : 2) * a[k] * b[k];
     return sum;
 }
 
-static void get_tensor(const scree_state *state, const double *from, double tensor[6])
+OF_BODY void get_tensor(int d, const double *from, double tensor[6])
 {
-    for (int k = 0; k < component_count(state->dimension); k++)
-        tensor[k] = from[components_of(state->dimension)[k].row];
-}
-
-static void get_strain(const scree_state *state, size_t row, double strain[6])
-{
-    get_tensor(state, scree_strain_row(state, row), strain);
-}
-
-static double shape_volume(const scree_model *model, const scree_state *state, size_t row)
-{
-    return scree_body_volume(state, row) * (state->dimension == 2 ? model->thickness : 1);
+    for (int k = 0; k < component_count(d); k++) tensor[k] = from[components_of(d)[k].row];
 }
 
 /// Largest eigenvalue of a tensor, or more: the mean of its diagonal and what it deviates by.
-static double largest_stretch(int dimension, const double strain[6])
+OF_BODY double largest_stretch(int d, const double strain[6])
 {
     double mean = 0, square = 0;
-    for (int k = 0; k < dimension; k++) mean += strain[k] / dimension;
-    for (int k = 0; k < component_count(dimension); k++) {
-        double own = k < dimension ? strain[k] - mean : strain[k];
-        square += (k < dimension ? 1 : 2) * own * own;
+    for (int k = 0; k < d; k++) mean += strain[k];
+    mean *= 1.0 / d;
+    for (int k = 0; k < component_count(d); k++) {
+        double part = k < d ? strain[k] - mean : strain[k];
+        square += (k < d ? 1 : 2) * part * part;
     }
-    return mean + sqrt(square * (1 - 1.0 / dimension));
+    return mean + sqrt(square * (1 - 1.0 / d));
 }
 
-/// Strain and reach of a body with its next strain; returns how far its surface goes at most [m].
-static double strain_body(const scree_context *c, size_t row, double theta)
+/// Next strain and reach of a body; returns how far its surface goes at most [m].
+OF_BODY double strain_body(int d, const scree_context *c, const numbers *n, size_t row, double theta)
 {
     scree_state *state = c->state;
-    const int d = state->dimension;
-    const scree_compliance *by = &own_numbers(c->model)->compliance[scree_body_material(state, row)];
-    double *own = scree_strain_row(state, row), *change = own + scree_strain_size(d) / 2,
-           volume = shape_volume(c->model, state, row);
+    const scree_compliance *by = &n->compliance[scree_body_material(state, row)];
+    double *strain_of = state->strain + row * scree_strain_size(d), *change = strain_of + scree_strain_size(d) / 2;
+    const double radius = scree_body_bounding_radius(state, row), inverse = 1 / volume_of(c->model, radius);
     double stress[6], strain[6], changed[6], trace = 0, size = 0;
-    stress_energy(state, row, stress);
-    get_strain(state, row, strain);
+    stress_energy(d, state, row, stress);
+    get_tensor(d, strain_of, strain);
     for (int k = 0; k < d; k++) trace += stress[k];
     for (int k = 0; k < component_count(d); k++) {
-        double wanted = (by->shear * stress[k] + (k < d ? by->trace * trace : 0)) / volume;
-        double next = theta == 1 ? wanted : strain[k] + theta * (wanted - strain[k]);
         const int place = components_of(d)[k].row;
+        double wanted = inverse * (by->shear * stress[k] + (k < d ? by->trace * trace : 0));
+        double next = theta == 1 ? wanted : strain[k] + theta * (wanted - strain[k]);
         changed[k] = change[place] = next - strain[k];
         size += (k < d ? 1 : 2) * changed[k] * changed[k];
-        own[place] = strain[k] = next;
+        strain_of[place] = strain[k] = next;
     }
     scree_deformation_of(state)->term[row] = 0.5 * contract(d, stress, changed);
-    const double radius = scree_body_bounding_radius(state, row);
-    own[SCREE_STRAIN_REACH] = fmax(0, radius * largest_stretch(d, strain));
+    double reach = radius * largest_stretch(d, strain);
+    strain_of[SCREE_STRAIN_REACH] = reach < 0 ? 0 : reach;
     return radius * sqrt(size);
+}
+
+/// All bodies; extremes: largest reach, largest way of a surface.
+OF_BODY void strain_all(int d, const scree_context *c, double theta, double extremes[2])
+{
+    const numbers *n = own_numbers(c->model);
+    for (size_t row = 0; row < c->state->count; row++) {
+        double way = strain_body(d, c, n, row, theta);
+        double reach = c->state->strain[row * scree_strain_size(d) + SCREE_STRAIN_REACH];
+        // What is not a number is large.
+        extremes[0] = reach <= extremes[0] ? extremes[0] : reach;
+        extremes[1] = way <= extremes[1] ? extremes[1] : way;
+    }
 }
 
 static double relaxation(const scree_context *c)
@@ -367,12 +371,10 @@ static scree_status strain_bodies(const scree_context *c, scree_error *error)
     scree_status status = scree_state_begin_field(state, term_field, error);
     if (status) return status;
     double theta = relaxation(c), extremes[2] = {0, 0};
-    for (size_t row = 0; row < state->count; row++) {
-        double way = strain_body(c, row, theta), reach = scree_strain_row(state, row)[SCREE_STRAIN_REACH];
-        // What is not a number is large.
-        extremes[0] = reach <= extremes[0] ? extremes[0] : reach;
-        extremes[1] = way <= extremes[1] ? extremes[1] : way;
-    }
+    if (state->dimension == 3)
+        strain_all(3, c, theta, extremes);
+    else
+        strain_all(2, c, theta, extremes);
     scree_comm_maximum(state, extremes, 2);
     give(state);
     if (extremes[0] > all->largest_reach) c->work->budget -= extremes[0] - all->largest_reach;
@@ -381,17 +383,26 @@ static scree_status strain_bodies(const scree_context *c, scree_error *error)
     return check_strain(c, extremes[0], extremes[1], error);
 }
 
+OF_BODY void settle_all(int d, scree_state *state)
+{
+    double *term = scree_deformation_of(state)->term;
+    for (size_t row = 0; row < state->count; row++) {
+        double stress[6], changed[6];
+        stress_energy(d, state, row, stress);
+        get_tensor(d, state->strain + row * scree_strain_size(d) + scree_strain_size(d) / 2, changed);
+        term[row] = 0.5 * contract(d, stress, changed);
+    }
+}
+
 /// The other half of the work, with the forces at n + 1.
 static scree_status settle(const scree_context *c, scree_error *error)
 {
     scree_state *state = c->state;
     (void)error;
-    for (size_t row = 0; row < state->count; row++) {
-        double stress[6], changed[6];
-        stress_energy(state, row, stress);
-        get_tensor(state, scree_strain_row(state, row) + scree_strain_size(state->dimension) / 2, changed);
-        scree_deformation_of(state)->term[row] = 0.5 * contract(state->dimension, stress, changed);
-    }
+    if (state->dimension == 3)
+        settle_all(3, state);
+    else
+        settle_all(2, state);
     give(state);
     return SCREE_OK;
 }
@@ -405,11 +416,11 @@ static double energy_of_body(const scree_context *c, size_t row)
     const int d = state->dimension;
     const scree_compliance *by = &own_numbers(c->model)->compliance[scree_body_material(state, row)];
     double strain[6], stress[6], trace = 0;
-    get_strain(state, row, strain);
+    get_tensor(state->dimension, scree_strain_row(state, row), strain);
     for (int k = 0; k < d; k++) trace += strain[k];
     const double back = by->trace / (by->shear + d * by->trace);
     for (int k = 0; k < component_count(d); k++) stress[k] = (strain[k] - (k < d ? back * trace : 0)) / by->shear;
-    return 0.5 * shape_volume(c->model, state, row) * contract(d, stress, strain);
+    return 0.5 * volume_of(c->model, scree_body_bounding_radius(state, row)) * contract(d, stress, strain);
 }
 
 static double energy(const scree_context *c)
@@ -482,7 +493,7 @@ static uint64_t checksum(const scree_model *model, const scree_state *state, uin
     double strain[6];
     if (!scree_model_traits(model)->deforms || !state->strain) return c;
     for (uint32_t row; (row = scree_next_by_id(state, &next)) != SCREE_NO_ROW;) {
-        get_strain(state, row, strain);
+        get_tensor(state->dimension, scree_strain_row(state, row), strain);
         c = scree_checksum_numbers(c, strain, (size_t)component_count(state->dimension));
     }
     return scree_checksum_number(c, scree_deformation_of(state)->given);
