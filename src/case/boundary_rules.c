@@ -90,7 +90,7 @@ void scree_rules_check_boundaries(scree_reader *reader, const scree_config *conf
     for (int64_t i = 0; i < config->stage_count; i++) {
         const scree_config_stage *stage = &config->stages[i];
         const scree_boundary *boundary = scree_config_held_by(config, i);
-        if (!boundary) return; // the section could not be read, and that has been noted
+        if (!boundary || config->dimension == 0) return; // could not be read, and that has been noted
         const scree_stage_numbers *numbers = scree_modules[stage->kind]->numbers;
         const char *key = "boundary", *wrong = NULL;
         if (numbers->places) {
