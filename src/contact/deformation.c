@@ -162,12 +162,6 @@ scree_plane_condition scree_deformation_condition(const scree_model *model)
     return n ? n->condition : model->dimension == 3 ? SCREE_SOLID : SCREE_PLANE_STRAIN;
 }
 
-double scree_deformation_share(const scree_model *model)
-{
-    const numbers *n = own_numbers(model);
-    return n ? n->relaxation : 0;
-}
-
 /// m3
 static double volume_of(const scree_model *model, double radius)
 {

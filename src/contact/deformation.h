@@ -11,8 +11,4 @@ scree_compliance scree_deformation_compliance(const scree_model *model, int mate
 /// Of what these are, plane strain or stress, or a solid.
 scree_plane_condition scree_deformation_condition(const scree_model *model);
 
-/// Share of the way to the strain of the forces that a step goes: 1 explicit, below 1 relaxed, NAN relaxed by a share
-/// that follows from the contacts, 0 rigid.
-double scree_deformation_share(const scree_model *model);
-
 #endif
