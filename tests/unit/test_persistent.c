@@ -1,6 +1,7 @@
 /// The persistent list: pairs that are held together without a distance test, by a law that pulls. Closed forms of
 /// motion, what the neighbour list makes of it, and that nothing but the state decides.
 #include "io_scratch.h"
+#include "net_variations.h"
 #include "periodic_fixture.h"
 
 #include "contact/laws.h"
@@ -238,18 +239,7 @@ static uint64_t run_net(int dimension, unsigned directions, int threads, int set
 static void nothing_but_the_state_decides(void **unused)
 {
     (void)unused;
-    for (int dimension = 2; dimension <= 3; dimension++)
-        for (unsigned directions = 0; directions < 8; directions += dimension == 3 ? 7 : 3) {
-            if (directions >> dimension) break;
-            const uint64_t expected = run_net(dimension, directions, 1, 0, true, 0);
-            const int sets = scree_contact_instruction_set(0);
-            for (int set = 2; set <= sets; set++)
-                assert_true(run_net(dimension, directions, 1, set, false, 0) == expected);
-            for (int threads = 2; threads <= 7; threads += threads == 3 ? 4 : 1)
-                assert_true(run_net(dimension, directions, threads, 0, false, 0) == expected);
-            for (int disturbance = 1; disturbance <= 3; disturbance++)
-                assert_true(run_net(dimension, directions, 2, 0, false, disturbance) == expected);
-        }
+    assert_nothing_but_the_state_decides(run_net, 3);
 }
 
 /// Members lie in front, each once; no pair of them is among the others, and of the others none is lost.
