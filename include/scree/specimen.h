@@ -35,14 +35,15 @@ typedef struct scree_stability {
     double step_of_bodies;         ///< s, from single bodies (M 2.18)
     double step_of_extremes;       ///< s, sqrt(m_min / k_max) (M 2.19 with alpha = 1)
     double normal_stiffness;       ///< N/m, mean over the contacts
-    bool has_potential; ///< elastic particles: the strain acts on slips as slips act on the strain (or there is no
-                        ///< k_t); if not, vibrations may grow at any step where nothing damps them
-    double spectral_radius;                            ///< 1, of the iteration of forces
-    double stiffness_ratio;                            ///< mean k_n over E_p [m]
-    double largest_ratio;                              ///< the same at the limit of the explicit scheme
-    double row_ratio;                                  ///< limit of an unbounded row [m] (M 3.27)
-    double square_ratio;                               ///< of a square lattice (M 3.43); in 3D simple cubic
-    double hexagonal_ratio;                            ///< of a hexagonal one (M 3.78); in 3D face-centred cubic
+    bool has_potential;     ///< elastic particles: the strain acts on slips as slips act on the strain (or there is no
+                            ///< k_t); if not, vibrations may grow at any step where nothing damps them
+    double spectral_radius; ///< 1, of the iteration of forces
+    double stiffness_ratio; ///< mean k_n over E_p [m]
+    double largest_ratio;   ///< the same at the limit of the explicit scheme
+    double ratio_at_step;   ///< the same at the step of the case, which is less
+    double row_ratio;       ///< limit of an unbounded row [m] (M 3.27)
+    double square_ratio;    ///< of a square lattice (M 3.43); in 3D simple cubic
+    double hexagonal_ratio; ///< of a hexagonal one (M 3.78); in 3D face-centred cubic
     double explicit_step, relaxed_step, implicit_step; ///< s, critical steps with deformable particles
     double relaxation;                                 ///< theta that `relaxed_step` stands for
 } scree_stability;

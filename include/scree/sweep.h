@@ -75,6 +75,30 @@ SCREE_API scree_status scree_sweep_write_slurm(const scree_sweep *sweep, const s
                                                const scree_sweep_options *options, const char *path,
                                                scree_error *error);
 
+// ---- a limit by runs ---------------------------------------------------------------------------------------------
+
+/// A number of a case, and what a run must fulfil to stand.
+typedef struct scree_bisection {
+    const char *key;        ///< path of a number in the case
+    const char *between[2]; ///< values with units: at one a run stands, at the other it does not
+    double tolerance;       ///< 1, relative: how near the two ends are brought
+    const char *measure;    ///< a result of a run, a number
+    double below, above;    ///< in SI units; NAN: no such bound, but of one of them
+} scree_bisection;
+
+typedef struct scree_bisection_result {
+    double limit, stands, fails; ///< SI: between the two ends; at which a run stands, at which it does not
+    int runs;
+} scree_bisection_result;
+
+/// Finds the limit by bisection: runs as processes of their own, one after the other, in options->output. A search that
+/// was interrupted goes on with the runs that are there. Of the options count program, output, threads, force, stop,
+/// message. Errors: SCREE_ERROR_INPUT (`field`: the part of the bisection that is wrong; runs stand at both ends, or at
+/// none), SCREE_ERROR_IO, SCREE_INTERRUPTED.
+SCREE_API scree_status scree_bisect(const scree_case *c, const scree_bisection *what,
+                                    const scree_sweep_options *options, scree_bisection_result *result,
+                                    scree_error *error);
+
 // ---- the reproduction report -------------------------------------------------------------------------------------
 
 typedef struct scree_report_options {

@@ -30,6 +30,7 @@ static void print_deformation(const scree_stability *s)
     print_row("spectral_radius", s->spectral_radius, "1", "of the iteration of forces; explicit below 1");
     print_row("stiffness_ratio", s->stiffness_ratio, "m", "mean k_n / E_p");
     print_row("largest_ratio", s->largest_ratio, "m", "k_n / E_p at which the radius is 1");
+    print_row("ratio_at_step", s->ratio_at_step, "m", "k_n / E_p that explicit strains bear at the step of the case");
     print_row("row_ratio", s->row_ratio, "m", "the same of an unbounded row");
     print_row("square_ratio", s->square_ratio, "m", "of a square (simple cubic) lattice");
     print_row("hexagonal_ratio", s->hexagonal_ratio, "m", "of a hexagonal (face-centred cubic) lattice");

@@ -223,6 +223,47 @@ const scree_verb scree_verbs[] = {
         .function = scree_verb_run,
     },
     {
+        .name = "bisect",
+        .meaning = "find the limit of a number of a case by runs",
+        .text =
+            "Runs a case with values of one of its numbers until it is known between which two of them runs cease to "
+            "stand: by bisection, each run a process of its own. A run stands if it comes to its end and its result "
+            "`--measure` is `--below` one limit, and `--above` another; one that a guard stops does not. Limits of "
+            "stability stop "
+            "none of them beforehand (`guard.stability: warn`).\n\n"
+            "The folder has the runs (`runs/`), a row of each (`bisection.csv`), and in `summary.json` the results of "
+            "the last run that stood with `limit`, `limit_stands`, `limit_fails`, `limit_runs` (SI units). Called "
+            "again it goes on with what is there. A sweep does it at every point of its grid (`bisect:` in its file).",
+        .argument = {{"CASE", "a case file, or the name of a built-in case", SCREE_VALUE_CASE, false, false}},
+        .option =
+            {{.name = "output",
+              .letter = 'o',
+              .value = "DIR",
+              .meaning = "folder of the search",
+              .preset = "out",
+              .kind = SCREE_VALUE_FOLDER},
+             OPTION_SET,
+             OPTION_QUICK,
+             {.name = "key", .value = "KEY", .meaning = "path of the number, such as integrator.step"},
+             {.name = "from", .value = "VALUE", .meaning = "one end, with its unit"},
+             {.name = "to", .value = "VALUE", .meaning = "the other end"},
+             {.name = "tolerance",
+              .value = "NUMBER",
+              .meaning = "distance of the ends at which it is over, relative",
+              .preset = "0.001"},
+             {.name = "measure", .value = "RESULT", .meaning = "result of a run by which it stands"},
+             {.name = "below", .value = "NUMBER", .meaning = "the result of a run that stands is below this (SI)"},
+             {.name = "above", .value = "NUMBER", .meaning = "the result of a run that stands is above this (SI)"},
+             OPTION_MEMBER_THREADS,
+             {.name = "force", .letter = 'f', .meaning = "replace the search of another case in DIR"},
+             OPTION_QUIET},
+        .example = {{"scree bisect ddem-stability -o step --key integrator.step --from 200ns --to 400ns "
+                     "--measure kinetic --below 1e-3 --above=-1e-3",
+                     "the largest step that stands"}},
+        .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO, SCREE_INTERRUPTED},
+        .function = scree_verb_bisect,
+    },
+    {
         .name = "sweep",
         .meaning = "run a grid of parameters and realisations, with means and figures",
         .text =

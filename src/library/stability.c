@@ -82,6 +82,10 @@ static scree_status find_limits(const scree_simulation *simulation, scree_specim
     const double young = mean_modulus(s);
     out->stiffness_ratio = out->normal_stiffness / young;
     out->largest_ratio = out->stiffness_ratio / out->spectral_radius;
+    double softness = NAN;
+    if (!status)
+        status = scree_stability_softness(s, scree_strain_explicit(out->spectral_radius), out->step, &softness, error);
+    out->ratio_at_step = out->stiffness_ratio * softness;
     compare_lattices(&simulation->model, s, young, out);
     return status;
 }
@@ -98,6 +102,7 @@ scree_status scree_simulation_stability(scree_simulation *s, const scree_particl
                              .spectral_radius = NAN,
                              .stiffness_ratio = NAN,
                              .largest_ratio = NAN,
+                             .ratio_at_step = NAN,
                              .row_ratio = NAN,
                              .square_ratio = NAN,
                              .hexagonal_ratio = NAN,

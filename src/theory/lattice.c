@@ -78,6 +78,17 @@ double scree_lattice_modulus(scree_lattice lattice, scree_lattice_strain strain,
     return square / cell * (normal * (1 - soft * tangential) / (1 + soft * normal) + tangential);
 }
 
+void scree_lattice_uniaxial(scree_lattice lattice, const scree_lattice_material *m, double *young, double *poisson)
+{
+    // A stress s along an axis is s / d all round and the rest, of which (1, -1) or (2, -1, -1) are multiples.
+    const double all_round = scree_lattice_modulus(lattice, SCREE_LATTICE_ALL_ROUND, m);
+    const double diagonal = scree_lattice_modulus(lattice, SCREE_LATTICE_DIAGONAL, m);
+    const int d = rows[lattice].dimension;
+    const double along = (1 / all_round + (d - 1) / diagonal) / d, across = (1 / all_round - 1 / diagonal) / d;
+    *young = 1 / along;
+    *poisson = -across / along;
+}
+
 void scree_moduli_of_bulk_and_shear(int dimension, double bulk, double shear, double *young, double *poisson)
 {
     const bool solid = dimension == 3;

@@ -48,6 +48,11 @@ double scree_row_radius(int dimension, const scree_lattice_material *material);
 double scree_lattice_modulus(scree_lattice lattice, scree_lattice_strain strain,
                              const scree_lattice_material *material);
 
+/// Young's modulus [Pa] and Poisson's ratio of a uniaxial stress along an axis of the cubic (square) cell; of the
+/// square lattice M 4.26, 4.27.
+void scree_lattice_uniaxial(scree_lattice lattice, const scree_lattice_material *material, double *young,
+                            double *poisson);
+
 /// Isotropic moduli of a packing of `contacts` contacts between particles of mean square radius [m2] in a volume [m3],
 /// if all follow the mean strain without turning (Voigt): M 4.15-4.18 in the plane, in space by the same average.
 /// In the plane E and nu are those of uniaxial stress within it, and K = E / (2 (1 - nu)); M 4.11 is that of space.
