@@ -95,9 +95,16 @@ static void name_stages(scree_reader *reader, scree_config *config)
     }
 }
 
+/// Bonds hold a sample in a periodic cell together without a pressure.
+static bool stands_by_bonds(const scree_config *config, int64_t index, bool bonded)
+{
+    const scree_boundary *boundary = bonded ? scree_config_held_by(config, index) : NULL;
+    return boundary && boundary->periodic;
+}
+
 static void check_stage_order(scree_reader *reader, const scree_config *config)
 {
-    bool confined = false;
+    bool confined = false, bonded = false;
     const scree_preparation *method = scree_config_preparation(config);
     for (int64_t i = 0; i < config->stage_count; i++)
         if (config->stages[i].kind < 0) return; // wrong, and noted
@@ -108,13 +115,14 @@ static void check_stage_order(scree_reader *reader, const scree_config *config)
             wrong = "the first stage must be prepare: it places the particles";
         else if (i > 0 && stage->places)
             wrong = "only the first stage can be prepare";
-        else if (stage->needs_pressure && !confined)
+        else if (stage->needs_pressure && !confined && !stands_by_bonds(config, i, bonded))
             wrong = stage->needs_pressure;
         else if (i > 0 && stage->needs_approach && method && !method->approaching)
             wrong = stage->needs_approach;
         else if (i > 0 && !stage->collides && !stage->instant && method && method->binary)
             wrong = "two particles can only collide";
         confined = confined || stage->settles;
+        bonded = bonded || stage->bonds;
         if (!wrong) continue;
         char path[SCREE_PATH_BYTES];
         (void)snprintf(path, sizeof path, "stages.%lld.stage", (long long)i);

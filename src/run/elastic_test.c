@@ -142,10 +142,10 @@ static void find_theory(const scree_model *model, numbers *n)
                                 .tangential = t.tangential_stiffness,
                                 .corrected = model->law.number[SCREE_LAW_CORRECTED] > 0};
     double none;
-    scree_lattice_uniaxial((scree_lattice)n->said.theory, &m, &n->rigid, &none);
+    scree_lattice_axial((scree_lattice)n->said.theory, &m, &n->rigid, &none);
     m.shear = by.shear;
     m.trace = by.trace;
-    scree_lattice_uniaxial((scree_lattice)n->said.theory, &m, &n->young, &n->poisson);
+    scree_lattice_axial((scree_lattice)n->said.theory, &m, &n->young, &n->poisson);
     n->ratio = t.normal_stiffness / scree_compliance_modulus(scree_deformation_condition(model), by);
 }
 
