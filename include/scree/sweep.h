@@ -29,7 +29,7 @@ SCREE_API const char *scree_sweep_builtin_name(size_t index);
 SCREE_API const char *scree_sweep_builtin_meaning(size_t index);
 
 /// Members are numbered from 0. Folder of a member below OUTPUT/members, and what it sets as a command line of `scree
-/// run` (cut to `size`).
+/// run`, or of `scree bisect` where it searches for a limit (cut to `size`).
 SCREE_API size_t scree_sweep_member_count(const scree_sweep *sweep);
 SCREE_API const char *scree_sweep_member_folder(const scree_sweep *sweep, size_t member);
 SCREE_API void scree_sweep_member_command(const scree_sweep *sweep, size_t member, char *text, size_t size);

@@ -27,7 +27,7 @@ typedef struct config {
     int64_t gauge_count;
 } config;
 
-static const scree_choice axes[] = {{"x", 0, "along x"}, {"y", 1, "along y"}, {"z", 2, "along z"}, {0}};
+static const scree_choice axes[] = {{"x", 0, "the first coordinate"}, {"y", 1, "the second coordinate"}, {"z", 2, "the third coordinate, in 3D"}, {0}};
 
 typedef scree_gauge gauge;
 static const scree_key gauge_keys[] = {

@@ -32,7 +32,7 @@ typedef struct config {
 
 enum { NO_LATTICE = -1 };
 static const scree_choice lattices[] = {
-    {"none", NO_LATTICE, "nothing"},
+    {"none", NO_LATTICE, "no closed form"},
     {"square", SCREE_LATTICE_SQUARE, "the unbounded square lattice of the mean disc, along its axis (M 4.26, 4.27)"},
     {"hexagonal", SCREE_LATTICE_HEXAGONAL, "the unbounded hexagonal lattice of the mean disc"},
     {"simple_cubic", SCREE_LATTICE_SIMPLE_CUBIC, "the simple cubic lattice of the mean sphere, along its axis"},
@@ -94,7 +94,8 @@ static void check_load(scree_reader *reader, const scree_config *whole, const ch
 static void rules(scree_reader *reader, const scree_config *whole)
 {
     const config *own = own_config(whole);
-    if (!own) return;
+    // Of a section that could not be read more has been said.
+    if (!own || !(own->to > 0)) return;
     check_gauge(reader, whole, "measure.elastic_axial", own->axial);
     check_gauge(reader, whole, "measure.elastic_lateral", own->lateral);
     if (own->load) check_load(reader, whole, own->load);

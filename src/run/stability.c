@@ -18,7 +18,7 @@
 #include "bond/bond.h"
 #include "contact/deformation.h"
 #include "module/key_rows.h"
-#include "run/step.h"
+#include "run/stage.h"
 #include "search/neighbours.h"
 #include "specimen/from_state.h"
 #include "specimen/stability.h"

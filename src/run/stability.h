@@ -2,7 +2,7 @@
 #ifndef SCREE_RUN_STABILITY_H
 #define SCREE_RUN_STABILITY_H
 
-#include "run/simulation.h"
+#include "run/simulation_data.h"
 
 /// A stage begins, or bonds or contacts have changed: the next step is preceded by a check.
 void scree_stability_ask(scree_simulation *s, bool stage_begins);
