@@ -53,6 +53,25 @@ typedef struct scree_stability {
 SCREE_API scree_status scree_simulation_stability(scree_simulation *s, const scree_particle_elasticity *elasticity,
                                                   scree_stability *out, scree_error *error);
 
+/// Draws the fastest mode, of rigid particles or with explicit strains where a step bears these: PATH.svg and PATH.png,
+/// movements as arrows, turning as colours; of spheres a cut through the middle. Errors: as above; SCREE_ERROR_INPUT
+/// without contacts; SCREE_ERROR_IO.
+SCREE_API scree_status scree_simulation_draw_mode(scree_simulation *s, const scree_particle_elasticity *elasticity,
+                                                  const char *path, scree_error *error);
+
+/// What is known of these limits before a run.
+typedef enum scree_limits_known {
+    SCREE_LIMITS_NONE,  ///< nothing: no bonds, rigid particles; the estimate of the case holds
+    SCREE_LIMITS_LATER, ///< the specimen comes from stages that take steps: only `*_ratio` of lattices and the present
+                        ///< stiffness_ratio of mean particles
+    SCREE_LIMITS_EXACT, ///< it stands before the first step
+} scree_limits_known;
+
+/// Limits of a case as far as they are known before it runs: its sample is prepared, and no step is taken. Errors:
+/// those of scree_simulation_create, of the preparation, and as above.
+SCREE_API scree_status scree_case_limits(const scree_case *c, scree_limits_known *known, scree_stability *out,
+                                         scree_error *error);
+
 /// Isotropic moduli [Pa, 1, Pa, Pa]. In the plane those of the plane: `bulk` of areas, `young` and `poisson` of a
 /// stress along one of its axes, K = E / (2 (1 - nu)).
 typedef struct scree_isotropic_moduli {

@@ -119,7 +119,8 @@ const scree_verb scree_verbs[] = {
             "Prints the resolved case, every default written out, and below it as comments: the numbers of particles "
             "and steps, the quasistatic and size coefficients phi and psi, the critical time step, and an estimate of "
             "time (processor time of one thread: stepping, output, figures) and peak memory, for which the case is set "
-            "going for a moment. The output is a case file again.\n\n"
+            "going for a moment. Of bonds and of particles that deform also the limits of their specimen, if it stands "
+            "before the first step, for which the sample is prepared. The output is a case file again.\n\n"
             "Everything that is wrong with a case is reported at once, as `file:line:column: key: what is wrong "
             "(accepted: what would be right)`.\n\n"
             "Given the folder of a run, says of each file in it, and of each checkpoint and snapshot, whether it is "
@@ -140,14 +141,25 @@ const scree_verb scree_verbs[] = {
         .text =
             "Takes the specimen of a case as it stands when its first stage that takes steps begins, or as the newest "
             "checkpoint in the folder of a run has it, and prints what explicit schemes bear: the critical step from "
-            "the eigenvalues of all its contacts, dashpots counted, and estimates from single bodies beside it.\n\n"
+            "the eigenvalues of all its contacts, dashpots counted, and estimates from single bodies beside it. "
+            "`--output` "
+            "draws the fastest mode: movements as arrows, turning as colours, of spheres a cut.\n\n"
             "For elastic particles also: the spectral radius of the iteration of forces, the largest k_n / E_p, those "
             "of regular lattices, and the critical steps with the strain of the last forces (explicit), relaxed, and "
             "solved for in every step (implicit). Lines are name, value, unit, meaning; docs/theory/ddem.md has the "
             "derivations. Contacts that slide count as if they stuck; forces that turn with a contact do not count.",
         .argument = {{"CASE", "a case file, the name of a built-in case, or the folder of a run", SCREE_VALUE_CASE,
                       false, false}},
-        .option = {OPTION_SET, OPTION_QUICK, OPTION_AT, OPTION_YOUNG, OPTION_POISSON},
+        .option = {OPTION_SET,
+                   OPTION_QUICK,
+                   OPTION_AT,
+                   OPTION_YOUNG,
+                   OPTION_POISSON,
+                   {.name = "output",
+                    .letter = 'o',
+                    .value = "FILE",
+                    .meaning = "draw the fastest mode, as FILE.svg and FILE.png",
+                    .kind = SCREE_VALUE_FILE}},
         .example = {{"scree stability my.yaml", "before a run"},
                     {"scree stability out --young-modulus 2e11 --poisson-ratio 0.35",
                      "a finished run, as if its particles were elastic"}},

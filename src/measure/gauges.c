@@ -104,8 +104,7 @@ typedef struct judged {
 
 static const char *path_of(judged *j, const char *key)
 {
-    (void)snprintf(j->path, sizeof j->path, "measure.gauges.%lld.%s", (long long)j->index, key);
-    return j->path;
+    return scree_element_path(j->path, "measure.gauges", j->index, key);
 }
 
 static void check_stage(judged *j)

@@ -214,22 +214,22 @@ static double at(const double *value, double place)
 }
 
 static const scree_result results[] = {
-    {"young_modulus", "Pa", "of the elastic test, between two shares of the largest force"},
-    {"poisson_ratio", "1", "of the elastic test, between two shares of the largest force"},
-    {"young_modulus_theory", "Pa", "closed form of the lattice that the elastic test names"},
-    {"poisson_ratio_theory", "1", "closed form of the lattice that the elastic test names"},
-    {"young_modulus_ratio", "1", "young_modulus over that of the lattice of rigid particles"},
-    {"young_modulus_ratio_theory", "1", "young_modulus_theory over that of the lattice of rigid particles"},
+    {"axial_young_modulus", "Pa", "of the elastic test, between two shares of the largest force"},
+    {"axial_poisson_ratio", "1", "of the elastic test, between two shares of the largest force"},
+    {"axial_young_modulus_theory", "Pa", "closed form of the lattice that the elastic test names"},
+    {"axial_poisson_ratio_theory", "1", "closed form of the lattice that the elastic test names"},
+    {"axial_modulus_ratio", "1", "axial_young_modulus over that of the lattice of rigid particles"},
+    {"axial_modulus_ratio_theory", "1", "axial_young_modulus_theory over that of the lattice of rigid particles"},
     {"stiffness_ratio", "m", "k_n / E of the particles, of the elastic test"},
     {"centre_work", "J", "half the force of the elastic test times the shortening of its gauge, at the end"},
 };
 
 static void tell_theory(const numbers *n, double young, scree_summary *summary)
 {
-    scree_summary_set_number(summary, "young_modulus_theory", n->young);
-    scree_summary_set_number(summary, "poisson_ratio_theory", n->poisson);
-    scree_summary_set_number(summary, "young_modulus_ratio", young / n->rigid);
-    scree_summary_set_number(summary, "young_modulus_ratio_theory", n->young / n->rigid);
+    scree_summary_set_number(summary, "axial_young_modulus_theory", n->young);
+    scree_summary_set_number(summary, "axial_poisson_ratio_theory", n->poisson);
+    scree_summary_set_number(summary, "axial_modulus_ratio", young / n->rigid);
+    scree_summary_set_number(summary, "axial_modulus_ratio_theory", n->young / n->rigid);
     scree_summary_set_number(summary, "stiffness_ratio", n->ratio);
 }
 
@@ -246,10 +246,10 @@ static scree_status conclude(const scree_conclusion *run, scree_error *error)
     const double most = fabs(s.force[s.peak]), from = place_of(&s, own->from * most), to = place_of(&s, own->to * most);
     if (isnan(from) || isnan(to)) return SCREE_OK;
     const double axial = at(s.axial, to) - at(s.axial, from), stress = (own->to - own->from) * most / own->area;
-    scree_summary_set_number(run->summary, "young_modulus", stress / axial);
+    scree_summary_set_number(run->summary, "axial_young_modulus", stress / axial);
     if (own->theory != NO_LATTICE) tell_theory(n, stress / axial, run->summary);
     if (s.lateral)
-        scree_summary_set_number(run->summary, "poisson_ratio", -(at(s.lateral, to) - at(s.lateral, from)) / axial);
+        scree_summary_set_number(run->summary, "axial_poisson_ratio", -(at(s.lateral, to) - at(s.lateral, from)) / axial);
     return SCREE_OK;
 }
 

@@ -191,10 +191,10 @@ static void elastic_test_has_the_closed_form(void **unused)
     scree_case_free(c);
     const double kp = M_PI * 200e9 / (2 * (1 - 0.35 * 0.35)), k = 7e10 * kp / (kp + 2 * 7e10);
     const double poisson = 4 * 0.35 * 1.35 * 7e10 / (4 * (1 - 0.35 * 0.35) * 7e10 + M_PI * 200e9);
-    assert_true(fabs(result("young_modulus_theory") / k - 1) < 1e-9);
-    assert_true(fabs(result("poisson_ratio_theory") / poisson - 1) < 1e-9);
-    assert_true(fabs(result("young_modulus") / k - 1) < 2e-3);
-    assert_true(fabs(result("poisson_ratio") / poisson - 1) < 2e-3);
+    assert_true(fabs(result("axial_young_modulus_theory") / k - 1) < 1e-9);
+    assert_true(fabs(result("axial_poisson_ratio_theory") / poisson - 1) < 1e-9);
+    assert_true(fabs(result("axial_young_modulus") / k - 1) < 2e-3);
+    assert_true(fabs(result("axial_poisson_ratio") / poisson - 1) < 2e-3);
     assert_true(fabs(result("height_shortening") / (7 * 1e3 / k) - 1) < 1e-4);
     // Five columns of seven contacts and eight discs: f^2 / 2 k_n and f^2 / k_p each; the loads work at the surface.
     const double contacts = 35 * 1e6 / (2 * 7e10), particles = 40 * 1e6 / kp;
