@@ -78,6 +78,7 @@ static scree_status draw_picture(const picture *p, double step, const char *path
                                .map = p->turns ? SCREE_COLOUR_DIVERGING : SCREE_COLOUR_SEQUENTIAL,
                                .arrow_x = p->arrow[0],
                                .arrow_y = p->arrow[1],
+                               .arrow_scale = 1,
                                .section = solid};
     if (!solid) return scree_scene_draw(path, &p->snapshot, &scene, error);
     scree_status status = scree_section_create(&p->snapshot, &plane, error);
