@@ -1,11 +1,11 @@
 /// The fastest mode of a specimen as a figure: particles where they stand, what they do at the critical step as arrows
-/// and how they turn as colours. In space a cut through the middle.
+/// and how they turn as colours. In space a cut along x and z through the particle that is nearest to the middle: in a
+/// lattice through a layer, and not between two.
 #include "library/handle.h"
 #include "library/specimen.h"
 #include "specimen/stability.h"
 
 #include "base/memory.h"
-#include "view/projection.h"
 #include "view/scene.h"
 
 #include <math.h>
@@ -15,30 +15,39 @@
 /// A mode that turns less than this, over the largest movement, is shown by its movement alone.
 #define TURNS 1e-3
 
-/// Positions and radii of a specimen, in its order, as a snapshot that a scene can draw; arrays of one block.
+/// A specimen in its order, flat, as a snapshot that a scene can draw; arrays of one block.
 typedef struct picture {
     scree_snapshot snapshot;
     double *block;
     double *arrow[2], *field;
-    bool turns;
+    bool turns, cut;
 } picture;
+
+/// y of the particle that is nearest to the mean of all.
+static double middle_of(const scree_specimen *s)
+{
+    double mean = 0, nearest = INFINITY;
+    for (size_t k = 0; k < s->body_count; k++) mean += s->position[k][1] / (double)s->body_count;
+    for (size_t k = 0; k < s->body_count; k++)
+        if (fabs(s->position[k][1] - mean) < fabs(nearest - mean)) nearest = s->position[k][1];
+    return nearest;
+}
 
 static scree_status open_picture(const scree_specimen *s, picture *p, scree_error *error)
 {
     const size_t n = s->body_count;
-    *p = (picture){.snapshot = {.dimension = s->dimension, .count = n, .axial_strain = NAN}};
-    scree_status status = scree_allocate(&p->block, 7 * n + 1, sizeof *p->block, error);
+    *p = (picture){.snapshot = {.dimension = 2, .count = n, .axial_strain = NAN}, .cut = s->dimension == 3};
+    scree_status status = scree_allocate(&p->block, 6 * n + 1, sizeof *p->block, error);
     if (status) return status;
-    double **array[] = {&p->snapshot.x, &p->snapshot.y, &p->snapshot.z, &p->snapshot.radius,
-                        &p->arrow[0],   &p->arrow[1],   &p->field};
+    double **array[] = {&p->snapshot.x, &p->snapshot.y, &p->snapshot.radius, &p->arrow[0], &p->arrow[1], &p->field};
     for (size_t k = 0; k < sizeof array / sizeof *array; k++) *array[k] = p->block + k * n;
+    const double middle = p->cut ? middle_of(s) : 0;
     for (size_t k = 0; k < n; k++) {
+        const double away = p->cut ? s->position[k][1] - middle : 0, square = s->radius[k] * s->radius[k] - away * away;
         p->snapshot.x[k] = s->position[k][0];
-        p->snapshot.y[k] = s->position[k][1];
-        p->snapshot.z[k] = s->position[k][2];
-        p->snapshot.radius[k] = s->radius[k];
+        p->snapshot.y[k] = s->position[k][p->cut ? 2 : 1];
+        p->snapshot.radius[k] = square > 0 ? sqrt(square) : 0;
     }
-    if (s->dimension == 2) p->snapshot.z = NULL;
     return SCREE_OK;
 }
 
@@ -68,8 +77,6 @@ static void fill_picture(const scree_specimen *s, const double *mode, picture *p
 static scree_status draw_picture(const picture *p, double step, const char *path, scree_error *error)
 {
     char title[160];
-    scree_snapshot plane;
-    const bool solid = p->snapshot.dimension == 3;
     (void)snprintf(title, sizeof title, "Fastest mode, critical at a step of %.5g s", step);
     const scree_scene scene = {.title = title,
                                .field = p->field,
@@ -79,13 +86,8 @@ static scree_status draw_picture(const picture *p, double step, const char *path
                                .arrow_x = p->arrow[0],
                                .arrow_y = p->arrow[1],
                                .arrow_scale = 1,
-                               .section = solid};
-    if (!solid) return scree_scene_draw(path, &p->snapshot, &scene, error);
-    scree_status status = scree_section_create(&p->snapshot, &plane, error);
-    if (status) return status;
-    status = scree_scene_draw(path, &plane, &scene, error);
-    scree_snapshot_destroy(&plane);
-    return status;
+                               .section = p->cut};
+    return scree_scene_draw(path, &p->snapshot, &scene, error);
 }
 
 /// Rigid, or with explicit strains; where no step bears these, the rigid one again.
