@@ -56,10 +56,10 @@ static const scree_key keys[] = {
     SPIN("x", 0),
     SPIN("y", 1),
     SPIN("z", 2),
-    PROFILE("profile", shape, SCREE_KEY_CHOICE, .choices = scree_profile_shapes, .standard = "uniform",
+    PROFILE("profile", shape, SCREE_KEY_CHOICE, .choices = scree_load_profile_shapes, .standard = "uniform",
             .meaning = "What velocities and spins are multiplied by, by the place of a particle when it comes to be "
                        "driven."),
-    PROFILE("axis", axis, SCREE_KEY_CHOICE, .choices = scree_profile_axes, .standard = "x", PROFILED,
+    PROFILE("axis", axis, SCREE_KEY_CHOICE, .choices = scree_load_profile_axes, .standard = "x", PROFILED,
             .meaning = "Direction in which it changes."),
     PROFILE("wavelength", wavelength, SCREE_KEY_NUMBER, .unit = "m", ABOVE("0 m"), TO("1e6 m"), PROFILED,
             .meaning = "Of the cosine."),

@@ -77,7 +77,7 @@ static void check_components(judged *j)
 
 static void check_profile(judged *j, bool gradient, bool moves)
 {
-    const bool uniform = scree_profile_is_uniform(&j->own->profile);
+    const bool uniform = scree_load_profile_is_uniform(&j->own->profile);
     if (!gradient && uniform && scree_length(j->own->origin) > 0)
         scree_rule_refuse(j->reader, scree_element_path(j->path, "loads", j->index, "origin"), "[0, 0]",
                           "not used without gradient or profile");

@@ -158,8 +158,8 @@ static double wanted(const scree_state *state, size_t row, int component, const 
         if (!isnan(gradient)) linear += gradient * (all->reference[row][j] - said->own->origin[j]);
     }
     double motion = said->motion[component];
-    if (motion != 0 && !scree_profile_is_uniform(&said->own->profile))
-        motion *= scree_profile_at(&said->own->profile, all->reference[row], said->own->origin);
+    if (motion != 0 && !scree_load_profile_is_uniform(&said->own->profile))
+        motion *= scree_load_profile_at(&said->own->profile, all->reference[row], said->own->origin);
     return motion + (linear != 0 ? said->factor * linear : 0);
 }
 

@@ -9,26 +9,26 @@
 
 enum { UNIFORM, COSINE, SHAPES };
 
-static double cosine(const scree_profile *p, double s)
+static double cosine(const scree_load_profile *p, double s)
 {
     return cos(2 * M_PI * s / p->wavelength + p->phase) + p->offset;
 }
 
-static double (*const shapes[SHAPES])(const scree_profile *profile, double distance) = {[COSINE] = cosine};
+static double (*const shapes[SHAPES])(const scree_load_profile *profile, double distance) = {[COSINE] = cosine};
 
-const scree_choice scree_profile_shapes[] = {
+const scree_choice scree_load_profile_shapes[] = {
     {"uniform", UNIFORM, "all of the selection alike"},
     {"cosine", COSINE, "times cos(2 pi s / `wavelength` + `phase`) + `offset`, s from `origin` along `axis`"},
     {0},
 };
-const scree_choice scree_profile_axes[] = {{"x", 0, "along x"}, {"y", 1, "along y"}, {"z", 2, "along z"}, {0}};
+const scree_choice scree_load_profile_axes[] = {{"x", 0, "along x"}, {"y", 1, "along y"}, {"z", 2, "along z"}, {0}};
 
-bool scree_profile_is_uniform(const scree_profile *profile)
+bool scree_load_profile_is_uniform(const scree_load_profile *profile)
 {
     return !shapes[profile->shape];
 }
 
-double scree_profile_at(const scree_profile *profile, const double place[3], const double origin[3])
+double scree_load_profile_at(const scree_load_profile *profile, const double place[3], const double origin[3])
 {
     return shapes[profile->shape](profile, place[profile->axis] - origin[profile->axis]);
 }

@@ -13,7 +13,7 @@
 #include "measure/arrival.h"
 #include "specimen/box.h"
 #include "specimen/from_state.h"
-#include "specimen/moduli.h"
+#include "specimen/piece.h"
 
 #include <gsl/gsl_cdf.h>
 #include <limits.h>
@@ -224,40 +224,31 @@ static scree_status write_arrivals(const scree_conclusion *run, const scree_wave
 
 // ---- static moduli -----------------------------------------------------------------------------------------------
 
-/// The specimen, or the piece of it within its outermost bodies, and its density [kg/m3]; NAN: it has no moduli.
+/// The specimen, or the piece of it within its outermost bodies, and its density [kg/m3]. SCREE_ERROR_INPUT: it is no
+/// box.
 static scree_status take_specimen(scree_simulation *s, scree_specimen *out, double *density, scree_error *error)
 {
     const scree_box_faces faces = {{{NAN, NAN, NAN}, {NAN, NAN, NAN}}};
-    scree_specimen whole;
-    double mass = 0;
-    *density = NAN;
     scree_status status = scree_specimen_of_state(&s->stage_model, &s->state, &s->work, out, error);
     if (status) return status;
+    double mass = 0;
     for (size_t k = 0; k < out->body_count; k++) mass += out->mass[k];
     // What holds bodies in the run is no part of the material.
     for (size_t k = 0; k < out->body_count; k++) out->held[k] = 0;
-    if (out->periodic == (1U << out->dimension) - 1) {
-        *density = mass / out->extent;
-        return SCREE_OK;
-    }
-    whole = *out;
-    *density = scree_specimen_box_density(&whole, &faces);
-    if (isnan(*density)) return SCREE_OK;
-    status = scree_specimen_cut_box(&whole, &faces, out, error);
-    scree_specimen_destroy(&whole);
-    return status;
+    const bool repeats = out->periodic == (1U << out->dimension) - 1;
+    *density = repeats ? mass / out->extent : scree_specimen_box_density(out, &faces);
+    return scree_specimen_take_piece(&s->state, out, error);
 }
 
+/// A sample that is no box, or that some strain does not meet with any stress, has no such speeds.
 static scree_status compare_moduli(const scree_conclusion *run, const scree_wave_numbers *own, scree_error *error)
 {
-    scree_specimen specimen;
+    scree_specimen specimen = {0};
     scree_specimen_moduli found;
-    scree_error refused = {0};
+    scree_error why = {0};
     double density;
-    scree_status status = take_specimen(run->s, &specimen, &density, error);
-    if (status) return status;
-    // A sample that is no box, or that some strain does not meet with any stress, has no such speeds.
-    status = isnan(density) ? SCREE_ERROR_INPUT : scree_specimen_find_moduli(&specimen, &found, &refused);
+    scree_status status = take_specimen(run->s, &specimen, &density, &why);
+    if (!status) status = scree_specimen_find_moduli(&specimen, &found, &why);
     if (!status) {
         const double along = found.stiffness[own->axis * (specimen.strain_components + 1)];
         scree_summary_set_number(run->summary, "wave_speed_bar", sqrt(found.isotropic.young / density));
@@ -265,8 +256,9 @@ static scree_status compare_moduli(const scree_conclusion *run, const scree_wave
         scree_summary_set_number(run->summary, "wave_speed_plane", sqrt(along / density));
     }
     scree_specimen_destroy(&specimen);
-    if (status == SCREE_ERROR_IO && error) *error = refused;
-    return status == SCREE_ERROR_IO ? status : SCREE_OK;
+    if (status != SCREE_ERROR_IO) return SCREE_OK;
+    if (error) *error = why;
+    return status;
 }
 
 scree_status scree_waves_conclude(const scree_conclusion *run, scree_error *error)

@@ -62,9 +62,10 @@ static const scree_key keys[] = {
           .meaning = "Steps between two records."),
 };
 
+/// NULL: of a config made by hand.
 static const config *own_config(const scree_config *whole)
 {
-    return whole->measure.own ? scree_config_own(&scree_module_waves, "measure", whole->measure.own) : NULL;
+    return scree_config_own(&scree_module_waves, "measure", whole->measure.own);
 }
 
 static bool records(const config *own)
@@ -72,11 +73,11 @@ static bool records(const config *own)
     return own && own->receiver_count + own->layers > 0;
 }
 
-static int64_t stage_of(const scree_config *whole, const config *own)
+static int64_t stage_of(const scree_config_stage *stages, int64_t count, const config *own)
 {
-    for (int64_t i = 0; own->from && i < whole->stage_count; i++)
-        if (whole->stages[i].name && strcmp(whole->stages[i].name, own->from) == 0) return i;
-    return own->from ? -1 : whole->stage_count - 1;
+    for (int64_t i = 0; own->from && i < count; i++)
+        if (stages[i].name && strcmp(stages[i].name, own->from) == 0) return i;
+    return own->from ? -1 : count - 1;
 }
 
 static void check_stage(scree_reader *reader, const scree_config *whole, const config *own)
@@ -84,7 +85,7 @@ static void check_stage(scree_reader *reader, const scree_config *whole, const c
     enum { MOST = 100 };
     const char *names[MOST];
     size_t count = 0;
-    const int64_t stage = stage_of(whole, own);
+    const int64_t stage = stage_of(whole->stages, whole->stage_count, own);
     for (int64_t i = 0; i < whole->stage_count && i < MOST; i++)
         if (whole->stages[i].name) names[count++] = whole->stages[i].name;
     if (stage < 0)
@@ -116,14 +117,15 @@ static void rules(scree_reader *reader, const scree_config *whole)
 
 static scree_status resolve(scree_model *model, scree_error *error)
 {
-    const config *own = own_config(model->config);
+    const config *own = scree_config_own(&scree_module_waves, "measure", model->config->measure.own);
+    const scree_config_stage *first = model->stages;
     (void)error;
     if (!records(own)) return SCREE_OK;
-    const scree_preparation *method = scree_config_preparation(model->config);
+    const scree_preparation *method = scree_modules[scree_config_prepared(first)->method]->preparation;
     *(numbers *)scree_model_reserve_numbers(model, SCREE_SLOT_waves) =
-        (numbers){.lattice = method ? method->lattice : 0,
-                  .turned = method && method->turned,
-                  .stage = stage_of(model->config, own),
+        (numbers){.lattice = method->lattice,
+                  .turned = method->turned,
+                  .stage = stage_of(model->stages, model->stage_count, own),
                   .every = own->every,
                   .receiver_count = own->receiver_count,
                   .receiver = own->receivers,
@@ -140,7 +142,7 @@ typedef scree_waves memory;
         .row = title, .symbol = letter, .count_offset = offsetof(memory, member##_count),                              \
         .capacity_offset = offsetof(memory, member##_capacity)                                                         \
     }
-static const scree_group receivers = GROUP("receiver", "q", receiver), times = GROUP("record", "t", record),
+static const scree_group receivers = GROUP("receiver", "q", receiver), times = GROUP("record", "v", record),
                          values = GROUP("displacement", "u", value);
 
 static const scree_field fields[] = {
