@@ -257,5 +257,6 @@ void scree_rules_check(scree_reader *reader, scree_config *config)
     scree_rules_check_boundaries(reader, config);
     scree_rules_check_walls(reader, config);
     scree_rules_check_selections(reader, config);
+    scree_rules_check_pair_laws(reader, config);
     scree_rules_check_modules(reader, config);
 }

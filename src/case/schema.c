@@ -89,12 +89,39 @@ static const scree_key particles_keys[] = {
                    "other."),
 };
 
+typedef scree_config_pair_law pair_law;
+static const scree_key pair_law_keys[] = {
+    {.name = "between",
+     .type = SCREE_KEY_WORD,
+     .offset = offsetof(pair_law, one),
+     FROM("1"),
+     TO("63"),
+     .meaning = "Name of one of the materials, or `rigid`."},
+    {.name = "and",
+     .type = SCREE_KEY_WORD,
+     .offset = offsetof(pair_law, other),
+     .standard = "auto",
+     FROM("1"),
+     TO("63"),
+     .meaning = "The material that it touches, or `rigid`, for walls that are; auto: its like."},
+    CHOICE(pair_law, law, NULL, .meaning = "Force law of a contact of the two."),
+    MODULE_KEYS,
+};
+static const pair_law unknown_pair_law = {.law = SCREE_CHOICE_WRONG};
+static const scree_section pair_law_table[] = {
+    OPEN_TABLE("pairs", "The law of contacts of two materials.", pair_law_keys, scree_config_pair_law)};
+
 typedef scree_config_contact contact;
 static const scree_key contact_keys[] = {
     CHOICE(contact, law, NULL, .standard = "hertz_mindlin", .meaning = "Force law of a contact."),
     MODULE_KEYS,
     NUMBER(contact, reference_velocity, "m/s", .standard = "auto", ABOVE("0 m/s"), TO("1000 m/s"),
            .meaning = "v_R, to which slip speeds are referred; auto: 2 x strain rate x mean radius."),
+    KEY(contact, pairs, SCREE_KEY_LIST, .standard = "[]", FROM("0"), TO("16"), .sections = pair_law_table,
+        .section_count = 1, .count_offset = offsetof(contact, pair_count), .element_size = sizeof(pair_law),
+        .initial = &unknown_pair_law,
+        .meaning = "Pairs of materials whose contacts have another law, or other numbers of it; walls and plates count "
+                   "by what they are made of."),
 };
 
 typedef scree_config_integrator integrator;

@@ -1,9 +1,9 @@
 /// The force evaluation: choice of the kernel, threads, ledger and flags.
 ///
 /// The sums are clear from the last kick on (integrate/kick.h), or are cleared here.
-/// Each thread runs the kernel on its part of the pair list (contact/partition.h), then, after a barrier, merges a
-/// range of rows and evaluates the wall contacts of these rows. Without memory for the partition, or when asked to
-/// (work->reference_kernel), the scalar reference does all the work: same bits, slower.
+/// Each thread runs the kernels of the sections on its part of the pair list (contact/partition.h), then, after a
+/// barrier, merges a range of rows and evaluates the wall contacts of these rows. Without memory for the partition, or
+/// when asked to (work->reference_kernel), the scalar reference does all the work: same bits, slower.
 #include "base/processor.h"
 #include "contact/bounds.h"
 #include "contact/contact.h"
@@ -39,11 +39,9 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
     scree_law_bounds bounds = contact_bounds_get(model, state);
     const size_t held = scree_persistent(state)->count;
     double room = ldexp(1.0, SCREE_FIXED_RANGE_BITS - contact_energy_bits(state->dimension, state->count, held));
-    return (contact_job){
+    contact_job job = {
         .model = model,
         .variant = {.dimension = state->dimension,
-                    .law = model->law.law,
-                    .option = contact_option(&model->law, state),
                     .many_materials = model->material_count + model->added_materials > 1,
                     .ledger = work->ledger || state->moment,
                     .moments = state->moment != NULL},
@@ -61,13 +59,7 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
         .rolling = work->pairs.rolling,
         .own = work->pairs.own,
         .pairs = model->pairs,
-        .held_end = work->pairs.held_count,
-        .touching_begin = work->pairs.held_count,
-        .near = work->pairs.touching_count,
-        .touching_end = work->pairs.touching_count,
-        .near_begin = work->pairs.touching_count,
-        .near_end = work->pairs.count,
-        .settings = law_settings_get(&model->law, state->step_size),
+        .settings = {.step = state->step_size},
         .scale = {.inverse_force = 1 / state->force_quantum,
                   .inverse_torque = 1 / state->torque_quantum,
                   .inverse_damping = 1 / (scree_fixed_quantum(bounds.damping) * room),
@@ -75,29 +67,32 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
                   .force_limit = ldexp(state->force_quantum, SCREE_FIXED_RANGE_BITS),
                   .inverse_surface_torque = 1 / contact_surface_torque_quantum(model, state, work->wall_set)},
     };
+    contact_job_use_number(&job, 0);
+    return job;
+}
+
+/// The contacts with walls of a range of rows, law by law.
+static void evaluate_walls(contact_job *job, const scree_state *state, const scree_work *work, size_t begin, size_t end)
+{
+    for (int law = 0; law < scree_model_law_count(job->model); law++) {
+        if (law > 0) contact_job_use_number(job, law);
+        contact_walls(job, scree_plates(state), &work->wall_pairs, begin, end);
+        contact_surfaces(job, state, work, begin, end);
+    }
 }
 
 static contact_totals evaluate_serially(contact_job *job, scree_state *state, const scree_work *work)
 {
-    contact_pairs_reference(job);
-    contact_walls(job, scree_plates(state), &work->wall_pairs, 0, state->count);
-    contact_surfaces(job, state, work, 0, state->count);
+    job->totals = contact_totals_none();
+    for (int k = 0; k < work->pairs.section_count; k++) {
+        const scree_pair_section *section = &work->pairs.section[k];
+        const contact_range range = contact_range_of(section);
+        contact_job of = contact_job_of_section(job, section, &range, NULL);
+        contact_pairs_reference(&of);
+        contact_totals_add(&job->totals, &of.totals);
+    }
+    evaluate_walls(job, state, work, 0, state->count);
     return job->totals;
-}
-
-/// The ranges of a part of the list, and everything else from `common`.
-static void prepare_part(contact_part *part, const contact_job *common, uint8_t *near_touched, scree_state *state)
-{
-    contact_job job = *common;
-    job.held_begin = part->job.held_begin;
-    job.held_end = part->job.held_end;
-    job.touching_begin = part->job.touching_begin;
-    job.touching_end = part->job.touching_end;
-    job.near_begin = part->job.near_begin;
-    job.near_end = part->job.near_end;
-    job.near_touched = near_touched;
-    contact_part_clear(part, state, &job);
-    part->job = job;
 }
 
 /// What the members of the thread pool share.
@@ -112,14 +107,25 @@ typedef struct parts_task {
 static void evaluate_share(void *argument, int index, int count)
 {
     const parts_task *task = argument;
+    contact_scratch *scratch = task->scratch;
+    contact_part *part = &scratch->part[index];
+    contact_job *job = &part->job;
+    bool first = true;
     (void)count;
-    prepare_part(&task->scratch->part[index], task->common, task->scratch->near_touched, task->state);
-    contact_job *job = &task->scratch->part[index].job;
-    task->kernel(job);
-    if (job->held_begin == job->held_end) return;
-    contact_job held = contact_job_of_held(job);
-    task->kernel(&held);
-    contact_totals_add(&job->totals, &held.totals);
+    *job = *task->common;
+    job->totals = contact_totals_none();
+    contact_part_clear(part, task->state, job);
+    for (int k = 0; k < scratch->section_count; k++) {
+        if (contact_range_is_empty(&part->range[k])) continue;
+        contact_job of = contact_job_of_section(job, &scratch->section[k], &part->range[k],
+                                                scratch->near_touched + scratch->near_byte[k]);
+        task->kernel(&of);
+        if (first)
+            job->totals = of.totals;
+        else
+            contact_totals_add(&job->totals, &of.totals);
+        first = false;
+    }
 }
 
 /// Makes a range of rows whole, and adds the wall contacts of its bodies.
@@ -135,8 +141,7 @@ static void finish_share(void *argument, int index, int count)
     job->sum = state->sum;
     job->torque = state->torque;
     job->moment = state->moment;
-    contact_walls(job, scree_plates(state), &task->work->wall_pairs, begin, end);
-    contact_surfaces(job, state, task->work, begin, end);
+    evaluate_walls(job, state, task->work, begin, end);
 }
 
 static contact_totals evaluate_parts(contact_kernel *kernel, contact_scratch *scratch, const contact_job *common,

@@ -15,7 +15,7 @@ static bool reference_get(const scree_state *state, const scree_work *work, cons
         uint32_t a = pairs->first[k], b = pairs->second[k];
         *r = (contact_reference){state->id[a], state->id[b], (uint32_t)k};
         const double *const strains[2] = {scree_strain_row(state, a), scree_strain_row(state, b)};
-        return k < pairs->held_count || pair_touches(state->dimension, &state->row[a], &state->row[b], strains);
+        return k < scree_pairs_held(pairs) || pair_touches(state->dimension, &state->row[a], &state->row[b], strains);
     }
     k -= pairs->count;
     if (k >= work->wall_pairs.count) {

@@ -59,20 +59,12 @@ static void evaluate_pair(contact_job *job, size_t p)
     contact_add_moments(job, second, m.normal, contact_lever(deforms, &other, m.arm_second), q.straining);
 }
 
-static void evaluate_range(contact_job *job)
-{
-    job->totals = contact_totals_none();
-    for (size_t p = job->touching_begin; p < job->touching_end; p++) evaluate_pair(job, p);
-    for (size_t p = job->near_begin; p < job->near_end; p++) evaluate_pair(job, p);
-}
-
 void contact_pairs_reference(contact_job *job)
 {
-    evaluate_range(job);
-    if (job->held_begin == job->held_end) return;
-    contact_job held = contact_job_of_held(job);
-    evaluate_range(&held);
-    contact_totals_add(&job->totals, &held.totals);
+    const contact_range *range = &job->range;
+    job->totals = contact_totals_none();
+    for (size_t p = range->touching_begin; p < range->touching_end; p++) evaluate_pair(job, p);
+    for (size_t p = range->near_begin; p < range->near_end; p++) evaluate_pair(job, p);
 }
 
 /// The bodies at a wall lie apart in memory.
@@ -94,7 +86,7 @@ SCREE_INLINE void evaluate_walls(contact_job *job, variant v, const scree_wall *
     for (size_t p = 0; p < pairs->count; p++) {
         size_t row = pairs->body[p];
         prefetch_wall_pair(job, pairs, p + WALL_PAIRS_AHEAD);
-        if (row < row_begin || row >= row_end) continue;
+        if (row < row_begin || row >= row_end || scree_wall_pair_law(pairs, p) != job->law) continue;
         uint32_t w = pairs->wall[p];
         memory_rows rows = memory_rows_at(pairs->history, pairs->last_force, pairs->rolling, p);
         bool touching = wall_touches(v.dimension, &job->row[row], &wall[w], contact_strain_at(job, row));

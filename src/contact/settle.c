@@ -139,11 +139,11 @@ scree_status contact_settle(const scree_model *model, scree_state *state, scree_
     const scree_pair_list *pairs = &work->pairs;
     *count = 0;
     *settled = NULL;
-    for (size_t p = 0; p < pairs->held_count; p++) *count += evaluate(model, state, work, p).force.settle != 0;
+    for (size_t p = 0; p < scree_pairs_held(pairs); p++) *count += evaluate(model, state, work, p).force.settle != 0;
     scree_status status = scree_allocate(settled, *count, sizeof **settled, error);
     if (status) return status;
     size_t found = 0;
-    for (size_t p = 0; p < pairs->held_count && found < *count; p++) {
+    for (size_t p = 0; p < scree_pairs_held(pairs) && found < *count; p++) {
         if (!evaluate(model, state, work, p).force.settle) continue;
         (*settled)[found++] = (contact_settled){
             .pair = p,

@@ -33,12 +33,28 @@ static void describe_tangent(int dimension, const kinematics *m, const law_force
     contact->slip = sqrt(vector_dot(3, m->slip, m->slip));
 }
 
+/// A pair of materials: the law that it is under, with its constants.
+typedef struct pair_law {
+    const scree_law_use *law;
+    const scree_pair_constants *constants;
+} pair_law;
+
+/// own: constants of a pair that is held; NULL: of no such pair.
+static pair_law law_of_pair(const scree_model *model, const scree_member_row *own, const bodies *one,
+                            const bodies *other)
+{
+    const int a = (int)one->material, b = (int)other->material;
+    if (own) return (pair_law){&model->persistent.law, &model->persistent.pairs[a][b]};
+    return (pair_law){scree_model_law_between(model, a, b), &model->pairs[a][b]};
+}
+
 /// own: constants of a pair that is held; NULL: of no such pair. False when such a pair is broken and apart.
-static bool describe(const scree_model *model, int dimension, const scree_pair_constants *constants,
-                     const scree_member_row *own, kinematics *m, const memory_rows *memory, scree_contact *contact)
+static bool describe(int dimension, pair_law of, const scree_member_row *own, kinematics *m, const memory_rows *memory,
+                     scree_contact *contact)
 {
     kinematics_hold(m);
-    const scree_law_use *law = own ? &model->persistent.law : &model->law;
+    const scree_law_use *law = of.law;
+    const scree_pair_constants *constants = of.constants;
     variant v = {.dimension = dimension, .law = law->law, .option = law->option, .many_materials = true};
     law_constants c = constants_get(constants, own);
     law_settings settings = law_settings_get(law, 0);
@@ -75,9 +91,7 @@ bool contact_of_pair(const scree_model *model, const scree_state *state, const c
     bodies one = contact_body_lane(dimension, first), other = contact_body_lane(dimension, second);
     kinematics m = kinematics_of_pair(dimension, &one, &other, state->step_size);
     if (state->strain) kinematics_expand(dimension, &m, &one, &other, state->step_size);
-    const scree_pair_constants(*pairs)[SCREE_MAX_MATERIALS] = own ? model->persistent.pairs : model->pairs;
-    const scree_pair_constants *constants = &pairs[(int)one.material][(int)other.material];
-    const bool in_contact = describe(model, dimension, constants, own, &m, memory, contact);
+    const bool in_contact = describe(dimension, law_of_pair(model, own, &one, &other), own, &m, memory, contact);
     place(dimension, &one, &m, contact);
     contact->wall = false;
     set_vector(contact->branch, vector_minus(dimension, one.position, other.position));
@@ -89,14 +103,11 @@ contact_evaluation contact_evaluate_again(const scree_model *model, const scree_
                                           const scree_member_row *own, const memory_rows *memory)
 {
     const int dimension = state->dimension;
-    const scree_law_use *law = own ? &model->persistent.law : &model->law;
-    contact_evaluation e = {.variant = {.dimension = dimension,
-                                        .law = law->law,
-                                        .option = law->option,
-                                        .many_materials = true,
-                                        .ledger = ledger},
-                            .first = contact_body_lane(dimension, first),
+    contact_evaluation e = {.first = contact_body_lane(dimension, first),
                             .second = contact_body_lane(dimension, second)};
+    const pair_law of = law_of_pair(model, own, &e.first, &e.second);
+    e.variant = (variant){
+        .dimension = dimension, .law = of.law->law, .option = of.law->option, .many_materials = true, .ledger = ledger};
     e.kinematics = kinematics_of_pair(dimension, &e.first, &e.second, state->step_size);
     if (state->strain) kinematics_expand(dimension, &e.kinematics, &e.first, &e.second, state->step_size);
     e.lever_first = contact_lever(state->strain != NULL, &e.first, e.kinematics.arm_first);
@@ -105,9 +116,8 @@ contact_evaluation contact_evaluate_again(const scree_model *model, const scree_
     const contact_scale scale = {.inverse_force = 1 / state->force_quantum,
                                  .inverse_torque = 1 / state->torque_quantum,
                                  .force_limit = INFINITY};
-    const scree_pair_constants(*pairs)[SCREE_MAX_MATERIALS] = own ? model->persistent.pairs : model->pairs;
-    law_constants constants = constants_get(&pairs[(int)e.first.material][(int)e.second.material], own);
-    law_settings settings = law_settings_get(law, 0);
+    law_constants constants = constants_get(of.constants, own);
+    law_settings settings = law_settings_get(of.law, 0);
     law_memory before = memory_get(e.variant, memory);
     e.force = law_evaluate(e.variant, &constants, &settings, &e.kinematics, ~UINT64_C(0), &before, &e.memory);
     e.quanta =
@@ -116,10 +126,10 @@ contact_evaluation contact_evaluate_again(const scree_model *model, const scree_
 }
 
 /// Between a body and anything that is not one.
-static void describe_wall(const scree_model *model, int dimension, const scree_pair_constants *constants,
-                          const bodies *one, kinematics *m, const memory_rows *memory, scree_contact *contact)
+static void describe_wall(int dimension, pair_law of, const bodies *one, kinematics *m, const memory_rows *memory,
+                          scree_contact *contact)
 {
-    (void)describe(model, dimension, constants, NULL, m, memory, contact);
+    (void)describe(dimension, of, NULL, m, memory, contact);
     place(dimension, one, m, contact);
     contact->wall = true;
     const double centre[3] = {one->position.x, one->position.y, one->position.z};
@@ -134,7 +144,9 @@ bool contact_of_wall(const scree_model *model, const scree_state *state, const c
     bodies one = contact_body_lane(dimension, body);
     kinematics m = kinematics_of_wall(dimension, &one, wall, state->step_size);
     if (state->strain) kinematics_expand(dimension, &m, &one, NULL, state->step_size);
-    describe_wall(model, dimension, &model->walls[(int)one.material], &one, &m, memory, contact);
+    const int material = (int)one.material;
+    const pair_law of = {scree_model_law_on_plate(model, material), &model->walls[material]};
+    describe_wall(dimension, of, &one, &m, memory, contact);
     return true;
 }
 
@@ -151,5 +163,6 @@ void contact_of_primitive(const scree_model *model, const scree_state *state, co
     kinematics m = kinematics_of_surface(work->wall_set, primitive, dimension, &one, &closest,
                                          scree_case_walls(state)->moving != 0, state->step_size);
     scree_pair_constants constants = contact_surface_constants(model, surface, (int)one.material);
-    describe_wall(model, dimension, &constants, &one, &m, memory, contact);
+    const pair_law of = {contact_surface_law(model, surface, (int)one.material), &constants};
+    describe_wall(dimension, of, &one, &m, memory, contact);
 }

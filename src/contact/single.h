@@ -43,10 +43,18 @@ static inline memory_rows contact_memory_of(const scree_work *work, contact_list
                                 : memory_rows_at(walls->history, walls->last_force, walls->rolling, k);
 }
 
+/// Number of the law of number `k` of a list; not of a pair that is held.
+static inline int contact_law_number(const scree_work *work, contact_list list, size_t k)
+{
+    return list == CONTACT_PAIR    ? scree_pairs_section(&work->pairs, k)->law
+           : list == CONTACT_PLATE ? scree_wall_pair_law(&work->wall_pairs, k)
+                                   : scree_wall_pair_law(&work->primitive_pairs, k);
+}
+
 /// Constants of its own of pair `p` of the list; NULL where it is not held.
 static inline const scree_member_row *contact_own_of(const scree_work *work, size_t p)
 {
-    return p < work->pairs.held_count ? &work->pairs.own[p] : NULL;
+    return p < scree_pairs_held(&work->pairs) ? &work->pairs.own[p] : NULL;
 }
 
 /// Two bodies; false when they are not in contact. own: of a pair that is held, which needs no touch while its bond

@@ -88,6 +88,11 @@ scree_pair_constants contact_surface_constants(const scree_model *model, const s
     return model->surfaces[surface->config - model->walls_of_case][material];
 }
 
+const scree_law_use *contact_surface_law(const scree_model *model, const scree_surface *surface, int material)
+{
+    return scree_model_law_on_wall(model, surface->config - model->walls_of_case, material);
+}
+
 /// Velocity and spin of a body in the frame of a wall that moves with v and turns with w: there it goes in a step from
 /// R(w dt) y(n-1) to y(n), y from the centre of the wall, and its spin w(n-1/2) has turned by w dt / 2 since then. Up
 /// to second order in dt, in the directions of n:
@@ -255,6 +260,7 @@ SCREE_INLINE void evaluate_group(contact_job *job, variant v, const scree_state 
     for (size_t p = g->begin; p < g->end; p++) {
         const primitive_touch *touch = touch_of(g, p);
         memory_rows rows = memory_at(g, p);
+        if (scree_wall_pair_law(g->pairs, p) != job->law) continue;
         if (!touch && memory_is_clear(&rows)) continue;
         const scree_surface *surface = contact_surface_of(g->wall_set, g->pairs->wall[p]);
         scree_closest_point left;
@@ -301,7 +307,7 @@ void contact_surfaces(contact_job *job, const scree_state *state, const scree_wo
         contact_primitives_touching(g.wall_set, v.dimension, &job->row[row], g.pairs, g.begin, g.end, &g.touches);
         if (g.touches.count == 0 && !holds_memory(&g)) continue;
         place_of(v.dimension, &job->row[row], g.position);
-        pass_memory(&g);
+        if (job->law == 0) pass_memory(&g); // of all laws: that of a body on a wall does not change
         SCREE_LAWS(GROUP_OF_LAW)
         if (v.dimension == 2) evaluate_group(job, (variant){2, v.law, v.option, true, v.ledger, v.moments}, state, &g);
     }

@@ -30,7 +30,7 @@ static bool is_cut(const scree_state *state, const scree_work *work, const uint8
     uint32_t first = work->pairs.first[p], second = work->pairs.second[p];
     const double *const strains[2] = {scree_strain_row(state, first), scree_strain_row(state, second)};
     return going[scree_parent_row(state, work, first)] != going[scree_parent_row(state, work, second)] &&
-           (p < work->pairs.held_count ||
+           (p < scree_pairs_held(&work->pairs) ||
             pair_touches(state->dimension, &state->row[first], &state->row[second], strains));
 }
 

@@ -31,8 +31,8 @@ struct scree_module {
 
     // ---- numbers: what its keys become, once, with the model at hand (scree_model_numbers); no `auto` is left ----
     size_t numbers_size;
-    /// For one that asks the law of the contacts for something: changes model->law, when materials and pairs stand, and
-    /// nothing else of the model does. NULL: it asks for nothing.
+    /// For one that asks the law of the contacts for something: changes model->laws[0], when materials and pairs stand,
+    /// and nothing else of the model does. NULL: it asks for nothing.
     scree_status (*resolve_law)(scree_model *model, scree_error *error);
     /// Takes its keys from the config and fills its numbers (scree_model_reserve_numbers), when all else of the
     /// model is there. For modules without a face that does so. NULL: nothing to take.

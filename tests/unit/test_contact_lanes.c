@@ -18,7 +18,7 @@ static contact_totals evaluate(fixture *f, const variant *v, contact_kernel *ker
 {
     contact_scratch *scratch = contact_scratch_refresh(&f->work, &f->state);
     scree_contact_set_quanta(&f->model, &f->state, 0);
-    contact_job job = scratch->part[0].job;
+    contact_job job = {.range = scratch->part[0].range[0], .near = f->work.pairs.section[0].touching_end};
     contact_part_clear(&scratch->part[0], &f->state, &job);
     job.model = &f->model;
     job.variant = *v;
@@ -32,7 +32,7 @@ static contact_totals evaluate(fixture *f, const variant *v, contact_kernel *ker
     job.last_force = f->work.pairs.last_force;
     job.rolling = f->work.pairs.rolling;
     job.near_touched = scratch->near_touched;
-    job.settings = law_settings_get(&f->model.law, f->state.step_size);
+    job.settings = law_settings_get(&f->model.laws[0], f->state.step_size);
     job.scale = (contact_scale){.inverse_force = 1 / f->state.force_quantum,
                                 .inverse_torque = 1 / f->state.torque_quantum,
                                 .inverse_damping = 0x1p60,

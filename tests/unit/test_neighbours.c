@@ -170,7 +170,8 @@ static id_list listed(const scree_state *state, const scree_work *work)
         assert_true(pairs->first[k] < state->count && pairs->second[k] < state->count);
         uint64_t first = state->id[pairs->first[k]], second = state->id[pairs->second[k]];
         assert_true(first < second);
-        list.pair[list.count++] = (id_pair){first << 32 | second, k < pairs->touching_count, pairs->history[k]};
+        list.pair[list.count++] =
+            (id_pair){first << 32 | second, k < pairs->section[1].touching_end, pairs->history[k]};
     }
     for (size_t k = 0; k < walls->count; k++) {
         assert_true(walls->body[k] < state->count && walls->wall[k] < SCREE_WALL_COUNT);
@@ -226,7 +227,7 @@ static void list_equals_brute_force_in(int dimension, arrangement kind)
             assert_equals_brute_force(&state, &work);
             const scree_pair_list *pairs = &work.pairs;
             for (size_t k = 1; k < pairs->count; k++)
-                if (k != pairs->touching_count) assert_true(lower(pairs, k - 1) <= lower(pairs, k));
+                if (k != pairs->section[1].touching_end) assert_true(lower(pairs, k - 1) <= lower(pairs, k));
             for (size_t k = pairs->count; k < pairs->count + SCREE_PAIR_PADDING; k++)
                 assert_int_equal(pairs->first[k] + pairs->second[k], 0);
             assert_int_equal((uintptr_t)pairs->history % SCREE_ALIGNMENT, 0);
@@ -320,7 +321,7 @@ static void mark_list(const scree_state *state, scree_work *work, uint64_t round
 {
     for (size_t k = 0; k < work->pairs.count; k++) {
         uint64_t ids = (uint64_t)state->id[work->pairs.first[k]] << 32 | state->id[work->pairs.second[k]];
-        bool marked = k < work->pairs.touching_count || ids % 2;
+        bool marked = k < work->pairs.section[1].touching_end || ids % 2;
         work->pairs.history[k] = marked ? mark(ids, round) : (scree_history){{0}};
     }
     for (size_t k = 0; k < work->wall_pairs.count; k++) {
