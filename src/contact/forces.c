@@ -87,6 +87,7 @@ static contact_totals evaluate_serially(contact_job *job, scree_state *state, co
     for (int k = 0; k < work->pairs.section_count; k++) {
         const scree_pair_section *section = &work->pairs.section[k];
         const contact_range range = contact_range_of(section);
+        if (contact_range_is_empty(&range)) continue;
         contact_job of = contact_job_of_section(job, section, &range, NULL);
         contact_pairs_reference(&of);
         contact_totals_add(&job->totals, &of.totals);

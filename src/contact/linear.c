@@ -55,31 +55,28 @@ static const material *own_material(const scree_config_material *section)
     return scree_config_own(&scree_module_linear, "materials", section->own);
 }
 
-/// Another material with which a material forms springs of this law, of which one follows the radii and the other does
-/// not: they have no series for all radii. NULL: none.
-static const material *unlike(const scree_config *config, int64_t index)
+/// Whether springs between two materials are of this law, of which one follows the radii and the other does not: such
+/// springs have no series for all radii.
+static bool are_unlike(const scree_config *config, const scree_config_material *one, const scree_config_material *other)
 {
-    const scree_config_material *one = &config->materials[index];
-    for (int64_t k = 0; k < index; k++) {
-        const scree_config_material *other = &config->materials[k];
-        if (!one->name || !other->name) continue;
-        const int law =
-            scree_config_law(&config->contact, scree_config_law_between(&config->contact, one->name, other->name));
-        if (law == SCREE_SLOT_linear &&
-            isnan(own_material(one)->normal_stiffness) != isnan(own_material(other)->normal_stiffness))
-            return own_material(other);
-    }
-    return NULL;
+    if (!one->name || !other->name) return false;
+    const int number = scree_config_law_between(&config->contact, one->name, other->name);
+    return scree_config_law(&config->contact, number) == SCREE_SLOT_linear &&
+           isnan(own_material(one)->normal_stiffness) != isnan(own_material(other)->normal_stiffness);
 }
 
 static void rules(scree_reader *reader, const scree_config *config)
 {
+    bool refused[SCREE_MAX_MATERIALS] = {false};
     for (int64_t i = 0; i < config->material_count; i++) {
-        const material *m = own_material(&config->materials[i]), *other = unlike(config, i);
+        const scree_config_material *of = &config->materials[i];
+        const material *m = own_material(of);
         char path[SCREE_PATH_BYTES];
         (void)snprintf(path, sizeof path, "materials.%lld.normal_stiffness", (long long)i);
-        if (other)
-            scree_rule_refuse(reader, path, isnan(other->normal_stiffness) ? "auto" : "a stiffness",
+        for (int64_t k = 0; k < i && !refused[i]; k++)
+            refused[i] = !refused[k] && are_unlike(config, of, &config->materials[k]);
+        if (refused[i])
+            scree_rule_refuse(reader, path, isnan(m->normal_stiffness) ? "a stiffness" : "auto",
                               "normal_stiffness is given for all materials or for none");
         (void)snprintf(path, sizeof path, "materials.%lld.tangential_stiffness", (long long)i);
         if (isnan(m->normal_stiffness) && !isnan(m->tangential_stiffness))

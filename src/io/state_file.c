@@ -83,7 +83,7 @@ static void read_laws(scree_hdf5 *file, const char *group, int list, scree_state
     if (file->status) return;
     const char *name = text;
     state->law[list] = named_law(name, strcspn(name, " "), options);
-    for (state->pair_laws = 0; list == SCREE_LIST_CONTACTS && name[strcspn(name, " ")] == ' ';) {
+    while (list == SCREE_LIST_CONTACTS && name[strcspn(name, " ")] == ' ') {
         name += strcspn(name, " ") + 1;
         options >>= OPTION_BITS;
         const scree_remembered_law law = named_law(name, strcspn(name, " "), options);

@@ -54,7 +54,7 @@ static int by_ids(const void *a, const void *b)
 
 static void make_work(scree_work *work, int threads)
 {
-    const scree_model model = {.mean_radius = 1, .law = {.law = SCREE_SLOT_hertz_mindlin}};
+    const scree_model model = {.mean_radius = 1, .laws = {{.law = SCREE_SLOT_hertz_mindlin}}};
     scree_error error;
     assert_int_equal(scree_work_create(work, &model, threads, &error), SCREE_OK);
     work->skin = SKIN;
@@ -62,7 +62,7 @@ static void make_work(scree_work *work, int threads)
 
 static void refresh(scree_state *state, scree_work *work)
 {
-    const scree_model model = {.mean_radius = 1, .law = {.law = SCREE_SLOT_hertz_mindlin}};
+    const scree_model model = {.mean_radius = 1, .laws = {{.law = SCREE_SLOT_hertz_mindlin}}};
     scree_error error;
     assert_int_equal(scree_neighbours_refresh(&model, state, work, &error), SCREE_OK);
 }
@@ -649,7 +649,7 @@ static void rebuild_without_growth_allocates_nothing(void **dimension)
 /// Each allocation of the first rebuilds fails once: an error, and the next refresh goes on with all histories.
 static void failed_allocations_lose_nothing(void **dimension)
 {
-    const scree_model model = {.mean_radius = 1, .law = {.law = SCREE_SLOT_hertz_mindlin}};
+    const scree_model model = {.mean_radius = 1, .laws = {{.law = SCREE_SLOT_hertz_mindlin}}};
     scree_error error;
     int failures = 0;
     for (uint64_t site = 1; site < 1000; site++) {

@@ -73,7 +73,8 @@ static uint64_t run(int dimension, unsigned directions, int threads, int set, bo
     size_t count[3];
     (void)directions;
     create(&s, dimension, 0);
-    s.work.threads = threads;
+    scree_work_destroy(&s.work);
+    check(scree_work_create(&s.work, &s.model, threads, &error), &error);
     s.work.keep_threads = true;
     s.work.instruction_set = set;
     s.work.reference_kernel = reference;
@@ -85,7 +86,7 @@ static uint64_t run(int dimension, unsigned directions, int threads, int set, bo
             check(scree_contacts_save(&s.state, &s.work, &error), &error);
             scree_contact_scratch_destroy(&s.work);
             scree_work_destroy(&s.work);
-            check(scree_work_create(&s.work, &s.model, 1, &error), &error);
+            check(scree_work_create(&s.work, &s.model, threads, &error), &error);
         }
         periodic_step(&s);
     }
@@ -132,7 +133,6 @@ static void constants_of_pairs_count(void **unused)
     create(&s, 2, 0);
     const uint64_t before = scree_state_checksum(&s.model, &s.state);
     s.model.pairs[0][1].value[LINEAR_DAMPING] *= 2;
-    assert_true(scree_state_checksum(&s.model, &s.state) == before); // what meets is symmetric: both are changed
     s.model.pairs[1][0] = s.model.pairs[0][1];
     assert_true(scree_state_checksum(&s.model, &s.state) != before);
     periodic_destroy(&s);
@@ -248,20 +248,22 @@ static double theory_of(const scree_law_use *law, const scree_pair_constants *pa
 /// the step makes of it: a hundredth of the duration, and first order where a dashpot jumps (linear).
 static void each_pair_has_the_impact_of_its_law(const char *dimension, const char *shape)
 {
+    // The third component of positions and velocities.
+    const char *const third = strcmp(dimension, "3") == 0 ? ", 3 mm" : "", *const still = third[0] ? ", 0" : "";
     char text[2048];
     (void)snprintf(text, sizeof text,
                    METALS METAL_LAWS METAL_REST
                    "dimension: %s\nparticles: {shape: %s, material: steel, count: 6, distribution: equal, radius: 1 "
                    "mm}\n"
                    "stages:\n  - stage: prepare\n    method: bodies\n    width: 20 mm\n    height: 20 mm\n    bodies:\n"
-                   "      - {position: [3 mm, 3 mm], velocity: [0.5 m/s, 0]}\n"
-                   "      - {position: [5.01 mm, 3 mm]}\n"
-                   "      - {position: [3 mm, 8 mm], velocity: [0.5 m/s, 0]}\n"
-                   "      - {position: [5.01 mm, 8 mm], material: glass}\n"
-                   "      - {position: [3 mm, 13 mm], velocity: [0.5 m/s, 0], material: glass}\n"
-                   "      - {position: [5.01 mm, 13 mm], material: glass}\n"
+                   "      - {position: [3 mm, 3 mm%s], velocity: [0.5 m/s, 0%s]}\n"
+                   "      - {position: [5.01 mm, 3 mm%s]}\n"
+                   "      - {position: [3 mm, 8 mm%s], velocity: [0.5 m/s, 0%s]}\n"
+                   "      - {position: [5.01 mm, 8 mm%s], material: glass}\n"
+                   "      - {position: [3 mm, 13 mm%s], velocity: [0.5 m/s, 0%s], material: glass}\n"
+                   "      - {position: [5.01 mm, 13 mm%s], material: glass}\n"
                    "  - {stage: relax, duration: 0.2 ms, boundary: none}\n",
-                   dimension, shape);
+                   dimension, shape, third, still, third, third, still, third, third, still, third);
     scree_case *c = case_read(text, NULL, 0);
     scree_simulation s;
     simulation_open(c, 1, &s);
@@ -374,8 +376,10 @@ static void views_say_what_they_cannot_show(void **unused)
     bool done;
     assert_int_equal(reference_read(REFERENCE_FOLDER "cases/pair_laws_2d.yaml", NULL, &c), SCREE_OK);
     check(scree_simulation_create(c, 1, &s, &error), &error);
-    check(scree_simulation_advance(s, 200, &done, &error), &error);
-    check(scree_simulation_view(s, "contacts/law", &view, &error), &error);
+    do {
+        check(scree_simulation_advance(s, 200, &done, &error), &error);
+        check(scree_simulation_view(s, "contacts/law", &view, &error), &error);
+    } while (view.count == 0 && !done);
     assert_true(view.count > 0 && view.type == SCREE_FIELD_UINT8);
     assert_int_equal(scree_simulation_view(s, "contacts/tangential_displacement", &view, &error), SCREE_ERROR_INPUT);
     assert_non_null(strstr(error.message, "several laws"));
