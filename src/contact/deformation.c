@@ -130,7 +130,7 @@ static void rules(scree_reader *reader, const scree_config *whole)
         if (law < 0 || scree_law_get(law)->deforming) continue;
         char pair[SCREE_PATH_BYTES];
         (void)snprintf(pair, sizeof pair, "contact.pairs.%d.law", k - 1);
-        scree_rule_refuse(reader, k > 0 ? pair : "contact.deformation", k > 0 ? "linear" : "none",
+        scree_rule_refuse(reader, k > 0 ? pair : "contact.deformation", k > 0 ? NULL : "none",
                           "the law of the contacts does not carry particles that deform: take law: linear");
     }
     if (whole->wall_count > 0)
