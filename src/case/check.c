@@ -2,8 +2,9 @@
 #include "case/check.h"
 
 #include "base/memory.h"
-#include "case/case.h"
 #include "case/csv.h"
+
+#include <scree/scree.h>
 
 #include <stdint.h>
 #include <stdio.h>

@@ -16,6 +16,7 @@
 #include "model/critical_step.h"
 #include "module/key_rows.h"
 #include "prepare/methods.h"
+#include "prepare/prepare.h"
 
 #include "base/random.h"
 

@@ -18,6 +18,7 @@
 #include "prepare/growth.h"
 #include "module/key_rows.h"
 #include "prepare/methods.h"
+#include "prepare/prepare.h"
 #include "state/periodic.h"
 #include "state/plates.h"
 

@@ -2,7 +2,7 @@
 #ifndef SCREE_PREPARE_METHODS_H
 #define SCREE_PREPARE_METHODS_H
 
-#include "prepare/prepare.h"
+#include "model/model.h"
 
 /// Input error at a key of `stage`, with its place in the list of stages when it is one of the model's.
 scree_status scree_prepare_error(scree_error *error, const scree_model *model, const scree_config_stage *stage,
