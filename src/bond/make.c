@@ -52,8 +52,7 @@ static void find_forces(const scree_model *model, const scree_state *state, cons
     for (size_t p = scree_pairs_held(pairs); p < pairs->count; p++) {
         const uint32_t a = pairs->first[p], b = pairs->second[p];
         const scree_bond_candidate *candidate = candidate_of(all, state, a, b);
-        const double *const strains[2] = {scree_strain_row(state, a), scree_strain_row(state, b)};
-        if (!candidate || !pair_touches(state->dimension, &state->row[a], &state->row[b], strains)) continue;
+        if (!candidate || !contact_pair_is_there(state, work, p)) continue;
         of[candidate - all->pair] = (swap){evaluate(model, state, work, p), true};
     }
 }

@@ -7,6 +7,7 @@
 #include "base/schedule.h"
 #include "module/boundary.h"
 #include "module/preparation.h"
+#include "module/shape.h"
 #include "module/size_distribution.h"
 #include "module/stage.h"
 
@@ -28,7 +29,6 @@ typedef struct scree_config_material {
     void *own;            ///< structs of modules (scree_config_own)
 } scree_config_material;
 
-typedef enum scree_shape_kind { SCREE_SHAPE_DISC, SCREE_SHAPE_SPHERE } scree_shape_kind;
 /// What shares of species are of.
 typedef enum scree_share_by { SCREE_SHARE_BY_NUMBER, SCREE_SHARE_BY_MASS, SCREE_SHARE_BY_COUNT } scree_share_by;
 
@@ -46,7 +46,7 @@ typedef struct scree_config_species {
 
 /// Either one kind of particles, which material, distribution and own describe, or several species.
 typedef struct scree_config_particles {
-    int shape;      ///< scree_shape_kind
+    int shape;      ///< slot of a module that is a shape
     char *material; ///< name in `materials`
     int64_t count;
     int distribution; ///< slot of a module with sizes

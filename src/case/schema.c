@@ -10,11 +10,6 @@
 
 // ---- choices -----------------------------------------------------------------------------------------------------
 
-static const scree_choice shapes[] = {
-    {"disc", SCREE_SHAPE_DISC, "a cylinder whose axis is normal to the plane, in two dimensions"},
-    {"sphere", SCREE_SHAPE_SPHERE, "in three dimensions"},
-    {0},
-};
 static const scree_choice share_kinds[] = {
     {"number", SCREE_SHARE_BY_NUMBER, "`share` is of the number of particles"},
     {"mass", SCREE_SHARE_BY_MASS, "`share` is of the mass of the particles"},
@@ -70,15 +65,20 @@ static const scree_section species_table[] = {
     OPEN_TABLE("species", "Particles of one kind.", species_keys, scree_config_species)};
 
 typedef scree_config_particles particles;
+static bool is_flat(const scree_module *module)
+{
+    return module->shape->dimension == 2;
+}
+
 static const scree_key particles_keys[] = {
-    CHOICE(particles, shape, shapes, .standard = "disc", .meaning = "Shape of the particles."),
+    CHOICE(particles, shape, NULL, .standard = "disc", .meaning = "Shape of the particles."),
     KEY(particles, material, SCREE_KEY_WORD, FROM("1"), TO("63"), .when = "species=[]",
         .meaning = "Name of one of the materials."),
     INTEGER(particles, count, FROM("1"), TO("1e8"), .meaning = "Number of particles."),
     CHOICE(particles, distribution, NULL, .standard = "uniform", .when = "species=[]",
            .meaning = "Distribution of the radii."),
     MODULE_KEYS,
-    NUMBER(particles, thickness, "m", .standard = "auto", FROM("1 nm"), TO("1 km"), .when = "shape=disc",
+    NUMBER(particles, thickness, "m", .standard = "auto", FROM("1 nm"), TO("1 km"), .chooser = "shape", .fits = is_flat,
            .meaning = "Length of a disc along its axis; auto: twice the mean radius."),
     CHOICE(particles, share_by, share_kinds, .standard = "number", .when = "species=given",
            .meaning = "What the shares of the species are of."),

@@ -41,10 +41,12 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
     double room = ldexp(1.0, SCREE_FIXED_RANGE_BITS - contact_energy_bits(state->dimension, state->count, held));
     contact_job job = {
         .model = model,
+        .state = state,
         .variant = {.dimension = state->dimension,
                     .many_materials = model->material_count + model->added_materials > 1,
                     .ledger = work->ledger || state->moment,
-                    .moments = state->moment != NULL},
+                    .moments = state->moment != NULL,
+                    .geometry = model->geometry},
         .row = state->row,
         .turn = state->turn,
         .predicted = state->predicted,
@@ -72,7 +74,7 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
 }
 
 /// The contacts with walls of a range of rows, law by law.
-static void evaluate_walls(contact_job *job, const scree_state *state, const scree_work *work, size_t begin, size_t end)
+static void add_walls(contact_job *job, const scree_state *state, const scree_work *work, size_t begin, size_t end)
 {
     for (int law = 0; law < scree_model_law_count(job->model); law++) {
         if (law > 0) contact_job_use_number(job, law);
@@ -92,7 +94,7 @@ static contact_totals evaluate_serially(contact_job *job, scree_state *state, co
         contact_pairs_reference(&of);
         contact_totals_add(&job->totals, &of.totals);
     }
-    evaluate_walls(job, state, work, 0, state->count);
+    add_walls(job, state, work, 0, state->count);
     return job->totals;
 }
 
@@ -120,7 +122,10 @@ static void evaluate_share(void *argument, int index, int count)
         if (contact_range_is_empty(&part->range[k])) continue;
         contact_job of = contact_job_of_section(job, &scratch->section[k], &part->range[k],
                                                 scratch->near_touched + scratch->near_byte[k]);
-        task->kernel(&of);
+        if (geometry_is_one_by_one(of.variant))
+            contact_pairs_reference(&of);
+        else
+            task->kernel(&of);
         if (first)
             job->totals = of.totals;
         else
@@ -142,7 +147,7 @@ static void finish_share(void *argument, int index, int count)
     job->sum = state->sum;
     job->torque = state->torque;
     job->moment = state->moment;
-    evaluate_walls(job, state, task->work, begin, end);
+    add_walls(job, state, task->work, begin, end);
 }
 
 static contact_totals evaluate_parts(contact_kernel *kernel, contact_scratch *scratch, const contact_job *common,

@@ -35,6 +35,7 @@ typedef struct contact_range {
 
 typedef struct contact_job {
     const scree_model *model;
+    const scree_state *state; ///< for geometries that read more of a body than its rows
     variant variant;
     const scree_row *row;
     const scree_turn_row *turn;       ///< 3D
@@ -81,6 +82,7 @@ static inline contact_job contact_job_of_section(const contact_job *job, const s
     of.range = *range;
     of.near = section->touching_end;
     of.near_touched = near_touched;
+    of.variant.geometry = section->geometry;
     contact_job_use(&of, section->persistent ? &job->model->persistent.law : &job->model->laws[section->law]);
     if (!section->persistent) return of;
     of.variant.many_materials = true;

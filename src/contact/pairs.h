@@ -59,7 +59,7 @@ SCREE_INLINE unsigned near_contacts(variant v, const contact_job *job, size_t p)
         load_reach(dimension, job, g.first, &first);
         load_reach(dimension, job, g.second, &second);
     }
-    return lanes_ones(group_touches(dimension, &first, &second));
+    return lanes_ones(geometry_touches(v, &first, &second));
 }
 
 /// Renews the bits of the near pairs p .. p + lanes - 1; returns those of pairs that touch or did so in the last step.
@@ -152,17 +152,20 @@ SCREE_INLINE void run(contact_job *given, variant v)
 
 /// `run` with a variant as a constant, as a function of its own: one that held them all would be too large for some
 /// of the compiler's optimisations. Moments are summed by the kernels for many materials alone, with the ledger; always
-/// where bodies deform.
+/// where bodies deform. Of geometries in lanes there is one, the first of the table; one by one none is here.
 #define VARIANT(name, dimension, law, option, many_materials)                                                          \
     static __attribute__((noinline)) void name(contact_job *job)                                                       \
     {                                                                                                                  \
         if (DEFORMS(law, option) || (many_materials && job->variant.moments))                                          \
-            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, true, true});                      \
+            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, true, true, IN_LANES});            \
         else if (job->variant.ledger)                                                                                  \
-            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, true, false});                     \
+            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, true, false, IN_LANES});           \
         else                                                                                                           \
-            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, false, false});                    \
+            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, false, false, IN_LANES});          \
     }
+
+/// The geometry that kernels in lanes are for.
+enum { IN_LANES = 0 };
 
 /// How many materials a kernel is for, as the rows of laws say it.
 enum { OF_one = 0, OF_many = 1 };

@@ -65,7 +65,7 @@ scree_pair_constants contact_surface_constants(const scree_model *model, const s
 const scree_law_use *contact_surface_law(const scree_model *model, const scree_surface *surface, int material);
 
 /// Motion of a body against the primitive of a wall at `closest point`.
-kinematics kinematics_of_surface(const scree_wall_set *wall_set, size_t primitive, int dimension, const bodies *body,
+kinematics kinematics_of_surface(const scree_wall_set *wall_set, size_t primitive, variant v, const bodies *body,
                                  const scree_closest_point *closest, bool moving, double step);
 
 /// Contacts of bodies in rows [begin, end) with the walls of the case, those under the job's law: memory, sums, totals.

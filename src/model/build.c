@@ -309,6 +309,28 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
     return SCREE_OK;
 }
 
+/// Geometry of the contacts of two shapes: its number among the geometries, in their order.
+static int geometry_of(const scree_shape *one, const scree_shape *other)
+{
+    int number = 0, found = -1;
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++) {
+        const scree_geometry *geometry = scree_modules[m]->geometry;
+        if (!geometry) continue;
+        if (found < 0 && geometry->serves(one, other)) found = number;
+        number++;
+    }
+    return found;
+}
+
+static scree_status resolve_geometry(scree_model *model, scree_error *error)
+{
+    const scree_shape *shape = scree_model_shape(model);
+    model->geometry = geometry_of(shape, shape);
+    return model->geometry >= 0
+               ? SCREE_OK
+               : FIELD_ERROR(error, "particles.shape", "there is no geometry for contacts of such particles");
+}
+
 static scree_status resolve_law(scree_model *model, scree_error *error)
 {
     scree_status status = SCREE_OK;
@@ -397,6 +419,7 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
         .count = (uint64_t)config->particles.count,
         .periodic = (unsigned)config->boundary.periodic,
         .dimension = (int)config->dimension,
+        .shape = scree_modules[config->particles.shape]->shape,
         .laws = {{.law = config->contact.law}},
         .pair_laws = (int)config->contact.pair_count,
         .scheme = config->integrator.scheme,
@@ -413,7 +436,8 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
     };
     for (int k = 0; k < 3; k++) model->gravity[k] = scree_schedule_at(&config->gravity[k], 0);
     for (int k = 1; k <= model->pair_laws; k++) model->laws[k].law = scree_config_law(&config->contact, k);
-    scree_status status = resolve_materials(model, error);
+    scree_status status = resolve_geometry(model, error);
+    if (!status) status = resolve_materials(model, error);
     if (!status) status = resolve_particles(model, error);
     if (!status) status = resolve_pairs(model, error);
     if (!status) status = resolve_law(model, error);

@@ -5,6 +5,7 @@
 #define SCREE_MODEL_MODEL_H
 
 #include "model/law.h"
+#include "module/geometry.h"
 #include "module/module.h"
 
 #include <math.h>
@@ -43,7 +44,9 @@ typedef struct scree_servo_limits {
 } scree_servo_limits;
 
 struct scree_model {
-    const char *name; ///< of the case
+    const char *name;         ///< of the case
+    const scree_shape *shape; ///< of the particles; NULL: of no case, and round
+    int geometry;             ///< number of the geometry of their contacts (contact/geometry.h)
     uint64_t seed;
     uint64_t count;    ///< particles of the case
     unsigned periodic; ///< bit k: the sample repeats itself in direction k
@@ -183,12 +186,15 @@ double scree_model_stiffness(const scree_model *model, double pressure, double d
 /// Largest radius of all bodies [m], those of a membrane included.
 double scree_model_largest_radius(const scree_model *model);
 
-/// Mass [kg] of a body: a sphere, or a disc of the model's thickness.
+/// Mass [kg] of a round body: a sphere, or a disc of the model's thickness.
 static inline double scree_model_mass(const scree_model *model, int material, double radius)
 {
     double length = model->dimension == 3 ? 4.0 / 3.0 * radius : model->thickness;
     return model->density[material] * M_PI * radius * radius * length;
 }
+
+/// Shape of the particles; of a model that is of no case a round one.
+const scree_shape *scree_model_shape(const scree_model *model);
 
 /// Means over all particles, by number: mass [kg]; area [m2] in 2D, volume [m3] in 3D.
 double scree_model_mean_mass(const scree_model *model);

@@ -104,14 +104,25 @@ scree_status scree_model_resolve_species(scree_model *model, scree_error *error)
 
 // ---- means -------------------------------------------------------------------------------------------------------
 
+const scree_shape *scree_model_shape(const scree_model *model)
+{
+    const scree_shape *shape = model->shape;
+    for (int m = 0; m < SCREE_MODULE_COUNT && !shape; m++) {
+        const scree_shape *one = scree_modules[m]->shape;
+        if (one && one->round && one->dimension == model->dimension) shape = one;
+    }
+    return shape;
+}
+
 double scree_model_mean_solid(const scree_model *model)
 {
-    return model->dimension == 3 ? 4.0 / 3.0 * M_PI * model->mean_cube : M_PI * model->mean_square;
+    return scree_model_shape(model)->volume(model->dimension == 3 ? model->mean_cube : model->mean_square);
 }
 
 double scree_model_mean_mass(const scree_model *model)
 {
-    double sum = 0, factor = model->dimension == 3 ? 4.0 / 3.0 * M_PI : M_PI * model->thickness;
+    double sum = 0, factor = scree_model_shape(model)->volume(1);
+    if (model->dimension == 2) factor *= model->thickness;
     for (int s = 0; s < model->species_count; s++) {
         const scree_species *species = &model->species[s];
         sum += species->fraction * model->density[species->material] * mean_power(model, species);

@@ -44,6 +44,8 @@ struct scree_module {
     const struct scree_preparation *preparation;  ///< module/preparation.h
     const struct scree_size_distribution *sizes;  ///< module/size_distribution.h
     const struct scree_wall_shape *wall;          ///< module/wall_shape.h
+    const struct scree_shape *shape;              ///< module/shape.h
+    const struct scree_geometry *geometry;        ///< module/geometry.h
     const struct scree_stage_numbers *numbers;    ///< module/stage.h
     const struct scree_stage *stage;              ///< run/stage.h
     const struct scree_boundary *boundary;        ///< module/boundary.h

@@ -20,6 +20,12 @@
 /// Contact laws, each with its header in contact/laws.h.
 #define SCREE_LAWS(row) row(hertz_brilliantov) row(hertz_mindlin) row(linear)
 
+/// Geometries of contacts, each with its header in contact/geometry.h, which numbers them in this order.
+#define SCREE_GEOMETRIES(row) row(round)
+
+/// Shapes of particles, in the order in which the case reference lists them.
+#define SCREE_SHAPES(row) row(disc) row(sphere)
+
 /// Kinds of selections, in the order in which the case reference lists them.
 #define SCREE_SELECTION_MODULES(row)                                                                                   \
     row(select_all) row(select_box) row(select_circle) row(select_sphere) row(select_band) row(select_layer)           \
@@ -27,10 +33,10 @@
 
 /// Choices of the case, in the order in which the case reference lists them.
 #define SCREE_CASE_MODULES(row)                                                                                        \
-    SCREE_LAWS(row)                                                                                                    \
-    row(position_verlet) row(velocity_verlet) row(two_timescales) row(drop_and_roll) row(hexagonal) row(square)        \
-        row(face_centred) row(body_centred) row(cubic) row(gas) row(growth) row(pair) row(bodies) row(prepare)         \
-            row(confine) row(compress) row(deform) row(rotate_particle) row(relax) row(collide) row(bond)                        \
+    SCREE_SHAPES(row)                                                                                                  \
+    SCREE_LAWS(row) row(position_verlet) row(velocity_verlet) row(two_timescales) row(drop_and_roll) row(hexagonal)    \
+        row(square) row(face_centred) row(body_centred) row(cubic) row(gas) row(growth) row(pair) row(bodies)          \
+            row(prepare) row(confine) row(compress) row(deform) row(rotate_particle) row(relax) row(collide) row(bond) \
                 row(background_damping) row(prescribed) row(plane) row(box) row(cylinder) row(cone) row(mesh)          \
                     row(uniform) row(two_sizes) row(equal) row(normal) row(log_normal) row(power_law) row(table)
 
@@ -40,6 +46,7 @@
 #define SCREE_MODULES(row)                                                                                             \
     SCREE_STATE_MODULES(row)                                                                                           \
     SCREE_BOUNDARY_MODULES(row)                                                                                        \
-    SCREE_STAGE_STATE_MODULES(row) SCREE_SELECTION_MODULES(row) SCREE_CASE_MODULES(row) SCREE_MEASURE_MODULES(row)
+    SCREE_GEOMETRIES(row) SCREE_STAGE_STATE_MODULES(row) SCREE_SELECTION_MODULES(row) SCREE_CASE_MODULES(row)          \
+        SCREE_MEASURE_MODULES(row)
 
 #endif

@@ -408,10 +408,10 @@ static void pad_list(const scree_state *state, const list_arrays *list, size_t c
 static void cut_sections(const scree_model *model, const scree_state *state, scree_work *work)
 {
     scree_pair_list *pairs = &work->pairs;
-    (void)scree_pairs_add_section(pairs, 0, true, work->search->held.count, 0);
+    (void)scree_pairs_add_section(pairs, model->geometry, 0, true, work->search->held.count, 0);
     for (int law = 0; law < scree_model_law_count(model); law++) {
         const part touching = {model, state, work, law, true}, near = {model, state, work, law, false};
-        (void)scree_pairs_add_section(pairs, law, false, count_all(&touching, work->search),
+        (void)scree_pairs_add_section(pairs, model->geometry, law, false, count_all(&touching, work->search),
                                       count_all(&near, work->search));
     }
 }
@@ -447,6 +447,7 @@ static scree_status assemble(const scree_model *model, scree_state *state, scree
     }
     pairs->count = count;
     walls->count = wall;
+    walls->geometry = elements->geometry = model->geometry;
     elements->count = element;
     list_sections(model, state, work);
     list_wall_pairs(search, work);

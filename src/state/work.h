@@ -13,9 +13,10 @@ enum {
     SCREE_FLAG_ESCAPED = 8,     ///< a body left the domain
 };
 
-/// Pairs [begin, end) of the list, all of one law and found in one way; [begin, touching_end) touched when the list was
-/// made, or are held. Along the curve, each of the two parts.
+/// Pairs [begin, end) of the list, all of one geometry and one law, and found in one way; [begin, touching_end) touched
+/// when the list was made, or are held. Along the curve, each of the two parts.
 typedef struct scree_pair_section {
+    int geometry;    ///< its number (contact/geometry.h)
     int law;         ///< its number in the model; of held pairs the law is that of model->persistent
     bool persistent; ///< held: of the persistent list, in contact at any distance
     size_t begin, touching_end, end;
@@ -53,12 +54,12 @@ static inline const scree_pair_section *scree_pairs_section(const scree_pair_lis
 }
 
 /// Adds a section of `touching` and `near` pairs behind those that there are, and returns it.
-static inline scree_pair_section *scree_pairs_add_section(scree_pair_list *list, int law, bool persistent,
+static inline scree_pair_section *scree_pairs_add_section(scree_pair_list *list, int geometry, int law, bool persistent,
                                                           size_t touching, size_t near)
 {
     scree_pair_section *section = &list->section[list->section_count];
     const size_t begin = list->section_count++ > 0 ? section[-1].end : 0;
-    *section = (scree_pair_section){law, persistent, begin, begin + touching, begin + touching + near};
+    *section = (scree_pair_section){geometry, law, persistent, begin, begin + touching, begin + touching + near};
     list->count = section->end;
     return section;
 }
@@ -77,6 +78,7 @@ typedef struct scree_wall_pair_list {
     scree_last_force *last_force; ///< as in scree_pair_list
     scree_rolling *rolling;
     uint8_t *law; ///< numbers of laws, where contacts follow several; else NULL
+    int geometry; ///< its number
     size_t count, capacity;
 } scree_wall_pair_list;
 

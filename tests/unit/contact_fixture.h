@@ -131,7 +131,7 @@ static inline void fixture_cut(scree_pair_list *list, size_t touching)
 {
     const size_t near = list->count - touching;
     scree_pairs_clear(list);
-    (void)scree_pairs_add_section(list, 0, false, touching, near);
+    (void)scree_pairs_add_section(list, 0, 0, false, touching, near);
 }
 
 static inline size_t fixture_touching(const scree_pair_list *list)

@@ -103,12 +103,13 @@ static void eight_lanes_give_the_bits_of_one(void **unused)
         for (size_t k = 0; k < sizeof variants / sizeof *variants; k++)
             for (int materials = 1; materials <= 2; materials++)
                 for (int ledger = 0; ledger <= 1; ledger++)
-                    compare(&(variant){dimension, variants[k].law, variants[k].option, materials > 1, ledger, false});
+                    compare(
+                        &(variant){dimension, variants[k].law, variants[k].option, materials > 1, ledger, false, 0});
     for (int ledger = 0; ledger <= 1; ledger++) {
         for (unsigned option = MINDLIN_ROLLING; option <= (MINDLIN_ROLLING | MINDLIN_RESCALED); option++)
-            compare(&(variant){3, SCREE_SLOT_hertz_mindlin, option, true, ledger, false});
+            compare(&(variant){3, SCREE_SLOT_hertz_mindlin, option, true, ledger, false, 0});
         for (int materials = 1; materials <= 2; materials++)
-            compare(&(variant){2, SCREE_SLOT_hertz_mindlin, MINDLIN_RESCALED, materials > 1, ledger, false});
+            compare(&(variant){2, SCREE_SLOT_hertz_mindlin, MINDLIN_RESCALED, materials > 1, ledger, false, 0});
     }
 }
 
