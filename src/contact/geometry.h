@@ -2,7 +2,7 @@
 /// NAME_traits and always-inline functions:
 ///   lanes_bits NAME_touches(dimension, first, second)            the distance test
 ///   kinematics NAME_kinematics(dimension, first, second, step)   normal, overlap, levers, and the rates from them
-///   kinematics NAME_beside(body, normal, distance)               the same beside a wall, without rates
+///   kinematics NAME_beside(body, normal, distance, step)         the same beside a wall, without rates
 ///   lanes NAME_reach(body)                                       from the centre towards a wall
 /// With a constant geometry the compiler keeps one branch. In lanes bodies have what their rows say; of one by one a
 /// geometry finds the rest by `state` and `row` of the bodies (fields of its shape's module, which ghosts follow).
@@ -54,8 +54,9 @@ SCREE_INLINE kinematics geometry_kinematics(variant v, const bodies *first, cons
     return (kinematics){.overlap = lanes_all(0)};
 }
 
-#define GEOMETRY_BESIDE(name) GEOMETRY_CALL(name, beside, body, normal, distance)
-SCREE_INLINE kinematics geometry_beside(variant v, const bodies *body, const double normal[3], double distance)
+#define GEOMETRY_BESIDE(name) GEOMETRY_CALL(name, beside, body, normal, distance, step)
+SCREE_INLINE kinematics geometry_beside(variant v, const bodies *body, const double normal[3], double distance,
+                                        double step)
 {
     ALL_GEOMETRIES(GEOMETRY_BESIDE)
     return (kinematics){.overlap = lanes_all(0)};

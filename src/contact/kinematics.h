@@ -67,7 +67,8 @@ typedef struct kinematics {
     vector roll;      ///< m/s
     lanes twist;      ///< rad/s, in space
     lanes arm_first, arm_second;      ///< m, of the levers, along the normal
-    vector lever_first, lever_second; ///< m, from the centres to the contact point, of geometries with levers
+    vector lever_first, lever_second; ///< m, from the centres to the contact point, of geometries with levers;
+    vector moved_first, moved_second; ///< m, by which they have changed in the last step
     lanes reduced_radius;             ///< m, R_eff
     lanes reduced_mass;               ///< kg, m_eff
     vector tilted;                    ///< rad, phi; zero against a plane
@@ -147,30 +148,32 @@ SCREE_INLINE void kinematics_advance(int dimension, kinematics *m, vector veloci
     m->slip = turn_half(m, m->slip);
 }
 
-/// The same of geometries with levers: normal, overlap, reduced radius and mass, `tilted` and the levers are set;
-/// moved_first, moved_second: changes of the levers in the last step. With the levers of the middle of the step, m = l
-/// - moved / 2, the bodies pass each other at the contact point with c = u + w_first x m_first - w_second x m_second;
-/// of it the approach is -c . (n - phi / 2), and the rest is slip.
+/// The same of geometries with levers: normal, overlap, reduced radius and mass, `tilted`, the levers and their changes
+/// are set. With the levers of the middle of the step, m = l - moved / 2, the bodies pass each other at the contact
+/// point with c = u + w_first x m_first - w_second x m_second; of it the approach is -c . (n - phi / 2), and the rest
+/// is slip. second: NULL for a wall that stands.
 SCREE_INLINE void kinematics_from_levers(int dimension, kinematics *m, const bodies *first, const bodies *second,
-                                         vector moved_first, vector moved_second, double step)
+                                         double step)
 {
     const int count = tangential_count(dimension);
-    const vector n = m->normal, tilt = vector_times(count, m->tilted, lanes_all(0.5));
-    const vector middle_first =
-        vector_minus(dimension, m->lever_first, vector_times(dimension, moved_first, lanes_all(0.5)));
-    const vector middle_second =
-        vector_minus(dimension, m->lever_second, vector_times(dimension, moved_second, lanes_all(0.5)));
+    const lanes half = lanes_all(0.5);
+    const vector n = m->normal, tilt = vector_times(count, m->tilted, half);
+    const vector middle = vector_minus(dimension, m->lever_first, vector_times(dimension, m->moved_first, half));
     // One body after the other, so that the exchange of the two changes signs alone.
-    const vector here = vector_plus(dimension, first->velocity, spin_cross(dimension, first->spin, middle_first));
-    const vector there = vector_plus(dimension, second->velocity, spin_cross(dimension, second->spin, middle_second));
-    const vector passing = vector_minus(dimension, here, there);
+    vector passing = vector_plus(dimension, first->velocity, spin_cross(dimension, first->spin, middle));
+    vector spins = first->spin, relative = first->spin;
+    if (second) {
+        const vector there = vector_minus(dimension, m->lever_second, vector_times(dimension, m->moved_second, half));
+        passing = vector_minus(dimension, passing,
+                               vector_plus(dimension, second->velocity, spin_cross(dimension, second->spin, there)));
+        spins = vector_plus(count, spins, second->spin);
+        relative = vector_minus(count, relative, second->spin);
+        m->arm_second = vector_dot(dimension, m->lever_second, n);
+    }
+    m->arm_first = -vector_dot(dimension, m->lever_first, n);
     const vector along = vector_across(dimension, passing, n);
-    const vector spins = vector_plus(count, first->spin, second->spin);
-    const vector relative = vector_minus(count, first->spin, second->spin);
     m->approach = vector_dot(count, along, tilt) - vector_dot(dimension, passing, n);
     m->slip = vector_minus(count, along, vector_times(count, tilt, m->approach));
-    m->arm_first = -vector_dot(dimension, m->lever_first, n);
-    m->arm_second = vector_dot(dimension, m->lever_second, n);
     m->roll = vector_times(count, relative, m->reduced_radius);
     m->expansion = m->expanding = m->turning = lanes_all(0);
     m->spreading = vector_none();

@@ -49,8 +49,9 @@ SCREE_INLINE kinematics round_kinematics(int dimension, const bodies *first, con
 }
 
 /// Beside a wall, a body of infinite radius and mass: R_eff = R, m_eff = m. What does not depend on velocities.
-SCREE_INLINE kinematics round_beside(const bodies *body, const double normal[3], double distance)
+SCREE_INLINE kinematics round_beside(const bodies *body, const double normal[3], double distance, double step)
 {
+    (void)step;
     kinematics m = {.normal = {lanes_all(normal[0]), lanes_all(normal[1]), lanes_all(normal[2])},
                     .overlap = body->radius - distance};
     m.arm_first = body->radius - 0.5 * m.overlap;

@@ -126,8 +126,14 @@ static inline bool pair_touches(variant v, const bodies *one, const bodies *othe
 
 /// The rest of it: velocity and spin of the body are `velocity` and `spin` in the frame of the wall, whose normal turns
 /// there as m->tilted says.
-SCREE_INLINE void kinematics_past(int dimension, kinematics *m, vector velocity, vector spin, double step)
+SCREE_INLINE void kinematics_past(variant v, kinematics *m, vector velocity, vector spin, double step)
 {
+    const int dimension = v.dimension;
+    if (geometry_has_levers(v)) {
+        const bodies seen = {.velocity = velocity, .spin = spin};
+        kinematics_from_levers(dimension, m, &seen, NULL, step);
+        return;
+    }
     vector along = vector_across(dimension, velocity, m->normal);
     vector lever = vector_times(tangential_count(dimension), spin, m->arm_first);
     kinematics_advance(dimension, m, velocity, along, lever, spin, vector_none(), step);
@@ -140,10 +146,10 @@ SCREE_INLINE kinematics kinematics_of_wall(variant v, const bodies *body, const 
     const double *slide = wall->tangential_velocity;
     vector normal = {wall->normal[0], wall->normal[1], wall->normal[2]};
     kinematics m =
-        geometry_beside(v, body, wall->normal, vector_dot(dimension, normal, body->position) - wall->position);
+        geometry_beside(v, body, wall->normal, vector_dot(dimension, normal, body->position) - wall->position, step);
     vector moving = {wall->velocity * normal.x + slide[0], wall->velocity * normal.y + slide[1],
                      wall->velocity * normal.z + slide[2]};
-    kinematics_past(dimension, &m, vector_minus(dimension, body->velocity, moving), body->spin, step);
+    kinematics_past(v, &m, vector_minus(dimension, body->velocity, moving), body->spin, step);
     return m;
 }
 

@@ -87,15 +87,16 @@ static kinematics capsule_kinematics(int dimension, const bodies *first, const b
                     .reduced_radius = first->radius * second->radius / (first->radius + second->radius),
                     .reduced_mass = first->mass * second->mass / (first->mass + second->mass)};
     m.tilted = vector_across(dimension, vector_minus(dimension, now.normal, before.normal), now.normal);
-    kinematics_from_levers(dimension, &m, first, second, vector_minus(dimension, now.lever_first, before.lever_first),
-                           vector_minus(dimension, now.lever_second, before.lever_second), step);
+    m.moved_first = vector_minus(dimension, now.lever_first, before.lever_first);
+    m.moved_second = vector_minus(dimension, now.lever_second, before.lever_second);
+    kinematics_from_levers(dimension, &m, first, second, step);
     return m;
 }
 
 /// No walls here.
-static kinematics capsule_beside(const bodies *body, const double normal[3], double distance)
+static kinematics capsule_beside(const bodies *body, const double normal[3], double distance, double step)
 {
-    (void)body, (void)normal, (void)distance;
+    (void)body, (void)normal, (void)distance, (void)step;
     return (kinematics){.overlap = 0};
 }
 
