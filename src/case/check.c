@@ -19,6 +19,12 @@ void scree_key_join(char out[SCREE_PATH_BYTES], const char *path, const char *na
     if (length < SCREE_PATH_BYTES) (void)snprintf(out + length, SCREE_PATH_BYTES - length, "%s", name);
 }
 
+const char *scree_element_path(char path[SCREE_PATH_BYTES], const char *list, int64_t index, const char *key)
+{
+    (void)snprintf(path, SCREE_PATH_BYTES, "%s.%lld.%s", list, (long long)index, key);
+    return path;
+}
+
 /// A section that is being read.
 typedef struct scope {
     scree_reader *reader;

@@ -85,6 +85,7 @@ scree_status scree_prepare(const scree_model *model, const scree_config_stage *s
         state->tick = model->step;
         state->step_size = state->kick_size = (double)model->largest_step * model->step;
         if (method->set_moving) method->set_moving(model, stage, state);
+        if (method->remember) status = method->remember(model, stage, &packing, state, error);
     }
     scree_packing_destroy(&packing);
     if (status) scree_state_destroy(state);
