@@ -39,14 +39,13 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
     scree_law_bounds bounds = contact_bounds_get(model, state);
     const size_t held = scree_persistent(state)->count;
     double room = ldexp(1.0, SCREE_FIXED_RANGE_BITS - contact_energy_bits(state->dimension, state->count, held));
-    contact_job job = {
+    return (contact_job){
         .model = model,
         .state = state,
         .variant = {.dimension = state->dimension,
                     .many_materials = model->material_count + model->added_materials > 1,
                     .ledger = work->ledger || state->moment,
-                    .moments = state->moment != NULL,
-                    .geometry = model->geometry},
+                    .moments = state->moment != NULL},
         .row = state->row,
         .turn = state->turn,
         .predicted = state->predicted,
@@ -60,7 +59,6 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
         .last_force = work->pairs.last_force,
         .rolling = work->pairs.rolling,
         .own = work->pairs.own,
-        .pairs = model->pairs,
         .settings = {.step = state->step_size},
         .scale = {.inverse_force = 1 / state->force_quantum,
                   .inverse_torque = 1 / state->torque_quantum,
@@ -69,31 +67,44 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
                   .force_limit = ldexp(state->force_quantum, SCREE_FIXED_RANGE_BITS),
                   .inverse_surface_torque = 1 / contact_surface_torque_quantum(model, state, work->wall_set)},
     };
-    contact_job_use_number(&job, 0);
-    return job;
 }
 
 /// The contacts with walls of a range of rows, law by law.
 static void add_walls(contact_job *job, const scree_state *state, const scree_work *work, size_t begin, size_t end)
 {
     for (int law = 0; law < scree_model_law_count(job->model); law++) {
-        if (law > 0) contact_job_use_number(job, law);
+        job->variant.geometry = work->wall_pairs.geometry;
+        contact_job_use_number(job, law);
         contact_walls(job, scree_plates(state), &work->wall_pairs, begin, end);
         contact_surfaces(job, state, work, begin, end);
     }
 }
 
+/// The pairs of all sections, of each those in its range.
+static void evaluate_sections(contact_kernel *kernel, contact_job *job, const scree_pair_list *pairs,
+                              const contact_range *range, uint8_t *near_touched, const size_t *near_byte)
+{
+    contact_totals before;
+    bool first = true;
+    for (int k = 0; k < pairs->section_count; k++) {
+        if (contact_range_is_empty(&range[k])) continue;
+        if (!first) before = job->totals;
+        contact_job_enter(job, &pairs->section[k], &range[k], near_touched ? near_touched + near_byte[k] : NULL);
+        if (geometry_is_one_by_one(job->variant))
+            contact_pairs_reference(job);
+        else
+            kernel(job);
+        if (!first) contact_totals_add(&job->totals, &before);
+        first = false;
+    }
+    if (first) job->totals = contact_totals_none();
+}
+
 static contact_totals evaluate_serially(contact_job *job, scree_state *state, const scree_work *work)
 {
-    job->totals = contact_totals_none();
-    for (int k = 0; k < work->pairs.section_count; k++) {
-        const scree_pair_section *section = &work->pairs.section[k];
-        const contact_range range = contact_range_of(section);
-        if (contact_range_is_empty(&range)) continue;
-        contact_job of = contact_job_of_section(job, section, &range, NULL);
-        contact_pairs_reference(&of);
-        contact_totals_add(&job->totals, &of.totals);
-    }
+    contact_range range[SCREE_PAIR_SECTIONS];
+    for (int k = 0; k < work->pairs.section_count; k++) range[k] = contact_range_of(&work->pairs.section[k]);
+    evaluate_sections(contact_pairs_reference, job, &work->pairs, range, NULL, NULL);
     add_walls(job, state, work, 0, state->count);
     return job->totals;
 }
@@ -112,26 +123,11 @@ static void evaluate_share(void *argument, int index, int count)
     const parts_task *task = argument;
     contact_scratch *scratch = task->scratch;
     contact_part *part = &scratch->part[index];
-    contact_job *job = &part->job;
-    bool first = true;
     (void)count;
-    *job = *task->common;
-    job->totals = contact_totals_none();
-    contact_part_clear(part, task->state, job);
-    for (int k = 0; k < scratch->section_count; k++) {
-        if (contact_range_is_empty(&part->range[k])) continue;
-        contact_job of = contact_job_of_section(job, &scratch->section[k], &part->range[k],
-                                                scratch->near_touched + scratch->near_byte[k]);
-        if (geometry_is_one_by_one(of.variant))
-            contact_pairs_reference(&of);
-        else
-            task->kernel(&of);
-        if (first)
-            job->totals = of.totals;
-        else
-            contact_totals_add(&job->totals, &of.totals);
-        first = false;
-    }
+    part->job = *task->common;
+    contact_part_clear(part, task->state, &part->job);
+    evaluate_sections(task->kernel, &part->job, &task->work->pairs, part->range, scratch->near_touched,
+                      scratch->near_byte);
 }
 
 /// Makes a range of rows whole, and adds the wall contacts of its bodies.

@@ -74,20 +74,18 @@ static inline void contact_job_use_number(contact_job *job, int number)
     contact_job_use(job, &job->model->laws[number]);
 }
 
-/// What a job is for pairs of a section. near_touched: of the section.
-static inline contact_job contact_job_of_section(const contact_job *job, const scree_pair_section *section,
-                                                 const contact_range *range, uint8_t *near_touched)
+/// Turns a job to pairs of a section; its totals are those of these pairs then. near_touched: of the section.
+static inline void contact_job_enter(contact_job *job, const scree_pair_section *section, const contact_range *range,
+                                     uint8_t *near_touched)
 {
-    contact_job of = *job;
-    of.range = *range;
-    of.near = section->touching_end;
-    of.near_touched = near_touched;
-    of.variant.geometry = section->geometry;
-    contact_job_use(&of, section->persistent ? &job->model->persistent.law : &job->model->laws[section->law]);
-    if (!section->persistent) return of;
-    of.variant.many_materials = true;
-    of.pairs = job->model->persistent.pairs;
-    return of;
+    const scree_model *model = job->model;
+    job->range = *range;
+    job->near = section->touching_end;
+    job->near_touched = near_touched;
+    job->variant.geometry = section->geometry;
+    job->variant.many_materials = section->persistent || model->material_count + model->added_materials > 1;
+    job->pairs = section->persistent ? model->persistent.pairs : model->pairs;
+    contact_job_use(job, section->persistent ? &model->persistent.law : &model->laws[section->law]);
 }
 
 typedef void contact_kernel(contact_job *job);
