@@ -83,10 +83,12 @@ static inline void prefetch_wall_pair(const contact_job *job, const scree_wall_p
 SCREE_INLINE void evaluate_walls(contact_job *job, variant v, const scree_wall *wall, const scree_wall_pair_list *pairs,
                                  size_t row_begin, size_t row_end)
 {
+    const uint8_t *laws = pairs->law;
+    const uint8_t law = (uint8_t)job->law;
     for (size_t p = 0; p < pairs->count; p++) {
         size_t row = pairs->body[p];
         prefetch_wall_pair(job, pairs, p + WALL_PAIRS_AHEAD);
-        if (row < row_begin || row >= row_end || scree_wall_pair_law(pairs, p) != job->law) continue;
+        if (row < row_begin || row >= row_end || (laws && laws[p] != law)) continue;
         uint32_t w = pairs->wall[p];
         memory_rows rows = memory_rows_at(pairs->history, pairs->last_force, pairs->rolling, p);
         bodies one = contact_body_at(job, row);
