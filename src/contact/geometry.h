@@ -13,15 +13,21 @@
 #include "contact/law.h"
 #include "contact/round.h"
 
-/// A test may have one of its own behind them, with code that it compiles itself.
+/// Kernels know those in lanes alone. A test may have one of its own behind all others, with code that it compiles
+/// itself.
 #ifndef SCREE_MORE_GEOMETRIES
 #define SCREE_MORE_GEOMETRIES(row)
 #endif
+#if SCREE_LANES == 1
 #define ALL_GEOMETRIES(row) SCREE_GEOMETRIES(row) SCREE_MORE_GEOMETRIES(row)
+#else
+#define ALL_GEOMETRIES(row) SCREE_GEOMETRIES_IN_LANES(row)
+#endif
 
 /// Their numbers, by which sections and variants call them: the model finds them in the same order.
 #define GEOMETRY_NUMBER(name) GEOMETRY_##name,
-enum { ALL_GEOMETRIES(GEOMETRY_NUMBER) GEOMETRIES };
+#define GEOMETRY_COUNT(name)  +1
+enum { ALL_GEOMETRIES(GEOMETRY_NUMBER) GEOMETRIES, GEOMETRIES_IN_LANES = 0 SCREE_GEOMETRIES_IN_LANES(GEOMETRY_COUNT) };
 
 #define GEOMETRY_TRAITS(name) [GEOMETRY_##name] = &name##_traits,
 static const scree_geometry_traits *const all_geometry_traits[GEOMETRIES] = {ALL_GEOMETRIES(GEOMETRY_TRAITS)};
@@ -34,7 +40,7 @@ SCREE_INLINE bool geometry_has_levers(variant v)
 
 SCREE_INLINE bool geometry_is_one_by_one(variant v)
 {
-    return all_geometry_traits[v.geometry]->one_by_one;
+    return v.geometry >= GEOMETRIES_IN_LANES;
 }
 
 #define GEOMETRY_CALL(name, function, ...)                                                                             \

@@ -6,7 +6,7 @@
 #include "contact/kinematics.h"
 #include "module/geometry.h"
 
-static const scree_geometry_traits round_traits = {.one_by_one = false, .levers = false};
+static const scree_geometry_traits round_traits = {.levers = false};
 
 /// Set where the bodies are in contact; also where a coordinate is NaN, so that the kernels notice.
 SCREE_INLINE lanes_bits round_touches(int dimension, const bodies *first, const bodies *second)

@@ -7,8 +7,7 @@
 
 /// What the rest of the program must know of it; constants in the kernels.
 typedef struct scree_geometry_traits {
-    bool one_by_one; ///< pairs are evaluated one at a time, with the state at hand; else several in lanes
-    bool levers;     ///< forces act at a point anywhere, along the normal too; else on the normal through both centres
+    bool levers; ///< forces act at a point anywhere, along the normal too; else on the normal through both centres
 } scree_geometry_traits;
 
 typedef struct scree_geometry {

@@ -20,8 +20,11 @@
 /// Contact laws, each with its header in contact/laws.h.
 #define SCREE_LAWS(row) row(hertz_brilliantov) row(hertz_mindlin) row(linear)
 
-/// Geometries of contacts, each with its header in contact/geometry.h, which numbers them in this order.
-#define SCREE_GEOMETRIES(row) row(round)
+/// Geometries of contacts, each with its header in contact/geometry.h, which numbers them in this order: those that are
+/// evaluated in lanes, and those of which pairs are evaluated one at a time.
+#define SCREE_GEOMETRIES_IN_LANES(row) row(round)
+#define SCREE_GEOMETRIES_ONE_BY_ONE(row)
+#define SCREE_GEOMETRIES(row) SCREE_GEOMETRIES_IN_LANES(row) SCREE_GEOMETRIES_ONE_BY_ONE(row)
 
 /// Shapes of particles, in the order in which the case reference lists them.
 #define SCREE_SHAPES(row) row(disc) row(sphere)
@@ -47,7 +50,7 @@
 #define SCREE_MODULES(row)                                                                                             \
     SCREE_STATE_MODULES(row)                                                                                           \
     SCREE_BOUNDARY_MODULES(row)                                                                                        \
-    SCREE_GEOMETRIES(row) SCREE_STAGE_STATE_MODULES(row) SCREE_SELECTION_MODULES(row) SCREE_CASE_MODULES(row)          \
-        SCREE_MEASURE_MODULES(row)
+    SCREE_GEOMETRIES(row)                                                                                              \
+    SCREE_STAGE_STATE_MODULES(row) SCREE_SELECTION_MODULES(row) SCREE_CASE_MODULES(row) SCREE_MEASURE_MODULES(row)
 
 #endif

@@ -11,7 +11,7 @@
 
 static double half_length = 0.8e-3; ///< m, of the segment of each body
 
-static const scree_geometry_traits capsule_traits = {.one_by_one = true, .levers = true};
+static const scree_geometry_traits capsule_traits = {.levers = true};
 
 /// Where two capsules touch, or would: centres and angles are given.
 typedef struct capsule_place {
