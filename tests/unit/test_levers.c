@@ -158,7 +158,7 @@ static void capsules_step(fixture *f)
     fixture_forces(f);
 }
 
-/// A disturbed net of capsules at random angles that run into each other.
+/// A disturbed net of capsules, along x and y by turns, that run into each other.
 static void create_net(fixture *f, double step, double friction, double damping)
 {
     enum { SIDE = 5 };
@@ -168,12 +168,12 @@ static void create_net(fixture *f, double step, double friction, double damping)
         const uint64_t c = 10 * k;
         row->radius = 1e-3 * (0.6 + 0.1 * fixture_random(c));
         row->mass = fixture_mass(&f->model, 0, 1e-3);
-        row->x = 2.75e-3 * (double)(k % SIDE) + 2e-4 * fixture_random(c + 1);
-        row->y = 2.75e-3 * (double)(k / SIDE) + 2e-4 * fixture_random(c + 2);
-        row->vx = 4 * (0.5 - fixture_random(c + 3)) - 150 * row->x;
-        row->vy = 4 * (0.5 - fixture_random(c + 4)) - 150 * row->y;
+        row->x = 2.4e-3 * ((double)(k % SIDE) - 2) + 2e-4 * fixture_random(c + 1);
+        row->y = 2.4e-3 * ((double)(k / SIDE) - 2) + 2e-4 * fixture_random(c + 2);
+        row->vx = 2 * (0.5 - fixture_random(c + 3)) - 1500 * row->x;
+        row->vy = 2 * (0.5 - fixture_random(c + 4)) - 1500 * row->y;
         row->spin = 2e3 * (fixture_random(c + 5) - 0.5);
-        f->state.angle[k] = 3 * fixture_random(c + 6);
+        f->state.angle[k] = 0.5 * M_PI * (double)(k % 2) + 0.3 * fixture_random(c + 6);
     }
     fixture_measure_speed(f);
     f->state.largest_speed *= 2;
@@ -207,11 +207,12 @@ static double energy_of(const fixture *f)
     return energy;
 }
 
-/// Torque of all forces about the origin, over the sum of their magnitudes; 0 but for the rounding to quanta.
+/// Torque of all forces about the origin, over what the rounding of each contact makes of it: its force to quanta at a
+/// lever up to 2 mm on each body, its two torques to theirs; and the products of this sum in double precision.
 static double unbalance(const fixture *f)
 {
     double sum = 0, scale = 0;
-    int64_t forces[2] = {0};
+    int64_t forces[2] = {0}, contacts = 0;
     for (size_t k = 0; k < f->state.count; k++) {
         double force[3];
         fixture_force(f, k, force);
@@ -219,9 +220,10 @@ static double unbalance(const fixture *f)
         scale += 15e-3 * hypot(force[0], force[1]);
         forces[0] += f->state.sum[k].fx;
         forces[1] += f->state.sum[k].fy;
+        contacts += f->state.sum[k].contacts;
     }
     assert_true(forces[0] == 0 && forces[1] == 0);
-    return fabs(sum) / scale;
+    return fabs(sum) / ((double)contacts * (f->state.torque_quantum + 2e-3 * f->state.force_quantum) + 1e-14 * scale);
 }
 
 static double residual(double step, int steps, double friction, double damping, double *dissipated)
@@ -238,8 +240,7 @@ static double residual(double step, int steps, double friction, double damping, 
     }
     assert_int_equal(f.work.flags, 0);
     *dissipated = (f.state.ledger.damping + f.state.ledger.friction) / begin;
-    // Products of positions and forces in double precision, and quanta of 2^-50 of the bound.
-    assert_true(torque > 0 && torque < 1e-12);
+    assert_true(torque > 0 && torque < 1);
     fixture_destroy(&f);
     return worst;
 }
