@@ -36,7 +36,7 @@ static inline const double *contact_strain_at(const contact_job *job, size_t row
     return job->strain ? job->strain + row * scree_strain_size(job->variant.dimension) : NULL;
 }
 
-static inline bodies contact_body_at(const contact_job *job, size_t row)
+SCREE_INLINE bodies contact_body_at(const contact_job *job, size_t row)
 {
     bodies body = body_get(job->variant.dimension, &job->row[row], job->turn ? &job->turn[row] : NULL);
     body_strain(job->variant.dimension, contact_strain_at(job, row), &body);

@@ -6,7 +6,7 @@
 #include "state/plates.h"
 
 /// The strain of a body, and its last change, from its row (state/state.h); NULL: it is rigid.
-static inline void body_strain(int dimension, const double *strain, bodies *body)
+SCREE_INLINE void body_strain(int dimension, const double *strain, bodies *body)
 {
     const int half = dimension == 3 ? SCREE_STRAINS_3D / 2 : SCREE_STRAINS_2D / 2;
     body->deforms = strain != NULL;
@@ -19,7 +19,7 @@ static inline void body_strain(int dimension, const double *strain, bodies *body
 }
 
 /// `turn` is not read in two dimensions.
-static inline bodies body_get(int dimension, const scree_row *row, const scree_turn_row *turn)
+SCREE_INLINE bodies body_get(int dimension, const scree_row *row, const scree_turn_row *turn)
 {
     bodies body = {.position = {row->x, row->y, 0}, .velocity = {row->vx, row->vy, 0}};
     body.radius = row->radius;
@@ -154,7 +154,7 @@ SCREE_INLINE kinematics kinematics_of_wall(variant v, const bodies *body, const 
 }
 
 /// NaN counts as contact, so that it is noticed.
-static inline bool wall_touches(variant v, const bodies *body, const scree_wall *wall)
+SCREE_INLINE bool wall_touches(variant v, const bodies *body, const scree_wall *wall)
 {
     const vector normal = {wall->normal[0], wall->normal[1], wall->normal[2]};
     const double height = vector_dot(v.dimension, normal, body->position);
