@@ -52,8 +52,8 @@ static void find_forces(const scree_model *model, const scree_state *state, cons
     for (size_t p = pairs->held_count; p < pairs->count; p++) {
         const uint32_t a = pairs->first[p], b = pairs->second[p];
         const scree_bond_candidate *candidate = candidate_of(all, state, a, b);
-        const double *const strains[2] = {scree_strain_row(state, a), scree_strain_row(state, b)};
-        if (!candidate || !pair_touches(state->dimension, &state->row[a], &state->row[b], strains)) continue;
+        const double *const stretches[2] = {scree_stretch_row(state, a), scree_stretch_row(state, b)};
+        if (!candidate || !pair_touches(state->dimension, &state->row[a], &state->row[b], stretches)) continue;
         of[candidate - all->pair] = (swap){evaluate(model, state, work, p), true};
     }
 }

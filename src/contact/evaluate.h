@@ -66,12 +66,18 @@ SCREE_INLINE quanta torque_on(int dimension, vector moment, lanes arm, const con
     return quanta_of(count, vector_times(count, moment, factor), 1);
 }
 
-/// Branch (x) force of one body of a contact, d x d by rows: -a n_i f_j for the first, with its arm, and as much for
-/// the second with its own, whose branch and force both have the other sign.
-SCREE_INLINE void contact_moments(int dimension, const contact_scale *scale, vector normal, lanes arm, vector force,
-                                  lanes_bits moment[9])
+/// What n_i f_j of a contact is multiplied by to become quanta of a body's moment. Branch and force of the second body
+/// both have the other sign, so both bodies have the same but for their arm. That of bodies that deform is the radius
+/// (M 2.41), and left out: it is one number of the body (scree_moment_unit), and both get the same integers.
+SCREE_INLINE lanes contact_moment_factor(bool deforms, const contact_scale *scale, lanes arm)
 {
-    const vector branch = vector_times(dimension, normal, arm * -scale->inverse_torque);
+    return deforms ? lanes_all(-scale->inverse_force) : arm * -scale->inverse_torque;
+}
+
+/// Branch (x) force of one body of a contact, d x d by rows.
+SCREE_INLINE void contact_moments(int dimension, vector normal, lanes factor, vector force, lanes_bits moment[9])
+{
+    const vector branch = vector_times(dimension, normal, factor);
     const lanes s[3] = {branch.x, branch.y, branch.z}, f[3] = {force.x, force.y, force.z};
     for (int i = 0; i < dimension; i++)
         for (int j = 0; j < dimension; j++) moment[dimension * i + j] = lanes_fixed(s[i] * f[j], 1);

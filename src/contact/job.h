@@ -32,7 +32,7 @@ typedef struct contact_job {
     const scree_row *row;
     const scree_turn_row *turn;       ///< 3D
     const scree_predicted *predicted; ///< one a row, with law_predicts
-    const double *strain;             ///< with law_deforms: scree_strain_size numbers a row
+    const double *stretch;            ///< with law_deforms: scree_stretch_size numbers a row
     scree_sum_row *sum;               ///< the sum of row r is sum[r]; this thread's own
     scree_torque_row *torque;         ///< 3D, in the same way
     int64_t *moment;                  ///< in the same way; NULL: not asked for
@@ -55,7 +55,7 @@ typedef struct contact_job {
 /// The option of a law that the bodies of a state ask for: without strains they are rigid as yet.
 static inline unsigned contact_option(const scree_law_use *law, const scree_state *state)
 {
-    return state->strain && state->moment ? law->option : law->option & ~scree_law_get(law->law)->deforming;
+    return state->stretch && state->moment ? law->option : law->option & ~scree_law_get(law->law)->deforming;
 }
 
 /// The part of a job that is of pairs that are held: under their law, without near pairs.
@@ -64,7 +64,7 @@ static inline contact_job contact_job_of_held(const contact_job *job)
     contact_job held = *job;
     const scree_law_use *law = &job->model->persistent.law;
     held.variant.law = law->law;
-    held.variant.option = job->strain ? law->option : law->option & ~scree_law_get(law->law)->deforming;
+    held.variant.option = job->stretch ? law->option : law->option & ~scree_law_get(law->law)->deforming;
     held.variant.many_materials = true;
     held.pairs = job->model->persistent.pairs;
     memcpy(held.settings.number, law->number, sizeof law->number);

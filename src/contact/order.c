@@ -14,8 +14,8 @@ static bool reference_get(const scree_state *state, const scree_work *work, cons
     if (k < pairs->count) {
         uint32_t a = pairs->first[k], b = pairs->second[k];
         *r = (contact_reference){state->id[a], state->id[b], (uint32_t)k};
-        const double *const strains[2] = {scree_strain_row(state, a), scree_strain_row(state, b)};
-        return k < pairs->held_count || pair_touches(state->dimension, &state->row[a], &state->row[b], strains);
+        const double *const stretches[2] = {scree_stretch_row(state, a), scree_stretch_row(state, b)};
+        return k < pairs->held_count || pair_touches(state->dimension, &state->row[a], &state->row[b], stretches);
     }
     k -= pairs->count;
     if (k >= work->wall_pairs.count) {
@@ -26,7 +26,7 @@ static bool reference_get(const scree_state *state, const scree_work *work, cons
     }
     uint32_t body = work->wall_pairs.body[k], wall = work->wall_pairs.wall[k];
     *r = (contact_reference){state->id[body], SCREE_WALL_ID + wall, (uint32_t)k};
-    return wall_touches(state->dimension, &state->row[body], &scree_plates(state)[wall], scree_strain_row(state, body));
+    return wall_touches(state->dimension, &state->row[body], &scree_plates(state)[wall], scree_stretch_row(state, body));
 }
 
 /// Puts list[k] in its place among list[begin .. k - 1], which are in order.

@@ -38,13 +38,16 @@ static void evaluate_pair(contact_job *job, size_t p)
     const int dimension = job->variant.dimension;
     const size_t first = job->first[p], second = job->second[p];
     memory_rows rows = memory_rows_at(job->history, job->last_force, job->rolling, p);
-    const double *const strains[2] = {contact_strain_at(job, first), contact_strain_at(job, second)};
-    bool touching = law_holds(job->variant) || pair_touches(dimension, &job->row[first], &job->row[second], strains);
+    const double *const stretches[2] = {contact_stretch_at(job, first), contact_stretch_at(job, second)};
+    bool touching = law_holds(job->variant) || pair_touches(dimension, &job->row[first], &job->row[second], stretches);
     if (!touching && memory_is_clear(&rows)) return;
     bodies one = contact_body_at(job, first), other = contact_body_at(job, second);
     kinematics m = kinematics_of_pair(dimension, &one, &other, job->settings.step);
     const bool deforms = law_deforms(job->variant);
-    if (deforms) kinematics_expand(dimension, &m, &one, &other, job->settings.step);
+    if (deforms) {
+        const stretch both = stretch_get(dimension, stretches[0], stretches[1]);
+        kinematics_expand(dimension, &m, &both, job->settings.step);
+    }
     if (law_predicts(job->variant)) {
         prediction ahead = prediction_get(dimension, &job->predicted[first]);
         prediction ahead_second = prediction_get(dimension, &job->predicted[second]);
@@ -55,8 +58,8 @@ static void evaluate_pair(contact_job *job, size_t p)
     contact_quanta q = contact_advance(job, job->variant, constants, own, &m, touching, &rows);
     contact_add_to_sums(job, first, q.force, q.torque_first, q.count);
     contact_add_to_sums(job, second, quanta_opposite(q.force), q.torque_second, q.count);
-    contact_add_moments(job, first, m.normal, contact_lever(deforms, &one, m.arm_first), q.straining);
-    contact_add_moments(job, second, m.normal, contact_lever(deforms, &other, m.arm_second), q.straining);
+    contact_add_moments(job, deforms, first, m.normal, m.arm_first, q.straining);
+    contact_add_moments(job, deforms, second, m.normal, m.arm_second, q.straining);
 }
 
 static void evaluate_range(contact_job *job)
@@ -97,19 +100,21 @@ SCREE_INLINE void evaluate_walls(contact_job *job, variant v, const scree_wall *
         if (row < row_begin || row >= row_end) continue;
         uint32_t w = pairs->wall[p];
         memory_rows rows = memory_rows_at(pairs->history, pairs->last_force, pairs->rolling, p);
-        bool touching = wall_touches(v.dimension, &job->row[row], &wall[w], contact_strain_at(job, row));
+        bool touching = wall_touches(v.dimension, &job->row[row], &wall[w], contact_stretch_at(job, row));
         if (!touching && memory_is_clear(&rows)) continue;
         bodies one = contact_body_at(job, row);
         kinematics m = kinematics_of_wall(v.dimension, &one, &wall[w], job->settings.step);
-        if (law_deforms(v)) kinematics_expand(v.dimension, &m, &one, NULL, job->settings.step);
+        if (law_deforms(v)) {
+            const stretch own = stretch_get(v.dimension, contact_stretch_at(job, row), NULL);
+            kinematics_expand(v.dimension, &m, &own, job->settings.step);
+        }
         if (law_predicts(v)) {
             prediction ahead = prediction_get(v.dimension, &job->predicted[row]);
             kinematics_predict(v.dimension, &m, &one, &ahead, NULL, NULL);
         }
         contact_quanta q = contact_advance(job, v, &job->model->walls[(int)one.material], NULL, &m, touching, &rows);
         contact_add_to_sums(job, row, q.force, q.torque_first, q.count);
-        if (v.moments)
-            contact_add_moments(job, row, m.normal, contact_lever(law_deforms(v), &one, m.arm_first), q.straining);
+        if (v.moments) contact_add_moments(job, law_deforms(v), row, m.normal, m.arm_first, q.straining);
         job->totals.wall_force[w] += q.normal;
         job->totals.wall_shear[w][0] -= q.tangential.x;
         job->totals.wall_shear[w][1] -= q.tangential.y;

@@ -5,16 +5,17 @@
 #include "contact/evaluate.h"
 #include "state/plates.h"
 
-/// The strain of a body, and its last change, from its row (state/state.h); NULL: it is rigid.
-static inline void body_strain(int dimension, const double *strain, bodies *body)
+/// That of two bodies from their rows (state/state.h); second: NULL beside a wall.
+static inline stretch stretch_get(int dimension, const double *first, const double *second)
 {
-    const int half = dimension == 3 ? SCREE_STRAINS_3D / 2 : SCREE_STRAINS_2D / 2;
-    if (!strain) return;
+    const int half = dimension == 3 ? SCREE_STRETCHES_3D / 2 : SCREE_STRETCHES_2D / 2;
+    stretch both;
     for (int k = 0; k < (dimension == 3 ? 6 : 3); k++) {
         const int place = k < 3 ? k : k + 1;
-        body->strain[k] = strain[place];
-        body->strained[k] = strain[half + place];
+        both.now[k] = first[place] + (second ? second[place] : 0);
+        both.change[k] = first[half + place] + (second ? second[half + place] : 0);
     }
+    return both;
 }
 
 /// `turn` is not read in two dimensions.
@@ -39,13 +40,6 @@ static inline prediction prediction_get(int dimension, const scree_predicted *f)
 {
     if (dimension == 2) return (prediction){.velocity = {f->vx, f->vy, 0}, .spin = {f->spin, 0, 0}, f->contacts};
     return (prediction){.velocity = {f->vx, f->vy, f->vz}, .spin = {f->wx, f->wy, f->wz}, f->contacts};
-}
-
-/// Lever [m] of the moment of a contact force: to the contact point, of a body that deforms to its surface at rest (M
-/// 2.41), so that moments are conjugate to the expansion of the overlap.
-SCREE_INLINE lanes contact_lever(bool deforms, const bodies *body, lanes arm)
-{
-    return deforms ? body->radius : arm;
 }
 
 /// own: constants of the pair's own; NULL: it has none.
@@ -121,19 +115,17 @@ static inline bool memory_is_clear(const memory_rows *rows)
     return clear;
 }
 
-/// strains: rows of both bodies; NULL where they are rigid.
+/// stretches: rows of both bodies; NULL where they are rigid.
 static inline bool pair_touches(int dimension, const scree_row *first, const scree_row *second,
-                                const double *const strains[2])
+                                const double *const stretches[2])
 {
     vector apart = {first->x - second->x, first->y - second->y, dimension == 3 ? first->z - second->z : 0};
-    if (!strains[0]) return bodies_touch(dimension, apart, first->radius + second->radius) != 0;
-    bodies one = {.radius = first->radius}, other = {.radius = second->radius};
-    body_strain(dimension, strains[0], &one);
-    body_strain(dimension, strains[1], &other);
+    if (!stretches[0]) return bodies_touch(dimension, apart, first->radius + second->radius) != 0;
+    const stretch both = stretch_get(dimension, stretches[0], stretches[1]);
     double distance = sqrt(vector_dot(dimension, apart, apart));
     kinematics m = {.normal = vector_times(dimension, apart, 1 / distance),
                     .overlap = first->radius + second->radius - distance};
-    kinematics_expand(dimension, &m, &one, &other, 0);
+    kinematics_expand(dimension, &m, &both, 0);
     return expanded_touch(&m) != 0;
 }
 
@@ -169,16 +161,15 @@ SCREE_INLINE kinematics kinematics_of_wall(int dimension, const bodies *body, co
     return m;
 }
 
-/// NaN counts as contact, so that it is noticed. strain: of the body; NULL: it is rigid.
-static inline bool wall_touches(int dimension, const scree_row *body, const scree_wall *wall, const double *strain)
+/// NaN counts as contact, so that it is noticed. of: the stretch of the body; NULL: it is rigid.
+static inline bool wall_touches(int dimension, const scree_row *body, const scree_wall *wall, const double *of)
 {
     double height = wall->normal[0] * body->x + wall->normal[1] * body->y, radius = body->radius;
     if (dimension == 3) height += wall->normal[2] * body->z;
-    if (strain) {
-        bodies one = {.radius = radius};
-        body_strain(dimension, strain, &one);
+    if (of) {
+        const stretch own = stretch_get(dimension, of, NULL);
         vector normal = {wall->normal[0], wall->normal[1], wall->normal[2]};
-        radius += vector_dot(dimension, normal, strain_across(dimension, one.strain, one.radius, normal));
+        radius += vector_dot(dimension, normal, stretch_along(dimension, own.now, normal));
     }
     return wall->active && !(radius <= height - wall->position);
 }

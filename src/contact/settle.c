@@ -25,12 +25,11 @@ static void add_sums(scree_state *state, uint32_t row, const contact_evaluation 
     torque_row_add(&state->torque[row], torque.x, torque.y, torque.z);
 }
 
-static void add_moments(scree_state *state, uint32_t row, const contact_evaluation *e, lanes arm, bool minus)
+static void add_moments(scree_state *state, uint32_t row, const contact_evaluation *e, lanes factor, bool minus)
 {
     const int dimension = state->dimension;
-    const contact_scale scale = {.inverse_torque = 1 / state->torque_quantum};
     uint64_t moment[9];
-    contact_moments(dimension, &scale, e->kinematics.normal, arm, e->quanta.straining, moment);
+    contact_moments(dimension, e->kinematics.normal, factor, e->quanta.straining, moment);
     int64_t *sum = state->moment + row * scree_moment_size(dimension);
     for (int k = 0; k < dimension * dimension; k++)
         sum[k] = (int64_t)((uint64_t)sum[k] + (minus ? -moment[k] : moment[k]));
@@ -54,8 +53,8 @@ static void add(scree_state *state, uint32_t first, uint32_t second, const conta
     add_sums(state, first, e, true, minus);
     add_sums(state, second, e, false, minus);
     if (state->moment) {
-        add_moments(state, first, e, e->lever_first, minus);
-        add_moments(state, second, e, e->lever_second, minus);
+        add_moments(state, first, e, e->moment_first, minus);
+        add_moments(state, second, e, e->moment_second, minus);
     }
     if (scree_periodic_is_whole(state)) add_virial(state, e, minus);
 }

@@ -65,16 +65,22 @@ static void place(int dimension, const bodies *first, const kinematics *m, scree
     set_vector(contact->point, vector_minus(dimension, first->position, arm));
 }
 
+static void expand(const scree_state *state, kinematics *m, const contact_body *first, const contact_body *second)
+{
+    const stretch both = stretch_get(state->dimension, first->stretch, second ? second->stretch : NULL);
+    kinematics_expand(state->dimension, m, &both, state->step_size);
+}
+
 bool contact_of_pair(const scree_model *model, const scree_state *state, const contact_body *first,
                      const contact_body *second, const scree_member_row *own, const memory_rows *memory,
                      scree_contact *contact)
 {
     const int dimension = state->dimension;
-    const double *const strains[2] = {first->strain, second->strain};
-    if (!own && !pair_touches(dimension, &first->row, &second->row, strains)) return false;
+    const double *const stretches[2] = {first->stretch, second->stretch};
+    if (!own && !pair_touches(dimension, &first->row, &second->row, stretches)) return false;
     bodies one = contact_body_lane(dimension, first), other = contact_body_lane(dimension, second);
     kinematics m = kinematics_of_pair(dimension, &one, &other, state->step_size);
-    if (state->strain) kinematics_expand(dimension, &m, &one, &other, state->step_size);
+    if (state->stretch) expand(state, &m, first, second);
     const scree_pair_constants(*pairs)[SCREE_MAX_MATERIALS] = own ? model->persistent.pairs : model->pairs;
     const scree_pair_constants *constants = &pairs[(int)one.material][(int)other.material];
     const bool in_contact = describe(model, dimension, constants, own, &m, memory, contact);
@@ -98,13 +104,13 @@ contact_evaluation contact_evaluate_again(const scree_model *model, const scree_
                             .first = contact_body_lane(dimension, first),
                             .second = contact_body_lane(dimension, second)};
     e.kinematics = kinematics_of_pair(dimension, &e.first, &e.second, state->step_size);
-    if (state->strain) kinematics_expand(dimension, &e.kinematics, &e.first, &e.second, state->step_size);
-    e.lever_first = contact_lever(state->strain != NULL, &e.first, e.kinematics.arm_first);
-    e.lever_second = contact_lever(state->strain != NULL, &e.second, e.kinematics.arm_second);
+    if (state->stretch) expand(state, &e.kinematics, first, second);
     kinematics_hold(&e.kinematics);
     const contact_scale scale = {.inverse_force = 1 / state->force_quantum,
                                  .inverse_torque = 1 / state->torque_quantum,
                                  .force_limit = INFINITY};
+    e.moment_first = contact_moment_factor(state->stretch != NULL, &scale, e.kinematics.arm_first);
+    e.moment_second = contact_moment_factor(state->stretch != NULL, &scale, e.kinematics.arm_second);
     const scree_pair_constants(*pairs)[SCREE_MAX_MATERIALS] = own ? model->persistent.pairs : model->pairs;
     law_constants constants = constants_get(&pairs[(int)e.first.material][(int)e.second.material], own);
     law_settings settings = law_settings_get(law, 0);
@@ -130,10 +136,10 @@ bool contact_of_wall(const scree_model *model, const scree_state *state, const c
                      const scree_wall *wall, const memory_rows *memory, scree_contact *contact)
 {
     const int dimension = state->dimension;
-    if (!wall_touches(dimension, &body->row, wall, body->strain)) return false;
+    if (!wall_touches(dimension, &body->row, wall, body->stretch)) return false;
     bodies one = contact_body_lane(dimension, body);
     kinematics m = kinematics_of_wall(dimension, &one, wall, state->step_size);
-    if (state->strain) kinematics_expand(dimension, &m, &one, NULL, state->step_size);
+    if (state->stretch) expand(state, &m, body, NULL);
     describe_wall(model, dimension, &model->walls[(int)one.material], &one, &m, memory, contact);
     return true;
 }

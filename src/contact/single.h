@@ -10,23 +10,21 @@
 /// A body with v(n - 1/2).
 typedef struct contact_body {
     scree_row row;
-    scree_turn_row turn;  ///< 3D
-    const double *strain; ///< its row; NULL: it is rigid
+    scree_turn_row turn;   ///< 3D
+    const double *stretch; ///< its row; NULL: it is rigid
 } contact_body;
 
 /// The body in `row`, with the velocities that the state holds.
 static inline contact_body contact_body_get(const scree_state *state, size_t row)
 {
-    contact_body body = {.row = state->row[row], .strain = scree_strain_row(state, row)};
+    contact_body body = {.row = state->row[row], .stretch = scree_stretch_row(state, row)};
     if (state->turn) body.turn = state->turn[row];
     return body;
 }
 
 static inline bodies contact_body_lane(int dimension, const contact_body *body)
 {
-    bodies lane = body_get(dimension, &body->row, &body->turn);
-    body_strain(dimension, body->strain, &lane);
-    return lane;
+    return body_get(dimension, &body->row, &body->turn);
 }
 
 /// A body or a ghost with v(n - 1/2), with which the forces at n were evaluated; in a periodic cell with the affine
@@ -59,9 +57,9 @@ bool contact_of_pair(const scree_model *model, const scree_state *state, const c
 typedef struct contact_evaluation {
     variant variant;
     bodies first, second;
-    kinematics kinematics;           ///< rates of the middle of the step before n
-    lanes lever_first, lever_second; ///< m, of the moments
-    contact_quanta quanta;           ///< in the quanta of the state
+    kinematics kinematics;             ///< rates of the middle of the step before n
+    lanes moment_first, moment_second; ///< of the moments: contact_moment_factor
+    contact_quanta quanta;             ///< in the quanta of the state
     law_force force;
     law_memory memory; ///< what the contact remembers then
 } contact_evaluation;

@@ -270,7 +270,7 @@ SCREE_INLINE void evaluate_group(contact_job *job, variant v, const scree_state 
         scree_pair_constants constants = contact_surface_constants(job->model, surface, (int)one.material);
         contact_quanta q = contact_advance(job, v, &constants, NULL, &m, touch != NULL, &rows);
         contact_add_to_sums(job, row, q.force, q.torque_first, q.count);
-        if (v.moments) contact_add_moments(job, row, m.normal, m.arm_first, q.straining);
+        if (v.moments) contact_add_moments(job, law_deforms(v), row, m.normal, m.arm_first, q.straining);
         add_to_surface(job, (int)(surface - g->wall_set->surface), surface->hub, &one, &q, state->force_quantum,
                        state->torque_quantum);
     }

@@ -12,7 +12,7 @@ typedef struct exerted {
     uint32_t row;
     contact_quanta quanta; ///< force and torque_first are those on this body
     vector normal;         ///< of the contact
-    double arm;            ///< m, of this body
+    double factor;         ///< of this body's moment
 } exerted;
 
 /// Pair `p` at n.
@@ -28,19 +28,18 @@ static contact_evaluation evaluate(const scree_model *model, const scree_state *
 static bool is_cut(const scree_state *state, const scree_work *work, const uint8_t *going, size_t p)
 {
     uint32_t first = work->pairs.first[p], second = work->pairs.second[p];
-    const double *const strains[2] = {scree_strain_row(state, first), scree_strain_row(state, second)};
+    const double *const stretches[2] = {scree_stretch_row(state, first), scree_stretch_row(state, second)};
     return going[scree_parent_row(state, work, first)] != going[scree_parent_row(state, work, second)] &&
            (p < work->pairs.held_count ||
-            pair_touches(state->dimension, &state->row[first], &state->row[second], strains));
+            pair_touches(state->dimension, &state->row[first], &state->row[second], stretches));
 }
 
 static void take_out_moment(scree_state *state, const exerted *e)
 {
     uint64_t moment[9];
     const int dimension = state->dimension;
-    const contact_scale scale = {.inverse_torque = 1 / state->torque_quantum};
     int64_t *sum = state->moment + e->row * scree_moment_size(dimension);
-    contact_moments(dimension, &scale, e->normal, e->arm, e->quanta.straining, moment);
+    contact_moments(dimension, e->normal, e->factor, e->quanta.straining, moment);
     for (int k = 0; k < dimension * dimension; k++) sum[k] = (int64_t)((uint64_t)sum[k] - moment[k]);
 }
 
@@ -71,12 +70,12 @@ scree_status scree_contacts_take_out(const scree_model *model, scree_state *stat
         exerted e = {.row = scree_parent_row(state, work, work->pairs.first[p]),
                      .quanta = of.quanta,
                      .normal = of.kinematics.normal,
-                     .arm = of.lever_first};
+                     .factor = of.moment_first};
         if (going[e.row]) {
             e.row = scree_parent_row(state, work, work->pairs.second[p]);
             e.quanta.force = quanta_opposite(e.quanta.force);
             e.quanta.torque_first = e.quanta.torque_second;
-            e.arm = of.lever_second;
+            e.factor = of.moment_second;
         }
         list[found++] = e;
     }

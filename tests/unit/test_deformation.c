@@ -1,7 +1,9 @@
 /// Particles that deform, against closed forms: a row that is held, neighbours across, loads on the surface; energy,
 /// momentum and bits of gases.
+#include "io_scratch.h"
 #include "run_fixture.h"
 
+#include "contact/deformation.h"
 #include "state/deformation.h"
 
 #define STEEL(poisson)                                                                                                 \
@@ -88,6 +90,9 @@ static void a_held_row_has_the_closed_force(void **unused)
         }
         row_forces(cases[k].text, "relaxed", STEPS, force);
         assert_true(fabs(force[STEPS - 1] / expected - 1) < 1e-9);
+        // The first one is that of rigid discs, with which the run begins.
+        row_forces(cases[k].text, "implicit", 6, force);
+        for (int step = 4; step < 6; step++) assert_true(fabs(force[step] / expected - 1) < 1e-8);
     }
 }
 
@@ -100,12 +105,17 @@ static void a_held_row_has_the_closed_force(void **unused)
              "     {position: [7.0000001 mm, 5 mm]}, {position: [5 mm, 3.01 mm]}, {position: [5 mm, 6.99 mm]}]}\n"     \
              "  - {stage: relax, duration: 20 us, boundary: none}\n"
 
-/// M figure 2.4: a disc that is pressed from two sides touches those that lie beside it.
+/// M figure 2.4: a disc that is pressed from two sides touches those that lie beside it. The static state is that of
+/// all schemes, though contacts open and close.
 static void a_pressed_disc_touches_its_neighbours(void **unused)
 {
+    static const char *const schemes[] = {"none", "explicit", "relaxed", "implicit"};
+    double first = 0;
     (void)unused;
-    for (int deforms = 0; deforms < 2; deforms++) {
-        const char *const overrides[] = {deforms ? "contact.deformation=explicit" : "contact.deformation=none"};
+    for (int deforms = 0; deforms < 4; deforms++) {
+        char how[64];
+        (void)snprintf(how, sizeof how, "contact.deformation=%s", schemes[deforms]);
+        const char *const overrides[] = {how};
         scree_case *c = case_read(CROSS, overrides, 1);
         scree_simulation s;
         simulation_open(c, 1, &s);
@@ -113,8 +123,9 @@ static void a_pressed_disc_touches_its_neighbours(void **unused)
         double along = force_between(&s, 0, 3), left = force_between(&s, 0, 1), right = force_between(&s, 0, 2);
         print_message("deforms %d: %.4g N along, %.4g and %.4g N across\n", deforms, along, left, right);
         assert_true(along > 4e5);
+        if (deforms == 1) first = along;
         if (deforms)
-            assert_true(left > 0.01 * along && right > 0.01 * along && right < left);
+            assert_true(left > 0.01 * along && right > 0.01 * along && right < left && fabs(along / first - 1) < 1e-6);
         else
             assert_true(left == 0 && right == 0);
         scree_simulation_close(&s);
@@ -138,15 +149,31 @@ static void a_pressed_disc_touches_its_neighbours(void **unused)
              "     {position: [5 mm, 9 mm]}]}\n"                                                                       \
              "  - {stage: relax, duration: 0.3 ms, boundary: none}\n"
 
+/// Energy of the strains as they stand [J]: what the bodies have taken up where nothing lags.
+static double energy_of_strains(const scree_simulation *s)
+{
+    const scree_compliance by = scree_deformation_compliance(&s->model, 0);
+    const double back = by.trace / (by.shear + 2 * by.trace), volume = M_PI * THICKNESS;
+    double sum = 0;
+    for (size_t row = 0; row < s->state.count; row++) {
+        const double *w = scree_stretch_row(&s->state, row), trace = w[0] + w[1];
+        sum += 0.5 * volume / by.shear * (w[0] * w[0] + w[1] * w[1] + 2 * w[2] * w[2] - back * trace * trace);
+    }
+    return sum;
+}
+
 /// A column under 10 kN: f^2 / (2 k_n) a contact, f^2 / k_p a disc, each strained from both sides, the loaded ones too.
 /// The work of the loads is theirs, that on the surfaces counted: the balance closes while it vibrates.
 static void loads_on_the_surface_strain_it(void **unused)
 {
     (void)unused;
-    const char *const overrides[] = {"materials.steel.damping_ratio=1", "materials.steel.tangential_damping_ratio=0"};
+    // Dashpots that strain discs would jump where contacts close.
+    const char *const overrides[] = {"contact.deformation=implicit", "contact.dashpots=loose",
+                                     "materials.steel.damping_ratio=1", "materials.steel.tangential_damping_ratio=0"};
     const double disc = disc_stiffness(2e11, 0.35);
-    for (int damped = 0; damped < 2; damped++) {
-        scree_case *c = case_read(PRESSED, overrides, damped ? 2 : 0);
+    for (int kind = 0; kind < 4; kind++) {
+        const bool damped = kind & 1, implicit = kind & 2;
+        scree_case *c = case_read(PRESSED, implicit ? overrides : overrides + 2, (damped ? 2 : 0) + (implicit ? 2 : 0));
         scree_simulation s;
         scree_error error;
         simulation_open(c, 1, &s);
@@ -166,8 +193,10 @@ static void loads_on_the_surface_strain_it(void **unused)
             "residual %.2g of all energy, at worst %.2g; contacts %.6g of %.6g J, discs took %.6g of %.6g J\n",
             energy.relative, worst, energy.elastic_normal, contacts, scree_deformation_of(&s.state)->given, discs);
         // Dashpots are second order in the step; while next to nothing has been done yet, so is nearly all.
-        assert_true(worst < (damped ? 1e-3 : 1e-9) && energy.relative < (damped ? 1e-6 : 1e-9));
+        assert_true(worst < (damped ? 1e-3 : implicit ? 1e-8 : 1e-9) && energy.relative < (damped ? 1e-6 : 1e-9));
         const double given = scree_deformation_of(&s.state)->given;
+        // 15,000 steps with strains to 1e-9.
+        if (implicit) assert_true(fabs(given / energy_of_strains(&s) - 1) < 1e-7);
         if (damped) assert_true(fabs(energy.elastic_normal / contacts - 1) < 1e-3 && fabs(given / discs - 1) < 1e-3);
         scree_simulation_close(&s);
         scree_case_free(c);
@@ -211,13 +240,15 @@ static void books_of_energy_are_closed(void **unused)
 {
     (void)unused;
     for (size_t k = 0; k < sizeof gases / sizeof *gases; k++)
-        for (int relaxed = 0; relaxed < 2; relaxed++) {
+        for (int scheme = 0; scheme < 3; scheme++) {
+            static const char *const schemes[] = {"contact.deformation=explicit", "contact.deformation=relaxed",
+                                                  "contact.deformation=implicit"};
             double worst[2] = {0, 0}, given = 0, before[3], after[3], scale;
             for (int fine = 0; fine < 2; fine++) {
                 const char *const overrides[] = {
-                    relaxed ? "contact.deformation=relaxed" : "contact.deformation=explicit",
+                    schemes[scheme], scheme == 2 ? "materials.rubber.damping_ratio=0" : "contact.dashpots=strain",
                     fine ? "integrator.step_fraction=0.025" : "integrator.step_fraction=0.05"};
-                scree_case *c = case_read(gases[k], overrides, 2);
+                scree_case *c = case_read(gases[k], overrides, 3);
                 scree_simulation s;
                 simulation_open(c, 1, &s);
                 simulation_load(&s);
@@ -232,24 +263,26 @@ static void books_of_energy_are_closed(void **unused)
                 scree_simulation_close(&s);
                 scree_case_free(c);
             }
-            print_message("gas %zu, relaxed %d: residual %.2g, %.2g at half the step; bodies took %.3g\n", k, relaxed,
+            print_message("gas %zu, %s: residual %.2g, %.2g at half the step; bodies took %.3g\n", k, schemes[scheme],
                           worst[0], worst[1], given);
-            assert_true(worst[0] < 1e-4 && worst[1] < 0.6 * worst[0] && given > 1e-5);
+            // Gases without dashpots collide in another way at each step.
+            assert_true(worst[0] < 1e-4 && worst[1] < (scheme == 2 ? 0.8 : 0.6) * worst[0] && given > 1e-5);
         }
 }
 
 /// Bits of a gas after its stage: number of threads, instruction set (0: the best; -1: the scalar reference), and
 /// whether it loses its work on the way.
-static uint64_t end_of_gas(const char *text, int threads, int set, bool loses)
+static uint64_t end_of_gas(const char *text, bool implicit, int threads, int set, bool loses)
 {
-    scree_case *c = case_read(text, NULL, 0);
+    static const char *const overrides[] = {"contact.deformation=implicit", "contact.dashpots=loose"};
+    scree_case *c = case_read(text, overrides, implicit ? 2 : 0);
     scree_simulation s;
     scree_error error;
     simulation_open(c, threads, &s);
     s.work.keep_threads = true;
     s.work.instruction_set = set > 0 ? set : 0;
     s.work.reference_kernel = set < 0;
-    for (int k = 0; simulation_goes_on(&s) && k < 1500; k++) {
+    for (int k = 0; simulation_goes_on(&s) && k < (implicit ? 400 : 1500); k++) {
         simulation_step(&s);
         if (loses && k % 40 == 7) scree_neighbours_invalidate(&s.work);
     }
@@ -263,14 +296,40 @@ static uint64_t end_of_gas(const char *text, int threads, int set, bool loses)
 static void nothing_but_the_state_decides(void **unused)
 {
     (void)unused;
-    for (size_t k = 0; k < sizeof gases / sizeof *gases; k++) {
-        const uint64_t expected = end_of_gas(gases[k], 1, -1, false);
-        for (int set = 2; set <= scree_contact_instruction_set(0); set++)
-            assert_true(end_of_gas(gases[k], 1, set, false) == expected);
-        for (int threads = 2; threads <= 7; threads += threads == 3 ? 4 : 1)
-            assert_true(end_of_gas(gases[k], threads, 0, false) == expected);
-        assert_true(end_of_gas(gases[k], 2, 0, true) == expected);
-    }
+    for (size_t k = 0; k < sizeof gases / sizeof *gases; k++)
+        for (int implicit = 0; implicit < 2; implicit++) {
+            const uint64_t expected = end_of_gas(gases[k], implicit, 1, -1, false);
+            for (int set = 2; set <= scree_contact_instruction_set(0); set++)
+                assert_true(end_of_gas(gases[k], implicit, 1, set, false) == expected);
+            for (int threads = 2; threads <= 7; threads += threads == 3 ? 4 : 1)
+                assert_true(end_of_gas(gases[k], implicit, threads, 0, false) == expected);
+            assert_true(end_of_gas(gases[k], implicit, 2, 0, true) == expected);
+        }
+}
+
+/// In the middle of collisions: what goes on from a checkpoint ends with the same bits.
+static void restarts_change_nothing(void **unused)
+{
+    static const char *const schemes[] = {"contact.deformation=explicit", "contact.deformation=relaxed",
+                                          "contact.deformation=implicit"};
+    (void)unused;
+    for (size_t k = 0; k < sizeof gases / sizeof *gases; k++)
+        for (int scheme = 0; scheme < 3; scheme++) {
+            const char *const overrides[] = {schemes[scheme], "contact.dashpots=loose"};
+            scree_case *c = case_read(gases[k], overrides, 2);
+            scree_simulation s, other;
+            simulation_open(c, 1, &s);
+            simulation_load(&s);
+            for (int step = 0; step < 300; step++) simulation_step(&s);
+            assert_true(s.state.largest_overlap > 0);
+            simulation_reopen(&s, 2, scratch, &other);
+            for (int step = 0; step < 100; step++) {
+                simulation_step(&s);
+                simulation_step(&other);
+            }
+            assert_true(simulation_close(&s) == simulation_close(&other));
+            scree_case_free(c);
+        }
 }
 
 // ---- what is refused ---------------------------------------------------------------------------------------------
@@ -297,9 +356,13 @@ static void what_cannot_deform_is_refused(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_held_row_has_the_closed_force), cmocka_unit_test(a_pressed_disc_touches_its_neighbours),
-        cmocka_unit_test(loads_on_the_surface_strain_it),  cmocka_unit_test(books_of_energy_are_closed),
-        cmocka_unit_test(nothing_but_the_state_decides),   cmocka_unit_test(what_cannot_deform_is_refused),
+        cmocka_unit_test(a_held_row_has_the_closed_force),
+        cmocka_unit_test(a_pressed_disc_touches_its_neighbours),
+        cmocka_unit_test(loads_on_the_surface_strain_it),
+        cmocka_unit_test(books_of_energy_are_closed),
+        cmocka_unit_test(nothing_but_the_state_decides),
+        cmocka_unit_test_setup_teardown(restarts_change_nothing, make_scratch, remove_scratch),
+        cmocka_unit_test(what_cannot_deform_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
