@@ -18,6 +18,7 @@
 #include <scree/simulation.h>
 #include <scree/specimen.h>
 #include <scree/sweep.h>
+#include <scree/theory.h>
 
 #ifdef __cplusplus
 extern "C" {

@@ -56,7 +56,9 @@ scree_status scree_allocate(void *pointer, size_t count, size_t size, scree_erro
 scree_status scree_memory_check(size_t bytes, scree_error *error)
 {
     bool fails = next_call_fails();
-    void *block = fails ? NULL : malloc(bytes);
+    // Volatile: a compiler may drop an allocation that nothing uses, and take it for one that succeeded.
+    void *volatile kept = fails ? NULL : malloc(bytes);
+    void *block = kept;
     free(block);
     return block ? SCREE_OK : scree_error_set_memory(error, bytes);
 }

@@ -10,7 +10,7 @@ static void refuse(scree_reader *reader, int64_t index, const char *key, const c
     char path[SCREE_PATH_BYTES];
     const scree_node *stage = scree_node_at(scree_node_find(reader->root, "stages"), (size_t)index);
     const scree_node *node = scree_node_find(stage, key);
-    (void)snprintf(path, sizeof path, "stages.%lld.%s", (long long)index, key);
+    scree_element_path(path, "stages", index, key);
     scree_problem_add(reader, node ? node->place : stage->place, path, node ? node->text : NULL, NULL, "%s", message);
 }
 

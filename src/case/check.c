@@ -2,8 +2,9 @@
 #include "case/check.h"
 
 #include "base/memory.h"
-#include "case/case.h"
 #include "case/csv.h"
+
+#include <scree/scree.h>
 
 #include <stdint.h>
 #include <stdio.h>
@@ -16,6 +17,12 @@ void scree_key_join(char out[SCREE_PATH_BYTES], const char *path, const char *na
 {
     size_t length = path[0] ? (size_t)snprintf(out, SCREE_PATH_BYTES, "%s.", path) : 0;
     if (length < SCREE_PATH_BYTES) (void)snprintf(out + length, SCREE_PATH_BYTES - length, "%s", name);
+}
+
+const char *scree_element_path(char path[SCREE_PATH_BYTES], const char *list, int64_t index, const char *key)
+{
+    (void)snprintf(path, SCREE_PATH_BYTES, "%s.%lld.%s", list, (long long)index, key);
+    return path;
 }
 
 /// A section that is being read.

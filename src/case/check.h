@@ -13,6 +13,9 @@ enum { SCREE_PATH_BYTES = 160 };
 /// path.name into `out`, which may be longer than what fits: then it is cut.
 void scree_key_join(char out[SCREE_PATH_BYTES], const char *path, const char *name);
 
+/// "stages.2.rate" of list "stages" into `path`, which it returns.
+const char *scree_element_path(char path[SCREE_PATH_BYTES], const char *list, int64_t index, const char *key);
+
 /// Whether a key is used, given the choices that its `when` names.
 typedef enum scree_use {
     SCREE_USED,

@@ -59,7 +59,8 @@ void scree_rules_check_modules(scree_reader *reader, scree_config *config)
     part whole = {reader->root, reader->root, (const char *)config};
     mark_section(scree_schema(), &whole, used);
     for (size_t m = 0; m < SCREE_MODULE_COUNT; m++)
-        if ((used[m] || !scree_modules[m]->choice_of) && scree_modules[m]->rules) scree_modules[m]->rules(reader, config);
+        if ((used[m] || !scree_modules[m]->choice_of) && scree_modules[m]->rules)
+            scree_modules[m]->rules(reader, config);
 }
 
 /// The key at a path; NULL where the case does not have it. *found: that, or the last section of its path that it has.

@@ -1,9 +1,9 @@
 /// The name that was probably meant. Optimal string alignment (Damerau 1964, Levenshtein 1966: insertions, deletions,
 /// substitutions and swaps of neighbours count one each), ignoring case and taking '-' for '_'.
 /// Cost: product of the lengths, which are limited to 80 letters.
-#include "case/case.h"
-
 #include "case/nearest.h"
+
+#include <scree/scree.h>
 
 #include <ctype.h>
 #include <string.h>

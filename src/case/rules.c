@@ -38,7 +38,7 @@ static void check_wall_material(scree_reader *reader, const scree_config *config
         if (length < sizeof accepted)
             length += (size_t)snprintf(accepted + length, sizeof accepted - length, ", %s", config->materials[i].name);
     }
-    (void)snprintf(path, sizeof path, "%s.%lld.%s", list, (long long)index, key);
+    scree_element_path(path, list, index, key);
     const char *nearest = scree_nearest(wanted, names, count);
     scree_problem_add(reader, place_of(element(reader, list, index), key, &text), path, wanted, accepted,
                       "there is no material '%s'%s%s%s", wanted, nearest ? "; did you mean '" : "",
@@ -89,15 +89,22 @@ static void name_stages(scree_reader *reader, scree_config *config)
             if (!config->stages[k].name || strcmp(config->stages[k].name, name) != 0) continue;
             const char *text;
             scree_place place = place_of(stage, "name", &text);
-            (void)snprintf(path, sizeof path, "stages.%lld.name", (long long)i);
+            scree_element_path(path, "stages", i, "name");
             scree_problem_add(reader, place, path, name, NULL, "stages.%lld has the name '%s' too", (long long)k, name);
         }
     }
 }
 
+/// Bonds hold a sample in a periodic cell together without a pressure.
+static bool stands_by_bonds(const scree_config *config, int64_t index, bool bonded)
+{
+    const scree_boundary *boundary = bonded ? scree_config_held_by(config, index) : NULL;
+    return boundary && boundary->periodic;
+}
+
 static void check_stage_order(scree_reader *reader, const scree_config *config)
 {
-    bool confined = false;
+    bool confined = false, bonded = false;
     const scree_preparation *method = scree_config_preparation(config);
     for (int64_t i = 0; i < config->stage_count; i++)
         if (config->stages[i].kind < 0) return; // wrong, and noted
@@ -108,16 +115,17 @@ static void check_stage_order(scree_reader *reader, const scree_config *config)
             wrong = "the first stage must be prepare: it places the particles";
         else if (i > 0 && stage->places)
             wrong = "only the first stage can be prepare";
-        else if (stage->needs_pressure && !confined)
+        else if (stage->needs_pressure && !confined && !stands_by_bonds(config, i, bonded))
             wrong = stage->needs_pressure;
         else if (i > 0 && stage->needs_approach && method && !method->approaching)
             wrong = stage->needs_approach;
         else if (i > 0 && !stage->collides && !stage->instant && method && method->binary)
             wrong = "two particles can only collide";
         confined = confined || stage->settles;
+        bonded = bonded || stage->bonds;
         if (!wrong) continue;
         char path[SCREE_PATH_BYTES];
-        (void)snprintf(path, sizeof path, "stages.%lld.stage", (long long)i);
+        scree_element_path(path, "stages", i, "stage");
         scree_place place = place_of(element(reader, "stages", i), "stage", &text);
         scree_problem_add(reader, place, path, text, NULL, "%s", wrong);
     }
@@ -130,7 +138,7 @@ static void refuse_dimension(scree_reader *reader, const scree_config *config, i
     const bool in_3d = config->dimension == 3;
     char path[SCREE_PATH_BYTES];
     const char *text;
-    (void)snprintf(path, sizeof path, "stages.%lld.%s", (long long)stage, key);
+    scree_element_path(path, "stages", stage, key);
     scree_place place = place_of(element(reader, "stages", stage), key, &text);
     scree_problem_add(reader, place, path, text, other, "'%s' exists in %s dimensions only; in %s choose '%s'",
                       text ? text : "", in_3d ? "two" : "three", in_3d ? "three" : "two", other);
@@ -165,7 +173,7 @@ static void check_dimension(scree_reader *reader, const scree_config *config)
     check_gravity(reader, scree_node_find(reader->root, "gravity"), "gravity", config->gravity, in_3d);
     for (int64_t i = 0; i < config->stage_count; i++) {
         char path[SCREE_PATH_BYTES];
-        (void)snprintf(path, sizeof path, "stages.%lld.gravity", (long long)i);
+        scree_element_path(path, "stages", i, "gravity");
         check_gravity(reader, scree_node_find(element(reader, "stages", i), "gravity"), path, config->stages[i].gravity,
                       in_3d);
     }
@@ -185,7 +193,7 @@ static void check_preparation(scree_reader *reader, const scree_config *config)
             refuse_dimension(reader, config, i, "outline", in_3d ? "ball" : "circle");
         char path[SCREE_PATH_BYTES];
         const char *text;
-        (void)snprintf(path, sizeof path, "stages.%lld.depth", (long long)i);
+        scree_element_path(path, "stages", i, "depth");
         scree_place place = place_of(element(reader, "stages", i), "depth", &text);
         if (prepare->outline != SCREE_SAMPLE_BOX && text && !isnan(prepare->depth))
             scree_problem_add(reader, place, path, text, "auto", "a round sample has no depth of its own");

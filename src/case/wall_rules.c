@@ -18,7 +18,7 @@ static void refuse(scree_reader *reader, int64_t index, const char *key, const c
 {
     char path[SCREE_PATH_BYTES];
     const scree_node *wall = wall_node(reader, index), *node = scree_node_find(wall, key);
-    (void)snprintf(path, sizeof path, "walls.%lld.%s", (long long)index, key);
+    scree_element_path(path, "walls", index, key);
     scree_problem_add(reader, node ? node->place : wall->place, path, node ? node->text : NULL, accepted, "%s",
                       message);
 }

@@ -3,6 +3,7 @@
 #include "cli/command.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -161,4 +162,34 @@ scree_status scree_command_number(const scree_command *command, const char *name
         return scree_command_refuse(error, field, accepted, "'%s' is not a number of %s", text, name);
     *value = number;
     return SCREE_OK;
+}
+
+scree_status scree_command_real(const scree_command *command, const char *name, double *value, scree_error *error)
+{
+    const char *text = scree_command_value(command, name);
+    char *end, field[64];
+    if (!text) return SCREE_OK;
+    *value = strtod(text, &end);
+    (void)snprintf(field, sizeof field, "--%s", name);
+    return end == text || *end || !isfinite(*value)
+               ? scree_command_refuse(error, field, "a number in SI units", "'%s' is no number", text)
+               : SCREE_OK;
+}
+
+scree_status scree_command_choice(const scree_command *command, const char *name, const char *const *words,
+                                  size_t *index, scree_error *error)
+{
+    const char *text = scree_command_value(command, name);
+    char field[64], accepted[200] = "";
+    if (!text) return SCREE_OK;
+    for (size_t k = 0; words[k]; k++) {
+        if (strcmp(text, words[k]) == 0) {
+            *index = k;
+            return SCREE_OK;
+        }
+        (void)snprintf(accepted + strlen(accepted), sizeof accepted - strlen(accepted), "%s%s", k > 0 ? ", " : "",
+                       words[k]);
+    }
+    (void)snprintf(field, sizeof field, "--%s", name);
+    return scree_command_refuse(error, field, accepted, "'%s' is not one of its values", text);
 }

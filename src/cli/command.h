@@ -34,6 +34,13 @@ size_t scree_command_values(const scree_command *command, const char *name, cons
 scree_status scree_command_number(const scree_command *command, const char *name, long least, long most, long *value,
                                   scree_error *error);
 
+/// Finite number in SI units of an option into *value, which stays as it is when the option was not given.
+scree_status scree_command_real(const scree_command *command, const char *name, double *value, scree_error *error);
+
+/// Place in `words`, which NULL ends, of the value of an option; *index stays as it is when it was not given.
+scree_status scree_command_choice(const scree_command *command, const char *name, const char *const *words,
+                                  size_t *index, scree_error *error);
+
 /// Fills `error` as an error of input: `field: message (accepted: accepted)`. Returns SCREE_ERROR_INPUT.
 scree_status scree_command_refuse(scree_error *error, const char *field, const char *accepted, const char *format, ...)
     __attribute__((format(printf, 4, 5)));

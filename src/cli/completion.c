@@ -1,6 +1,8 @@
 /// Completion for bash, made from the table of verbs.
 #include "cli/help.h"
 
+#include <string.h>
+
 /// A shell command that prints the candidates for a value of this kind, NULL when there are none to offer.
 static const char *candidates(scree_value_kind kind)
 {
@@ -44,7 +46,8 @@ static void write_value(FILE *file, const scree_verb *verb, const scree_verb_opt
 
 static void write_verb(FILE *file, const scree_verb *verb)
 {
-    fprintf(file, "    %s)\n        if [[ $word == -* ]]; then\n            mapfile -t COMPREPLY < <(compgen -W \"",
+    const size_t words = strchr(verb->name, ' ') ? 2 : 1;
+    fprintf(file, "    \"%s\")\n        if [[ $word == -* ]]; then\n            mapfile -t COMPREPLY < <(compgen -W \"",
             verb->name);
     for (const scree_verb_option *row = verb->option; row->name; row++) fprintf(file, "--%s ", row->name);
     for (const scree_verb_option *row = scree_common_options; row->name; row++) fprintf(file, "--%s ", row->name);
@@ -54,10 +57,43 @@ static void write_verb(FILE *file, const scree_verb *verb)
         const char *command = candidates(verb->argument[i].kind);
         bool last = !verb->argument[i + 1].name;
         fprintf(file, "        ");
-        if (!last) fprintf(file, "[[ $COMP_CWORD -eq %zu ]] && ", i + 2);
+        if (!last) fprintf(file, "[[ $COMP_CWORD -eq %zu ]] && ", i + 1 + words);
         fprintf(file, "mapfile -t COMPREPLY < <(%s)%s\n", command ? command : "true", last ? "" : " && return");
     }
     fprintf(file, "        ;;\n");
+}
+
+/// Whether the verb of this number is the first one with its first word.
+static bool is_first(size_t number)
+{
+    const size_t length = strcspn(scree_verbs[number].name, " ");
+    for (size_t i = 0; i < number; i++)
+        if (strcspn(scree_verbs[i].name, " ") == length &&
+            strncmp(scree_verbs[i].name, scree_verbs[number].name, length) == 0)
+            return false;
+    return true;
+}
+
+static void write_first_words(FILE *file)
+{
+    for (size_t i = 0; i < scree_verbs_count; i++)
+        if (is_first(i))
+            fprintf(file, "%s%.*s", i > 0 ? " " : "", (int)strcspn(scree_verbs[i].name, " "), scree_verbs[i].name);
+}
+
+/// Of a group of verbs: its second words, and from there on both are the verb.
+static void write_group(FILE *file, size_t number)
+{
+    const char *name = scree_verbs[number].name;
+    const int length = (int)strcspn(name, " ");
+    if (!name[length] || !is_first(number)) return;
+    fprintf(file,
+            "    %.*s)\n        if [[ $COMP_CWORD -eq 2 ]]; then\n            mapfile -t COMPREPLY < <(compgen -W \"",
+            length, name);
+    for (size_t i = number; i < scree_verbs_count; i++)
+        if (strncmp(scree_verbs[i].name, name, (size_t)length + 1) == 0)
+            fprintf(file, "%s ", scree_verbs[i].name + length + 1);
+    fprintf(file, "\" -- \"$word\")\n            return\n        fi\n        verb=\"$verb ${COMP_WORDS[2]}\";;\n");
 }
 
 void scree_help_write_completion(FILE *file)
@@ -67,14 +103,16 @@ void scree_help_write_completion(FILE *file)
             "_scree() {\n"
             "    local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} verb=${COMP_WORDS[1]}\n"
             "    local verbs='");
-    for (size_t i = 0; i < scree_verbs_count; i++) fprintf(file, "%s%s", i > 0 ? " " : "", scree_verbs[i].name);
+    write_first_words(file);
     fprintf(file, "'\n"
                   "    COMPREPLY=()\n"
                   "    if [[ $COMP_CWORD -eq 1 ]]; then\n"
                   "        mapfile -t COMPREPLY < <(compgen -W \"$verbs --help --version\" -- \"$word\")\n"
                   "        return\n"
                   "    fi\n"
-                  "    case \"$verb $previous\" in\n");
+                  "    case $verb in\n");
+    for (size_t i = 0; i < scree_verbs_count; i++) write_group(file, i);
+    fprintf(file, "    esac\n    case \"$verb $previous\" in\n");
     for (size_t i = 0; i < scree_verbs_count; i++)
         for (const scree_verb_option *row = scree_verbs[i].option; row->name; row++)
             write_value(file, &scree_verbs[i], row);

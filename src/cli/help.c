@@ -102,29 +102,58 @@ void scree_help_write_verb(FILE *file, const scree_verb *verb)
         fprintf(file, "  %s\n      %s\n", row->line, row->meaning);
 }
 
-scree_status scree_verb_refuse(const char *name)
+/// The first word of a verb of two: length, else 0.
+static size_t group_of(const scree_verb *verb)
+{
+    const char *space = strchr(verb->name, ' ');
+    return space ? (size_t)(space - verb->name) : 0;
+}
+
+static bool is_group(const char *word)
+{
+    for (size_t i = 0; i < scree_verbs_count; i++) {
+        const size_t length = group_of(&scree_verbs[i]);
+        if (length > 0 && strlen(word) == length && strncmp(scree_verbs[i].name, word, length) == 0) return true;
+    }
+    return false;
+}
+
+/// `name` is no verb; in_group: its first word is that of a group.
+static void refuse_verb(const char *name, bool in_group)
 {
     const char *names[32];
     size_t count = 0;
     scree_error error;
     char accepted[sizeof error.accepted] = "";
-    for (; count < scree_verbs_count && count < sizeof names / sizeof names[0]; count++) {
+    for (size_t i = 0; i < scree_verbs_count && count < sizeof names / sizeof names[0]; i++) {
+        if (in_group && strncmp(scree_verbs[i].name, name, strcspn(name, " ")) != 0) continue;
         size_t used = strlen(accepted);
-        names[count] = scree_verbs[count].name;
-        (void)snprintf(accepted + used, sizeof accepted - used, "%s%s", count > 0 ? ", " : "", names[count]);
+        names[count++] = scree_verbs[i].name;
+        (void)snprintf(accepted + used, sizeof accepted - used, "%s%s", count > 1 ? ", " : "", scree_verbs[i].name);
     }
     const char *nearest = scree_nearest(name, names, count);
     scree_command_refuse(&error, name, nearest ? nearest : accepted, "there is no such verb");
-    return scree_terminal_error(NULL, &error);
+    (void)scree_terminal_error(NULL, &error);
+}
+
+const scree_verb *scree_verb_match(size_t count, const char *const *words, size_t *used)
+{
+    char name[128];
+    const bool in_group = is_group(words[0]), second = in_group && count > 1 && words[1][0] != '-';
+    (void)snprintf(name, sizeof name, "%s%s%s", words[0], second ? " " : "", second ? words[1] : "");
+    *used = second ? 2 : 1;
+    const scree_verb *verb = scree_verb_find(name);
+    if (!verb) refuse_verb(name, in_group);
+    return verb;
 }
 
 scree_status scree_verb_help(const scree_command *command)
 {
     scree_error error = {0};
     const char *shell = scree_command_value(command, "completion");
-    const char *name = command->argument_count > 0 ? command->argument[0] : NULL;
+    const bool named = command->argument_count > 0;
     int asked = scree_command_has(command, "man") + (shell != NULL) + scree_command_has(command, "case-reference");
-    if (asked + (name != NULL) > 1) {
+    if (asked + named > 1) {
         scree_command_refuse(&error, "", "", "one of VERB, --man, --completion and --case-reference at a time");
         return scree_terminal_error("help", &error);
     }
@@ -136,8 +165,13 @@ scree_status scree_verb_help(const scree_command *command)
         scree_status status = scree_schema_write_manual(stdout, &error);
         return status ? scree_terminal_error("help", &error) : SCREE_OK;
     }
-    const scree_verb *verb = name ? scree_verb_find(name) : NULL;
-    if (name && !verb) return scree_verb_refuse(name);
+    size_t used = 0;
+    const scree_verb *verb = named ? scree_verb_match(command->argument_count, command->argument, &used) : NULL;
+    if (named && !verb) return SCREE_ERROR_INPUT;
+    if (used < command->argument_count) {
+        scree_command_refuse(&error, "", "", "'%s' is one argument too many", command->argument[used]);
+        return scree_terminal_error("help", &error);
+    }
     if (verb)
         scree_help_write_verb(stdout, verb);
     else if (shell)

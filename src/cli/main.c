@@ -53,6 +53,13 @@ static scree_status call_verb(const scree_verb *verb, int count, char *const *wo
     return status;
 }
 
+static scree_status find_verb(int count, char **words)
+{
+    size_t used;
+    const scree_verb *verb = scree_verb_match((size_t)count, (const char *const *)words, &used);
+    return verb ? call_verb(verb, count - (int)used, words + used) : SCREE_ERROR_INPUT;
+}
+
 int main(int argc, char **argv)
 {
     keep_standard_streams();
@@ -66,14 +73,11 @@ int main(int argc, char **argv)
     scree_status status = choose_instruction_set();
     if (status) return (int)status;
     const char *first = argv[1];
-    const scree_verb *verb = scree_verb_find(first);
-    if (verb)
-        status = call_verb(verb, argc - 2, argv + 2);
-    else if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0)
+    if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0)
         scree_help_write(stdout);
     else if (strcmp(first, "--version") == 0 || strcmp(first, "-V") == 0)
         printf("scree %s\n", scree_version());
     else
-        status = scree_verb_refuse(first);
+        status = find_verb(argc - 1, argv + 1);
     return (int)finish_output(status);
 }

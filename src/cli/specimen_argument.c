@@ -4,7 +4,6 @@
 #include "cli/terminal.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 
 bool scree_argument_is_run(const char *folder)
@@ -22,24 +21,11 @@ void scree_specimen_argument_free(scree_specimen_argument *argument)
     *argument = (scree_specimen_argument){0};
 }
 
-/// A number without a unit, into *value, which stays as it is without the option.
-static scree_status read_number(const scree_command *command, const char *name, double *value, scree_error *error)
-{
-    const char *text = scree_command_value(command, name);
-    char *end, field[64];
-    if (!text) return SCREE_OK;
-    *value = strtod(text, &end);
-    (void)snprintf(field, sizeof field, "--%s", name);
-    return end == text || *end || !isfinite(*value)
-               ? scree_command_refuse(error, field, "a number in SI units", "'%s' is no number", text)
-               : SCREE_OK;
-}
-
 static scree_status read_elasticity(const scree_command *command, scree_specimen_argument *out, scree_error *error)
 {
     out->given = (scree_particle_elasticity){NAN, 0};
-    scree_status status = read_number(command, "young-modulus", &out->given.young_modulus, error);
-    if (!status) status = read_number(command, "poisson-ratio", &out->given.poisson_ratio, error);
+    scree_status status = scree_command_real(command, "young-modulus", &out->given.young_modulus, error);
+    if (!status) status = scree_command_real(command, "poisson-ratio", &out->given.poisson_ratio, error);
     if (status) return status;
     if (!isnan(out->given.young_modulus)) out->elasticity = &out->given;
     if (out->elasticity || !scree_command_has(command, "poisson-ratio")) return SCREE_OK;

@@ -48,7 +48,7 @@ enum { SCREE_VERB_ROWS = 20 }; ///< most arguments, options, examples of a verb;
 struct scree_command;
 
 typedef struct scree_verb {
-    const char *name;
+    const char *name;    ///< a word, or two: of a group of verbs, `theory`, and what distinguishes it
     const char *meaning; ///< one line
     const char *text;
     scree_verb_argument argument[SCREE_VERB_ROWS];
@@ -78,15 +78,16 @@ extern const scree_exit_status scree_exit_statuses[]; ///< ends with a NULL mean
 
 /// NULL when there is none.
 const scree_verb *scree_verb_find(const char *name);
+/// The verb that a line of words begins with, and how many words its name takes. NULL: none; prints to standard error
+/// that there is no such verb, or which verbs of the group there are.
+const scree_verb *scree_verb_match(size_t count, const char *const *words, size_t *used);
 const char *scree_exit_status_meaning(int status);
-/// Prints to standard error that there is no such verb, with the nearest; returns the exit status.
-scree_status scree_verb_refuse(const char *name);
-
 scree_status scree_verb_list(const struct scree_command *command);
 scree_status scree_verb_new(const struct scree_command *command);
 scree_status scree_verb_check(const struct scree_command *command);
 scree_status scree_verb_stability(const struct scree_command *command);
 scree_status scree_verb_moduli(const struct scree_command *command);
+scree_status scree_verb_theory_lattice(const struct scree_command *command);
 scree_status scree_verb_run(const struct scree_command *command);
 scree_status scree_verb_sweep(const struct scree_command *command);
 scree_status scree_verb_reproduce(const struct scree_command *command);

@@ -3,7 +3,6 @@
 #include "io/cell_file.h"
 
 #include "io/run_file.h"
-#include "io/snapshot.h"
 
 #include <limits.h>
 #include <stddef.h>

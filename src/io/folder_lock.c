@@ -2,7 +2,7 @@
 /// then: after locking, the file of that name has to be the one that is open, else it is tried again.
 #include "io/folder_lock.h"
 
-#include "io/run_directory.h"
+#include "io/replacement.h"
 
 #include <errno.h>
 #include <fcntl.h>

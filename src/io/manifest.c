@@ -3,7 +3,8 @@
 #include "io/manifest.h"
 
 #include "base/memory.h"
-#include "io/run_directory.h"
+#include "io/file_names.h"
+#include "io/replacement.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -130,11 +131,11 @@ scree_status scree_manifest_create(const char *directory, const char *const *nam
     char path[PATH_MAX];
     FILE *file;
     scree_status status = scree_path_join(path, sizeof path, directory, SCREE_FILE_MANIFEST, error);
-    if (!status) status = scree_replace_begin(path, &file, error);
+    if (!status) status = scree_replacement_open(path, &file, error);
     if (status) return status;
     (void)fputs(HEAD, file);
     for (size_t i = 0; i < count; i++) (void)fprintf(file, "%s\n", names[i]);
-    return scree_replace_finish(path, file, true, error);
+    return scree_replacement_close(path, file, true, error);
 }
 
 scree_status scree_manifest_read(int directory, scree_manifest *manifest, scree_error *error)

@@ -40,6 +40,9 @@ const scree_result scree_run_results[] = {
     {"rattler_fraction", "1", "share of rattlers at the end"},
     {"solid_fraction", "1", "solid fraction at the end"},
     {"unbalanced_ratio", "1", "unbalanced force ratio at the end"},
+    {"stress_axial_contacts", "Pa", "axial stress of the contacts at the end, compression positive"},
+    {"stress_lateral_contacts", "Pa", "lateral stress of the contacts at the end, in 3D the mean of both"},
+    {"stress_shear_contacts", "Pa", "shear stress of the contacts at the end, of the first and the last axis"},
     // the last loading stage
     {"axial_strain", "1", "axial strain reached"},
     {"shear_strain_reached", "1", "engineering shear strain reached"},

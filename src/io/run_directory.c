@@ -36,17 +36,6 @@ enum {
 static const char *const own_folders[] = {SCREE_FOLDER_FIGURES, SCREE_FOLDER_PARAVIEW, SCREE_FOLDER_PARTS};
 enum { OWN_FOLDERS = sizeof own_folders / sizeof *own_folders };
 
-scree_status scree_path_join(char *path, size_t size, const char *directory, const char *name, scree_error *error)
-{
-    size_t length = strlen(directory);
-    const char *separator = length > 0 && directory[length - 1] != '/' ? "/" : "";
-    int written = snprintf(path, size, "%s%s%s", directory, separator, name);
-    if (written < 0 || (size_t)written >= size)
-        return scree_error_set(error, SCREE_ERROR_INPUT, "the path '%.100s...' is too long: %zu bytes at most",
-                               directory, size - 1);
-    return SCREE_OK;
-}
-
 /// `name` is `stem`, or what a replacement left beside it.
 static bool stands_for(const char *name, const char *stem)
 {
@@ -294,48 +283,16 @@ scree_status scree_run_directory_create(const char *path, bool force, scree_erro
     return status;
 }
 
-static scree_status replacement_name(char *name, size_t size, const char *path, scree_error *error)
-{
-    int length = snprintf(name, size, "%s" SCREE_REPLACEMENT, path);
-    if (length < 0 || (size_t)length >= size)
-        return scree_error_set(error, SCREE_ERROR_INPUT, "the path '%.100s...' is too long", path);
-    return SCREE_OK;
-}
+// ---- one file ----------------------------------------------------------------------------------------------------
 
 scree_status scree_replace_begin(const char *path, FILE **file, scree_error *error)
 {
-    char name[PATH_MAX];
     *file = NULL;
-    scree_status status = replacement_name(name, sizeof name, path, error);
-    if (!status) status = scree_manifest_add(path, &(const char *){""}, 1, error);
-    if (status) return status;
-    *file = fopen(name, "wbe");
-    if (!*file) return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot write '%s'", name);
-    return SCREE_OK;
+    scree_status status = scree_manifest_add(path, &(const char *){""}, 1, error);
+    return status ? status : scree_replacement_open(path, file, error);
 }
 
 scree_status scree_replace_finish(const char *path, FILE *file, bool keep, scree_error *error)
 {
-    char name[PATH_MAX];
-    scree_status status = replacement_name(name, sizeof name, path, error);
-    if (status) {
-        fclose(file);
-        return status;
-    }
-    // A write that failed earlier left the stream's error flag, but not always errno.
-    errno = 0;
-    bool good = fflush(file) == 0 && !ferror(file) && fsync(fileno(file)) == 0;
-    int number = errno ? errno : EIO;
-    if (fclose(file) != 0 && good) {
-        good = false;
-        number = errno;
-    }
-    if (keep && good && rename(name, path) != 0) {
-        good = false;
-        number = errno;
-    }
-    if (!keep || !good) unlink(name);
-    if (!keep || good) return SCREE_OK;
-    errno = number;
-    return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot write '%s'", path);
+    return scree_replacement_close(path, file, keep, error);
 }

@@ -3,26 +3,12 @@
 #define SCREE_IO_RUN_DIRECTORY_H
 
 #include "base/error.h"
+#include "io/file_names.h"
 #include "io/folder_lock.h"
+#include "io/replacement.h"
 
 #include <stdbool.h>
 #include <stdio.h>
-
-#define SCREE_FILE_CASE       "case.yaml"
-#define SCREE_FILE_SUMMARY    "summary.json"
-#define SCREE_FILE_SERIES     "series.csv"
-#define SCREE_FILE_CELLS      "cells.csv"
-#define SCREE_FILE_BANDS      "bands.csv"
-#define SCREE_FILE_BREAKS     "breaks.csv"
-#define SCREE_FILE_RUN        "run.h5"
-#define SCREE_FILE_RUN_WHOLE  "run.h5.whole" ///< run.h5 while it is gathered
-#define SCREE_FILE_LOG        "log.txt"
-#define SCREE_FOLDER_FIGURES  "figures"
-#define SCREE_FOLDER_PARAVIEW "paraview"
-#define SCREE_FOLDER_PARTS    "parts" ///< snapshots and checkpoints of a run that has not ended, linked from run.h5
-
-/// What stands behind the name of a file while it is written.
-#define SCREE_REPLACEMENT ".new"
 
 /// Makes `path` and locks it for a run. Release the lock in any case. Errors: SCREE_ERROR_INPUT when somebody else
 /// writes there, with who that is; SCREE_ERROR_IO.
@@ -42,9 +28,5 @@ scree_status scree_folders_make(const char *path, scree_error *error) SCREE_MUST
 /// directory the name is listed first (io/manifest.h).
 scree_status scree_replace_begin(const char *path, FILE **file, scree_error *error) SCREE_MUST_USE;
 scree_status scree_replace_finish(const char *path, FILE *file, bool keep, scree_error *error) SCREE_MUST_USE;
-
-/// path = directory/name, checked for length.
-scree_status scree_path_join(char *path, size_t size, const char *directory, const char *name,
-                             scree_error *error) SCREE_MUST_USE;
 
 #endif

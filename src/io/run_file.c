@@ -5,7 +5,6 @@
 #include "io/file_checksum.h"
 #include "io/manifest.h"
 #include "io/run_directory.h"
-#include "io/snapshot.h"
 
 #include <scree/scree.h>
 

@@ -71,6 +71,11 @@ scree_status scree_part_remove(const char *directory, scree_part_kind kind, int6
 /// Flushes the names in DIRECTORY/parts, where there is one. Errors: SCREE_ERROR_IO.
 scree_status scree_parts_sync(const char *directory, scree_error *error) SCREE_MUST_USE;
 
+/// The end of a run: everything into one self-contained run.h5, parts removed. What is damaged is left out, with a note
+/// (`notes` may be NULL). Killed at any moment, or out of disk space, it leaves what was there before. Calling it again
+/// is harmless.
+scree_status scree_run_file_finish(const char *directory, scree_notes *notes, scree_error *error) SCREE_MUST_USE;
+
 /// Name of the case in run.h5; empty where there is none, or where it is damaged. Errors: memory.
 scree_status scree_run_file_case_name(const char *path, char *name, size_t size, scree_error *error) SCREE_MUST_USE;
 /// A run.h5 in memory with its attributes and empty groups.

@@ -94,11 +94,6 @@ scree_status scree_restart_point_check(const char *directory, const scree_restar
 scree_status scree_restart_find(const char *directory, const scree_restart_wanted *wanted, scree_restart_point *used,
                                 scree_state *state, scree_error *error) SCREE_MUST_USE;
 
-/// The end of a run: everything into one self-contained run.h5, parts removed. What is damaged is left out, with a note
-/// (`notes` may be NULL). Killed at any moment, or out of disk space, it leaves what was there before. Calling it again
-/// is harmless.
-scree_status scree_run_file_finish(const char *directory, scree_notes *notes, scree_error *error) SCREE_MUST_USE;
-
 /// A snapshot read back for figures. Arrays of `count` bodies in id order, contacts of `contact_count`.
 typedef struct scree_snapshot {
     int64_t index;

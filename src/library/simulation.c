@@ -2,6 +2,8 @@
 #include "library/handle.h"
 
 #include "io/state_file.h"
+#include "run/loading.h"
+#include "run/own_force.h"
 #include "run/restart.h"
 #include "search/neighbours.h"
 

@@ -21,12 +21,6 @@ typedef struct judged {
     char path[SCREE_PATH_BYTES]; ///< that of the key which was asked for last
 } judged;
 
-static const char *path_of(judged *j, const char *key)
-{
-    (void)snprintf(j->path, sizeof j->path, "loads.%lld.%s", (long long)j->index, key);
-    return j->path;
-}
-
 static bool gives(const judged *j, const char *key)
 {
     return scree_node_find(scree_node_at(scree_node_find(j->reader->root, "loads"), (size_t)j->index), key) != NULL;
@@ -40,7 +34,9 @@ static void check_stage(judged *j, const char *key, const char *name)
         if (!j->config->stages[i].name || strcmp(j->config->stages[i].name, name) == 0) return;
         names[count++] = j->config->stages[i].name;
     }
-    if (name) scree_rule_refuse_name(j->reader, path_of(j, key), "stage", name, names, count);
+    if (name)
+        scree_rule_refuse_name(j->reader, scree_element_path(j->path, "loads", j->index, key), "stage", name, names,
+                               count);
 }
 
 static void check_stages(judged *j)
@@ -50,8 +46,8 @@ static void check_stages(judged *j)
     check_stage(j, "until", j->own->until);
     scree_prescribed_stages(j->config->stages, j->config->stage_count, j->own, range);
     if (range[0] >= 0 && range[1] >= 0 && range[1] < range[0])
-        scree_rule_refuse(j->reader, path_of(j, "until"), NULL, "comes before stage '%s', with which it begins",
-                          j->own->from);
+        scree_rule_refuse(j->reader, scree_element_path(j->path, "loads", j->index, "until"), NULL,
+                          "comes before stage '%s', with which it begins", j->own->from);
 }
 
 /// Components that the dimension has, and each said once.
@@ -63,18 +59,19 @@ static void check_components(judged *j)
         const char *key = gives(j, motion_keys[d]) ? motion_keys[d] : pushes ? push_keys[d] : "gradient";
         says = says || drives || pushes || gives(j, motion_keys[d]) || gives(j, push_keys[d]);
         if ((drives || pushes) && !scree_component_exists((int)j->config->dimension, d))
-            scree_rule_refuse(j->reader, path_of(j, key), NULL,
+            scree_rule_refuse(j->reader, scree_element_path(j->path, "loads", j->index, key), NULL,
                               "two dimensions have velocities and forces along x and y, spin and torque about z");
         else if (drives && pushes)
-            scree_rule_refuse(j->reader, path_of(j, push_keys[d]), NULL,
+            scree_rule_refuse(j->reader, scree_element_path(j->path, "loads", j->index, push_keys[d]), NULL,
                               "%s is prescribed: a force on it would change nothing; leave one of them out",
                               d < 3 ? "the velocity in this direction" : "the spin about this axis");
     }
     for (int k = 0; k < 9 && j->config->dimension == 2; k++)
         if (!isnan(j->own->gradient[k]) && k % 3 == 2 && k < 6)
-            scree_rule_refuse(j->reader, path_of(j, "gradient"), "xx, xy, yx, yy", "there is no z in two dimensions");
+            scree_rule_refuse(j->reader, scree_element_path(j->path, "loads", j->index, "gradient"), "xx, xy, yx, yy",
+                              "there is no z in two dimensions");
     if (!says)
-        scree_rule_refuse(j->reader, path_of(j, "selection"), NULL,
+        scree_rule_refuse(j->reader, scree_element_path(j->path, "loads", j->index, "selection"), NULL,
                           "nothing is prescribed: give a velocity, a spin, a gradient, a force or a torque");
 }
 
@@ -90,13 +87,17 @@ static void check_use(judged *j)
     // A resolved case gives the defaults, too.
     bool scaled = !scree_schedule_is_constant(&j->own->factor) || scree_schedule_at(&j->own->factor, 0) != 1;
     if (!gradient && scaled)
-        scree_rule_refuse(j->reader, path_of(j, "gradient_factor"), "1", "not used without gradient");
+        scree_rule_refuse(j->reader, scree_element_path(j->path, "loads", j->index, "gradient_factor"), "1",
+                          "not used without gradient");
     if (!gradient && scree_length(j->own->origin) > 0)
-        scree_rule_refuse(j->reader, path_of(j, "origin"), "[0, 0]", "not used without gradient");
+        scree_rule_refuse(j->reader, scree_element_path(j->path, "loads", j->index, "origin"), "[0, 0]",
+                          "not used without gradient");
     if (!force && j->own->attack == SCREE_ATTACK_SURFACE)
-        scree_rule_refuse(j->reader, path_of(j, "attack"), "centre", "there is no force that acts on the surface");
+        scree_rule_refuse(j->reader, scree_element_path(j->path, "loads", j->index, "attack"), "centre",
+                          "there is no force that acts on the surface");
     if (!push && j->own->per == SCREE_PER_SELECTION)
-        scree_rule_refuse(j->reader, path_of(j, "per"), "body", "not used without a force or a torque");
+        scree_rule_refuse(j->reader, scree_element_path(j->path, "loads", j->index, "per"), "body",
+                          "not used without a force or a torque");
 }
 
 /// Names of columns and results are told apart.
@@ -106,14 +107,15 @@ static void check_name(judged *j)
     for (int64_t i = 0; name && i < j->index; i++) {
         const scree_prescribed_config *other = scree_prescribed_config_of(j->config->loads, i);
         if (other && scree_prescribed_name(other) && strcmp(scree_prescribed_name(other), name) == 0) {
-            scree_rule_refuse(j->reader, path_of(j, "name"), NULL,
+            scree_rule_refuse(j->reader, scree_element_path(j->path, "loads", j->index, "name"), NULL,
                               "loads.%lld is called '%s' too: give this one a name of its own", (long long)i, name);
             return;
         }
     }
     for (int64_t i = 0; name && i < j->config->wall_count; i++)
         if (j->config->walls[i].name && strcmp(j->config->walls[i].name, name) == 0)
-            scree_rule_refuse(j->reader, path_of(j, "name"), NULL, "a wall is called '%s' too", name);
+            scree_rule_refuse(j->reader, scree_element_path(j->path, "loads", j->index, "name"), NULL,
+                              "a wall is called '%s' too", name);
 }
 
 /// Another load before this one that says the same component of the same selection in the same stage.
@@ -132,8 +134,9 @@ static void check_others(judged *j)
             bool pushed = scree_prescribed_pushes(other, d), pushes = scree_prescribed_pushes(j->own, d);
             if (!(held || pushed) || !(drives || pushes)) continue;
             const char *key = !drives ? push_keys[d] : gives(j, motion_keys[d]) ? motion_keys[d] : "gradient";
-            scree_rule_refuse(j->reader, path_of(j, key), NULL, "loads.%lld prescribes %s of the same particles",
-                              (long long)i, held ? motion_keys[d] : push_keys[d]);
+            scree_rule_refuse(j->reader, scree_element_path(j->path, "loads", j->index, key), NULL,
+                              "loads.%lld prescribes %s of the same particles", (long long)i,
+                              held ? motion_keys[d] : push_keys[d]);
         }
     }
 }
@@ -148,7 +151,7 @@ static void check_boundaries(judged *j)
     for (int64_t i = range[0] < 0 ? 0 : range[0]; drives && i <= range[1]; i++) {
         const scree_boundary *boundary = scree_config_held_by(j->config, i);
         if (!boundary || !boundary->equal_steps) continue;
-        scree_rule_refuse(j->reader, path_of(j, "selection"), NULL,
+        scree_rule_refuse(j->reader, scree_element_path(j->path, "loads", j->index, "selection"), NULL,
                           "the boundary of stages.%lld imposes velocities itself: end before it with `until`, or "
                           "prescribe forces",
                           (long long)i);
@@ -162,9 +165,8 @@ void scree_prescribed_rules(scree_reader *reader, const scree_config *config)
         judged j = {
             .reader = reader, .config = config, .index = i, .own = scree_prescribed_config_of(config->loads, i)};
         if (!j.own) continue;
-        char path[SCREE_PATH_BYTES];
-        (void)snprintf(path, sizeof path, "loads.%lld.selection", (long long)i);
-        (void)scree_rule_is_selection(reader, config, path, j.own->selection);
+        scree_element_path(j.path, "loads", i, "selection");
+        (void)scree_rule_is_selection(reader, config, j.path, j.own->selection);
         check_stages(&j);
         check_components(&j);
         check_use(&j);

@@ -38,6 +38,9 @@ typedef struct scree_preparation {
                           struct scree_packing *packing, scree_error *error);
     /// Index of the material of body `index`. NULL: that of the particles.
     int (*material_of)(const scree_model *model, const struct scree_config_stage *stage, size_t index);
+    /// Fills what the module itself remembers in the state, when the rows are filled. NULL: nothing.
+    scree_status (*remember)(const scree_model *model, const struct scree_config_stage *stage,
+                             const struct scree_packing *packing, scree_state *state, scree_error *error);
     /// Velocities at the start, when the rows are filled. NULL: at rest.
     void (*set_moving)(const scree_model *model, const struct scree_config_stage *stage, scree_state *state);
 } scree_preparation;

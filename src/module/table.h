@@ -29,13 +29,13 @@
 #define SCREE_CASE_MODULES(row)                                                                                        \
     SCREE_LAWS(row)                                                                                                    \
     row(position_verlet) row(velocity_verlet) row(two_timescales) row(drop_and_roll) row(hexagonal) row(square)        \
-        row(face_centred) row(body_centred) row(cubic) row(gas) row(growth) row(pair) row(bodies) row(prepare)         \
-            row(confine) row(compress) row(deform) row(rotate_particle) row(relax) row(collide) row(bond)                        \
+        row(face_centred) row(body_centred) row(cubic) row(gas) row(growth) row(dense) row(pair) row(bodies)           \
+            row(prepare) row(confine) row(compress) row(deform) row(rotate_particle) row(relax) row(collide) row(bond) \
                 row(background_damping) row(prescribed) row(plane) row(box) row(cylinder) row(cone) row(mesh)          \
                     row(uniform) row(two_sizes) row(equal) row(normal) row(log_normal) row(power_law) row(table)
 
 /// What is measured at the end of a run, with tables of its own.
-#define SCREE_MEASURE_MODULES(row) row(cells) row(breaks)
+#define SCREE_MEASURE_MODULES(row) row(cells) row(breaks) row(moduli)
 
 #define SCREE_MODULES(row)                                                                                             \
     SCREE_STATE_MODULES(row)                                                                                           \

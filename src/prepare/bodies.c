@@ -5,6 +5,7 @@
 #include "base/vectors.h"
 #include "module/key_rows.h"
 #include "prepare/methods.h"
+#include "prepare/prepare.h"
 
 #include <math.h>
 #include <string.h>

@@ -47,7 +47,7 @@ static void refuse(const listed *l, int64_t index, const char *key, const char *
 {
     const scree_node *body = scree_node_at(l->nodes, (size_t)index), *node = scree_node_find(body, key);
     char path[SCREE_PATH_BYTES];
-    (void)snprintf(path, sizeof path, "stages.0.bodies.%lld.%s", (long long)index, key);
+    scree_element_path(path, "stages.0.bodies", index, key);
     scree_problem_add(l->reader, node ? node->place : body->place, path, node ? node->text : NULL, accepted, "%s",
                       message);
 }

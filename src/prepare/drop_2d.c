@@ -22,6 +22,7 @@
 #include "prepare/drop_2d.h"
 
 #include "prepare/methods.h"
+#include "prepare/prepare.h"
 
 #include <math.h>
 

@@ -18,6 +18,7 @@
 #include "base/vectors.h"
 #include "prepare/arc.h"
 #include "prepare/methods.h"
+#include "prepare/prepare.h"
 
 #include <math.h>
 

@@ -17,6 +17,7 @@
 #include "prepare/drop_2d.h"
 #include "prepare/drop_3d.h"
 #include "prepare/methods.h"
+#include "prepare/prepare.h"
 
 #include "base/random.h"
 

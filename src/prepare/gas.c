@@ -16,6 +16,7 @@
 #include "model/critical_step.h"
 #include "module/key_rows.h"
 #include "prepare/methods.h"
+#include "prepare/prepare.h"
 
 #include "base/random.h"
 
@@ -135,8 +136,7 @@ static size_t add_bodies(gas_grid *grid, uint64_t seed, const uint32_t *order, s
 typedef scree_gas_config config;
 static const scree_key keys[] = {
     NUMBER(config, solid_fraction, "1", .standard = "auto", ABOVE("0"), TO("99.9 %"), .when = "method=gas",
-           .meaning = "Area (volume) of the particles over that of the box; auto: 30 % of discs and 15 % of spheres in "
-                      "a gas; with growth 80 % and 60 %, less what the walls take."),
+           .meaning = SCREE_SOLID_FRACTION_MEANING),
     NUMBER(config, velocity, "m/s", .standard = "0 m/s", FROM("0 m/s"), TO("1000 m/s"), .when = "method=gas",
            .meaning = "Root-mean-square velocity component."),
 };

@@ -18,6 +18,7 @@
 #include "prepare/growth.h"
 #include "module/key_rows.h"
 #include "prepare/methods.h"
+#include "prepare/prepare.h"
 #include "state/periodic.h"
 #include "state/plates.h"
 
@@ -253,8 +254,7 @@ static double standard_fraction(const scree_model *model, const scree_packing *p
 typedef scree_growth_config config;
 static const scree_key keys[] = {
     NUMBER(config, solid_fraction, "1", .standard = "auto", ABOVE("0"), TO("99.9 %"), .when = "method=growth",
-           .meaning = "Area (volume) of the particles over that of the box; auto: 30 % of discs and 15 % of spheres in "
-                      "a gas; with growth 80 % and 60 %, less what the walls take."),
+           .meaning = SCREE_SOLID_FRACTION_MEANING),
 };
 
 /// A sample that repeats itself is wide enough for the search for ghosts.
@@ -274,43 +274,59 @@ static scree_status check_sides(const scree_model *model, const scree_config_sta
     return SCREE_OK;
 }
 
-static scree_status place(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
-                          scree_error *error)
+static scree_status check_box(const scree_model *model, const scree_config_stage *stage, const scree_packing *packing,
+                              scree_error *error)
 {
-    const int dimension = packing->dimension;
-    const config *own = scree_config_own(&scree_module_growth, "stages.prepare", stage->own);
-    double fraction = own->solid_fraction, largest = scree_packing_largest(packing);
-    if (isnan(fraction)) fraction = standard_fraction(model, packing);
-    scree_packing_fit_box(packing, scree_packing_solid(packing), fraction, 2 * largest);
     const scree_box *box = &packing->box;
-    if (fmin(fmin(box->width, box->height), dimension == 3 ? box->depth : INFINITY) < 2 * largest)
+    const double largest = scree_packing_largest(packing);
+    const bool in_3d = packing->dimension == 3;
+    if (fmin(fmin(box->width, box->height), in_3d ? box->depth : INFINITY) < 2 * largest)
         return scree_prepare_error(error, model, stage, "solid_fraction",
                                    "a %s of radius %g m does not fit into a box %g m wide and %g m high",
-                                   dimension == 3 ? "sphere" : "disc", largest, box->width, box->height);
-    scree_status status = check_sides(model, stage, packing, error);
+                                   in_3d ? "sphere" : "disc", largest, box->width, box->height);
+    return check_sides(model, stage, packing, error);
+}
+
+/// Overlaps of the enlarged radii below this are gaps between the true ones, and between them and walls.
+static double tolerance_of(const scree_model *model)
+{
+    return EXCESS * model->radius_min / model->mean_radius;
+}
+
+scree_status scree_packing_grow(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
+                                double *overlap, scree_error *error)
+{
+    scree_status status = check_box(model, stage, packing, error);
     if (status) return status;
     growth g = {.model = model, .packing = packing, .unit = model->mean_radius};
     status = begin_growth(&g, error);
     for (int k = 0; k < GROWTH_STEPS && !status; k++) {
-        set_radii(&g, pow((1 + 2 * (double)k / GROWTH_STEPS) / 3, 1.0 / dimension));
+        set_radii(&g, pow((1 + 2 * (double)k / GROWTH_STEPS) / 3, 1.0 / packing->dimension));
         status = relax(&g, ROUGHLY, ITERATIONS_BETWEEN, error);
     }
-    // Overlaps of the enlarged radii below this are gaps between the true ones, and between them and walls.
-    double tolerance = EXCESS * model->radius_min / g.unit;
     if (!status) set_radii(&g, 1 + EXCESS);
-    if (!status) status = relax(&g, tolerance, MOST_ITERATIONS, error);
-    if (!status && g.overlap > tolerance) {
-        // Places scaled up by the deepest overlap are a packing of the true radii.
-        double reached = fraction * pow(1 - g.overlap / (2 * model->radius_min / g.unit), dimension);
-        status =
-            scree_prepare_error(error, model, stage, "solid_fraction",
-                                "%zu particles do not grow to a solid fraction of %.3g: there was room up to about "
-                                "%.3g; ask for less",
-                                packing->count, fraction, reached);
-    }
+    if (!status) status = relax(&g, tolerance_of(model), MOST_ITERATIONS, error);
     if (!status) take_places(&g, packing);
+    *overlap = g.overlap;
     end_growth(&g);
     return status;
+}
+
+static scree_status place(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
+                          scree_error *error)
+{
+    const config *own = scree_config_own(&scree_module_growth, "stages.prepare", stage->own);
+    double fraction = own->solid_fraction, overlap;
+    if (isnan(fraction)) fraction = standard_fraction(model, packing);
+    scree_packing_fit_box(packing, scree_packing_solid(packing), fraction, 2 * scree_packing_largest(packing));
+    scree_status status = scree_packing_grow(model, stage, packing, &overlap, error);
+    if (status || !(overlap > tolerance_of(model))) return status;
+    // Places scaled up by the deepest overlap are a packing of the true radii.
+    double reached = fraction * pow(1 - overlap / (2 * model->radius_min / model->mean_radius), packing->dimension);
+    return scree_prepare_error(error, model, stage, "solid_fraction",
+                               "%zu particles do not grow to a solid fraction of %.3g: there was room up to about "
+                               "%.3g; ask for less",
+                               packing->count, fraction, reached);
 }
 
 static const scree_preparation preparation = {.periodic = true, .loose = true, .place = place};

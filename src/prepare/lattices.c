@@ -13,6 +13,7 @@
 /// each other.
 #include "module/key_rows.h"
 #include "prepare/methods.h"
+#include "prepare/prepare.h"
 
 #include <math.h>
 

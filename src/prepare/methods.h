@@ -2,7 +2,12 @@
 #ifndef SCREE_PREPARE_METHODS_H
 #define SCREE_PREPARE_METHODS_H
 
-#include "prepare/prepare.h"
+#include "model/model.h"
+
+/// Of the key `solid_fraction`, which several methods share.
+#define SCREE_SOLID_FRACTION_MEANING                                                                                   \
+    "Area (volume) of the particles over that of the box; auto: 30 % of discs and 15 % of spheres in a gas; with "     \
+    "growth 80 % and 60 %, less what the walls take; of a dense packing 90 % and 64 %."
 
 /// Input error at a key of `stage`, with its place in the list of stages when it is one of the model's.
 scree_status scree_prepare_error(scree_error *error, const scree_model *model, const scree_config_stage *stage,

@@ -5,6 +5,7 @@
 /// than that circle by MARGIN mean radii all around, so that nothing of the order that plane walls impose is left (it
 /// dies away within about five diameters in packings of equal bodies, sooner with many sizes).
 #include "prepare/methods.h"
+#include "prepare/prepare.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,6 +5,7 @@
 /// characteristic velocity v_R (P 2.3), the gap (m_eff v^2 / K)^(2/5), the length of an elastic impact.
 #include "module/key_rows.h"
 #include "prepare/methods.h"
+#include "prepare/prepare.h"
 
 #include <math.h>
 

@@ -2,6 +2,7 @@
 ///
 /// Positions and radii are pure functions of (case, seed), by arithmetic that is exact to the same bit on every
 /// machine.
+#include "prepare/prepare.h"
 #include "prepare/methods.h"
 #include "state/body.h"
 #include "state/plates.h"
@@ -10,22 +11,6 @@
 
 #include <math.h>
 #include <stdio.h>
-
-scree_status scree_prepare_error(scree_error *error, const scree_model *model, const scree_config_stage *stage,
-                                 const char *key, const char *format, ...)
-{
-    char text[512];
-    va_list arguments;
-    va_start(arguments, format);
-    (void)vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "%s", text);
-    if (!error) return status;
-    for (int64_t i = 0; i < model->stage_count; i++)
-        if (stage == &model->stages[i])
-            (void)snprintf(error->field, sizeof error->field, "stages.%lld.%s", (long long)i, key);
-    return status;
-}
 
 static void fill_rows(const scree_model *model, const scree_config_stage *stage, const scree_preparation *method,
                       const scree_packing *packing, scree_state *state)
@@ -100,6 +85,7 @@ scree_status scree_prepare(const scree_model *model, const scree_config_stage *s
         state->tick = model->step;
         state->step_size = state->kick_size = (double)model->largest_step * model->step;
         if (method->set_moving) method->set_moving(model, stage, state);
+        if (method->remember) status = method->remember(model, stage, &packing, state, error);
     }
     scree_packing_destroy(&packing);
     if (status) scree_state_destroy(state);

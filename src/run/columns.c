@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "case/problems.h"
 #include "io/result_names.h"
-#include "run/sample.h"
+#include "run/core_columns.h"
 
 #include <string.h>
 

@@ -6,15 +6,16 @@
 /// and cells at their probed times; what is written and drawn by the constants below. Memory: bytes a body, of what
 /// a run does, on top of the libraries.
 ///
-/// The constants are of 22 November 2026, processor times of one thread of a loaded 2-core machine, resident sets by
-/// /usr/bin/time: 50,000 discs, 20,000 spheres and 100 discs, with and without each kind of output, and the built-in
-/// cases in their quick forms. bench/check_estimates.sh compares estimates with runs.
+/// The constants are of 22 and 23 November 2026, processor times of one thread of a loaded 2-core machine, resident
+/// sets by /usr/bin/time: 50,000 discs, 20,000 spheres and 100 discs, with and without each kind of output, and the
+/// built-in cases in their quick forms. bench/check_estimates.sh compares estimates with runs.
 ///
 /// Limits: one thread; a stage that ends when the sample is at rest counts in full; times of files assume a local
 /// disk.
 #include "run/estimate.h"
 
 #include "model/critical_step.h"
+#include "module/wall_shape.h"
 #include "run/quasistatic.h"
 
 #include <math.h>
@@ -31,16 +32,21 @@ static const expense expenses[2] = {
     {7e-3, 1e-6, 6e-3, 2e-6, 5e-3, 1.2e-6, 1100, 930, 6200, 319},
     {7e-3, 2e-6, 6e-3, 8e-6, 5e-3, 6e-6, 1560, 3960, 4500, 488},
 };
-#define START          0.03  /* s: libraries, case, folder */
+#define START          0.07  /* s: libraries, case, folder */
 #define ROW            2e-5  /* s: a row of series.csv */
 #define CHART          0.13  /* s: gnuplot */
-#define SCENE          0.12  /* s: a scene and its pixels */
+#define SCENE          0.15  /* s: a scene and its pixels */
 #define SCENE_BODY     2e-5  /* s: a body in a scene */
 #define END_OF_CELLS   2.0   /* snapshots' cells: their results at the end of a run */
-#define PROGRAM_BYTES  22e6  /* the libraries that a run needs */
-#define SNAPSHOT_BYTES 0.4e6 /* a snapshot while run.h5 is gathered */
-#define FIGURE_BYTES   8e6   /* of all figures, and of each scene */
+#define PROGRAM_BYTES  28e6  /* the libraries that a run needs */
+#define SNAPSHOT_BYTES 0.8e6 /* a snapshot while run.h5 is gathered, */
+#define GATHER_BYTES   16e6  /* and the most of all of them beside those of their bodies */
+#define FIGURE_BYTES   11e6  /* of all figures, and of each scene */
 #define SCENE_BYTES    1e6
+/// s: a contact with a wall that only space has (curved, or a mesh), which the probe does without; bodies that have
+/// one: the outermost layers of a sample.
+#define CURVED_CONTACT 0.1e-6
+#define CURVED_LAYERS  4.0
 /// Steps between two neighbour lists: quick forms 300 to 2900 under load, 75 to 160 falling and flowing.
 #define LIST_STEPS_LOADED  1000.0
 #define LIST_STEPS_FALLING 100.0
@@ -120,6 +126,16 @@ static double cache_factor(const scree_model *model, double count)
     return 1 + CACHE_FACTOR * log(fmax(1, bytes / CACHE_BYTES));
 }
 
+/// s a step: contacts with curved walls and meshes, for which the probe has plates.
+static double curved_time(const scree_model *model)
+{
+    bool curved = false;
+    for (int64_t k = 0; k < model->wall_count; k++)
+        curved = curved || scree_modules[model->walls_of_case[k].shape]->wall->only_3d;
+    double count = (double)model->count;
+    return curved ? CURVED_CONTACT * fmin(count, CURVED_LAYERS * pow(count, 1 - 1.0 / model->dimension)) : 0;
+}
+
 /// s a step.
 static double step_time(const scree_model *model, const scree_probe *probe, double scale)
 {
@@ -127,7 +143,7 @@ static double step_time(const scree_model *model, const scree_probe *probe, doub
     bool falls = model->wall_count > 0;
     double list = probe->rebuild * scale / (falls ? LIST_STEPS_FALLING : LIST_STEPS_LOADED);
     double every = (double)model->upkeep.every * evaluations_a_tick(model);
-    return probe->step * scale * cache + list + probe->upkeep * scale / every;
+    return probe->step * scale * cache + list + probe->upkeep * scale / every + curved_time(model);
 }
 
 /// s: a snapshot, ParaView's files and its share of the gathering included; `cells` out: the part that cells take.
@@ -166,6 +182,6 @@ double scree_memory_expect(const scree_model *model)
     double cells = model->measure.cells && !model->periodic ? e->cell_bytes : 0;
     double body = e->step_bytes + fmax(cells, scenes > 0 ? e->figure_bytes : 0);
     for (int64_t k = 0; k < model->stage_count; k++) snapshots += scree_stage_expect(model, k, NAN).snapshots;
-    double figures = scenes > 0 ? FIGURE_BYTES + SCENE_BYTES * scenes : 0;
-    return PROGRAM_BYTES + snapshots * SNAPSHOT_BYTES + figures + body * (double)model->count;
+    double figures = model->output.figures ? FIGURE_BYTES + SCENE_BYTES * scenes : 0;
+    return PROGRAM_BYTES + fmin(snapshots * SNAPSHOT_BYTES, GATHER_BYTES) + figures + body * (double)model->count;
 }

@@ -2,7 +2,7 @@
 #ifndef SCREE_RUN_GUARD_H
 #define SCREE_RUN_GUARD_H
 
-#include "run/simulation.h"
+#include "run/simulation_data.h"
 
 /// Looks at the flags that kernels and integrators raised in this step.
 scree_status scree_guard_step(const scree_simulation *s, scree_error *error) SCREE_MUST_USE;

@@ -7,6 +7,7 @@
 
 #include "measure/measure.h"
 #include "run/step.h"
+#include "state/plates.h"
 
 #include <float.h>
 #include <math.h>
@@ -16,6 +17,36 @@
 #define RISE_SHARE 0.1
 /// A stage that takes this many times as long as planned does not follow its rate.
 #define LATE 2.0
+
+/// Logarithmic axial strain of the Delaunay boundary since the begin of the loading stage, extension positive.
+static double axial_stretch(const scree_simulation *s)
+{
+    double gradient[9];
+    int axial = s->state.dimension == 3 ? 8 : 4;
+    scree_strain_measure(&s->state, gradient);
+    return gradient[axial] - scree_loading_of(&s->state)->strain[axial];
+}
+
+double scree_sample_height(const scree_simulation *s)
+{
+    const scree_context context = scree_step_context((scree_simulation *)(uintptr_t)s);
+    if (s->boundary && s->boundary->height) return s->boundary->height(&context);
+    if (s->boundary && s->stage && s->stage->loading)
+        return scree_loading_of(&s->state)->height * exp(axial_stretch(s));
+    const scree_wall *wall = scree_plates(&s->state);
+    return -(wall[SCREE_WALL_BOTTOM].position + wall[SCREE_WALL_TOP].position);
+}
+
+double scree_axial_strain(const scree_simulation *s)
+{
+    double height = scree_loading_of(&s->state)->height;
+    return (height - scree_sample_height(s)) / height;
+}
+
+double scree_loading_strain(const scree_simulation *s)
+{
+    return s->stage && s->stage->strain ? s->stage->strain(s) : NAN;
+}
 
 /// Height of the sample; where the boundary says none the extent of the bodies along the axis.
 static double present_height(scree_simulation *s)

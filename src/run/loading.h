@@ -2,7 +2,7 @@
 #ifndef SCREE_RUN_LOADING_H
 #define SCREE_RUN_LOADING_H
 
-#include "run/simulation.h"
+#include "run/stage.h"
 
 /// State of the module `loading`: the sample at the begin of the loading stage.
 typedef struct scree_loading {
@@ -18,6 +18,17 @@ static inline scree_loading *scree_loading_of(const scree_state *state)
 {
     return state->own[SCREE_SLOT_loading];
 }
+
+/// Distance between bottom and top plate or the faces of the periodic cell [m]; without either the height that the
+/// loading began with, changed as the Delaunay boundary was strained.
+double scree_sample_height(const scree_simulation *s);
+
+/// Axial strain [1, compression positive], engineering, since the begin of the loading stage: from the plates or the
+/// periodic cell, or without them from the Delaunay boundary.
+double scree_axial_strain(const scree_simulation *s);
+
+/// Strain that the loading stage imposes, as far as it has come: NAN in other stages.
+double scree_loading_strain(const scree_simulation *s);
 
 /// Begins a loading stage under `pressure` [Pa]: measures the sample, and lets displacements, rotations and strains
 /// count from here.

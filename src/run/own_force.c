@@ -17,7 +17,6 @@
 #include "base/integer_sum.h"
 #include "base/wrapping.h"
 #include "comm/comm.h"
-#include "run/simulation.h"
 #include "state/fields.h"
 
 #include <stdlib.h>

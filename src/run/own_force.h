@@ -3,16 +3,7 @@
 #ifndef SCREE_RUN_OWN_FORCE_H
 #define SCREE_RUN_OWN_FORCE_H
 
-#include "state/state.h"
-
-#include <scree/simulation.h>
-
-/// What is registered. No part of the state: a program registers its functions anew.
-typedef struct scree_own_force_list {
-    scree_own_force *force; ///< with names of their own
-    size_t count, capacity;
-    bool called; ///< one of them runs now
-} scree_own_force_list;
+#include "run/simulation_data.h"
 
 void scree_own_force_list_destroy(scree_own_force_list *list);
 

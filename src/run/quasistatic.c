@@ -13,8 +13,8 @@
 #include "run/quasistatic.h"
 
 #include "model/critical_step.h"
+#include "run/core_columns.h"
 #include "run/loading.h"
-#include "run/sample.h"
 
 #include <math.h>
 #include <string.h>

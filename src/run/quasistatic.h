@@ -6,7 +6,7 @@
 #include "base/log.h"
 #include "io/series.h"
 #include "io/summary.h"
-#include "run/simulation.h"
+#include "run/simulation_data.h"
 #include "theory/quasistatic.h"
 
 /// The numbers of one stage; NAN where there is none.

@@ -7,6 +7,7 @@
 #include "io/paraview.h"
 #include "io/run_directory.h"
 #include "io/snapshot.h"
+#include "run/loading.h"
 #include "run/sample.h"
 
 #include <math.h>

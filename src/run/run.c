@@ -2,6 +2,7 @@
 #include "case/case.h"
 #include "io/disk.h"
 #include "io/run_directory.h"
+#include "io/run_file.h"
 #include "io/snapshot.h"
 #include "run/recorder.h"
 #include "run/restart.h"

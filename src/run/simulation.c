@@ -5,6 +5,7 @@
 #include "integrate/forced_spin.h"
 #include "load/gravity.h"
 #include "measure/measure.h"
+#include "run/own_force.h"
 #include "run/sample.h"
 #include "run/step.h"
 #include "search/neighbours.h"

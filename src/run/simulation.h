@@ -1,52 +1,8 @@
-/// A simulation in memory: the case, its model, the state, the work, and the stage that runs now.
+/// A simulation in memory, from its begin to its end.
 #ifndef SCREE_RUN_SIMULATION_H
 #define SCREE_RUN_SIMULATION_H
 
-#include "boundary/boundary.h"
-#include "case/case.h"
-#include "contact/contact.h"
-#include "integrate/integrate.h"
-#include "run/columns.h"
-#include "run/own_force.h"
 #include "run/stage.h"
-
-enum { SCREE_PASSES = 64 }; ///< most passes of a step
-
-/// state.stage.counter of a stage that has not begun, and of one that has ended. It stays the present one, for whoever
-/// looks at it or stores it, until the next step.
-enum { SCREE_STAGE_NOT_BEGUN = -1, SCREE_STAGE_ENDED = -2 };
-
-/// What `magic` is in a simulation that is open.
-#define SCREE_SIMULATION_MAGIC UINT64_C(0x7363726565736d31)
-
-struct scree_simulation {
-    uint64_t magic;
-    const scree_case *c;
-    scree_model model;       ///< of the case
-    scree_model stage_model; ///< with the friction of the present stage; what the kernels see
-    const scree_integrator *integrator;
-    scree_state state;
-    scree_work work;
-    scree_contact_table table;       ///< at the last sample
-    const scree_stage *stage;        ///< NULL when the case has ended
-    const scree_boundary *boundary;  ///< of the present stage
-    scree_pass passes[SCREE_PASSES]; ///< of the step of this stage, in their order
-    size_t pass_count;
-    double (*bounds[SCREE_MODULE_COUNT])(const scree_context *context); ///< of the loads of all modules
-    size_t bound_count;
-    bool moments; ///< a module that is in use reads the moments of contact forces
-    scree_stage_plan plan;
-    scree_columns columns; ///< of series.csv
-    double *sample;        ///< the last row of them
-    bool has_sample;       ///< there is a last one
-    bool sampled;          ///< the last step made a sample
-    bool stage_ended;      ///< the last step ended a stage
-    char reason[192];      ///< why it ended
-    scree_own_force_list forces;
-    scree_contact_point *points; ///< what the library has handed out
-    size_t point_capacity;
-    scree_error stopped; ///< why no further step can be taken; its status is 0 while there is no reason
-};
 
 /// Builds model and work; the first stage has not begun. Errors: model_build's, memory.
 scree_status scree_simulation_open(const scree_case *c, int threads, scree_simulation *s,

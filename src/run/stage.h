@@ -1,54 +1,8 @@
-/// Stages: one file a kind (stage_*.c), whose module has this face.
+/// The stage that runs now: its config, its time; what several stages share.
 #ifndef SCREE_RUN_STAGE_H
 #define SCREE_RUN_STAGE_H
 
-#include "boundary/periodic.h"
-#include "boundary/plates.h"
-#include "measure/delaunay_boundary.h"
-#include "state/work.h"
-
-typedef struct scree_simulation scree_simulation;
-
-/// What a stage needs at every step and can be derived from the state at its begin (so it is not stored).
-typedef struct scree_stage_plan {
-    uint64_t interval; ///< ticks between two samples, whole largest steps
-    uint64_t expected; ///< ticks of the whole stage, whole largest steps; 0: not known in advance
-    double ramp_time;  ///< s
-    double time_limit; ///< s
-} scree_stage_plan;
-
-typedef struct scree_stage {
-    const char *name;
-    bool instant;       ///< ends as soon as it has begun (no steps)
-    bool loading;       ///< samples of this stage have a strain, and snapshots are evenly spaced in it
-    bool quasistatic;   ///< means to be
-    int samples_a_wave; ///< samples in a wave time of the sample; 0: evenly over the stage
-
-    // ---- asked before the stage begins; `config` is its own struct. Each may be NULL ----
-    /// Time [s] at its full rate. NULL: not known.
-    double (*duration)(const void *config);
-    /// Time [s] that it is planned to last, where a wave goes through the sample in `wave` [s]. NULL: none.
-    double (*planned)(const scree_model *model, const void *config, double wave);
-    /// Makes it fit a case of `count` particles only.
-    void (*shrink)(void *config, int64_t count);
-    /// Time [s] that it takes, which is known when it has begun. NULL: as planned.
-    double (*expected)(const scree_simulation *s);
-
-    // ---- while a simulation is in it ----
-    /// Strain that the stage imposes, as far as it has come. NULL: none.
-    double (*strain)(const scree_simulation *s);
-    /// Once, when the stage begins: what the sample is like now goes into its own state. NULL: nothing to do.
-    scree_status (*begin)(scree_simulation *s, scree_error *error);
-    /// Derives the plan from the state; at begin and after a restart. NULL: for instant stages alone.
-    void (*plan)(scree_simulation *s);
-    /// Every step, before the plates move: velocities of plates, pressure. NULL: nothing to do.
-    void (*control)(scree_simulation *s);
-    /// At every sample: has the stage ended? Then writes the reason. May fail: time limit. NULL: for instant
-    /// stages alone.
-    scree_status (*finished)(scree_simulation *s, bool *done, scree_error *error);
-    /// Fraction done, NAN when not known. NULL: never known.
-    double (*fraction)(const scree_simulation *s);
-} scree_stage;
+#include "run/simulation_data.h"
 
 /// s since the begin of the stage.
 double scree_stage_elapsed(const scree_simulation *s);
@@ -59,18 +13,7 @@ uint64_t scree_stage_ticks(const scree_simulation *s, double time);
 /// The config of the stage that runs now; what its kind says is in `own`.
 const scree_config_stage *scree_stage_config(const scree_simulation *s);
 
-/// Strain that the loading stage imposes, as far as it has come: NAN in other stages.
-double scree_loading_strain(const scree_simulation *s);
-
-/// Axial strain [1, compression positive], engineering, since the begin of the loading stage: from the plates or the
-/// periodic cell, or without them from the Delaunay boundary.
-double scree_axial_strain(const scree_simulation *s);
-
 /// Smooth step from 0 to 1 (cubic), for pressures and velocities that must not shock the sample.
 double scree_smooth_ramp(double fraction);
-
-/// Distance between bottom and top plate or the faces of the periodic cell [m]; without either the height that the
-/// loading began with, changed as the Delaunay boundary was strained.
-double scree_sample_height(const scree_simulation *s);
 
 #endif

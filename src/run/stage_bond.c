@@ -89,12 +89,6 @@ typedef struct judged {
     char path[SCREE_PATH_BYTES]; ///< that of the key which was asked for last
 } judged;
 
-static const char *path_of(judged *j, const char *key)
-{
-    (void)snprintf(j->path, sizeof j->path, "stages.%lld.%s", (long long)j->index, key);
-    return j->path;
-}
-
 static void check_law(judged *j)
 {
     const int slot = j->whole->contact.law;
@@ -104,22 +98,28 @@ static void check_law(judged *j)
         if (scree_modules[m]->law && scree_modules[m]->law->holding)
             (void)snprintf(laws + strlen(laws), sizeof laws - strlen(laws), "%scontact.law: %s", laws[0] ? ", " : "",
                            scree_modules[m]->name);
-    scree_rule_refuse(j->reader, path_of(j, "stage"), laws, "contact law %s cannot hold particles together: choose %s",
-                      scree_modules[slot]->name, laws);
+    scree_rule_refuse(j->reader, scree_element_path(j->path, "stages", j->index, "stage"), laws,
+                      "contact law %s cannot hold particles together: choose %s", scree_modules[slot]->name, laws);
 }
 
 static void check_names(judged *j)
 {
     const config *own = j->own;
-    if (own->between) (void)scree_rule_is_selection(j->reader, j->whole, path_of(j, "between"), own->between);
-    if (own->other) (void)scree_rule_is_selection(j->reader, j->whole, path_of(j, "and"), own->other);
+    if (own->between)
+        (void)scree_rule_is_selection(j->reader, j->whole, scree_element_path(j->path, "stages", j->index, "between"),
+                                      own->between);
+    if (own->other)
+        (void)scree_rule_is_selection(j->reader, j->whole, scree_element_path(j->path, "stages", j->index, "and"),
+                                      own->other);
     if (own->other && !own->between)
-        scree_rule_refuse(j->reader, path_of(j, "and"), NULL, "not used without `between`");
+        scree_rule_refuse(j->reader, scree_element_path(j->path, "stages", j->index, "and"), NULL,
+                          "not used without `between`");
     if (own->list_count == 0) return;
     if (own->between)
-        scree_rule_refuse(j->reader, path_of(j, "between"), "auto", "not used with a list, which names the particles");
+        scree_rule_refuse(j->reader, scree_element_path(j->path, "stages", j->index, "between"), "auto",
+                          "not used with a list, which names the particles");
     if (!isnan(own->gap_tolerance))
-        scree_rule_refuse(j->reader, path_of(j, "gap_tolerance"), "auto",
+        scree_rule_refuse(j->reader, scree_element_path(j->path, "stages", j->index, "gap_tolerance"), "auto",
                           "not used with a list, whose pairs are bonded whatever their gap");
 }
 
@@ -153,16 +153,17 @@ static void check_strength(judged *j)
     const bool tension = !isnan(own->tensile_strength) || !isnan(own->tensile_stress);
     const bool shear = !isnan(own->shear_strength) || !isnan(own->shear_stress);
     if (!isnan(own->tensile_strength) && !isnan(own->tensile_stress))
-        scree_rule_refuse(j->reader, path_of(j, "tensile_stress"), "auto",
+        scree_rule_refuse(j->reader, scree_element_path(j->path, "stages", j->index, "tensile_stress"), "auto",
                           "tensile_strength is given: give one of the two");
     if (!isnan(own->shear_strength) && !isnan(own->shear_stress))
-        scree_rule_refuse(j->reader, path_of(j, "shear_stress"), "auto",
+        scree_rule_refuse(j->reader, scree_element_path(j->path, "stages", j->index, "shear_stress"), "auto",
                           "shear_strength is given: give one of the two");
     if (own->internal_friction > 0 && !shear)
-        scree_rule_refuse(j->reader, path_of(j, "internal_friction"), "0",
+        scree_rule_refuse(j->reader, scree_element_path(j->path, "stages", j->index, "internal_friction"), "0",
                           "not used without a strength in shear: give shear_strength or shear_stress");
     if (own->scatter > SCREE_SCATTER_NONE && !tension && !shear)
-        scree_rule_refuse(j->reader, path_of(j, "scatter"), "none", "no strength is given that could scatter");
+        scree_rule_refuse(j->reader, scree_element_path(j->path, "stages", j->index, "scatter"), "none",
+                          "no strength is given that could scatter");
 }
 
 static void rules(scree_reader *reader, const scree_config *whole)

@@ -10,6 +10,7 @@
 #include "module/key_rows.h"
 #include "run/quasistatic.h"
 #include "run/sample.h"
+#include "run/stage.h"
 #include "run/step.h"
 #include "state/pressure.h"
 

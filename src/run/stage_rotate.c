@@ -6,7 +6,6 @@
 /// pressure creeps) is the background. Ramp: w(n+1/2) = spin (t(n+1/2) - rest) / ramp. Hold: w = spin. Angles are set
 /// back to zero at the begin of each but the ramp after no rest, so that at the end they are the rotations of the hold:
 /// over its time the mean spins, from which the waves of single instants have gone.
-#include "run/stage_rotate_config.h"
 #include "base/fixed.h"
 #include "base/integer_sum.h"
 #include "comm/comm.h"
@@ -16,6 +15,7 @@
 #include "module/key_rows.h"
 #include "run/loading.h"
 #include "run/rotation_results.h"
+#include "run/stage_rotate_config.h"
 #include "run/step.h"
 #include "state/pressure.h"
 

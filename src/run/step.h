@@ -2,7 +2,7 @@
 #ifndef SCREE_RUN_STEP_H
 #define SCREE_RUN_STEP_H
 
-#include "run/simulation.h"
+#include "run/simulation_data.h"
 
 /// Puts the passes of the stage that has begun into s->passes.
 void scree_step_compile(scree_simulation *s);

@@ -16,4 +16,10 @@ typedef struct scree_simplices {
 scree_status scree_simplices_build(const double *points, size_t count, int dimension, scree_simplices *simplices,
                                    scree_error *error) SCREE_MUST_USE;
 
+/// The regular (weighted Delaunay) simplices of discs and spheres of these radii [m]: those of the power distances
+/// |x - point|^2 - radius^2, in which neighbours of any sizes that touch share an edge. A body within others may be in
+/// no simplex.
+scree_status scree_simplices_build_weighted(const double *points, const double *radius, size_t count, int dimension,
+                                            scree_simplices *simplices, scree_error *error) SCREE_MUST_USE;
+
 #endif

@@ -34,15 +34,15 @@ static const lattice_row rows[SCREE_LATTICES] = {
 
 const char *scree_lattice_name(scree_lattice lattice)
 {
-    return rows[lattice].name;
+    return lattice == SCREE_LATTICE_ROW ? "row" : rows[lattice].name;
 }
 
 int scree_lattice_dimension(scree_lattice lattice)
 {
-    return rows[lattice].dimension;
+    return lattice == SCREE_LATTICE_ROW ? 2 : rows[lattice].dimension;
 }
 
-static double particle_volume(int dimension, const scree_lattice_material *m)
+double scree_particle_volume(int dimension, const scree_lattice_material *m)
 {
     return M_PI * m->radius * m->radius * (dimension == 3 ? 4. / 3 * m->radius : m->length);
 }
@@ -59,23 +59,62 @@ double scree_lattice_radius(scree_lattice lattice, const scree_lattice_material 
     double most = 0;
     for (int k = 0; k < SCREE_LATTICE_STRAINS; k++)
         most = fmax(most, row->normal[k] * compliance(row->dimension, (scree_lattice_strain)k, m));
-    return 2 * m->radius * m->radius * m->normal * most / particle_volume(row->dimension, m);
+    return 2 * m->radius * m->radius * m->normal * most / scree_particle_volume(row->dimension, m);
 }
 
 double scree_row_radius(int dimension, const scree_lattice_material *m)
 {
-    return 4 * m->radius * m->radius * m->normal * (m->shear + m->trace) / particle_volume(dimension, m);
+    return 4 * m->radius * m->radius * m->normal * (m->shear + m->trace) / scree_particle_volume(dimension, m);
+}
+
+double scree_row_stiffness(int dimension, const scree_lattice_material *m)
+{
+    return m->normal / (1 + scree_row_radius(dimension, m));
+}
+
+double scree_row_poisson(int dimension, const scree_lattice_material *m)
+{
+    // Stress along the row under a strain E of the centres: 2 R f / V, f = stiffness 2 R E.
+    const double stress =
+        4 * m->radius * m->radius * scree_row_stiffness(dimension, m) / scree_particle_volume(dimension, m);
+    return -m->trace * stress;
+}
+
+double scree_lattice_cell(scree_lattice lattice, const scree_lattice_material *m)
+{
+    const lattice_row *row = &rows[lattice];
+    return row->cell * m->radius * m->radius * (row->dimension == 3 ? m->radius : m->length);
 }
 
 double scree_lattice_modulus(scree_lattice lattice, scree_lattice_strain strain, const scree_lattice_material *m)
 {
     const lattice_row *row = &rows[lattice];
     const double square = 2 * m->radius * m->radius;
-    const double cell = row->cell * m->radius * m->radius * (row->dimension == 3 ? m->radius : m->length);
-    const double soft = compliance(row->dimension, strain, m) * square / particle_volume(row->dimension, m);
+    const double cell = scree_lattice_cell(lattice, m);
+    const double soft = compliance(row->dimension, strain, m) * square / scree_particle_volume(row->dimension, m);
     const double normal = m->normal * row->normal[strain], tangential = m->tangential * row->tangential[strain];
     if (m->corrected) return square / cell * (normal + tangential) / (1 + soft * (normal + tangential));
     return square / cell * (normal * (1 - soft * tangential) / (1 + soft * normal) + tangential);
+}
+
+void scree_lattice_axial(scree_lattice lattice, const scree_lattice_material *m, double *young, double *poisson)
+{
+    const int d = rows[lattice].dimension;
+    const double round = scree_lattice_modulus(lattice, SCREE_LATTICE_ALL_ROUND, m),
+                 diagonal = scree_lattice_modulus(lattice, SCREE_LATTICE_DIAGONAL, m);
+    // C11 + (d - 1) C12 = d K, C11 - C12 = 2 G'.
+    const double across = (round - diagonal) / d, along = across + diagonal;
+    *poisson = across / (along + (d - 2) * across);
+    *young = along - (d - 1) * across * *poisson;
+}
+
+void scree_lattice_isotropic(scree_lattice lattice, const scree_lattice_material *m, double *bulk, double *shear)
+{
+    const int d = rows[lattice].dimension;
+    const double diagonal = 0.5 * scree_lattice_modulus(lattice, SCREE_LATTICE_DIAGONAL, m),
+                 off = 0.5 * scree_lattice_modulus(lattice, SCREE_LATTICE_SHEAR, m);
+    *bulk = scree_lattice_modulus(lattice, SCREE_LATTICE_ALL_ROUND, m) / d;
+    *shear = d == 3 ? (2 * diagonal + 3 * off) / 5 : (diagonal + off) / 2;
 }
 
 void scree_moduli_of_bulk_and_shear(int dimension, double bulk, double shear, double *young, double *poisson)

@@ -11,7 +11,8 @@ typedef enum scree_lattice {
     SCREE_LATTICE_SIMPLE_CUBIC,
     SCREE_LATTICE_BODY_CENTRED,
     SCREE_LATTICE_FACE_CENTRED,
-    SCREE_LATTICES
+    SCREE_LATTICES,
+    SCREE_LATTICE_ROW = SCREE_LATTICES, ///< of discs: no solid, so without moduli; lattice_waves.h, scree_row_*
 } scree_lattice;
 
 /// Strains in which a lattice and an isotropic particle both answer with a multiple of the strain. In 2D `diagonal` is
@@ -27,6 +28,7 @@ typedef enum scree_lattice_strain {
 typedef struct scree_lattice_material {
     double radius;       ///< m
     double length;       ///< m, of discs
+    double density;      ///< kg/m3, of particles; for what moves
     double normal;       ///< N/m, k_n
     double tangential;   ///< N/m, k_t
     double shear, trace; ///< 1/Pa, compliance of a particle (model/compliance.h)
@@ -43,10 +45,26 @@ double scree_lattice_radius(scree_lattice lattice, const scree_lattice_material 
 /// The same of a straight row of discs or spheres (M 3.27).
 double scree_row_radius(int dimension, const scree_lattice_material *material);
 
+/// Volume of a particle and of its cell [m3].
+double scree_particle_volume(int dimension, const scree_lattice_material *material);
+double scree_lattice_cell(scree_lattice lattice, const scree_lattice_material *material);
+
+/// Force of a compressed row over the way of the centres [N/m], k_n k_p / (2 k_n + k_p) (M 3.27 and Table 3.1), and
+/// strain of its particles across it over the strain along it, with the sign changed.
+double scree_row_stiffness(int dimension, const scree_lattice_material *material);
+double scree_row_poisson(int dimension, const scree_lattice_material *material);
+
 /// Stress over strain [Pa] in one of these strains: d K, 2 G, 2 G' with the bulk modulus K of d dimensions (in 2D that
 /// of areas).
 double scree_lattice_modulus(scree_lattice lattice, scree_lattice_strain strain,
                              const scree_lattice_material *material);
+
+/// Young's modulus and Poisson's ratio along an axis of the cubic (square) cell, stress across it zero.
+void scree_lattice_axial(scree_lattice lattice, const scree_lattice_material *material, double *young, double *poisson);
+
+/// K [Pa] of the lattice, and G of the isotropic tensor that is nearest to its own (the mean over all directions).
+void scree_lattice_isotropic(scree_lattice lattice, const scree_lattice_material *material, double *bulk,
+                             double *shear);
 
 /// Isotropic moduli of a packing of `contacts` contacts between particles of mean square radius [m2] in a volume [m3],
 /// if all follow the mean strain without turning (Voigt): M 4.15-4.18 in the plane, in space by the same average.

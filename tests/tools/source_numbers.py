@@ -14,14 +14,7 @@ import statistics
 import sys
 
 MOST_LINES, MEDIAN, FILE_LINES = 60, 12, 600
-OLD = [
-    {"case/case", "case/check", "case/document", "case/nearest", "case/path"},
-    {"io/folder_lock", "io/manifest", "io/run_directory"},
-    {"io/cell_file", "io/run_file", "io/snapshot"},
-    {"run/columns", "run/guard", "run/loading", "run/own_force", "run/quasistatic", "run/sample", "run/simulation",
-     "run/stage", "run/step"},
-    {"prepare/methods", "prepare/prepare"},
-]
+OLD = []
 INCLUDE = re.compile(r'#include "([a-z_]+/[a-z0-9_]+)\.h"')
 HEAD = re.compile(r"^[A-Za-z_][^;={}]*\)\s*$")
 

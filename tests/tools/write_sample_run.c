@@ -1,6 +1,7 @@
 /// Writes a small run directory with known content: two snapshots, a checkpoint, ParaView files; finished when asked.
 /// Usage: write_sample_run DIRECTORY [finish]. tests/tools/check_paraview.py says what it must find there.
 #include "io/paraview.h"
+#include "io/run_file.h"
 #include "io/snapshot.h"
 #include "io_sample.h"
 

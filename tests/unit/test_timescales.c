@@ -3,6 +3,7 @@
 #include "run_fixture.h"
 
 #include "io_scratch.h"
+#include "run/loading.h"
 
 #include <math.h>
 #include <string.h>

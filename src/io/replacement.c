@@ -1,0 +1,61 @@
+#include "io/replacement.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <string.h>
+#include <unistd.h>
+
+scree_status scree_path_join(char *path, size_t size, const char *directory, const char *name, scree_error *error)
+{
+    size_t length = strlen(directory);
+    const char *separator = length > 0 && directory[length - 1] != '/' ? "/" : "";
+    int written = snprintf(path, size, "%s%s%s", directory, separator, name);
+    if (written < 0 || (size_t)written >= size)
+        return scree_error_set(error, SCREE_ERROR_INPUT, "the path '%.100s...' is too long: %zu bytes at most",
+                               directory, size - 1);
+    return SCREE_OK;
+}
+
+static scree_status replacement_name(char *name, size_t size, const char *path, scree_error *error)
+{
+    int length = snprintf(name, size, "%s" SCREE_REPLACEMENT, path);
+    if (length < 0 || (size_t)length >= size)
+        return scree_error_set(error, SCREE_ERROR_INPUT, "the path '%.100s...' is too long", path);
+    return SCREE_OK;
+}
+
+scree_status scree_replacement_open(const char *path, FILE **file, scree_error *error)
+{
+    char name[PATH_MAX];
+    *file = NULL;
+    scree_status status = replacement_name(name, sizeof name, path, error);
+    if (status) return status;
+    *file = fopen(name, "wbe");
+    return *file ? SCREE_OK : scree_error_set_errno(error, SCREE_ERROR_IO, "cannot write '%s'", name);
+}
+
+scree_status scree_replacement_close(const char *path, FILE *file, bool keep, scree_error *error)
+{
+    char name[PATH_MAX];
+    scree_status status = replacement_name(name, sizeof name, path, error);
+    if (status) {
+        fclose(file);
+        return status;
+    }
+    // A write that failed earlier left the stream's error flag, but not always errno.
+    errno = 0;
+    bool good = fflush(file) == 0 && !ferror(file) && fsync(fileno(file)) == 0;
+    int number = errno ? errno : EIO;
+    if (fclose(file) != 0 && good) {
+        good = false;
+        number = errno;
+    }
+    if (keep && good && rename(name, path) != 0) {
+        good = false;
+        number = errno;
+    }
+    if (!keep || !good) unlink(name);
+    if (!keep || good) return SCREE_OK;
+    errno = number;
+    return scree_error_set_errno(error, SCREE_ERROR_IO, "cannot write '%s'", path);
+}

@@ -1,0 +1,17 @@
+/// The piece of a specimen whose moduli are asked for.
+#ifndef SCREE_SPECIMEN_PIECE_H
+#define SCREE_SPECIMEN_PIECE_H
+
+#include "base/error.h"
+#include "specimen/moduli.h"
+#include "state/state.h"
+
+/// A specimen that does not repeat itself in all directions becomes the piece within its outermost bodies (box.h), by
+/// plates where these stand. Errors: SCREE_ERROR_INPUT when it fills no box; memory.
+scree_status scree_specimen_take_piece(const scree_state *state, scree_specimen *specimen,
+                                       scree_error *error) SCREE_MUST_USE;
+
+/// Voigt's moduli from number, mean springs and mean square radius alone (M 4.15-4.18).
+scree_isotropic scree_specimen_estimate(const scree_specimen *specimen);
+
+#endif
