@@ -137,9 +137,6 @@ static void rules(scree_reader *reader, const scree_config *whole)
     if (!scree_law_get(whole->contact.law)->deforming)
         scree_rule_refuse(reader, "contact.deformation", "none",
                           "the law of the contacts does not carry particles that deform: take law: linear");
-    if (whole->wall_count > 0)
-        scree_rule_refuse(reader, "contact.deformation", "none",
-                          "particles that deform cannot touch the walls of a case yet: take plates");
     for (int64_t i = 0; i < whole->material_count; i++) judge_material(reader, whole, i);
     for (int64_t i = 0; i < whole->stage_count; i++)
         if (whole->stages[i].kind >= 0) judge_stage(reader, whole, i);
@@ -227,6 +224,8 @@ static const scree_field fields[] = {
                     "no surface of a body has moved out by more", SCREE_RANGE(0, DBL_MAX)),
     SCREE_FIELD_ONE(deformation, memory, growth, "deformation/growth", SCREE_FIELD_DOUBLE, 1, "m",
                     "largest way of a surface in the last change of the strains", .role = SCREE_FIELD_DERIVED),
+    SCREE_FIELD_ONE(deformation, memory, attacked, "deformation/attacked", SCREE_FIELD_UINT64, 1, "1",
+                    "1: loads act on surfaces", .role = SCREE_FIELD_DERIVED),
     SCREE_FIELD_BODY(deformation, memory, term, double, "deformation/term", SCREE_FIELD_DOUBLE, 1, "J",
                      "work of its last change of strain", .role = SCREE_FIELD_DERIVED, .optional = true),
     SCREE_FIELD_BODY(deformation, memory, attack, scree_surface_force, "deformation/attack", SCREE_FIELD_DOUBLE, 6, "N",
@@ -300,7 +299,7 @@ static scree_status clear_attack(const scree_context *c, scree_error *error)
     scree_surface_force *attack = scree_deformation_of(c->state)->attack;
     (void)error;
     if (scree_deformation_of(c->state)->attacked) memset(attack, 0, c->state->count * sizeof *attack);
-    scree_deformation_of(c->state)->attacked = false;
+    scree_deformation_of(c->state)->attacked = 0;
     return SCREE_OK;
 }
 

@@ -26,6 +26,7 @@
 #include "contact/bounds.h"
 #include "contact/contact.h"
 #include "contact/single.h"
+#include "contact/surfaces.h"
 #include "contact/trial.h"
 #include "model/law.h"
 #include "search/neighbours.h"
@@ -191,10 +192,29 @@ static void find_plate(solve *s, size_t p)
                &s->c->model->walls[scree_body_material(state, row)], body->radius, body->mass);
 }
 
+/// Elements of the walls of the case, of the body of pair `begin`.
+static void find_elements(solve *s, size_t begin, size_t end)
+{
+    const scree_state *state = s->c->state;
+    const scree_work *work = s->c->work;
+    const uint32_t row = work->primitive_pairs.body[begin];
+    const int material = scree_body_material(state, row);
+    primitive_touches touches;
+    contact_primitives_touching(work->wall_set, s->d, &state->row[row], scree_stretch_row(state, row),
+                                &work->primitive_pairs, begin, end, &touches);
+    for (int k = 0; k < touches.count; k++) {
+        const scree_surface *surface = &work->wall_set->surface[touches.touch[k].surface];
+        const scree_pair_constants constants = contact_surface_constants(s->c->model, surface, material);
+        add_spring(s, row, SCREE_NO_ROW, touches.touch[k].closest.normal, &s->c->model->law, &constants,
+                   state->row[row].radius, state->row[row].mass);
+    }
+}
+
 static scree_status find_springs(solve *s, scree_error *error)
 {
     const scree_work *work = s->c->work;
-    const size_t most = work->pairs.count + work->wall_pairs.count;
+    const scree_wall_pair_list *elements = &work->primitive_pairs;
+    const size_t most = work->pairs.count + work->wall_pairs.count + elements->count;
     s->spring_count = 0;
     if (most > s->spring_capacity) {
         scree_release(&s->spring);
@@ -205,6 +225,10 @@ static scree_status find_springs(solve *s, scree_error *error)
     }
     for (size_t p = 0; p < work->pairs.count; p++) find_pair(s, p);
     for (size_t p = 0; p < work->wall_pairs.count; p++) find_plate(s, p);
+    for (size_t begin = 0, end; begin < elements->count; begin = end) {
+        end = contact_group_end(elements, begin);
+        find_elements(s, begin, end);
+    }
     return SCREE_OK;
 }
 

@@ -161,17 +161,21 @@ SCREE_INLINE kinematics kinematics_of_wall(int dimension, const bodies *body, co
     return m;
 }
 
+/// Radius [m] of a body where the normal is n, of one that deforms with its stretch `of`; NULL: it is rigid.
+static inline double wall_radius(int dimension, const scree_row *body, const double n[3], const double *of)
+{
+    if (!of) return body->radius;
+    const stretch own = stretch_get(dimension, of, NULL);
+    const vector normal = {n[0], n[1], n[2]};
+    return body->radius + vector_dot(dimension, normal, stretch_along(dimension, own.now, normal));
+}
+
 /// NaN counts as contact, so that it is noticed. of: the stretch of the body; NULL: it is rigid.
 static inline bool wall_touches(int dimension, const scree_row *body, const scree_wall *wall, const double *of)
 {
-    double height = wall->normal[0] * body->x + wall->normal[1] * body->y, radius = body->radius;
+    double height = wall->normal[0] * body->x + wall->normal[1] * body->y;
     if (dimension == 3) height += wall->normal[2] * body->z;
-    if (of) {
-        const stretch own = stretch_get(dimension, of, NULL);
-        vector normal = {wall->normal[0], wall->normal[1], wall->normal[2]};
-        radius += vector_dot(dimension, normal, stretch_along(dimension, own.now, normal));
-    }
-    return wall->active && !(radius <= height - wall->position);
+    return wall->active && !(wall_radius(dimension, body, wall->normal, of) <= height - wall->position);
 }
 
 #endif

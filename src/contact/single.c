@@ -156,6 +156,7 @@ void contact_of_primitive(const scree_model *model, const scree_state *state, co
     const scree_surface *surface = contact_surface_of(work->wall_set, primitive);
     kinematics m = kinematics_of_surface(work->wall_set, primitive, dimension, &one, &closest,
                                          scree_case_walls(state)->moving != 0, state->step_size);
+    if (state->stretch) expand(state, &m, body, NULL);
     scree_pair_constants constants = contact_surface_constants(model, surface, (int)one.material);
     describe_wall(model, dimension, &constants, &one, &m, memory, contact);
 }

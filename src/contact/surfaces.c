@@ -53,7 +53,7 @@ static void merge(const scree_wall_set *wall_set, primitive_touches *touches)
 }
 
 void contact_primitives_touching(const scree_wall_set *wall_set, int dimension, const scree_row *body,
-                                 const scree_wall_pair_list *pairs, size_t begin, size_t end,
+                                 const double *of, const scree_wall_pair_list *pairs, size_t begin, size_t end,
                                  primitive_touches *touches)
 {
     scree_vector position;
@@ -62,8 +62,8 @@ void contact_primitives_touching(const scree_wall_set *wall_set, int dimension, 
     for (size_t p = begin; p < end; p++) {
         primitive_touch touch = {.pair = p, .surface = scree_primitive_surface(wall_set, pairs->wall[p])};
         scree_primitive_closest_point(wall_set, pairs->wall[p], position, &touch.closest);
-        if (scree_closest_point_touches(wall_set, pairs->wall[p], &touch.closest, body->radius))
-            insert(touches, &touch);
+        const double radius = wall_radius(dimension, body, touch.closest.normal, of);
+        if (scree_closest_point_touches(wall_set, pairs->wall[p], &touch.closest, radius)) insert(touches, &touch);
     }
     merge(wall_set, touches);
 }
@@ -75,8 +75,8 @@ void contact_primitives_mark(const scree_state *state, const scree_work *work, u
     for (size_t begin = 0, end; begin < pairs->count; begin = end) {
         end = contact_group_end(pairs, begin);
         for (size_t p = begin; p < end; p++) touching[p] = 0;
-        contact_primitives_touching(work->wall_set, state->dimension, &state->row[pairs->body[begin]], pairs, begin,
-                                    end, &touches);
+        contact_primitives_touching(work->wall_set, state->dimension, &state->row[pairs->body[begin]],
+                                    scree_stretch_row(state, pairs->body[begin]), pairs, begin, end, &touches);
         for (int k = 0; k < touches.count; k++) touching[touches.touch[k].pair] = 1;
     }
 }
@@ -263,6 +263,10 @@ SCREE_INLINE void evaluate_group(contact_job *job, variant v, const scree_state 
         if (v.dimension == 3 && law_traits(v)->displacement) turn_displacements(closest->normal, &rows);
         kinematics m = kinematics_of_surface(g->wall_set, g->pairs->wall[p], v.dimension, &one, closest,
                                              scree_case_walls(state)->moving != 0, job->settings.step);
+        if (law_deforms(v)) {
+            const stretch own = stretch_get(v.dimension, contact_stretch_at(job, row), NULL);
+            kinematics_expand(v.dimension, &m, &own, job->settings.step);
+        }
         if (law_predicts(v)) {
             prediction ahead = prediction_get(v.dimension, &job->predicted[row]);
             kinematics_predict(v.dimension, &m, &one, &ahead, NULL, NULL);
@@ -298,7 +302,8 @@ void contact_surfaces(contact_job *job, const scree_state *state, const scree_wo
         g.end = contact_group_end(g.pairs, g.begin);
         size_t row = g.pairs->body[g.begin];
         if (row < begin || row >= end) continue;
-        contact_primitives_touching(g.wall_set, v.dimension, &job->row[row], g.pairs, g.begin, g.end, &g.touches);
+        contact_primitives_touching(g.wall_set, v.dimension, &job->row[row], contact_stretch_at(job, row), g.pairs,
+                                    g.begin, g.end, &g.touches);
         if (g.touches.count == 0 && !holds_memory(&g)) continue;
         place_of(v.dimension, &job->row[row], g.position);
         pass_memory(&g);

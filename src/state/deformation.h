@@ -23,7 +23,7 @@ typedef struct scree_deformation {
     double largest_reach; ///< m, of all bodies: no surface has moved out by more
     double growth;        ///< m, largest way that a surface goes in the step that comes to its forces (derived)
     double *term;         ///< J, one a body: work of the present change of its strain (derived)
-    bool attacked;        ///< there is something in `attack`
+    uint64_t attacked;    ///< 1: there is something in `attack` (derived)
     scree_surface_force *attack; ///< one a body: what loads add from the first half of a step on (derived)
     scree_departed *departed;    ///< one a body, of the implicit strain (derived)
 } scree_deformation;

@@ -4,7 +4,9 @@
 #include "run_fixture.h"
 
 #include "contact/deformation.h"
+#include "measure/removal.h"
 #include "state/deformation.h"
+#include "state/persistent.h"
 
 #define STEEL(poisson)                                                                                                 \
     "materials:\n  - {name: steel, young_modulus: 200 GPa, poisson_ratio: " poisson ", density: 2000 kg/m3,\n"         \
@@ -173,7 +175,8 @@ static void loads_on_the_surface_strain_it(void **unused)
     const double disc = disc_stiffness(2e11, 0.35);
     for (int kind = 0; kind < 4; kind++) {
         const bool damped = kind & 1, implicit = kind & 2;
-        scree_case *c = case_read(PRESSED, implicit ? overrides : overrides + 2, (damped ? 2 : 0) + (implicit ? 2 : 0));
+        const size_t count = (damped ? 2U : 0U) + (implicit ? 2U : 0U);
+        scree_case *c = case_read(PRESSED, implicit ? overrides : overrides + 2, count);
         scree_simulation s;
         scree_error error;
         simulation_open(c, 1, &s);
@@ -203,6 +206,51 @@ static void loads_on_the_surface_strain_it(void **unused)
     }
 }
 
+#define SQUEEZED(count, more)                                                                                          \
+    "scree: 1\nname: squeezed\n" STEEL("0.35") EQUAL(count) "contact: {law: linear, deformation: implicit}\n" HELD     \
+                                                            "integrator: {step: 1e-7 s}\n" QUIET more
+
+/// A disc that walls press from both sides: each is a spring K as a disc of its like, and W the way that the
+/// surface goes back by, W = -2 f (shear + trace) / (pi t). f = K (h + W), so f = K h / (1 + 2 K (1 - nu2) / (pi E t)).
+/// Across, the surface moves out by 2 f nu (1 + nu) / (pi E t).
+static void a_disc_between_walls_has_the_closed_stress(void **unused)
+{
+    static const char *const cases[] = {
+        SQUEEZED("1", "walls: [{shape: plane, name: floor, point: [0, 4.01 mm], normal: [0, 1]},\n"
+                      "  {shape: plane, name: roof, point: [0, 5.99 mm], normal: [0, -1]}]\n"
+                      "stages:\n  - {stage: prepare, method: bodies, bodies: [{position: [5 mm, 5 mm]}]}\n"
+                      "  - {stage: relax, duration: 10 us, boundary: none}\n"),
+        SQUEEZED("3", "boundary: {periodic: x}\nstages:\n"
+                      "  - {stage: prepare, method: bodies, width: 20 mm, height: 1.98 mm, bodies: [{position: [5 mm, "
+                      "0.99 mm]},\n"
+                      "     {position: [10 mm, 0.99 mm]}, {position: [15 mm, 0.99 mm]}]}\n"
+                      "  - {stage: relax, duration: 10 us, boundary: plates}\n")};
+    const double K = NORMAL, modulus = 2e11, poisson = 0.35;
+    const double expected = K * 1e-5 / (1 + 2 * K * (1 - poisson * poisson) / (M_PI * modulus * THICKNESS));
+    (void)unused;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++)
+        for (int relaxed = 0; relaxed < 2; relaxed++) {
+            const char *const overrides[] = {"contact.deformation=relaxed"};
+            scree_case *c = case_read(cases[k], overrides, (size_t)relaxed);
+            scree_simulation s;
+            scree_error error;
+            scree_contact_table table = {0};
+            simulation_open(c, 1, &s);
+            for (int step = 0; step < 90; step++) simulation_step(&s);
+            check(scree_contact_table_build(&s.stage_model, &s.state, &s.work, &table, &error), &error);
+            assert_int_equal(table.count, 2 * s.state.count);
+            const double *stretch = scree_stretch_row(&s.state, 0), across = 2 * expected * poisson * (1 + poisson);
+            print_message("%zu: %.10g N of %.10g, across %.6g m\n", k, table.contact[0].normal_force, expected,
+                          stretch[0]);
+            for (size_t i = 0; i < table.count; i++)
+                assert_true(fabs(table.contact[i].normal_force / expected - 1) < 1e-8);
+            assert_true(fabs(stretch[0] * M_PI * modulus * THICKNESS / across - 1) < 1e-8);
+            scree_contact_table_destroy(&table);
+            scree_simulation_close(&s);
+            scree_case_free(c);
+        }
+}
+
 // ---- gases -------------------------------------------------------------------------------------------------------
 
 #define GAS                                                                                                            \
@@ -222,7 +270,12 @@ static void loads_on_the_surface_strain_it(void **unused)
     GAS "  - {stage: relax, duration: 3 ms, boundary: plates}\n"                                                       \
         "particles: {shape: disc, material: rubber, count: 80, radius_min: 0.8 mm, radius_max: 1.2 mm,\n"              \
         "  thickness: 1 mm}\n"
-static const char *const gases[] = {PLANE_GAS, SPACE_GAS, BOXED_GAS};
+#define WALLED_GAS                                                                                                     \
+    GAS "  - {stage: relax, duration: 3 ms, boundary: none}\n"                                                         \
+        "walls: [{shape: box, name: box, lower: [0 mm, 0 mm], upper: [40 mm, 40 mm]}]\n"                               \
+        "particles: {shape: disc, material: rubber, count: 80, radius_min: 0.8 mm, radius_max: 1.2 mm,\n"              \
+        "  thickness: 1 mm}\n"
+static const char *const gases[] = {PLANE_GAS, SPACE_GAS, BOXED_GAS, WALLED_GAS};
 
 static void momentum_of(const scree_state *state, double momentum[3], double *scale)
 {
@@ -332,6 +385,94 @@ static void restarts_change_nothing(void **unused)
         }
 }
 
+// ---- lists, bonds, removal ---------------------------------------------------------------------------------------
+
+/// Nothing moves but surfaces: a list whose skin is thinner than the gap that they close has to be made anew.
+static void surfaces_use_up_the_list(void **unused)
+{
+    static const char *const schemes[] = {"contact.deformation=relaxed", "contact.deformation=implicit"};
+    (void)unused;
+    for (int scheme = 0; scheme < 2; scheme++) {
+        const char *const overrides[] = {
+            schemes[scheme], "materials.steel.young_modulus=1e10",
+            "stages.prepare.bodies=[{position: [5 mm, 5 mm]}, {position: [2.998 mm, 5 mm]}, "
+            "{position: [7.002 mm, 5 mm]}, {position: [5 mm, 3.02 mm]}, {position: [5 mm, "
+            "6.98 mm]}]"};
+        scree_case *c = case_read(CROSS, overrides, 3);
+        scree_simulation s;
+        simulation_open(c, 1, &s);
+        s.work.skin = 1e-6;
+        for (int k = 0; k < 100; k++) simulation_step(&s);
+        const double left = force_between(&s, 0, 1);
+        print_message("%s: %.3g N across, %llu lists\n", schemes[scheme], left, (unsigned long long)s.work.rebuilds);
+        assert_true(left > 0);
+        scree_simulation_close(&s);
+        scree_case_free(c);
+    }
+}
+
+#define GLUED                                                                                                          \
+    PRESSED "  - {stage: bond}\n"                                                                                      \
+            "  - {stage: relax, name: rest, boundary: none, duration: 0.01 ms}\n"
+
+/// Bonds between discs that are strained are at rest as they are made: without force.
+static void bonds_of_strained_bodies_are_at_rest(void **unused)
+{
+    (void)unused;
+    scree_case *c = case_read(GLUED, NULL, 0);
+    scree_simulation s;
+    scree_error error;
+    simulation_open(c, 1, &s);
+    double before = 0, after = INFINITY;
+    while (simulation_goes_on(&s) && scree_persistent(&s.state)->count == 0) {
+        simulation_step(&s);
+        if (scree_persistent(&s.state)->count == 0) before = fmax(before, fabs(force_between(&s, 0, 1)));
+    }
+    check(scree_neighbours_refresh(&s.stage_model, &s.state, &s.work, &error), &error);
+    after = fabs(force_between(&s, 0, 1));
+    print_message("%.4g N before, %.4g N as bonded\n", before, after);
+    assert_int_equal(scree_persistent(&s.state)->count, 2);
+    assert_true(before > 1e3 && after < 1e-6 * before);
+    scree_simulation_close(&s);
+    scree_case_free(c);
+}
+
+/// Bodies that go in the middle of collisions: the balance of energies stays closed, and the others go on.
+static void bodies_are_taken_out(void **unused)
+{
+    (void)unused;
+    for (int implicit = 0; implicit < 2; implicit++) {
+        const char *const overrides[] = {implicit ? "contact.deformation=implicit" : "contact.deformation=explicit",
+                                         "contact.dashpots=loose"};
+        scree_case *c = case_read(PLANE_GAS, overrides, 2);
+        scree_simulation s;
+        scree_error error;
+        simulation_open(c, 1, &s);
+        simulation_load(&s);
+        uint32_t gone[1] = {0};
+        for (bool found = false; !found;) {
+            simulation_step(&s);
+            for (uint32_t id = 0; id < s.state.count && !found; id++) {
+                const uint32_t row = scree_state_row_of(&s.state, id);
+                found = s.state.sum[row].contacts > 0 && scree_stretch_row(&s.state, row)[0] != 0 && s.state.step > 200;
+                if (found) gone[0] = id;
+            }
+        }
+        const double taken = s.state.ledger.removed;
+        check(scree_bodies_remove(&s.stage_model, &s.state, &s.work, gone, 1, &error), &error);
+        double worst = 0;
+        while (simulation_goes_on(&s)) {
+            simulation_step(&s);
+            worst = simulation_residual(&s, worst);
+        }
+        print_message("implicit %d: removed %.3g J, residual %.2g\n", implicit, s.state.ledger.removed - taken, worst);
+        assert_int_equal(s.state.count, 79);
+        assert_true(s.state.ledger.removed > taken && worst < 1e-4);
+        scree_simulation_close(&s);
+        scree_case_free(c);
+    }
+}
+
 // ---- what is refused ---------------------------------------------------------------------------------------------
 
 static void expect_refusal(const char *text, const char *override, const char *message)
@@ -350,7 +491,6 @@ static void what_cannot_deform_is_refused(void **unused)
     expect_refusal(BOXED_GAS,
                    "stages=[{stage: prepare, method: gas}, {stage: confine, pressure: 1 kPa, boundary: pressure}]",
                    "plates");
-    expect_refusal(BOXED_GAS, "walls=[{shape: plane, name: floor, point: [0, 0], normal: [0, 1]}]", "walls of a case");
 }
 
 int main(void)
@@ -359,9 +499,13 @@ int main(void)
         cmocka_unit_test(a_held_row_has_the_closed_force),
         cmocka_unit_test(a_pressed_disc_touches_its_neighbours),
         cmocka_unit_test(loads_on_the_surface_strain_it),
+        cmocka_unit_test(a_disc_between_walls_has_the_closed_stress),
         cmocka_unit_test(books_of_energy_are_closed),
         cmocka_unit_test(nothing_but_the_state_decides),
         cmocka_unit_test_setup_teardown(restarts_change_nothing, make_scratch, remove_scratch),
+        cmocka_unit_test(surfaces_use_up_the_list),
+        cmocka_unit_test(bonds_of_strained_bodies_are_at_rest),
+        cmocka_unit_test(bodies_are_taken_out),
         cmocka_unit_test(what_cannot_deform_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
