@@ -75,6 +75,19 @@ static void swap_forces(const scree_model *model, scree_state *state, scree_work
     }
 }
 
+/// By which the strains of both bodies have moved their surfaces towards each other [m].
+static double expansion_of(const scree_state *state, const scree_persistent_member *member)
+{
+    const uint32_t a = scree_state_row_of(state, member->first), b = scree_state_row_of(state, member->second);
+    scree_vector n;
+    if (!state->stretch) return 0;
+    scree_persistent_branch(state, member, n);
+    scree_normalise(n);
+    const vector normal = {n[0], n[1], n[2]};
+    const stretch both = stretch_get(state->dimension, scree_stretch_row(state, a), scree_stretch_row(state, b));
+    return vector_dot(state->dimension, normal, stretch_along(state->dimension, both.now, normal));
+}
+
 static scree_status add_members(const scree_model *model, scree_state *state, const scree_bond_order *order,
                                 const scree_bond_candidates *all, scree_error *error)
 {
@@ -86,7 +99,8 @@ static scree_status add_members(const scree_model *model, scree_state *state, co
         const double area = scree_bond_area(model, state->row[scree_state_row_of(state, pair->first)].radius,
                                             state->row[scree_state_row_of(state, pair->second)].radius);
         member[k] = (scree_persistent_member){.first = pair->first, .second = pair->second};
-        member[k].constant[SCREE_MEMBER_REST] = order->rest == SCREE_REST_AS_MADE ? -pair->gap : 0;
+        member[k].constant[SCREE_MEMBER_REST] =
+            order->rest == SCREE_REST_AS_MADE ? expansion_of(state, &member[k]) - pair->gap : 0;
         scree_bond_strengths(&order->strength, pair->first, pair->second, area, member[k].constant);
     }
     status = scree_persistent_merge(state, member, all->count, error);

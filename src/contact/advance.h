@@ -30,28 +30,30 @@ SCREE_INLINE contact_quanta contact_advance(contact_job *job, variant v, const s
     return q;
 }
 
-/// Row of the strain of a body; NULL: it is rigid.
-static inline const double *contact_strain_at(const contact_job *job, size_t row)
+/// Row of the stretch of a body; NULL: it is rigid.
+static inline const double *contact_stretch_at(const contact_job *job, size_t row)
 {
-    return job->strain ? job->strain + row * scree_strain_size(job->variant.dimension) : NULL;
+    return job->stretch ? job->stretch + row * scree_stretch_size(job->variant.dimension) : NULL;
 }
 
 SCREE_INLINE bodies contact_body_at(const contact_job *job, size_t row)
 {
     bodies body = body_get(job->variant.dimension, &job->row[row], job->turn ? &job->turn[row] : NULL);
-    body_strain(job->variant.dimension, contact_strain_at(job, row), &body);
+    body.stretch = contact_stretch_at(job, row);
     body.state = job->state;
     body.row = row;
     return body;
 }
 
 /// Adds to the moments of a row, where they are asked for.
-static inline void contact_add_moments(const contact_job *job, size_t row, contact_branch branch, vector force)
+static inline void contact_add_moments(const contact_job *job, bool deforms, size_t row, contact_branch branch,
+                                       vector force)
 {
     if (!job->moment) return;
     const int dimension = job->variant.dimension;
     uint64_t moment[9];
-    contact_moments(dimension, &job->scale, branch, force, moment);
+    const lanes factor = contact_moment_factor(deforms, &job->scale, branch.arm);
+    contact_moments(dimension, branch.along, factor, force, moment);
     int64_t *sum = job->moment + row * scree_moment_size(dimension);
     for (int k = 0; k < dimension * dimension; k++) sum[k] = (int64_t)((uint64_t)sum[k] + moment[k]);
 }

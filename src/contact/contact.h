@@ -18,6 +18,10 @@
 /// n. A caller that changes histories by hand counts up work->rebuilds.
 void scree_contact_forces(const scree_model *model, scree_state *state, scree_work *work);
 
+/// The part of it that is sums and histories alone; false: a force is out of the range of the quanta. For trials
+/// (contact/trial.h).
+bool scree_contact_sums(const scree_model *model, scree_state *state, scree_work *work);
+
 /// Instruction set of the kernels on this machine when `wanted` is asked for in work->instruction_set: 2, 3, 4 for
 /// x86-64-v2, v3, v4, at most what the machine has, which is also what 0 asks for; 0 on machines of another kind.
 int scree_contact_instruction_set(int wanted);

@@ -37,6 +37,8 @@
 #include "case/check.h"
 #include "comm/comm.h"
 #include "contact/contact.h"
+#include "contact/implicit.h"
+#include "contact/stretch.h"
 #include "model/critical_step.h"
 #include "module/boundary.h"
 #include "module/key_rows.h"
@@ -46,22 +48,26 @@
 
 // ---- the case ----------------------------------------------------------------------------------------------------
 
-enum { RIGID, EXPLICIT, RELAXED };
+enum { RIGID, EXPLICIT, RELAXED, IMPLICIT };
 enum { AS_PUBLISHED, CORRECTED };
 enum { STRAIN, LOOSE };
 
 typedef struct config {
-    int deformation;   ///< RIGID ...
-    int plane;         ///< scree_plane_condition
-    double relaxation; ///< 1, theta; auto: from the contacts
-    int tangential;    ///< AS_PUBLISHED or CORRECTED
-    int dashpots;      ///< STRAIN or LOOSE
+    int deformation;              ///< RIGID ...
+    int plane;                    ///< scree_plane_condition
+    double relaxation;            ///< 1, theta; auto: from the contacts
+    double deformation_tolerance; ///< 1, of the implicit strain
+    int tangential;               ///< AS_PUBLISHED or CORRECTED
+    int dashpots;                 ///< STRAIN or LOOSE
 } config;
 
 static const scree_choice deformations[] = {
     {"none", RIGID, "particles are rigid"},
     {"explicit", EXPLICIT, "the strain follows the forces of the step before (Madan 2019, 3.17); limits k_n/E"},
     {"relaxed", RELAXED, "it goes by a share of the way to them in each step: stable at any k_n/E"},
+    {"implicit", IMPLICIT,
+     "it is that of the forces that it makes itself, found in each step: stable at any k_n/E, nothing "
+     "lags"},
     {0},
 };
 static const scree_choice planes[] = {
@@ -81,7 +87,7 @@ static const scree_choice dashpot_choices[] = {
     {"loose", LOOSE, "only springs strain particles"},
     {0},
 };
-#define DEFORMED .when = "deformation=explicit|relaxed"
+#define DEFORMED .when = "deformation=explicit|relaxed|implicit"
 static const scree_key keys[] = {
     CHOICE(config, deformation, deformations, .standard = "none",
            .meaning = "Whether particles deform uniformly under the forces on them, by their `young_modulus` and "
@@ -90,6 +96,9 @@ static const scree_key keys[] = {
            .meaning = "Plane condition of discs; spheres: none."),
     NUMBER(config, relaxation, "1", .standard = "auto", ABOVE("0"), TO("1"), .when = "deformation=relaxed",
            .meaning = "Share of the way to the strain of the forces that a step goes; auto: from the contacts."),
+    NUMBER(config, deformation_tolerance, "1", .standard = "1e-9", FROM("1e-12"), TO("1e-6"),
+           .when = "deformation=implicit",
+           .meaning = "Largest error of the strain of a particle over the largest strain."),
     CHOICE(config, tangential, tangentials, .standard = "as_published", DEFORMED,
            .meaning = "Whether the strains of particles stretch tangential springs."),
     CHOICE(config, dashpots, dashpot_choices, .standard = "strain", DEFORMED,
@@ -133,9 +142,6 @@ static void rules(scree_reader *reader, const scree_config *whole)
         scree_rule_refuse(reader, k > 0 ? pair : "contact.deformation", k > 0 ? NULL : "none",
                           "the law of the contacts does not carry particles that deform: take law: linear");
     }
-    if (whole->wall_count > 0)
-        scree_rule_refuse(reader, "contact.deformation", "none",
-                          "particles that deform cannot touch the walls of a case yet: take plates");
     for (int64_t i = 0; i < whole->material_count; i++) judge_material(reader, whole, i);
     for (int64_t i = 0; i < whole->stage_count; i++)
         if (whole->stages[i].kind >= 0) judge_stage(reader, whole, i);
@@ -146,6 +152,7 @@ static void rules(scree_reader *reader, const scree_config *whole)
 typedef struct numbers {
     scree_plane_condition condition;
     double relaxation;                                ///< theta; NAN: from the contacts
+    double tolerance;                                 ///< of the implicit strain; NAN: there is none
     double soft;                                      ///< 1, of theta: 2 k_n R^2 (n.D(n n)n) / V of the softest body
     scree_compliance compliance[SCREE_MAX_MATERIALS]; ///< by material
 } numbers;
@@ -194,7 +201,8 @@ static scree_status resolve_law(scree_model *model, scree_error *error)
     (void)error;
     if (own->deformation == RIGID) return SCREE_OK;
     numbers *n = scree_model_reserve_numbers(model, SCREE_SLOT_deformation);
-    n->relaxation = own->deformation == EXPLICIT ? 1 : own->relaxation;
+    n->relaxation = own->deformation == RELAXED ? own->relaxation : 1;
+    n->tolerance = own->deformation == IMPLICIT ? own->deformation_tolerance : NAN;
     n->condition = model->dimension == 3 ? SCREE_SOLID : (scree_plane_condition)own->plane;
     for (int k = 0; k < model->material_count; k++) {
         const scree_config_material *material = scree_model_material_said(model, k);
@@ -225,106 +233,20 @@ static const scree_field fields[] = {
                     "no surface of a body has moved out by more", SCREE_RANGE(0, DBL_MAX)),
     SCREE_FIELD_ONE(deformation, memory, growth, "deformation/growth", SCREE_FIELD_DOUBLE, 1, "m",
                     "largest way of a surface in the last change of the strains", .role = SCREE_FIELD_DERIVED),
+    SCREE_FIELD_ONE(deformation, memory, attacked, "deformation/attacked", SCREE_FIELD_UINT64, 1, "1",
+                    "1: loads act on surfaces", .role = SCREE_FIELD_DERIVED),
     SCREE_FIELD_BODY(deformation, memory, term, double, "deformation/term", SCREE_FIELD_DOUBLE, 1, "J",
                      "work of its last change of strain", .role = SCREE_FIELD_DERIVED, .optional = true),
+    SCREE_FIELD_BODY(deformation, memory, attack, scree_surface_force, "deformation/attack", SCREE_FIELD_DOUBLE, 6, "N",
+                     "moments over the radius of the loads on its surface", .role = SCREE_FIELD_DERIVED,
+                     .optional = true),
+    SCREE_FIELD_BODY(deformation, memory, departed, scree_departed, "deformation/departed", SCREE_FIELD_DOUBLE, 18, "1",
+                     "what the search for the implicit strain needs of the step before", .role = SCREE_FIELD_DERIVED,
+                     .optional = true),
 };
-static const scree_field *const term_field = &fields[COUNT(fields) - 1];
+enum { DERIVED_OF_BODIES = 3 };
 
 // ---- a step ------------------------------------------------------------------------------------------------------
-
-/// Functions of one body are compiled for each dimension `d`, as a constant.
-#define OF_BODY static inline __attribute__((always_inline))
-
-/// Places of the tensor's components in a row of state->strain, and in the moments.
-typedef struct component {
-    int row, i, j;
-} component;
-static const component plane_components[] = {{0, 0, 0}, {1, 1, 1}, {2, 0, 1}};
-static const component space_components[] = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {4, 1, 2}, {5, 0, 2}, {6, 0, 1}};
-
-OF_BODY int component_count(int d)
-{
-    return d == 3 ? 6 : 3;
-}
-
-OF_BODY const component *components_of(int d)
-{
-    return d == 3 ? space_components : plane_components;
-}
-
-/// V times the stress of a body [J], from the moments of the forces on it.
-OF_BODY void stress_energy(int d, const scree_state *state, size_t row, double stress[6])
-{
-    const component *list = components_of(d);
-    const int64_t *moment = state->moment + row * scree_moment_size(d);
-    for (int k = 0; k < component_count(d); k++)
-        stress[k] = 0.5 * state->torque_quantum *
-                    ((double)moment[d * list[k].i + list[k].j] + (double)moment[d * list[k].j + list[k].i]);
-}
-
-/// a : b
-OF_BODY double contract(int d, const double a[6], const double b[6])
-{
-    double sum = 0;
-    for (int k = 0; k < component_count(d); k++) sum += (k < d ? 1 : 2) * a[k] * b[k];
-    return sum;
-}
-
-OF_BODY void get_tensor(int d, const double *from, double tensor[6])
-{
-    for (int k = 0; k < component_count(d); k++) tensor[k] = from[components_of(d)[k].row];
-}
-
-/// Largest eigenvalue of a tensor, or more: the mean of its diagonal and what it deviates by.
-OF_BODY double largest_stretch(int d, const double strain[6])
-{
-    double mean = 0, square = 0;
-    for (int k = 0; k < d; k++) mean += strain[k];
-    mean *= 1.0 / d;
-    for (int k = 0; k < component_count(d); k++) {
-        double part = k < d ? strain[k] - mean : strain[k];
-        square += (k < d ? 1 : 2) * part * part;
-    }
-    return mean + sqrt(square * (1 - 1.0 / d));
-}
-
-/// Next strain and reach of a body; returns how far its surface goes at most [m].
-OF_BODY double strain_body(int d, const scree_context *c, const numbers *n, size_t row, double theta)
-{
-    scree_state *state = c->state;
-    const scree_compliance *by = &n->compliance[scree_body_material(state, row)];
-    double *strain_of = state->strain + row * scree_strain_size(d), *change = strain_of + scree_strain_size(d) / 2;
-    const double radius = scree_body_bounding_radius(state, row), inverse = 1 / volume_of(c->model, radius);
-    double stress[6], strain[6], changed[6], trace = 0, size = 0;
-    stress_energy(d, state, row, stress);
-    get_tensor(d, strain_of, strain);
-    for (int k = 0; k < d; k++) trace += stress[k];
-    for (int k = 0; k < component_count(d); k++) {
-        const int place = components_of(d)[k].row;
-        double wanted = inverse * (by->shear * stress[k] + (k < d ? by->trace * trace : 0));
-        double next = theta == 1 ? wanted : strain[k] + theta * (wanted - strain[k]);
-        changed[k] = change[place] = next - strain[k];
-        size += (k < d ? 1 : 2) * changed[k] * changed[k];
-        strain_of[place] = strain[k] = next;
-    }
-    scree_deformation_of(state)->term[row] = 0.5 * contract(d, stress, changed);
-    double reach = radius * largest_stretch(d, strain);
-    strain_of[SCREE_STRAIN_REACH] = reach < 0 ? 0 : reach;
-    return radius * sqrt(size);
-}
-
-/// All bodies; extremes: largest reach, largest way of a surface.
-OF_BODY void strain_all(int d, const scree_context *c, double theta, double extremes[2])
-{
-    const numbers *n = own_numbers(c->model);
-    for (size_t row = 0; row < c->state->count; row++) {
-        double way = strain_body(d, c, n, row, theta);
-        double reach = c->state->strain[row * scree_strain_size(d) + SCREE_STRAIN_REACH];
-        // What is not a number is large.
-        extremes[0] = reach <= extremes[0] ? extremes[0] : reach;
-        extremes[1] = way <= extremes[1] ? extremes[1] : way;
-    }
-}
 
 /// theta where a body has up to so many contacts.
 static double relaxation_for(const numbers *n, double contacts)
@@ -335,6 +257,7 @@ static double relaxation_for(const numbers *n, double contacts)
 double scree_deformation_share(const scree_model *model, double contacts)
 {
     if (!own_numbers(model)) return 0;
+    if (!isnan(own_numbers(model)->tolerance)) return -1;
     const double theta = relaxation_for(own_numbers(model), contacts);
     return theta / (2 - theta);
 }
@@ -349,18 +272,6 @@ static double relaxation(const scree_context *c)
     double most = (double)contacts;
     scree_comm_maximum(c->state, &most, 1);
     return relaxation_for(n, most);
-}
-
-/// Adds up `term` of all bodies.
-static void give(scree_state *state)
-{
-    scree_deformation *all = scree_deformation_of(state);
-    scree_integer_sum sum = {0};
-    while (scree_comm_sum_next(state, &sum, 1))
-        for (size_t row = 0; row < state->count; row++) scree_integer_sum_add(&sum, all->term[row]);
-    const double given = scree_integer_sum_total(&sum);
-    all->given += given;
-    state->ledger.turnover += fabs(given);
 }
 
 /// A strain beyond this is not small.
@@ -378,48 +289,79 @@ static scree_status check_strain(const scree_context *c, double reach, double gr
         (unsigned long long)c->state->step, 100 * MOST_STRAIN);
 }
 
+static bool is_implicit(const scree_context *c)
+{
+    return !isnan(own_numbers(c->model)->tolerance);
+}
+
 /// From the forces at n to the strains that those at n + 1 are made with.
 static scree_status strain_bodies(const scree_context *c, scree_error *error)
 {
     scree_state *state = c->state;
     scree_deformation *all = scree_deformation_of(state);
     if (!state->moment) return SCREE_OK;
-    scree_status status = scree_state_begin_field(state, term_field, error);
+    scree_status status = SCREE_OK;
+    for (size_t k = COUNT(fields) - DERIVED_OF_BODIES; k < COUNT(fields) && !status; k++)
+        status = scree_state_begin_field(state, &fields[k], error);
     if (status) return status;
-    double theta = relaxation(c), extremes[2] = {0, 0};
-    if (state->dimension == 3)
-        strain_all(3, c, theta, extremes);
-    else
-        strain_all(2, c, theta, extremes);
-    scree_comm_maximum(state, extremes, 2);
-    give(state);
-    if (extremes[0] > all->largest_reach) c->work->budget -= extremes[0] - all->largest_reach;
-    all->largest_reach = extremes[0];
-    all->growth = extremes[1];
-    return check_strain(c, extremes[0], extremes[1], error);
+    if (is_implicit(c)) {
+        scree_implicit_depart(c);
+        return SCREE_OK;
+    }
+    const scree_stretch_change change =
+        scree_stretch_bodies(c, own_numbers(c->model)->compliance, relaxation(c), all->term);
+    if (change.reach > all->largest_reach) c->work->budget -= change.reach - all->largest_reach;
+    all->largest_reach = change.reach;
+    all->growth = change.growth;
+    return check_strain(c, change.reach, change.growth, error);
 }
 
-OF_BODY void settle_all(int d, scree_state *state)
+/// Loads will say anew what they put on surfaces.
+static scree_status clear_attack(const scree_context *c, scree_error *error)
 {
-    double *term = scree_deformation_of(state)->term;
-    for (size_t row = 0; row < state->count; row++) {
-        double stress[6], changed[6];
-        stress_energy(d, state, row, stress);
-        get_tensor(d, state->strain + row * scree_strain_size(d) + scree_strain_size(d) / 2, changed);
-        term[row] = 0.5 * contract(d, stress, changed);
-    }
+    scree_surface_force *attack = scree_deformation_of(c->state)->attack;
+    (void)error;
+    if (scree_deformation_of(c->state)->attacked) memset(attack, 0, c->state->count * sizeof *attack);
+    scree_deformation_of(c->state)->attacked = 0;
+    return SCREE_OK;
+}
+
+static scree_status solve(const scree_context *c, scree_error *error)
+{
+    scree_stretch_change change;
+    // The first forces of a run are those of rigid bodies: the books begin with them.
+    if (!is_implicit(c) || c->state->evaluations <= 1) return SCREE_OK;
+    const numbers *n = own_numbers(c->model);
+    scree_status status = scree_implicit_solve(c, n->compliance, n->tolerance, &change, error);
+    return status ? status : check_strain(c, change.reach, change.growth, error);
+}
+
+/// What loads put on surfaces strains as contact forces do.
+static scree_status add_attack(const scree_context *c, scree_error *error)
+{
+    scree_state *state = c->state;
+    const int d = state->dimension;
+    const scree_tensor_place *place = scree_tensor_places(d);
+    const scree_surface_force *attack = scree_deformation_of(state)->attack;
+    (void)error;
+    for (size_t row = 0; row < state->count && scree_deformation_of(state)->attacked; row++)
+        for (int k = 0; k < scree_tensor_size(d); k++) {
+            const int64_t quanta = llrint(attack[row].force[k] / state->force_quantum);
+            int64_t *moment = state->moment + row * scree_moment_size(d);
+            moment[d * place[k].i + place[k].j] += quanta;
+            if (place[k].i != place[k].j) moment[d * place[k].j + place[k].i] += quanta;
+        }
+    return SCREE_OK;
 }
 
 /// The other half of the work, with the forces at n + 1.
 static scree_status settle(const scree_context *c, scree_error *error)
 {
-    scree_state *state = c->state;
+    scree_deformation *all = scree_deformation_of(c->state);
     (void)error;
-    if (state->dimension == 3)
-        settle_all(3, state);
-    else
-        settle_all(2, state);
-    give(state);
+    const double given = scree_stretch_settle(c, all->term);
+    all->given += given;
+    c->state->ledger.turnover += fabs(given);
     return SCREE_OK;
 }
 
@@ -431,18 +373,19 @@ static double energy_of_body(const scree_context *c, size_t row)
     const scree_state *state = c->state;
     const int d = state->dimension;
     const scree_compliance *by = &own_numbers(c->model)->compliance[scree_body_material(state, row)];
-    double strain[6], stress[6], trace = 0;
-    get_tensor(state->dimension, scree_strain_row(state, row), strain);
-    for (int k = 0; k < d; k++) trace += strain[k];
+    const double volume = scree_stretch_volume(d, c->model->thickness, scree_body_bounding_radius(state, row));
+    double stretch[6], stress[6], trace = 0;
+    scree_tensor_get(d, scree_stretch_row(state, row), stretch);
+    for (int k = 0; k < d; k++) trace += stretch[k];
     const double back = by->trace / (by->shear + d * by->trace);
-    for (int k = 0; k < component_count(d); k++) stress[k] = (strain[k] - (k < d ? back * trace : 0)) / by->shear;
-    return 0.5 * volume_of(c->model, scree_body_bounding_radius(state, row)) * contract(d, stress, strain);
+    for (int k = 0; k < scree_tensor_size(d); k++) stress[k] = (stretch[k] - (k < d ? back * trace : 0)) / by->shear;
+    return 0.5 * volume * scree_tensor_product(d, stress, stretch);
 }
 
 static double energy(const scree_context *c)
 {
     scree_integer_sum sum = {0};
-    if (!c->state->strain) return 0;
+    if (!c->state->stretch) return 0;
     while (scree_comm_sum_next(c->state, &sum, 1))
         for (size_t row = 0; row < c->state->count; row++) scree_integer_sum_add(&sum, energy_of_body(c, row));
     return scree_integer_sum_total(&sum);
@@ -505,20 +448,26 @@ static uint64_t checksum(const scree_model *model, const scree_state *state, uin
 {
     size_t next = 0;
     double strain[6];
-    if (!scree_model_traits(model)->deforms || !state->strain) return c;
+    if (!scree_model_traits(model)->deforms || !state->stretch) return c;
     for (uint32_t row; (row = scree_next_by_id(state, &next)) != SCREE_NO_ROW;) {
-        get_tensor(state->dimension, scree_strain_row(state, row), strain);
-        c = scree_checksum_numbers(c, strain, (size_t)component_count(state->dimension));
+        scree_tensor_get(state->dimension, scree_stretch_row(state, row), strain);
+        for (int k = 0; k < scree_tensor_size(state->dimension); k++)
+            strain[k] /= scree_body_bounding_radius(state, row);
+        c = scree_checksum_numbers(c, strain, (size_t)scree_tensor_size(state->dimension));
     }
     return scree_checksum_number(c, scree_deformation_of(state)->given);
 }
 
 static scree_status begin(const scree_context *c, scree_error *error)
 {
-    return in_use(c) ? scree_state_ask_for_strains(c->state, error) : SCREE_OK;
+    return in_use(c) ? scree_state_ask_for_stretches(c->state, error) : SCREE_OK;
 }
 
-static const scree_pass passes[] = {{SCREE_PHASE_DECIDE, strain_bodies}, {SCREE_PHASE_SECOND_HALF, settle}};
+static const scree_pass passes[] = {{SCREE_PHASE_DECIDE, strain_bodies},
+                                    {SCREE_PHASE_FIRST_HALF, clear_attack},
+                                    {SCREE_PHASE_SEARCH, solve},
+                                    {SCREE_PHASE_BODIES, add_attack},
+                                    {SCREE_PHASE_SECOND_HALF, settle}};
 
 const scree_module scree_module_deformation = {
     .name = "deformation",

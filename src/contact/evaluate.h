@@ -75,30 +75,31 @@ SCREE_INLINE quanta torque_of_lever(int dimension, vector lever, vector force, d
     return quanta_of(count, vector_times(count, torque, lanes_all(sign * scale->inverse_torque)), 1);
 }
 
-/// What the moment of the force on one body is made with: its branch, from its centre to where the force acts, is -arm
-/// along; force and branch of the second body both have the other sign.
+/// Where the force on one body acts: its branch, from its centre to that point, is -arm along; force and branch of the
+/// second body both have the other sign.
 typedef struct contact_branch {
     vector along;
     lanes arm; ///< m
 } contact_branch;
 
-/// Of a body that deforms to its surface at rest (M 2.41), so that moments are conjugate to the expansion of the
-/// overlap.
-SCREE_INLINE contact_branch contact_branch_of(variant v, bool deforms, const kinematics *m, const bodies *body,
-                                              bool first)
+SCREE_INLINE contact_branch contact_branch_of(variant v, const kinematics *m, bool first)
 {
     if (geometry_has_levers(v))
         return (contact_branch){first ? m->lever_first : m->lever_second, lanes_all(first ? -1 : 1)};
-    const lanes arm = first ? m->arm_first : m->arm_second;
-    return (contact_branch){m->normal, deforms ? body->radius : arm};
+    return (contact_branch){m->normal, first ? m->arm_first : m->arm_second};
 }
 
-/// Branch (x) force of one body of a contact, d x d by rows: -a n_i f_j for the first, with its arm, and as much for
-/// the second with its own, whose branch and force both have the other sign.
-SCREE_INLINE void contact_moments(int dimension, const contact_scale *scale, contact_branch of, vector force,
-                                  lanes_bits moment[9])
+/// What along_i f_j of a branch is multiplied by to become quanta of a body's moment. The arm of bodies that deform is
+/// the radius (M 2.41), and left out: it is one number of the body (scree_moment_unit), and both get the same integers.
+SCREE_INLINE lanes contact_moment_factor(bool deforms, const contact_scale *scale, lanes arm)
 {
-    const vector branch = vector_times(dimension, of.along, of.arm * -scale->inverse_torque);
+    return deforms ? lanes_all(-scale->inverse_force) : arm * -scale->inverse_torque;
+}
+
+/// Branch (x) force of one body of a contact, d x d by rows.
+SCREE_INLINE void contact_moments(int dimension, vector along, lanes factor, vector force, lanes_bits moment[9])
+{
+    const vector branch = vector_times(dimension, along, factor);
     const lanes s[3] = {branch.x, branch.y, branch.z}, f[3] = {force.x, force.y, force.z};
     for (int i = 0; i < dimension; i++)
         for (int j = 0; j < dimension; j++) moment[dimension * i + j] = lanes_fixed(s[i] * f[j], 1);

@@ -49,7 +49,7 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
         .row = state->row,
         .turn = state->turn,
         .predicted = state->predicted,
-        .strain = state->moment ? state->strain : NULL,
+        .stretch = state->moment ? state->stretch : NULL,
         .sum = state->sum,
         .torque = state->torque,
         .moment = state->moment,
@@ -199,18 +199,30 @@ static void settle_ledger(scree_ledger *ledger, const contact_totals *totals, co
     ledger->turnover += fabs(damping) + fabs(friction) + fabs(plates);
 }
 
-void scree_contact_forces(const scree_model *model, scree_state *state, scree_work *work)
+/// Sums and memory, by the job; forces on walls and the books are not touched.
+static contact_totals evaluate(contact_job *job, scree_state *state, scree_work *work)
 {
-    contact_job job = describe_job(model, state, work);
     contact_clear_rows(state, work->clear_rows, scree_row_count(state, work));
     work->clear_rows = 0;
     contact_clear_moments(state, scree_row_count(state, work));
     contact_kernel *kernel = work->reference_kernel ? NULL : choose_kernel(state->dimension, work->instruction_set);
     contact_scratch *scratch = kernel ? contact_scratch_refresh(work, state) : NULL;
     contact_totals totals =
-        scratch ? evaluate_parts(kernel, scratch, &job, state, work) : evaluate_serially(&job, state, work);
-
+        scratch ? evaluate_parts(kernel, scratch, job, state, work) : evaluate_serially(job, state, work);
     scree_ghosts_add_back(state, work);
+    return totals;
+}
+
+bool scree_contact_sums(const scree_model *model, scree_state *state, scree_work *work)
+{
+    contact_job job = describe_job(model, state, work);
+    return evaluate(&job, state, work).in_range;
+}
+
+void scree_contact_forces(const scree_model *model, scree_state *state, scree_work *work)
+{
+    contact_job job = describe_job(model, state, work);
+    const contact_totals totals = evaluate(&job, state, work);
     double plates = settle_walls(state, &totals) + contact_surfaces_settle(state, work, &totals, &job.scale);
     if (work->ledger) settle_ledger(&state->ledger, &totals, &job.scale, plates);
     work->settle = totals.settle;

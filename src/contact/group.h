@@ -80,39 +80,39 @@ SCREE_INLINE void load_spins(int dimension, const contact_job *job, const size_t
     b->material = turn.c3;
 }
 
-/// Rows of the strains of bodies that deform.
-SCREE_INLINE void strain_rows(int dimension, const contact_job *job, const size_t offset[SCREE_LANES],
-                              const double *row[SCREE_LANES])
+/// Piece `number`, of four numbers, of the sum of the rows of both bodies' stretches: added before they are
+/// transposed, which so is done once.
+SCREE_INLINE columns load_stretch_piece(int dimension, const contact_job *job, const group *g, int number)
 {
-    LANE_LOOP row[k] = (const double *)(const void *)((const char *)job->strain + (dimension == 3 ? 4 : 2) * offset[k]);
+    const size_t times = dimension == 3 ? 4 : 2;
+    const char *from = (const char *)job->stretch + 32 * number;
+    row4 row[SCREE_LANES];
+    LANE_LOOP row[k] = *(const row4 *)(const void *)(from + times * g->first[k]) +
+                       *(const row4 *)(const void *)(from + times * g->second[k]);
+    return columns_of_rows(row);
 }
 
-/// Six components from rows, and what lies in the place of the reach.
-SCREE_INLINE lanes load_tensor(int dimension, const double *row[SCREE_LANES], lanes tensor[6])
+/// What is in the place of the reach is the sum of both.
+SCREE_INLINE lanes load_reach(int dimension, const contact_job *job, const group *g)
 {
-    columns c = columns_load(row);
+    return load_stretch_piece(dimension, job, g, 0).c3;
+}
+
+SCREE_INLINE void load_tensor(int dimension, const contact_job *job, const group *g, int number, lanes tensor[6])
+{
+    const columns c = load_stretch_piece(dimension, job, g, number);
     tensor[0] = c.c0, tensor[1] = c.c1, tensor[2] = c.c2;
-    if (dimension == 2) return c.c3;
-    LANE_LOOP row[k] += 4;
-    columns more = columns_load(row);
+    if (dimension == 2) return;
+    const columns more = load_stretch_piece(dimension, job, g, number + 1);
     tensor[3] = more.c0, tensor[4] = more.c1, tensor[5] = more.c2;
-    return c.c3;
 }
 
-SCREE_INLINE void load_reach(int dimension, const contact_job *job, const size_t offset[SCREE_LANES], bodies *b)
+SCREE_INLINE stretch load_stretches(int dimension, const contact_job *job, const group *g)
 {
-    const double *row[SCREE_LANES];
-    strain_rows(dimension, job, offset, row);
-    b->radius += load_tensor(2, row, b->strain);
-}
-
-SCREE_INLINE void load_strains(int dimension, const contact_job *job, const size_t offset[SCREE_LANES], bodies *b)
-{
-    const double *row[SCREE_LANES];
-    strain_rows(dimension, job, offset, row);
-    (void)load_tensor(dimension, row, b->strain);
-    LANE_LOOP row[k] += 4;
-    (void)load_tensor(dimension, row, b->strained);
+    stretch both;
+    load_tensor(dimension, job, g, 0, both.now);
+    load_tensor(dimension, job, g, dimension == 3 ? 2 : 1, both.change);
+    return both;
 }
 
 SCREE_INLINE law_constants load_constants(const contact_job *job, variant v, lanes first, lanes second)
@@ -211,19 +211,33 @@ SCREE_INLINE void add_to_sums(int dimension, const contact_job *job, const size_
     LANE_LOOP *(row4_bits *)(void *)((char *)job->torque + offset[k]) += (row4_bits)row[k];
 }
 
-/// Of one body of each pair.
+/// To one body of each pair; to `other` as well, unless it is NULL.
 SCREE_INLINE void add_moments(int dimension, const contact_job *job, const size_t offset[SCREE_LANES],
-                              contact_branch branch, vector force)
+                              const size_t other[SCREE_LANES], vector along, lanes factor, vector force)
 {
     lanes_bits moment[12] = {{0}};
     row4 row[SCREE_LANES];
-    contact_moments(dimension, &job->scale, branch, force, moment);
+    contact_moments(dimension, along, factor, force, moment);
     const int rows = dimension == 3 ? SCREE_MOMENTS_3D / 4 : SCREE_MOMENTS_2D / 4;
     for (int r = 0; r < rows; r++) {
+        char *to = (char *)job->moment + 32 * (size_t)r;
         rows_of_bits(moment[4 * r], moment[4 * r + 1], moment[4 * r + 2], moment[4 * r + 3], row);
-        LANE_LOOP *(row4_bits *)(void *)((char *)job->moment + (size_t)rows * offset[k] + 32 * (size_t)r) +=
-            (row4_bits)row[k];
+        LANE_LOOP *(row4_bits *)(void *)(to + (size_t)rows * offset[k]) += (row4_bits)row[k];
+        if (!other) continue;
+        LANE_LOOP *(row4_bits *)(void *)(to + (size_t)rows * other[k]) += (row4_bits)row[k];
     }
+}
+
+SCREE_INLINE void add_moments_of_pair(variant v, const contact_job *job, const group *g, const kinematics *m,
+                                      vector force)
+{
+    const bool deforms = law_deforms(v);
+    const contact_branch first = contact_branch_of(v, m, true), second = contact_branch_of(v, m, false);
+    const lanes factor = contact_moment_factor(deforms, &job->scale, first.arm);
+    add_moments(v.dimension, job, g->first, deforms ? g->second : NULL, first.along, factor, force);
+    if (deforms) return;
+    add_moments(v.dimension, job, g->second, NULL, second.along, contact_moment_factor(false, &job->scale, second.arm),
+                force);
 }
 
 SCREE_INLINE void evaluate_group(const contact_job *job, variant v, group *g, totals *t)
@@ -239,9 +253,8 @@ SCREE_INLINE void evaluate_group(const contact_job *job, variant v, group *g, to
     load_spins(dimension, job, g->second, &second);
     kinematics m = geometry_kinematics(v, &first, &second, job->settings.step);
     if (law_deforms(v)) {
-        load_strains(dimension, job, g->first, &first);
-        load_strains(dimension, job, g->second, &second);
-        kinematics_expand(dimension, &m, &first, &second, job->settings.step);
+        const stretch both = load_stretches(dimension, job, g);
+        kinematics_expand(dimension, &m, &both, job->settings.step);
         if (!law_holds(v)) touching &= expanded_touch(&m);
     }
     if (law_predicts(v)) {
@@ -258,10 +271,7 @@ SCREE_INLINE void evaluate_group(const contact_job *job, variant v, group *g, to
 
     add_to_sums(dimension, job, g->first, q.force, q.torque_first, q.count);
     add_to_sums(dimension, job, g->second, quanta_opposite(q.force), q.torque_second, q.count);
-    if (v.moments) {
-        add_moments(dimension, job, g->first, contact_branch_of(v, law_deforms(v), &m, &first, true), q.straining);
-        add_moments(dimension, job, g->second, contact_branch_of(v, law_deforms(v), &m, &second, false), q.straining);
-    }
+    if (v.moments) add_moments_of_pair(v, job, g, &m, q.straining);
     t->in_range &= q.in_range;
     if (law_holds(v)) {
         t->settle |= q.settle;

@@ -40,7 +40,7 @@ typedef struct contact_job {
     const scree_row *row;
     const scree_turn_row *turn;       ///< 3D
     const scree_predicted *predicted; ///< one a row, with law_predicts
-    const double *strain;             ///< with law_deforms: scree_strain_size numbers a row
+    const double *stretch;            ///< with law_deforms: scree_stretch_size numbers a row
     scree_sum_row *sum;               ///< the sum of row r is sum[r]; this thread's own
     scree_torque_row *torque;         ///< 3D, in the same way
     int64_t *moment;                  ///< in the same way; NULL: not asked for
@@ -63,7 +63,7 @@ typedef struct contact_job {
 static inline void contact_job_use(contact_job *job, const scree_law_use *law)
 {
     job->variant.law = law->law;
-    job->variant.option = job->strain ? law->option : law->option & ~scree_law_get(law->law)->deforming;
+    job->variant.option = job->stretch ? law->option : law->option & ~scree_law_get(law->law)->deforming;
     memcpy(job->settings.number, law->number, sizeof law->number);
 }
 

@@ -47,12 +47,16 @@ typedef struct bodies {
     vector position, velocity;
     vector spin; ///< one component in two dimensions
     lanes radius, mass, material;
-    lanes strain[6];                 ///< 1, of bodies that deform: xx, yy, xy in 2D; xx, yy, zz, yz, xz, xy in 3D
-    lanes strained[6];               ///< 1, change of it in the last step
-    bool deforms;                    ///< it has a strain (one body at a time)
+    const double *stretch;           ///< one body at a time: its row (state/state.h); NULL: it is rigid
     const struct scree_state *state; ///< one body at a time: where its geometry finds more of it,
     size_t row;                      ///< in this row
 } bodies;
+
+/// Radius times strain of the bodies of a contact, their sum: xx, yy, xy in 2D; xx, yy, zz, yz, xz, xy in 3D.
+typedef struct stretch {
+    lanes now[6];    ///< m
+    lanes change[6]; ///< m, in the last step
+} stretch;
 
 /// Rates are those of the middle of the step.
 typedef struct kinematics {
@@ -207,27 +211,21 @@ SCREE_INLINE void kinematics_predict(int dimension, kinematics *m, const bodies 
     m->predicted_slip = vector_plus(count, m->slip, change);
 }
 
-/// R strain n [m]: the way of the surface from the centre, where the normal is n (M 2.52).
-SCREE_INLINE vector strain_across(int dimension, const lanes e[6], lanes radius, vector n)
+/// R strain n [m]: the way of the surface from the centre, where the normal is n (M 2.52); of two bodies, of both.
+SCREE_INLINE vector stretch_along(int dimension, const lanes e[6], vector n)
 {
-    if (dimension == 2)
-        return (vector){.x = radius * (e[0] * n.x + e[2] * n.y), .y = radius * (e[2] * n.x + e[1] * n.y)};
-    return (vector){radius * (e[0] * n.x + e[5] * n.y + e[4] * n.z), radius * (e[5] * n.x + e[1] * n.y + e[3] * n.z),
-                    radius * (e[4] * n.x + e[3] * n.y + e[2] * n.z)};
+    if (dimension == 2) return (vector){.x = e[0] * n.x + e[2] * n.y, .y = e[2] * n.x + e[1] * n.y};
+    return (vector){e[0] * n.x + e[5] * n.y + e[4] * n.z, e[5] * n.x + e[1] * n.y + e[3] * n.z,
+                    e[4] * n.x + e[3] * n.y + e[2] * n.z};
 }
 
 /// Of bodies that deform: the overlap of the deformed surfaces (M 2.53), and the rates at which strains change it and
 /// move the surfaces past each other. Arms and the other rates stay those of the circles: the contact point and the
-/// normal are taken to be where they were (M 2.6). second: NULL beside a wall.
-SCREE_INLINE void kinematics_expand(int dimension, kinematics *m, const bodies *first, const bodies *second,
-                                    double step)
+/// normal are taken to be where they were (M 2.6).
+SCREE_INLINE void kinematics_expand(int dimension, kinematics *m, const stretch *both, double step)
 {
-    vector way = strain_across(dimension, first->strain, first->radius, m->normal);
-    vector change = strain_across(dimension, first->strained, first->radius, m->normal);
-    if (second) {
-        way = vector_plus(dimension, way, strain_across(dimension, second->strain, second->radius, m->normal));
-        change = vector_plus(dimension, change, strain_across(dimension, second->strained, second->radius, m->normal));
-    }
+    vector way = stretch_along(dimension, both->now, m->normal);
+    vector change = stretch_along(dimension, both->change, m->normal);
     const int count = tangential_count(dimension);
     vector middle = vector_minus(dimension, way, vector_times(dimension, change, lanes_all(0.5)));
     change = vector_times(dimension, change, lanes_all(step > 0 ? 1 / step : 0));

@@ -55,10 +55,7 @@ SCREE_INLINE unsigned near_contacts(variant v, const contact_job *job, size_t p)
     LANE_LOOP g.pair[k] = p + (size_t)k;
     find_bodies(job, &g);
     bodies first = load_places(dimension, job, g.first), second = load_places(dimension, job, g.second);
-    if (law_deforms(v)) {
-        load_reach(dimension, job, g.first, &first);
-        load_reach(dimension, job, g.second, &second);
-    }
+    if (law_deforms(v)) first.radius += load_reach(dimension, job, &g);
     return lanes_ones(geometry_touches(v, &first, &second));
 }
 

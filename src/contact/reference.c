@@ -42,7 +42,11 @@ static void evaluate_pair(contact_job *job, size_t p)
     bool touching = law_holds(job->variant) || pair_touches(job->variant, &one, &other);
     if (!touching && memory_is_clear(&rows)) return;
     kinematics m = geometry_kinematics(job->variant, &one, &other, job->settings.step);
-    if (law_deforms(job->variant)) kinematics_expand(dimension, &m, &one, &other, job->settings.step);
+    const bool deforms = law_deforms(job->variant);
+    if (deforms) {
+        const stretch both = stretch_get(dimension, one.stretch, other.stretch);
+        kinematics_expand(dimension, &m, &both, job->settings.step);
+    }
     if (law_predicts(job->variant)) {
         prediction ahead = prediction_get(dimension, &job->predicted[first]);
         prediction ahead_second = prediction_get(dimension, &job->predicted[second]);
@@ -53,10 +57,8 @@ static void evaluate_pair(contact_job *job, size_t p)
     contact_quanta q = contact_advance(job, job->variant, constants, own, &m, touching, &rows);
     contact_add_to_sums(job, first, q.force, q.torque_first, q.count);
     contact_add_to_sums(job, second, quanta_opposite(q.force), q.torque_second, q.count);
-    contact_add_moments(job, first, contact_branch_of(job->variant, law_deforms(job->variant), &m, &one, true),
-                        q.straining);
-    contact_add_moments(job, second, contact_branch_of(job->variant, law_deforms(job->variant), &m, &other, false),
-                        q.straining);
+    contact_add_moments(job, deforms, first, contact_branch_of(job->variant, &m, true), q.straining);
+    contact_add_moments(job, deforms, second, contact_branch_of(job->variant, &m, false), q.straining);
 }
 
 void contact_pairs_reference(contact_job *job)
@@ -95,14 +97,17 @@ SCREE_INLINE void evaluate_walls(contact_job *job, variant v, const scree_wall *
         bool touching = wall_touches(v, &one, &wall[w]);
         if (!touching && memory_is_clear(&rows)) continue;
         kinematics m = kinematics_of_wall(v, &one, &wall[w], job->settings.step);
-        if (law_deforms(v)) kinematics_expand(v.dimension, &m, &one, NULL, job->settings.step);
+        if (law_deforms(v)) {
+            const stretch own = stretch_get(v.dimension, one.stretch, NULL);
+            kinematics_expand(v.dimension, &m, &own, job->settings.step);
+        }
         if (law_predicts(v)) {
             prediction ahead = prediction_get(v.dimension, &job->predicted[row]);
             kinematics_predict(v.dimension, &m, &one, &ahead, NULL, NULL);
         }
         contact_quanta q = contact_advance(job, v, &job->model->walls[(int)one.material], NULL, &m, touching, &rows);
         contact_add_to_sums(job, row, q.force, q.torque_first, q.count);
-        if (v.moments) contact_add_moments(job, row, contact_branch_of(v, law_deforms(v), &m, &one, true), q.straining);
+        if (v.moments) contact_add_moments(job, law_deforms(v), row, contact_branch_of(v, &m, true), q.straining);
         job->totals.wall_force[w] += q.normal;
         job->totals.wall_shear[w][0] -= q.tangential.x;
         job->totals.wall_shear[w][1] -= q.tangential.y;

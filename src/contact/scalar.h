@@ -5,17 +5,17 @@
 #include "contact/evaluate.h"
 #include "state/plates.h"
 
-/// The strain of a body, and its last change, from its row (state/state.h); NULL: it is rigid.
-SCREE_INLINE void body_strain(int dimension, const double *strain, bodies *body)
+/// That of two bodies from their rows (state/state.h); second: NULL beside a wall.
+SCREE_INLINE stretch stretch_get(int dimension, const double *first, const double *second)
 {
-    const int half = dimension == 3 ? SCREE_STRAINS_3D / 2 : SCREE_STRAINS_2D / 2;
-    body->deforms = strain != NULL;
-    if (!strain) return;
+    const int half = dimension == 3 ? SCREE_STRETCHES_3D / 2 : SCREE_STRETCHES_2D / 2;
+    stretch both;
     for (int k = 0; k < (dimension == 3 ? 6 : 3); k++) {
         const int place = k < 3 ? k : k + 1;
-        body->strain[k] = strain[place];
-        body->strained[k] = strain[half + place];
+        both.now[k] = first[place] + (second ? second[place] : 0);
+        both.change[k] = first[half + place] + (second ? second[half + place] : 0);
     }
+    return both;
 }
 
 /// `turn` is not read in two dimensions.
@@ -118,9 +118,10 @@ static inline bool memory_is_clear(const memory_rows *rows)
 /// Two bodies, each with what its geometry reads of it.
 static inline bool pair_touches(variant v, const bodies *one, const bodies *other)
 {
-    if (!one->deforms) return geometry_touches(v, one, other) != 0;
+    if (!one->stretch) return geometry_touches(v, one, other) != 0;
     kinematics m = geometry_kinematics(v, one, other, 0);
-    kinematics_expand(v.dimension, &m, one, other, 0);
+    const stretch both = stretch_get(v.dimension, one->stretch, other->stretch);
+    kinematics_expand(v.dimension, &m, &both, 0);
     return expanded_touch(&m) != 0;
 }
 
@@ -153,14 +154,21 @@ SCREE_INLINE kinematics kinematics_of_wall(variant v, const bodies *body, const 
     return m;
 }
 
+/// Reach [m] of a body where the normal is n, of one that deforms with its stretch `of`; NULL: it is rigid.
+SCREE_INLINE double wall_reach(int dimension, double reach, const double n[3], const double *of)
+{
+    if (!of) return reach;
+    const stretch own = stretch_get(dimension, of, NULL);
+    const vector normal = {n[0], n[1], n[2]};
+    return reach + vector_dot(dimension, normal, stretch_along(dimension, own.now, normal));
+}
+
 /// NaN counts as contact, so that it is noticed.
 SCREE_INLINE bool wall_touches(variant v, const bodies *body, const scree_wall *wall)
 {
     const vector normal = {wall->normal[0], wall->normal[1], wall->normal[2]};
     const double height = vector_dot(v.dimension, normal, body->position);
-    double reach = geometry_reach(v, body);
-    if (body->deforms)
-        reach += vector_dot(v.dimension, normal, strain_across(v.dimension, body->strain, body->radius, normal));
+    const double reach = wall_reach(v.dimension, geometry_reach(v, body), wall->normal, body->stretch);
     return wall->active && !(reach <= height - wall->position);
 }
 

@@ -25,13 +25,11 @@ static void add_sums(scree_state *state, uint32_t row, const contact_evaluation 
     torque_row_add(&state->torque[row], torque.x, torque.y, torque.z);
 }
 
-static void add_moments(scree_state *state, uint32_t row, const contact_evaluation *e, contact_branch branch,
-                        bool minus)
+static void add_moments(scree_state *state, uint32_t row, const contact_evaluation *e, contact_moment of, bool minus)
 {
     const int dimension = state->dimension;
-    const contact_scale scale = {.inverse_torque = 1 / state->torque_quantum};
     uint64_t moment[9];
-    contact_moments(dimension, &scale, branch, e->quanta.straining, moment);
+    contact_moments(dimension, of.along, of.factor, e->quanta.straining, moment);
     int64_t *sum = state->moment + row * scree_moment_size(dimension);
     for (int k = 0; k < dimension * dimension; k++)
         sum[k] = (int64_t)((uint64_t)sum[k] + (minus ? -moment[k] : moment[k]));
@@ -55,8 +53,8 @@ static void add(scree_state *state, uint32_t first, uint32_t second, const conta
     add_sums(state, first, e, true, minus);
     add_sums(state, second, e, false, minus);
     if (state->moment) {
-        add_moments(state, first, e, e->branch_first, minus);
-        add_moments(state, second, e, e->branch_second, minus);
+        add_moments(state, first, e, e->moment_first, minus);
+        add_moments(state, second, e, e->moment_second, minus);
     }
     if (scree_periodic_is_whole(state)) add_virial(state, e, minus);
 }
@@ -90,7 +88,7 @@ static void describe(const scree_state *state, const scree_work *work, const con
     settled->tangential_force = sqrt(vector_dot(count, e->force.tangential, e->force.tangential));
     settled->in_tension = -e->force.normal >= own->value[SCREE_MEMBER_TENSION];
     const double normal[3] = {m->normal.x, m->normal.y, dimension == 3 ? m->normal.z : 0};
-    const contact_branch point = contact_branch_of(e->variant, false, m, &e->first, true);
+    const contact_branch point = contact_branch_of(e->variant, m, true);
     const double along[3] = {point.along.x, point.along.y, dimension == 3 ? point.along.z : 0};
     // The first body may be a ghost: the place is told where the body itself is.
     scree_body_position(state, scree_parent_row(state, work, work->pairs.first[settled->pair]), settled->place);

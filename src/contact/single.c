@@ -104,9 +104,15 @@ static bool describe(variant v, pair_law of, const scree_member_row *own, kinema
 /// The contact point lies at the lever of `first`, of round bodies in the middle of the overlap.
 static void place(variant v, const bodies *first, const kinematics *m, scree_contact *contact)
 {
-    const contact_branch branch = contact_branch_of(v, false, m, first, true);
+    const contact_branch branch = contact_branch_of(v, m, true);
     set_vector(contact->point,
                vector_minus(v.dimension, first->position, vector_times(v.dimension, branch.along, branch.arm)));
+}
+
+static void expand(const scree_state *state, kinematics *m, const contact_body *first, const contact_body *second)
+{
+    const stretch both = stretch_get(state->dimension, first->stretch, second ? second->stretch : NULL);
+    kinematics_expand(state->dimension, m, &both, state->step_size);
 }
 
 bool contact_of_pair(const scree_model *model, const scree_state *state, const contact_body *first,
@@ -119,12 +125,17 @@ bool contact_of_pair(const scree_model *model, const scree_state *state, const c
     const variant v = variant_of(model, dimension, of.law);
     if (!own && !pair_touches(v, &one, &other)) return false;
     kinematics m = geometry_kinematics(v, &one, &other, state->step_size);
-    if (state->strain) kinematics_expand(dimension, &m, &one, &other, state->step_size);
+    if (state->stretch) expand(state, &m, first, second);
     const bool in_contact = describe(v, of, own, &m, memory, contact);
     place(v, &one, &m, contact);
     contact->wall = false;
     set_vector(contact->branch, vector_minus(dimension, one.position, other.position));
     return in_contact;
+}
+
+static contact_moment moment_of_branch(const scree_state *state, const contact_scale *scale, contact_branch branch)
+{
+    return (contact_moment){branch.along, contact_moment_factor(state->stretch != NULL, scale, branch.arm)};
 }
 
 contact_evaluation contact_evaluate_again(const scree_model *model, const scree_state *state, bool ledger,
@@ -138,13 +149,13 @@ contact_evaluation contact_evaluate_again(const scree_model *model, const scree_
     e.variant = variant_of(model, dimension, of.law);
     e.variant.ledger = ledger;
     e.kinematics = geometry_kinematics(e.variant, &e.first, &e.second, state->step_size);
-    if (state->strain) kinematics_expand(dimension, &e.kinematics, &e.first, &e.second, state->step_size);
-    e.branch_first = contact_branch_of(e.variant, state->strain != NULL, &e.kinematics, &e.first, true);
-    e.branch_second = contact_branch_of(e.variant, state->strain != NULL, &e.kinematics, &e.second, false);
+    if (state->stretch) expand(state, &e.kinematics, first, second);
     kinematics_hold(&e.kinematics);
     const contact_scale scale = {.inverse_force = 1 / state->force_quantum,
                                  .inverse_torque = 1 / state->torque_quantum,
                                  .force_limit = INFINITY};
+    e.moment_first = moment_of_branch(state, &scale, contact_branch_of(e.variant, &e.kinematics, true));
+    e.moment_second = moment_of_branch(state, &scale, contact_branch_of(e.variant, &e.kinematics, false));
     law_constants constants = constants_get(of.constants, own);
     law_settings settings = law_settings_get(of.law, 0);
     law_memory before = memory_get(e.variant, memory);
@@ -175,7 +186,7 @@ bool contact_of_wall(const scree_model *model, const scree_state *state, const c
     const variant v = variant_of(model, dimension, of.law);
     if (!wall_touches(v, &one, wall)) return false;
     kinematics m = kinematics_of_wall(v, &one, wall, state->step_size);
-    if (state->strain) kinematics_expand(dimension, &m, &one, NULL, state->step_size);
+    if (state->stretch) expand(state, &m, body, NULL);
     describe_wall(v, of, &one, &m, memory, contact);
     return true;
 }
@@ -195,5 +206,6 @@ void contact_of_primitive(const scree_model *model, const scree_state *state, co
     const variant v = variant_of(model, dimension, of.law);
     kinematics m = kinematics_of_surface(work->wall_set, primitive, v, &one, &closest,
                                          scree_case_walls(state)->moving != 0, state->step_size);
+    if (state->stretch) expand(state, &m, body, NULL);
     describe_wall(v, of, &one, &m, memory, contact);
 }

@@ -10,8 +10,8 @@
 /// A body with v(n - 1/2).
 typedef struct contact_body {
     scree_row row;
-    scree_turn_row turn;  ///< 3D
-    const double *strain; ///< its row; NULL: it is rigid
+    scree_turn_row turn;   ///< 3D
+    const double *stretch; ///< its row; NULL: it is rigid
     const scree_state *state;
     size_t number; ///< row of the state that geometry finds more of it in
 } contact_body;
@@ -19,7 +19,8 @@ typedef struct contact_body {
 /// The body in `row`, with the velocities that the state holds.
 static inline contact_body contact_body_get(const scree_state *state, size_t row)
 {
-    contact_body body = {.row = state->row[row], .strain = scree_strain_row(state, row), .state = state, .number = row};
+    contact_body body = {
+        .row = state->row[row], .stretch = scree_stretch_row(state, row), .state = state, .number = row};
     if (state->turn) body.turn = state->turn[row];
     return body;
 }
@@ -27,7 +28,7 @@ static inline contact_body contact_body_get(const scree_state *state, size_t row
 static inline bodies contact_body_lane(int dimension, const contact_body *body)
 {
     bodies lane = body_get(dimension, &body->row, &body->turn);
-    body_strain(dimension, body->strain, &lane);
+    lane.stretch = body->stretch;
     lane.state = body->state;
     lane.row = body->number;
     return lane;
@@ -71,12 +72,18 @@ bool contact_of_pair(const scree_model *model, const scree_state *state, const c
                      const contact_body *second, const scree_member_row *own, const memory_rows *memory,
                      scree_contact *contact);
 
+/// What the moment of the force on a body is made with (contact_moments).
+typedef struct contact_moment {
+    vector along;
+    lanes factor;
+} contact_moment;
+
 /// What a pair of bodies exerts on each other at n, evaluated again.
 typedef struct contact_evaluation {
     variant variant;
     bodies first, second;
     kinematics kinematics;                      ///< rates of the middle of the step before n
-    contact_branch branch_first, branch_second; ///< of the moments
+    contact_moment moment_first, moment_second; ///< of both bodies
     contact_quanta quanta;                      ///< in the quanta of the state
     law_force force;
     law_memory memory; ///< what the contact remembers then

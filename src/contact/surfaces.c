@@ -52,7 +52,7 @@ static void merge(const scree_wall_set *wall_set, primitive_touches *touches)
     touches->count = kept;
 }
 
-void contact_primitives_touching(const scree_wall_set *wall_set, int dimension, const scree_row *body,
+void contact_primitives_touching(const scree_wall_set *wall_set, int dimension, const scree_row *body, const double *of,
                                  const scree_wall_pair_list *pairs, size_t begin, size_t end,
                                  primitive_touches *touches)
 {
@@ -62,8 +62,8 @@ void contact_primitives_touching(const scree_wall_set *wall_set, int dimension, 
     for (size_t p = begin; p < end; p++) {
         primitive_touch touch = {.pair = p, .surface = scree_primitive_surface(wall_set, pairs->wall[p])};
         scree_primitive_closest_point(wall_set, pairs->wall[p], position, &touch.closest);
-        if (scree_closest_point_touches(wall_set, pairs->wall[p], &touch.closest, body->radius))
-            insert(touches, &touch);
+        const double radius = wall_reach(dimension, body->radius, touch.closest.normal, of);
+        if (scree_closest_point_touches(wall_set, pairs->wall[p], &touch.closest, radius)) insert(touches, &touch);
     }
     merge(wall_set, touches);
 }
@@ -75,8 +75,8 @@ void contact_primitives_mark(const scree_state *state, const scree_work *work, u
     for (size_t begin = 0, end; begin < pairs->count; begin = end) {
         end = contact_group_end(pairs, begin);
         for (size_t p = begin; p < end; p++) touching[p] = 0;
-        contact_primitives_touching(work->wall_set, state->dimension, &state->row[pairs->body[begin]], pairs, begin,
-                                    end, &touches);
+        contact_primitives_touching(work->wall_set, state->dimension, &state->row[pairs->body[begin]],
+                                    scree_stretch_row(state, pairs->body[begin]), pairs, begin, end, &touches);
         for (int k = 0; k < touches.count; k++) touching[touches.touch[k].pair] = 1;
     }
 }
@@ -270,6 +270,10 @@ SCREE_INLINE void evaluate_group(contact_job *job, variant v, const scree_state 
         if (v.dimension == 3 && law_traits(v)->displacement) turn_displacements(closest->normal, &rows);
         kinematics m = kinematics_of_surface(g->wall_set, g->pairs->wall[p], v, &one, closest,
                                              scree_case_walls(state)->moving != 0, job->settings.step);
+        if (law_deforms(v)) {
+            const stretch own = stretch_get(v.dimension, contact_stretch_at(job, row), NULL);
+            kinematics_expand(v.dimension, &m, &own, job->settings.step);
+        }
         if (law_predicts(v)) {
             prediction ahead = prediction_get(v.dimension, &job->predicted[row]);
             kinematics_predict(v.dimension, &m, &one, &ahead, NULL, NULL);
@@ -277,7 +281,7 @@ SCREE_INLINE void evaluate_group(contact_job *job, variant v, const scree_state 
         scree_pair_constants constants = contact_surface_constants(job->model, surface, (int)one.material);
         contact_quanta q = contact_advance(job, v, &constants, NULL, &m, touch != NULL, &rows);
         contact_add_to_sums(job, row, q.force, q.torque_first, q.count);
-        if (v.moments) contact_add_moments(job, row, contact_branch_of(v, false, &m, &one, true), q.straining);
+        if (v.moments) contact_add_moments(job, law_deforms(v), row, contact_branch_of(v, &m, true), q.straining);
         add_to_surface(job, (int)(surface - g->wall_set->surface), surface->hub, &one, &q, state->force_quantum,
                        state->torque_quantum);
     }
@@ -306,7 +310,8 @@ void contact_surfaces(contact_job *job, const scree_state *state, const scree_wo
         g.end = contact_group_end(g.pairs, g.begin);
         size_t row = g.pairs->body[g.begin];
         if (row < begin || row >= end) continue;
-        contact_primitives_touching(g.wall_set, v.dimension, &job->row[row], g.pairs, g.begin, g.end, &g.touches);
+        contact_primitives_touching(g.wall_set, v.dimension, &job->row[row], contact_stretch_at(job, row), g.pairs,
+                                    g.begin, g.end, &g.touches);
         if (g.touches.count == 0 && !holds_memory(&g)) continue;
         place_of(v.dimension, &job->row[row], g.position);
         if (job->law == 0) pass_memory(&g); // of all laws: that of a body on a wall does not change

@@ -50,8 +50,8 @@ static inline size_t contact_group_end(const scree_wall_pair_list *pairs, size_t
     return end;
 }
 
-/// Which of the pairs [begin, end) of one body touch.
-void contact_primitives_touching(const scree_wall_set *wall_set, int dimension, const scree_row *body,
+/// Which of the pairs [begin, end) of one body touch. of: its row of stretch; NULL: it is rigid.
+void contact_primitives_touching(const scree_wall_set *wall_set, int dimension, const scree_row *body, const double *of,
                                  const scree_wall_pair_list *pairs, size_t begin, size_t end,
                                  primitive_touches *touches);
 

@@ -11,7 +11,7 @@
 typedef struct exerted {
     uint32_t row;
     contact_quanta quanta; ///< force and torque_first are those on this body
-    contact_branch branch; ///< of this body
+    contact_moment moment; ///< of this body
 } exerted;
 
 /// Pair `p` at n.
@@ -35,9 +35,8 @@ static void take_out_moment(scree_state *state, const exerted *e)
 {
     uint64_t moment[9];
     const int dimension = state->dimension;
-    const contact_scale scale = {.inverse_torque = 1 / state->torque_quantum};
     int64_t *sum = state->moment + e->row * scree_moment_size(dimension);
-    contact_moments(dimension, &scale, e->branch, e->quanta.straining, moment);
+    contact_moments(dimension, e->moment.along, e->moment.factor, e->quanta.straining, moment);
     for (int k = 0; k < dimension * dimension; k++) sum[k] = (int64_t)((uint64_t)sum[k] - moment[k]);
 }
 
@@ -66,12 +65,12 @@ scree_status scree_contacts_take_out(const scree_model *model, scree_state *stat
         if (!is_cut(state, work, going, p)) continue;
         const contact_evaluation of = evaluate(model, state, work, p);
         exerted e = {
-            .row = scree_parent_row(state, work, work->pairs.first[p]), .quanta = of.quanta, .branch = of.branch_first};
+            .row = scree_parent_row(state, work, work->pairs.first[p]), .quanta = of.quanta, .moment = of.moment_first};
         if (going[e.row]) {
             e.row = scree_parent_row(state, work, work->pairs.second[p]);
             e.quanta.force = quanta_opposite(e.quanta.force);
             e.quanta.torque_first = e.quanta.torque_second;
-            e.branch = of.branch_second;
+            e.moment = of.moment_second;
         }
         list[found++] = e;
     }

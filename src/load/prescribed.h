@@ -103,6 +103,8 @@ scree_status scree_prescribed_begin(const scree_context *context, scree_error *e
 /// prescribed_step.c
 scree_status scree_prescribed_depart(const scree_context *context, scree_error *error) SCREE_MUST_USE;
 scree_status scree_prescribed_move(const scree_context *context, scree_error *error) SCREE_MUST_USE;
+/// Where forces act on surfaces: what they strain.
+scree_status scree_prescribed_attack(const scree_context *context, scree_error *error) SCREE_MUST_USE;
 scree_status scree_prescribed_push(const scree_context *context, scree_error *error) SCREE_MUST_USE;
 scree_status scree_prescribed_hold(const scree_context *context, scree_error *error) SCREE_MUST_USE;
 double scree_prescribed_bound(const scree_context *context);

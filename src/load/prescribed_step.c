@@ -26,6 +26,7 @@
 #include "comm/comm.h"
 #include "integrate/integrate.h"
 #include "load/prescribed.h"
+#include "state/deformation.h"
 
 #include <string.h>
 
@@ -188,14 +189,14 @@ static void find_arm(const scree_state *state, size_t row, const order *said, do
 /// Work [J] of a force on the surface of a body as its strain changes from step to step.
 static double surface_work(const scree_state *state, size_t row)
 {
-    const double *strain = scree_strain_row(state, row), *spread = scree_prescribed_of(state)->exerted[row].spread;
+    const double *stretch = scree_stretch_row(state, row), *spread = scree_prescribed_of(state)->exerted[row].spread;
     static const int plane[] = {0, 1, -1, -1, -1, 2}, space[] = {0, 1, 2, 4, 5, 6};
     const int *place = state->dimension == 3 ? space : plane;
-    const size_t change = scree_strain_size(state->dimension) / 2;
+    const size_t change = scree_stretch_size(state->dimension) / 2;
     double work = 0;
-    for (int k = 0; k < 6 && strain; k++)
-        if (place[k] >= 0) work += (k < 3 ? 1 : 2) * spread[k] * strain[change + (size_t)place[k]];
-    return work;
+    for (int k = 0; k < 6 && stretch; k++)
+        if (place[k] >= 0) work += (k < 3 ? 1 : 2) * spread[k] * stretch[change + (size_t)place[k]];
+    return work / scree_body_bounding_radius(state, row);
 }
 
 /// Power of what is exerted on a body [W], with the velocities that the rows hold.
@@ -204,7 +205,6 @@ static void add_power(scree_state *state, size_t row, scree_integer_sum power[SC
     const scree_prescribed *all = scree_prescribed_of(state);
     const scree_exerted *exerted = &all->exerted[row];
     const int lever = all->by[row][SCREE_LEVER];
-    if (lever) scree_integer_sum_add(&power[lever - 1], surface_work(state, row) / state->step_size);
     for (int d = 0; d < SCREE_COMPONENTS; d++) {
         if (!scree_component_exists(state->dimension, d)) continue;
         double velocity = *velocity_of(state, row, d), quantum = quantum_of(state, d);
@@ -213,6 +213,21 @@ static void add_power(scree_state *state, size_t row, scree_integer_sum power[SC
         if (lever && d >= 3)
             scree_integer_sum_add(&power[lever - 1], scree_fixed_to(exerted->lever[d - 3], quantum) * velocity);
     }
+}
+
+/// Half of the work over what the strains of a step do to surfaces: with the forces at its begin when the change is
+/// known, before they are renewed, and with those at its end.
+static void take_half_surface_work(scree_state *state)
+{
+    const scree_prescribed *all = scree_prescribed_of(state);
+    scree_integer_sum sum[SCREE_LOADS] = {0};
+    if (!state->stretch) return;
+    while (scree_comm_sum_next(state, sum, SCREE_LOADS))
+        for (size_t row = 0; row < state->count; row++) {
+            const int lever = all->by[row][SCREE_LEVER];
+            if (lever) scree_integer_sum_add(&sum[lever - 1], surface_work(state, row));
+        }
+    keep_work(state, sum, 0.5);
 }
 
 static void take_half_work(scree_state *state)
@@ -311,12 +326,11 @@ static void exert(const scree_context *c, size_t row, int component, double quan
     scree_wrapping_add(sum_of(c->state, row, component), *exerted);
 }
 
-/// The force strains the body.
-static void spread_force(scree_state *state, size_t row, const double arm[3], const double force[3], double spread[6])
+/// Of the force what strains of the body work against.
+static void spread_force(const double arm[3], const double force[3], double spread[6])
 {
     static const int i[] = {0, 1, 2, 1, 0, 0}, j[] = {0, 1, 2, 2, 2, 1};
     for (int k = 0; k < 6; k++) spread[k] = 0.5 * (arm[i[k]] * force[j[k]] + arm[j[k]] * force[i[k]]);
-    scree_body_add_moment(state, row, arm, force);
 }
 
 static void push_body(const scree_context *c, size_t row, const order *list)
@@ -332,10 +346,27 @@ static void push_body(const scree_context *c, size_t row, const order *list)
     if (!lever) return;
     find_arm(state, row, &list[lever - 1], arm);
     scree_cross(arm, list[lever - 1].push, torque);
-    if (state->strain) spread_force(state, row, arm, list[lever - 1].push, exerted->spread);
+    if (state->stretch) spread_force(arm, list[lever - 1].push, exerted->spread);
     for (int k = 0; k < 3; k++)
         if (scree_component_exists(state->dimension, 3 + k))
             exert(c, row, 3 + k, torque[k] / state->torque_quantum, &exerted->lever[k]);
+}
+
+scree_status scree_prescribed_attack(const scree_context *c, scree_error *error)
+{
+    const scree_prescribed *all = scree_prescribed_of(c->state);
+    order list[SCREE_LOADS];
+    (void)error;
+    if (!c->state->stretch) return SCREE_OK;
+    read_orders(c, scree_state_time(c->state), list);
+    for (size_t row = 0; row < c->state->count; row++) {
+        const int lever = all->owner[row][SCREE_LEVER];
+        double arm[3];
+        if (!lever) continue;
+        find_arm(c->state, row, &list[lever - 1], arm);
+        scree_deformation_attack(c->state, row, arm, list[lever - 1].push);
+    }
+    return SCREE_OK;
 }
 
 scree_status scree_prescribed_push(const scree_context *c, scree_error *error)
@@ -343,6 +374,7 @@ scree_status scree_prescribed_push(const scree_context *c, scree_error *error)
     scree_prescribed *all = scree_prescribed_of(c->state);
     order list[SCREE_LOADS];
     (void)error;
+    take_half_surface_work(c->state);
     read_orders(c, next_middle(c), list);
     memset(all->exerted, 0, c->state->count * sizeof *all->exerted);
     memcpy(all->by, all->owner, c->state->count * sizeof *all->by);
@@ -376,6 +408,7 @@ scree_status scree_prescribed_hold(const scree_context *c, scree_error *error)
     for (size_t row = 0; row < c->state->count; row++)
         if (c->state->held[row]) hold_body(c, row, list);
     take_half_work(c->state);
+    take_half_surface_work(c->state);
     return SCREE_OK;
 }
 

@@ -47,7 +47,7 @@ typedef struct scree_law_traits {
     bool pulls;                  ///< the normal force may be negative
     bool holds;                  ///< of pairs of the persistent list: no distance test, constants of the pair's own
     bool wide;                   ///< reads the second half of the constants
-    bool deforms; ///< overlaps follow the strains of the bodies (state->strain), whose moments are summed
+    bool deforms; ///< overlaps follow the strains of the bodies (state->stretch), whose moments are summed
 } scree_law_traits;
 
 /// The elastic part of the normal force of two bodies of an effective radius [m]: closed forms of a static or undamped

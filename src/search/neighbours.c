@@ -506,6 +506,8 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     scree_search *search = work->search;
     scree_status status = SCREE_OK;
     work->valid = false;
+    // Surfaces of bodies that deform lie outside of the circles that the search knows.
+    work->skin = fmax(work->skin, 4 * scree_deformation_of(state)->largest_reach);
     // Until the new list is whole, state->contact holds the histories: a rebuild that fails can be repeated.
     if (search->listed && is_of_these_bodies(search, state)) status = scree_histories_collect(state, work, error);
     if (status) return status;

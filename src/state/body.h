@@ -45,6 +45,13 @@ static inline double scree_body_mass(const scree_state *state, size_t row)
     return state->row[row].mass;
 }
 
+/// What the integers of the moments of a body count [N m]: torque quanta; of a body that deforms the quantum of force
+/// times the radius, at which all its forces act.
+static inline double scree_moment_unit(const scree_state *state, size_t row)
+{
+    return state->stretch ? state->force_quantum * state->row[row].radius : state->torque_quantum;
+}
+
 /// Sum over the contacts of the body of branch (x) force [N m], from its centre to the point where the force acts, d x
 /// d by rows: -stress times volume, of what contacts exert. Zero unless someone has asked
 /// (scree_state_ask_for_moments).
@@ -52,18 +59,7 @@ static inline void scree_body_contact_moment(const scree_state *state, size_t ro
 {
     const size_t size = scree_moment_size(state->dimension), count = (size_t)(state->dimension * state->dimension);
     for (size_t k = 0; k < count; k++)
-        moment[k] = state->moment ? (double)state->moment[row * size + k] * state->torque_quantum : 0;
-}
-
-/// Adds that of a force [N] that acts at `arm` [m] from the centre to the moments of the body, where these are summed.
-static inline void scree_body_add_moment(scree_state *state, size_t row, const double arm[3], const double force[3])
-{
-    const int d = state->dimension;
-    if (!state->moment) return;
-    for (int i = 0; i < d; i++)
-        for (int j = 0; j < d; j++)
-            state->moment[row * scree_moment_size(d) + (size_t)(d * i + j)] +=
-                llrint(arm[i] * force[j] / state->torque_quantum);
+        moment[k] = state->moment ? (double)state->moment[row * size + k] * scree_moment_unit(state, row) : 0;
 }
 
 /// Moment of inertia [kg m2] about the centre, the same about every axis: m R^2 / 2 of a disc (a cylinder) about its

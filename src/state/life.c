@@ -86,11 +86,11 @@ scree_status scree_state_ask_for_moments(scree_state *state, bool wanted, scree_
                           scree_moment_size(state->dimension) * sizeof *state->moment, error);
 }
 
-scree_status scree_state_ask_for_strains(scree_state *state, scree_error *error)
+scree_status scree_state_ask_for_stretches(scree_state *state, scree_error *error)
 {
-    if (state->strain) return SCREE_OK;
-    return scree_allocate(&state->strain, state->row_capacity,
-                          scree_strain_size(state->dimension) * sizeof *state->strain, error);
+    if (state->stretch) return SCREE_OK;
+    return scree_allocate(&state->stretch, state->row_capacity,
+                          scree_stretch_size(state->dimension) * sizeof *state->stretch, error);
 }
 
 scree_status scree_state_append(scree_state *state, scree_mark mark, size_t more, scree_error *error)

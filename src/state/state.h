@@ -77,10 +77,10 @@ typedef struct scree_predicted {
 /// Numbers of a row of state->moment: the tensor by rows, in 3D filled up to 96 bytes, which kernels move in three.
 enum { SCREE_MOMENTS_2D = 4, SCREE_MOMENTS_3D = 12 };
 
-/// Numbers of a row of state->strain, which kernels move whole: 2D xx, yy, xy and the reach [m]; 3D xx, yy, zz, the
-/// reach, yz, xz, xy and zero. The reach: no point of the surface has moved out by more. Behind them, as many, the
-/// changes of the strain in the last step.
-enum { SCREE_STRAINS_2D = 8, SCREE_STRAINS_3D = 16, SCREE_STRAIN_REACH = 3 };
+/// Numbers of a row of state->stretch [m], which kernels move whole: radius times strain, 2D xx, yy, xy and the reach;
+/// 3D xx, yy, zz, the reach, yz, xz, xy and zero. The reach: no point of the surface has moved out by more. Behind
+/// them, as many, the changes in the last step.
+enum { SCREE_STRETCHES_2D = 8, SCREE_STRETCHES_3D = 16, SCREE_STRETCH_REACH = 3 };
 
 /// 3D only: sum of the torques, in torque quanta.
 typedef struct scree_torque_row {
@@ -201,8 +201,8 @@ struct scree_state {
     scree_turn_row *turn;     ///< 3D: count; NULL in 2D
     scree_sum_row *sum;       ///< count, forces at `step`
     scree_torque_row *torque; ///< 3D: count; NULL in 2D
-    int64_t *moment;          ///< of a row: scree_moments_of, torque quanta; NULL unless a module asks for them
-    double *strain;           ///< of a row: scree_strain_size numbers; NULL unless bodies deform
+    int64_t *moment;          ///< of a row: scree_moment_size, of scree_moment_unit; NULL unless a module asks for them
+    double *stretch;          ///< of a row: scree_stretch_size numbers; NULL unless bodies deform
     double force_quantum;     ///< N
     double torque_quantum;    ///< N m
     double largest_overlap;   ///< m, over all contacts at `step`
@@ -336,20 +336,20 @@ static inline size_t scree_moment_size(int dimension)
 /// From the next evaluation on the moments of contact forces are summed, or no longer. Errors: memory.
 scree_status scree_state_ask_for_moments(scree_state *state, bool wanted, scree_error *error) SCREE_MUST_USE;
 
-/// Numbers that a row of state->strain has in this dimension.
-static inline size_t scree_strain_size(int dimension)
+/// Numbers that a row of state->stretch has in this dimension.
+static inline size_t scree_stretch_size(int dimension)
 {
-    return dimension == 3 ? SCREE_STRAINS_3D : SCREE_STRAINS_2D;
+    return dimension == 3 ? SCREE_STRETCHES_3D : SCREE_STRETCHES_2D;
 }
 
-/// Row of state->strain, of a ghost too; NULL where bodies are rigid.
-static inline double *scree_strain_row(const scree_state *state, size_t row)
+/// Row of state->stretch, of a ghost too; NULL where bodies are rigid.
+static inline double *scree_stretch_row(const scree_state *state, size_t row)
 {
-    return state->strain ? state->strain + row * scree_strain_size(state->dimension) : NULL;
+    return state->stretch ? state->stretch + row * scree_stretch_size(state->dimension) : NULL;
 }
 
-/// From now on bodies deform; their strains are zero. Nothing happens where they do already. Errors: memory.
-scree_status scree_state_ask_for_strains(scree_state *state, scree_error *error) SCREE_MUST_USE;
+/// From now on bodies deform; as yet they are not strained. Nothing happens where they do already. Errors: memory.
+scree_status scree_state_ask_for_stretches(scree_state *state, scree_error *error) SCREE_MUST_USE;
 
 /// Puts last_force rows, rolling rows, and numbers of laws beside the contact memory; nothing happens where there are
 /// some.

@@ -138,9 +138,9 @@ static void break_in_tension(int dimension, double gap, double centre)
     place_pair(&s, centre, length, speed, 0, 0);
     const double mass = s.state.row[0].mass / 2, step = s.model.step,
                  turn = 2 * asin(0.5 * sqrt(STIFFNESS / mass) * step);
-    double stretch[2];
-    for (int k = 0; k < 2; k++) stretch[k] = 2 * speed * step * sin(turn * (at - 1 + k)) / sin(turn);
-    hold(&s, 0, 1, -gap, STIFFNESS * 0.5 * (stretch[0] + stretch[1]), INFINITY, 0);
+    double elongation[2];
+    for (int k = 0; k < 2; k++) elongation[k] = 2 * speed * step * sin(turn * (at - 1 + k)) / sin(turn);
+    hold(&s, 0, 1, -gap, STIFFNESS * 0.5 * (elongation[0] + elongation[1]), INFINITY, 0);
     const double scale = open_ledger(&s);
     const scree_bonds *bonds = scree_bonds_of(&s.state);
     for (int k = 1; k <= 200; k++) {
@@ -154,13 +154,13 @@ static void break_in_tension(int dimension, double gap, double centre)
     const scree_break *event = &bonds->event[0];
     assert_int_equal(event->step, at);
     assert_int_equal(event->mode, SCREE_BREAK_TENSION);
-    assert_true(fabs(event->normal_force / (-STIFFNESS * stretch[1]) - 1) < 1e-9);
+    assert_true(fabs(event->normal_force / (-STIFFNESS * elongation[1]) - 1) < 1e-9);
     assert_true(event->first == 0 && event->second == 1);
     double n[3], t[3];
     axes(dimension, n, t);
     for (int k = 0; k < dimension; k++) assert_true(fabs(event->normal[k] - n[k]) < 1e-9);
     // What the spring held, but for what its force did to the velocities of the ledger.
-    const double lost = 0.5 * STIFFNESS * stretch[1] * stretch[0];
+    const double lost = 0.5 * STIFFNESS * elongation[1] * elongation[0];
     assert_true(fabs(bonds->fracture / lost - 1) < 1e-9);
     assert_int_equal(scree_persistent(&s.state)->count, 0);
     assert_true(s.state.sum[0].fx == 0 && s.state.sum[0].contacts == 0);

@@ -252,9 +252,9 @@ static void refresh_is_due_and_closes_the_strain(void **user)
     }
     double total[9];
     scree_strain_measure(state, total);
-    static const double stretch[3] = {1.005, 1.002, 0.99};
+    static const double lengthening[3] = {1.005, 1.002, 0.99};
     // Each increment is the logarithm to third order; with the largest strain 1e-2 the coefficient is below one half.
-    for (int i = 0; i < 3; i++) assert_true(fabs(total[4 * i] - 20 * log(stretch[i])) < 20 * 0.5e-6);
+    for (int i = 0; i < 3; i++) assert_true(fabs(total[4 * i] - 20 * log(lengthening[i])) < 20 * 0.5e-6);
     for (int i = 0; i < 9; i++)
         if (i % 4 != 0) assert_true(fabs(total[i]) < 1e-12);
     scree_state_destroy(state);

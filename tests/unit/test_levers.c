@@ -201,8 +201,8 @@ static double energy_of(const fixture *f)
         const capsule_place place = capsule_find((vector){one->x, one->y, 0}, f->state.angle[a], one->radius,
                                                  (vector){other->x, other->y, 0}, f->state.angle[b], other->radius);
         const double overlap = fmax(one->radius + other->radius - place.distance, 0);
-        const double stretch = f->work.pairs.history[p].value[0];
-        energy += 0.5 * STIFFNESS * (overlap * overlap + RATIO * stretch * stretch);
+        const double pressed = f->work.pairs.history[p].value[0];
+        energy += 0.5 * STIFFNESS * (overlap * overlap + RATIO * pressed * pressed);
     }
     return energy;
 }

@@ -72,7 +72,7 @@ static void force_is_that_of_springs_and_dashpots(void **unused)
     for (int number = 0; number < 40; number++) {
         const int dimension = 2 + number % 2;
         const scree_pair_constants pair = linear_pair(3e5, 2e8, 0.7, number < 30 ? 10 : 0.1, 0.2, 0.4);
-        double n[3], u[3], w[3], across[3], stretch[3], normal = 0;
+        double n[3], u[3], w[3], across[3], sheared[3], normal = 0;
         direction((uint64_t)number, dimension, n);
         direction((uint64_t)number + 100, dimension, u);
         for (int i = 0; i < 3; i++)
@@ -82,12 +82,12 @@ static void force_is_that_of_springs_and_dashpots(void **unused)
         create_pair(&f, dimension, n, d, 0, &pair);
         f.state.row[0].vx = u[0], f.state.row[0].vy = u[1], f.state.row[0].spin = dimension == 2 ? w[2] : u[2];
         if (dimension == 3) f.state.row[0].vz = u[2], f.state.turn[0] = (scree_turn_row){w[0], w[1], w[2], 0};
-        // A stretch across n, in 2D along t = (-n_y, n_x).
+        // A sheared across n, in 2D along t = (-n_y, n_x).
         const double turned[3] = {-n[1] * 2e-6, n[0] * 2e-6, 0};
         direction((uint64_t)number + 200, 3, across);
-        cross(n, across, stretch);
-        for (int i = 0; i < 3; i++) stretch[i] = dimension == 2 ? turned[i] : 2e-6 * stretch[i];
-        for (int i = 0; i < 3; i++) f.work.pairs.history[0].value[i] = dimension == 2 ? (i ? 0 : 2e-6) : stretch[i];
+        cross(n, across, sheared);
+        for (int i = 0; i < 3; i++) sheared[i] = dimension == 2 ? turned[i] : 2e-6 * sheared[i];
+        for (int i = 0; i < 3; i++) f.work.pairs.history[0].value[i] = dimension == 2 ? (i ? 0 : 2e-6) : sheared[i];
         fixture_measure_speed(&f);
         fixture_forces(&f);
 
