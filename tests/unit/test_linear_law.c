@@ -98,7 +98,7 @@ static void force_is_that_of_springs_and_dashpots(void **unused)
         for (int i = 0; i < 3; i++) slip[i] = u[i] - normal * n[i] - (R1 - d / 2) * turning[i];
         const double pressed = fmax(k * d - 0.2 * root * normal, 0), cap = pair.value[SCREE_FRICTION] * pressed;
         for (int i = 0; i < 3; i++) {
-            double spring = 0.7 * k * stretch[i], most = 0.7 * k * scree_length(stretch);
+            double spring = 0.7 * k * sheared[i], most = 0.7 * k * scree_length(sheared);
             if (most > cap) spring *= cap / most;
             resistance[i] = spring + 0.4 * root_t * slip[i];
         }
@@ -120,8 +120,8 @@ static void force_is_that_of_springs_and_dashpots(void **unused)
         const scree_sum_row sum[2] = {f.state.sum[0], f.state.sum[1]};
         f.work.pairs.first[0] = 1, f.work.pairs.second[0] = 0;
         f.state.largest_overlap = 1e-4; // the quanta that the first evaluation had
-        for (int i = 0; i < 3 && dimension == 3; i++) stretch[i] = -stretch[i];
-        for (int i = 0; i < 3; i++) f.work.pairs.history[0].value[i] = dimension == 2 ? (i ? 0 : 2e-6) : stretch[i];
+        for (int i = 0; i < 3 && dimension == 3; i++) sheared[i] = -sheared[i];
+        for (int i = 0; i < 3; i++) f.work.pairs.history[0].value[i] = dimension == 2 ? (i ? 0 : 2e-6) : sheared[i];
         fixture_forces(&f);
         assert_memory_equal(sum, f.state.sum, sizeof sum);
         assert_int_equal(f.work.flags, 0);
