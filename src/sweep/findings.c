@@ -71,6 +71,8 @@ static bool read_summary(scree_finding *finding)
     finding->particles = number_of(summary, "particles");
     finding->friction = number_of(summary, "confine_friction");
     finding->solid_fraction = number_of(summary, "solid_fraction_at_start");
+    // Without a boundary that encloses the sample: as it was packed, whose last digits tell two packings apart.
+    if (isnan(finding->solid_fraction)) finding->solid_fraction = number_of(summary, "packing_solid_fraction");
     finding->coordination = number_of(summary, "coordination_at_start");
     (void)snprintf(finding->build, sizeof finding->build, "%s", commit && commit[0] ? commit : version ? version : "");
     json_decref(summary);
