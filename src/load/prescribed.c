@@ -36,6 +36,11 @@ static const scree_choice attacks[] = {
 #define FORCE(axis, index) COMPONENT("force_" axis, push, index, "N", "1e15 N", "Force along " axis "; auto: none.")
 #define TORQUE(axis, index)                                                                                            \
     COMPONENT("torque_" axis, push, 3 + index, "N m", "1e15 N m", "Torque about " axis "; auto: none.")
+#define PROFILE(key, member, kind, ...)                                                                                \
+    {                                                                                                                  \
+        .name = key, .type = kind, .offset = offsetof(config, profile.member), __VA_ARGS__                             \
+    }
+#define PROFILED .when = "profile=cosine"
 #define STAGE(member, text)                                                                                            \
     KEY(config, member, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"), .meaning = text)
 
@@ -51,6 +56,17 @@ static const scree_key keys[] = {
     SPIN("x", 0),
     SPIN("y", 1),
     SPIN("z", 2),
+    PROFILE("profile", shape, SCREE_KEY_CHOICE, .choices = scree_load_profile_shapes, .standard = "uniform",
+            .meaning = "What velocities and spins are multiplied by, by the place of a particle when it comes to be "
+                       "driven."),
+    PROFILE("axis", axis, SCREE_KEY_CHOICE, .choices = scree_load_profile_axes, .standard = "x", PROFILED,
+            .meaning = "Direction in which it changes."),
+    PROFILE("wavelength", wavelength, SCREE_KEY_NUMBER, .unit = "m", ABOVE("0 m"), TO("1e6 m"), PROFILED,
+            .meaning = "Of the cosine."),
+    PROFILE("phase", phase, SCREE_KEY_NUMBER, .unit = "rad", .standard = "0 rad", FROM("-1e3 rad"), TO("1e3 rad"),
+            PROFILED, .meaning = "Of the cosine at `origin`."),
+    PROFILE("offset", offset, SCREE_KEY_NUMBER, .unit = "1", .standard = "0", FROM("-1e6"), TO("1e6"), PROFILED,
+            .meaning = "Added to the cosine; 1 beside a phase of 0 makes a bell of half a wavelength to each side."),
     TENSOR(config, gradient, scree_gradient_components, "1/s", FROM("-1e9 1/s"), TO("1e9 1/s"),
            .meaning = "Velocity gradient, added to the velocities: gradient x (place at the begin - `origin`)."),
     {.name = "gradient_factor",
@@ -62,7 +78,7 @@ static const scree_key keys[] = {
      .offset = offsetof(config, factor),
      .meaning = "Factor of the gradient."},
     KEY(config, origin, SCREE_KEY_VECTOR, .unit = "m", .standard = "[0, 0]", FROM("-1e6 m"), TO("1e6 m"),
-        .meaning = "Point in which the gradient adds nothing."),
+        .meaning = "Point in which the gradient adds nothing, and from which the profile is counted."),
     FORCE("x", 0),
     FORCE("y", 1),
     FORCE("z", 2),

@@ -7,6 +7,7 @@
 #include "base/schedule.h"
 #include "case/config.h"
 #include "load/load.h"
+#include "load/profile.h"
 #include "state/body.h"
 
 enum { SCREE_COMPONENTS = 6, SCREE_LEVER = SCREE_COMPONENTS };
@@ -20,6 +21,7 @@ typedef struct scree_prescribed_config {
     char *from;                              ///< first stage in which it acts; auto: the first one
     char *until;                             ///< last one; auto: the last one
     scree_schedule motion[SCREE_COMPONENTS]; ///< m/s, rad/s; the constant NAN: free
+    scree_load_profile profile;              ///< of `motion`
     double gradient[9];                      ///< 1/s, added: factor x gradient x (place at the begin - origin)
     scree_schedule factor;
     double origin[3];                      ///< m

@@ -75,12 +75,27 @@ static void check_components(judged *j)
                           "nothing is prescribed: give a velocity, a spin, a gradient, a force or a torque");
 }
 
+static void check_profile(judged *j, bool gradient, bool moves)
+{
+    const bool uniform = scree_load_profile_is_uniform(&j->own->profile);
+    if (!gradient && uniform && scree_length(j->own->origin) > 0)
+        scree_rule_refuse(j->reader, scree_element_path(j->path, "loads", j->index, "origin"), "[0, 0]",
+                          "not used without gradient or profile");
+    if (!uniform && !moves)
+        scree_rule_refuse(j->reader, scree_element_path(j->path, "loads", j->index, "profile"), "uniform",
+                          "not used without a velocity or a spin, which it multiplies");
+    if (!uniform && j->own->profile.axis == 2 && j->config->dimension == 2)
+        scree_rule_refuse(j->reader, scree_element_path(j->path, "loads", j->index, "axis"), "x, y",
+                          "there is no z in two dimensions");
+}
+
 /// Keys that would have no effect.
 static void check_use(judged *j)
 {
-    bool gradient = false, force = false, push = false;
+    bool gradient = false, force = false, push = false, moves = false;
     for (int k = 0; k < 9; k++) gradient = gradient || !isnan(j->own->gradient[k]);
     for (int d = 0; d < SCREE_COMPONENTS; d++) {
+        moves = moves || !isnan(scree_schedule_at(&j->own->motion[d], 0));
         push = push || scree_prescribed_pushes(j->own, d);
         force = force || (d < 3 && scree_prescribed_pushes(j->own, d));
     }
@@ -89,9 +104,7 @@ static void check_use(judged *j)
     if (!gradient && scaled)
         scree_rule_refuse(j->reader, scree_element_path(j->path, "loads", j->index, "gradient_factor"), "1",
                           "not used without gradient");
-    if (!gradient && scree_length(j->own->origin) > 0)
-        scree_rule_refuse(j->reader, scree_element_path(j->path, "loads", j->index, "origin"), "[0, 0]",
-                          "not used without gradient");
+    check_profile(j, gradient, moves);
     if (!force && j->own->attack == SCREE_ATTACK_SURFACE)
         scree_rule_refuse(j->reader, scree_element_path(j->path, "loads", j->index, "attack"), "centre",
                           "there is no force that acts on the surface");

@@ -2,11 +2,11 @@
 /// measured.
 ///
 /// Motion. With t(n) the time of step n and h(n) the step that follows, a driven component has in it the velocity
-///     v(n+1/2) = V(t(n) + h(n)/2) + f(t(n) + h(n)/2) G (X - o),         x(n+1) = x(n) + h(n) v(n+1/2),
-/// V, f schedules, X the place of the body when it came to be driven: constant and linear schedules are followed
-/// without error, others to second order in the step. Behind the first half of every integrator rows hold v(n+1/2) and
-/// x(n+1); both are set there, so that no rounding is left. In a periodic cell that deforms velocities are relative to
-/// its affine field, as everywhere.
+///     v(n+1/2) = P(X) V(t(n) + h(n)/2) + f(t(n) + h(n)/2) G (X - o),    x(n+1) = x(n) + h(n) v(n+1/2),
+/// V, f schedules, P the profile (profile.c), X the place of the body when it came to be driven: constant and linear
+/// schedules are followed without error, others to second order in the step. Behind the first half of every integrator
+/// rows hold v(n+1/2) and x(n+1); both are set there, so that no rounding is left. In a periodic cell that deforms
+/// velocities are relative to its affine field, as everywhere.
 ///
 /// Reaction. When all other forces F(n) are known, the force R(n) = m (v(n+1/2) - v(n-1/2)) / k - F(n), k the kick to
 /// come, is added to the sums: the kick leads to v(n+1/2) but for its rounding, and accelerations, kinetic energies,
@@ -157,7 +157,10 @@ static double wanted(const scree_state *state, size_t row, int component, const 
         double gradient = said->own->gradient[3 * component + j];
         if (!isnan(gradient)) linear += gradient * (all->reference[row][j] - said->own->origin[j]);
     }
-    return said->motion[component] + (linear != 0 ? said->factor * linear : 0);
+    double motion = said->motion[component];
+    if (motion != 0 && !scree_load_profile_is_uniform(&said->own->profile))
+        motion *= scree_load_profile_at(&said->own->profile, all->reference[row], said->own->origin);
+    return motion + (linear != 0 ? said->factor * linear : 0);
 }
 
 // ---- work --------------------------------------------------------------------------------------------------------

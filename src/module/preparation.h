@@ -16,6 +16,8 @@ typedef struct scree_preparation {
     bool loose;            ///< there are no contacts at the begin
     bool binary;           ///< the particles can only collide
     bool approaching;      ///< the particles may be about to collide
+    int lattice;           ///< scree_lattice + 1 (theory/lattice.h) that it makes; 0: none
+    bool turned;           ///< its horizontal axes are diagonals of the cubic cell
     int only_dimension;    ///< exists in this dimension alone; 0: in both
     const char *elsewhere; ///< method that takes its place in the other dimension
 

@@ -14,6 +14,7 @@
 #include "module/key_rows.h"
 #include "prepare/methods.h"
 #include "prepare/prepare.h"
+#include "theory/lattice.h"
 
 #include <math.h>
 
@@ -164,19 +165,25 @@ static scree_status check(const scree_model *model, const scree_config_stage *st
         model->radius_min, model->radius_max, model->species_count > 1 ? "all species, with one radius," : "particles");
 }
 
-#define LATTICE(title, text, dimension, other, function)                                                               \
+#define LATTICE(title, text, dimension, other, function, ...)                                                          \
     const scree_module scree_module_##title = {                                                                        \
         .name = #title,                                                                                                \
         .meaning = text,                                                                                               \
         .choice_of = CHOICE_OF(IS("stages.prepare.method")),                                                           \
-        .preparation =                                                                                                 \
-            &(const scree_preparation){                                                                                \
-                .periodic = true, .only_dimension = dimension, .elsewhere = other, .check = check, .place = function}, \
+        .preparation = &(const scree_preparation){.periodic = true,                                                    \
+                                                  .only_dimension = dimension,                                         \
+                                                  .elsewhere = other,                                                  \
+                                                  .check = check,                                                      \
+                                                  .place = function,                                                   \
+                                                  __VA_ARGS__},                                                        \
     }
-LATTICE(hexagonal, "triangular lattice of equal discs that touch", 2, "face_centred", place_hexagonal);
-LATTICE(square, "square lattice of equal discs that touch", 2, "cubic", place_upright);
+LATTICE(hexagonal, "triangular lattice of equal discs that touch", 2, "face_centred", place_hexagonal,
+        .lattice = SCREE_LATTICE_HEXAGONAL + 1);
+LATTICE(square, "square lattice of equal discs that touch", 2, "cubic", place_upright,
+        .lattice = SCREE_LATTICE_SQUARE + 1);
 LATTICE(face_centred, "face-centred cubic lattice of equal spheres that touch, square layers horizontal", 3,
-        "hexagonal", place_face_centred);
+        "hexagonal", place_face_centred, .lattice = SCREE_LATTICE_FACE_CENTRED + 1, .turned = true);
 LATTICE(body_centred, "body-centred cubic lattice of equal spheres that touch along the diagonals of its cells", 3,
-        "hexagonal", place_body_centred);
-LATTICE(cubic, "simple cubic lattice of equal spheres that touch", 3, "square", place_upright);
+        "hexagonal", place_body_centred, .lattice = SCREE_LATTICE_BODY_CENTRED + 1);
+LATTICE(cubic, "simple cubic lattice of equal spheres that touch", 3, "square", place_upright,
+        .lattice = SCREE_LATTICE_SIMPLE_CUBIC + 1);

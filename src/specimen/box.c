@@ -137,3 +137,16 @@ scree_status scree_specimen_cut_box(const scree_specimen *s, const scree_box_fac
     for (int k = 0; k < s->dimension; k++) out->extent *= b.plane[1][k] - b.plane[0][k];
     return SCREE_OK;
 }
+
+double scree_specimen_box_density(const scree_specimen *s, const scree_box_faces *faces)
+{
+    box b;
+    scree_error ignored;
+    double mass = 0, extent = s->dimension == 2 ? s->volume[0] / (M_PI * s->radius[0] * s->radius[0]) : 1;
+    find_faces(s, faces, &b);
+    find_planes(s, &b);
+    if (s->periodic || check_faces(&b, &ignored)) return NAN;
+    for (size_t body = 0; body < s->body_count; body++) mass += ldexp(s->mass[body], -common_faces(s, &b, body, body));
+    for (int k = 0; k < s->dimension; k++) extent *= b.plane[1][k] - b.plane[0][k];
+    return mass / extent;
+}

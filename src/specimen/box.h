@@ -16,4 +16,7 @@ typedef struct scree_box_faces {
 scree_status scree_specimen_cut_box(const scree_specimen *specimen, const scree_box_faces *faces, scree_specimen *out,
                                     scree_error *error) __attribute__((warn_unused_result));
 
+/// Mass over volume [kg/m3] of the same piece: bodies of a face count half, of an edge a quarter. NAN: it is no box.
+double scree_specimen_box_density(const scree_specimen *specimen, const scree_box_faces *faces);
+
 #endif

@@ -4,6 +4,7 @@
 /// members there are. Where a measure NAME has a companion NAME_theory, that is the curve and the measure the points on
 /// it. A chart has at most the seven colours of the palette: where there are more points, there is one chart for each
 /// setting of the first dimension.
+#include "io/result_names.h"
 #include "sweep/results.h"
 
 #include "base/memory.h"
@@ -47,11 +48,11 @@ static double axis_label(char label[LABEL], const char *name, const char *unit)
     return percent ? 100 : 1;
 }
 
-/// Unit of a named result: those of summary.json are numbers or SI.
+/// Unit of a named result; NULL: there is none of this name.
 static const char *unit_of(const char *name)
 {
-    const char *tail = strstr(name, "_time");
-    return tail && strcmp(tail, "_time") == 0 ? "s" : NULL;
+    const scree_result *row = scree_result_name_find(name, NULL);
+    return row ? row->unit : NULL;
 }
 
 /// Labels are plain text: what gnuplot's enhanced text would interpret is escaped.

@@ -196,6 +196,7 @@ static bool soften(wave *w, const scree_lattice_material *m, double share)
 /// Square of a frequency [rad2/s2], its real part where it grows.
 typedef struct square {
     double value;
+    double part; ///< of a motion of length 1
     bool grows;
 } square;
 
@@ -205,32 +206,42 @@ static int compare(const void *a, const void *b)
     return p < q ? -1 : p > q;
 }
 
-/// Squares of the frequencies, ascending: the eigenvalues of M^-1 K.
-static bool find_squares(wave *w, const scree_lattice_material *m, bool symmetric, square out[MOTIONS])
+/// From K to the matrix M^-1/2 K M^-1/2, whose eigenvalues are the squares of the frequencies.
+static void divide_by_mass(wave *w, const scree_lattice_material *m)
 {
     const int n = w->motions, d = w->dimension;
     const double mass = m->density * scree_particle_volume(d, m),
                  inertia = mass * m->radius * m->radius * (d == 3 ? 0.4 : 0.5);
-    double real[MOTIONS], imaginary[MOTIONS] = {0}, none[1];
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
             w->stiffness[i * n + j] /= sqrt((i < d ? mass : inertia) * (j < d ? mass : inertia));
-    // A matrix and its transpose have the same eigenvalues.
+}
+
+/// Squares of the frequencies, ascending, with the part of the motion that is a displacement along `direction`, if that
+/// is asked for.
+static bool find_squares(wave *w, bool symmetric, const double *direction, square out[MOTIONS])
+{
+    const int n = w->motions;
+    double real[MOTIONS], imaginary[MOTIONS] = {0}, motion[MOTIONS * MOTIONS], none[1];
+    const char job = direction ? 'V' : 'N';
     const lapack_int failed =
-        symmetric ? LAPACKE_dsyev(LAPACK_COL_MAJOR, 'N', 'U', n, w->stiffness, n, real)
-                  : LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', 'N', n, w->stiffness, n, real, imaginary, none, n, none, n);
+        symmetric ? LAPACKE_dsyev(LAPACK_ROW_MAJOR, job, 'U', n, w->stiffness, n, real)
+                  : LAPACKE_dgeev(LAPACK_ROW_MAJOR, 'N', job, n, w->stiffness, n, real, imaginary, none, n, motion, n);
     if (failed) return false;
+    const double *vector = symmetric ? w->stiffness : motion;
     double largest = 0;
     for (int k = 0; k < n; k++) largest = fmax(largest, fabs(real[k]));
-    // Two equal ones come out with an imaginary part of the order of the root of rounding.
-    for (int k = 0; k < n; k++)
-        out[k] = (square){real[k], real[k] < -1e-9 * largest || fabs(imaginary[k]) > 1e-7 * largest};
+    for (int k = 0; k < n; k++) {
+        // Two equal ones come out with an imaginary part of the order of the root of rounding.
+        out[k] = (square){real[k], 0, real[k] < -1e-9 * largest || fabs(imaginary[k]) > 1e-7 * largest};
+        for (int i = 0; direction && i < w->dimension; i++) out[k].part += direction[i] * vector[i * n + k];
+    }
     qsort(out, (size_t)n, sizeof *out, compare);
     return true;
 }
 
 static bool find_wave(scree_lattice lattice, const scree_lattice_material *m, const double k[3], double share,
-                      square out[MOTIONS])
+                      const double *direction, square out[MOTIONS])
 {
     const crystal *c = &crystals[lattice];
     wave w = {.dimension = c->dimension, .motions = c->dimension == 3 ? 6 : 3, .strains = c->dimension == 3 ? 6 : 3};
@@ -241,7 +252,8 @@ static bool find_wave(scree_lattice lattice, const scree_lattice_material *m, co
     }
     const bool deforms = share != 0 && m->shear > 0;
     if (deforms && !soften(&w, m, share)) return false;
-    return find_squares(&w, m, !deforms || m->corrected || m->tangential == 0, out);
+    divide_by_mass(&w, m);
+    return find_squares(&w, !deforms || m->corrected || m->tangential == 0, direction, out);
 }
 
 static double radius_of(scree_lattice lattice, const scree_lattice_material *m)
@@ -254,9 +266,20 @@ int scree_lattice_frequencies(scree_lattice lattice, const scree_lattice_materia
 {
     square found[MOTIONS];
     const int count = crystals[lattice].dimension == 3 ? 6 : 3;
-    const bool stable = share * radius_of(lattice, m) < 1 && find_wave(lattice, m, k, share, found);
+    const bool stable = share * radius_of(lattice, m) < 1 && find_wave(lattice, m, k, share, NULL, found);
     for (int b = 0; b < count; b++) frequency[b] = stable && !found[b].grows ? sqrt(fmax(found[b].value, 0)) : NAN;
     return count;
+}
+
+double scree_lattice_frequency_along(scree_lattice lattice, const scree_lattice_material *m, const double k[3],
+                                     double share, const double direction[3])
+{
+    square found[MOTIONS];
+    int most = 0;
+    if (!(share * radius_of(lattice, m) < 1) || !find_wave(lattice, m, k, share, direction, found)) return NAN;
+    for (int b = 1; b < (crystals[lattice].dimension == 3 ? 6 : 3); b++)
+        if (fabs(found[b].part) > fabs(found[most].part)) most = b;
+    return found[most].grows ? NAN : sqrt(fmax(found[most].value, 0));
 }
 
 // ---- the fastest wave --------------------------------------------------------------------------------------------
@@ -298,7 +321,7 @@ static void look(hunt *h, const double phase[3])
     square found[MOTIONS];
     const crystal *c = &crystals[h->lattice];
     wave_of(c, h->material->radius, phase, k);
-    if (!find_wave(h->lattice, h->material, k, h->share, found)) return;
+    if (!find_wave(h->lattice, h->material, k, h->share, NULL, found)) return;
     for (int b = 0; b < (c->dimension == 3 ? 6 : 3); b++)
         if (!found[b].grows && found[b].value > h->best * (1 + 1e-12)) {
             h->best = found[b].value;

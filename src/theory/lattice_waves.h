@@ -21,6 +21,11 @@ enum { SCREE_LATTICE_BRANCHES = 6 };
 int scree_lattice_frequencies(scree_lattice lattice, const scree_lattice_material *material, const double wave[3],
                               double share, double frequency[SCREE_LATTICE_BRANCHES]);
 
+/// Circular frequency [rad/s] of the wave whose displacements lie most along `direction`, a unit vector in the same
+/// axes: of all waves of this wave vector the one that has the largest part of such a motion. NAN: it grows.
+double scree_lattice_frequency_along(scree_lattice lattice, const scree_lattice_material *material,
+                                     const double wave[3], double share, const double direction[3]);
+
 /// Critical step of leapfrog schemes [s], 2 over the largest frequency of all waves, which is looked for in the whole
 /// zone of wave vectors; 0 where no step is stable. wave: where it is, or NULL.
 double scree_lattice_critical_step(scree_lattice lattice, const scree_lattice_material *material, double share,

@@ -265,7 +265,7 @@ static void write_style(FILE *file, const scree_chart *chart)
     for (size_t k = 0; k < chart->line_count; k++) legend |= chart->line[k].label != NULL;
     fputs(legend ? "set rmargin at screen 0.70\n"
                    "set key at screen 0.715,0.90 left top vertical Left reverse samplen 2.2 spacing 1.35\n"
-                 : "set rmargin at screen 0.965\nunset key\n",
+                 : "set rmargin at screen 0.945\nunset key\n",
           file);
     bool zero = !chart->log_y && begins_at_zero(chart);
     const char *side = has_bars(chart) && !chart->log_x ? "graph 0.04" : "0";
