@@ -35,14 +35,15 @@ typedef struct scree_stability {
     double step_of_bodies;         ///< s, from single bodies (M 2.18)
     double step_of_extremes;       ///< s, sqrt(m_min / k_max) (M 2.19 with alpha = 1)
     double normal_stiffness;       ///< N/m, mean over the contacts
-    bool has_potential; ///< elastic particles: the strain acts on slips as slips act on the strain (or there is no
-                        ///< k_t); if not, vibrations may grow at any step where nothing damps them
-    double spectral_radius;                            ///< 1, of the iteration of forces
-    double stiffness_ratio;                            ///< mean k_n over E_p [m]
-    double largest_ratio;                              ///< the same at the limit of the explicit scheme
-    double row_ratio;                                  ///< limit of an unbounded row [m] (M 3.27)
-    double square_ratio;                               ///< of a square lattice (M 3.43); in 3D simple cubic
-    double hexagonal_ratio;                            ///< of a hexagonal one (M 3.78); in 3D face-centred cubic
+    bool has_potential;     ///< elastic particles: the strain acts on slips as slips act on the strain (or there is no
+                            ///< k_t); if not, vibrations may grow at any step where nothing damps them
+    double spectral_radius; ///< 1, of the iteration of forces
+    double stiffness_ratio; ///< mean k_n over E_p [m]
+    double largest_ratio;   ///< the same at the limit of the explicit scheme
+    double ratio_at_step;   ///< the same at the step of the case, which is less
+    double row_ratio;       ///< limit of an unbounded row [m] (M 3.27)
+    double square_ratio;    ///< of a square lattice (M 3.43); in 3D simple cubic
+    double hexagonal_ratio; ///< of a hexagonal one (M 3.78); in 3D face-centred cubic
     double explicit_step, relaxed_step, implicit_step; ///< s, critical steps with deformable particles
     double relaxation;                                 ///< theta that `relaxed_step` stands for
 } scree_stability;
@@ -51,6 +52,25 @@ typedef struct scree_stability {
 /// not found; memory.
 SCREE_API scree_status scree_simulation_stability(scree_simulation *s, const scree_particle_elasticity *elasticity,
                                                   scree_stability *out, scree_error *error);
+
+/// Draws the fastest mode, of rigid particles or with explicit strains where a step bears these: PATH.svg and PATH.png,
+/// movements as arrows, turning as colours; of spheres a cut through the middle. Errors: as above; SCREE_ERROR_INPUT
+/// without contacts; SCREE_ERROR_IO.
+SCREE_API scree_status scree_simulation_draw_mode(scree_simulation *s, const scree_particle_elasticity *elasticity,
+                                                  const char *path, scree_error *error);
+
+/// What is known of these limits before a run.
+typedef enum scree_limits_known {
+    SCREE_LIMITS_NONE,  ///< nothing: no bonds, rigid particles; the estimate of the case holds
+    SCREE_LIMITS_LATER, ///< the specimen comes from stages that take steps: only `*_ratio` of lattices and the present
+                        ///< stiffness_ratio of mean particles
+    SCREE_LIMITS_EXACT, ///< it stands before the first step
+} scree_limits_known;
+
+/// Limits of a case as far as they are known before it runs: its sample is prepared, and no step is taken. Errors:
+/// those of scree_simulation_create, of the preparation, and as above.
+SCREE_API scree_status scree_case_limits(const scree_case *c, scree_limits_known *known, scree_stability *out,
+                                         scree_error *error);
 
 /// Isotropic moduli [Pa, 1, Pa, Pa]. In the plane those of the plane: `bulk` of areas, `young` and `poisson` of a
 /// stress along one of its axes, K = E / (2 (1 - nu)).

@@ -29,7 +29,7 @@ SCREE_API const char *scree_sweep_builtin_name(size_t index);
 SCREE_API const char *scree_sweep_builtin_meaning(size_t index);
 
 /// Members are numbered from 0. Folder of a member below OUTPUT/members, and what it sets as a command line of `scree
-/// run` (cut to `size`).
+/// run`, or of `scree bisect` where it searches for a limit (cut to `size`).
 SCREE_API size_t scree_sweep_member_count(const scree_sweep *sweep);
 SCREE_API const char *scree_sweep_member_folder(const scree_sweep *sweep, size_t member);
 SCREE_API void scree_sweep_member_command(const scree_sweep *sweep, size_t member, char *text, size_t size);
@@ -74,6 +74,30 @@ SCREE_API scree_status scree_sweep_collect(const scree_sweep *sweep, const scree
 SCREE_API scree_status scree_sweep_write_slurm(const scree_sweep *sweep, const scree_sweep_read_options *read,
                                                const scree_sweep_options *options, const char *path,
                                                scree_error *error);
+
+// ---- a limit by runs ---------------------------------------------------------------------------------------------
+
+/// A number of a case, and what a run must fulfil to stand.
+typedef struct scree_bisection {
+    const char *key;        ///< path of a number in the case
+    const char *between[2]; ///< values with units: at one a run stands, at the other it does not
+    double tolerance;       ///< 1, relative: how near the two ends are brought
+    const char *measure;    ///< a result of a run, a number
+    double below, above;    ///< in SI units; NAN: no such bound, but of one of them
+} scree_bisection;
+
+typedef struct scree_bisection_result {
+    double limit, stands, fails; ///< SI: between the two ends; at which a run stands, at which it does not
+    int runs;
+} scree_bisection_result;
+
+/// Finds the limit by bisection: runs as processes of their own, one after the other, in options->output. A search that
+/// was interrupted goes on with the runs that are there. Of the options count program, output, threads, force, stop,
+/// message. Errors: SCREE_ERROR_INPUT (`field`: the part of the bisection that is wrong; runs stand at both ends, or at
+/// none), SCREE_ERROR_IO, SCREE_INTERRUPTED.
+SCREE_API scree_status scree_bisect(const scree_case *c, const scree_bisection *what,
+                                    const scree_sweep_options *options, scree_bisection_result *result,
+                                    scree_error *error);
 
 // ---- the reproduction report -------------------------------------------------------------------------------------
 

@@ -178,7 +178,11 @@ typedef struct scree_config_output {
 typedef struct scree_config_guard {
     double overlap;       ///< 1, largest overlap over the smaller radius
     double energy_growth; ///< 1, largest energy-ledger residual over all energy that there is and was
+    int stability;        ///< scree_guard_stability
 } scree_config_guard;
+
+/// What happens to a run that is above a limit of stability.
+typedef enum scree_guard_stability { SCREE_STABILITY_STOPS, SCREE_STABILITY_WARNS } scree_guard_stability;
 
 struct scree_config {
     int64_t language; ///< version of the case language

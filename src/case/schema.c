@@ -193,6 +193,11 @@ static const scree_key output_keys[] = {
 };
 
 typedef scree_config_guard guard;
+static const scree_choice stability_choices[] = {
+    {"stop", SCREE_STABILITY_STOPS, "a case with such a step is refused, a run stops with a checkpoint"},
+    {"warn", SCREE_STABILITY_WARNS, "it goes on with a warning, as searches for a limit by runs need it"},
+    {0},
+};
 static const scree_key guard_keys[] = {
     NUMBER(guard, overlap, "1", .standard = "20 %", .guard = true, ABOVE("0 %"), TO("100 %"),
            .meaning = "Largest overlap over the smaller radius."),
@@ -200,6 +205,9 @@ static const scree_key guard_keys[] = {
            .meaning =
                "Largest residual of the energy ledger over all energy that there is and was: at the begin, turned "
                "over, stored now. Energy that grows without end tends to 100 %."),
+    CHOICE(guard, stability, stability_choices, .standard = "stop", .guard = true,
+           .meaning = "What a step or k_n/E above the limit of stability does: the estimated limit of the case, and of "
+                      "bonds and particles that deform that of the specimen."),
 };
 
 static const scree_section material_table[] = {

@@ -84,6 +84,36 @@ static void print_warning(void *user, const char *line)
     print_line("warning", line, "");
 }
 
+/// Limits of bonded or deformable particles, beside the estimate of the step.
+static void print_limits(scree_limits_known known, const scree_stability *s)
+{
+    char text[TEXT], more[2 * TEXT];
+    const bool deforms = !isnan(s->stiffness_ratio);
+    if (known == SCREE_LIMITS_LATER)
+        print_line("limits", "not known yet",
+                   "the specimen comes from stages that take steps: `scree stability --at STAGE`");
+    if (known == SCREE_LIMITS_EXACT) {
+        scree_human_quantity(text, sizeof text, s->critical_step, "s");
+        print_line("critical step", text, "of the specimen, rigid particles");
+    }
+    if (known == SCREE_LIMITS_EXACT && deforms) {
+        scree_human_quantity(text, sizeof text, s->explicit_step, "s");
+        print_line("", text, "with explicit strains");
+        scree_human_quantity(text, sizeof text, s->relaxed_step, "s");
+        print_line("", text, "with relaxed strains");
+    }
+    if (!deforms) return;
+    (void)snprintf(text, sizeof text, "%.4g m", s->stiffness_ratio);
+    if (known == SCREE_LIMITS_EXACT)
+        (void)snprintf(more, sizeof more, "explicit strains bear %.4g m at this step, %.4g m at a small one",
+                       s->ratio_at_step, s->largest_ratio);
+    else
+        (void)snprintf(more, sizeof more,
+                       "explicit strains bear about %.3g m in a hexagonal lattice, %.3g m in a square one",
+                       s->hexagonal_ratio, s->square_ratio);
+    print_line("k_n / E", text, more);
+}
+
 /// What can be gone on from, for the last lines of a folder's report.
 typedef struct folder_report {
     char checkpoint[TEXT], snapshots[8 * TEXT];
@@ -128,6 +158,8 @@ scree_status scree_verb_check(const scree_command *command)
     scree_status status = scree_case_argument_read(command, command->argument[0], &c);
     if (status) return status;
     scree_case_summary summary;
+    scree_stability limits;
+    scree_limits_known known;
     scree_error error = {0};
     status = scree_case_summarise(c, &summary, &error);
     if (!status) status = scree_case_write(c, stdout, &error);
@@ -135,6 +167,8 @@ scree_status scree_verb_check(const scree_command *command)
         print_summary(&summary);
         status = scree_case_warn(c, print_warning, NULL, &error);
     }
+    if (!status && !(status = scree_case_limits(c, &known, &limits, &error)) && known != SCREE_LIMITS_NONE)
+        print_limits(known, &limits);
     if (status) status = scree_terminal_error("check", &error);
     scree_case_free(c);
     return status;

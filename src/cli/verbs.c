@@ -119,7 +119,8 @@ const scree_verb scree_verbs[] = {
             "Prints the resolved case, every default written out, and below it as comments: the numbers of particles "
             "and steps, the quasistatic and size coefficients phi and psi, the critical time step, and an estimate of "
             "time (processor time of one thread: stepping, output, figures) and peak memory, for which the case is set "
-            "going for a moment. The output is a case file again.\n\n"
+            "going for a moment. Of bonds and of particles that deform also the limits of their specimen, if it stands "
+            "before the first step, for which the sample is prepared. The output is a case file again.\n\n"
             "Everything that is wrong with a case is reported at once, as `file:line:column: key: what is wrong "
             "(accepted: what would be right)`.\n\n"
             "Given the folder of a run, says of each file in it, and of each checkpoint and snapshot, whether it is "
@@ -140,14 +141,25 @@ const scree_verb scree_verbs[] = {
         .text =
             "Takes the specimen of a case as it stands when its first stage that takes steps begins, or as the newest "
             "checkpoint in the folder of a run has it, and prints what explicit schemes bear: the critical step from "
-            "the eigenvalues of all its contacts, dashpots counted, and estimates from single bodies beside it.\n\n"
+            "the eigenvalues of all its contacts, dashpots counted, and estimates from single bodies beside it. "
+            "`--output` "
+            "draws the fastest mode: movements as arrows, turning as colours, of spheres a cut.\n\n"
             "For elastic particles also: the spectral radius of the iteration of forces, the largest k_n / E_p, those "
             "of regular lattices, and the critical steps with the strain of the last forces (explicit), relaxed, and "
             "solved for in every step (implicit). Lines are name, value, unit, meaning; docs/theory/ddem.md has the "
             "derivations. Contacts that slide count as if they stuck; forces that turn with a contact do not count.",
         .argument = {{"CASE", "a case file, the name of a built-in case, or the folder of a run", SCREE_VALUE_CASE,
                       false, false}},
-        .option = {OPTION_SET, OPTION_QUICK, OPTION_AT, OPTION_YOUNG, OPTION_POISSON},
+        .option = {OPTION_SET,
+                   OPTION_QUICK,
+                   OPTION_AT,
+                   OPTION_YOUNG,
+                   OPTION_POISSON,
+                   {.name = "output",
+                    .letter = 'o',
+                    .value = "FILE",
+                    .meaning = "draw the fastest mode, as FILE.svg and FILE.png",
+                    .kind = SCREE_VALUE_FILE}},
         .example = {{"scree stability my.yaml", "before a run"},
                     {"scree stability out --young-modulus 2e11 --poisson-ratio 0.35",
                      "a finished run, as if its particles were elastic"}},
@@ -261,6 +273,47 @@ const scree_verb scree_verbs[] = {
                     {"scree run --restart out", "continue after an interrupt"}},
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_GUARD, SCREE_ERROR_IO, SCREE_INTERRUPTED},
         .function = scree_verb_run,
+    },
+    {
+        .name = "bisect",
+        .meaning = "find the limit of a number of a case by runs",
+        .text =
+            "Runs a case with values of one of its numbers until it is known between which two of them runs cease to "
+            "stand: by bisection, each run a process of its own. A run stands if it comes to its end and its result "
+            "`--measure` is `--below` one limit, and `--above` another; one that a guard stops does not. Limits of "
+            "stability stop "
+            "none of them beforehand (`guard.stability: warn`).\n\n"
+            "The folder has the runs (`runs/`), a row of each (`bisection.csv`), and in `summary.json` the results of "
+            "the last run that stood with `limit`, `limit_stands`, `limit_fails`, `limit_runs` (SI units). Called "
+            "again it goes on with what is there. A sweep does it at every point of its grid (`bisect:` in its file).",
+        .argument = {{"CASE", "a case file, or the name of a built-in case", SCREE_VALUE_CASE, false, false}},
+        .option =
+            {{.name = "output",
+              .letter = 'o',
+              .value = "DIR",
+              .meaning = "folder of the search",
+              .preset = "out",
+              .kind = SCREE_VALUE_FOLDER},
+             OPTION_SET,
+             OPTION_QUICK,
+             {.name = "key", .value = "KEY", .meaning = "path of the number, such as integrator.step"},
+             {.name = "from", .value = "VALUE", .meaning = "one end, with its unit"},
+             {.name = "to", .value = "VALUE", .meaning = "the other end"},
+             {.name = "tolerance",
+              .value = "NUMBER",
+              .meaning = "distance of the ends at which it is over, relative",
+              .preset = "0.001"},
+             {.name = "measure", .value = "RESULT", .meaning = "result of a run by which it stands"},
+             {.name = "below", .value = "NUMBER", .meaning = "the result of a run that stands is below this (SI)"},
+             {.name = "above", .value = "NUMBER", .meaning = "the result of a run that stands is above this (SI)"},
+             OPTION_MEMBER_THREADS,
+             {.name = "force", .letter = 'f', .meaning = "replace the search of another case in DIR"},
+             OPTION_QUIET},
+        .example = {{"scree bisect ddem-stability -o step --key integrator.step --from 200ns --to 400ns "
+                     "--measure kinetic --below 1e-3 --above=-1e-3",
+                     "the largest step that stands"}},
+        .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO, SCREE_INTERRUPTED},
+        .function = scree_verb_bisect,
     },
     {
         .name = "sweep",

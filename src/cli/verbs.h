@@ -89,6 +89,7 @@ scree_status scree_verb_stability(const struct scree_command *command);
 scree_status scree_verb_moduli(const struct scree_command *command);
 scree_status scree_verb_theory_lattice(const struct scree_command *command);
 scree_status scree_verb_run(const struct scree_command *command);
+scree_status scree_verb_bisect(const struct scree_command *command);
 scree_status scree_verb_sweep(const struct scree_command *command);
 scree_status scree_verb_reproduce(const struct scree_command *command);
 scree_status scree_verb_report(const struct scree_command *command);

@@ -317,6 +317,19 @@ OF_BODY void strain_all(int d, const scree_context *c, double theta, double extr
     }
 }
 
+/// theta where a body has up to so many contacts.
+static double relaxation_for(const numbers *n, double contacts)
+{
+    return isnan(n->relaxation) ? 1 / (1 + n->soft * contacts) : n->relaxation;
+}
+
+double scree_deformation_share(const scree_model *model, double contacts)
+{
+    if (!own_numbers(model)) return 0;
+    const double theta = relaxation_for(own_numbers(model), contacts);
+    return theta / (2 - theta);
+}
+
 static double relaxation(const scree_context *c)
 {
     const numbers *n = own_numbers(c->model);
@@ -326,7 +339,7 @@ static double relaxation(const scree_context *c)
         contacts = c->state->sum[row].contacts > contacts ? c->state->sum[row].contacts : contacts;
     double most = (double)contacts;
     scree_comm_maximum(c->state, &most, 1);
-    return 1 / (1 + n->soft * most);
+    return relaxation_for(n, most);
 }
 
 /// Adds up `term` of all bodies.

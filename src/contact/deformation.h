@@ -11,4 +11,8 @@ scree_compliance scree_deformation_compliance(const scree_model *model, int mate
 /// Of what these are, plane strain or stress, or a solid.
 scree_plane_condition scree_deformation_condition(const scree_model *model);
 
+/// How the strain of the next step answers a mode of forces that changes its sign in every step, where a body has up to
+/// `contacts` of them (specimen/stability.h, scree_strain_scheme): 1 explicit, theta / (2 - theta) relaxed, 0 rigid.
+double scree_deformation_share(const scree_model *model, double contacts);
+
 #endif

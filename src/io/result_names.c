@@ -40,6 +40,10 @@ const scree_result scree_run_results[] = {
     {"rattler_fraction", "1", "share of rattlers at the end"},
     {"solid_fraction", "1", "solid fraction at the end"},
     {"unbalanced_ratio", "1", "unbalanced force ratio at the end"},
+    {"kinetic", "J", "kinetic energy at the end"},
+    {"dissipated_damping", "J", "energy dissipated by the dashpots of contacts until the end"},
+    {"elastic_normal", "J", "elastic energy of the overlaps at the end"},
+    {"elastic_tangential", "J", "elastic energy of the tangential springs at the end"},
     {"stress_axial_contacts", "Pa", "axial stress of the contacts at the end, compression positive"},
     {"stress_lateral_contacts", "Pa", "lateral stress of the contacts at the end, in 3D the mean of both"},
     {"stress_shear_contacts", "Pa", "shear stress of the contacts at the end, of the first and the last axis"},
@@ -75,6 +79,11 @@ const scree_result scree_run_results[] = {
     {"loading_processor_time", "s", "processor time of the stage"},
     {"corner_distortion", "1", "non-affine displacement at the corners over the width"},
     {"boundary_roughness", "1", "roughness of a round sample's outline in mean diameters"},
+    // a search for a limit
+    {"limit", "1", "of a key, between runs that stand and runs that do not, in SI units"},
+    {"limit_stands", "1", "nearest value at which a run stands"},
+    {"limit_fails", "1", "nearest value at which none does"},
+    {"limit_runs", "1", "runs of the search"},
 };
 const size_t scree_run_results_count = sizeof scree_run_results / sizeof *scree_run_results;
 

@@ -1,7 +1,9 @@
 /// Limits of explicit schemes for the specimen of a simulation, for programs.
 #include "specimen/stability.h"
+#include "contact/deformation.h"
 #include "library/handle.h"
 #include "library/specimen.h"
+#include "model/critical_step.h"
 #include "theory/lattice.h"
 
 #include <string.h>
@@ -41,16 +43,16 @@ static scree_status undamped_step(scree_specimen *s, double damped, double *step
     return status;
 }
 
-/// Limits of unbounded lattices of the mean particle.
-static void compare_lattices(const scree_model *model, const scree_specimen *s, double young, scree_stability *out)
+/// Limits of unbounded lattices of the mean particle, of this modulus and compliance.
+static void compare_lattices(const scree_model *model, double young, scree_compliance by, scree_stability *out)
 {
-    const bool solid = s->dimension == 3;
+    const bool solid = model->dimension == 3;
     const scree_lattice_material unit = {.radius = model->mean_radius,
                                          .length = model->thickness,
                                          .normal = 1,
-                                         .shear = young * s->compliance[0].shear,
-                                         .trace = young * s->compliance[0].trace};
-    out->row_ratio = 1 / scree_row_radius(s->dimension, &unit);
+                                         .shear = young * by.shear,
+                                         .trace = young * by.trace};
+    out->row_ratio = 1 / scree_row_radius(model->dimension, &unit);
     out->square_ratio = 1 / scree_lattice_radius(solid ? SCREE_LATTICE_SIMPLE_CUBIC : SCREE_LATTICE_SQUARE, &unit);
     out->hexagonal_ratio =
         1 / scree_lattice_radius(solid ? SCREE_LATTICE_FACE_CENTRED : SCREE_LATTICE_HEXAGONAL, &unit);
@@ -82,22 +84,22 @@ static scree_status find_limits(const scree_simulation *simulation, scree_specim
     const double young = mean_modulus(s);
     out->stiffness_ratio = out->normal_stiffness / young;
     out->largest_ratio = out->stiffness_ratio / out->spectral_radius;
-    compare_lattices(&simulation->model, s, young, out);
+    double softness = NAN;
+    if (!status)
+        status = scree_stability_softness(s, scree_strain_explicit(out->spectral_radius), out->step, &softness, error);
+    out->ratio_at_step = out->stiffness_ratio * softness;
+    compare_lattices(&simulation->model, young, s->compliance[0], out);
     return status;
 }
 
-scree_status scree_simulation_stability(scree_simulation *s, const scree_particle_elasticity *elasticity,
-                                        scree_stability *out, scree_error *error)
+static scree_stability nothing_known(const scree_simulation *s)
 {
-    scree_specimen specimen;
-    scree_status status = library_specimen(s, elasticity, &specimen, error);
-    *out = (scree_stability){.bodies = specimen.body_count,
-                             .contacts = specimen.contact_count,
-                             .has_potential = true,
+    return (scree_stability){.has_potential = true,
                              .step = s->model.step * (double)s->model.largest_step,
                              .spectral_radius = NAN,
                              .stiffness_ratio = NAN,
                              .largest_ratio = NAN,
+                             .ratio_at_step = NAN,
                              .row_ratio = NAN,
                              .square_ratio = NAN,
                              .hexagonal_ratio = NAN,
@@ -105,10 +107,70 @@ scree_status scree_simulation_stability(scree_simulation *s, const scree_particl
                              .relaxed_step = NAN,
                              .implicit_step = NAN,
                              .relaxation = NAN};
+}
+
+scree_status scree_simulation_stability(scree_simulation *s, const scree_particle_elasticity *elasticity,
+                                        scree_stability *out, scree_error *error)
+{
+    scree_specimen specimen;
+    scree_status status = library_specimen(s, elasticity, &specimen, error);
+    *out = nothing_known(s);
+    out->bodies = specimen.body_count;
+    out->contacts = specimen.contact_count;
     if (status) return status;
     out->normal_stiffness = mean_normal_stiffness(&specimen);
     out->has_potential = scree_specimen_has_potential(&specimen);
     status = find_limits(s, &specimen, out, error);
     scree_specimen_destroy(&specimen);
+    return status;
+}
+
+// ---- before a run ------------------------------------------------------------------------------------------------
+
+/// Whether the specimen stands before the first step.
+static scree_limits_known what_is_known(const scree_simulation *s)
+{
+    int64_t first = s->model.stage_count, bonds = -1;
+    for (int64_t k = s->model.stage_count - 1; k >= 0; k--) {
+        const scree_module *kind = scree_modules[s->model.stages[k].kind];
+        if (!kind->stage->instant) first = k;
+        if (kind->numbers->bonds && bonds < 0) bonds = k;
+    }
+    if (bonds < 0 && !scree_model_traits(&s->model)->deforms) return SCREE_LIMITS_NONE;
+    return bonds > first ? SCREE_LIMITS_LATER : SCREE_LIMITS_EXACT;
+}
+
+/// What lattices of the mean particle bear.
+static void expect(const scree_simulation *s, scree_stability *out)
+{
+    const scree_model *model = &s->model;
+    const double radius = model->mean_radius;
+    const scree_compliance by = scree_deformation_compliance(model, 0);
+    const scree_contact_tangent t =
+        scree_contact_linearise(model, &model->pairs[0][0], 0.5 * radius, 0.5 * scree_model_mass(model, 0, radius), 0);
+    *out = nothing_known(s);
+    out->normal_stiffness = t.normal_stiffness;
+    if (!(by.shear > 0)) return;
+    const double young = scree_compliance_modulus(scree_deformation_condition(model), by);
+    out->stiffness_ratio = t.normal_stiffness / young;
+    compare_lattices(model, young, by, out);
+}
+
+scree_status scree_case_limits(const scree_case *c, scree_limits_known *known, scree_stability *out, scree_error *error)
+{
+    scree_simulation *s;
+    *known = SCREE_LIMITS_NONE;
+    scree_status status = scree_simulation_create(c, 1, &s, error);
+    if (status) return status;
+    *known = what_is_known(s);
+    *out = nothing_known(s);
+    if (*known == SCREE_LIMITS_EXACT) {
+        status = scree_simulation_begin_stage(s, NULL, error);
+        if (!status) status = scree_simulation_stability(s, NULL, out, error);
+        // Bodies that do not touch yet are no specimen.
+        if (!status && out->contacts == 0) *known = SCREE_LIMITS_LATER;
+    }
+    if (!status && *known == SCREE_LIMITS_LATER) expect(s, out);
+    scree_simulation_free(s);
     return status;
 }

@@ -21,7 +21,8 @@ const scree_choice scree_load_profile_shapes[] = {
     {"cosine", COSINE, "times cos(2 pi s / `wavelength` + `phase`) + `offset`, s from `origin` along `axis`"},
     {0},
 };
-const scree_choice scree_load_profile_axes[] = {{"x", 0, "along x"}, {"y", 1, "along y"}, {"z", 2, "along z"}, {0}};
+const scree_choice scree_load_profile_axes[] = {
+    {"x", 0, "the first axis"}, {"y", 1, "the second axis"}, {"z", 2, "the third axis, in 3D"}, {0}};
 
 bool scree_load_profile_is_uniform(const scree_load_profile *profile)
 {

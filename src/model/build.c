@@ -286,6 +286,7 @@ static void take_numbers(const scree_config *config, scree_model *model)
                                         .travel = bounded ? INFINITY : 0.01 * model->radius_min};
     model->overlap_limit = config->guard.overlap;
     model->energy_growth = config->guard.energy_growth;
+    model->stability_warns = config->guard.stability == SCREE_STABILITY_WARNS;
     model->measure = config->measure;
     model->output = config->output;
 }
@@ -302,16 +303,17 @@ static scree_status resolve_step(scree_model *model, scree_error *error)
     double ticks = (double)model->largest_step;
     model->step = isnan(integrator->step) ? integrator->step_fraction * model->critical_step / ticks : integrator->step;
     if (ticks * model->step <= model->critical_step) return SCREE_OK;
+    if (model->config->guard.stability == SCREE_STABILITY_WARNS) return SCREE_OK;
     if (model->largest_step > 1)
         return FIELD_ERROR(
             error, "integrator.step",
             "the large step, %g steps of %.3g s, is above the critical step of this case, %.3g s, and may "
-            "be unstable; give %.2g s, or auto",
+            "be unstable; give %.2g s, or auto, or guard.stability: warn to see",
             ticks, model->step, model->critical_step, two_digits_below(0.5 * model->critical_step / ticks));
     scree_status status =
         FIELD_ERROR(error, "integrator.step",
                     "a step of %.3g s is above the critical step of this case, %.3g s, and may be unstable; "
-                    "give %.2g s, or auto",
+                    "give %.2g s, or auto, or guard.stability: warn to see",
                     model->step, model->critical_step, two_digits_below(0.5 * model->critical_step));
     if (error) {
         (void)snprintf(error->value, sizeof error->value, "%.6g s", model->step);

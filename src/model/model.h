@@ -79,6 +79,7 @@ struct scree_model {
     scree_servo_limits servo;
     double overlap_limit; ///< 1, largest overlap over the smaller radius
     double energy_growth; ///< 1, largest residual of the ledger over all energy that there is and was
+    bool stability_warns; ///< above a limit of stability a run goes on with a warning
     scree_config_measure measure;
     scree_config_output output;
 

@@ -35,7 +35,9 @@
                     row(uniform) row(two_sizes) row(equal) row(normal) row(log_normal) row(power_law) row(table)
 
 /// What is measured at the end of a run, with tables of its own.
-#define SCREE_MEASURE_MODULES(row) row(cells) row(breaks) row(moduli) row(waves) row(mean_strain) row(slopes)
+#define SCREE_MEASURE_MODULES(row)                                                                                     \
+    row(cells) row(breaks) row(moduli) row(waves) row(gauges) row(elastic_test) row(stability) row(mean_strain)        \
+        row(slopes)
 
 #define SCREE_MODULES(row)                                                                                             \
     SCREE_STATE_MODULES(row)                                                                                           \

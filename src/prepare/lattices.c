@@ -1,6 +1,7 @@
 /// Lattices of equal discs or spheres that touch each other, floor and side walls.
 ///
-/// In 2D rows of discs. hexagonal: n and n - 1 discs in turn, sqrt(3) R apart, in a box 2 n R wide. square: n discs, 2
+/// In 2D rows of discs. hexagonal: n and n - 1 discs in turn, sqrt(3) R apart, in a box 2 n R wide; or it begins with
+/// n - 1. square: n discs, 2
 /// R apart. In 3D square layers of spheres. face_centred: n x m and (n - 1) x (m - 1) spheres in turn, sqrt(2) R apart.
 /// body_centred: the same numbers, 4 / sqrt(3) R apart, in layers of half that distance: neighbours in a layer do not
 /// touch. cubic: n x m spheres, 2 R apart. The last row or layer may be incomplete; it fills from the left (and the
@@ -23,7 +24,22 @@ typedef struct lattice {
     double spacing;    ///< distance of neighbours in a layer, in radii
     double rise;       ///< distance of layers, in radii
     bool staggered;    ///< every second layer is shifted by half the spacing along each side
+    bool later;        ///< the first layer is left out: it begins with a shorter one
 } lattice;
+
+/// Of `hexagonal`.
+typedef struct config {
+    int first_row; ///< 1: a shorter one
+} config;
+static const scree_choice first_rows[] = {
+    {"long", 0, "n discs, then n - 1"},
+    {"short", 1, "n - 1 discs, then n"},
+    {0},
+};
+static const scree_key keys[] = {
+    CHOICE(config, first_row, first_rows, .standard = "long", .when = "method=hexagonal",
+           .meaning = "With which of its two kinds of rows the lattice begins."),
+};
 
 /// Layers (rows in 2D) of a lattice that is n bodies wide and m deep.
 typedef struct layers {
@@ -77,13 +93,14 @@ static size_t fitting(const lattice *kind, double side, double r, bool periodic)
 static void place_body(scree_packing *packing, size_t i, const lattice *kind, const layers *of)
 {
     double r = packing->radius[0];
-    size_t pair = of->full + of->shorter, within = i % pair, layer = 2 * (i / pair) + (within >= of->full);
+    const size_t skipped = kind->later ? of->full : 0, place = i + skipped;
+    size_t pair = of->full + of->shorter, within = place % pair, layer = 2 * (place / pair) + (within >= of->full);
     bool shorter = within >= of->full;
     size_t number = shorter ? within - of->full : within, across = shorter ? of->n - kind->missing[0] : of->n;
     double a = kind->spacing, shift = shorter && kind->staggered ? a / 2 : 0;
     packing->place[0][i] = r * (1 + a * (double)(packing->dimension == 3 ? number % across : number) + shift);
     if (packing->dimension == 3) packing->place[1][i] = r * (1 + a * (double)(number / across) + shift);
-    packing->place[packing->dimension - 1][i] = r * (1 + kind->rise * (double)layer);
+    packing->place[packing->dimension - 1][i] = r * (1 + kind->rise * (double)(layer - (kind->later ? 1 : 0)));
 }
 
 /// Layers of a lattice that repeats itself upwards must be whole and close with the first.
@@ -126,7 +143,7 @@ static scree_status place_lattice(const scree_model *model, const scree_config_s
     for (size_t i = 0; i < count; i++) place_body(packing, i, kind, &of);
     box->width = side_of(kind, of.n, again[0]) * r;
     box->depth = side_of(kind, of.m, again[1]) * r;
-    double needed = (double)layers_needed(&of, count);
+    double needed = (double)layers_needed(&of, count + (kind->later ? of.full : 0)) - (kind->later ? 1 : 0);
     box->height = r * (upwards ? kind->rise * needed : 2 + kind->rise * (needed - 1));
     return SCREE_OK;
 }
@@ -134,25 +151,27 @@ static scree_status place_lattice(const scree_model *model, const scree_config_s
 static scree_status place_hexagonal(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
                                     scree_error *error)
 {
-    return place_lattice(model, stage, packing, (lattice){{1, 1}, 2, sqrt(3.0), true}, error);
+    const config *own = scree_config_own(&scree_module_hexagonal, "stages.prepare", stage->own);
+    const lattice rows = {{1, 1}, 2, sqrt(3.0), true, own && own->first_row == 1};
+    return place_lattice(model, stage, packing, rows, error);
 }
 
 static scree_status place_upright(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
                                   scree_error *error)
 {
-    return place_lattice(model, stage, packing, (lattice){{0, 0}, 2, 2, false}, error);
+    return place_lattice(model, stage, packing, (lattice){{0, 0}, 2, 2, false, false}, error);
 }
 
 static scree_status place_face_centred(const scree_model *model, const scree_config_stage *stage,
                                        scree_packing *packing, scree_error *error)
 {
-    return place_lattice(model, stage, packing, (lattice){{1, 1}, 2, sqrt(2.0), true}, error);
+    return place_lattice(model, stage, packing, (lattice){{1, 1}, 2, sqrt(2.0), true, false}, error);
 }
 
 static scree_status place_body_centred(const scree_model *model, const scree_config_stage *stage,
                                        scree_packing *packing, scree_error *error)
 {
-    return place_lattice(model, stage, packing, (lattice){{1, 1}, 4 / sqrt(3.0), 2 / sqrt(3.0), true}, error);
+    return place_lattice(model, stage, packing, (lattice){{1, 1}, 4 / sqrt(3.0), 2 / sqrt(3.0), true, false}, error);
 }
 
 static scree_status check(const scree_model *model, const scree_config_stage *stage, scree_error *error)
@@ -165,7 +184,9 @@ static scree_status check(const scree_model *model, const scree_config_stage *st
         model->radius_min, model->radius_max, model->species_count > 1 ? "all species, with one radius," : "particles");
 }
 
-#define LATTICE(title, text, dimension, other, function, ...)                                                          \
+static const scree_keys first_row_keys[] = {KEYS_OF("stages.prepare", keys, config)};
+
+#define LATTICE(title, text, dimension, other, function, keys_, count_, ...)                                           \
     const scree_module scree_module_##title = {                                                                        \
         .name = #title,                                                                                                \
         .meaning = text,                                                                                               \
@@ -176,14 +197,16 @@ static scree_status check(const scree_model *model, const scree_config_stage *st
                                                   .check = check,                                                      \
                                                   .place = function,                                                   \
                                                   __VA_ARGS__},                                                        \
+        .keys = keys_,                                                                                                 \
+        .keys_count = count_,                                                                                          \
     }
-LATTICE(hexagonal, "triangular lattice of equal discs that touch", 2, "face_centred", place_hexagonal,
-        .lattice = SCREE_LATTICE_HEXAGONAL + 1);
-LATTICE(square, "square lattice of equal discs that touch", 2, "cubic", place_upright,
+LATTICE(hexagonal, "triangular lattice of equal discs that touch", 2, "face_centred", place_hexagonal, first_row_keys,
+        1, .lattice = SCREE_LATTICE_HEXAGONAL + 1);
+LATTICE(square, "square lattice of equal discs that touch", 2, "cubic", place_upright, NULL, 0,
         .lattice = SCREE_LATTICE_SQUARE + 1);
 LATTICE(face_centred, "face-centred cubic lattice of equal spheres that touch, square layers horizontal", 3,
-        "hexagonal", place_face_centred, .lattice = SCREE_LATTICE_FACE_CENTRED + 1, .turned = true);
+        "hexagonal", place_face_centred, NULL, 0, .lattice = SCREE_LATTICE_FACE_CENTRED + 1, .turned = true);
 LATTICE(body_centred, "body-centred cubic lattice of equal spheres that touch along the diagonals of its cells", 3,
-        "hexagonal", place_body_centred, .lattice = SCREE_LATTICE_BODY_CENTRED + 1);
-LATTICE(cubic, "simple cubic lattice of equal spheres that touch", 3, "square", place_upright,
+        "hexagonal", place_body_centred, NULL, 0, .lattice = SCREE_LATTICE_BODY_CENTRED + 1);
+LATTICE(cubic, "simple cubic lattice of equal spheres that touch", 3, "square", place_upright, NULL, 0,
         .lattice = SCREE_LATTICE_SIMPLE_CUBIC + 1);

@@ -94,6 +94,7 @@ static scree_status make_case(const scree_case *c, probe_case *probe, scree_erro
     config->wall_count = 0;
     config->guard.overlap = fmax(config->guard.overlap, DEEP);
     config->guard.energy_growth = INFINITY;
+    config->guard.stability = SCREE_STABILITY_WARNS;
     // The smaller case is stable at another step.
     config->integrator.step = NAN;
     config->integrator.step_fraction = STEP_FRACTION;

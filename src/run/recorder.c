@@ -217,6 +217,8 @@ static bool checkpoint_due(const scree_recorder *recorder, const scree_simulatio
 scree_status scree_recorder_follow(scree_recorder *recorder, scree_simulation *s, scree_error *error)
 {
     scree_status status = SCREE_OK;
+    if (s->warning[0]) scree_log_write(&recorder->log, SCREE_LOG_WARNING, "%s", s->warning);
+    s->warning[0] = 0;
     if (s->sampled) {
         if ((status = scree_series_append(&recorder->series, s->sample, error))) return status;
         s->state.stage.samples++;

@@ -200,9 +200,18 @@ static void summarise_series(const scree_series *series, scree_summary *summary)
         summarise_volume(&l, series, summary);
     }
     if (series->row_count == 0) return;
-    static const char *const finals[] = {
-        "coordination",     "coordination_without_rattlers", "rattler_fraction",        "solid_fraction",
-        "unbalanced_ratio", "stress_axial_contacts",         "stress_lateral_contacts", "stress_shear_contacts"};
+    static const char *const finals[] = {"coordination",
+                                         "coordination_without_rattlers",
+                                         "rattler_fraction",
+                                         "solid_fraction",
+                                         "unbalanced_ratio",
+                                         "kinetic",
+                                         "dissipated_damping",
+                                         "elastic_normal",
+                                         "elastic_tangential",
+                                         "stress_axial_contacts",
+                                         "stress_lateral_contacts",
+                                         "stress_shear_contacts"};
     for (size_t k = 0; k < sizeof finals / sizeof *finals; k++)
         scree_summary_set_number(summary, finals[k], scree_series_get(series, finals[k])[series->row_count - 1]);
 }

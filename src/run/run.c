@@ -33,6 +33,7 @@ static scree_status imposed(scree_recorder *recorder, scree_simulation *s, scree
 {
     double begin = scree_clock();
     scree_status status = SCREE_OK;
+    scree_error second;
     const volatile int *stop = recorder->options->stop;
     while (!status && s->state.stage.index < s->model.stage_count) {
         if (stop && *stop) {
@@ -46,14 +47,17 @@ static scree_status imposed(scree_recorder *recorder, scree_simulation *s, scree
             break;
         }
         status = scree_simulation_step(s, error);
+        if (status && s->whole && !scree_recorder_checkpoint(recorder, s, &second))
+            scree_log_write(&recorder->log, SCREE_LOG_INFO, "checkpoint before the step that is refused");
         if (!status) status = scree_recorder_follow(recorder, s, error);
     }
     recorder->stepping = scree_clock() - begin;
     return status;
 }
 
-/// A guard has stopped the run: what it had is kept for inspection, as a snapshot. There is no checkpoint: what goes on
-/// from the last one, which all guards have passed, stops here again, unless the limit is another one.
+/// A guard has stopped the run: what it had is kept for inspection, as a snapshot. There is no checkpoint of a step
+/// that went wrong: what goes on from the last one, which all guards have passed, stops here again, unless the limit is
+/// another one.
 static void save_after_failure(scree_recorder *recorder, scree_simulation *s, const scree_error *error)
 {
     scree_error second;
@@ -181,6 +185,9 @@ static scree_status record(scree_simulation *s, const scree_run_options *options
         scree_log_write(&recorder.log, SCREE_LOG_INFO, "step %.4g s (N_S %llu, critical %.4g s), phi %.4g, psi %.4g",
                         s->model.step, (unsigned long long)s->model.largest_step, s->model.critical_step, s->model.phi,
                         s->model.psi);
+        if (s->model.step * (double)s->model.largest_step > s->model.critical_step)
+            scree_log_write(&recorder.log, SCREE_LOG_WARNING,
+                            "the step is above the estimated critical one, which guard.stability: warn allows");
         if (!restarted) scree_quasistatic_warn(&s->model, &recorder.log);
         log_meshes(&recorder, s->work.wall_set);
         status = imposed(&recorder, s, error);

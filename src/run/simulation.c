@@ -7,6 +7,7 @@
 #include "measure/measure.h"
 #include "run/own_force.h"
 #include "run/sample.h"
+#include "run/stability.h"
 #include "run/step.h"
 #include "search/neighbours.h"
 #include "shape/wall_set.h"
@@ -131,6 +132,7 @@ scree_status scree_stage_enter(scree_simulation *s, bool restart, scree_error *e
             status = open_ledger(s, error);
         if (!status && !s->stage->instant) status = begin_modules(s, error);
         if (status) return status;
+        if (!s->stage->instant) scree_stability_ask(s, true);
     }
     if (restart) scree_gravity_enter(&s->stage_model, &s->state, false);
     if (s->stage->plan) s->stage->plan(s);
@@ -170,12 +172,17 @@ scree_status scree_simulation_step(scree_simulation *s, scree_error *error)
     s->sampled = s->stage_ended = false;
     if (s->state.stage.counter == SCREE_STAGE_ENDED) leave_stage(s);
     if (s->state.stage.counter == SCREE_STAGE_NOT_BEGUN) return begin_next(s, error);
-    scree_status status = scree_step(s, error);
+    s->whole = true;
+    scree_status status = scree_stability_check(s, error);
     if (status) return status;
+    s->whole = false;
+    if ((status = scree_step(s, error))) return status;
     uint64_t done = s->state.step - s->state.stage.first_step;
-    if (done % s->plan.interval != 0 && done != s->plan.expected) return SCREE_OK;
-    s->sampled = true;
-    if ((status = scree_sample_take(s, error))) return status;
+    const bool due = done % s->plan.interval == 0 || done == s->plan.expected;
+    if (due && (status = scree_sample_take(s, error))) return status;
+    s->sampled = due;
+    scree_stability_ask(s, false);
+    if (!due) return SCREE_OK;
     bool finished = false;
     if ((status = s->stage->finished(s, &finished, error))) return status;
     if (finished) end_stage(s);

@@ -51,6 +51,8 @@ struct scree_simulation {
     bool sampled;          ///< the last step made a sample
     bool stage_ended;      ///< the last step ended a stage
     char reason[192];      ///< why it ended
+    char warning[512];     ///< what a check has found, until it has been told; empty: nothing
+    bool whole;            ///< a step that failed has not begun: the state can be gone on from
     scree_own_force_list forces;
     scree_contact_point *points; ///< what the library has handed out
     size_t point_capacity;

@@ -41,7 +41,8 @@ static const scree_key receiver_keys[] = {
         .meaning = "The particle whose centre is nearest to this place is listened to."),
 };
 static const scree_section receiver_table[] = {TABLE("receivers", "A place to listen at.", receiver_keys)};
-static const scree_choice axes[] = {{"x", 0, "along x"}, {"y", 1, "along y"}, {"z", 2, "along z"}, {0}};
+static const scree_choice axes[] = {
+    {"x", 0, "the first axis"}, {"y", 1, "the second axis"}, {"z", 2, "the third axis, in 3D"}, {0}};
 
 #define NAMED(label, member, kind, ...)                                                                                \
     {                                                                                                                  \

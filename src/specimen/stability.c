@@ -410,6 +410,78 @@ scree_status scree_critical_step(const scree_specimen *s, scree_strain_scheme sc
     return status;
 }
 
+// ---- at a given step ---------------------------------------------------------------------------------------------
+
+/// Largest eigenvalue at the step and share of `o`.
+static scree_status use_at(operator_context *o, bool deforms, double accuracy, double *use, scree_error *error)
+{
+    const scree_linear_map rigid = {apply_rigid, o, scree_specimen_motions(o->s), true};
+    const scree_linear_map deformable = {apply_deformable, o, scree_specimen_contact_forces(o->s),
+                                         has_symmetric_scheme(o->s)};
+    scree_eigenvalue largest = {0};
+    scree_status status = scree_eigen_largest(deforms ? &deformable : &rigid, accuracy, &largest, NULL, error);
+    *use = largest.value;
+    return status;
+}
+
+scree_status scree_stability_use(const scree_specimen *s, scree_strain_scheme scheme, double step, double *use,
+                                 scree_error *error)
+{
+    operator_context o;
+    const bool deforms = scheme.share != 0 && scree_specimen_is_deformable(s);
+    scree_status status = create(&o, s, scheme, error);
+    o.step = step;
+    if (!status) status = use_at(&o, deforms, ACCURACY_BETWEEN, use, error);
+    destroy(&o);
+    return status;
+}
+
+/// Factors of the share between which the use passes 1: one without strains, one at which strains alone reach it.
+static scree_status bracket_softness(operator_context *o, double share, double factor[2], double value[2],
+                                     scree_error *error)
+{
+    factor[1] = 1 / (share * o->scheme.radius);
+    o->scheme.share = 0;
+    scree_status status = use_at(o, false, ACCURACY_BETWEEN, &value[0], error);
+    value[0] -= 1;
+    for (int k = 0; k < MOST_ITERATIONS && !status && value[0] < 0 && !(value[1] > 0); k++) {
+        factor[1] *= 1.02;
+        o->scheme.share = share * factor[1];
+        status = use_at(o, true, COARSE, &value[1], error);
+        value[1] -= 1;
+    }
+    return status;
+}
+
+scree_status scree_stability_softness(const scree_specimen *s, scree_strain_scheme scheme, double step, double *answer,
+                                      scree_error *error)
+{
+    operator_context o;
+    double factor[2] = {0, 0}, value[2] = {0, 0};
+    int last = -1;
+    *answer = INFINITY;
+    if (!(scheme.share > 0 && scheme.radius > 0)) return SCREE_OK;
+    scree_status status = create(&o, s, scheme, error);
+    o.step = step;
+    if (!status) status = bracket_softness(&o, scheme.share, factor, value, error);
+    // Regula falsi as in find_between.
+    *answer = value[0] < 0 ? factor[1] : 0;
+    for (int k = 0; k < MOST_ITERATIONS && !status && value[0] < 0; k++) {
+        *answer = (factor[0] * value[1] - factor[1] * value[0]) / (value[1] - value[0]);
+        double there;
+        o.scheme.share = scheme.share * *answer;
+        status = use_at(&o, true, ACCURACY_BETWEEN, &there, error);
+        const int end = --there > 0;
+        if (end == last) value[1 - end] *= 0.5;
+        factor[end] = *answer;
+        value[end] = there;
+        last = end;
+        if (fabs(there) <= SETTLED || factor[1] - factor[0] <= SETTLED * factor[1]) break;
+    }
+    destroy(&o);
+    return status;
+}
+
 // ---- steps of single bodies --------------------------------------------------------------------------------------
 
 double scree_step_of_extremes(const scree_specimen *s)

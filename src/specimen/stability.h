@@ -47,6 +47,27 @@ double scree_relaxation(double radius);
 scree_status scree_critical_step(const scree_specimen *specimen, scree_strain_scheme scheme, double *step, double *mode,
                                  scree_error *error) __attribute__((warn_unused_result));
 
+/// How much of the limit a step [s] uses: the largest eigenvalue of the map whose eigenvalue is 1 at the critical step;
+/// below 1 the step is stable, above it is not. Goes with the square of the step between rigid particles without
+/// dashpots. Errors: memory; no convergence.
+scree_status scree_stability_use(const scree_specimen *specimen, scree_strain_scheme scheme, double step, double *use,
+                                 scree_error *error) __attribute__((warn_unused_result));
+
+/// A bound of it from single bodies, never below it, at a hundredth of the cost; INFINITY where there is none
+/// (bound.c). share: of the scheme. Errors: memory.
+scree_status scree_stability_bound(const scree_specimen *specimen, double share, double step, double *bound,
+                                   scree_error *error) __attribute__((warn_unused_result));
+
+/// The same of the spectral radius of B.
+scree_status scree_radius_bound(const scree_specimen *specimen, double *bound, scree_error *error)
+    __attribute__((warn_unused_result));
+
+/// The factor by which particles could be softer, or contacts stiffer against them, until the step [s] is critical: the
+/// largest k_n / E_p at this step over the present one. Below 1 it is not stable now; 0 where the step is not even with
+/// rigid particles; INFINITY where strains do not count (rigid, implicit). Errors: memory; no convergence.
+scree_status scree_stability_softness(const scree_specimen *specimen, scree_strain_scheme scheme, double step,
+                                      double *factor, scree_error *error) __attribute__((warn_unused_result));
+
 /// Steps [s] from single bodies: 2 sqrt(m / k) least over the bodies with the largest stiffness k of each while its
 /// neighbours stand (M 2.17, 2.18), and sqrt(m_min / k_max) (M 2.19 with alpha = 1). Errors: memory.
 scree_status scree_step_of_bodies(const scree_specimen *specimen, double *step, scree_error *error)

@@ -91,6 +91,28 @@ static scree_status write_case(const char *path, const char *text, scree_error *
     return scree_replace_finish(path, file, whole, error);
 }
 
+enum { MOST_ARGUMENTS = 32, NUMBER_TEXT = 32 };
+
+/// The process of a member that searches for a limit; it goes on by itself with what is there.
+static scree_status start_search(const drive *d, const scree_member_paths *paths, job *j, scree_error *error)
+{
+    const scree_bisection *what = &d->sweep->bisection;
+    char threads[16], tolerance[NUMBER_TEXT], below[NUMBER_TEXT], above[NUMBER_TEXT];
+    (void)snprintf(threads, sizeof threads, "%d", d->options->threads > 0 ? d->options->threads : 1);
+    (void)snprintf(tolerance, sizeof tolerance, "%.9g", what->tolerance);
+    (void)snprintf(below, sizeof below, "--below=%.17g", what->below);
+    (void)snprintf(above, sizeof above, "--above=%.17g", what->above);
+    const char *arguments[MOST_ARGUMENTS] = {
+        d->options->program, "bisect",    paths->file,      "--output",  paths->folder,    "--key",
+        what->key,           "--from",    what->between[0], "--to",      what->between[1], "--tolerance",
+        tolerance,           "--measure", what->measure,    "--threads", threads,          "--force"};
+    size_t count = 18;
+    if (!isnan(what->below)) arguments[count++] = below;
+    if (!isnan(what->above)) arguments[count++] = above;
+    scree_member_note(j->log, "searches in %s", paths->folder);
+    return scree_process_start(arguments, j->log, &j->process, error);
+}
+
 /// The process of a member: from the begin, or from its checkpoint.
 static scree_status start_process(const drive *d, const scree_member_paths *paths, scree_member_state state, job *j,
                                   scree_error *error)
@@ -134,7 +156,8 @@ static scree_status start_member(const drive *d, const scree_member_paths *paths
     if (!*running) return SCREE_OK;
     status = scree_member_text(d->sweep, j->member, &text, error);
     if (!status) status = write_case(paths->file, text, error);
-    if (!status) status = start_process(d, paths, state, j, error);
+    if (!status && d->sweep->bisects) status = start_search(d, paths, j, error);
+    if (!status && !d->sweep->bisects) status = start_process(d, paths, state, j, error);
     free(text);
     return status;
 }

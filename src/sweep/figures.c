@@ -288,12 +288,12 @@ static void draw_measure(const scree_sweep_results *results, size_t k, size_t di
 
 // ---- relations ---------------------------------------------------------------------------------------------------
 
-/// Means of measure y over those of measure x at all points of the grid, in the order of x.
-static void relate(const scree_sweep_results *results, size_t x, size_t y, sheet *s)
+/// Means of measure y over those of measure x at points [first, first + count) of the grid, in the order of x.
+static void relate(const scree_sweep_results *results, size_t x, size_t y, size_t first, size_t count, sheet *s)
 {
     const scree_sweep *sweep = results->sweep;
-    for (size_t point = 0; point < sweep->point_count; point++) {
-        const scree_estimate *at = &results->estimate[point * sweep->measure_count];
+    for (size_t point = 0; point < count; point++) {
+        const scree_estimate *at = &results->estimate[(first + point) * sweep->measure_count];
         size_t place = point;
         for (; place > 0 && s->x[place - 1] > at[x].mean; place--) {
             s->x[place] = s->x[place - 1];
@@ -305,38 +305,75 @@ static void relate(const scree_sweep_results *results, size_t x, size_t y, sheet
     }
 }
 
-static void draw_relation(const scree_sweep_results *results, const char *name_x, const char *name_y)
+/// Points of the grid that are one line of a relation: where several dimensions vary those of the last one, if the
+/// lines are not too many.
+static size_t points_of_line(const scree_sweep *sweep)
 {
-    const scree_sweep *sweep = results->sweep;
-    size_t x = measure_named(sweep, name_x, ""), y = measure_named(sweep, name_y, "");
-    size_t other_x = theory_of(sweep, x), other_y = theory_of(sweep, y);
-    char x_label[LABEL], y_label[LABEL], name[320], title[TITLE];
-    sheet s[2] = {0};
+    if (sweep->dimension_count < 2) return sweep->point_count;
+    const size_t each = sweep->dimension[sweep->dimension_count - 1].count;
+    return sweep->point_count / each <= MOST_LINES ? each : sweep->point_count;
+}
+
+/// What a relation is between; the closed forms are those of y over those of x, or over x itself where it has none.
+typedef struct related {
+    size_t x, y, closed_x, closed_y;
+    size_t each; ///< points a line
+} related;
+
+/// A line of simulations, and its closed form.
+static bool draw_line(const scree_sweep_results *results, const related *r, size_t first, sheet s[2],
+                      scree_chart_line *points, scree_chart_line *closed)
+{
     scree_error error;
-    bool theory = other_x < sweep->measure_count && other_y < sweep->measure_count;
-    if (take_sheet(&s[0], sweep->point_count, &error)) return;
-    relate(results, x, y, &s[0]);
-    bool several = sweep->realisations > 1;
-    scree_chart_line line[2] = {{.x = s[0].x,
+    const bool several = results->sweep->realisations > 1;
+    if (take_sheet(&s[0], r->each, &error)) return false;
+    relate(results, r->x, r->y, first, r->each, &s[0]);
+    *points = (scree_chart_line){.x = s[0].x,
                                  .y = s[0].y,
                                  .low = several ? s[0].low : NULL,
                                  .high = several ? s[0].high : NULL,
-                                 .count = sweep->point_count,
-                                 .points = true}};
-    if (theory && !take_sheet(&s[1], sweep->point_count, &error)) {
-        relate(results, other_x, other_y, &s[1]);
-        line[1] = line[0];
-        line[0] = (scree_chart_line){.x = s[1].x, .y = s[1].y, .count = sweep->point_count};
-        contrast(&line[1], &line[0]);
+                                 .count = r->each,
+                                 .points = true};
+    if (r->closed_y == results->sweep->measure_count || take_sheet(&s[1], r->each, &error)) return true;
+    relate(results, r->closed_x, r->closed_y, first, r->each, &s[1]);
+    *closed = (scree_chart_line){.x = s[1].x, .y = s[1].y, .count = r->each};
+    return true;
+}
+
+static void draw_relation(const scree_sweep_results *results, const char *name_x, const char *name_y)
+{
+    const scree_sweep *sweep = results->sweep;
+    related r = {.x = measure_named(sweep, name_x, ""), .y = measure_named(sweep, name_y, "")};
+    r.closed_x = theory_of(sweep, r.x);
+    r.closed_y = theory_of(sweep, r.y);
+    r.each = points_of_line(sweep);
+    if (r.closed_x == sweep->measure_count) r.closed_x = r.x;
+    const bool theory = r.closed_y < sweep->measure_count;
+    const size_t lines = sweep->point_count / r.each;
+    char x_label[LABEL], y_label[LABEL], label[MOST_LINES][LABEL], text[LABEL], name[320], title[TITLE];
+    sheet s[2 * MOST_LINES] = {0};
+    scree_chart_line line[2 * MOST_LINES] = {0};
+    size_t count = 0;
+    // Closed forms first: the points lie on them.
+    for (size_t k = 0; k < lines; k++) {
+        scree_chart_line *closed = &line[k], *points = &line[theory ? lines + k : k];
+        if (!draw_line(results, &r, k * r.each, &s[2 * k], points, closed)) break;
+        count += theory ? 2 : 1;
+        if (theory) contrast(points, closed);
+        if (lines == 1) continue;
+        scree_point_label(sweep, k * r.each, sweep->dimension_count - 1, text, sizeof text);
+        plain(label[k], text);
+        points->label = label[k];
+        closed->label = NULL;
+        points->colour = closed->colour = (int)k + 1;
     }
     (void)axis_label(x_label, name_x, unit_of(name_x));
     (void)axis_label(y_label, name_y, unit_of(name_y));
-    write_title(title, results, "");
-    scree_chart chart = {
-        .title = title, .x_label = x_label, .y_label = y_label, .line = line, .line_count = s[1].x ? 2 : 1};
+    write_title(title, results, lines > 1 && theory ? "closed forms as lines" : "");
+    scree_chart chart = {.title = title, .x_label = x_label, .y_label = y_label, .line = line, .line_count = count};
     (void)snprintf(name, sizeof name, "%s-over-%s", name_y, name_x);
-    draw(results, name, &chart);
-    for (size_t i = 0; i < 2; i++) scree_release(&s[i].x);
+    if (count == (theory ? 2 : 1) * lines) draw(results, name, &chart);
+    for (size_t i = 0; i < 2 * MOST_LINES; i++) scree_release(&s[i].x);
 }
 
 void scree_sweep_draw_measures(const scree_sweep_results *results)

@@ -1,6 +1,7 @@
 /// Reading a sweep: its file, the case it is about, the grid, and the case of every point, with all problems at once.
 #include "case/case.h"
 #include "case/templates.h"
+#include "sweep/bisect.h"
 #include "sweep/sweep.h"
 #include "sweep/templates.h"
 
@@ -157,6 +158,51 @@ static void check_told(scree_reader *reader, const scree_sweep *sweep)
     }
 }
 
+/// The part of a search that is wrong, at its place.
+static void refuse_bisect(scree_reader *reader, const char *key, const char *accepted, const char *message)
+{
+    char path[48];
+    const scree_node *section = scree_node_find(reader->root, "bisect");
+    const scree_node *node = section ? scree_node_find(section, key) : NULL;
+    (void)snprintf(path, sizeof path, "bisect.%s", key);
+    scree_problem_add(reader, node ? node->place : section->place, path, node ? node->text : NULL, accepted, "%s",
+                      message);
+}
+
+/// What members search for, where they do.
+static void keep_bisect(scree_reader *reader, scree_sweep *sweep)
+{
+    const scree_sweep_bisect *b = &sweep->config.bisect;
+    if (!scree_node_find(reader->root, "bisect")) return;
+    sweep->bisects = true;
+    sweep->bisection = (scree_bisection){
+        .key = b->key, .tolerance = b->tolerance, .measure = b->measure, .below = b->below, .above = b->above};
+    const scree_node *first = b->between ? b->between->first : NULL;
+    if (!b->key || !b->key[0]) refuse_bisect(reader, "key", NULL, "says nothing about what is searched for");
+    if (!first || b->between->count != 2 || !first->text || !first->next->text) {
+        refuse_bisect(reader, "between", "two values", "expected two values, of which one stands");
+        return;
+    }
+    sweep->bisection.between[0] = first->text;
+    sweep->bisection.between[1] = first->next->text;
+}
+
+/// Whether the case of every point has what is searched for.
+static void check_bisect(scree_reader *reader, const scree_sweep *sweep)
+{
+    for (size_t point = 0; point < sweep->point_count && sweep->bisects; point++) {
+        scree_case *c;
+        double ends[2];
+        scree_error error = {0};
+        if (scree_member_case(sweep, point, &c, NULL)) return;
+        scree_status status = scree_bisection_check(c, &sweep->bisection, ends, &error);
+        scree_case_free(c);
+        if (!status) continue;
+        refuse_bisect(reader, error.field, error.accepted[0] ? error.accepted : NULL, error.message);
+        return;
+    }
+}
+
 /// --set of the command line, for all members and after everything else.
 static void keep_overrides(scree_reader *reader, scree_sweep *sweep, const scree_sweep_read_options *options)
 {
@@ -202,9 +248,11 @@ static void apply_rules(scree_reader *reader, void *user)
     }
     check_measures(reader, sweep);
     keep_overrides(reader, sweep, r->in->options);
+    keep_bisect(reader, sweep);
     if (!scree_sweep_expand(reader, sweep) || !sweep->case_text) return;
     scree_sweep_check_cases(reader, sweep);
     if (scree_problems_count(reader->problems) == 0) check_told(reader, sweep);
+    if (scree_problems_count(reader->problems) == 0) check_bisect(reader, sweep);
 }
 
 static scree_status read_text(const input *in, scree_sweep **out, scree_problems **problems)

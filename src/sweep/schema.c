@@ -63,6 +63,21 @@ static const scree_key relation_keys[] = {
 };
 static const scree_section relation_table[] = {TABLE("relations", "One measure over another.", relation_keys)};
 
+typedef scree_sweep_bisect bisect;
+static const scree_key bisect_keys[] = {
+    TEXT(bisect, key, "159", .standard = "", .meaning = "Key path of a number in the case."),
+    VALUES(bisect, between, .standard = "[]", .meaning = "Two values of it: runs stand at one, and not at the other."),
+    KEY(bisect, tolerance, SCREE_KEY_NUMBER, .unit = "1", .standard = "0.1 %", FROM("1e-9"), TO("50 %"),
+        .meaning = "Distance of the two, over their mean, at which the search ends."),
+    TEXT(bisect, measure, "63", .standard = "", .meaning = "Result of a run by which it stands."),
+    KEY(bisect, below, SCREE_KEY_NUMBER, .unit = "1", .standard = "auto", FROM("-1e300"), TO("1e300"),
+        .meaning = "A run stands only if the result is below this (in SI units); auto: no such bound."),
+    KEY(bisect, above, SCREE_KEY_NUMBER, .unit = "1", .standard = "auto", FROM("-1e300"), TO("1e300"),
+        .meaning = "A run stands only if the result is above this; auto: no such bound."),
+};
+static const scree_section bisect_table[] = {
+    TABLE("bisect", "Search for a limit by runs, in the place of one run a member.", bisect_keys)};
+
 typedef scree_sweep_config config;
 static const scree_key root_keys[] = {
     {.name = "sweep",
@@ -94,6 +109,8 @@ static const scree_key root_keys[] = {
     LIST(config, curves, curve_table, curve_count, .meaning = "Curves that are averaged and drawn."),
     LIST(config, relations, relation_table, relation_count,
          .meaning = "Measures that are drawn over one another, a place for each point of the grid."),
+    KEY(config, bisect, SCREE_KEY_SECTION, .sections = bisect_table, .section_count = 1,
+        .meaning = "Search for the limit of a number between which runs stand and do not stand."),
     KEY(config, confidence, SCREE_KEY_NUMBER, .unit = "1", .standard = "95 %", FROM("50 %"), TO("99.9 %"),
         .meaning = "Probability of the confidence intervals."),
 };

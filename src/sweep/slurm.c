@@ -3,6 +3,7 @@
 
 #include "io/run_directory.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -38,6 +39,20 @@ static void put_settings(FILE *file, const scree_sweep_assignment *list, size_t 
     }
 }
 
+/// What a search is about, as options of `scree bisect`.
+static void put_search(FILE *file, const scree_bisection *what)
+{
+    fputs(" --key ", file);
+    put_word(file, what->key);
+    fputs(" --from ", file);
+    put_word(file, what->between[0]);
+    fputs(" --to ", file);
+    put_word(file, what->between[1]);
+    fprintf(file, " --tolerance %g --measure %s", what->tolerance, what->measure);
+    if (!isnan(what->below)) fprintf(file, " --below=%g", what->below);
+    if (!isnan(what->above)) fprintf(file, " --above=%g", what->above);
+}
+
 void scree_sweep_member_command(const scree_sweep *sweep, size_t member, char *text, size_t size)
 {
     size_t point = scree_member_point(sweep, member);
@@ -45,7 +60,7 @@ void scree_sweep_member_command(const scree_sweep *sweep, size_t member, char *t
     text[0] = 0;
     FILE *file = fmemopen(text, size, "w");
     if (!file) return;
-    (void)fputs("scree run ", file);
+    (void)fputs(sweep->bisects ? "scree bisect " : "scree run ", file);
     put_word(file, sweep->case_name);
     if (sweep->quick) (void)fputs(" --quick", file);
     put_settings(file, sweep->fixed, sweep->fixed_count);
@@ -55,6 +70,7 @@ void scree_sweep_member_command(const scree_sweep *sweep, size_t member, char *t
     }
     (void)fprintf(file, " --set seed=%lld", (long long)scree_member_seed(sweep, member));
     put_settings(file, sweep->last, sweep->last_count);
+    if (sweep->bisects) put_search(file, &sweep->bisection);
     (void)fclose(file);
     text[size - 1] = 0;
 }

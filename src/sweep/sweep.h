@@ -38,6 +38,15 @@ typedef struct scree_sweep_relation {
     char *x, *y; ///< measures
 } scree_sweep_relation;
 
+/// Each member is a search for a limit by runs (bisect.c), not a run.
+typedef struct scree_sweep_bisect {
+    char *key; ///< "": no search
+    const scree_node *between;
+    double tolerance;
+    char *measure;
+    double below, above; ///< NAN: not given
+} scree_sweep_bisect;
+
 typedef struct scree_sweep_config {
     int64_t language;
     char *name, *title;
@@ -54,6 +63,7 @@ typedef struct scree_sweep_config {
     int64_t curve_count;
     scree_sweep_relation *relations;
     int64_t relation_count;
+    scree_sweep_bisect bisect;
 } scree_sweep_config;
 
 extern const scree_section scree_sweep_schema;
@@ -108,7 +118,9 @@ struct scree_sweep {
     size_t parameter_count;
     const char **measure;
     size_t measure_count;
-    const char **point; ///< name of each point, unique: "0.3_slow"; "" when nothing varies
+    bool bisects;              ///< members are searches for a limit
+    scree_bisection bisection; ///< what they search for
+    const char **point;        ///< name of each point, unique: "0.3_slow"; "" when nothing varies
     size_t point_count;
     const char **folder; ///< "004-0.3_slow-2" of each member
     size_t member_count;

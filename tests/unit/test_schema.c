@@ -176,7 +176,8 @@ static void compare_section(const scree_section *section, const char *a, const c
                     fail_msg("%s differs", key->name);
         } else if (key->type == SCREE_KEY_LIST || key->type == SCREE_KEY_PAIRS) {
             compare_list(key, a, b);
-        } else if (key->type != SCREE_KEY_PATHS && memcmp(x, y, sizes[key->type]) != 0) {
+        } else if (key->type != SCREE_KEY_PATHS && key->type != SCREE_KEY_VALUES &&
+                   memcmp(x, y, sizes[key->type]) != 0) {
             fail_msg("%s differs", key->name);
         }
     }

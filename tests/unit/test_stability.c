@@ -435,6 +435,110 @@ static void published_form_feeds_itself(void **unused)
     discs_destroy(&d);
 }
 
+// ---- at a given step, and bounds ---------------------------------------------------------------------------------
+
+static double use_of(const scree_specimen *s, scree_strain_scheme scheme, double step)
+{
+    double use;
+    scree_error error;
+    check(scree_stability_use(s, scheme, step, &use, &error), &error);
+    return use;
+}
+
+static double bound_of(const scree_specimen *s, double share, double step)
+{
+    double bound;
+    scree_error error;
+    check(scree_stability_bound(s, share, step, &bound, &error), &error);
+    return bound;
+}
+
+/// At the critical step all is used, and with particles as much softer as the softness says a step is the critical one.
+/// 1e-5: steps are found to 1e-6 of themselves, and their squares count.
+static void use_and_softness_belong_to_the_step(void **unused)
+{
+    (void)unused;
+    for (int k = 0; k < 4; k++) {
+        discs d = discs_irregular(2 + k / 2, (size_t)(4 - k / 2));
+        scree_specimen s = bonded(&d, 2 + k / 2, 0.25, k % 2 ? 0.4 : 0, 0.3);
+        s.tangential = SCREE_TANGENTIAL_CORRECTED;
+        const double radius = radius_of(&s);
+        // k_n / E_p at half of its limit.
+        for (size_t body = 0; body < s.body_count; body++) {
+            s.compliance[body].shear *= 0.5 / radius;
+            s.compliance[body].trace *= 0.5 / radius;
+        }
+        const scree_strain_scheme lagged = scree_strain_explicit(0.5), relaxed = scree_strain_relaxed(0.6, 0.5);
+        const double rigid = critical_step(&s, RIGID, 1), step = critical_step(&s, EXPLICIT, 1);
+        assert_within(use_of(&s, scree_strain_rigid(), rigid), 1, 1e-5);
+        assert_within(use_of(&s, lagged, step), 1, 1e-5);
+        assert_within(use_of(&s, scree_strain_rigid(), 0.5 * rigid), 0.25, 1e-6);
+        for (int which = 0; which < 2; which++) {
+            const scree_strain_scheme scheme = which ? relaxed : lagged;
+            double softness;
+            scree_error error;
+            check(scree_stability_softness(&s, scheme, 0.7 * step, &softness, &error), &error);
+            assert_true(softness > 1);
+            scree_specimen soft = s;
+            soft.compliance = calloc(s.body_count, sizeof *soft.compliance);
+            for (size_t body = 0; body < s.body_count; body++)
+                soft.compliance[body] =
+                    (scree_compliance){softness * s.compliance[body].shear, softness * s.compliance[body].trace};
+            assert_within(use_of(&soft, scheme, 0.7 * step), 1, 1e-5);
+            free(soft.compliance);
+            check(scree_stability_softness(&s, scheme, 1.01 * rigid, &softness, &error), &error);
+            assert_true(softness == 0);
+        }
+        scree_specimen_destroy(&s);
+        discs_destroy(&d);
+    }
+}
+
+/// No bound is below what it bounds, whatever is held or touches a wall; unbounded lattices with normal springs reach
+/// it. 1e-7: as eigenvalues.
+static void bounds_hold_and_lattices_reach_them(void **unused)
+{
+    (void)unused;
+    for (int lattice = 0; lattice < SCREE_LATTICES; lattice++) {
+        const int dimension = scree_lattice_dimension((scree_lattice)lattice);
+        discs d = discs_lattice((scree_lattice)lattice, 4);
+        scree_specimen s = bonded(&d, dimension, 1e-6, 0, 0.3);
+        const double step = critical_step(&s, RIGID, 1);
+        double radius;
+        scree_error error;
+        check(scree_radius_bound(&s, &radius, &error), &error);
+        assert_within(radius, radius_of(&s), 1e-7);
+        // All contacts of a square or simple cubic lattice lie along the axes, so each direction has its own chain.
+        assert_within(bound_of(&s, 0, step), 1, 1e-6);
+        scree_specimen_destroy(&s);
+        discs_destroy(&d);
+    }
+    for (int k = 0; k < 6; k++) {
+        const int dimension = 2 + k % 2;
+        discs d = discs_irregular(dimension, dimension == 2 ? 6 : 3);
+        scree_specimen s = bonded(&d, dimension, 0.25, k < 2 ? 0 : 0.5, 0.2);
+        s.tangential = SCREE_TANGENTIAL_CORRECTED;
+        if (k > 3) {
+            s.held[0] = 63;
+            s.held[3] = 1;
+            s.contact[2].second = SCREE_SPECIMEN_WALL;
+            s.contact[2].arm_second = s.contact[2].reach_second = 0;
+        }
+        const double rigid = critical_step(&s, RIGID, 1), radius = radius_of(&s);
+        for (int share = 0; share < 3; share++) {
+            const scree_strain_scheme scheme = {share == 2 ? -1 : share, radius};
+            const double use = use_of(&s, scheme, 0.6 * rigid), bound = bound_of(&s, scheme.share, 0.6 * rigid);
+            print_message("%dD, share %2d: use %.4f, bound %.4f\n", dimension, (int)scheme.share, use, bound);
+            assert_true(bound >= use * (1 - 1e-9) && bound < 4 * use + 1);
+        }
+        // Where the map is not symmetric there is none.
+        s.tangential = SCREE_TANGENTIAL_AS_PUBLISHED;
+        assert_true((k < 2) == isfinite(bound_of(&s, 1, rigid)));
+        scree_specimen_destroy(&s);
+        discs_destroy(&d);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -447,6 +551,8 @@ int main(void)
         cmocka_unit_test(schemes_past_the_limit),
         cmocka_unit_test(marches_around_the_step),
         cmocka_unit_test(published_form_feeds_itself),
+        cmocka_unit_test(use_and_softness_belong_to_the_step),
+        cmocka_unit_test(bounds_hold_and_lattices_reach_them),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
