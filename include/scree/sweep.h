@@ -83,6 +83,7 @@ typedef struct scree_bisection {
     const char *between[2]; ///< values with units: at one a run stands, at the other it does not
     double tolerance;       ///< 1, relative: how near the two ends are brought
     const char *measure;    ///< a result of a run, a number
+    const char *curve;      ///< column of series.csv that is drawn over time for runs near the limit; NULL: none
     double below, above;    ///< in SI units; NAN: no such bound, but of one of them
 } scree_bisection;
 

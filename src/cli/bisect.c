@@ -36,6 +36,7 @@ static scree_status read_bisection(const scree_command *command, scree_bisection
     if (!status) status = take(command, "from", &what->between[0], error);
     if (!status) status = take(command, "to", &what->between[1], error);
     if (!status) status = take(command, "measure", &what->measure, error);
+    what->curve = scree_command_value(command, "curve");
     if (!status) status = take_number(command, "tolerance", &what->tolerance, error);
     if (!status) status = take_number(command, "below", &what->below, error);
     if (!status) status = take_number(command, "above", &what->above, error);

@@ -306,7 +306,9 @@ const scree_verb scree_verbs[] = {
              {.name = "measure", .value = "RESULT", .meaning = "result of a run by which it stands"},
              {.name = "below", .value = "NUMBER", .meaning = "the result of a run that stands is below this (SI)"},
              {.name = "above", .value = "NUMBER", .meaning = "the result of a run that stands is above this (SI)"},
+             {.name = "curve", .value = "COLUMN", .meaning = "draw this column of the runs near the limit over time"},
              OPTION_MEMBER_THREADS,
+             OPTION_NO_FIGURES,
              {.name = "force", .letter = 'f', .meaning = "replace the search of another case in DIR"},
              OPTION_QUIET},
         .example = {{"scree bisect ddem-stability -o step --key integrator.step --from 200ns --to 400ns "

@@ -17,6 +17,7 @@
 #include "io/result_names.h"
 #include "io/run_directory.h"
 #include "io/summary.h"
+#include "run/columns.h"
 #include "sweep/member.h"
 #include "sweep/process.h"
 #include "sweep/results.h"
@@ -89,6 +90,9 @@ scree_status scree_bisection_check(const scree_case *c, const scree_bisection *w
                       what->measure);
     if (!(what->tolerance > 0 && what->tolerance < 1))
         return refuse(error, "tolerance", "above 0, below 1", "%g is no tolerance", what->tolerance);
+    const char *nearest = NULL;
+    if (what->curve && what->curve[0] && !scree_column_is_known(what->curve, &nearest))
+        return refuse(error, "curve", nearest, "series.csv has no column '%s'", what->curve);
     return check_key(c, what, ends, error);
 }
 
@@ -305,6 +309,42 @@ static scree_status write_table(const search *s, scree_error *error)
     return scree_replace_finish(path, file, true, error);
 }
 
+/// The two runs on each side that are nearest to the limit, those that stand first.
+static scree_status draw_runs(const search *s, scree_error *error)
+{
+    scree_bisection_curve curve[SCREE_BISECTION_CURVES];
+    const double limit = middle(s->run[s->end[0]].value, s->run[s->end[1]].value);
+    char title[256];
+    size_t count = 0;
+    scree_status status = SCREE_OK;
+    for (int stands = 1; stands >= 0; stands--) {
+        int last = -1;
+        for (int k = 0; k < SCREE_BISECTION_CURVES / 2 && !status; k++) {
+            int nearest = -1;
+            for (int i = 0; i < s->count; i++)
+                if (s->run[i].stands == (stands == 1) && i != last &&
+                    (nearest < 0 || fabs(s->run[i].value - limit) < fabs(s->run[nearest].value - limit)))
+                    nearest = i;
+            scree_member_paths paths;
+            if ((last = nearest) < 0 || (status = find_paths(s, nearest, &paths, error))) break;
+            scree_bisection_curve *c = &curve[count++];
+            (void)snprintf(c->folder, sizeof c->folder, "%s", paths.folder);
+            (void)snprintf(c->label, sizeof c->label, "%.5g %s", s->run[nearest].value, stands ? "stands" : "fails");
+            c->stands = stands == 1;
+        }
+    }
+    (void)snprintf(title, sizeof title, "Runs near the limit of %s, %.5g", s->what->key, limit);
+    return status ? status : scree_bisection_figure(s->options->output, title, s->what->curve, curve, count, error);
+}
+
+/// A search is not lost because of a figure.
+static void draw_if_wanted(const search *s)
+{
+    scree_error problem;
+    if (!s->options->figures || !s->what->curve || !s->what->curve[0]) return;
+    if (draw_runs(s, &problem)) scree_sweep_tell(s->options, 1, "figures/runs: %s", problem.message);
+}
+
 /// The folder, with the case that the search began with.
 static scree_status open_folder(const search *s, scree_folder_lock *lock, scree_error *error)
 {
@@ -336,6 +376,7 @@ scree_status scree_bisect(const scree_case *c, const scree_bisection *what, cons
     if (!status) status = open_folder(&s, &lock, error);
     if (!status) status = find_limit(&s, ends, error);
     if (!status) status = write_table(&s, error);
+    if (!status) draw_if_wanted(&s);
     if (!status) status = write_summary(&s, error);
     scree_folder_lock_release(&lock);
     if (status) return status;

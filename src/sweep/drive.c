@@ -109,6 +109,9 @@ static scree_status start_search(const drive *d, const scree_member_paths *paths
     size_t count = 18;
     if (!isnan(what->below)) arguments[count++] = below;
     if (!isnan(what->above)) arguments[count++] = above;
+    if (what->curve[0]) arguments[count++] = "--curve";
+    if (what->curve[0]) arguments[count++] = what->curve;
+    if (!d->options->figures) arguments[count++] = "--no-figures";
     scree_member_note(j->log, "searches in %s", paths->folder);
     return scree_process_start(arguments, j->log, &j->process, error);
 }

@@ -71,16 +71,19 @@ static bool read_summary(scree_finding *finding)
     finding->particles = number_of(summary, "particles");
     finding->friction = number_of(summary, "confine_friction");
     finding->solid_fraction = number_of(summary, "solid_fraction_at_start");
-    // Without a boundary that encloses the sample: as it was packed, whose last digits tell two packings apart.
-    if (isnan(finding->solid_fraction)) finding->solid_fraction = number_of(summary, "packing_solid_fraction");
+    finding->gap_scatter = number_of(summary, "packing_gap_scatter");
     finding->coordination = number_of(summary, "coordination_at_start");
     (void)snprintf(finding->build, sizeof finding->build, "%s", commit && commit[0] ? commit : version ? version : "");
     json_decref(summary);
     return true;
 }
 
-static const scree_finding nothing = {
-    .state = SCREE_FINDING_MISSING, .particles = NAN, .friction = NAN, .solid_fraction = NAN, .coordination = NAN};
+static const scree_finding nothing = {.state = SCREE_FINDING_MISSING,
+                                      .particles = NAN,
+                                      .friction = NAN,
+                                      .solid_fraction = NAN,
+                                      .gap_scatter = NAN,
+                                      .coordination = NAN};
 
 /// A run by itself, when it has ended.
 static scree_status add_run(scree_findings *findings, const char *directory, scree_error *error)
@@ -208,5 +211,7 @@ bool scree_finding_is(const scree_finding *f, const scree_reference *reference, 
 
 bool scree_finding_same_sample(const scree_finding *a, const scree_finding *b)
 {
-    return a == b || (a->seed == b->seed && a->particles == b->particles && a->solid_fraction == b->solid_fraction);
+    const bool unmeasured = isnan(a->solid_fraction) && isnan(b->solid_fraction);
+    const bool alike = unmeasured ? a->gap_scatter == b->gap_scatter : a->solid_fraction == b->solid_fraction;
+    return a == b || (a->seed == b->seed && a->particles == b->particles && alike);
 }

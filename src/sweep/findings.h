@@ -26,6 +26,7 @@ typedef struct scree_finding {
     char directory[PATH_MAX];
     // What the sample and the program were, of one that is done; NAN and "" where the run does not say.
     double particles, friction, solid_fraction, coordination;
+    double gap_scatter; ///< of a dense packing, whose solid fraction no boundary may measure
     char build[128];
 } scree_finding;
 
@@ -56,7 +57,7 @@ bool scree_reference_read(const char *text, scree_reference *reference);
 bool scree_finding_is(const scree_finding *finding, const scree_reference *reference, scree_finding_form form);
 
 /// Whether two runs had the same sample: seed, number of particles, and solid fraction at the begin of loading to all
-/// digits (the same deposition, confined alike).
+/// digits (the same deposition, confined alike); where neither has one, the scatter of the gaps of its packing.
 bool scree_finding_same_sample(const scree_finding *a, const scree_finding *b);
 
 #endif

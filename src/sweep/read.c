@@ -175,8 +175,12 @@ static void keep_bisect(scree_reader *reader, scree_sweep *sweep)
     const scree_sweep_bisect *b = &sweep->config.bisect;
     if (!scree_node_find(reader->root, "bisect")) return;
     sweep->bisects = true;
-    sweep->bisection = (scree_bisection){
-        .key = b->key, .tolerance = b->tolerance, .measure = b->measure, .below = b->below, .above = b->above};
+    sweep->bisection = (scree_bisection){.key = b->key,
+                                         .tolerance = b->tolerance,
+                                         .measure = b->measure,
+                                         .below = b->below,
+                                         .above = b->above,
+                                         .curve = b->curve};
     const scree_node *first = b->between ? b->between->first : NULL;
     if (!b->key || !b->key[0]) refuse_bisect(reader, "key", NULL, "says nothing about what is searched for");
     if (!first || b->between->count != 2 || !first->text || !first->next->text) {

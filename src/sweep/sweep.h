@@ -45,6 +45,7 @@ typedef struct scree_sweep_bisect {
     double tolerance;
     char *measure;
     double below, above; ///< NAN: not given
+    char *curve;
 } scree_sweep_bisect;
 
 typedef struct scree_sweep_config {

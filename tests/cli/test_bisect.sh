@@ -35,6 +35,9 @@ holds "($told / $exact - 1)^2 < 1e-6^2"
 holds "$("$scree" get step limit_stands) < $limit && $limit < $("$scree" get step limit_fails)"
 same "$(tail -n +2 step/bisection.csv | wc -l)" "$("$scree" get step limit_runs)" 'a row for each run'
 same "$("$scree" get step status)" done
+"$scree" "${search[@]}" -o step --tolerance 0.005 --quiet --curve kinetic >curve.txt 2>&1
+[ -s step/figures/runs.svg ] || complain "no figure of the runs: $(cat curve.txt)"
+expect 2 'no column .kinetics.' "$scree" "${search[@]}" --curve kinetics -o bad --quiet
 
 # --- what is there is not run again; half of it is continued
 before=$(cd step && find runs -name summary.json -exec md5sum {} + | sort)

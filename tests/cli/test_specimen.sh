@@ -51,6 +51,15 @@ END
 expect 0 '^stiffness_xxxx ' "$scree" moduli box.yaml --at relax
 holds "($(value stiffness_xxxx) / 1e7 - 1)^2 < 1e-6 && ($(value stiffness_xyxy) / 2.5e6 - 1)^2 < 1e-6"
 
+# --- limits before a run: exact where the specimen stands before the first step, of lattices where it comes later; and its fastest mode
+expect 0 '^# k_n / E +0.35 m, explicit strains bear 0\.5[0-9]+ m at this step, 0\.59[0-9]+ m at a small one' "$scree" check ddem-stability
+expect 0 '^# critical step +[0-9.]+ us, of the specimen, rigid particles' "$scree" check bond-tension --quick
+sed 's/^  - {stage: relax.*/  - {stage: bond}\n&/' box.yaml >later.yaml
+expect 0 '^# limits +not known yet' "$scree" check later.yaml
+grep -qE '^# (limits|k_n / E)' <("$scree" check box.yaml) && complain 'limits where nothing is bonded'
+expect 0 '^ratio_at_step ' "$scree" stability ddem-stability -o mode.png
+[ -s mode.svg ] && [ -s mode.png ] || complain 'no figure of the fastest mode'
+
 # --- the folder of a run, which stays as it is
 expect 0 '' "$scree" run "${small[@]}" --no-figures --quiet --set 'stages.deform.strain=0.1 %' --set 'measure.windows=[]' -o out
 before=$(cd out && find . -type f -exec md5sum {} + | sort)

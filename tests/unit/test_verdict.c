@@ -169,6 +169,7 @@ typedef struct run {
     double solid, value; ///< value NAN: null
     double friction;
     const char *build;
+    double gaps; ///< of its packing, where no solid fraction was measured: `solid` NAN
 } run;
 
 static void write_text(const char *path, const char *text)
@@ -182,7 +183,7 @@ static void write_text(const char *path, const char *text)
 /// A sweep `name` with one point, full form, in a folder of its own.
 static void write_sweep(const char *name, const char *point, const run *runs, size_t count)
 {
-    char path[300], text[3000], value[40];
+    char path[300], text[3000], value[40], solid[100];
     (void)snprintf(path, sizeof path, "%s/%s-%s", folder, name, point);
     assert_int_equal(mkdir(path, 0777), 0);
     (void)snprintf(path, sizeof path, "%s/%s-%s/members", folder, name, point);
@@ -202,13 +203,15 @@ static void write_sweep(const char *name, const char *point, const run *runs, si
         if (strcmp(runs[i].status, "done") != 0) continue;
         (void)snprintf(path, sizeof path, "%s/%s-%s/members/%d", folder, name, point, runs[i].seed);
         assert_int_equal(mkdir(path, 0777), 0);
+        (void)snprintf(solid, sizeof solid, isnan(runs[i].solid) ? "null, \"packing_gap_scatter\": %.17g" : "%.17g",
+                       isnan(runs[i].solid) ? runs[i].gaps : runs[i].solid);
         (void)snprintf(value, sizeof value, isnan(runs[i].value) ? "null" : "%.17g", runs[i].value);
         (void)snprintf(text, sizeof text,
                        "{\"status\": \"done\", \"version\": \"0\", \"commit\": \"%s\", \"particles\": 100, "
                        "\"confine_friction\": %.17g, "
-                       "\"solid_fraction_at_start\": %.17g, \"r\": %s}\n",
-                       runs[i].build ? runs[i].build : "one", runs[i].friction > 0 ? runs[i].friction : 0.05,
-                       runs[i].solid, value);
+                       "\"solid_fraction_at_start\": %s, \"r\": %s}\n",
+                       runs[i].build ? runs[i].build : "one", runs[i].friction > 0 ? runs[i].friction : 0.05, solid,
+                       value);
         strcat(path, "/summary.json");
         write_text(path, text);
     }
@@ -318,6 +321,25 @@ static void same_samples_are_paired(void **state)
     assert_remark(&ratio, "not all ratios are positive");
 }
 
+/// Bonded bars, whose solid fraction no boundary measures: by the gaps of their packings. Pairs have the ratio 2.
+static void packings_are_paired(void **state)
+{
+    (void)state;
+#define BAR(n, scatter, result)                                                                                        \
+    {                                                                                                                  \
+        .seed = (n), .status = "done", .solid = NAN, .gaps = (scatter), .value = (result)                              \
+    }
+    const run a[] = {BAR(1, 0.01, 10), BAR(2, 0.02, 200)}, b[] = {BAR(1, 0.01, 5), BAR(2, 0.02, 100)},
+              c[] = {BAR(1, 0.01, 5), BAR(2, nextafter(0.02, 1), 100)};
+    write_sweep("s", "a", a, 2);
+    write_sweep("s", "b", b, 2);
+    write_sweep("s", "c", c, 2);
+    assert_int_equal(answer_to("given: 2, value: s/a.r / s/b.r, criterion: within 1 %").verdict, SCREE_AGREES);
+    scree_answer others = answer_to("given: 2, value: s/a.r / s/c.r, criterion: within 1 %");
+    assert_int_equal(others.verdict, SCREE_UNDECIDED);
+    assert_remark(&others, "not of the same samples");
+}
+
 /// Of other solid fractions at the begin: means of the logarithms 1 and 3 and of 5 and 7 (see above), not pairs.
 static void other_samples_are_not_paired(void **state)
 {
@@ -357,7 +379,7 @@ static void few_samples_do_not_prove_a_comparison(void **state)
 static void mixed_builds_and_preparations_show(void **state)
 {
     (void)state;
-    const run runs[] = {DONE(1, 0.8, 2), {2, "done", 0.81, 3, 0.2, "two"}};
+    const run runs[] = {DONE(1, 0.8, 2), {2, "done", 0.81, 3, 0.2, "two", 0}};
     write_sweep("s", "p", runs, 2);
     scree_answer a = answer_to("given: x, value: s/p.r, criterion: greater than 0");
     assert_remark(&a, "builds differ: one, two");
@@ -453,6 +475,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(missing_failed_and_worthless_runs_are_counted, begin, end),
         cmocka_unit_test_setup_teardown(one_sample_decides_only_what_is_deterministic, begin, end),
         cmocka_unit_test_setup_teardown(same_samples_are_paired, begin, end),
+        cmocka_unit_test_setup_teardown(packings_are_paired, begin, end),
         cmocka_unit_test_setup_teardown(other_samples_are_not_paired, begin, end),
         cmocka_unit_test_setup_teardown(few_samples_do_not_prove_a_comparison, begin, end),
         cmocka_unit_test_setup_teardown(mixed_builds_and_preparations_show, begin, end),
