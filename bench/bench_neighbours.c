@@ -97,7 +97,7 @@ static void measure_skin(const scree_model *model, scree_state *state, scree_wor
     double best = HUGE_VAL;
     work->skin = skin;
     for (int k = 0; k < REBUILDS; k++) {
-        for (size_t p = 0; p < work->pairs.touching_count; p++) work->pairs.history[p].value[0] = 1;
+        for (size_t p = 0; p < work->pairs.section[1].touching_end; p++) work->pairs.history[p].value[0] = 1;
         for (size_t id = 0; id < state->count; id++) {
             scree_row *row = &state->row[state->row_of_id[id]];
             double sign = k % 2 ? -1 : 1;
@@ -119,7 +119,7 @@ static void measure_skin(const scree_model *model, scree_state *state, scree_wor
         "%9zu %s  skin %.2f  %8.3f ms a rebuild (%5.1f ns a body)  %5.2f pairs a body, %5.2f touching  %6.1f bytes a "
         "body\n",
         state->count, bodies, skin, best, 1e6 * best / count, (double)work->pairs.count / count,
-        (double)work->pairs.touching_count / count, (double)bytes / count);
+        (double)work->pairs.section[1].touching_end / count, (double)bytes / count);
 }
 
 static void measure(size_t count, int dimension, int threads)

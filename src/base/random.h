@@ -15,6 +15,8 @@ typedef enum scree_random_stream {
     SCREE_RANDOM_STRENGTH = 6,
     SCREE_RANDOM_SHUFFLE = 9,
     SCREE_RANDOM_EIGENVECTOR = 10,
+    SCREE_RANDOM_CORNER = 11,
+    SCREE_RANDOM_CORNER_COUNT = 12,
     SCREE_RANDOM_TEST = 100,
 } scree_random_stream;
 

@@ -55,7 +55,7 @@ static scree_status find_near(const scree_state *state, const scree_work *work, 
 {
     const scree_pair_list *pairs = &work->pairs;
     scree_status status = SCREE_OK;
-    for (size_t p = pairs->held_count; p < pairs->count && !status; p++) {
+    for (size_t p = scree_pairs_held(pairs); p < pairs->count && !status; p++) {
         const uint32_t a = pairs->first[p], b = pairs->second[p];
         scree_vector from, to;
         if (!is_meant(state, order, scree_parent_row(state, work, a), scree_parent_row(state, work, b))) continue;

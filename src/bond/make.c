@@ -49,11 +49,10 @@ static void find_forces(const scree_model *model, const scree_state *state, cons
                         const scree_bond_candidates *all, swap *of)
 {
     const scree_pair_list *pairs = &work->pairs;
-    for (size_t p = pairs->held_count; p < pairs->count; p++) {
+    for (size_t p = scree_pairs_held(pairs); p < pairs->count; p++) {
         const uint32_t a = pairs->first[p], b = pairs->second[p];
         const scree_bond_candidate *candidate = candidate_of(all, state, a, b);
-        const double *const strains[2] = {scree_strain_row(state, a), scree_strain_row(state, b)};
-        if (!candidate || !pair_touches(state->dimension, &state->row[a], &state->row[b], strains)) continue;
+        if (!candidate || !contact_pair_is_there(state, work, p)) continue;
         of[candidate - all->pair] = (swap){evaluate(model, state, work, p), true};
     }
 }
@@ -63,9 +62,9 @@ static void swap_forces(const scree_model *model, scree_state *state, scree_work
                         const scree_bond_candidates *all, const swap *of, contact_evaluation *after)
 {
     const scree_pair_list *pairs = &work->pairs;
-    for (size_t p = 0; p < pairs->held_count; p++)
+    for (size_t p = 0; p < scree_pairs_held(pairs); p++)
         if (candidate_of(all, state, pairs->first[p], pairs->second[p])) after[p] = evaluate(model, state, work, p);
-    for (size_t p = 0; p < pairs->held_count; p++) {
+    for (size_t p = 0; p < scree_pairs_held(pairs); p++) {
         const scree_bond_candidate *candidate = candidate_of(all, state, pairs->first[p], pairs->second[p]);
         if (!candidate) continue;
         const swap *s = &of[candidate - all->pair];

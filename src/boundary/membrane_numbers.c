@@ -53,10 +53,18 @@ static scree_status check_radius(const scree_model *model, double radius, scree_
 
 static void copy_material(scree_model *model, int from, int to)
 {
-    for (int i = 0; i < to; i++) model->pairs[to][i] = model->pairs[i][to] = model->pairs[from][i];
+    for (int i = 0; i < to; i++) {
+        model->pairs[to][i] = model->pairs[i][to] = model->pairs[from][i];
+        model->law_of_pairs[to][i] = model->law_of_pairs[i][to] = model->law_of_pairs[from][i];
+    }
     model->pairs[to][to] = model->pairs[from][from];
+    model->law_of_pairs[to][to] = model->law_of_pairs[from][from];
     model->walls[to] = model->walls[from];
-    for (int w = 0; w < SCREE_SURFACES; w++) model->surfaces[w][to] = model->surfaces[w][from];
+    model->law_of_walls[to] = model->law_of_walls[from];
+    for (int w = 0; w < SCREE_SURFACES; w++) {
+        model->surfaces[w][to] = model->surfaces[w][from];
+        model->law_of_surfaces[w][to] = model->law_of_surfaces[w][from];
+    }
     model->density[to] = model->density[from];
 }
 

@@ -41,7 +41,7 @@ const scree_section *scree_element_section(const scree_key *list, const scree_no
 /// Name of an element of a list: its `name`; of a stage without one its kind, numbered from 1 when several such stages
 /// are of the same kind. False when it has none.
 bool scree_element_name(const scree_key *list, const scree_node *parent, const scree_node *element, char *name,
-                          size_t size);
+                        size_t size);
 
 /// Reads the whole tree along `section` into the struct at `base` (zeroed before), and notes all problems. False when
 /// there are no keys at all.
@@ -79,6 +79,9 @@ void scree_rules_check_particles(scree_reader *reader, const scree_config *confi
 
 /// Those of the boundaries of stages, and of the velocity gradients that they impose (boundary_rules.c).
 void scree_rules_check_boundaries(scree_reader *reader, const scree_config *config);
+
+/// Those of the laws of pairs of materials (pair_law_rules.c).
+void scree_rules_check_pair_laws(scree_reader *reader, const scree_config *config);
 
 /// Those of the selections: names (selection_rules.c).
 void scree_rules_check_selections(scree_reader *reader, const scree_config *config);

@@ -7,6 +7,7 @@
 #include "base/schedule.h"
 #include "module/boundary.h"
 #include "module/preparation.h"
+#include "module/shape.h"
 #include "module/size_distribution.h"
 #include "module/stage.h"
 
@@ -28,7 +29,6 @@ typedef struct scree_config_material {
     void *own;            ///< structs of modules (scree_config_own)
 } scree_config_material;
 
-typedef enum scree_shape_kind { SCREE_SHAPE_DISC, SCREE_SHAPE_SPHERE } scree_shape_kind;
 /// What shares of species are of.
 typedef enum scree_share_by { SCREE_SHARE_BY_NUMBER, SCREE_SHARE_BY_MASS, SCREE_SHARE_BY_COUNT } scree_share_by;
 
@@ -46,7 +46,7 @@ typedef struct scree_config_species {
 
 /// Either one kind of particles, which material, distribution and own describe, or several species.
 typedef struct scree_config_particles {
-    int shape;      ///< scree_shape_kind
+    int shape;      ///< slot of a module that is a shape
     char *material; ///< name in `materials`
     int64_t count;
     int distribution; ///< slot of a module with sizes
@@ -57,10 +57,21 @@ typedef struct scree_config_particles {
     void *own;             ///< structs of modules
 } scree_config_particles;
 
+enum { SCREE_MOST_PAIR_LAWS = 16 };
+
+/// The law of contacts of two materials, where it is not that of `contact`.
+typedef struct scree_config_pair_law {
+    char *one, *other; ///< names in `materials`, or SCREE_RIGID; other: NULL: the same
+    int law;           ///< slot of a module with a law
+    void *own;         ///< structs of modules (scree_config_own)
+} scree_config_pair_law;
+
 typedef struct scree_config_contact {
     int law;                   ///< slot of a module with a law
     double reference_velocity; ///< m/s, v_R; auto: 2 * rate * mean radius of the first compress stage
-    void *own;                 ///< structs of modules
+    scree_config_pair_law *pairs;
+    int64_t pair_count;
+    void *own; ///< structs of modules
 } scree_config_contact;
 
 typedef struct scree_config_integrator {
@@ -242,6 +253,20 @@ static inline bool scree_config_has_gravity(const scree_config *config)
 /// The struct of `module` among those of modules that a section's `own` points to. section: its path ("integrator"), as
 /// the module's `keys` have it. NULL: there are none.
 const void *scree_config_own(const scree_module *module, const char *section, const void *own);
+
+/// Number of the law of contacts between two materials, or of a material and SCREE_RIGID, by name: that of an element
+/// of contact.pairs, plus 1; 0: that of `contact`.
+int scree_config_law_between(const scree_config_contact *contact, const char *one, const char *other);
+
+/// Slot of the law with this number; SCREE_CHOICE_WRONG: that was wrong, and noted.
+static inline int scree_config_law(const scree_config_contact *contact, int number)
+{
+    return number > 0 ? contact->pairs[number - 1].law : contact->law;
+}
+
+/// What the case says to it: the struct that the law's module fills from its keys under `contact`, or in the element of
+/// contact.pairs.
+const void *scree_config_law_keys(const scree_config_contact *contact, int number);
 
 /// Index of the selection of this name among `count`; -1: there is none.
 int64_t scree_config_selection_find(const scree_config_selection *selections, int64_t count, const char *name);

@@ -164,11 +164,10 @@ static void check_dimension(scree_reader *reader, const scree_config *config)
 {
     const bool in_3d = config->dimension == 3;
     const char *text;
-    if (config->particles.shape == (in_3d ? SCREE_SHAPE_DISC : SCREE_SHAPE_SPHERE)) {
+    const scree_shape *shape = config->particles.shape >= 0 ? scree_modules[config->particles.shape]->shape : NULL;
+    if (shape && shape->dimension != config->dimension) {
         scree_place place = place_of(scree_node_find(reader->root, "particles"), "shape", &text);
-        scree_problem_add(reader, place, "particles.shape", text, in_3d ? "sphere" : "disc",
-                          in_3d ? "in three dimensions particles are spheres: set particles.shape to sphere"
-                                : "spheres need dimension: 3; in two dimensions particles are discs");
+        scree_problem_add(reader, place, "particles.shape", text, shape->elsewhere, "%s", shape->only_here);
     }
     check_gravity(reader, scree_node_find(reader->root, "gravity"), "gravity", config->gravity, in_3d);
     for (int64_t i = 0; i < config->stage_count; i++) {
@@ -265,5 +264,6 @@ void scree_rules_check(scree_reader *reader, scree_config *config)
     scree_rules_check_boundaries(reader, config);
     scree_rules_check_walls(reader, config);
     scree_rules_check_selections(reader, config);
+    scree_rules_check_pair_laws(reader, config);
     scree_rules_check_modules(reader, config);
 }

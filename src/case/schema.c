@@ -10,11 +10,6 @@
 
 // ---- choices -----------------------------------------------------------------------------------------------------
 
-static const scree_choice shapes[] = {
-    {"disc", SCREE_SHAPE_DISC, "a cylinder whose axis is normal to the plane, in two dimensions"},
-    {"sphere", SCREE_SHAPE_SPHERE, "in three dimensions"},
-    {0},
-};
 static const scree_choice share_kinds[] = {
     {"number", SCREE_SHARE_BY_NUMBER, "`share` is of the number of particles"},
     {"mass", SCREE_SHARE_BY_MASS, "`share` is of the mass of the particles"},
@@ -70,15 +65,20 @@ static const scree_section species_table[] = {
     OPEN_TABLE("species", "Particles of one kind.", species_keys, scree_config_species)};
 
 typedef scree_config_particles particles;
+static bool is_flat(const scree_module *module)
+{
+    return module->shape->dimension == 2;
+}
+
 static const scree_key particles_keys[] = {
-    CHOICE(particles, shape, shapes, .standard = "disc", .meaning = "Shape of the particles."),
+    CHOICE(particles, shape, NULL, .standard = "disc", .meaning = "Shape of the particles."),
     KEY(particles, material, SCREE_KEY_WORD, FROM("1"), TO("63"), .when = "species=[]",
         .meaning = "Name of one of the materials."),
     INTEGER(particles, count, FROM("1"), TO("1e8"), .meaning = "Number of particles."),
     CHOICE(particles, distribution, NULL, .standard = "uniform", .when = "species=[]",
            .meaning = "Distribution of the radii."),
     MODULE_KEYS,
-    NUMBER(particles, thickness, "m", .standard = "auto", FROM("1 nm"), TO("1 km"), .when = "shape=disc",
+    NUMBER(particles, thickness, "m", .standard = "auto", FROM("1 nm"), TO("1 km"), .chooser = "shape", .fits = is_flat,
            .meaning = "Length of a disc along its axis; auto: twice the mean radius."),
     CHOICE(particles, share_by, share_kinds, .standard = "number", .when = "species=given",
            .meaning = "What the shares of the species are of."),
@@ -89,12 +89,39 @@ static const scree_key particles_keys[] = {
                    "other."),
 };
 
+typedef scree_config_pair_law pair_law;
+static const scree_key pair_law_keys[] = {
+    {.name = "between",
+     .type = SCREE_KEY_WORD,
+     .offset = offsetof(pair_law, one),
+     FROM("1"),
+     TO("63"),
+     .meaning = "Name of one of the materials, or `rigid`."},
+    {.name = "and",
+     .type = SCREE_KEY_WORD,
+     .offset = offsetof(pair_law, other),
+     .standard = "auto",
+     FROM("1"),
+     TO("63"),
+     .meaning = "The material that it touches, or `rigid`, for walls that are; auto: its like."},
+    CHOICE(pair_law, law, NULL, .meaning = "Force law of a contact of the two."),
+    MODULE_KEYS,
+};
+static const pair_law unknown_pair_law = {.law = SCREE_CHOICE_WRONG};
+static const scree_section pair_law_table[] = {
+    OPEN_TABLE("pairs", "The law of contacts of two materials.", pair_law_keys, scree_config_pair_law)};
+
 typedef scree_config_contact contact;
 static const scree_key contact_keys[] = {
     CHOICE(contact, law, NULL, .standard = "hertz_mindlin", .meaning = "Force law of a contact."),
     MODULE_KEYS,
     NUMBER(contact, reference_velocity, "m/s", .standard = "auto", ABOVE("0 m/s"), TO("1000 m/s"),
            .meaning = "v_R, to which slip speeds are referred; auto: 2 x strain rate x mean radius."),
+    KEY(contact, pairs, SCREE_KEY_LIST, .standard = "[]", FROM("0"), TO("16"), .sections = pair_law_table,
+        .section_count = 1, .count_offset = offsetof(contact, pair_count), .element_size = sizeof(pair_law),
+        .initial = &unknown_pair_law,
+        .meaning = "Pairs of materials whose contacts have another law, or other numbers of it; walls and plates count "
+                   "by what they are made of."),
 };
 
 typedef scree_config_integrator integrator;

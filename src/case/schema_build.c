@@ -159,11 +159,15 @@ static const scree_choice *build_choices(const scree_choice *core, const char *p
 static const char *write_condition(const draft *d, const scree_key *key)
 {
     char text[512];
-    size_t chooser = find_key(d, key->chooser), length;
+    size_t length;
+    // Of another section: the choices are the modules.
+    const bool elsewhere = strchr(key->chooser, '.') != NULL;
+    const scree_choice *choices =
+        elsewhere ? build_choices(NULL, key->chooser) : d->key[find_key(d, key->chooser)].choices;
     length =
         (size_t)snprintf(text, sizeof text, "%s%s%s=", key->when ? key->when : "", key->when ? "&" : "", key->chooser);
     const char *between = "";
-    for (const scree_choice *c = d->key[chooser].choices; c && c->name && length < sizeof text; c++) {
+    for (const scree_choice *c = choices; c && c->name && length < sizeof text; c++) {
         if (c->value < 0 || !key->fits(scree_modules[c->value])) continue;
         length += (size_t)snprintf(text + length, sizeof text - length, "%s%s", between, c->name);
         between = "|";

@@ -16,6 +16,23 @@ static bool is_among(const char *text, const char *alternatives)
     }
 }
 
+/// Whether an element of a list of the section has this key with one of the alternatives: contact.pairs choose laws as
+/// `contact` does.
+static bool element_says(const scree_section *section, const scree_node *mapping, const char *name, size_t length,
+                         const char *alternatives)
+{
+    for (size_t i = 0; i < section->count; i++) {
+        const scree_key *list = &section->keys[i];
+        const scree_key *key = list->type == SCREE_KEY_LIST ? scree_section_find(list->sections, name, length) : NULL;
+        const scree_node *node = key ? scree_node_find(mapping, list->name) : NULL;
+        for (const scree_node *element = node ? node->first : NULL; element; element = element->next) {
+            const scree_node *said = scree_node_find(element, key->name);
+            if (said && said->text && is_among(said->text, alternatives)) return true;
+        }
+    }
+    return false;
+}
+
 /// One condition of a key.
 static scree_usage condition_usage(const scree_node *root, const scree_section *section, const scree_node *mapping,
                                    const char *when)
@@ -23,7 +40,8 @@ static scree_usage condition_usage(const scree_node *root, const scree_section *
     scree_usage usage = {SCREE_USED, NULL, NULL, when};
     size_t dot = strcspn(when, ".="), equals = strcspn(when, "=");
     const char *name = when;
-    if (dot < equals) {
+    const bool elsewhere = dot < equals;
+    if (elsewhere) {
         const scree_key *owner = scree_section_find(scree_schema(), when, dot);
         section = owner->sections;
         mapping = scree_node_find(root, owner->name);
@@ -41,9 +59,33 @@ static scree_usage condition_usage(const scree_node *root, const scree_section *
                   scree_choice_find(usage.chooser->choices, text));
     if (!known)
         usage.use = SCREE_USE_UNKNOWN;
-    else if (!is_among(text, when + equals + 1))
+    else if (!is_among(text, when + equals + 1) &&
+             !(elsewhere &&
+               element_says(section, mapping, usage.chooser->name, strlen(usage.chooser->name), when + equals + 1)))
         usage.use = SCREE_UNUSED;
     return usage;
+}
+
+/// A further condition is on a key that is there under some of the alternatives of the first one alone: it says nothing
+/// where another of them is chosen, too ("contact.law=a|b&ratio=auto", `ratio` a key of law b).
+static bool is_of_another(const scree_node *root, const scree_section *section, const scree_node *mapping,
+                          const char *first, const char *when)
+{
+    const scree_key *key = scree_section_find(section, when, strcspn(when, "="));
+    const size_t chooser = strcspn(first, "=") + 1;
+    if (when == first || strcspn(first, ".") > chooser || !key || !key->when || key->type != SCREE_KEY_NUMBER ||
+        strncmp(key->when, first, chooser) != 0)
+        return false;
+    for (const char *one = first + chooser; *one && *one != '&'; one += *one == '|') {
+        const size_t length = strcspn(one, "|&");
+        char only[SCREE_PATH_BYTES], name[64];
+        (void)snprintf(only, sizeof only, "%.*s%.*s", (int)chooser, first, (int)length, one);
+        (void)snprintf(name, sizeof name, "%.*s", (int)length, one);
+        one += length;
+        if (!is_among(name, key->when + chooser) && condition_usage(root, section, mapping, only).use == SCREE_USED)
+            return true;
+    }
+    return false;
 }
 
 scree_usage scree_key_usage(const scree_node *root, const scree_section *section, const scree_node *mapping,
@@ -51,7 +93,8 @@ scree_usage scree_key_usage(const scree_node *root, const scree_section *section
 {
     scree_usage usage = {SCREE_USED, NULL, NULL, key->when};
     for (const char *when = key->when; when && usage.use == SCREE_USED; when = scree_next_condition(when))
-        usage = condition_usage(root, section, mapping, when);
+        if (!is_of_another(root, section, mapping, key->when, when))
+            usage = condition_usage(root, section, mapping, when);
     return usage;
 }
 

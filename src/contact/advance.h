@@ -36,20 +36,22 @@ static inline const double *contact_strain_at(const contact_job *job, size_t row
     return job->strain ? job->strain + row * scree_strain_size(job->variant.dimension) : NULL;
 }
 
-static inline bodies contact_body_at(const contact_job *job, size_t row)
+SCREE_INLINE bodies contact_body_at(const contact_job *job, size_t row)
 {
     bodies body = body_get(job->variant.dimension, &job->row[row], job->turn ? &job->turn[row] : NULL);
     body_strain(job->variant.dimension, contact_strain_at(job, row), &body);
+    body.state = job->state;
+    body.row = row;
     return body;
 }
 
 /// Adds to the moments of a row, where they are asked for.
-static inline void contact_add_moments(const contact_job *job, size_t row, vector normal, lanes arm, vector force)
+static inline void contact_add_moments(const contact_job *job, size_t row, contact_branch branch, vector force)
 {
     if (!job->moment) return;
     const int dimension = job->variant.dimension;
     uint64_t moment[9];
-    contact_moments(dimension, &job->scale, normal, arm, force, moment);
+    contact_moments(dimension, &job->scale, branch, force, moment);
     int64_t *sum = job->moment + row * scree_moment_size(dimension);
     for (int k = 0; k < dimension * dimension; k++) sum[k] = (int64_t)((uint64_t)sum[k] + moment[k]);
 }

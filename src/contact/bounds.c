@@ -22,17 +22,32 @@ static void extend(scree_pair_constants *most, const scree_pair_constants *pair)
     for (int k = 0; k < SCREE_PAIR_CONSTANTS; k++) most->value[k] = fmax(most->value[k], pair->value[k]);
 }
 
-/// Largest constants over all pairs of materials and walls.
-static scree_pair_constants largest_constants(const scree_model *model)
+/// Largest constants over all pairs of materials and walls under a law.
+static scree_pair_constants largest_constants(const scree_model *model, int law)
 {
     scree_pair_constants most = {{0}};
     for (int a = 0; a < model->material_count; a++) {
-        extend(&most, &model->walls[a]);
-        for (int b = 0; b <= a; b++) extend(&most, &model->pairs[a][b]);
+        if (model->law_of_walls[a] == law) extend(&most, &model->walls[a]);
+        for (int b = 0; b <= a; b++)
+            if (model->law_of_pairs[a][b] == law) extend(&most, &model->pairs[a][b]);
     }
     for (int w = 0; w < model->wall_count; w++)
-        for (int a = 0; a < model->material_count; a++) extend(&most, &model->surfaces[w][a]);
+        for (int a = 0; a < model->material_count; a++)
+            if (model->law_of_surfaces[w][a] == law) extend(&most, &model->surfaces[w][a]);
     return most;
+}
+
+static scree_law_bounds larger(scree_law_bounds a, scree_law_bounds b)
+{
+    return (scree_law_bounds){.force = fmax(a.force, b.force),
+                              .damping = fmax(a.damping, b.damping),
+                              .friction = fmax(a.friction, b.friction)};
+}
+
+static scree_law_bounds bounds_under(const scree_model *model, int law, const scree_law_extent *extent)
+{
+    const scree_pair_constants most = largest_constants(model, law);
+    return scree_law_get(model->laws[law].law)->bound(&model->laws[law], &most, extent);
 }
 
 static double largest_mass(const scree_model *model)
@@ -80,7 +95,6 @@ static scree_law_bounds bounds_of_held(const scree_model *model, const scree_sta
 
 scree_law_bounds contact_bounds_get(const scree_model *model, const scree_state *state)
 {
-    scree_pair_constants most = largest_constants(model);
     double relative = 2 * largest_speed(state), radius = scree_model_largest_radius(model);
     double before = state->largest_overlap > 0 ? state->largest_overlap : contact_overlap_limit(model) * radius;
     const scree_law_extent extent = {.speed = relative,
@@ -89,13 +103,9 @@ scree_law_bounds contact_bounds_get(const scree_model *model, const scree_state 
                                      .radius = radius,
                                      .mass = largest_mass(model),
                                      .step = state->step_size};
-    scree_law_bounds once = scree_model_law(model)->bound(&model->law, &most, &extent);
-    if (scree_persistent(state)->count > 0) {
-        scree_law_bounds held = bounds_of_held(model, state);
-        once = (scree_law_bounds){.force = fmax(once.force, held.force),
-                                  .damping = fmax(once.damping, held.damping),
-                                  .friction = fmax(once.friction, held.friction)};
-    }
+    scree_law_bounds once = bounds_under(model, 0, &extent);
+    for (int k = 1; k < scree_model_law_count(model); k++) once = larger(once, bounds_under(model, k, &extent));
+    if (scree_persistent(state)->count > 0) once = larger(once, bounds_of_held(model, state));
     return (scree_law_bounds){.force = 2 * once.force, .damping = 2 * once.damping, .friction = 2 * once.friction};
 }
 

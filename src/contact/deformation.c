@@ -125,9 +125,14 @@ static void rules(scree_reader *reader, const scree_config *whole)
 {
     // Of a section that could not be read more has been said.
     if (!whole->contact.own || own_config(whole)->deformation == RIGID || whole->contact.law < 0) return;
-    if (!scree_law_get(whole->contact.law)->deforming)
-        scree_rule_refuse(reader, "contact.deformation", "none",
+    for (int k = 0; k <= whole->contact.pair_count; k++) {
+        const int law = scree_config_law(&whole->contact, k);
+        if (law < 0 || scree_law_get(law)->deforming) continue;
+        char pair[SCREE_PATH_BYTES];
+        (void)snprintf(pair, sizeof pair, "contact.pairs.%d.law", k - 1);
+        scree_rule_refuse(reader, k > 0 ? pair : "contact.deformation", k > 0 ? NULL : "none",
                           "the law of the contacts does not carry particles that deform: take law: linear");
+    }
     if (whole->wall_count > 0)
         scree_rule_refuse(reader, "contact.deformation", "none",
                           "particles that deform cannot touch the walls of a case yet: take plates");
@@ -171,12 +176,13 @@ static double volume_of(const scree_model *model, double radius)
 /// Stiffness [N/m] of the stiffest contact that a body of this material and radius may have.
 static double stiffest(const scree_model *model, int material, double radius)
 {
-    const scree_law *law = scree_model_law(model);
-    scree_contact_tangent t = law->tangent(&model->law, &model->walls[material], radius, 1, 0);
+    const scree_law_use *use = scree_model_law_on_plate(model, material);
+    scree_contact_tangent t = scree_contact_linearise(use, &model->walls[material], radius, 1, 0);
     double most = t.normal_stiffness;
     for (int other = 0; other < model->material_count; other++) {
         double reduced = radius * model->radius_max / (radius + model->radius_max);
-        t = law->tangent(&model->law, &model->pairs[material][other], reduced, 1, 0);
+        t = scree_contact_linearise(scree_model_law_between(model, material, other), &model->pairs[material][other],
+                                    reduced, 1, 0);
         most = fmax(most, t.normal_stiffness);
     }
     return most;
@@ -200,9 +206,12 @@ static scree_status resolve_law(scree_model *model, scree_error *error)
                 fmax(n->soft, 2 * stiffest(model, k, radius) * radius * radius * along / volume_of(model, radius));
         }
     }
-    model->law.number[SCREE_LAW_LOOSE] = own->dashpots == LOOSE;
-    model->law.number[SCREE_LAW_CORRECTED] = own->tangential == CORRECTED;
-    model->law.option |= scree_model_law(model)->deforming;
+    for (int k = 0; k < scree_model_law_count(model); k++) {
+        scree_law_use *use = &model->laws[k];
+        use->number[SCREE_LAW_LOOSE] = own->dashpots == LOOSE;
+        use->number[SCREE_LAW_CORRECTED] = own->tangential == CORRECTED;
+        use->option |= scree_law_get(use->law)->deforming;
+    }
     return SCREE_OK;
 }
 

@@ -3,6 +3,7 @@
 #ifndef SCREE_CONTACT_EVALUATE_H
 #define SCREE_CONTACT_EVALUATE_H
 
+#include "contact/geometry.h"
 #include "contact/job.h"
 #include "contact/laws.h"
 
@@ -66,12 +67,38 @@ SCREE_INLINE quanta torque_on(int dimension, vector moment, lanes arm, const con
     return quanta_of(count, vector_times(count, moment, factor), 1);
 }
 
+/// l x f of a lever, of the first body; of the second with `sign` -1.
+SCREE_INLINE quanta torque_of_lever(int dimension, vector lever, vector force, double sign, const contact_scale *scale)
+{
+    const int count = tangential_count(dimension);
+    const vector torque = lever_cross(dimension, lever, force);
+    return quanta_of(count, vector_times(count, torque, lanes_all(sign * scale->inverse_torque)), 1);
+}
+
+/// What the moment of the force on one body is made with: its branch, from its centre to where the force acts, is -arm
+/// along; force and branch of the second body both have the other sign.
+typedef struct contact_branch {
+    vector along;
+    lanes arm; ///< m
+} contact_branch;
+
+/// Of a body that deforms to its surface at rest (M 2.41), so that moments are conjugate to the expansion of the
+/// overlap.
+SCREE_INLINE contact_branch contact_branch_of(variant v, bool deforms, const kinematics *m, const bodies *body,
+                                              bool first)
+{
+    if (geometry_has_levers(v))
+        return (contact_branch){first ? m->lever_first : m->lever_second, lanes_all(first ? -1 : 1)};
+    const lanes arm = first ? m->arm_first : m->arm_second;
+    return (contact_branch){m->normal, deforms ? body->radius : arm};
+}
+
 /// Branch (x) force of one body of a contact, d x d by rows: -a n_i f_j for the first, with its arm, and as much for
 /// the second with its own, whose branch and force both have the other sign.
-SCREE_INLINE void contact_moments(int dimension, const contact_scale *scale, vector normal, lanes arm, vector force,
+SCREE_INLINE void contact_moments(int dimension, const contact_scale *scale, contact_branch of, vector force,
                                   lanes_bits moment[9])
 {
-    const vector branch = vector_times(dimension, normal, arm * -scale->inverse_torque);
+    const vector branch = vector_times(dimension, of.along, of.arm * -scale->inverse_torque);
     const lanes s[3] = {branch.x, branch.y, branch.z}, f[3] = {force.x, force.y, force.z};
     for (int i = 0; i < dimension; i++)
         for (int j = 0; j < dimension; j++) moment[dimension * i + j] = lanes_fixed(s[i] * f[j], 1);
@@ -98,6 +125,10 @@ SCREE_INLINE contact_quanta contact_evaluate(variant v, const law_constants *con
         .in_range = lanes_at_or_below((pulls ? lanes_abs(f.normal) : f.normal) + vector_extent(count, f.tangential),
                                       lanes_all(scale->force_limit)),
     };
+    if (geometry_has_levers(v)) {
+        q.torque_first = torque_of_lever(dimension, m->lever_first, force, 1, scale);
+        q.torque_second = torque_of_lever(dimension, m->lever_second, force, -1, scale);
+    }
     if (law_holds(v)) {
         q.deformation = f.deformation;
         q.settle = f.settle;

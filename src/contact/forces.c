@@ -1,9 +1,9 @@
 /// The force evaluation: choice of the kernel, threads, ledger and flags.
 ///
 /// The sums are clear from the last kick on (integrate/kick.h), or are cleared here.
-/// Each thread runs the kernel on its part of the pair list (contact/partition.h), then, after a barrier, merges a
-/// range of rows and evaluates the wall contacts of these rows. Without memory for the partition, or when asked to
-/// (work->reference_kernel), the scalar reference does all the work: same bits, slower.
+/// Each thread runs the kernels of the sections on its part of the pair list (contact/partition.h), then, after a
+/// barrier, merges a range of rows and evaluates the wall contacts of these rows. Without memory for the partition, or
+/// when asked to (work->reference_kernel), the scalar reference does all the work: same bits, slower.
 #include "base/processor.h"
 #include "contact/bounds.h"
 #include "contact/contact.h"
@@ -41,9 +41,8 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
     double room = ldexp(1.0, SCREE_FIXED_RANGE_BITS - contact_energy_bits(state->dimension, state->count, held));
     return (contact_job){
         .model = model,
+        .state = state,
         .variant = {.dimension = state->dimension,
-                    .law = model->law.law,
-                    .option = contact_option(&model->law, state),
                     .many_materials = model->material_count + model->added_materials > 1,
                     .ledger = work->ledger || state->moment,
                     .moments = state->moment != NULL},
@@ -60,14 +59,7 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
         .last_force = work->pairs.last_force,
         .rolling = work->pairs.rolling,
         .own = work->pairs.own,
-        .pairs = model->pairs,
-        .held_end = work->pairs.held_count,
-        .touching_begin = work->pairs.held_count,
-        .near = work->pairs.touching_count,
-        .touching_end = work->pairs.touching_count,
-        .near_begin = work->pairs.touching_count,
-        .near_end = work->pairs.count,
-        .settings = law_settings_get(&model->law, state->step_size),
+        .settings = {.step = state->step_size},
         .scale = {.inverse_force = 1 / state->force_quantum,
                   .inverse_torque = 1 / state->torque_quantum,
                   .inverse_damping = 1 / (scree_fixed_quantum(bounds.damping) * room),
@@ -77,27 +69,44 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
     };
 }
 
-static contact_totals evaluate_serially(contact_job *job, scree_state *state, const scree_work *work)
+/// The contacts with walls of a range of rows, law by law.
+static void add_walls(contact_job *job, const scree_state *state, const scree_work *work, size_t begin, size_t end)
 {
-    contact_pairs_reference(job);
-    contact_walls(job, scree_plates(state), &work->wall_pairs, 0, state->count);
-    contact_surfaces(job, state, work, 0, state->count);
-    return job->totals;
+    for (int law = 0; law < scree_model_law_count(job->model); law++) {
+        job->variant.geometry = work->wall_pairs.geometry;
+        contact_job_use_number(job, law);
+        contact_walls(job, scree_plates(state), &work->wall_pairs, begin, end);
+        contact_surfaces(job, state, work, begin, end);
+    }
 }
 
-/// The ranges of a part of the list, and everything else from `common`.
-static void prepare_part(contact_part *part, const contact_job *common, uint8_t *near_touched, scree_state *state)
+/// The pairs of all sections, of each those in its range.
+static void evaluate_sections(contact_kernel *kernel, contact_job *job, const scree_pair_list *pairs,
+                              const contact_range *range, uint8_t *near_touched, const size_t *near_byte)
 {
-    contact_job job = *common;
-    job.held_begin = part->job.held_begin;
-    job.held_end = part->job.held_end;
-    job.touching_begin = part->job.touching_begin;
-    job.touching_end = part->job.touching_end;
-    job.near_begin = part->job.near_begin;
-    job.near_end = part->job.near_end;
-    job.near_touched = near_touched;
-    contact_part_clear(part, state, &job);
-    part->job = job;
+    contact_totals before;
+    bool first = true;
+    for (int k = 0; k < pairs->section_count; k++) {
+        if (contact_range_is_empty(&range[k])) continue;
+        if (!first) before = job->totals;
+        contact_job_enter(job, &pairs->section[k], &range[k], near_touched ? near_touched + near_byte[k] : NULL);
+        if (geometry_is_one_by_one(job->variant))
+            contact_pairs_reference(job);
+        else
+            kernel(job);
+        if (!first) contact_totals_add(&job->totals, &before);
+        first = false;
+    }
+    if (first) job->totals = contact_totals_none();
+}
+
+static contact_totals evaluate_serially(contact_job *job, scree_state *state, const scree_work *work)
+{
+    contact_range range[SCREE_PAIR_SECTIONS];
+    for (int k = 0; k < work->pairs.section_count; k++) range[k] = contact_range_of(&work->pairs.section[k]);
+    evaluate_sections(contact_pairs_reference, job, &work->pairs, range, NULL, NULL);
+    add_walls(job, state, work, 0, state->count);
+    return job->totals;
 }
 
 /// What the members of the thread pool share.
@@ -112,14 +121,13 @@ typedef struct parts_task {
 static void evaluate_share(void *argument, int index, int count)
 {
     const parts_task *task = argument;
+    contact_scratch *scratch = task->scratch;
+    contact_part *part = &scratch->part[index];
     (void)count;
-    prepare_part(&task->scratch->part[index], task->common, task->scratch->near_touched, task->state);
-    contact_job *job = &task->scratch->part[index].job;
-    task->kernel(job);
-    if (job->held_begin == job->held_end) return;
-    contact_job held = contact_job_of_held(job);
-    task->kernel(&held);
-    contact_totals_add(&job->totals, &held.totals);
+    part->job = *task->common;
+    contact_part_clear(part, task->state, &part->job);
+    evaluate_sections(task->kernel, &part->job, &task->work->pairs, part->range, scratch->near_touched,
+                      scratch->near_byte);
 }
 
 /// Makes a range of rows whole, and adds the wall contacts of its bodies.
@@ -135,8 +143,7 @@ static void finish_share(void *argument, int index, int count)
     job->sum = state->sum;
     job->torque = state->torque;
     job->moment = state->moment;
-    contact_walls(job, scree_plates(state), &task->work->wall_pairs, begin, end);
-    contact_surfaces(job, state, task->work, begin, end);
+    add_walls(job, state, task->work, begin, end);
 }
 
 static contact_totals evaluate_parts(contact_kernel *kernel, contact_scratch *scratch, const contact_job *common,

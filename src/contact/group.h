@@ -115,12 +115,6 @@ SCREE_INLINE void load_strains(int dimension, const contact_job *job, const size
     (void)load_tensor(dimension, row, b->strained);
 }
 
-SCREE_INLINE lanes_bits group_touches(int dimension, const bodies *first, const bodies *second)
-{
-    return bodies_touch(dimension, vector_minus(dimension, first->position, second->position),
-                        first->radius + second->radius);
-}
-
 SCREE_INLINE law_constants load_constants(const contact_job *job, variant v, lanes first, lanes second)
 {
     law_constants constants = {0};
@@ -218,12 +212,12 @@ SCREE_INLINE void add_to_sums(int dimension, const contact_job *job, const size_
 }
 
 /// Of one body of each pair.
-SCREE_INLINE void add_moments(int dimension, const contact_job *job, const size_t offset[SCREE_LANES], vector normal,
-                              lanes arm, vector force)
+SCREE_INLINE void add_moments(int dimension, const contact_job *job, const size_t offset[SCREE_LANES],
+                              contact_branch branch, vector force)
 {
     lanes_bits moment[12] = {{0}};
     row4 row[SCREE_LANES];
-    contact_moments(dimension, &job->scale, normal, arm, force, moment);
+    contact_moments(dimension, &job->scale, branch, force, moment);
     const int rows = dimension == 3 ? SCREE_MOMENTS_3D / 4 : SCREE_MOMENTS_2D / 4;
     for (int r = 0; r < rows; r++) {
         rows_of_bits(moment[4 * r], moment[4 * r + 1], moment[4 * r + 2], moment[4 * r + 3], row);
@@ -238,12 +232,12 @@ SCREE_INLINE void evaluate_group(const contact_job *job, variant v, group *g, to
     find_bodies(job, g);
     bodies first = load_places(dimension, job, g->first), second = load_places(dimension, job, g->second);
     lanes_bits touching = g->present;
-    if (!law_holds(v) && !law_deforms(v)) touching &= group_touches(dimension, &first, &second);
+    if (!law_holds(v) && !law_deforms(v)) touching &= geometry_touches(v, &first, &second);
     load_motions(dimension, job, g->first, &first);
     load_motions(dimension, job, g->second, &second);
     load_spins(dimension, job, g->first, &first);
     load_spins(dimension, job, g->second, &second);
-    kinematics m = kinematics_of_pair(dimension, &first, &second, job->settings.step);
+    kinematics m = geometry_kinematics(v, &first, &second, job->settings.step);
     if (law_deforms(v)) {
         load_strains(dimension, job, g->first, &first);
         load_strains(dimension, job, g->second, &second);
@@ -265,9 +259,8 @@ SCREE_INLINE void evaluate_group(const contact_job *job, variant v, group *g, to
     add_to_sums(dimension, job, g->first, q.force, q.torque_first, q.count);
     add_to_sums(dimension, job, g->second, quanta_opposite(q.force), q.torque_second, q.count);
     if (v.moments) {
-        const bool deforms = law_deforms(v);
-        add_moments(dimension, job, g->first, m.normal, deforms ? first.radius : m.arm_first, q.straining);
-        add_moments(dimension, job, g->second, m.normal, deforms ? second.radius : m.arm_second, q.straining);
+        add_moments(dimension, job, g->first, contact_branch_of(v, law_deforms(v), &m, &first, true), q.straining);
+        add_moments(dimension, job, g->second, contact_branch_of(v, law_deforms(v), &m, &second, false), q.straining);
     }
     t->in_range &= q.in_range;
     if (law_holds(v)) {

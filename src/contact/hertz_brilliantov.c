@@ -34,21 +34,27 @@ static const scree_key keys[] = {
            .meaning = "How the stiff friction law is integrated."),
 };
 
-static const contact *own_config(const scree_config_contact *section)
+static bool is_implicit(const contact *c)
 {
-    return scree_config_own(&scree_module_hertz_brilliantov, "contact", section->own);
+    return c->friction_update == SCREE_FRICTION_IMPLICIT;
 }
 
-static bool is_implicit(const scree_config_contact *section)
+/// Of one of the laws of the case.
+static bool has_implicit(const scree_config_contact *section)
 {
-    return own_config(section)->friction_update == SCREE_FRICTION_IMPLICIT;
+    for (int k = 0; k <= section->pair_count; k++) {
+        if (scree_config_law(section, k) != SCREE_SLOT_hertz_brilliantov) continue;
+        const contact *c = scree_config_law_keys(section, k);
+        if (c && is_implicit(c)) return true;
+    }
+    return false;
 }
 
 /// The implicit update reckons with a kick of the size of the last step, and cannot stand steps of two sizes.
 static void rules(scree_reader *reader, const scree_config *config)
 {
     const scree_config_integrator *integrator = &config->integrator;
-    if (!is_implicit(&config->contact) || integrator->scheme < 0) return;
+    if (!has_implicit(&config->contact) || integrator->scheme < 0) return;
     scree_steps (*lengths)(const void *own) = scree_integrator_get(integrator->scheme)->steps;
     if (lengths && lengths(integrator->own).small > 0)
         scree_rule_refuse(reader, "integrator.scheme", "position_verlet, velocity_verlet",
@@ -56,15 +62,15 @@ static void rules(scree_reader *reader, const scree_config *config)
                           "choose another scheme, or small_steps: 0");
 }
 
-static unsigned options(const scree_config_contact *section, const scree_config_material *material)
+static unsigned options(const void *own, const scree_config_material *material)
 {
     (void)material;
-    return is_implicit(section) ? BRILLIANTOV_IMPLICIT : 0;
+    return is_implicit(own) ? BRILLIANTOV_IMPLICIT : 0;
 }
 
-static void resolve(const scree_config_contact *section, double reference_velocity, scree_law_use *use)
+static void resolve(const void *own, double reference_velocity, scree_law_use *use)
 {
-    const contact *c = own_config(section);
+    const contact *c = own;
     brilliantov_numbers(c->damping_time, c->friction_exponent, reference_velocity, use->number);
 }
 
@@ -133,9 +139,9 @@ const scree_module scree_module_hertz_brilliantov = {
     .meaning =
         "Hertz with the viscous damping of Brilliantov et al. (1996) and friction regularised by the slip speed; no "
         "history",
-    .choice_of = CHOICE_OF(IS("contact.law")),
-    .keys = (const scree_keys[]){KEYS_OF("contact", keys, contact)},
-    .keys_count = 1,
+    .choice_of = CHOICE_OF(IS("contact.law"), IS("contact.pairs.law")),
+    .keys = (const scree_keys[]){KEYS_OF("contact", keys, contact), KEYS_OF("contact.pairs", keys, contact)},
+    .keys_count = 2,
     .rules = rules,
     .law = &law,
     .fields = fields,

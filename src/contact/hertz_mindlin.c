@@ -65,9 +65,9 @@ static const char *material_problem(const scree_config_material *section, const 
     return "hertz_mindlin reaches a restitution of zero only with infinite damping; give a value above 0, such as 0.05";
 }
 
-static unsigned options(const scree_config_contact *section, const scree_config_material *of)
+static unsigned options(const void *own, const scree_config_material *of)
 {
-    const contact *c = scree_config_own(&scree_module_hertz_mindlin, "contact", section->own);
+    const contact *c = own;
     const material *m = own_material(of);
     bool rolls = m->rolling_friction > 0 || m->twisting_friction > 0;
     return (c->tangential_history == SCREE_TANGENTIAL_RESCALED ? MINDLIN_RESCALED : 0) | (rolls ? MINDLIN_ROLLING : 0);
@@ -169,10 +169,11 @@ const scree_module scree_module_hertz_mindlin = {
     .name = "hertz_mindlin",
     .meaning =
         "Hertz with the tangential spring of Mindlin (with history), Coulomb limit, damping from the restitution",
-    .choice_of = CHOICE_OF(IS("contact.law")),
+    .choice_of = CHOICE_OF(IS("contact.law"), IS("contact.pairs.law")),
     .keys = (const scree_keys[]){KEYS_OF("contact", contact_keys, contact, .after = "law"),
+                                 KEYS_OF("contact.pairs", contact_keys, contact, .after = "law"),
                                  KEYS_OF("materials", material_keys, material)},
-    .keys_count = 2,
+    .keys_count = 3,
     .rules = rules,
     .law = &law,
     .fields = fields,

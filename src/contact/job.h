@@ -1,11 +1,12 @@
-/// One thread's share of a force evaluation: what a kernel reads and what it gives back. Between contact/forces.c,
-/// which cuts the work, and the kernels (scree_pairs_2d_vN and scree_pairs_3d_vN for two and three dimensions:
-/// one compilation of their files for each instruction set).
+/// One thread's share of a section of the pair list, in a force evaluation: what a kernel reads and what it gives back.
+/// Between contact/forces.c, which cuts the work, and the kernels (scree_pairs_2d_vN and scree_pairs_3d_vN for two and
+/// three dimensions: one compilation of their files for each instruction set).
 #ifndef SCREE_CONTACT_JOB_H
 #define SCREE_CONTACT_JOB_H
 
 #include "contact/law.h"
 #include "state/plates.h"
+#include "state/work.h"
 
 /// Inverse quanta (base/fixed.h) of the integer sums, and the largest force they may hold.
 typedef struct contact_scale {
@@ -26,8 +27,15 @@ typedef struct contact_totals {
     uint64_t surface_force[SCREE_SURFACES][3], surface_torque[SCREE_SURFACES][3]; ///< quanta, on the walls of the case
 } contact_totals;
 
+/// Pairs of a section: those that touched when the list was made, or are held, and the near ones.
+typedef struct contact_range {
+    size_t touching_begin, touching_end;
+    size_t near_begin, near_end; ///< near_begin less the begin of the section's near pairs is a multiple of 8
+} contact_range;
+
 typedef struct contact_job {
     const scree_model *model;
+    const scree_state *state; ///< for geometries that read more of a body than its rows
     variant variant;
     const scree_row *row;
     const scree_turn_row *turn;       ///< 3D
@@ -40,38 +48,44 @@ typedef struct contact_job {
     scree_history *history;
     scree_last_force *last_force; ///< with law_keeps_last_force
     scree_rolling *rolling;       ///< with law_rolls
-    const scree_member_row *own;  ///< with law_holds: constants of the first pairs of the list
+    const scree_member_row *own;  ///< with law_holds: constants of the held pairs
     const scree_pair_constants (*pairs)[SCREE_MAX_MATERIALS];
-    size_t near;                         ///< number of the first near pair; touching pairs come before it
-    size_t held_begin, held_end;         ///< pairs of this job that are held, for contact_job_of_held
-    size_t touching_begin, touching_end; ///< pairs of this job
-    size_t near_begin, near_end;         ///< near pairs of this job; near_begin - near is a multiple of 8
-    uint8_t *near_touched;               ///< one bit a near pair: it touched in the last evaluation
+    contact_range range;   ///< pairs of this job
+    size_t near;           ///< first near pair of the section
+    uint8_t *near_touched; ///< one bit a near pair of the section: it touched in the last evaluation
+    int law;               ///< number of the law in the model, of contacts with walls
     law_settings settings;
     contact_scale scale;
     contact_totals totals; ///< out
 } contact_job;
 
-/// The option of a law that the bodies of a state ask for: without strains they are rigid as yet.
-static inline unsigned contact_option(const scree_law_use *law, const scree_state *state)
+/// Puts a job under a law.
+static inline void contact_job_use(contact_job *job, const scree_law_use *law)
 {
-    return state->strain && state->moment ? law->option : law->option & ~scree_law_get(law->law)->deforming;
+    job->variant.law = law->law;
+    job->variant.option = job->strain ? law->option : law->option & ~scree_law_get(law->law)->deforming;
+    memcpy(job->settings.number, law->number, sizeof law->number);
 }
 
-/// The part of a job that is of pairs that are held: under their law, without near pairs.
-static inline contact_job contact_job_of_held(const contact_job *job)
+/// Puts it under the law with this number, for contacts with walls.
+static inline void contact_job_use_number(contact_job *job, int number)
 {
-    contact_job held = *job;
-    const scree_law_use *law = &job->model->persistent.law;
-    held.variant.law = law->law;
-    held.variant.option = job->strain ? law->option : law->option & ~scree_law_get(law->law)->deforming;
-    held.variant.many_materials = true;
-    held.pairs = job->model->persistent.pairs;
-    memcpy(held.settings.number, law->number, sizeof law->number);
-    held.touching_begin = job->held_begin;
-    held.touching_end = job->held_end;
-    held.near_begin = held.near_end = job->near;
-    return held;
+    job->law = number;
+    contact_job_use(job, &job->model->laws[number]);
+}
+
+/// Turns a job to pairs of a section; its totals are those of these pairs then. near_touched: of the section.
+static inline void contact_job_enter(contact_job *job, const scree_pair_section *section, const contact_range *range,
+                                     uint8_t *near_touched)
+{
+    const scree_model *model = job->model;
+    job->range = *range;
+    job->near = section->touching_end;
+    job->near_touched = near_touched;
+    job->variant.geometry = section->geometry;
+    job->variant.many_materials = section->persistent || model->material_count + model->added_materials > 1;
+    job->pairs = section->persistent ? model->persistent.pairs : model->pairs;
+    contact_job_use(job, section->persistent ? &model->persistent.law : &model->laws[section->law]);
 }
 
 typedef void contact_kernel(contact_job *job);

@@ -40,12 +40,18 @@
 
 #include "contact/vector.h"
 
+#include <stdbool.h>
+#include <stddef.h>
+
 typedef struct bodies {
     vector position, velocity;
     vector spin; ///< one component in two dimensions
     lanes radius, mass, material;
-    lanes strain[6];   ///< 1, of bodies that deform: xx, yy, xy in 2D; xx, yy, zz, yz, xz, xy in 3D
-    lanes strained[6]; ///< 1, change of it in the last step
+    lanes strain[6];                 ///< 1, of bodies that deform: xx, yy, xy in 2D; xx, yy, zz, yz, xz, xy in 3D
+    lanes strained[6];               ///< 1, change of it in the last step
+    bool deforms;                    ///< it has a strain (one body at a time)
+    const struct scree_state *state; ///< one body at a time: where its geometry finds more of it,
+    size_t row;                      ///< in this row
 } bodies;
 
 /// Rates are those of the middle of the step.
@@ -60,13 +66,15 @@ typedef struct kinematics {
     vector slip;      ///< m/s, s
     vector roll;      ///< m/s
     lanes twist;      ///< rad/s, in space
-    lanes arm_first, arm_second; ///< m
-    lanes reduced_radius;        ///< m, R_eff
-    lanes reduced_mass;          ///< kg, m_eff
-    vector tilted;               ///< rad, phi; zero against a plane
-    lanes half;                  ///< 1, half of L / L(n - 1), of pairs in space
-    vector turned;               ///< rad, psi n, in space
-    lanes turn;                  ///< rad, psi, in space
+    lanes arm_first, arm_second;      ///< m, of the levers, along the normal
+    vector lever_first, lever_second; ///< m, from the centres to the contact point, of geometries with levers;
+    vector moved_first, moved_second; ///< m, by which they have changed in the last step
+    lanes reduced_radius;             ///< m, R_eff
+    lanes reduced_mass;               ///< kg, m_eff
+    vector tilted;                    ///< rad, phi; zero against a plane
+    lanes half;                       ///< 1, half of L / L(n - 1), of pairs in space
+    vector turned;                    ///< rad, psi n, in space
+    lanes turn;                       ///< rad, psi, in space
     vector predicted_slip; ///< m/s, slip after the coming kick if all forces stay as they are (kinematics_predict)
     lanes mobility;        ///< 1/kg, slip per tangential impulse of the contact's share of the bodies
 } kinematics;
@@ -76,12 +84,6 @@ typedef struct prediction {
     vector velocity, spin;
     lanes contacts;
 } prediction;
-
-/// Set where the bodies are in contact; also where a coordinate is NaN, so that the kernels notice.
-SCREE_INLINE lanes_bits bodies_touch(int dimension, vector apart, lanes radii)
-{
-    return ~lanes_at_or_below(radii * radii, vector_dot(dimension, apart, apart));
-}
 
 /// A vector of the tangent plane of step n - 1 in that of n; in two dimensions there is only one tangent.
 SCREE_INLINE vector kinematics_carry(int dimension, const kinematics *m, vector a)
@@ -146,6 +148,40 @@ SCREE_INLINE void kinematics_advance(int dimension, kinematics *m, vector veloci
     m->slip = turn_half(m, m->slip);
 }
 
+/// The same of geometries with levers: normal, overlap, reduced radius and mass, `tilted`, the levers and their changes
+/// are set. With the levers of the middle of the step, m = l - moved / 2, the bodies pass each other at the contact
+/// point with c = u + w_first x m_first - w_second x m_second; of it the approach is -c . (n - phi / 2), and the rest
+/// is slip. second: NULL for a wall that stands.
+SCREE_INLINE void kinematics_from_levers(int dimension, kinematics *m, const bodies *first, const bodies *second,
+                                         double step)
+{
+    const int count = tangential_count(dimension);
+    const lanes half = lanes_all(0.5);
+    const vector n = m->normal, tilt = vector_times(count, m->tilted, half);
+    const vector middle = vector_minus(dimension, m->lever_first, vector_times(dimension, m->moved_first, half));
+    // One body after the other, so that the exchange of the two changes signs alone.
+    vector passing = vector_plus(dimension, first->velocity, spin_cross(dimension, first->spin, middle));
+    vector spins = first->spin, relative = first->spin;
+    if (second) {
+        const vector there = vector_minus(dimension, m->lever_second, vector_times(dimension, m->moved_second, half));
+        passing = vector_minus(dimension, passing,
+                               vector_plus(dimension, second->velocity, spin_cross(dimension, second->spin, there)));
+        spins = vector_plus(count, spins, second->spin);
+        relative = vector_minus(count, relative, second->spin);
+        m->arm_second = vector_dot(dimension, m->lever_second, n);
+    }
+    m->arm_first = -vector_dot(dimension, m->lever_first, n);
+    const vector along = vector_across(dimension, passing, n);
+    m->approach = vector_dot(count, along, tilt) - vector_dot(dimension, passing, n);
+    m->slip = vector_minus(count, along, vector_times(count, tilt, m->approach));
+    m->roll = vector_times(count, relative, m->reduced_radius);
+    m->expansion = m->expanding = m->turning = lanes_all(0);
+    m->spreading = vector_none();
+    if (dimension == 2) return;
+    kinematics_turn(m, spins, relative, step);
+    m->slip = turn_half(m, m->slip);
+}
+
 /// 1 / m + a^2 / J times the number of contacts that pull at the body: each may move its share of the mass alone.
 SCREE_INLINE lanes body_mobility(int dimension, const bodies *body, const prediction *ahead, lanes arm)
 {
@@ -169,38 +205,6 @@ SCREE_INLINE void kinematics_predict(int dimension, kinematics *m, const bodies 
     vector change =
         vector_minus(count, vector_across(dimension, velocity, m->normal), spin_across(dimension, lever, m->normal));
     m->predicted_slip = vector_plus(count, m->slip, change);
-}
-
-SCREE_INLINE kinematics kinematics_of_pair(int dimension, const bodies *first, const bodies *second, double step)
-{
-    const int count = tangential_count(dimension);
-    kinematics m;
-    vector apart = vector_minus(dimension, first->position, second->position);
-    lanes radii = first->radius + second->radius, masses = first->mass + second->mass;
-    lanes square = vector_dot(dimension, apart, apart), distance = lanes_root(square);
-    // In space, where the chain of operations is long, the division does not wait for the root.
-    lanes inverse_distance = dimension == 2 ? 1.0 / distance : distance * (1.0 / square);
-    m.normal = vector_times(dimension, apart, inverse_distance);
-    m.overlap = radii - distance;
-
-    // One division serves both reduced quantities.
-    lanes inverse = 1.0 / (radii * masses);
-    m.reduced_radius = (first->radius * second->radius) * (masses * inverse);
-    m.reduced_mass = (first->mass * second->mass) * (radii * inverse);
-
-    lanes half = 0.5 * m.overlap;
-    m.arm_first = first->radius - half;
-    m.arm_second = second->radius - half;
-    vector lever = vector_plus(count, vector_times(count, first->spin, m.arm_first),
-                               vector_times(count, second->spin, m.arm_second));
-    vector velocity = vector_minus(dimension, first->velocity, second->velocity);
-    vector along = vector_across(dimension, velocity, m.normal);
-    m.tilted = vector_times(count, along, step * inverse_distance);
-    kinematics_advance(dimension, &m, velocity, along, lever, first->spin, second->spin, step);
-    if (dimension == 3) m.half = 0.5 - (0.5 * step) * (m.approach * inverse_distance);
-    m.expansion = m.expanding = m.turning = lanes_all(0);
-    m.spreading = vector_none();
-    return m;
 }
 
 /// R strain n [m]: the way of the surface from the centre, where the normal is n (M 2.52).

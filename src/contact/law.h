@@ -18,6 +18,7 @@ typedef struct variant {
     bool many_materials;
     bool ledger;
     bool moments; ///< of contact forces are summed; only with the ledger
+    int geometry; ///< its number (contact/geometry.h)
 } variant;
 
 /// Constants of the pair of materials, one value a lane: model/law.h, scree_pair_constants. Those of the second half

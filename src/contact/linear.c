@@ -55,15 +55,28 @@ static const material *own_material(const scree_config_material *section)
     return scree_config_own(&scree_module_linear, "materials", section->own);
 }
 
-/// Springs that follow the radii and springs that do not have no series for all radii.
+/// Whether springs between two materials are of this law, of which one follows the radii and the other does not: such
+/// springs have no series for all radii.
+static bool are_unlike(const scree_config *config, const scree_config_material *one, const scree_config_material *other)
+{
+    if (!one->name || !other->name) return false;
+    const int number = scree_config_law_between(&config->contact, one->name, other->name);
+    return scree_config_law(&config->contact, number) == SCREE_SLOT_linear &&
+           isnan(own_material(one)->normal_stiffness) != isnan(own_material(other)->normal_stiffness);
+}
+
 static void rules(scree_reader *reader, const scree_config *config)
 {
+    bool refused[SCREE_MAX_MATERIALS] = {false};
     for (int64_t i = 0; i < config->material_count; i++) {
-        const material *m = own_material(&config->materials[i]), *first = own_material(&config->materials[0]);
+        const scree_config_material *of = &config->materials[i];
+        const material *m = own_material(of);
         char path[SCREE_PATH_BYTES];
         (void)snprintf(path, sizeof path, "materials.%lld.normal_stiffness", (long long)i);
-        if (isnan(m->normal_stiffness) != isnan(first->normal_stiffness))
-            scree_rule_refuse(reader, path, isnan(first->normal_stiffness) ? "auto" : "a stiffness",
+        for (int64_t k = 0; k < i && !refused[i]; k++)
+            refused[i] = !refused[k] && are_unlike(config, of, &config->materials[k]);
+        if (refused[i])
+            scree_rule_refuse(reader, path, isnan(m->normal_stiffness) ? "a stiffness" : "auto",
                               "normal_stiffness is given for all materials or for none");
         (void)snprintf(path, sizeof path, "materials.%lld.tangential_stiffness", (long long)i);
         if (isnan(m->normal_stiffness) && !isnan(m->tangential_stiffness))
@@ -84,9 +97,9 @@ static const char *material_problem(const scree_config_material *section, const 
            "a damping_ratio";
 }
 
-static unsigned options(const scree_config_contact *section, const scree_config_material *of)
+static unsigned options(const void *own, const scree_config_material *of)
 {
-    (void)section;
+    (void)own;
     (void)of;
     return 0;
 }
@@ -299,7 +312,7 @@ static const scree_law law = {
 const scree_module scree_module_linear = {
     .name = "linear",
     .meaning = "springs of constant stiffness with dashpots along the normal and in the tangent plane, Coulomb limit",
-    .choice_of = CHOICE_OF(IS("contact.law")),
+    .choice_of = CHOICE_OF(IS("contact.law"), IS("contact.pairs.law")),
     .keys = (const scree_keys[]){KEYS_OF("materials", material_keys, material)},
     .keys_count = 1,
     .rules = rules,

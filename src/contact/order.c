@@ -2,7 +2,7 @@
 #include "contact/order.h"
 #include "state/plates.h"
 
-#include "contact/scalar.h"
+#include "contact/single.h"
 #include "contact/surfaces.h"
 
 /// Contact number k of all pairs, then all wall pairs, then all element pairs, of which `touching` tells which touch;
@@ -14,8 +14,7 @@ static bool reference_get(const scree_state *state, const scree_work *work, cons
     if (k < pairs->count) {
         uint32_t a = pairs->first[k], b = pairs->second[k];
         *r = (contact_reference){state->id[a], state->id[b], (uint32_t)k};
-        const double *const strains[2] = {scree_strain_row(state, a), scree_strain_row(state, b)};
-        return k < pairs->held_count || pair_touches(state->dimension, &state->row[a], &state->row[b], strains);
+        return contact_pair_is_there(state, work, k);
     }
     k -= pairs->count;
     if (k >= work->wall_pairs.count) {
@@ -26,7 +25,7 @@ static bool reference_get(const scree_state *state, const scree_work *work, cons
     }
     uint32_t body = work->wall_pairs.body[k], wall = work->wall_pairs.wall[k];
     *r = (contact_reference){state->id[body], SCREE_WALL_ID + wall, (uint32_t)k};
-    return wall_touches(state->dimension, &state->row[body], &scree_plates(state)[wall], scree_strain_row(state, body));
+    return contact_plate_is_there(state, work, k);
 }
 
 /// Puts list[k] in its place among list[begin .. k - 1], which are in order.

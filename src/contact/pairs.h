@@ -59,7 +59,7 @@ SCREE_INLINE unsigned near_contacts(variant v, const contact_job *job, size_t p)
         load_reach(dimension, job, g.first, &first);
         load_reach(dimension, job, g.second, &second);
     }
-    return lanes_ones(group_touches(dimension, &first, &second));
+    return lanes_ones(geometry_touches(v, &first, &second));
 }
 
 /// Renews the bits of the near pairs p .. p + lanes - 1; returns those of pairs that touch or did so in the last step.
@@ -76,14 +76,14 @@ SCREE_INLINE unsigned near_renew(variant v, const contact_job *job, size_t p)
 /// Queues near pairs from p on, until the queue is full or the job's near pairs have ended; returns the next p.
 SCREE_INLINE size_t queue_near(variant v, queue *q, const contact_job *job, size_t p)
 {
-    for (; p + SCREE_LANES <= job->near_end && q->count + SCREE_LANES <= QUEUE_SIZE; p += SCREE_LANES) {
-        if (p + PREFETCH_AHEAD + SCREE_LANES <= job->near_end)
+    for (; p + SCREE_LANES <= job->range.near_end && q->count + SCREE_LANES <= QUEUE_SIZE; p += SCREE_LANES) {
+        if (p + PREFETCH_AHEAD + SCREE_LANES <= job->range.near_end)
             prefetch_bodies(v.dimension, job, p + PREFETCH_AHEAD, false);
         for (unsigned bits = near_renew(v, job, p); bits; bits &= bits - 1)
             q->pair[q->count++] = (uint32_t)(p + (size_t)__builtin_ctz(bits));
     }
-    if (p + SCREE_LANES > job->near_end)
-        while (p < job->near_end && q->count < QUEUE_SIZE) q->pair[q->count++] = (uint32_t)p++;
+    if (p + SCREE_LANES > job->range.near_end)
+        while (p < job->range.near_end && q->count < QUEUE_SIZE) q->pair[q->count++] = (uint32_t)p++;
     return p;
 }
 
@@ -103,9 +103,9 @@ SCREE_INLINE void queue_evaluate(const queue *q, const contact_job *job, variant
 /// Whole groups of touching pairs; returns the first pair that is left.
 SCREE_INLINE size_t evaluate_touching(const contact_job *job, variant v, totals *t)
 {
-    size_t p = job->touching_begin;
-    for (; p + SCREE_LANES <= job->touching_end; p += SCREE_LANES) {
-        if (p + PREFETCH_AHEAD + SCREE_LANES <= job->touching_end)
+    size_t p = job->range.touching_begin;
+    for (; p + SCREE_LANES <= job->range.touching_end; p += SCREE_LANES) {
+        if (p + PREFETCH_AHEAD + SCREE_LANES <= job->range.touching_end)
             prefetch_bodies(v.dimension, job, p + PREFETCH_AHEAD, true);
         group g = {.present = ~(lanes_bits){0}};
         LANE_LOOP g.pair[k] = p + (size_t)k;
@@ -135,13 +135,13 @@ SCREE_INLINE void run(contact_job *given, variant v)
     const contact_job copy = *given, *job = &copy;
     totals t = {.in_range = ~(lanes_bits){0}};
     queue q = {.count = 0};
-    for (size_t p = evaluate_touching(job, v, &t); p < job->touching_end; p++) q.pair[q.count++] = (uint32_t)p;
-    size_t p = job->near_begin;
+    for (size_t p = evaluate_touching(job, v, &t); p < job->range.touching_end; p++) q.pair[q.count++] = (uint32_t)p;
+    size_t p = job->range.near_begin;
     do {
         p = queue_near(v, &q, job, p);
         queue_evaluate(&q, job, v, &t);
         q.count = 0;
-    } while (p < job->near_end);
+    } while (p < job->range.near_end);
     totals_reduce(&t, &given->totals);
 }
 
@@ -152,17 +152,20 @@ SCREE_INLINE void run(contact_job *given, variant v)
 
 /// `run` with a variant as a constant, as a function of its own: one that held them all would be too large for some
 /// of the compiler's optimisations. Moments are summed by the kernels for many materials alone, with the ledger; always
-/// where bodies deform.
+/// where bodies deform. Of geometries in lanes there is one, the first of the table; one by one none is here.
 #define VARIANT(name, dimension, law, option, many_materials)                                                          \
     static __attribute__((noinline)) void name(contact_job *job)                                                       \
     {                                                                                                                  \
         if (DEFORMS(law, option) || (many_materials && job->variant.moments))                                          \
-            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, true, true});                      \
+            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, true, true, IN_LANES});            \
         else if (job->variant.ledger)                                                                                  \
-            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, true, false});                     \
+            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, true, false, IN_LANES});           \
         else                                                                                                           \
-            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, false, false});                    \
+            run(job, (variant){dimension, SCREE_SLOT_##law, option, many_materials, false, false, IN_LANES});          \
     }
+
+/// The geometry that kernels in lanes are for.
+enum { IN_LANES = 0 };
 
 /// How many materials a kernel is for, as the rows of laws say it.
 enum { OF_one = 0, OF_many = 1 };

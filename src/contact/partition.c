@@ -25,10 +25,23 @@ void scree_contact_scratch_destroy(scree_work *work)
     scree_release(&work->contact_scratch);
 }
 
-/// Marks the near pairs whose history is not clear: they touched in the last evaluation.
+/// Marks the near pairs of a section whose history is not clear: they touched in the last evaluation.
+static void mark_section(uint8_t *touched, const scree_pair_list *pairs, const scree_pair_section *section)
+{
+    for (size_t p = section->touching_end; p < section->end; p++) {
+        const size_t k = p - section->touching_end;
+        memory_rows rows = memory_rows_at(pairs->history, pairs->last_force, pairs->rolling, p);
+        if (!memory_is_clear(&rows)) touched[k / 8] |= (uint8_t)(1U << k % 8);
+    }
+}
+
 static scree_status mark_near(contact_scratch *scratch, const scree_pair_list *pairs)
 {
-    size_t near = pairs->count - pairs->touching_count, bytes = (near + 7) / 8;
+    size_t bytes = 0;
+    for (int s = 0; s < pairs->section_count; s++) {
+        scratch->near_byte[s] = bytes;
+        bytes += (pairs->section[s].end - pairs->section[s].touching_end + 7) / 8;
+    }
     if (bytes > scratch->near_capacity) {
         scratch->near_capacity = 0;
         scree_release(&scratch->near_touched);
@@ -37,10 +50,8 @@ static scree_status mark_near(contact_scratch *scratch, const scree_pair_list *p
         scratch->near_capacity = bytes + bytes / 4;
     }
     if (bytes > 0) memset(scratch->near_touched, 0, bytes);
-    for (size_t k = 0; k < near; k++) {
-        memory_rows rows = memory_rows_at(pairs->history, pairs->last_force, pairs->rolling, pairs->touching_count + k);
-        if (!memory_is_clear(&rows)) scratch->near_touched[k / 8] |= (uint8_t)(1U << k % 8);
-    }
+    for (int s = 0; s < pairs->section_count; s++)
+        mark_section(scratch->near_touched + scratch->near_byte[s], pairs, &pairs->section[s]);
     return SCREE_OK;
 }
 
@@ -79,27 +90,29 @@ static scree_status reserve_window(contact_part *part, const scree_state *state,
     return status;
 }
 
+/// Part k of a section.
+static contact_range cut_section(const scree_pair_section *section, int k, int parts)
+{
+    const size_t touching = section->touching_end - section->begin, near = section->end - section->touching_end;
+    return (contact_range){.touching_begin = section->begin + share(touching, k, parts),
+                           .touching_end = section->begin + share(touching, k + 1, parts),
+                           .near_begin = section->touching_end + share(near, k, parts),
+                           .near_end = section->touching_end + share(near, k + 1, parts)};
+}
+
 static scree_status cut_part(contact_scratch *scratch, const scree_pair_list *pairs, const scree_state *state,
                              size_t rows, int k)
 {
     contact_part *part = &scratch->part[k];
-    size_t held = pairs->held_count, first_near = pairs->touching_count;
-    size_t touching = first_near - held, near = pairs->count - first_near;
-    int parts = scratch->part_count;
-    contact_job *job = &part->job;
-    job->near = first_near;
-    job->held_begin = share(held, k, parts);
-    job->held_end = share(held, k + 1, parts);
-    job->touching_begin = held + share(touching, k, parts);
-    job->touching_end = held + share(touching, k + 1, parts);
-    job->near_begin = first_near + share(near, k, parts);
-    job->near_end = first_near + share(near, k + 1, parts);
-    if (k == 0) return SCREE_OK; // adds to state->sum itself
-
     part->low = rows, part->high = 0;
-    extend_window(part, pairs, job->held_begin, job->held_end);
-    extend_window(part, pairs, job->touching_begin, job->touching_end);
-    extend_window(part, pairs, job->near_begin, job->near_end);
+    for (int s = 0; s < pairs->section_count; s++) {
+        contact_range *range = &part->range[s];
+        *range = cut_section(&pairs->section[s], k, scratch->part_count);
+        if (k == 0) continue; // adds to state->sum itself
+        extend_window(part, pairs, range->touching_begin, range->touching_end);
+        extend_window(part, pairs, range->near_begin, range->near_end);
+    }
+    if (k == 0) return SCREE_OK;
     if (part->high == 0) part->low = 0;
     return reserve_window(part, state, part->high - part->low);
 }
@@ -123,9 +136,10 @@ static scree_status cut(contact_scratch *scratch, const scree_work *work, const 
 static bool is_current(const contact_scratch *scratch, const scree_work *work, size_t rows, bool moments)
 {
     return scratch->part_count == scree_work_shares(work) && scratch->rebuilds == work->rebuilds &&
-           scratch->first == work->pairs.first && scratch->count == work->pairs.count &&
-           scratch->touching_count == work->pairs.touching_count && scratch->rows == rows &&
-           (scratch->moments || !moments);
+           scratch->first == work->pairs.first && scratch->section_count == work->pairs.section_count &&
+           memcmp(scratch->section, work->pairs.section, (size_t)scratch->section_count * sizeof *scratch->section) ==
+               0 &&
+           scratch->rows == rows && (scratch->moments || !moments);
 }
 
 contact_scratch *contact_scratch_refresh(scree_work *work, const scree_state *state)
@@ -142,8 +156,8 @@ contact_scratch *contact_scratch_refresh(scree_work *work, const scree_state *st
     }
     scratch->rebuilds = work->rebuilds;
     scratch->first = work->pairs.first;
-    scratch->count = work->pairs.count;
-    scratch->touching_count = work->pairs.touching_count;
+    scratch->section_count = work->pairs.section_count;
+    memcpy(scratch->section, work->pairs.section, sizeof scratch->section);
     scratch->rows = scree_row_count(state, work);
     scratch->moments = state->moment != NULL;
     return scratch;

@@ -38,13 +38,11 @@ static void evaluate_pair(contact_job *job, size_t p)
     const int dimension = job->variant.dimension;
     const size_t first = job->first[p], second = job->second[p];
     memory_rows rows = memory_rows_at(job->history, job->last_force, job->rolling, p);
-    const double *const strains[2] = {contact_strain_at(job, first), contact_strain_at(job, second)};
-    bool touching = law_holds(job->variant) || pair_touches(dimension, &job->row[first], &job->row[second], strains);
-    if (!touching && memory_is_clear(&rows)) return;
     bodies one = contact_body_at(job, first), other = contact_body_at(job, second);
-    kinematics m = kinematics_of_pair(dimension, &one, &other, job->settings.step);
-    const bool deforms = law_deforms(job->variant);
-    if (deforms) kinematics_expand(dimension, &m, &one, &other, job->settings.step);
+    bool touching = law_holds(job->variant) || pair_touches(job->variant, &one, &other);
+    if (!touching && memory_is_clear(&rows)) return;
+    kinematics m = geometry_kinematics(job->variant, &one, &other, job->settings.step);
+    if (law_deforms(job->variant)) kinematics_expand(dimension, &m, &one, &other, job->settings.step);
     if (law_predicts(job->variant)) {
         prediction ahead = prediction_get(dimension, &job->predicted[first]);
         prediction ahead_second = prediction_get(dimension, &job->predicted[second]);
@@ -55,24 +53,18 @@ static void evaluate_pair(contact_job *job, size_t p)
     contact_quanta q = contact_advance(job, job->variant, constants, own, &m, touching, &rows);
     contact_add_to_sums(job, first, q.force, q.torque_first, q.count);
     contact_add_to_sums(job, second, quanta_opposite(q.force), q.torque_second, q.count);
-    contact_add_moments(job, first, m.normal, contact_lever(deforms, &one, m.arm_first), q.straining);
-    contact_add_moments(job, second, m.normal, contact_lever(deforms, &other, m.arm_second), q.straining);
-}
-
-static void evaluate_range(contact_job *job)
-{
-    job->totals = contact_totals_none();
-    for (size_t p = job->touching_begin; p < job->touching_end; p++) evaluate_pair(job, p);
-    for (size_t p = job->near_begin; p < job->near_end; p++) evaluate_pair(job, p);
+    contact_add_moments(job, first, contact_branch_of(job->variant, law_deforms(job->variant), &m, &one, true),
+                        q.straining);
+    contact_add_moments(job, second, contact_branch_of(job->variant, law_deforms(job->variant), &m, &other, false),
+                        q.straining);
 }
 
 void contact_pairs_reference(contact_job *job)
 {
-    evaluate_range(job);
-    if (job->held_begin == job->held_end) return;
-    contact_job held = contact_job_of_held(job);
-    evaluate_range(&held);
-    contact_totals_add(&job->totals, &held.totals);
+    const contact_range *range = &job->range;
+    job->totals = contact_totals_none();
+    for (size_t p = range->touching_begin; p < range->touching_end; p++) evaluate_pair(job, p);
+    for (size_t p = range->near_begin; p < range->near_end; p++) evaluate_pair(job, p);
 }
 
 /// The bodies at a wall lie apart in memory.
@@ -91,16 +83,18 @@ static inline void prefetch_wall_pair(const contact_job *job, const scree_wall_p
 SCREE_INLINE void evaluate_walls(contact_job *job, variant v, const scree_wall *wall, const scree_wall_pair_list *pairs,
                                  size_t row_begin, size_t row_end)
 {
+    const uint8_t *laws = pairs->law;
+    const uint8_t law = (uint8_t)job->law;
     for (size_t p = 0; p < pairs->count; p++) {
         size_t row = pairs->body[p];
         prefetch_wall_pair(job, pairs, p + WALL_PAIRS_AHEAD);
-        if (row < row_begin || row >= row_end) continue;
+        if (row < row_begin || row >= row_end || (laws && laws[p] != law)) continue;
         uint32_t w = pairs->wall[p];
         memory_rows rows = memory_rows_at(pairs->history, pairs->last_force, pairs->rolling, p);
-        bool touching = wall_touches(v.dimension, &job->row[row], &wall[w], contact_strain_at(job, row));
-        if (!touching && memory_is_clear(&rows)) continue;
         bodies one = contact_body_at(job, row);
-        kinematics m = kinematics_of_wall(v.dimension, &one, &wall[w], job->settings.step);
+        bool touching = wall_touches(v, &one, &wall[w]);
+        if (!touching && memory_is_clear(&rows)) continue;
+        kinematics m = kinematics_of_wall(v, &one, &wall[w], job->settings.step);
         if (law_deforms(v)) kinematics_expand(v.dimension, &m, &one, NULL, job->settings.step);
         if (law_predicts(v)) {
             prediction ahead = prediction_get(v.dimension, &job->predicted[row]);
@@ -108,8 +102,7 @@ SCREE_INLINE void evaluate_walls(contact_job *job, variant v, const scree_wall *
         }
         contact_quanta q = contact_advance(job, v, &job->model->walls[(int)one.material], NULL, &m, touching, &rows);
         contact_add_to_sums(job, row, q.force, q.torque_first, q.count);
-        if (v.moments)
-            contact_add_moments(job, row, m.normal, contact_lever(law_deforms(v), &one, m.arm_first), q.straining);
+        if (v.moments) contact_add_moments(job, row, contact_branch_of(v, law_deforms(v), &m, &one, true), q.straining);
         job->totals.wall_force[w] += q.normal;
         job->totals.wall_shear[w][0] -= q.tangential.x;
         job->totals.wall_shear[w][1] -= q.tangential.y;
@@ -119,11 +112,11 @@ SCREE_INLINE void evaluate_walls(contact_job *job, variant v, const scree_wall *
 
 #define WALLS_OF_LAW(law_)                                                                                             \
     if (v.law == SCREE_SLOT_##law_ && v.dimension == 3)                                                                \
-        evaluate_walls(job, (variant){3, SCREE_SLOT_##law_, v.option, true, v.ledger, v.moments}, wall, pairs,         \
-                       row_begin, row_end);                                                                            \
+        evaluate_walls(job, (variant){3, SCREE_SLOT_##law_, v.option, true, v.ledger, v.moments, v.geometry}, wall,    \
+                       pairs, row_begin, row_end);                                                                     \
     if (v.law == SCREE_SLOT_##law_ && v.dimension == 2)                                                                \
-        evaluate_walls(job, (variant){2, SCREE_SLOT_##law_, v.option, true, v.ledger, v.moments}, wall, pairs,         \
-                       row_begin, row_end);
+        evaluate_walls(job, (variant){2, SCREE_SLOT_##law_, v.option, true, v.ledger, v.moments, v.geometry}, wall,    \
+                       pairs, row_begin, row_end);
 
 void contact_walls(contact_job *job, const scree_wall *wall, const scree_wall_pair_list *pairs, size_t row_begin,
                    size_t row_end)

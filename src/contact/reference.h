@@ -9,7 +9,8 @@
 /// Adds the forces of the job's pairs to its sums and its totals. Needs no near_touched.
 void contact_pairs_reference(contact_job *job);
 
-/// Adds the wall contacts of bodies in rows [row_begin, row_end) to the job's sums and totals.
+/// Adds the contacts with plates of bodies in rows [row_begin, row_end), those under the job's law, to its sums and
+/// totals.
 void contact_walls(contact_job *job, const scree_wall *wall, const scree_wall_pair_list *pairs, size_t row_begin,
                    size_t row_end);
 

@@ -6,9 +6,10 @@
 #include "state/plates.h"
 
 /// The strain of a body, and its last change, from its row (state/state.h); NULL: it is rigid.
-static inline void body_strain(int dimension, const double *strain, bodies *body)
+SCREE_INLINE void body_strain(int dimension, const double *strain, bodies *body)
 {
     const int half = dimension == 3 ? SCREE_STRAINS_3D / 2 : SCREE_STRAINS_2D / 2;
+    body->deforms = strain != NULL;
     if (!strain) return;
     for (int k = 0; k < (dimension == 3 ? 6 : 3); k++) {
         const int place = k < 3 ? k : k + 1;
@@ -18,7 +19,7 @@ static inline void body_strain(int dimension, const double *strain, bodies *body
 }
 
 /// `turn` is not read in two dimensions.
-static inline bodies body_get(int dimension, const scree_row *row, const scree_turn_row *turn)
+SCREE_INLINE bodies body_get(int dimension, const scree_row *row, const scree_turn_row *turn)
 {
     bodies body = {.position = {row->x, row->y, 0}, .velocity = {row->vx, row->vy, 0}};
     body.radius = row->radius;
@@ -39,13 +40,6 @@ static inline prediction prediction_get(int dimension, const scree_predicted *f)
 {
     if (dimension == 2) return (prediction){.velocity = {f->vx, f->vy, 0}, .spin = {f->spin, 0, 0}, f->contacts};
     return (prediction){.velocity = {f->vx, f->vy, f->vz}, .spin = {f->wx, f->wy, f->wz}, f->contacts};
-}
-
-/// Lever [m] of the moment of a contact force: to the contact point, of a body that deforms to its surface at rest (M
-/// 2.41), so that moments are conjugate to the expansion of the overlap.
-SCREE_INLINE lanes contact_lever(bool deforms, const bodies *body, lanes arm)
-{
-    return deforms ? body->radius : arm;
 }
 
 /// own: constants of the pair's own; NULL: it has none.
@@ -121,66 +115,53 @@ static inline bool memory_is_clear(const memory_rows *rows)
     return clear;
 }
 
-/// strains: rows of both bodies; NULL where they are rigid.
-static inline bool pair_touches(int dimension, const scree_row *first, const scree_row *second,
-                                const double *const strains[2])
+/// Two bodies, each with what its geometry reads of it.
+static inline bool pair_touches(variant v, const bodies *one, const bodies *other)
 {
-    vector apart = {first->x - second->x, first->y - second->y, dimension == 3 ? first->z - second->z : 0};
-    if (!strains[0]) return bodies_touch(dimension, apart, first->radius + second->radius) != 0;
-    bodies one = {.radius = first->radius}, other = {.radius = second->radius};
-    body_strain(dimension, strains[0], &one);
-    body_strain(dimension, strains[1], &other);
-    double distance = sqrt(vector_dot(dimension, apart, apart));
-    kinematics m = {.normal = vector_times(dimension, apart, 1 / distance),
-                    .overlap = first->radius + second->radius - distance};
-    kinematics_expand(dimension, &m, &one, &other, 0);
+    if (!one->deforms) return geometry_touches(v, one, other) != 0;
+    kinematics m = geometry_kinematics(v, one, other, 0);
+    kinematics_expand(v.dimension, &m, one, other, 0);
     return expanded_touch(&m) != 0;
-}
-
-/// Beside a wall, a body of infinite radius and mass: R_eff = R, m_eff = m. What does not depend on velocities.
-SCREE_INLINE kinematics kinematics_beside(const bodies *body, const double normal[3], double distance)
-{
-    kinematics m = {.normal = {normal[0], normal[1], normal[2]}, .overlap = body->radius - distance};
-    m.arm_first = body->radius - 0.5 * m.overlap;
-    m.reduced_radius = body->radius;
-    m.reduced_mass = body->mass;
-    return m;
 }
 
 /// The rest of it: velocity and spin of the body are `velocity` and `spin` in the frame of the wall, whose normal turns
 /// there as m->tilted says.
-SCREE_INLINE void kinematics_past(int dimension, kinematics *m, vector velocity, vector spin, double step)
+SCREE_INLINE void kinematics_past(variant v, kinematics *m, vector velocity, vector spin, double step)
 {
+    const int dimension = v.dimension;
+    if (geometry_has_levers(v)) {
+        const bodies seen = {.velocity = velocity, .spin = spin};
+        kinematics_from_levers(dimension, m, &seen, NULL, step);
+        return;
+    }
     vector along = vector_across(dimension, velocity, m->normal);
     vector lever = vector_times(tangential_count(dimension), spin, m->arm_first);
     kinematics_advance(dimension, m, velocity, along, lever, spin, vector_none(), step);
 }
 
 /// A plate moves with its normal and tangential velocity.
-SCREE_INLINE kinematics kinematics_of_wall(int dimension, const bodies *body, const scree_wall *wall, double step)
+SCREE_INLINE kinematics kinematics_of_wall(variant v, const bodies *body, const scree_wall *wall, double step)
 {
+    const int dimension = v.dimension;
     const double *slide = wall->tangential_velocity;
     vector normal = {wall->normal[0], wall->normal[1], wall->normal[2]};
     kinematics m =
-        kinematics_beside(body, wall->normal, vector_dot(dimension, normal, body->position) - wall->position);
+        geometry_beside(v, body, wall->normal, vector_dot(dimension, normal, body->position) - wall->position, step);
     vector moving = {wall->velocity * normal.x + slide[0], wall->velocity * normal.y + slide[1],
                      wall->velocity * normal.z + slide[2]};
-    kinematics_past(dimension, &m, vector_minus(dimension, body->velocity, moving), body->spin, step);
+    kinematics_past(v, &m, vector_minus(dimension, body->velocity, moving), body->spin, step);
     return m;
 }
 
-/// NaN counts as contact, so that it is noticed. strain: of the body; NULL: it is rigid.
-static inline bool wall_touches(int dimension, const scree_row *body, const scree_wall *wall, const double *strain)
+/// NaN counts as contact, so that it is noticed.
+SCREE_INLINE bool wall_touches(variant v, const bodies *body, const scree_wall *wall)
 {
-    double height = wall->normal[0] * body->x + wall->normal[1] * body->y, radius = body->radius;
-    if (dimension == 3) height += wall->normal[2] * body->z;
-    if (strain) {
-        bodies one = {.radius = radius};
-        body_strain(dimension, strain, &one);
-        vector normal = {wall->normal[0], wall->normal[1], wall->normal[2]};
-        radius += vector_dot(dimension, normal, strain_across(dimension, one.strain, one.radius, normal));
-    }
-    return wall->active && !(radius <= height - wall->position);
+    const vector normal = {wall->normal[0], wall->normal[1], wall->normal[2]};
+    const double height = vector_dot(v.dimension, normal, body->position);
+    double reach = geometry_reach(v, body);
+    if (body->deforms)
+        reach += vector_dot(v.dimension, normal, strain_across(v.dimension, body->strain, body->radius, normal));
+    return wall->active && !(reach <= height - wall->position);
 }
 
 #endif

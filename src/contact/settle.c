@@ -25,12 +25,13 @@ static void add_sums(scree_state *state, uint32_t row, const contact_evaluation 
     torque_row_add(&state->torque[row], torque.x, torque.y, torque.z);
 }
 
-static void add_moments(scree_state *state, uint32_t row, const contact_evaluation *e, lanes arm, bool minus)
+static void add_moments(scree_state *state, uint32_t row, const contact_evaluation *e, contact_branch branch,
+                        bool minus)
 {
     const int dimension = state->dimension;
     const contact_scale scale = {.inverse_torque = 1 / state->torque_quantum};
     uint64_t moment[9];
-    contact_moments(dimension, &scale, e->kinematics.normal, arm, e->quanta.straining, moment);
+    contact_moments(dimension, &scale, branch, e->quanta.straining, moment);
     int64_t *sum = state->moment + row * scree_moment_size(dimension);
     for (int k = 0; k < dimension * dimension; k++)
         sum[k] = (int64_t)((uint64_t)sum[k] + (minus ? -moment[k] : moment[k]));
@@ -54,8 +55,8 @@ static void add(scree_state *state, uint32_t first, uint32_t second, const conta
     add_sums(state, first, e, true, minus);
     add_sums(state, second, e, false, minus);
     if (state->moment) {
-        add_moments(state, first, e, e->lever_first, minus);
-        add_moments(state, second, e, e->lever_second, minus);
+        add_moments(state, first, e, e->branch_first, minus);
+        add_moments(state, second, e, e->branch_second, minus);
     }
     if (scree_periodic_is_whole(state)) add_virial(state, e, minus);
 }
@@ -89,11 +90,13 @@ static void describe(const scree_state *state, const scree_work *work, const con
     settled->tangential_force = sqrt(vector_dot(count, e->force.tangential, e->force.tangential));
     settled->in_tension = -e->force.normal >= own->value[SCREE_MEMBER_TENSION];
     const double normal[3] = {m->normal.x, m->normal.y, dimension == 3 ? m->normal.z : 0};
+    const contact_branch point = contact_branch_of(e->variant, false, m, &e->first, true);
+    const double along[3] = {point.along.x, point.along.y, dimension == 3 ? point.along.z : 0};
     // The first body may be a ghost: the place is told where the body itself is.
     scree_body_position(state, scree_parent_row(state, work, work->pairs.first[settled->pair]), settled->place);
     for (int k = 0; k < 3; k++) {
         settled->normal[k] = normal[k];
-        settled->place[k] -= m->arm_first * normal[k];
+        settled->place[k] -= point.arm * along[k];
     }
 }
 
@@ -139,11 +142,11 @@ scree_status contact_settle(const scree_model *model, scree_state *state, scree_
     const scree_pair_list *pairs = &work->pairs;
     *count = 0;
     *settled = NULL;
-    for (size_t p = 0; p < pairs->held_count; p++) *count += evaluate(model, state, work, p).force.settle != 0;
+    for (size_t p = 0; p < scree_pairs_held(pairs); p++) *count += evaluate(model, state, work, p).force.settle != 0;
     scree_status status = scree_allocate(settled, *count, sizeof **settled, error);
     if (status) return status;
     size_t found = 0;
-    for (size_t p = 0; p < pairs->held_count && found < *count; p++) {
+    for (size_t p = 0; p < scree_pairs_held(pairs) && found < *count; p++) {
         if (!evaluate(model, state, work, p).force.settle) continue;
         (*settled)[found++] = (contact_settled){
             .pair = p,

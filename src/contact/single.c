@@ -33,19 +33,62 @@ static void describe_tangent(int dimension, const kinematics *m, const law_force
     contact->slip = sqrt(vector_dot(3, m->slip, m->slip));
 }
 
+/// A pair of materials: the law that it is under, with its constants.
+typedef struct pair_law {
+    const scree_law_use *law;
+    const scree_pair_constants *constants;
+} pair_law;
+
+/// own: constants of a pair that is held; NULL: of no such pair.
+static pair_law law_of_pair(const scree_model *model, const scree_member_row *own, const bodies *one,
+                            const bodies *other)
+{
+    const int a = (int)one->material, b = (int)other->material;
+    if (own) return (pair_law){&model->persistent.law, &model->persistent.pairs[a][b]};
+    return (pair_law){scree_model_law_between(model, a, b), &model->pairs[a][b]};
+}
+
+/// How the pair is evaluated.
+static variant variant_of(const scree_model *model, int dimension, const scree_law_use *law)
+{
+    return (variant){.dimension = dimension,
+                     .law = law->law,
+                     .option = law->option,
+                     .many_materials = true,
+                     .geometry = model->geometry};
+}
+
+bool contact_pair_is_there(const scree_state *state, const scree_work *work, size_t p)
+{
+    const scree_pair_section *section = scree_pairs_section(&work->pairs, p);
+    if (section->persistent) return true;
+    const contact_body first = contact_body_get(state, work->pairs.first[p]);
+    const contact_body second = contact_body_get(state, work->pairs.second[p]);
+    const bodies one = contact_body_lane(state->dimension, &first),
+                 other = contact_body_lane(state->dimension, &second);
+    return pair_touches((variant){.dimension = state->dimension, .geometry = section->geometry}, &one, &other);
+}
+
+bool contact_plate_is_there(const scree_state *state, const scree_work *work, size_t p)
+{
+    const scree_wall_pair_list *list = &work->wall_pairs;
+    const contact_body body = contact_body_get(state, list->body[p]);
+    const bodies one = contact_body_lane(state->dimension, &body);
+    const variant v = {.dimension = state->dimension, .geometry = list->geometry};
+    return wall_touches(v, &one, &scree_plates(state)[list->wall[p]]);
+}
+
 /// own: constants of a pair that is held; NULL: of no such pair. False when such a pair is broken and apart.
-static bool describe(const scree_model *model, int dimension, const scree_pair_constants *constants,
-                     const scree_member_row *own, kinematics *m, const memory_rows *memory, scree_contact *contact)
+static bool describe(variant v, pair_law of, const scree_member_row *own, kinematics *m, const memory_rows *memory,
+                     scree_contact *contact)
 {
     kinematics_hold(m);
-    const scree_law_use *law = own ? &model->persistent.law : &model->law;
-    variant v = {.dimension = dimension, .law = law->law, .option = law->option, .many_materials = true};
-    law_constants c = constants_get(constants, own);
-    law_settings settings = law_settings_get(law, 0);
+    law_constants c = constants_get(of.constants, own);
+    law_settings settings = law_settings_get(of.law, 0);
     law_memory before = memory_get(v, memory), after;
     law_force f = law_evaluate(v, &c, &settings, m, ~UINT64_C(0), &before, &after);
-    describe_tangent(dimension, m, &f, contact);
-    double cap = constants->value[SCREE_FRICTION] * f.normal;
+    describe_tangent(v.dimension, m, &f, contact);
+    double cap = of.constants->value[SCREE_FRICTION] * f.normal;
     contact->held = own != NULL;
     contact->bonded = own && own->value[SCREE_MEMBER_TENSION] >= 0;
     contact->sliding =
@@ -58,11 +101,12 @@ static bool describe(const scree_model *model, int dimension, const scree_pair_c
     return !own || f.in_contact;
 }
 
-/// The contact point lies in the middle of the overlap, one lever arm from the centre of `first`.
-static void place(int dimension, const bodies *first, const kinematics *m, scree_contact *contact)
+/// The contact point lies at the lever of `first`, of round bodies in the middle of the overlap.
+static void place(variant v, const bodies *first, const kinematics *m, scree_contact *contact)
 {
-    vector arm = vector_times(dimension, m->normal, m->arm_first);
-    set_vector(contact->point, vector_minus(dimension, first->position, arm));
+    const contact_branch branch = contact_branch_of(v, false, m, first, true);
+    set_vector(contact->point,
+               vector_minus(v.dimension, first->position, vector_times(v.dimension, branch.along, branch.arm)));
 }
 
 bool contact_of_pair(const scree_model *model, const scree_state *state, const contact_body *first,
@@ -70,15 +114,14 @@ bool contact_of_pair(const scree_model *model, const scree_state *state, const c
                      scree_contact *contact)
 {
     const int dimension = state->dimension;
-    const double *const strains[2] = {first->strain, second->strain};
-    if (!own && !pair_touches(dimension, &first->row, &second->row, strains)) return false;
     bodies one = contact_body_lane(dimension, first), other = contact_body_lane(dimension, second);
-    kinematics m = kinematics_of_pair(dimension, &one, &other, state->step_size);
+    const pair_law of = law_of_pair(model, own, &one, &other);
+    const variant v = variant_of(model, dimension, of.law);
+    if (!own && !pair_touches(v, &one, &other)) return false;
+    kinematics m = geometry_kinematics(v, &one, &other, state->step_size);
     if (state->strain) kinematics_expand(dimension, &m, &one, &other, state->step_size);
-    const scree_pair_constants(*pairs)[SCREE_MAX_MATERIALS] = own ? model->persistent.pairs : model->pairs;
-    const scree_pair_constants *constants = &pairs[(int)one.material][(int)other.material];
-    const bool in_contact = describe(model, dimension, constants, own, &m, memory, contact);
-    place(dimension, &one, &m, contact);
+    const bool in_contact = describe(v, of, own, &m, memory, contact);
+    place(v, &one, &m, contact);
     contact->wall = false;
     set_vector(contact->branch, vector_minus(dimension, one.position, other.position));
     return in_contact;
@@ -89,25 +132,21 @@ contact_evaluation contact_evaluate_again(const scree_model *model, const scree_
                                           const scree_member_row *own, const memory_rows *memory)
 {
     const int dimension = state->dimension;
-    const scree_law_use *law = own ? &model->persistent.law : &model->law;
-    contact_evaluation e = {.variant = {.dimension = dimension,
-                                        .law = law->law,
-                                        .option = law->option,
-                                        .many_materials = true,
-                                        .ledger = ledger},
-                            .first = contact_body_lane(dimension, first),
+    contact_evaluation e = {.first = contact_body_lane(dimension, first),
                             .second = contact_body_lane(dimension, second)};
-    e.kinematics = kinematics_of_pair(dimension, &e.first, &e.second, state->step_size);
+    const pair_law of = law_of_pair(model, own, &e.first, &e.second);
+    e.variant = variant_of(model, dimension, of.law);
+    e.variant.ledger = ledger;
+    e.kinematics = geometry_kinematics(e.variant, &e.first, &e.second, state->step_size);
     if (state->strain) kinematics_expand(dimension, &e.kinematics, &e.first, &e.second, state->step_size);
-    e.lever_first = contact_lever(state->strain != NULL, &e.first, e.kinematics.arm_first);
-    e.lever_second = contact_lever(state->strain != NULL, &e.second, e.kinematics.arm_second);
+    e.branch_first = contact_branch_of(e.variant, state->strain != NULL, &e.kinematics, &e.first, true);
+    e.branch_second = contact_branch_of(e.variant, state->strain != NULL, &e.kinematics, &e.second, false);
     kinematics_hold(&e.kinematics);
     const contact_scale scale = {.inverse_force = 1 / state->force_quantum,
                                  .inverse_torque = 1 / state->torque_quantum,
                                  .force_limit = INFINITY};
-    const scree_pair_constants(*pairs)[SCREE_MAX_MATERIALS] = own ? model->persistent.pairs : model->pairs;
-    law_constants constants = constants_get(&pairs[(int)e.first.material][(int)e.second.material], own);
-    law_settings settings = law_settings_get(law, 0);
+    law_constants constants = constants_get(of.constants, own);
+    law_settings settings = law_settings_get(of.law, 0);
     law_memory before = memory_get(e.variant, memory);
     e.force = law_evaluate(e.variant, &constants, &settings, &e.kinematics, ~UINT64_C(0), &before, &e.memory);
     e.quanta =
@@ -116,11 +155,11 @@ contact_evaluation contact_evaluate_again(const scree_model *model, const scree_
 }
 
 /// Between a body and anything that is not one.
-static void describe_wall(const scree_model *model, int dimension, const scree_pair_constants *constants,
-                          const bodies *one, kinematics *m, const memory_rows *memory, scree_contact *contact)
+static void describe_wall(variant v, pair_law of, const bodies *one, kinematics *m, const memory_rows *memory,
+                          scree_contact *contact)
 {
-    (void)describe(model, dimension, constants, NULL, m, memory, contact);
-    place(dimension, one, m, contact);
+    (void)describe(v, of, NULL, m, memory, contact);
+    place(v, one, m, contact);
     contact->wall = true;
     const double centre[3] = {one->position.x, one->position.y, one->position.z};
     for (int k = 0; k < 3; k++) contact->branch[k] = centre[k] - contact->point[k];
@@ -130,11 +169,14 @@ bool contact_of_wall(const scree_model *model, const scree_state *state, const c
                      const scree_wall *wall, const memory_rows *memory, scree_contact *contact)
 {
     const int dimension = state->dimension;
-    if (!wall_touches(dimension, &body->row, wall, body->strain)) return false;
     bodies one = contact_body_lane(dimension, body);
-    kinematics m = kinematics_of_wall(dimension, &one, wall, state->step_size);
+    const int material = (int)one.material;
+    const pair_law of = {scree_model_law_on_plate(model, material), &model->walls[material]};
+    const variant v = variant_of(model, dimension, of.law);
+    if (!wall_touches(v, &one, wall)) return false;
+    kinematics m = kinematics_of_wall(v, &one, wall, state->step_size);
     if (state->strain) kinematics_expand(dimension, &m, &one, NULL, state->step_size);
-    describe_wall(model, dimension, &model->walls[(int)one.material], &one, &m, memory, contact);
+    describe_wall(v, of, &one, &m, memory, contact);
     return true;
 }
 
@@ -148,8 +190,10 @@ void contact_of_primitive(const scree_model *model, const scree_state *state, co
     scree_primitive_closest_point(work->wall_set, primitive,
                                   (const double[3]){one.position.x, one.position.y, one.position.z}, &closest);
     const scree_surface *surface = contact_surface_of(work->wall_set, primitive);
-    kinematics m = kinematics_of_surface(work->wall_set, primitive, dimension, &one, &closest,
-                                         scree_case_walls(state)->moving != 0, state->step_size);
     scree_pair_constants constants = contact_surface_constants(model, surface, (int)one.material);
-    describe_wall(model, dimension, &constants, &one, &m, memory, contact);
+    const pair_law of = {contact_surface_law(model, surface, (int)one.material), &constants};
+    const variant v = variant_of(model, dimension, of.law);
+    kinematics m = kinematics_of_surface(work->wall_set, primitive, v, &one, &closest,
+                                         scree_case_walls(state)->moving != 0, state->step_size);
+    describe_wall(v, of, &one, &m, memory, contact);
 }

@@ -12,12 +12,14 @@ typedef struct contact_body {
     scree_row row;
     scree_turn_row turn;  ///< 3D
     const double *strain; ///< its row; NULL: it is rigid
+    const scree_state *state;
+    size_t number; ///< row of the state that geometry finds more of it in
 } contact_body;
 
 /// The body in `row`, with the velocities that the state holds.
 static inline contact_body contact_body_get(const scree_state *state, size_t row)
 {
-    contact_body body = {.row = state->row[row], .strain = scree_strain_row(state, row)};
+    contact_body body = {.row = state->row[row], .strain = scree_strain_row(state, row), .state = state, .number = row};
     if (state->turn) body.turn = state->turn[row];
     return body;
 }
@@ -26,8 +28,14 @@ static inline bodies contact_body_lane(int dimension, const contact_body *body)
 {
     bodies lane = body_get(dimension, &body->row, &body->turn);
     body_strain(dimension, body->strain, &lane);
+    lane.state = body->state;
+    lane.row = body->number;
     return lane;
 }
+
+/// Whether pair `p` of the list touches at the present positions, or is held; whether pair `p` with plates does.
+bool contact_pair_is_there(const scree_state *state, const scree_work *work, size_t p);
+bool contact_plate_is_there(const scree_state *state, const scree_work *work, size_t p);
 
 /// A body or a ghost with v(n - 1/2), with which the forces at n were evaluated; in a periodic cell with the affine
 /// field, and a ghost where it is.
@@ -43,10 +51,18 @@ static inline memory_rows contact_memory_of(const scree_work *work, contact_list
                                 : memory_rows_at(walls->history, walls->last_force, walls->rolling, k);
 }
 
+/// Number of the law of number `k` of a list; not of a pair that is held.
+static inline int contact_law_number(const scree_work *work, contact_list list, size_t k)
+{
+    return list == CONTACT_PAIR    ? scree_pairs_section(&work->pairs, k)->law
+           : list == CONTACT_PLATE ? scree_wall_pair_law(&work->wall_pairs, k)
+                                   : scree_wall_pair_law(&work->primitive_pairs, k);
+}
+
 /// Constants of its own of pair `p` of the list; NULL where it is not held.
 static inline const scree_member_row *contact_own_of(const scree_work *work, size_t p)
 {
-    return p < work->pairs.held_count ? &work->pairs.own[p] : NULL;
+    return p < scree_pairs_held(&work->pairs) ? &work->pairs.own[p] : NULL;
 }
 
 /// Two bodies; false when they are not in contact. own: of a pair that is held, which needs no touch while its bond
@@ -59,9 +75,9 @@ bool contact_of_pair(const scree_model *model, const scree_state *state, const c
 typedef struct contact_evaluation {
     variant variant;
     bodies first, second;
-    kinematics kinematics;           ///< rates of the middle of the step before n
-    lanes lever_first, lever_second; ///< m, of the moments
-    contact_quanta quanta;           ///< in the quanta of the state
+    kinematics kinematics;                      ///< rates of the middle of the step before n
+    contact_branch branch_first, branch_second; ///< of the moments
+    contact_quanta quanta;                      ///< in the quanta of the state
     law_force force;
     law_memory memory; ///< what the contact remembers then
 } contact_evaluation;

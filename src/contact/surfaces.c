@@ -88,6 +88,11 @@ scree_pair_constants contact_surface_constants(const scree_model *model, const s
     return model->surfaces[surface->config - model->walls_of_case][material];
 }
 
+const scree_law_use *contact_surface_law(const scree_model *model, const scree_surface *surface, int material)
+{
+    return scree_model_law_on_wall(model, surface->config - model->walls_of_case, material);
+}
+
 /// Velocity and spin of a body in the frame of a wall that moves with v and turns with w: there it goes in a step from
 /// R(w dt) y(n-1) to y(n), y from the centre of the wall, and its spin w(n-1/2) has turned by w dt / 2 since then. Up
 /// to second order in dt, in the directions of n:
@@ -127,16 +132,17 @@ static vector tilt_of(const scree_wall_set *wall_set, size_t primitive, int dime
     return vector_across(dimension, turned, (vector){n[0], n[1], n[2]});
 }
 
-kinematics kinematics_of_surface(const scree_wall_set *wall_set, size_t primitive, int dimension, const bodies *body,
+kinematics kinematics_of_surface(const scree_wall_set *wall_set, size_t primitive, variant v, const bodies *body,
                                  const scree_closest_point *closest, bool moving, double step)
 {
     const scree_surface *surface = contact_surface_of(wall_set, primitive);
-    kinematics m = kinematics_beside(body, closest->normal, closest->distance);
+    const int dimension = v.dimension;
+    kinematics m = geometry_beside(v, body, closest->normal, closest->distance, step);
     vector velocity = body->velocity, spin = body->spin;
     if (moving) see_from_wall(dimension, surface, body, step, &velocity, &spin);
     if (!scree_surface_is_flat(surface))
         m.tilted = tilt_of(wall_set, primitive, dimension, body, closest, velocity, step);
-    kinematics_past(dimension, &m, velocity, spin, step);
+    kinematics_past(v, &m, velocity, spin, step);
     if (dimension == 3 && moving) {
         // What the contact remembers turns with the wall, too.
         const double *w = surface->config->spin;
@@ -255,13 +261,14 @@ SCREE_INLINE void evaluate_group(contact_job *job, variant v, const scree_state 
     for (size_t p = g->begin; p < g->end; p++) {
         const primitive_touch *touch = touch_of(g, p);
         memory_rows rows = memory_at(g, p);
+        if (scree_wall_pair_law(g->pairs, p) != job->law) continue;
         if (!touch && memory_is_clear(&rows)) continue;
         const scree_surface *surface = contact_surface_of(g->wall_set, g->pairs->wall[p]);
         scree_closest_point left;
         if (!touch) scree_primitive_closest_point(g->wall_set, g->pairs->wall[p], g->position, &left);
         const scree_closest_point *closest = touch ? &touch->closest : &left;
         if (v.dimension == 3 && law_traits(v)->displacement) turn_displacements(closest->normal, &rows);
-        kinematics m = kinematics_of_surface(g->wall_set, g->pairs->wall[p], v.dimension, &one, closest,
+        kinematics m = kinematics_of_surface(g->wall_set, g->pairs->wall[p], v, &one, closest,
                                              scree_case_walls(state)->moving != 0, job->settings.step);
         if (law_predicts(v)) {
             prediction ahead = prediction_get(v.dimension, &job->predicted[row]);
@@ -270,7 +277,7 @@ SCREE_INLINE void evaluate_group(contact_job *job, variant v, const scree_state 
         scree_pair_constants constants = contact_surface_constants(job->model, surface, (int)one.material);
         contact_quanta q = contact_advance(job, v, &constants, NULL, &m, touch != NULL, &rows);
         contact_add_to_sums(job, row, q.force, q.torque_first, q.count);
-        if (v.moments) contact_add_moments(job, row, m.normal, m.arm_first, q.straining);
+        if (v.moments) contact_add_moments(job, row, contact_branch_of(v, false, &m, &one, true), q.straining);
         add_to_surface(job, (int)(surface - g->wall_set->surface), surface->hub, &one, &q, state->force_quantum,
                        state->torque_quantum);
     }
@@ -288,7 +295,8 @@ static bool holds_memory(const group *g)
 /// In space, where it pays, the law is known.
 #define GROUP_OF_LAW(law_)                                                                                             \
     if (v.dimension == 3 && v.law == SCREE_SLOT_##law_)                                                                \
-        evaluate_group(job, (variant){3, SCREE_SLOT_##law_, v.option, true, v.ledger, v.moments}, state, &g);
+        evaluate_group(job, (variant){3, SCREE_SLOT_##law_, v.option, true, v.ledger, v.moments, v.geometry}, state,   \
+                       &g);
 
 void contact_surfaces(contact_job *job, const scree_state *state, const scree_work *work, size_t begin, size_t end)
 {
@@ -301,9 +309,10 @@ void contact_surfaces(contact_job *job, const scree_state *state, const scree_wo
         contact_primitives_touching(g.wall_set, v.dimension, &job->row[row], g.pairs, g.begin, g.end, &g.touches);
         if (g.touches.count == 0 && !holds_memory(&g)) continue;
         place_of(v.dimension, &job->row[row], g.position);
-        pass_memory(&g);
+        if (job->law == 0) pass_memory(&g); // of all laws: that of a body on a wall does not change
         SCREE_LAWS(GROUP_OF_LAW)
-        if (v.dimension == 2) evaluate_group(job, (variant){2, v.law, v.option, true, v.ledger, v.moments}, state, &g);
+        if (v.dimension == 2)
+            evaluate_group(job, (variant){2, v.law, v.option, true, v.ledger, v.moments, v.geometry}, state, &g);
     }
 }
 

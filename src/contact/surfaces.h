@@ -61,11 +61,14 @@ void contact_primitives_mark(const scree_state *state, const scree_work *work, u
 /// Constants of a body of `material` on a wall: those of its plates, or with the wall's own material and friction.
 scree_pair_constants contact_surface_constants(const scree_model *model, const scree_surface *surface, int material);
 
+/// Their law.
+const scree_law_use *contact_surface_law(const scree_model *model, const scree_surface *surface, int material);
+
 /// Motion of a body against the primitive of a wall at `closest point`.
-kinematics kinematics_of_surface(const scree_wall_set *wall_set, size_t primitive, int dimension, const bodies *body,
+kinematics kinematics_of_surface(const scree_wall_set *wall_set, size_t primitive, variant v, const bodies *body,
                                  const scree_closest_point *closest, bool moving, double step);
 
-/// All contacts of bodies in rows [begin, end) with the walls of the case: memory, sums, totals.
+/// Contacts of bodies in rows [begin, end) with the walls of the case, those under the job's law: memory, sums, totals.
 void contact_surfaces(contact_job *job, const scree_state *state, const scree_work *work, size_t begin, size_t end);
 
 /// Quantum of the torques on the walls [N m], a power of two.

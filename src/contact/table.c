@@ -128,15 +128,17 @@ scree_status scree_contacts_save(scree_state *state, const scree_work *work, scr
     if (!status) status = scree_state_reserve_contacts(state, count, error);
     if (!status && work->pairs.last_force) status = scree_state_add_last_force(state, error);
     if (!status && work->pairs.rolling) status = scree_state_add_rolling(state, error);
+    if (!status && state->pair_laws > 0) status = scree_state_add_contact_law(state, error);
     size_t saved = 0;
     for (size_t k = 0; k < count && !status; k++) {
         const contact_reference *r = &order[k];
         contact_list list = contact_reference_list(r);
-        if (list == CONTACT_PAIR && r->pair < work->pairs.held_count) continue;
+        if (list == CONTACT_PAIR && r->pair < scree_pairs_held(&work->pairs)) continue;
         memory_rows memory = contact_memory_of(work, list, r->pair);
         state->contact[saved] = (scree_contact_memory){r->first, r->second, *memory.history};
         if (memory.last_force) state->last_force[saved] = *memory.last_force;
         if (memory.rolling) state->rolling[saved] = *memory.rolling;
+        if (state->contact_law) state->contact_law[saved] = (uint8_t)contact_law_number(work, list, r->pair);
         saved++;
     }
     state->contact_count = saved;

@@ -11,8 +11,7 @@
 typedef struct exerted {
     uint32_t row;
     contact_quanta quanta; ///< force and torque_first are those on this body
-    vector normal;         ///< of the contact
-    double arm;            ///< m, of this body
+    contact_branch branch; ///< of this body
 } exerted;
 
 /// Pair `p` at n.
@@ -28,10 +27,8 @@ static contact_evaluation evaluate(const scree_model *model, const scree_state *
 static bool is_cut(const scree_state *state, const scree_work *work, const uint8_t *going, size_t p)
 {
     uint32_t first = work->pairs.first[p], second = work->pairs.second[p];
-    const double *const strains[2] = {scree_strain_row(state, first), scree_strain_row(state, second)};
     return going[scree_parent_row(state, work, first)] != going[scree_parent_row(state, work, second)] &&
-           (p < work->pairs.held_count ||
-            pair_touches(state->dimension, &state->row[first], &state->row[second], strains));
+           contact_pair_is_there(state, work, p);
 }
 
 static void take_out_moment(scree_state *state, const exerted *e)
@@ -40,7 +37,7 @@ static void take_out_moment(scree_state *state, const exerted *e)
     const int dimension = state->dimension;
     const contact_scale scale = {.inverse_torque = 1 / state->torque_quantum};
     int64_t *sum = state->moment + e->row * scree_moment_size(dimension);
-    contact_moments(dimension, &scale, e->normal, e->arm, e->quanta.straining, moment);
+    contact_moments(dimension, &scale, e->branch, e->quanta.straining, moment);
     for (int k = 0; k < dimension * dimension; k++) sum[k] = (int64_t)((uint64_t)sum[k] - moment[k]);
 }
 
@@ -68,15 +65,13 @@ scree_status scree_contacts_take_out(const scree_model *model, scree_state *stat
     for (size_t p = 0; p < work->pairs.count; p++) {
         if (!is_cut(state, work, going, p)) continue;
         const contact_evaluation of = evaluate(model, state, work, p);
-        exerted e = {.row = scree_parent_row(state, work, work->pairs.first[p]),
-                     .quanta = of.quanta,
-                     .normal = of.kinematics.normal,
-                     .arm = of.lever_first};
+        exerted e = {
+            .row = scree_parent_row(state, work, work->pairs.first[p]), .quanta = of.quanta, .branch = of.branch_first};
         if (going[e.row]) {
             e.row = scree_parent_row(state, work, work->pairs.second[p]);
             e.quanta.force = quanta_opposite(e.quanta.force);
             e.quanta.torque_first = e.quanta.torque_second;
-            e.arm = of.lever_second;
+            e.branch = of.branch_second;
         }
         list[found++] = e;
     }

@@ -97,6 +97,18 @@ SCREE_INLINE vector spin_across(int dimension, vector w, vector n)
     return dimension == 2 ? w : vector_cross(w, n);
 }
 
+/// w x l, w a spin, l a lever.
+SCREE_INLINE vector spin_cross(int dimension, vector w, vector l)
+{
+    return dimension == 2 ? (vector){.x = -(w.x * l.y), .y = w.x * l.x} : vector_cross(w, l);
+}
+
+/// l x f, l a lever: the torque of a force.
+SCREE_INLINE vector lever_cross(int dimension, vector l, vector f)
+{
+    return dimension == 2 ? (vector){.x = l.x * f.y - l.y * f.x} : vector_cross(l, f);
+}
+
 /// n x f, f a tangential force.
 SCREE_INLINE vector moment_of(int dimension, vector n, vector f)
 {

@@ -17,12 +17,42 @@ scree_status scree_array_allocate(scree_array *array, scree_error *error)
 scree_array scree_array_of_field(const scree_state *state, const scree_field *field)
 {
     return (scree_array){.name = field->name,
-                         .type = field->type,
+                         .type = scree_field_stored_type(state, field),
                          .rows = scree_field_rows_count(state, field),
                          .components = scree_components(field->components, state->dimension),
                          .single = field->rows == SCREE_ROWS_ONE,
                          .unit = field->unit,
                          .meaning = field->meaning};
+}
+
+/// A value of one type as one of another: the same, or single precision as double and back.
+static void convert(const void *from, scree_field_type from_type, void *to, scree_field_type to_type, size_t components)
+{
+    for (size_t k = 0; k < components && from_type != to_type; k++) {
+        const bool narrow = to_type == SCREE_FIELD_FLOAT;
+        const double number = narrow ? ((const double *)from)[k] : (double)((const float *)from)[k];
+        if (narrow)
+            ((float *)to)[k] = (float)number;
+        else
+            ((double *)to)[k] = number;
+    }
+    if (from_type == to_type) memcpy(to, from, components * scree_field_size(from_type));
+}
+
+/// Between the array and where the law of each contact has the field; zero of laws that have none of it.
+static void copy_shared(const scree_array *array, const scree_field *field, scree_state *state, bool to_state)
+{
+    const size_t components = (size_t)array->components, size = components * scree_field_size(array->type);
+    unsigned char *packed = array->data;
+    for (size_t k = 0; k < array->rows; k++, packed += size) {
+        const scree_field *declared = scree_field_of_contact(state, field, k);
+        if (!declared) continue;
+        void *value = scree_field_get_mutable(state, declared, k);
+        if (to_state)
+            convert(packed, array->type, value, declared->type, components);
+        else
+            convert(value, declared->type, packed, array->type, components);
+    }
 }
 
 scree_status scree_array_from_field(const scree_state *state, const scree_field *field, bool by_id, scree_array *array,
@@ -31,6 +61,10 @@ scree_status scree_array_from_field(const scree_state *state, const scree_field 
     *array = scree_array_of_field(state, field);
     scree_status status = scree_array_allocate(array, error);
     if (status) return status;
+    if (scree_field_is_shared(state, field)) {
+        copy_shared(array, field, (scree_state *)(uintptr_t)state, false);
+        return SCREE_OK;
+    }
     by_id = by_id && field->rows == SCREE_ROWS_BODIES;
     const size_t size = (size_t)array->components * scree_field_size(array->type);
     unsigned char *target = array->data;
@@ -43,6 +77,10 @@ scree_status scree_array_from_field(const scree_state *state, const scree_field 
 
 void scree_array_to_field(const scree_array *array, const scree_field *field, scree_state *state)
 {
+    if (scree_field_is_shared(state, field)) {
+        copy_shared(array, field, state, true);
+        return;
+    }
     const size_t size = (size_t)array->components * scree_field_size(array->type);
     const unsigned char *source = array->data;
     unsigned char *first = array->rows > 0 ? scree_field_get_mutable(state, field, 0) : NULL;

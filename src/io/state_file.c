@@ -29,7 +29,8 @@ static uint64_t layout_checksum(const scree_state *state)
         const scree_field *field = stored_field(state, k);
         if (!field) continue;
         checksum = scree_checksum_bytes(checksum, field->name, strlen(field->name));
-        checksum = scree_checksum_word(checksum, (uint64_t)field->type << 32 | (uint32_t)field->components);
+        checksum = scree_checksum_word(checksum, (uint64_t)scree_field_stored_type(state, field) << 32 |
+                                                     (uint32_t)field->components);
         checksum = scree_checksum_word(checksum, field->rows);
     }
     return checksum;
@@ -40,24 +41,58 @@ static uint64_t layout_checksum(const scree_state *state)
 static const char *const law_attributes[SCREE_LISTS][2] = {{"law", "law_option"},
                                                            {"persistent_law", "persistent_law_option"}};
 
+/// Where contacts follow several laws, their names stand one after the other in the order of their numbers, and their
+/// options, OPTION_BITS each, from the lowest bits on.
+enum { LAWS_TEXT = 1024, OPTION_BITS = 3 };
+_Static_assert(OPTION_BITS *(1 + SCREE_MOST_PAIR_LAWS) <= 64, "options of all laws fit in a word");
+
 static void write_laws(scree_hdf5 *part, const char *group, const scree_state *state)
 {
     for (int list = 0; list < SCREE_LISTS; list++) {
         const scree_remembered_law *law = &state->law[list];
-        scree_hdf5_set_text(part, group, law_attributes[list][0], law->law ? law->law->name : "");
-        scree_hdf5_set_integer(part, group, law_attributes[list][1], law->option);
+        char text[LAWS_TEXT];
+        uint64_t options = law->option;
+        (void)snprintf(text, sizeof text, "%s", law->law ? law->law->name : "");
+        for (int k = 0; k < state->pair_laws && list == SCREE_LIST_CONTACTS; k++) {
+            const size_t used = strlen(text);
+            (void)snprintf(text + used, sizeof text - used, " %s", state->pair_law[k].law->name);
+            options |= (uint64_t)state->pair_law[k].option << OPTION_BITS * (k + 1);
+        }
+        scree_hdf5_set_text(part, group, law_attributes[list][0], text);
+        scree_hdf5_set_integer(part, group, law_attributes[list][1], options);
     }
 }
 
-static void read_law(scree_hdf5 *file, const char *group, int list, scree_remembered_law *law)
+/// The law of this name, with its option in the lowest bits of `options`; none of a name that is not known.
+static scree_remembered_law named_law(const char *name, size_t length, uint64_t options)
 {
-    char name[64];
-    uint64_t option = 0;
-    scree_hdf5_get_text(file, group, law_attributes[list][0], name, sizeof name);
-    scree_hdf5_get_integer(file, group, law_attributes[list][1], &option);
-    *law = (scree_remembered_law){.option = (unsigned)option};
-    for (int m = 0; m < SCREE_MODULE_COUNT && !file->status; m++)
-        if (scree_modules[m]->law && strcmp(scree_modules[m]->name, name) == 0) law->law = scree_modules[m];
+    scree_remembered_law law = {.option = (unsigned)options & ((1U << OPTION_BITS) - 1)};
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
+        if (scree_modules[m]->law && strncmp(scree_modules[m]->name, name, length) == 0 &&
+            scree_modules[m]->name[length] == 0)
+            law.law = scree_modules[m];
+    return law;
+}
+
+static void read_laws(scree_hdf5 *file, const char *group, int list, scree_state *state)
+{
+    char text[LAWS_TEXT];
+    uint64_t options = 0;
+    scree_hdf5_get_text(file, group, law_attributes[list][0], text, sizeof text);
+    scree_hdf5_get_integer(file, group, law_attributes[list][1], &options);
+    if (file->status) return;
+    const char *name = text;
+    state->law[list] = named_law(name, strcspn(name, " "), options);
+    while (list == SCREE_LIST_CONTACTS && name[strcspn(name, " ")] == ' ') {
+        name += strcspn(name, " ") + 1;
+        options >>= OPTION_BITS;
+        const scree_remembered_law law = named_law(name, strcspn(name, " "), options);
+        if (!law.law || state->pair_laws == SCREE_MOST_PAIR_LAWS) {
+            scree_hdf5_damaged(file, "contacts of a law that is not known, or of more than there may be");
+            return;
+        }
+        state->pair_law[state->pair_laws++] = law;
+    }
 }
 
 // ---- writing -----------------------------------------------------------------------------------------------------
@@ -104,16 +139,26 @@ static void check_origin(scree_hdf5 *file, const char *group, const scree_state 
             scree_error_set(file->error, SCREE_ERROR_INPUT, "'%s' is a checkpoint of another case", file->path);
 }
 
-/// The same for contacts; what lies beside their first array is there where the law needs it.
-static scree_status make_contact_room(scree_state *state, const scree_field *field, size_t rows, scree_error *error)
+/// What lies beside the first array of contacts is there where the law needs it.
+static scree_status make_beside(scree_state *state, const scree_field *field, size_t rows, scree_error *error)
 {
     void *array, *pointer = scree_field_array(state, field);
+    memcpy(&array, pointer, sizeof array);
+    return array || rows == 0 ? SCREE_OK : scree_allocate(pointer, state->contact_capacity, field->stride, error);
+}
+
+/// The same for contacts.
+static scree_status make_contact_room(scree_state *state, const scree_field *field, size_t rows, scree_error *error)
+{
     scree_status status = SCREE_OK;
     if (state->contact_count == 0 && !(status = scree_state_reserve_contacts(state, rows, error)))
         state->contact_count = rows;
-    memcpy(&array, pointer, sizeof array);
-    if (status || array || rows == 0) return status;
-    return scree_allocate(pointer, state->contact_capacity, field->stride, error);
+    if (!scree_field_is_shared(state, field)) return status ? status : make_beside(state, field, rows, error);
+    for (int k = 0; k <= state->pair_laws && !status; k++) {
+        const scree_field *declared = scree_field_of_law(state, field, k);
+        if (declared) status = make_beside(state, declared, rows, error);
+    }
+    return status;
 }
 
 /// Makes the part of `state` that `field` describes have `rows` rows, when it has none yet.
@@ -158,7 +203,7 @@ void scree_state_read(scree_hdf5 *file, const char *group, const char *shared, i
 {
     scree_status opened = scree_state_open(state, dimension, file->error);
     if (!file->status) file->status = opened;
-    for (int list = 0; list < SCREE_LISTS && !file->status; list++) read_law(file, group, list, &state->law[list]);
+    for (int list = 0; list < SCREE_LISTS && !file->status; list++) read_laws(file, group, list, state);
     check_origin(file, group, state, case_checksum);
     scree_time_spent spent = {0};
     scree_hdf5_get_number(file, group, "wall_time", &spent.run);

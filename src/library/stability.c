@@ -146,8 +146,8 @@ static void expect(const scree_simulation *s, scree_stability *out)
     const scree_model *model = &s->model;
     const double radius = model->mean_radius;
     const scree_compliance by = scree_deformation_compliance(model, 0);
-    const scree_contact_tangent t =
-        scree_contact_linearise(model, &model->pairs[0][0], 0.5 * radius, 0.5 * scree_model_mass(model, 0, radius), 0);
+    const scree_contact_tangent t = scree_contact_linearise(&model->laws[0], &model->pairs[0][0], 0.5 * radius,
+                                                            0.5 * scree_model_mass(model, 0, radius), 0);
     *out = nothing_known(s);
     out->normal_stiffness = t.normal_stiffness;
     if (!(by.shear > 0)) return;

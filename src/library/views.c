@@ -5,12 +5,18 @@
 
 #include <string.h>
 
+/// A view copies nothing: what contacts of several laws remember, each in its own place, is no array.
+static bool is_seen(const scree_state *state, const scree_field *field)
+{
+    return scree_field_is_here(state, field) && !scree_field_is_shared(state, field);
+}
+
 /// The field of this name that the state has.
 static const scree_field *find(const scree_simulation *s, const char *name)
 {
     for (size_t k = 0; k < scree_field_total(); k++) {
         const scree_field *field = scree_field_at(k);
-        if (scree_field_is_here(&s->state, field) && strcmp(field->name, name) == 0) return field;
+        if (is_seen(&s->state, field) && strcmp(field->name, name) == 0) return field;
     }
     return NULL;
 }
@@ -20,7 +26,7 @@ const char *scree_simulation_view_name(const scree_simulation *s, size_t index)
     handle_assert(s);
     for (size_t k = 0; k < scree_field_total(); k++) {
         const scree_field *field = scree_field_at(k);
-        if (scree_field_is_here(&s->state, field) && index-- == 0) return field->name;
+        if (is_seen(&s->state, field) && index-- == 0) return field->name;
     }
     return NULL;
 }
@@ -45,6 +51,12 @@ static scree_status refuse(const scree_simulation *s, const char *name, scree_er
     const char *names[MOST];
     size_t count = 0;
     while (count < MOST && (names[count] = scree_simulation_view_name(s, count))) count++;
+    for (size_t k = 0; k < scree_field_total(); k++)
+        if (strcmp(scree_field_at(k)->name, name) == 0 && scree_field_is_shared(&s->state, scree_field_at(k)))
+            return scree_error_set(error, SCREE_ERROR_INPUT,
+                                   "'%s' cannot be seen as an array: contacts follow several laws, and each has it in "
+                                   "a place of its own; files have it, and without contact.pairs it can be seen",
+                                   name);
     const char *nearest = scree_nearest(name, names, count);
     if (!nearest) nearest = longer(s, name);
     scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "there is no field '%s' in %d dimensions%s%s%s",

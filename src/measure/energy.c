@@ -162,15 +162,20 @@ static void sum_contacts(const scree_state *state, const scree_contact_table *ta
     for (int k = 0; k < CONTACT_SUMS; k++) total[k] = scree_integer_sum_total(&sum[k]);
 }
 
+static double spring_energy(const scree_elastic *elastic, const scree_pair_constants *pair, double radius,
+                            double overlap)
+{
+    return elastic->energy(pair, radius, overlap);
+}
+
 /// Energy to which round-off lets the balance be known: the head of this file.
 static double energy_of_rounding(const scree_model *model, const scree_state *state, const double body[BODY_SUMS],
                                  double largest, double contact_force)
 {
     double distance = ROUNDING * DBL_EPSILON * largest;
     double weight = body[MASS] * scree_length(model->gravity), bodies = (double)state->count;
-    const scree_pair_constants pair = scree_model_mean_pair(model);
     return distance * (contact_force + weight) +
-           bodies * scree_model_law(model)->elastic->energy(&pair, model->mean_radius, distance) +
+           bodies * scree_model_mean_of(model, spring_energy, model->mean_radius, distance) +
            0.5 * DBL_EPSILON * bodies * body[MAGNITUDES];
 }
 

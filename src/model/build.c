@@ -30,6 +30,43 @@ static scree_status indexed_error(scree_error *error, const char *list, int64_t 
     return FIELD_ERROR(error, path, "%s", text);
 }
 
+// ---- laws --------------------------------------------------------------------------------------------------------
+
+/// Number of the law of a material of the list and something called `other`; NULL: its like.
+static int law_number(const scree_config *config, int64_t material, const char *other)
+{
+    const char *one = config->materials[material].name;
+    return scree_config_law_between(&config->contact, one, other ? other : one);
+}
+
+/// Whether a material of the list meets others of it, which are in use or `all`, plates or walls under the law.
+static bool takes_part(const scree_model *model, int law, int64_t material, bool all)
+{
+    const scree_config *config = model->config;
+    const char *wall = config->materials[material].wall_material;
+    bool part = law_number(config, material, wall) == law;
+    for (int64_t i = 0; i < config->material_count && all; i++)
+        part = part || law_number(config, material, config->materials[i].name) == law;
+    for (int i = 0; i < model->material_count && !all; i++)
+        part = part || law_number(config, material, config->materials[model->listed[i]].name) == law;
+    for (int64_t w = 0; w < config->wall_count; w++)
+        part =
+            part || law_number(config, material, config->walls[w].material ? config->walls[w].material : wall) == law;
+    return part;
+}
+
+/// What each law wants of a material under it.
+static scree_status check_laws(const scree_model *model, int64_t material, scree_error *error)
+{
+    for (int k = 0; k < scree_model_law_count(model); k++) {
+        const scree_law *law = scree_law_get(model->laws[k].law);
+        if (!law->material_problem || !takes_part(model, k, material, true)) continue;
+        const char *key, *problem = law->material_problem(&model->config->materials[material], &key);
+        if (problem) return indexed_error(error, "materials", material, key, problem);
+    }
+    return SCREE_OK;
+}
+
 static scree_status check_materials(const scree_model *model, scree_error *error)
 {
     const scree_config *config = model->config;
@@ -40,9 +77,8 @@ static scree_status check_materials(const scree_model *model, scree_error *error
         for (int j = 0; j < i; j++)
             if (strcmp(config->materials[i].name, config->materials[j].name) == 0)
                 return indexed_error(error, "materials", i, "name", "two materials have the same name");
-        const scree_law *law = scree_model_law(model);
-        const char *key, *problem = law->material_problem ? law->material_problem(&config->materials[i], &key) : NULL;
-        if (problem) return indexed_error(error, "materials", i, key, problem);
+        scree_status status = check_laws(model, i, error);
+        if (status) return status;
     }
     return SCREE_OK;
 }
@@ -84,9 +120,11 @@ static scree_contact_space space_of(const scree_model *model)
     return (scree_contact_space){.dimension = model->dimension, .thickness = model->thickness};
 }
 
-/// Material `grain` of the list on a wall of `material` (NULL: like the grain); at LIST.INDEX.KEY the user said so.
+/// Material `grain` of the list on a wall of `material` (NULL: like the grain), and the number of their law; at
+/// LIST.INDEX.KEY the user said so.
 static scree_status wall_constants(const scree_model *model, int64_t grain, const char *material, const char *list,
-                                   int64_t index, const char *key, scree_pair_constants *constants, scree_error *error)
+                                   int64_t index, const char *key, scree_pair_constants *constants, uint8_t *law,
+                                   scree_error *error)
 {
     const scree_config_material *body = &model->config->materials[grain], *wall = body;
     bool rigid = material && strcmp(material, SCREE_RIGID) == 0;
@@ -94,7 +132,8 @@ static scree_status wall_constants(const scree_model *model, int64_t grain, cons
     if (found < 0) return indexed_error(error, list, index, key, "there is no material of this name");
     wall = rigid ? NULL : &model->config->materials[found];
     const scree_contact_space space = space_of(model);
-    *constants = scree_model_law(model)->constants(&space, body, wall);
+    *law = (uint8_t)law_number(model->config, grain, material);
+    *constants = scree_law_get(model->laws[*law].law)->constants(&space, body, wall);
     if (!isnan(body->wall_friction)) constants->value[SCREE_FRICTION] = body->wall_friction;
     return SCREE_OK;
 }
@@ -108,12 +147,15 @@ static scree_status resolve_walls(scree_model *model, scree_error *error)
         const int64_t place = model->listed[i];
         const scree_config_material *grain = &config->materials[place];
         status = wall_constants(model, place, grain->wall_material, "materials", place, "wall_material",
-                                &model->walls[i], error);
+                                &model->walls[i], &model->law_of_walls[i], error);
         for (int64_t w = 0; w < config->wall_count && !status; w++) {
             scree_pair_constants *pair = &model->surfaces[w][i];
+            uint8_t *law = &model->law_of_surfaces[w][i];
             *pair = model->walls[i];
+            *law = model->law_of_walls[i];
             if (config->walls[w].material)
-                status = wall_constants(model, place, config->walls[w].material, "walls", w, "material", pair, error);
+                status =
+                    wall_constants(model, place, config->walls[w].material, "walls", w, "material", pair, law, error);
             if (!isnan(config->walls[w].friction)) pair->value[SCREE_FRICTION] = config->walls[w].friction;
         }
     }
@@ -132,19 +174,36 @@ static scree_status resolve_materials(scree_model *model, scree_error *error)
     return SCREE_OK;
 }
 
-/// Constants of all pairs, which may depend on sizes.
+/// Options of the laws, which the materials in use under them ask for.
+static void resolve_options(scree_model *model)
+{
+    const scree_config *config = model->config;
+    for (int k = 0; k < scree_model_law_count(model); k++) {
+        const scree_law *law = scree_law_get(model->laws[k].law);
+        for (int i = 0; i < model->material_count; i++)
+            if (takes_part(model, k, model->listed[i], false))
+                model->laws[k].option |=
+                    law->options(scree_config_law_keys(&config->contact, k), &config->materials[model->listed[i]]);
+    }
+}
+
+/// Law and constants of all pairs, which may depend on sizes.
 static scree_status resolve_pairs(scree_model *model, scree_error *error)
 {
     const scree_config *config = model->config;
     const scree_config_material *listed = config->materials;
-    const scree_law *law = scree_model_law(model);
     const scree_contact_space space = space_of(model);
     for (int i = 0; i < config->material_count; i++) {
         const scree_config_material *material = &listed[model->listed[i]];
-        for (int j = 0; j <= i; j++)
-            model->pairs[i][j] = model->pairs[j][i] = law->constants(&space, material, &listed[model->listed[j]]);
-        if (i < model->material_count) model->law.option |= law->options(&config->contact, material);
+        for (int j = 0; j <= i; j++) {
+            const scree_config_material *other = &listed[model->listed[j]];
+            const int law = law_number(config, model->listed[i], other->name);
+            model->law_of_pairs[i][j] = model->law_of_pairs[j][i] = (uint8_t)law;
+            model->pairs[i][j] = model->pairs[j][i] =
+                scree_law_get(model->laws[law].law)->constants(&space, material, other);
+        }
     }
+    resolve_options(model);
     return resolve_walls(model, error);
 }
 
@@ -232,19 +291,44 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
     }
     model->reference_velocity = config->contact.reference_velocity;
     if (isnan(model->reference_velocity) && !isnan(rate)) model->reference_velocity = 2 * rate * model->mean_radius;
-    const scree_law *law = scree_model_law(model);
-    if (law->needs_slip_scale && !(model->reference_velocity > 0))
-        return FIELD_ERROR(error, "contact.reference_velocity",
-                           "%s needs a reference slip velocity: without a loading stage (2 rate <R>) "
-                           "give contact.reference_velocity",
-                           scree_modules[model->law.law]->name);
-    if (law->resolve) law->resolve(&config->contact, model->reference_velocity, &model->law);
+    for (int k = 0; k < scree_model_law_count(model); k++) {
+        const scree_law *law = scree_law_get(model->laws[k].law);
+        if (law->needs_slip_scale && !(model->reference_velocity > 0))
+            return FIELD_ERROR(error, "contact.reference_velocity",
+                               "%s needs a reference slip velocity: without a loading stage (2 rate <R>) "
+                               "give contact.reference_velocity",
+                               scree_modules[model->laws[k].law]->name);
+        if (law->resolve)
+            law->resolve(scree_config_law_keys(&config->contact, k), model->reference_velocity, &model->laws[k]);
+    }
     model->phi = model->psi = NAN;
     if (isnan(rate) || isnan(pressure)) return SCREE_OK;
     double mass = scree_model_mean_mass(model);
     scree_quasistatic_numbers(model->dimension, (double)config->particles.count, mass, model->mean_radius,
                               model->thickness, rate, pressure, &model->phi, &model->psi);
     return SCREE_OK;
+}
+
+/// Geometry of the contacts of two shapes: its number among the geometries, in their order.
+static int geometry_of(const scree_shape *one, const scree_shape *other)
+{
+    int number = 0, found = -1;
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++) {
+        const scree_geometry *geometry = scree_modules[m]->geometry;
+        if (!geometry) continue;
+        if (found < 0 && geometry->serves(one, other)) found = number;
+        number++;
+    }
+    return found;
+}
+
+static scree_status resolve_geometry(scree_model *model, scree_error *error)
+{
+    const scree_shape *shape = scree_model_shape(model);
+    model->geometry = geometry_of(shape, shape);
+    return model->geometry >= 0
+               ? SCREE_OK
+               : FIELD_ERROR(error, "particles.shape", "there is no geometry for contacts of such particles");
 }
 
 static scree_status resolve_law(scree_model *model, scree_error *error)
@@ -255,14 +339,21 @@ static scree_status resolve_law(scree_model *model, scree_error *error)
     return status;
 }
 
-/// The contact law holds pairs together, too, where it can.
+/// The law of `contact` holds pairs together, too, where it can: of all materials.
 static void resolve_persistent(scree_model *model)
 {
-    const unsigned holding = scree_model_law(model)->holding;
-    if (!holding) return;
-    model->persistent.law = model->law;
-    model->persistent.law.option = model->law.option | holding;
+    const scree_law *law = scree_model_law(model);
+    const scree_config_material *listed = model->config->materials;
+    const scree_contact_space space = space_of(model);
+    if (!law->holding) return;
+    model->persistent.law = model->laws[0];
+    model->persistent.law.option = model->laws[0].option | law->holding;
     memcpy(model->persistent.pairs, model->pairs, sizeof model->pairs);
+    for (int i = 0; i < model->config->material_count; i++)
+        for (int j = 0; j <= i; j++)
+            if (model->law_of_pairs[i][j] != 0)
+                model->persistent.pairs[i][j] = model->persistent.pairs[j][i] =
+                    law->constants(&space, &listed[model->listed[i]], &listed[model->listed[j]]);
 }
 
 /// Rounds down to two significant digits.
@@ -330,7 +421,9 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
         .count = (uint64_t)config->particles.count,
         .periodic = (unsigned)config->boundary.periodic,
         .dimension = (int)config->dimension,
-        .law = {.law = config->contact.law},
+        .shape = scree_modules[config->particles.shape]->shape,
+        .laws = {{.law = config->contact.law}},
+        .pair_laws = (int)config->contact.pair_count,
         .scheme = config->integrator.scheme,
         .gravity_of_case = config->gravity,
         .walls_of_case = config->walls,
@@ -344,7 +437,9 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
         .config = config,
     };
     for (int k = 0; k < 3; k++) model->gravity[k] = scree_schedule_at(&config->gravity[k], 0);
-    scree_status status = resolve_materials(model, error);
+    for (int k = 1; k <= model->pair_laws; k++) model->laws[k].law = scree_config_law(&config->contact, k);
+    scree_status status = resolve_geometry(model, error);
+    if (!status) status = resolve_materials(model, error);
     if (!status) status = resolve_particles(model, error);
     if (!status) status = resolve_pairs(model, error);
     if (!status) status = resolve_law(model, error);

@@ -63,10 +63,10 @@ double scree_expected_solid_fraction(const scree_model *model)
     return model->dimension == 3 ? 0.64 : 0.8;
 }
 
-scree_contact_tangent scree_contact_linearise(const scree_model *model, const scree_pair_constants *pair,
+scree_contact_tangent scree_contact_linearise(const scree_law_use *law, const scree_pair_constants *pair,
                                               double effective_radius, double effective_mass, double force)
 {
-    return scree_model_law(model)->tangent(&model->law, pair, effective_radius, effective_mass, force);
+    return scree_law_get(law->law)->tangent(law, pair, effective_radius, effective_mass, force);
 }
 
 /// Step at which one mode of given stiffness and damping, both per mass, becomes unstable.
@@ -169,7 +169,8 @@ static double estimate_of(const scree_model *model, int one, int other)
     double mass = scree_model_mass(model, one, a), second = scree_model_mass(model, other, b);
     double effective_radius = a == b ? a / 2 : a * b / (a + b);
     double effective_mass = one == other ? mass / 2 : mass * second / (mass + second);
-    const scree_elastic *elastic = scree_model_law(model)->elastic;
+    const scree_law_use *law = scree_model_law_between(model, one, other);
+    const scree_elastic *elastic = scree_law_get(law->law)->elastic;
 
     const scree_config_stage *stage = scree_config_prepare(model->config);
     const scree_preparation *method = scree_config_preparation(model->config);
@@ -186,7 +187,7 @@ static double estimate_of(const scree_model *model, int one, int other)
     double guard = elastic->force(pair, effective_radius, model->config->guard.overlap * fmin(a, b));
     if (!(force > 0 && force < guard)) force = guard;
 
-    scree_contact_tangent tangent = scree_contact_linearise(model, pair, effective_radius, effective_mass, force);
+    scree_contact_tangent tangent = scree_contact_linearise(law, pair, effective_radius, effective_mass, force);
     return scree_critical_step_lattice(model->dimension, &tangent, fmin(mass, second));
 }
 

@@ -4,9 +4,9 @@
 
 #include "model/model.h"
 
-/// Tangent of the model's law at the static normal force `force` [N] between bodies of the effective radius [m] and
+/// Tangent of a law at the static normal force `force` [N] between bodies of the effective radius [m] and
 /// mass [kg].
-scree_contact_tangent scree_contact_linearise(const scree_model *model, const scree_pair_constants *pair,
+scree_contact_tangent scree_contact_linearise(const scree_law_use *law, const scree_pair_constants *pair,
                                               double effective_radius, double effective_mass, double force);
 
 /// Largest stable step [s] of a hexagonal lattice of discs, in 3D a face-centred cubic one of spheres, of `mass` [kg]

@@ -10,21 +10,22 @@ static bool is_frictionless(const scree_model *model, int material)
     return model->frictionless >> material & 1;
 }
 
-static void take_friction(const scree_model *model, scree_pair_constants *pair)
+static void take_friction(const scree_model *model, int law, scree_pair_constants *pair)
 {
     for (int k = 0; k < SCREE_PAIR_CONSTANTS; k++)
-        if (scree_model_law(model)->resistances >> k & 1) pair->value[k] = 0;
+        if (scree_law_get(model->laws[law].law)->resistances >> k & 1) pair->value[k] = 0;
 }
 
 void scree_model_make_frictionless(scree_model *model, int material)
 {
     model->frictionless |= 1u << material;
-    take_friction(model, &model->walls[material]);
-    for (int w = 0; w < SCREE_SURFACES; w++) take_friction(model, &model->surfaces[w][material]);
+    take_friction(model, model->law_of_walls[material], &model->walls[material]);
+    for (int w = 0; w < SCREE_SURFACES; w++)
+        take_friction(model, model->law_of_surfaces[w][material], &model->surfaces[w][material]);
     for (int i = 0; i < SCREE_MAX_MATERIALS; i++) {
-        take_friction(model, &model->pairs[i][material]);
+        take_friction(model, model->law_of_pairs[i][material], &model->pairs[i][material]);
         model->pairs[material][i] = model->pairs[i][material];
-        take_friction(model, &model->persistent.pairs[i][material]);
+        take_friction(model, 0, &model->persistent.pairs[i][material]);
         model->persistent.pairs[material][i] = model->persistent.pairs[i][material];
     }
 }

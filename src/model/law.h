@@ -97,10 +97,11 @@ typedef struct scree_law {
     bool needs_slip_scale; ///< does not work without model->reference_velocity
     /// What is wrong with a material under this law: a message, and in `key` which; NULL: nothing.
     const char *(*material_problem)(const scree_config_material *material, const char **key);
-    /// Options that the case, or one of the materials in use, asks for.
-    unsigned (*options)(const scree_config_contact *contact, const scree_config_material *material);
+    /// Options that the case, or one of the materials in use, asks for. own: the struct of the law's keys under
+    /// `contact`, or in an element of contact.pairs.
+    unsigned (*options)(const void *own, const scree_config_material *material);
     /// Numbers of the whole run. reference_velocity [m/s]: v_R. NULL: none.
-    void (*resolve)(const scree_config_contact *contact, double reference_velocity, scree_law_use *use);
+    void (*resolve)(const void *own, double reference_velocity, scree_law_use *use);
     /// Constants of two materials; b is NULL for something rigid.
     scree_pair_constants (*constants)(const scree_contact_space *space, const scree_config_material *a,
                                       const scree_config_material *b);
@@ -127,6 +128,12 @@ typedef struct scree_law {
 static inline const scree_law *scree_law_get(int slot)
 {
     return scree_modules[slot]->law;
+}
+
+/// Its traits as it is used.
+static inline const scree_law_traits *scree_law_use_traits(const scree_law_use *use)
+{
+    return &scree_law_get(use->law)->traits[use->option];
 }
 
 #endif

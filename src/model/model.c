@@ -20,8 +20,15 @@ bool scree_model_is_wholly_periodic(const scree_model *model)
 
 double scree_model_stiffness(const scree_model *model, double pressure, double diameter, double depth)
 {
-    const scree_pair_constants pair = scree_model_mean_pair(model);
-    return scree_model_law(model)->elastic->stiffness(&pair, 0.5 * model->mean_radius, pressure, diameter, depth);
+    double sum = 0;
+    for (int k = 0; k < scree_model_law_count(model); k++) {
+        const scree_mean_pair pair = scree_model_mean_pair(model, k);
+        if (pair.share > 0)
+            sum += pair.share *
+                   scree_law_get(model->laws[k].law)
+                       ->elastic->stiffness(&pair.constants, 0.5 * model->mean_radius, pressure, diameter, depth);
+    }
+    return sum;
 }
 
 double scree_model_largest_radius(const scree_model *model)

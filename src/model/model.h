@@ -5,6 +5,7 @@
 #define SCREE_MODEL_MODEL_H
 
 #include "model/law.h"
+#include "module/geometry.h"
 #include "module/module.h"
 
 #include <math.h>
@@ -43,21 +44,24 @@ typedef struct scree_servo_limits {
 } scree_servo_limits;
 
 struct scree_model {
-    const char *name; ///< of the case
+    const char *name;         ///< of the case
+    const scree_shape *shape; ///< of the particles; NULL: of no case, and round
+    int geometry;             ///< number of the geometry of their contacts (contact/geometry.h)
     uint64_t seed;
     uint64_t count;    ///< particles of the case
     unsigned periodic; ///< bit k: the sample repeats itself in direction k
     int dimension;
-    double thickness;          ///< m, length of the discs; 1 in 3D
-    scree_law_use law;         ///< how contacts resist
-    double reference_velocity; ///< m/s, v_R
-    int scheme;                ///< slot of the integrator's module
-    double step;               ///< s, the tick: the small step of two_timescales, the step of all other schemes
-    uint64_t largest_step;     ///< ticks, N_S of two_timescales (the step before loading), else 1
-    uint64_t large_multiple;   ///< ticks, n of two_timescales, else 1
-    uint64_t small_steps;      ///< q of two_timescales, else 0
-    double critical_step;      ///< s, estimate at the confining pressure (see model.c)
-    double gravity[3];         ///< m/s2; of a stage's copy what acts at the step that its state is at (load/gravity.h)
+    double thickness;                             ///< m, length of the discs; 1 in 3D
+    scree_law_use laws[1 + SCREE_MOST_PAIR_LAWS]; ///< how contacts resist: as `contact` says, and behind it
+    int pair_laws;                                ///< those of single pairs of materials; so many
+    double reference_velocity;                    ///< m/s, v_R
+    int scheme;                                   ///< slot of the integrator's module
+    double step;             ///< s, the tick: the small step of two_timescales, the step of all other schemes
+    uint64_t largest_step;   ///< ticks, N_S of two_timescales (the step before loading), else 1
+    uint64_t large_multiple; ///< ticks, n of two_timescales, else 1
+    uint64_t small_steps;    ///< q of two_timescales, else 0
+    double critical_step;    ///< s, estimate at the confining pressure (see model.c)
+    double gravity[3];       ///< m/s2; of a stage's copy what acts at the step that its state is at (load/gravity.h)
     const scree_schedule *gravity_of_case; ///< m/s2, three components by time of the run
     scree_species species[SCREE_MOST_SPECIES];
     int species_count;
@@ -70,6 +74,9 @@ struct scree_model {
     scree_pair_constants pairs[SCREE_MAX_MATERIALS][SCREE_MAX_MATERIALS]; ///< grain on grain
     scree_pair_constants walls[SCREE_MAX_MATERIALS];                      ///< grain on a plate
     scree_pair_constants surfaces[SCREE_SURFACES][SCREE_MAX_MATERIALS];   ///< on each wall of the case
+    uint8_t law_of_pairs[SCREE_MAX_MATERIALS][SCREE_MAX_MATERIALS];       ///< in the same places: numbers in `laws`
+    uint8_t law_of_walls[SCREE_MAX_MATERIALS];
+    uint8_t law_of_surfaces[SCREE_SURFACES][SCREE_MAX_MATERIALS];
     scree_persistent_law persistent;
     int added_materials;   ///< behind those in use: of bodies that modules add
     double added_radius;   ///< m, largest of such bodies
@@ -120,14 +127,37 @@ static inline const scree_config_material *scree_model_material_said(const scree
 /// Largest normal stress that a stage holds [Pa, compression positive], NAN when it holds none.
 double scree_held_pressure(const scree_config_stage *stage);
 
+/// Laws of contacts, at least one.
+static inline int scree_model_law_count(const scree_model *model)
+{
+    return 1 + model->pair_laws;
+}
+
+/// That of all pairs of materials without one of their own.
 static inline const scree_law *scree_model_law(const scree_model *model)
 {
-    return scree_law_get(model->law.law);
+    return scree_law_get(model->laws[0].law);
 }
 
 static inline const scree_law_traits *scree_model_traits(const scree_model *model)
 {
-    return &scree_model_law(model)->traits[model->law.option];
+    return scree_law_use_traits(&model->laws[0]);
+}
+
+/// The law of contacts of two materials; of one on plates; on a wall of the case.
+static inline const scree_law_use *scree_model_law_between(const scree_model *model, int one, int other)
+{
+    return &model->laws[model->law_of_pairs[one][other]];
+}
+
+static inline const scree_law_use *scree_model_law_on_plate(const scree_model *model, int material)
+{
+    return &model->laws[model->law_of_walls[material]];
+}
+
+static inline const scree_law_use *scree_model_law_on_wall(const scree_model *model, int64_t wall, int material)
+{
+    return &model->laws[model->law_of_surfaces[wall][material]];
 }
 
 /// Whether pairs may be held together.
@@ -142,10 +172,13 @@ static inline const scree_law_traits *scree_model_held_traits(const scree_model 
     return &scree_law_get(model->persistent.law.law)->traits[model->persistent.law.option];
 }
 
-/// Whether the law looks ahead by a step and needs scree_state_predict.
+/// Whether a law looks ahead by a step and needs scree_state_predict.
 static inline bool scree_model_predicts(const scree_model *model)
 {
-    return scree_model_traits(model)->looks_ahead;
+    bool ahead = false;
+    for (int k = 0; k < scree_model_law_count(model); k++)
+        ahead = ahead || scree_law_use_traits(&model->laws[k])->looks_ahead;
+    return ahead;
 }
 
 /// Normal stiffness [N/m] of a contact of two mean particles under the force pressure x diameter x depth.
@@ -154,12 +187,15 @@ double scree_model_stiffness(const scree_model *model, double pressure, double d
 /// Largest radius of all bodies [m], those of a membrane included.
 double scree_model_largest_radius(const scree_model *model);
 
-/// Mass [kg] of a body: a sphere, or a disc of the model's thickness.
+/// Mass [kg] of a round body: a sphere, or a disc of the model's thickness.
 static inline double scree_model_mass(const scree_model *model, int material, double radius)
 {
     double length = model->dimension == 3 ? 4.0 / 3.0 * radius : model->thickness;
     return model->density[material] * M_PI * radius * radius * length;
 }
+
+/// Shape of the particles; of a model that is of no case a round one.
+const scree_shape *scree_model_shape(const scree_model *model);
 
 /// Means over all particles, by number: mass [kg]; area [m2] in 2D, volume [m3] in 3D.
 double scree_model_mean_mass(const scree_model *model);
@@ -168,9 +204,22 @@ double scree_model_mean_solid(const scree_model *model);
 /// Density [kg/m3] of all particles together, mass over volume.
 double scree_model_mean_density(const scree_model *model);
 
-/// Constants of a contact of two particles taken at random, and Young's modulus [Pa] of one: means by number. Where the
+/// Contacts of two particles taken at random, those under one of the laws: which share of all they are, and their mean
+/// constants.
+typedef struct scree_mean_pair {
+    double share;
+    scree_pair_constants constants;
+} scree_mean_pair;
+scree_mean_pair scree_model_mean_pair(const scree_model *model, int law);
+
+/// Mean over them of a closed form of their laws: `of` at an effective radius [m] and an argument.
+double scree_model_mean_of(const scree_model *model,
+                           double (*of)(const scree_elastic *elastic, const scree_pair_constants *pair, double radius,
+                                        double argument),
+                           double effective_radius, double argument);
+
+/// Young's modulus [Pa] of a particle, mean by number. Where the
 /// case gives stiffnesses of springs, the modulus that grains of the mean radius would have with these.
-scree_pair_constants scree_model_mean_pair(const scree_model *model);
 double scree_model_mean_modulus(const scree_model *model);
 /// The key of materials that it comes from; NULL: young_modulus.
 const char *scree_model_modulus_key(const scree_model *model);

@@ -104,14 +104,25 @@ scree_status scree_model_resolve_species(scree_model *model, scree_error *error)
 
 // ---- means -------------------------------------------------------------------------------------------------------
 
+const scree_shape *scree_model_shape(const scree_model *model)
+{
+    const scree_shape *shape = model->shape;
+    for (int m = 0; m < SCREE_MODULE_COUNT && !shape; m++) {
+        const scree_shape *one = scree_modules[m]->shape;
+        if (one && one->round && one->dimension == model->dimension) shape = one;
+    }
+    return shape;
+}
+
 double scree_model_mean_solid(const scree_model *model)
 {
-    return model->dimension == 3 ? 4.0 / 3.0 * M_PI * model->mean_cube : M_PI * model->mean_square;
+    return scree_model_shape(model)->volume(model->dimension == 3 ? model->mean_cube : model->mean_square);
 }
 
 double scree_model_mean_mass(const scree_model *model)
 {
-    double sum = 0, factor = model->dimension == 3 ? 4.0 / 3.0 * M_PI : M_PI * model->thickness;
+    double sum = 0, factor = scree_model_shape(model)->volume(1);
+    if (model->dimension == 2) factor *= model->thickness;
     for (int s = 0; s < model->species_count; s++) {
         const scree_species *species = &model->species[s];
         sum += species->fraction * model->density[species->material] * mean_power(model, species);
@@ -132,18 +143,42 @@ double scree_model_mean_density(const scree_model *model)
     return mass / volume;
 }
 
-scree_pair_constants scree_model_mean_pair(const scree_model *model)
+scree_mean_pair scree_model_mean_pair(const scree_model *model, int law)
 {
     const scree_species *species = model->species;
-    scree_pair_constants mean = {{0}};
+    const int only = species->material;
+    scree_mean_pair mean = {0};
     // Of one species its own, to the last bit.
-    if (model->species_count <= 1) return model->pairs[species->material][species->material];
+    if (model->species_count <= 1)
+        return (scree_mean_pair){model->law_of_pairs[only][only] == law, model->pairs[only][only]};
     for (int s = 0; s < model->species_count; s++)
-        for (int t = 0; t < model->species_count; t++)
+        for (int t = 0; t < model->species_count; t++) {
+            const int one = species[s].material, other = species[t].material;
+            if (model->law_of_pairs[one][other] != law) continue;
+            mean.share += species[s].fraction * species[t].fraction;
             for (int k = 0; k < SCREE_PAIR_CONSTANTS; k++)
-                mean.value[k] += species[s].fraction * species[t].fraction *
-                                 model->pairs[species[s].material][species[t].material].value[k];
+                mean.constants.value[k] +=
+                    species[s].fraction * species[t].fraction * model->pairs[one][other].value[k];
+        }
+    // Under one law they are all.
+    if (model->pair_laws == 0) mean.share = 1;
+    for (int k = 0; k < SCREE_PAIR_CONSTANTS && mean.share > 0; k++) mean.constants.value[k] /= mean.share;
     return mean;
+}
+
+double scree_model_mean_of(const scree_model *model,
+                           double (*of)(const scree_elastic *elastic, const scree_pair_constants *pair, double radius,
+                                        double argument),
+                           double effective_radius, double argument)
+{
+    double sum = 0;
+    for (int k = 0; k < scree_model_law_count(model); k++) {
+        const scree_mean_pair pair = scree_model_mean_pair(model, k);
+        if (pair.share > 0)
+            sum += pair.share *
+                   of(scree_law_get(model->laws[k].law)->elastic, &pair.constants, effective_radius, argument);
+    }
+    return sum;
 }
 
 /// Of a species: that of the springs of its grains, or its own.
@@ -151,7 +186,7 @@ static double modulus_of(const scree_model *model, const scree_species *species,
 {
     const scree_config_material *material = &model->config->materials[model->listed[species->material]];
     const scree_contact_space space = {.dimension = model->dimension, .thickness = model->thickness};
-    const scree_law *law = scree_law_get(model->law.law);
+    const scree_law *law = scree_law_get(scree_model_law_between(model, species->material, species->material)->law);
     double modulus = law->modulus ? law->modulus(&space, material, model->mean_radius) : NAN;
     *key = isnan(modulus) ? NULL : law->modulus_key;
     return isnan(modulus) ? material->young_modulus : modulus;

@@ -69,8 +69,9 @@ typedef struct scree_key {
     bool guard;                  ///< only stops a run: no part of what makes a case (scree_case_checksum)
     const char *when; ///< "key=value|value": used only then; key of the same section, or "section.key". Several such
                       ///< conditions are joined by '&'. NULL: always
-    /// A trait of modules. With `chooser`, a choice of the same section: the key is used only with those modules that
-    /// have the trait. Without, in a list: only elements whose module has it have the key. NULL: all.
+    /// A trait of modules. With `chooser`, a choice of the same section, or "section.key": the key is used only with
+    /// those modules that have the trait. Without, in a list: only elements whose module has it have the key. NULL:
+    /// all.
     bool (*fits)(const struct scree_module *module);
     const char *chooser;
     const char *meaning;               ///< one line, ends with a full stop

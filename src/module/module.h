@@ -31,8 +31,8 @@ struct scree_module {
 
     // ---- numbers: what its keys become, once, with the model at hand (scree_model_numbers); no `auto` is left ----
     size_t numbers_size;
-    /// For one that asks the law of the contacts for something: changes model->law, when materials and pairs stand, and
-    /// nothing else of the model does. NULL: it asks for nothing.
+    /// For one that asks the law of the contacts for something: changes model->laws[0], when materials and pairs stand,
+    /// and nothing else of the model does. NULL: it asks for nothing.
     scree_status (*resolve_law)(scree_model *model, scree_error *error);
     /// Takes its keys from the config and fills its numbers (scree_model_reserve_numbers), when all else of the
     /// model is there. For modules without a face that does so. NULL: nothing to take.
@@ -44,6 +44,8 @@ struct scree_module {
     const struct scree_preparation *preparation;  ///< module/preparation.h
     const struct scree_size_distribution *sizes;  ///< module/size_distribution.h
     const struct scree_wall_shape *wall;          ///< module/wall_shape.h
+    const struct scree_shape *shape;              ///< module/shape.h
+    const struct scree_geometry *geometry;        ///< module/geometry.h
     const struct scree_stage_numbers *numbers;    ///< module/stage.h
     const struct scree_stage *stage;              ///< run/stage.h
     const struct scree_boundary *boundary;        ///< module/boundary.h

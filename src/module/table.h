@@ -20,6 +20,15 @@
 /// Contact laws, each with its header in contact/laws.h.
 #define SCREE_LAWS(row) row(hertz_brilliantov) row(hertz_mindlin) row(linear)
 
+/// Geometries of contacts, each with its header in contact/geometry.h, which numbers them in this order: those that are
+/// evaluated in lanes, and those of which pairs are evaluated one at a time.
+#define SCREE_GEOMETRIES_IN_LANES(row) row(round)
+#define SCREE_GEOMETRIES_ONE_BY_ONE(row)
+#define SCREE_GEOMETRIES(row) SCREE_GEOMETRIES_IN_LANES(row) SCREE_GEOMETRIES_ONE_BY_ONE(row)
+
+/// Shapes of particles, in the order in which the case reference lists them.
+#define SCREE_SHAPES(row) row(disc) row(sphere)
+
 /// Kinds of selections, in the order in which the case reference lists them.
 #define SCREE_SELECTION_MODULES(row)                                                                                   \
     row(select_all) row(select_box) row(select_circle) row(select_sphere) row(select_band) row(select_layer)           \
@@ -27,6 +36,7 @@
 
 /// Choices of the case, in the order in which the case reference lists them.
 #define SCREE_CASE_MODULES(row)                                                                                        \
+    SCREE_SHAPES(row)                                                                                                  \
     SCREE_LAWS(row)                                                                                                    \
     row(position_verlet) row(velocity_verlet) row(two_timescales) row(drop_and_roll) row(hexagonal) row(square)        \
         row(face_centred) row(body_centred) row(cubic) row(gas) row(growth) row(dense) row(pair) row(bodies)           \
@@ -41,6 +51,7 @@
 #define SCREE_MODULES(row)                                                                                             \
     SCREE_STATE_MODULES(row)                                                                                           \
     SCREE_BOUNDARY_MODULES(row)                                                                                        \
+    SCREE_GEOMETRIES(row)                                                                                              \
     SCREE_STAGE_STATE_MODULES(row) SCREE_SELECTION_MODULES(row) SCREE_CASE_MODULES(row) SCREE_MEASURE_MODULES(row)
 
 #endif

@@ -44,7 +44,8 @@ static scree_status place(const scree_model *model, const scree_config_stage *st
     double mass = one * other / (one + other);
     double gap = own_config(stage)->gap;
     if (isnan(gap))
-        gap = scree_model_law(model)->elastic->impact_length(&model->pairs[first][last], a * b / (a + b), mass, speed);
+        gap = scree_law_get(scree_model_law_between(model, first, last)->law)
+                  ->elastic->impact_length(&model->pairs[first][last], a * b / (a + b), mass, speed);
     packing->box.width = 3 * (a + b) + gap;
     packing->box.height = packing->box.depth = 4 * largest;
     for (int i = 0; i < packing->dimension; i++) packing->place[i][0] = packing->place[i][1] = 2 * largest;

@@ -134,14 +134,14 @@ typedef struct numbers {
 static void find_theory(const scree_model *model, numbers *n)
 {
     const double radius = model->mean_radius;
-    const scree_contact_tangent t =
-        scree_contact_linearise(model, &model->pairs[0][0], 0.5 * radius, 0.5 * scree_model_mass(model, 0, radius), 0);
+    const scree_contact_tangent t = scree_contact_linearise(&model->laws[0], &model->pairs[0][0], 0.5 * radius,
+                                                            0.5 * scree_model_mass(model, 0, radius), 0);
     const scree_compliance by = scree_deformation_compliance(model, 0);
     scree_lattice_material m = {.radius = radius,
                                 .length = model->thickness,
                                 .normal = t.normal_stiffness,
                                 .tangential = t.tangential_stiffness,
-                                .corrected = model->law.number[SCREE_LAW_CORRECTED] > 0};
+                                .corrected = model->laws[0].number[SCREE_LAW_CORRECTED] > 0};
     double none;
     scree_lattice_axial((scree_lattice)n->said.theory, &m, &n->rigid, &none);
     m.shear = by.shear;
@@ -249,7 +249,8 @@ static scree_status conclude(const scree_conclusion *run, scree_error *error)
     scree_summary_set_number(run->summary, "axial_young_modulus", stress / axial);
     if (own->theory != NO_LATTICE) tell_theory(n, stress / axial, run->summary);
     if (s.lateral)
-        scree_summary_set_number(run->summary, "axial_poisson_ratio", -(at(s.lateral, to) - at(s.lateral, from)) / axial);
+        scree_summary_set_number(run->summary, "axial_poisson_ratio",
+                                 -(at(s.lateral, to) - at(s.lateral, from)) / axial);
     return SCREE_OK;
 }
 

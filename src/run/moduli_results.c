@@ -28,18 +28,19 @@ static scree_status resolve(scree_model *model, scree_error *error)
 }
 
 #define MODULI(after, of)                                                                                              \
-    {"young_modulus" after, "Pa", "Young's modulus " of}, {"poisson_ratio" after, "1", "Poisson's ratio " of},         \
-        {"bulk_modulus" after, "Pa", "bulk modulus, of discs that of areas, " of},                                     \
+    {"static_young_modulus" after, "Pa", "Young's modulus " of},                                                       \
+        {"static_poisson_ratio" after, "1", "Poisson's ratio " of},                                                    \
+        {"static_bulk_modulus" after, "Pa", "bulk modulus, of discs that of areas, " of},                              \
     {                                                                                                                  \
-        "shear_modulus" after, "Pa", "shear modulus " of                                                               \
+        "static_shear_modulus" after, "Pa", "shear modulus " of                                                        \
     }
 static const scree_result results[] = {
     MODULI("", "of the specimen, of the nearest isotropic tensor"),
     MODULI("_voigt", "if rigid particles followed the mean strain"),
     MODULI("_theory", "by Voigt from number of contacts and mean square radius alone (M 4.15-4.18)"),
-    {"elastic_anisotropy", "1", "distance of the tensor of elasticity from the nearest isotropic one over its size"},
-    {"elastic_asymmetry", "1", "size of its skew part over its size"},
-    {"elastic_contacts", "1", "contacts between particles"},
+    {"static_anisotropy", "1", "distance of the tensor of elasticity from the nearest isotropic one over its size"},
+    {"static_asymmetry", "1", "size of its skew part over its size"},
+    {"static_contacts", "1", "contacts between particles"},
 };
 
 static void set(scree_summary *summary, const scree_specimen *s, const scree_specimen_moduli *found)

@@ -141,13 +141,16 @@ static void close_cell(const scree_model *model, unsigned periodic, scree_state 
     }
 }
 
+static double overlap_of(const scree_elastic *elastic, const scree_pair_constants *pair, double radius, double force)
+{
+    return elastic->overlap(pair, radius, force);
+}
+
 /// Everything comes closer by the overlap [mean diameters] of a contact under `pressure`.
 static void press(const scree_model *model, scree_state *state, double pressure)
 {
     double diameter = 2 * model->mean_radius, width = model->dimension == 3 ? diameter : model->thickness;
-    const scree_pair_constants pair = scree_model_mean_pair(model);
-    double overlap =
-        scree_model_law(model)->elastic->overlap(&pair, 0.5 * model->mean_radius, pressure * diameter * width);
+    double overlap = scree_model_mean_of(model, overlap_of, 0.5 * model->mean_radius, pressure * diameter * width);
     double scale = 1 - fmin(overlap / diameter, 0.05);
     for (size_t row = 0; row < state->count; row++) {
         state->row[row].x *= scale;

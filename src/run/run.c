@@ -120,7 +120,9 @@ static void warn_of_springs(scree_recorder *recorder, const scree_simulation *s)
 {
     double share = scree_results_stiffness_share(&s->state);
     if (share <= SCREE_STIFFNESS_SHARE) return;
-    const char *remedy = scree_model_law(&s->model)->against_stiffening;
+    const char *remedy = NULL;
+    for (int k = 0; k < scree_model_law_count(&s->model) && !remedy; k++)
+        remedy = scree_law_get(s->model.laws[k].law)->against_stiffening;
     scree_log_write(&recorder->log, SCREE_LOG_WARNING,
                     "%.2g %% of the energy turned over was given to tangential springs by the stiffening of their "
                     "contacts, which nothing paid for (stiffness_share; more than %g %%)%s%s%s",

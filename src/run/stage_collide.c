@@ -87,6 +87,14 @@ static bool is_pushed(const scree_state *state)
     return sum->fx != 0 || sum->fy != 0 || (state->dimension == 3 && sum->fz != 0);
 }
 
+/// Their law.
+static const scree_law_use *law_of(const scree_simulation *s)
+{
+    const scree_state *state = &s->state;
+    return scree_model_law_between(&s->model, scree_body_material(state, state->row_of_id[0]),
+                                   scree_body_material(state, state->row_of_id[1]));
+}
+
 /// The impact as the law's theory has it.
 static scree_status theory_of(const scree_simulation *s, double speed, scree_impact *impact, scree_error *error)
 {
@@ -96,13 +104,13 @@ static scree_status theory_of(const scree_simulation *s, double speed, scree_imp
     const scree_pair_constants *pair = &s->model.pairs[material][scree_body_material(state, state->row_of_id[1])];
     double mass = first->mass * second->mass / (first->mass + second->mass);
     double radius = first->radius * second->radius / (first->radius + second->radius);
-    return scree_model_law(&s->model)->impact(&s->model.law, pair, radius, mass, speed, impact, error);
+    return scree_law_get(law_of(s)->law)->impact(law_of(s), pair, radius, mass, speed, impact, error);
 }
 
 /// The automatic duration in those of the closed form.
-static double patience(const scree_model *model)
+static double patience(const scree_simulation *s)
 {
-    return scree_model_law(model)->impact_duration ? 2 : 10;
+    return scree_law_get(law_of(s)->law)->impact_duration ? 2 : 10;
 }
 
 static scree_status begin(scree_simulation *s, scree_error *error)
@@ -113,7 +121,7 @@ static scree_status begin(scree_simulation *s, scree_error *error)
     scree_status status = predict_touch(&s->state, &own->speed, &own->touch, error);
     if (!status) status = theory_of(s, own->speed, &impact, error);
     if (status) return status;
-    double after = patience(&s->model) * impact.duration;
+    double after = patience(s) * impact.duration;
     double given = ((const config *)scree_stage_config(s)->own)->duration;
     own->duration = isnan(given) ? own->touch + after : given;
     return status;
@@ -171,7 +179,7 @@ static scree_status conclude(const scree_conclusion *run, scree_error *error)
     scree_summary_set_number(summary, "restitution", -approach(&s->state) / own->speed);
     scree_summary_set_number(summary, "restitution_theory", impact.restitution);
     scree_summary_set_number(summary, "relaxation_time", own->last_force + half - own->touch);
-    if (scree_model_law(&s->model)->impact_duration)
+    if (scree_law_get(law_of(s)->law)->impact_duration)
         scree_summary_set_number(summary, "relaxation_time_theory", impact.duration);
     return SCREE_OK;
 }
@@ -179,7 +187,7 @@ static scree_status conclude(const scree_conclusion *run, scree_error *error)
 double scree_collide_expected(const scree_simulation *s)
 {
     const collision *own = own_state(s);
-    return own->touch + (own->duration - own->touch) / patience(&s->model);
+    return own->touch + (own->duration - own->touch) / patience(s);
 }
 
 static double planned(const scree_model *model, const void *own, double wave)

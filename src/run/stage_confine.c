@@ -37,7 +37,10 @@ static const struct {
 static double settling_time(const scree_model *model, double pressure)
 {
     double fall = 2 * model->mean_radius * sqrt(scree_model_mean_density(model) / pressure);
-    return scree_model_law(model)->confine_falls * fall;
+    double falls = 0;
+    for (int k = 0; k < scree_model_law_count(model); k++)
+        falls = fmax(falls, scree_law_get(model->laws[k].law)->confine_falls);
+    return falls * fall;
 }
 
 typedef scree_confine_config config;
@@ -162,7 +165,9 @@ static double planned(const scree_model *model, const void *own, double wave)
     const config *stage = own;
     double density = scree_model_mean_density(model), modulus = scree_confined_modulus(model, stage->pressure);
     double grain = 2 * model->mean_radius / scree_wave_speed(modulus, density, scree_expected_solid_fraction(model));
-    double grains = scree_model_law(model)->confine_grains;
+    double grains = 0;
+    for (int k = 0; k < scree_model_law_count(model); k++)
+        grains = fmax(grains, scree_law_get(model->laws[k].law)->confine_grains);
     if (model->dimension == 3) grains = confine_grains.solid;
     if (scree_model_is_wholly_periodic(model)) grains = confine_grains.periodic;
     double settling = settling_time(model, stage->pressure);

@@ -18,6 +18,11 @@ static bool has_aspect_ratio(const scree_module *module)
     return module->preparation && !module->preparation->sizes_box;
 }
 
+static bool is_solid(const scree_module *module)
+{
+    return module->shape && module->shape->dimension == 3;
+}
+
 static const scree_key keys[] = {
     CHOICE(config, method, NULL, .standard = "drop_and_roll", .meaning = "How the particles are placed."),
     NUMBER(config, aspect_ratio, "1", .standard = "2", FROM("0.01"), TO("100"), .when = "outline=box&width=auto",
@@ -26,7 +31,8 @@ static const scree_key keys[] = {
     NUMBER(config, width, "m", .standard = "auto", FROM("1 nm"), TO("100 km"), .when = "outline=box",
            .meaning = "Width of the sample; auto: from `aspect_ratio`, and number and sizes of the particles; with "
                       "`bodies` as far as they reach."),
-    NUMBER(config, depth, "m", .standard = "auto", FROM("1 nm"), TO("100 km"), .when = "particles.shape=sphere",
+    NUMBER(config, depth, "m", .standard = "auto", FROM("1 nm"), TO("100 km"), .chooser = "particles.shape",
+           .fits = is_solid,
            .meaning = "Depth of the sample, along y in three dimensions; auto: its width; with `bodies` as far as they "
                       "reach."),
 };

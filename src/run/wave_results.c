@@ -57,7 +57,8 @@ static mean mean_of(const double *value, size_t count)
 {
     mean m = {0};
     double square = 0;
-    for (size_t k = 0; k < count; k++) m.count += isfinite(value[k]);
+    for (size_t k = 0; k < count; k++)
+        if (isfinite(value[k])) m.count++;
     for (size_t k = 0; k < count; k++) m.value += isfinite(value[k]) ? value[k] / (double)m.count : 0;
     for (size_t k = 0; k < count; k++) square += isfinite(value[k]) ? pow(value[k] - m.value, 2) : 0;
     if (m.count == 0) m.value = NAN;

@@ -98,7 +98,7 @@ scree_status scree_held_find(const scree_model *model, scree_state *state, scree
     if (list->count == 0) return SCREE_OK;
     if (!scree_model_holds(model))
         return scree_error_set(error, SCREE_ERROR_INPUT, "law %s cannot hold bodies together",
-                               scree_modules[model->law.law]->name);
+                               scree_modules[model->laws[0].law]->name);
     scree_status status = reserve(buffer, list->count, error);
     const size_t ghosts = work->ghosts.count;
     scree_periodic_widths(work->ghosts.lattice_inverse, width);
@@ -138,7 +138,7 @@ scree_status scree_held_list(const scree_state *state, const scree_held_buffer *
 void scree_held_collect(scree_state *state, const scree_work *work)
 {
     const scree_pair_list *pairs = &work->pairs;
-    for (size_t k = 0; k < pairs->held_count; k++) {
+    for (size_t k = 0; k < scree_pairs_held(pairs); k++) {
         size_t number = scree_persistent_find(state, state->id[pairs->first[k]], state->id[pairs->second[k]]);
         if (number == SIZE_MAX) continue;
         scree_persistent_member *member = &scree_persistent(state)->member[number];

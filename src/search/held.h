@@ -1,4 +1,4 @@
-/// Pairs of the persistent list (state/persistent.h) in the neighbour list: rows [0, held_count) of it.
+/// Pairs of the persistent list (state/persistent.h) in the neighbour list: its first section.
 #ifndef SCREE_SEARCH_HELD_H
 #define SCREE_SEARCH_HELD_H
 

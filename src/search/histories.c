@@ -27,6 +27,7 @@ static bool holds_something(const void *row, size_t bytes)
 /// `k` of it.
 typedef struct entry {
     uint32_t first, second; ///< ids
+    int law;
     const scree_history *history;
     const scree_last_force *last_force;
     const scree_rolling *rolling;
@@ -34,17 +35,21 @@ typedef struct entry {
 
 static size_t entry_count(const scree_work *work)
 {
-    return work->pairs.count - work->pairs.held_count + work->wall_pairs.count + work->primitive_pairs.count;
+    return work->pairs.count - scree_pairs_held(&work->pairs) + work->wall_pairs.count + work->primitive_pairs.count;
 }
 
 static entry entry_get(const scree_state *state, const scree_work *work, size_t k)
 {
     const scree_pair_list *pairs = &work->pairs;
     const scree_wall_pair_list *walls = &work->wall_pairs;
-    k += pairs->held_count;
+    k += scree_pairs_held(pairs);
     if (k < pairs->count)
-        return (entry){state->id[pairs->first[k]], state->id[pairs->second[k]], &pairs->history[k],
-                       pairs->last_force ? &pairs->last_force[k] : NULL, pairs->rolling ? &pairs->rolling[k] : NULL};
+        return (entry){state->id[pairs->first[k]],
+                       state->id[pairs->second[k]],
+                       scree_pairs_section(pairs, k)->law,
+                       &pairs->history[k],
+                       pairs->last_force ? &pairs->last_force[k] : NULL,
+                       pairs->rolling ? &pairs->rolling[k] : NULL};
     k -= pairs->count;
     uint32_t base = SCREE_WALL_ID;
     if (k >= walls->count) {
@@ -52,8 +57,12 @@ static entry entry_get(const scree_state *state, const scree_work *work, size_t 
         walls = &work->primitive_pairs;
         base = SCREE_PRIMITIVE_ID;
     }
-    return (entry){state->id[walls->body[k]], base + walls->wall[k], &walls->history[k],
-                   walls->last_force ? &walls->last_force[k] : NULL, walls->rolling ? &walls->rolling[k] : NULL};
+    return (entry){state->id[walls->body[k]],
+                   base + walls->wall[k],
+                   scree_wall_pair_law(walls, k),
+                   &walls->history[k],
+                   walls->last_force ? &walls->last_force[k] : NULL,
+                   walls->rolling ? &walls->rolling[k] : NULL};
 }
 
 static bool entry_holds_something(const scree_state *state, const scree_work *work, size_t k)
@@ -71,6 +80,7 @@ static void pack_entry(scree_state *state, const scree_work *work, size_t k, siz
     state->contact[to] = (scree_contact_memory){e.first, e.second, *e.history};
     if (e.last_force) state->last_force[to] = *e.last_force;
     if (e.rolling) state->rolling[to] = *e.rolling;
+    if (state->contact_law) state->contact_law[to] = (uint8_t)e.law;
 }
 
 typedef struct collect_task {
@@ -108,6 +118,7 @@ scree_status scree_histories_collect(scree_state *state, scree_work *work, scree
     state->contact_count = 0;
     scree_status status = scree_state_reserve_contacts(state, total, error);
     if (!status && work->pairs.last_force) status = scree_state_add_last_force(state, error);
+    if (!status && state->pair_laws > 0) status = scree_state_add_contact_law(state, error);
     if (!status && work->pairs.rolling) status = scree_state_add_rolling(state, error);
     if (status) return status;
     scree_thread_pool_run(&work->pool, search->chunks, pack_share, &task);

@@ -108,17 +108,18 @@ typedef struct list_arrays {
     scree_history **history;
     scree_last_force **last_force;
     scree_rolling **rolling;
+    uint8_t **law; ///< NULL: of pairs of bodies their section says it
     size_t *capacity;
 } list_arrays;
 
 static list_arrays arrays_of_pairs(scree_pair_list *l)
 {
-    return (list_arrays){&l->first, &l->second, &l->history, &l->last_force, &l->rolling, &l->capacity};
+    return (list_arrays){&l->first, &l->second, &l->history, &l->last_force, &l->rolling, NULL, &l->capacity};
 }
 
 static list_arrays arrays_of_wall_pairs(scree_wall_pair_list *l)
 {
-    return (list_arrays){&l->body, &l->wall, &l->history, &l->last_force, &l->rolling, &l->capacity};
+    return (list_arrays){&l->body, &l->wall, &l->history, &l->last_force, &l->rolling, &l->law, &l->capacity};
 }
 
 static void release_list(const list_arrays *list)
@@ -128,6 +129,7 @@ static void release_list(const list_arrays *list)
     scree_release(list->history);
     scree_release(list->last_force);
     scree_release(list->rolling);
+    if (list->law) scree_release(list->law);
     *list->capacity = 0;
 }
 
@@ -142,10 +144,13 @@ void scree_pair_lists_destroy(scree_work *work)
     work->pairs.own_capacity = 0;
 }
 
-/// Makes room for `count` pairs and the padding, with the rows that the law needs; contents are lost when it grows.
-static scree_status reserve_list(const list_arrays *list, size_t count, bool books, bool rolls, scree_error *error)
+/// Makes room for `count` pairs and the padding, with the rows that the law needs, and with several `laws` their
+/// numbers; contents are lost when it grows.
+static scree_status reserve_list(const list_arrays *list, size_t count, bool books, bool rolls, bool laws,
+                                 scree_error *error)
 {
-    bool complete = (!books || *list->last_force) && (!rolls || *list->rolling);
+    laws = laws && list->law;
+    bool complete = (!books || *list->last_force) && (!rolls || *list->rolling) && (!laws || *list->law);
     if (complete && count + SCREE_PAIR_PADDING <= *list->capacity) return SCREE_OK;
     size_t room = count + count / 8 + 4 * SCREE_PAIR_PADDING;
     release_list(list);
@@ -154,6 +159,7 @@ static scree_status reserve_list(const list_arrays *list, size_t count, bool boo
     if (!status) status = scree_allocate(list->history, room, sizeof **list->history, error);
     if (!status && books) status = scree_allocate(list->last_force, room, sizeof **list->last_force, error);
     if (!status && rolls) status = scree_allocate(list->rolling, room, sizeof **list->rolling, error);
+    if (!status && laws) status = scree_allocate(list->law, room, sizeof **list->law, error);
     if (!status) *list->capacity = room;
     return status;
 }
@@ -213,16 +219,55 @@ static uint32_t lower_row(scree_row_pair pair)
     return pair.first < pair.second ? pair.first : pair.second;
 }
 
-/// Puts the touching or near pairs of all chunks into the list from number `at` on.
+/// Which of the pairs that were found are meant: touching or near ones of one law, by the materials of the bodies.
+typedef struct part {
+    const scree_model *model;
+    const scree_state *state;
+    const scree_work *work;
+    int law; ///< its number; of any, where there is no other
+    bool touching;
+} part;
+
+static bool is_of(const part *p, scree_row_pair pair)
+{
+    if (p->model->pair_laws == 0) return true;
+    const int one = scree_body_material(p->state, scree_parent_row(p->state, p->work, pair.first));
+    const int other = scree_body_material(p->state, scree_parent_row(p->state, p->work, pair.second));
+    return p->model->law_of_pairs[one][other] == p->law;
+}
+
+static const scree_pair_buffer *buffer_of(const part *p, const scree_pair_chunk *chunk)
+{
+    return p->touching ? &chunk->touching : &chunk->near;
+}
+
+/// How many there are in a chunk.
+static size_t count_part(const part *p, const scree_pair_chunk *chunk)
+{
+    const scree_pair_buffer *from = buffer_of(p, chunk);
+    size_t count = p->model->pair_laws == 0 ? from->count : 0;
+    for (size_t k = 0; k < from->count && p->model->pair_laws > 0; k++) count += is_of(p, from->pair[k]);
+    return count;
+}
+
+static size_t count_all(const part *p, const scree_search *search)
+{
+    size_t count = count_part(p, &search->ghosts);
+    for (int c = 0; c < search->chunks; c++) count += count_part(p, &search->chunk[c]);
+    return count;
+}
+
+/// Puts the pairs of all chunks that are meant into the list from number `at` on; returns where they end.
 /// Within one level they come in the order of their lower rows; else a counting sort brings them into it.
-static void list_pairs(scree_search *search, scree_pair_list *pairs, bool touching, size_t at)
+static size_t list_pairs(scree_search *search, const part *p, scree_pair_list *pairs, size_t at)
 {
     uint32_t *next = search->grid.order;
     const bool sorted = search->grid.levels_in_use <= 1;
     if (!sorted) memset(next, 0, search->bodies * sizeof *next);
     for (int c = 0; c < search->chunks && !sorted; c++) {
-        const scree_pair_buffer *from = touching ? &search->chunk[c].touching : &search->chunk[c].near;
-        for (size_t k = 0; k < from->count; k++) next[lower_row(from->pair[k])]++;
+        const scree_pair_buffer *from = buffer_of(p, &search->chunk[c]);
+        for (size_t k = 0; k < from->count; k++)
+            if (is_of(p, from->pair[k])) next[lower_row(from->pair[k])]++;
     }
     size_t sum = at;
     for (size_t row = 0; row < search->bodies && !sorted; row++) {
@@ -231,21 +276,54 @@ static void list_pairs(scree_search *search, scree_pair_list *pairs, bool touchi
         sum += size;
     }
     for (int c = 0; c < search->chunks; c++) {
-        const scree_pair_buffer *from = touching ? &search->chunk[c].touching : &search->chunk[c].near;
+        const scree_pair_buffer *from = buffer_of(p, &search->chunk[c]);
         for (size_t k = 0; k < from->count; k++) {
+            if (!is_of(p, from->pair[k])) continue;
             size_t to = sorted ? at++ : next[lower_row(from->pair[k])]++;
             pairs->first[to] = from->pair[k].first;
             pairs->second[to] = from->pair[k].second;
         }
     }
+    return sorted ? at : sum;
 }
 
 /// Puts the pairs with ghosts into the list from number `at` on.
-static void list_ghost_pairs(const scree_pair_buffer *from, scree_pair_list *pairs, size_t at)
+static void list_ghost_pairs(const scree_search *search, const part *p, scree_pair_list *pairs, size_t at)
 {
-    for (size_t k = 0; k < from->count; k++, at++) {
+    const scree_pair_buffer *from = buffer_of(p, &search->ghosts);
+    for (size_t k = 0; k < from->count; k++) {
+        if (!is_of(p, from->pair[k])) continue;
         pairs->first[at] = from->pair[k].first;
-        pairs->second[at] = from->pair[k].second;
+        pairs->second[at++] = from->pair[k].second;
+    }
+}
+
+/// Puts the pairs into their sections: those of bodies, then those with ghosts, in each part.
+static void list_sections(const scree_model *model, const scree_state *state, scree_work *work)
+{
+    scree_search *search = work->search;
+    scree_pair_list *pairs = &work->pairs;
+    for (int k = 0; k < pairs->section_count; k++) {
+        const scree_pair_section *section = &pairs->section[k];
+        part p = {model, state, work, section->law, true};
+        if (section->persistent) continue; // they are there
+        list_ghost_pairs(search, &p, pairs, list_pairs(search, &p, pairs, section->begin));
+        p.touching = false;
+        list_ghost_pairs(search, &p, pairs, list_pairs(search, &p, pairs, section->touching_end));
+    }
+}
+
+/// Numbers of laws, by what bodies and walls are made of.
+static void list_wall_laws(const scree_model *model, const scree_state *state, scree_work *work)
+{
+    const scree_wall_pair_list *plates = &work->wall_pairs, *elements = &work->primitive_pairs;
+    for (size_t k = 0; k < plates->count && plates->law; k++)
+        plates->law[k] = model->law_of_walls[scree_body_material(state, plates->body[k])];
+    for (size_t k = 0; k < elements->count && elements->law; k++) {
+        const int surface = scree_primitive_surface(work->wall_set, elements->wall[k]);
+        const scree_config_wall *wall = work->wall_set->surface[surface].config;
+        elements->law[k] =
+            model->law_of_surfaces[wall - model->walls_of_case][scree_body_material(state, elements->body[k])];
     }
 }
 
@@ -265,10 +343,11 @@ static void list_wall_pairs(const scree_search *search, scree_work *work)
     }
 }
 
-/// Gives entry `k` of a list the rows of contact `from` of the state, or clear ones if it has none.
-static void attach_rows(const scree_state *state, const list_arrays *list, size_t k, size_t from)
+/// Gives entry `k` of a list the rows of contact `from` of the state, or clear ones if it has none, or is of another
+/// law than the entry.
+static void attach_rows(const scree_state *state, const list_arrays *list, size_t k, int law, size_t from)
 {
-    bool known = from < state->contact_count;
+    bool known = from < state->contact_count && (!state->contact_law || state->contact_law[from] == law);
     (*list->history)[k] = known ? state->contact[from].history : (scree_history){{0}};
     if (*list->last_force)
         (*list->last_force)[k] = known && state->last_force ? state->last_force[from] : (scree_last_force){{0}};
@@ -289,11 +368,11 @@ static void attach_share(void *argument, int index, int count)
     const list_arrays of_pairs = arrays_of_pairs(pairs);
     size_t end = scree_thread_pool_begin(pairs->count, index + 1, count);
     for (size_t k = scree_thread_pool_begin(pairs->count, index, count); k < end; k++) {
-        if (k < pairs->held_count) continue; // what these remember came with them
+        if (k < scree_pairs_held(pairs)) continue; // what these remember came with them
         uint32_t first = scree_parent_row(state, task->work, pairs->first[k]);
         uint32_t second = scree_parent_row(state, task->work, pairs->second[k]),
                  lower = first < second ? first : second;
-        attach_rows(state, &of_pairs, k,
+        attach_rows(state, &of_pairs, k, scree_pairs_section(pairs, k)->law,
                     scree_history_find(task->work->search, state, lower, state->id[first], state->id[second]));
     }
 }
@@ -307,11 +386,11 @@ static void attach_histories(scree_state *state, scree_work *work)
     attach_task task = {state, work};
     scree_thread_pool_run(&work->pool, search->chunks, attach_share, &task);
     for (size_t k = 0; k < walls->count; k++)
-        attach_rows(state, &of_walls, k,
+        attach_rows(state, &of_walls, k, scree_wall_pair_law(walls, k),
                     scree_history_find(search, state, walls->body[k], state->id[walls->body[k]],
                                        SCREE_WALL_ID + walls->wall[k]));
     for (size_t k = 0; k < elements->count; k++)
-        attach_rows(state, &of_elements, k,
+        attach_rows(state, &of_elements, k, scree_wall_pair_law(elements, k),
                     scree_history_find(search, state, elements->body[k], state->id[elements->body[k]],
                                        SCREE_PRIMITIVE_ID + elements->wall[k]));
 }
@@ -321,7 +400,19 @@ static void pad_list(const scree_state *state, const list_arrays *list, size_t c
 {
     for (size_t k = count; k < count + SCREE_PAIR_PADDING; k++) {
         (*list->one)[k] = (*list->other)[k] = 0;
-        attach_rows(state, list, k, SIZE_MAX);
+        attach_rows(state, list, k, 0, SIZE_MAX);
+    }
+}
+
+/// How many pairs each section has: the held ones, then those of each law.
+static void cut_sections(const scree_model *model, const scree_state *state, scree_work *work)
+{
+    scree_pair_list *pairs = &work->pairs;
+    (void)scree_pairs_add_section(pairs, model->geometry, 0, true, work->search->held.count, 0);
+    for (int law = 0; law < scree_model_law_count(model); law++) {
+        const part touching = {model, state, work, law, true}, near = {model, state, work, law, false};
+        (void)scree_pairs_add_section(pairs, model->geometry, law, false, count_all(&touching, work->search),
+                                      count_all(&near, work->search));
     }
 }
 
@@ -331,36 +422,36 @@ static scree_status assemble(const scree_model *model, scree_state *state, scree
     scree_search *search = work->search;
     scree_pair_list *pairs = &work->pairs;
     scree_wall_pair_list *walls = &work->wall_pairs, *elements = &work->primitive_pairs;
-    size_t touching = search->ghosts.touching.count, near = search->ghosts.near.count, wall = 0, element = 0;
-    const size_t held = search->held.count;
+    size_t wall = 0, element = 0;
     for (int c = 0; c < search->chunks; c++) {
-        touching += search->chunk[c].touching.count;
-        near += search->chunk[c].near.count;
         wall += search->chunk[c].wall.count;
         element += search->chunk[c].element.count;
     }
-    pairs->count = pairs->held_count = pairs->touching_count = walls->count = elements->count = 0;
+    scree_pairs_clear(pairs);
+    cut_sections(model, state, work);
+    const size_t count = pairs->count, held = search->held.count;
+    pairs->count = walls->count = elements->count = 0;
     const list_arrays of_pairs = arrays_of_pairs(pairs), of_walls = arrays_of_wall_pairs(walls);
     const list_arrays of_elements = arrays_of_wall_pairs(elements);
-    bool books = scree_contacts_add_work(model, state->dimension), rolls = scree_contacts_roll(model);
+    bool books = scree_contacts_add_work(model, state->dimension), rolls = scree_contacts_roll(model),
+         laws = model->pair_laws > 0;
     bool held_keeps = held > 0 && scree_model_held_traits(model)->keeps_last_force[state->dimension - 2];
     bool held_rolls = held > 0 && scree_model_held_traits(model)->rolling;
-    touching += held;
-    scree_status status = reserve_list(&of_pairs, touching + near, books || held_keeps, rolls || held_rolls, error);
+    scree_status status = reserve_list(&of_pairs, count, books || held_keeps, rolls || held_rolls, false, error);
     if (!status) status = scree_held_list(state, &search->held, pairs, error);
-    if (!status) status = reserve_list(&of_walls, wall, books, rolls, error);
-    if (!status && work->wall_set) status = reserve_list(&of_elements, element, books, rolls, error);
-    if (status) return status;
-    pairs->count = touching + near;
-    pairs->held_count = held;
-    pairs->touching_count = touching;
+    if (!status) status = reserve_list(&of_walls, wall, books, rolls, laws, error);
+    if (!status && work->wall_set) status = reserve_list(&of_elements, element, books, rolls, laws, error);
+    if (status) {
+        scree_pairs_clear(pairs);
+        return status;
+    }
+    pairs->count = count;
     walls->count = wall;
+    walls->geometry = elements->geometry = model->geometry;
     elements->count = element;
-    list_pairs(search, pairs, true, held);
-    list_ghost_pairs(&search->ghosts.touching, pairs, touching - search->ghosts.touching.count);
-    list_pairs(search, pairs, false, touching);
-    list_ghost_pairs(&search->ghosts.near, pairs, touching + near - search->ghosts.near.count);
+    list_sections(model, state, work);
     list_wall_pairs(search, work);
+    list_wall_laws(model, state, work);
     attach_histories(state, work);
     pad_list(state, &of_pairs, pairs->count);
     pad_list(state, &of_walls, walls->count);
@@ -421,7 +512,7 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     search->listed = false;
     search->bodies = state->count;
     search->changes = state->changes;
-    work->pairs.count = work->pairs.held_count = work->pairs.touching_count = 0;
+    scree_pairs_clear(&work->pairs);
     work->wall_pairs.count = work->primitive_pairs.count = work->ghosts.count = 0;
     if (state->count >= LARGE) scree_pair_lists_destroy(work);
 

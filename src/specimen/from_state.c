@@ -43,6 +43,18 @@ static scree_pair_constants constants_of(const scree_model *model, const scree_s
     return contact->held ? model->persistent.pairs[material][other] : model->pairs[material][other];
 }
 
+static const scree_law_use *law_of(const scree_model *model, const scree_state *state, const scree_work *work,
+                                   const scree_contact *contact)
+{
+    const int material = scree_body_material(state, contact->first);
+    if (contact->wall && contact->second < SCREE_PRIMITIVE_ID) return scree_model_law_on_plate(model, material);
+    if (contact->wall)
+        return contact_surface_law(model, contact_surface_of(work->wall_set, contact->second - SCREE_PRIMITIVE_ID),
+                                   material);
+    if (contact->held) return &model->persistent.law;
+    return scree_model_law_between(model, material, scree_body_material(state, contact->second));
+}
+
 static double in_parallel(double a, double b)
 {
     return a * (b / (a + b));
@@ -57,8 +69,7 @@ static scree_contact_tangent tangent_of(const scree_model *model, const scree_st
         radius = in_parallel(radius, scree_body_bounding_radius(state, contact->second));
         mass = in_parallel(mass, scree_body_mass(state, contact->second));
     }
-    const scree_law_use *use = contact->held ? &model->persistent.law : &model->law;
-    return scree_law_get(use->law)->tangent(use, &pair, radius, mass, contact->normal_force);
+    return scree_contact_linearise(law_of(model, state, work, contact), &pair, radius, mass, contact->normal_force);
 }
 
 static void set_contact(const scree_model *model, const scree_state *state, const scree_work *work,
@@ -95,9 +106,9 @@ scree_status scree_specimen_of_state(const scree_model *model, const scree_state
     scree_contact_table_destroy(&table);
     const scree_periodic_cell *cell = scree_cell(state);
     s->condition = scree_deformation_condition(model);
-    const bool corrected = model->law.number[SCREE_LAW_CORRECTED] > 0;
+    const bool corrected = model->laws[0].number[SCREE_LAW_CORRECTED] > 0;
     s->tangential = corrected ? SCREE_TANGENTIAL_CORRECTED : SCREE_TANGENTIAL_AS_PUBLISHED;
-    s->dashpots_strain = !(model->law.number[SCREE_LAW_LOOSE] > 0);
+    s->dashpots_strain = !(model->laws[0].number[SCREE_LAW_LOOSE] > 0);
     s->periodic = (unsigned)cell->directions;
     // Area in 2D.
     if (cell->directions && scree_periodic_is_whole(state))

@@ -1,6 +1,7 @@
 /// Ranges of the fields. A field without a row in the table below must be finite; integers of such fields may be any.
 /// Cost: one pass over the state, some milliseconds for 10^5 bodies.
 #include "state/check.h"
+#include "state/body.h"
 #include "state/plates.h"
 
 #include "base/matrix.h"
@@ -133,11 +134,14 @@ static scree_status check_field(const scree_state *state, const scree_model *mod
     double most = most_of(range, state, model);
     int components = scree_components(field->components, state->dimension);
     const size_t rows = scree_field_rows_count(state, field);
-    const unsigned char *first = rows > 0 ? scree_field_get(state, field, 0) : NULL;
+    const bool shared = scree_field_is_shared(state, field);
+    const unsigned char *first = rows > 0 && !shared ? scree_field_get(state, field, 0) : NULL;
     for (size_t row = 0; row < rows; row++) {
-        const unsigned char *at = first + row * field->stride;
-        for (int k = 0; k < components; k++, at += scree_field_size(field->type)) {
-            double value = number_of(field->type, at);
+        const scree_field *declared = shared ? scree_field_of_contact(state, field, row) : field;
+        if (!declared) continue;
+        const unsigned char *at = shared ? scree_field_get(state, declared, row) : first + row * field->stride;
+        for (int k = 0; k < components; k++, at += scree_field_size(declared->type)) {
+            double value = number_of(declared->type, at);
             bool gone = range->limit == SCREE_LIMIT_BODY && value >= 0 && value <= most &&
                         scree_state_row_of(state, (size_t)value) == SCREE_NO_ROW;
             if (is_inside(range, most, value) && !gone) continue;
@@ -156,6 +160,27 @@ static scree_status refuse_contact(const scree_state *state, size_t k, const cha
                            state->contact[k].first, state->contact[k].second, reason);
 }
 
+/// The number of the law that a contact has under the model.
+static int law_of(const scree_state *state, const scree_model *model, const scree_contact_memory *c)
+{
+    const int material = scree_body_material(state, scree_state_row_of(state, c->first));
+    if (c->second >= SCREE_WALL_ID) return model->law_of_walls[material];
+    if (c->second >= SCREE_PRIMITIVE_ID) return -1; // which wall a primitive is of, the walls themselves say
+    return model->law_of_pairs[material][scree_body_material(state, scree_state_row_of(state, c->second))];
+}
+
+/// What a contact remembers is of the law that it has.
+static scree_status check_law(const scree_state *state, const scree_model *model, size_t k, scree_error *error)
+{
+    const int law = state->pair_laws > 0 ? law_of(state, model, &state->contact[k]) : -1;
+    if (law < 0 || law == state->contact_law[k]) return SCREE_OK;
+    return scree_error_set(
+        error, SCREE_ERROR_IO,
+        "dataset 'contacts/law', contact %zu of bodies %u and %u: %d (accepted: %d, the law of their "
+        "materials)",
+        k, state->contact[k].first, state->contact[k].second, state->contact_law[k], law);
+}
+
 /// Contacts: pairs of bodies by id, or of a body with a plate or an element of a wall, each once.
 static scree_status check_contacts(const scree_state *state, const scree_model *model, scree_error *error)
 {
@@ -169,6 +194,8 @@ static scree_status check_contacts(const scree_state *state, const scree_model *
         bool gone = scree_state_row_of(state, c->second) == SCREE_NO_ROW;
         if (!plate && !element && (gone || c->second < c->first))
             return refuse_contact(state, k, "is no body, or one with a lower id", error);
+        scree_status status = check_law(state, model, k, error);
+        if (status) return status;
         if (k == 0) continue;
         const scree_contact_memory *before = c - 1;
         // In a small periodic cell a body may touch several ghosts of another.

@@ -10,12 +10,26 @@
 #include "base/checksum.h"
 #include "base/fixed.h"
 
-/// A material by its constants, as one word; not by its index, which depends on materials that nothing is made of.
+/// Continues with the constants of a pair of materials, those that their law says.
+static uint64_t checksum_pair(const scree_model *model, int one, int other, uint64_t c)
+{
+    const scree_law *law = scree_law_get(scree_model_law_between(model, one, other)->law);
+    return scree_checksum_numbers(c, model->pairs[one][other].value, (size_t)law->constant_count);
+}
+
+/// A material by its constants, as one word; not by its index, which depends on materials that nothing is made of. With
+/// it go the others that it meets under a law of the pair's own, in no order.
 static uint64_t material_word(const scree_model *model, int material)
 {
-    const scree_pair_constants *pair = &model->pairs[material][material];
-    uint64_t word = scree_checksum_number(0, model->density[material]);
-    return scree_checksum_numbers(word, pair->value, (size_t)scree_model_law(model)->constant_count);
+    uint64_t word = checksum_pair(model, material, material, scree_checksum_number(0, model->density[material]));
+    uint64_t others = 0;
+    bool alone = true;
+    for (int m = 0; m < model->material_count && material < model->material_count; m++) {
+        if (m == material || model->law_of_pairs[material][m] == 0) continue;
+        others += checksum_pair(model, material, m, scree_checksum_number(0, model->density[m]));
+        alone = false;
+    }
+    return alone ? word : scree_checksum_word(word, others);
 }
 
 /// Force and torque [N, N m] on a body.

@@ -117,6 +117,10 @@ static const scree_field fields[] = {
             "id of the second body, larger than the first; 4294967280 + index for a plate, 2147483648 + primitive for "
             "a wall "
             "of the case"),
+    {"contacts/law", SCREE_FIELD_UINT8, 1, "1", SCREE_FIELD_STATE, false,
+     "number of its law, where a case has several: 0 that of `contact`, 1 and more those of contact.pairs",
+     PLAIN_ARRAY(contact_law, uint8_t), .rows = SCREE_ROWS_CONTACTS, .optional = true,
+     SCREE_RANGE(0, SCREE_MOST_PAIR_LAWS)},
     ONE("scalars/next_id", SCREE_FIELD_UINT64, 1, "1", next_id, "id of the next body that comes; none is given again",
         SCREE_RANGE_TO(SCREE_LIMIT_IDS)),
     ONE("scalars/step", SCREE_FIELD_UINT64, 1, "1", step, "time since the start of the run, in ticks",
@@ -204,12 +208,70 @@ bool scree_field_exists(const scree_field *field, int dimension)
     return field->only_dimension == 0 || field->only_dimension == dimension;
 }
 
+/// The law with this number of those that contacts follow.
+static const scree_remembered_law *law_of_contacts(const scree_state *state, int number)
+{
+    return number > 0 ? &state->pair_law[number - 1] : &state->law[SCREE_LIST_CONTACTS];
+}
+
+static bool is_declared_by(const scree_field *field, const scree_remembered_law *law)
+{
+    return field->law == law->law && (field->options == 0 || field->options >> law->option & 1);
+}
+
+/// What a law declares under a name for contacts; NULL: nothing.
+static const scree_field *find_remembered(const scree_state *state, const scree_remembered_law *law, const char *name)
+{
+    for (size_t k = 0; law->law && k < law->law->field_count; k++) {
+        const scree_field *field = &law->law->fields[k];
+        if (field->rows == SCREE_ROWS_CONTACTS && scree_field_exists(field, state->dimension) &&
+            is_declared_by(field, law) && strcmp(field->name, name) == 0)
+            return field;
+    }
+    return NULL;
+}
+
+bool scree_field_is_shared(const scree_state *state, const scree_field *field)
+{
+    return field->law && field->rows == SCREE_ROWS_CONTACTS && state->pair_laws > 0;
+}
+
+/// Of several laws the first one that declares it.
+static const scree_field *first_of_name(const scree_state *state, const char *name)
+{
+    const scree_field *found = NULL;
+    for (int k = 0; k <= state->pair_laws && !found; k++)
+        found = find_remembered(state, law_of_contacts(state, k), name);
+    return found;
+}
+
 bool scree_field_is_here(const scree_state *state, const scree_field *field)
 {
     if (!scree_field_exists(field, state->dimension)) return false;
-    if (!field->law) return true;
-    const scree_remembered_law *law = &state->law[scree_field_list(field)];
-    return field->law == law->law && (field->options == 0 || field->options >> law->option & 1);
+    if (scree_field_is_shared(state, field)) return first_of_name(state, field->name) == field;
+    if (!field->law) return field->rows != SCREE_ROWS_CONTACTS || !field->optional || state->pair_laws > 0;
+    return is_declared_by(field, &state->law[scree_field_list(field)]);
+}
+
+const scree_field *scree_field_of_contact(const scree_state *state, const scree_field *field, size_t row)
+{
+    const int law = state->contact_law[row];
+    return law <= state->pair_laws ? find_remembered(state, law_of_contacts(state, law), field->name) : NULL;
+}
+
+const scree_field *scree_field_of_law(const scree_state *state, const scree_field *field, int number)
+{
+    return number <= state->pair_laws ? find_remembered(state, law_of_contacts(state, number), field->name) : NULL;
+}
+
+scree_field_type scree_field_stored_type(const scree_state *state, const scree_field *field)
+{
+    if (!scree_field_is_shared(state, field)) return field->type;
+    for (int k = 0; k <= state->pair_laws; k++) {
+        const scree_field *other = scree_field_of_law(state, field, k);
+        if (other && other->type != field->type) return SCREE_FIELD_DOUBLE;
+    }
+    return field->type;
 }
 
 bool scree_field_is_stored(const scree_state *state, const scree_field *field)
@@ -249,7 +311,7 @@ size_t scree_field_rows_count(const scree_state *state, const scree_field *field
     case SCREE_ROWS_BODIES:
         return field->optional && !array_of(state, field) ? 0 : state->count;
     case SCREE_ROWS_CONTACTS:
-        return array_of(state, field) ? state->contact_count : 0;
+        return scree_field_is_shared(state, field) || array_of(state, field) ? state->contact_count : 0;
     }
     return count;
 }
@@ -274,11 +336,14 @@ void *scree_field_get_mutable(scree_state *state, const scree_field *field, size
 size_t scree_remembered_values(const scree_state *state, scree_list list, size_t row,
                                double value[SCREE_CHECKSUM_VALUES])
 {
-    const scree_module *law = state->law[list].law;
+    const bool several = list == SCREE_LIST_CONTACTS && state->pair_laws > 0;
+    const scree_remembered_law *of = several ? law_of_contacts(state, state->contact_law[row]) : &state->law[list];
+    const scree_module *law = of->law;
     size_t count = 0;
     for (size_t k = 0; law && k < law->field_count; k++) {
         const scree_field *field = &law->fields[k];
-        if (!field->in_checksum || scree_field_list(field) != list || scree_field_rows_count(state, field) == 0)
+        if (!field->in_checksum || scree_field_list(field) != list || !scree_field_exists(field, state->dimension) ||
+            !is_declared_by(field, of))
             continue;
         size_t components = (size_t)scree_components(field->components, state->dimension);
         assert(field->type == SCREE_FIELD_DOUBLE && count + components <= SCREE_CHECKSUM_VALUES);

@@ -18,6 +18,17 @@ bool scree_field_exists(const scree_field *field, int dimension);
 /// Whether this state has it: what contacts remember depends on their law, too.
 bool scree_field_is_here(const scree_state *state, const scree_field *field);
 
+/// Whether it is of contacts that follow several laws, each of which may declare it in another place, or not at all: it
+/// is no array then.
+bool scree_field_is_shared(const scree_state *state, const scree_field *field);
+
+/// The declaration of a shared field by the law of contact `row`, or by the law with this number; NULL: none.
+const scree_field *scree_field_of_contact(const scree_state *state, const scree_field *field, size_t row);
+const scree_field *scree_field_of_law(const scree_state *state, const scree_field *field, int number);
+
+/// Of its values in files: of a shared field one that holds those of all laws.
+scree_field_type scree_field_stored_type(const scree_state *state, const scree_field *field);
+
 /// The same for what checkpoints hold.
 bool scree_field_is_stored(const scree_state *state, const scree_field *field);
 

@@ -62,7 +62,8 @@ scree_status scree_state_make_bodies(scree_state *state, size_t count, scree_err
 
 void scree_state_destroy(scree_state *state)
 {
-    void *const others[] = {&state->row_of_id, &state->contact, &state->last_force, &state->rolling};
+    void *const others[] = {&state->row_of_id, &state->contact, &state->last_force, &state->rolling,
+                            &state->contact_law};
     scree_body_array list[SCREE_BODY_ARRAYS];
     size_t arrays = scree_body_arrays(state, list);
     for (size_t k = 0; k < arrays; k++) scree_release(list[k].pointer);
@@ -154,6 +155,7 @@ static void forget_contacts(scree_state *state)
         state->contact[kept] = state->contact[k];
         if (state->last_force) state->last_force[kept] = state->last_force[k];
         if (state->rolling) state->rolling[kept] = state->rolling[k];
+        if (state->contact_law) state->contact_law[kept] = state->contact_law[k];
         kept++;
     }
     state->contact_count = kept;
@@ -271,6 +273,8 @@ scree_status scree_state_reserve_contacts(scree_state *state, size_t count, scre
         status = scree_reallocate(&state->last_force, old, capacity, sizeof *state->last_force, error);
     if (!status && state->rolling)
         status = scree_reallocate(&state->rolling, old, capacity, sizeof *state->rolling, error);
+    if (!status && state->contact_law)
+        status = scree_reallocate(&state->contact_law, old, capacity, sizeof *state->contact_law, error);
     if (!status) state->contact_capacity = capacity;
     return status;
 }
@@ -280,16 +284,26 @@ void scree_state_release_contacts(scree_state *state)
     scree_release(&state->contact);
     scree_release(&state->last_force);
     scree_release(&state->rolling);
+    scree_release(&state->contact_law);
     state->contact_count = state->contact_capacity = 0;
 }
 
 void scree_state_set_laws(scree_state *state, const scree_model *model)
 {
-    const scree_law_use *use = &model->law, *holding = &model->persistent.law;
+    const scree_law_use *use = &model->laws[0], *holding = &model->persistent.law;
     state->law[SCREE_LIST_CONTACTS] = (scree_remembered_law){scree_modules[use->law], use->option};
     state->law[SCREE_LIST_PERSISTENT] = (scree_remembered_law){NULL, 0};
     if (scree_model_holds(model))
         state->law[SCREE_LIST_PERSISTENT] = (scree_remembered_law){scree_modules[holding->law], holding->option};
+    state->pair_laws = model->pair_laws;
+    for (int k = 0; k < model->pair_laws; k++)
+        state->pair_law[k] = (scree_remembered_law){scree_modules[model->laws[k + 1].law], model->laws[k + 1].option};
+}
+
+scree_status scree_state_add_contact_law(scree_state *state, scree_error *error)
+{
+    if (state->contact_law) return SCREE_OK;
+    return scree_allocate(&state->contact_law, state->contact_capacity, sizeof *state->contact_law, error);
 }
 
 scree_status scree_state_add_last_force(scree_state *state, scree_error *error)

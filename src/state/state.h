@@ -223,9 +223,12 @@ struct scree_state {
     scree_contact_memory *contact;
     scree_last_force *last_force; ///< beside `contact` where the law has last_force rows; else NULL
     scree_rolling *rolling;       ///< beside `contact` with rolling resistance; else NULL
+    uint8_t *contact_law;         ///< beside `contact` where they follow several laws: the number of each; else NULL
     size_t contact_count, contact_capacity;
     scree_remembered_law law[SCREE_LISTS]; ///< of the model (derived; checkpoints say it of their contacts)
-    void *own[SCREE_MODULE_COUNT];         ///< the struct of each module that has one (module/module.h), by slot
+    scree_remembered_law pair_law[SCREE_MOST_PAIR_LAWS]; ///< of contacts, behind the first; in the same way
+    int pair_laws;                                       ///< so many
+    void *own[SCREE_MODULE_COUNT]; ///< the struct of each module that has one (module/module.h), by slot
     scree_ledger ledger;
     scree_stage_state stage;
     scree_time_spent spent;
@@ -348,7 +351,9 @@ static inline double *scree_strain_row(const scree_state *state, size_t row)
 /// From now on bodies deform; their strains are zero. Nothing happens where they do already. Errors: memory.
 scree_status scree_state_ask_for_strains(scree_state *state, scree_error *error) SCREE_MUST_USE;
 
-/// Puts last_force rows, and rolling rows, beside the contact memory; nothing happens where there are some.
+/// Puts last_force rows, rolling rows, and numbers of laws beside the contact memory; nothing happens where there are
+/// some.
+scree_status scree_state_add_contact_law(scree_state *state, scree_error *error) SCREE_MUST_USE;
 scree_status scree_state_add_last_force(scree_state *state, scree_error *error) SCREE_MUST_USE;
 scree_status scree_state_add_rolling(scree_state *state, scree_error *error) SCREE_MUST_USE;
 

@@ -13,20 +13,63 @@ enum {
     SCREE_FLAG_ESCAPED = 8,     ///< a body left the domain
 };
 
-/// Neighbour pairs in row indices, along the curve: pairs [0, held_count) are those of the persistent list, pairs
-/// [held_count, touching_count) touched at the rebuild (padded groups are the kernel's own affair). Row indices are
-/// valid until the next rebuild.
+/// Pairs [begin, end) of the list, all of one geometry and one law, and found in one way; [begin, touching_end) touched
+/// when the list was made, or are held. Along the curve, each of the two parts.
+typedef struct scree_pair_section {
+    int geometry;    ///< its number (contact/geometry.h)
+    int law;         ///< its number in the model; of held pairs the law is that of model->persistent
+    bool persistent; ///< held: of the persistent list, in contact at any distance
+    size_t begin, touching_end, end;
+} scree_pair_section;
+
+enum { SCREE_PAIR_SECTIONS = 2 + SCREE_MOST_PAIR_LAWS };
+
+/// Neighbour pairs in row indices, in sections: first the persistent one, then one for each law. Row indices are valid
+/// until the next rebuild.
 typedef struct scree_pair_list {
     uint32_t *first, *second;     ///< rows; id[first] < id[second]
     scree_history *history;       ///< one a pair, seen from `first`
     scree_last_force *last_force; ///< with scree_contacts_add_work: one a pair; else NULL
     scree_rolling *rolling;       ///< with scree_contacts_roll: one a pair; else NULL
     size_t count, capacity;
-    size_t held_count, touching_count;
+    scree_pair_section section[SCREE_PAIR_SECTIONS];
+    int section_count;
     uint64_t held_changes; ///< of the persistent list, when this was made
-    scree_member_row *own; ///< held_count
+    scree_member_row *own; ///< one a held pair
     size_t own_capacity;
 } scree_pair_list;
+
+/// Pairs that are held: they come first.
+static inline size_t scree_pairs_held(const scree_pair_list *list)
+{
+    return list->section_count > 0 && list->section[0].persistent ? list->section[0].end : 0;
+}
+
+/// The section of a pair of the list.
+static inline const scree_pair_section *scree_pairs_section(const scree_pair_list *list, size_t pair)
+{
+    int k = 0;
+    while (pair >= list->section[k].end) k++;
+    return &list->section[k];
+}
+
+/// Adds a section of `touching` and `near` pairs behind those that there are, and returns it.
+static inline scree_pair_section *scree_pairs_add_section(scree_pair_list *list, int geometry, int law, bool persistent,
+                                                          size_t touching, size_t near)
+{
+    scree_pair_section *section = &list->section[list->section_count];
+    const size_t begin = list->section_count++ > 0 ? section[-1].end : 0;
+    *section = (scree_pair_section){geometry, law, persistent, begin, begin + touching, begin + touching + near};
+    list->count = section->end;
+    return section;
+}
+
+/// No pairs, and no sections.
+static inline void scree_pairs_clear(scree_pair_list *list)
+{
+    list->count = 0;
+    list->section_count = 0;
+}
 
 typedef struct scree_wall_pair_list {
     uint32_t *body; ///< rows
@@ -34,8 +77,16 @@ typedef struct scree_wall_pair_list {
     scree_history *history;
     scree_last_force *last_force; ///< as in scree_pair_list
     scree_rolling *rolling;
+    uint8_t *law; ///< numbers of laws, where contacts follow several; else NULL
+    int geometry; ///< its number
     size_t count, capacity;
 } scree_wall_pair_list;
+
+/// The number of the law of a pair with a wall.
+static inline int scree_wall_pair_law(const scree_wall_pair_list *list, size_t pair)
+{
+    return list->law ? list->law[pair] : 0;
+}
 
 /// A ghost of a body in a periodic cell: row count + k of the state belongs to ghost k. Images are made anew with the
 /// pair list and follow their bodies in every step (search/ghosts.h).
@@ -52,15 +103,21 @@ typedef struct scree_ghost_list {
     double largest_radius;     ///< m, of all bodies
 } scree_ghost_list;
 
-/// Whether contacts have last_force rows, and rolling rows: what the law says.
+/// Whether contacts have last_force rows, and rolling rows: what one of their laws says.
 static inline bool scree_contacts_add_work(const scree_model *model, int dimension)
 {
-    return scree_model_traits(model)->keeps_last_force[dimension - 2];
+    bool adds = false;
+    for (int k = 0; k < scree_model_law_count(model); k++)
+        adds = adds || scree_law_use_traits(&model->laws[k])->keeps_last_force[dimension - 2];
+    return adds;
 }
 
 static inline bool scree_contacts_roll(const scree_model *model)
 {
-    return scree_model_traits(model)->rolling;
+    bool rolls = false;
+    for (int k = 0; k < scree_model_law_count(model); k++)
+        rolls = rolls || scree_law_use_traits(&model->laws[k])->rolling;
+    return rolls;
 }
 
 typedef struct scree_search scree_search;     ///< cell grid and scratch, private to search/

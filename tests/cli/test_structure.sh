@@ -39,7 +39,7 @@ for law in "${laws[@]}"; do
         < <(find src -name '*.[ch]' ! -path "src/contact/$law.*" ! -path src/contact/laws.h ! -path src/module/table.h -exec \
             awk -v known="$known" '{ sub(/\/\/.*/, "") } $0 ~ known && !/\.standard = / { print FILENAME ":" FNR }' {} +)
 done
-mapfile -t modules < <(sed -nE '/define SCREE_(LAWS|BOUNDARY_MODULES|SELECTION_MODULES|CASE_MODULES)/,/^$/p' src/module/table.h | grep -oE 'row\([a-z_]+\)' | sed -E 's/row\((.*)\)/\1/')
+mapfile -t modules < <(sed -nE '/define SCREE_(LAWS|GEOMETRIES|SHAPES|BOUNDARY_MODULES|SELECTION_MODULES|CASE_MODULES)/,/^$/p' src/module/table.h | grep -oE 'row\([a-z_]+\)' | sed -E 's/row\((.*)\)/\1/')
 [ ${#modules[@]} -ge 30 ] || complain "the rows of src/module/table.h were not found"
 mapfile -t makers < <(grep -rl 'scree_module_##[a-z]* = {' src) # files that make descriptors by a macro
 for name in "${modules[@]}"; do

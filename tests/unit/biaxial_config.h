@@ -101,7 +101,7 @@ static inline void biaxial_config_set(biaxial_config *c, int64_t count)
         .seed = 1,
         .materials = c->material,
         .material_count = 2,
-        .particles = {.shape = SCREE_SHAPE_DISC, .material = c->quartz, .count = count, .thickness = NAN},
+        .particles = {.shape = SCREE_SLOT_disc, .material = c->quartz, .count = count, .thickness = NAN},
         .contact = {.law = SCREE_SLOT_hertz_brilliantov, .reference_velocity = NAN, .own = c->contact.bytes},
         .integrator = {.scheme = SCREE_SLOT_position_verlet, .step = NAN, .step_fraction = 0.5},
         .boundary = {.lateral = SCREE_SLOT_pressure_boundary},

@@ -43,7 +43,7 @@ static inline void bench_begin(bench *b, int dimension, size_t count, double ste
     memset(b, 0, sizeof *b);
     b->model = (scree_model){.dimension = dimension,
                              .thickness = dimension == 3 ? 1 : THICKNESS,
-                             .law = {.law = SCREE_SLOT_hertz_mindlin},
+                             .laws = {{.law = SCREE_SLOT_hertz_mindlin}},
                              .scheme = SCREE_SLOT_position_verlet,
                              .largest_step = 1,
                              .mean_radius = RADIUS,

@@ -126,12 +126,26 @@ static inline double fixture_gap(const fixture *f, size_t i, size_t j)
     return scree_length(a) - f->state.row[i].radius - f->state.row[j].radius;
 }
 
+/// The first `touching` pairs of the list count as touching, the others as near: one section, of the first law.
+static inline void fixture_cut(scree_pair_list *list, size_t touching)
+{
+    const size_t near = list->count - touching;
+    scree_pairs_clear(list);
+    (void)scree_pairs_add_section(list, 0, 0, false, touching, near);
+}
+
+static inline size_t fixture_touching(const scree_pair_list *list)
+{
+    return list->section[0].touching_end;
+}
+
 /// All pairs closer than the sum of radii + skin, touching ones first, with clear histories; bodies keep their rows.
 static inline void fixture_find_pairs(fixture *f, double skin)
 {
     size_t count = f->state.count;
     scree_pair_list *list = &f->work.pairs;
     if (!list->first) fixture_reserve(f, count * 12 + 16);
+    size_t touching = 0;
     list->count = 0;
     for (int pass = 0; pass < 2; pass++) {
         for (size_t i = 0; i < count; i++)
@@ -145,8 +159,9 @@ static inline void fixture_find_pairs(fixture *f, double skin)
                 if (list->rolling) list->rolling[list->count] = (scree_rolling){{0}, {0}};
                 list->history[list->count++] = (scree_history){{0}};
             }
-        if (pass == 0) list->touching_count = list->count;
+        if (pass == 0) touching = list->count;
     }
+    fixture_cut(list, touching);
     f->work.rebuilds++;
 }
 

@@ -16,20 +16,20 @@ static inline int law_slot(law_choice law)
 /// Numbers of hertz_brilliantov: T [s], c, and v_R of the model; options stay.
 static inline void law_numbers(scree_model *model, double damping_time, double friction_exponent)
 {
-    brilliantov_numbers(damping_time, friction_exponent, model->reference_velocity, model->law.number);
+    brilliantov_numbers(damping_time, friction_exponent, model->reference_velocity, model->laws[0].number);
 }
 
 /// For a model that was not built from a case; its v_R is set.
 static inline void law_choose(scree_model *model, law_choice law)
 {
-    model->law = (scree_law_use){.law = law_slot(law)};
-    if (law == HERTZ_BRILLIANTOV_IMPLICIT) model->law.option = BRILLIANTOV_IMPLICIT;
+    model->laws[0] = (scree_law_use){.law = law_slot(law)};
+    if (law == HERTZ_BRILLIANTOV_IMPLICIT) model->laws[0].option = BRILLIANTOV_IMPLICIT;
     law_numbers(model, 2e-6, 50);
 }
 
 static inline void law_rescale(scree_model *model, bool rescaled)
 {
-    if (rescaled) model->law.option |= MINDLIN_RESCALED;
+    if (rescaled) model->laws[0].option |= MINDLIN_RESCALED;
 }
 
 static inline scree_pair_constants hertz_pair(double normal, double tangential, double friction, double damping)

@@ -56,7 +56,7 @@ static inline void sphere_run(fixture *f, int steps)
 /// Materials that resist rolling and twisting, under a law that can.
 static inline void sphere_resist_turning(fixture *f)
 {
-    if (f->model.law.law == SCREE_SLOT_hertz_mindlin) f->model.law.option |= MINDLIN_ROLLING;
+    if (f->model.laws[0].law == SCREE_SLOT_hertz_mindlin) f->model.laws[0].option |= MINDLIN_ROLLING;
     for (int a = 0; a < 2; a++)
         for (int b = 0; b < 2; b++) {
             f->model.pairs[a][b].value[HERTZ_ROLLING] = 0.1 + 0.05 * (a + b);

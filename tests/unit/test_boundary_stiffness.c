@@ -148,8 +148,8 @@ static void add_contact(network *n, const scree_simulation *s, const scree_conta
     const scree_row *row = s->state.row;
     const double radius[2] = {row[c->first].radius - 0.5 * c->overlap, row[c->second].radius - 0.5 * c->overlap};
     double a = row[c->first].radius, b = row[c->second].radius, m = row[c->first].mass;
-    scree_contact_tangent k =
-        scree_contact_linearise(&s->stage_model, &s->model.pairs[0][0], a * b / (a + b), m / 2, c->normal_force);
+    scree_contact_tangent k = scree_contact_linearise(&s->stage_model.laws[0], &s->model.pairs[0][0], a * b / (a + b),
+                                                      m / 2, c->normal_force);
     double t[2][3];
     tangents(n->dimension, c->normal, t);
     add_spring(n, one, other, c->normal, radius, c->normal, k.normal_stiffness);

@@ -26,7 +26,7 @@ static void create(sample *s, int dimension)
     memset(s, 0, sizeof *s);
     s->model.walls_of_case = &s->wall;
     s->model.dimension = dimension;
-    s->model.law.law = SCREE_SLOT_hertz_mindlin;
+    s->model.laws[0].law = SCREE_SLOT_hertz_mindlin;
     s->model.material_count = 2;
     for (int m = 0; m < 2; m++) {
         s->model.density[m] = 2000 + 500 * m;

@@ -18,7 +18,7 @@ static contact_totals evaluate(fixture *f, const variant *v, contact_kernel *ker
 {
     contact_scratch *scratch = contact_scratch_refresh(&f->work, &f->state);
     scree_contact_set_quanta(&f->model, &f->state, 0);
-    contact_job job = scratch->part[0].job;
+    contact_job job = {.range = scratch->part[0].range[0], .near = f->work.pairs.section[0].touching_end};
     contact_part_clear(&scratch->part[0], &f->state, &job);
     job.model = &f->model;
     job.variant = *v;
@@ -32,7 +32,7 @@ static contact_totals evaluate(fixture *f, const variant *v, contact_kernel *ker
     job.last_force = f->work.pairs.last_force;
     job.rolling = f->work.pairs.rolling;
     job.near_touched = scratch->near_touched;
-    job.settings = law_settings_get(&f->model.law, f->state.step_size);
+    job.settings = law_settings_get(&f->model.laws[0], f->state.step_size);
     job.scale = (contact_scale){.inverse_force = 1 / f->state.force_quantum,
                                 .inverse_torque = 1 / f->state.torque_quantum,
                                 .inverse_damping = 0x1p60,
@@ -103,12 +103,13 @@ static void eight_lanes_give_the_bits_of_one(void **unused)
         for (size_t k = 0; k < sizeof variants / sizeof *variants; k++)
             for (int materials = 1; materials <= 2; materials++)
                 for (int ledger = 0; ledger <= 1; ledger++)
-                    compare(&(variant){dimension, variants[k].law, variants[k].option, materials > 1, ledger, false});
+                    compare(
+                        &(variant){dimension, variants[k].law, variants[k].option, materials > 1, ledger, false, 0});
     for (int ledger = 0; ledger <= 1; ledger++) {
         for (unsigned option = MINDLIN_ROLLING; option <= (MINDLIN_ROLLING | MINDLIN_RESCALED); option++)
-            compare(&(variant){3, SCREE_SLOT_hertz_mindlin, option, true, ledger, false});
+            compare(&(variant){3, SCREE_SLOT_hertz_mindlin, option, true, ledger, false, 0});
         for (int materials = 1; materials <= 2; materials++)
-            compare(&(variant){2, SCREE_SLOT_hertz_mindlin, MINDLIN_RESCALED, materials > 1, ledger, false});
+            compare(&(variant){2, SCREE_SLOT_hertz_mindlin, MINDLIN_RESCALED, materials > 1, ledger, false, 0});
     }
 }
 

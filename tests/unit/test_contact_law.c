@@ -305,7 +305,7 @@ static void create_oblique(fixture *f, law_choice law)
     f->state.largest_overlap = 1e-4;
     fixture_measure_speed(f);
     fixture_find_pairs(f, 1e-4);
-    assert_int_equal(f->work.pairs.touching_count, 1);
+    assert_int_equal(fixture_touching(&f->work.pairs), 1);
 }
 
 static void run_some(fixture *f, scree_sum_row sum[2])

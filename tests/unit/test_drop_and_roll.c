@@ -140,7 +140,7 @@ static void check_deposits(int dimension)
                 biaxial_config_set(&c, COUNT);
                 c.config.seed = seed;
                 c.config.dimension = dimension;
-                if (dimension == 3) c.config.particles.shape = SCREE_SHAPE_SPHERE;
+                if (dimension == 3) c.config.particles.shape = SCREE_SLOT_sphere;
                 biaxial_sizes(&c, all_sizes[s].distribution, all_sizes[s].smallest, 1e-3);
                 biaxial_prepare(&c)->aspect_ratio = boxes[b].aspect_ratio;
                 biaxial_prepare(&c)->width = boxes[b].width;

@@ -20,7 +20,7 @@ static scree_model make_model(int scheme)
     scree_model model;
     memset(&model, 0, sizeof model);
     model.scheme = scheme;
-    model.law.law = SCREE_SLOT_hertz_mindlin;
+    model.laws[0].law = SCREE_SLOT_hertz_mindlin;
     return model;
 }
 

@@ -146,7 +146,8 @@ static impact collide(int dimension, double damping, double parts, double apart)
     create_pair(&f, dimension, x, -1e-9, 1, &pair);
     const double mass = reduced_mass(&f), step = sqrt(mass / k) / parts;
     f.state.tick = f.state.step_size = f.state.kick_size = step;
-    check(scree_law_get(SCREE_SLOT_linear)->impact(&f.model.law, &pair, 1e-3, mass, speed, &theory, &error), &error);
+    check(scree_law_get(SCREE_SLOT_linear)->impact(&f.model.laws[0], &pair, 1e-3, mass, speed, &theory, &error),
+          &error);
     f.state.row[0].x = R1 + R2 + apart * speed * step;
     f.state.row[0].vx = -speed;
     f.state.largest_overlap = 0;
@@ -340,7 +341,8 @@ static double growth(double damping, double part)
     fixture f;
     create_pair(&f, 2, x, d, 1, &pair);
     const double mass = reduced_mass(&f);
-    const scree_contact_tangent t = scree_law_get(SCREE_SLOT_linear)->tangent(&f.model.law, &pair, 1e-3, mass, k * d);
+    const scree_contact_tangent t =
+        scree_law_get(SCREE_SLOT_linear)->tangent(&f.model.laws[0], &pair, 1e-3, mass, k * d);
     const double omega = sqrt(t.normal_stiffness / mass), z = t.normal_damping / (2 * sqrt(t.normal_stiffness * mass));
     assert_true(fabs(z - damping) < 1e-12);
     const double step = part * 2 / omega * (sqrt(1 + z * z) - z);

@@ -35,7 +35,7 @@ static void bench_create(bench *b, size_t count)
 {
     memset(b, 0, sizeof *b);
     b->model = (scree_model){.upkeep = {.every = 250, .gap_limit = 0.5},
-                             .law = {.law = SCREE_SLOT_hertz_mindlin},
+                             .laws = {{.law = SCREE_SLOT_hertz_mindlin}},
                              .scheme = SCREE_SLOT_position_verlet,
                              .thickness = THICKNESS,
                              .mean_radius = RADIUS,

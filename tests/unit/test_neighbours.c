@@ -54,7 +54,7 @@ static int by_ids(const void *a, const void *b)
 
 static void make_work(scree_work *work, int threads)
 {
-    const scree_model model = {.mean_radius = 1, .law = {.law = SCREE_SLOT_hertz_mindlin}};
+    const scree_model model = {.mean_radius = 1, .laws = {{.law = SCREE_SLOT_hertz_mindlin}}};
     scree_error error;
     assert_int_equal(scree_work_create(work, &model, threads, &error), SCREE_OK);
     work->skin = SKIN;
@@ -62,7 +62,7 @@ static void make_work(scree_work *work, int threads)
 
 static void refresh(scree_state *state, scree_work *work)
 {
-    const scree_model model = {.mean_radius = 1, .law = {.law = SCREE_SLOT_hertz_mindlin}};
+    const scree_model model = {.mean_radius = 1, .laws = {{.law = SCREE_SLOT_hertz_mindlin}}};
     scree_error error;
     assert_int_equal(scree_neighbours_refresh(&model, state, work, &error), SCREE_OK);
 }
@@ -170,7 +170,8 @@ static id_list listed(const scree_state *state, const scree_work *work)
         assert_true(pairs->first[k] < state->count && pairs->second[k] < state->count);
         uint64_t first = state->id[pairs->first[k]], second = state->id[pairs->second[k]];
         assert_true(first < second);
-        list.pair[list.count++] = (id_pair){first << 32 | second, k < pairs->touching_count, pairs->history[k]};
+        list.pair[list.count++] =
+            (id_pair){first << 32 | second, k < pairs->section[1].touching_end, pairs->history[k]};
     }
     for (size_t k = 0; k < walls->count; k++) {
         assert_true(walls->body[k] < state->count && walls->wall[k] < SCREE_WALL_COUNT);
@@ -226,7 +227,7 @@ static void list_equals_brute_force_in(int dimension, arrangement kind)
             assert_equals_brute_force(&state, &work);
             const scree_pair_list *pairs = &work.pairs;
             for (size_t k = 1; k < pairs->count; k++)
-                if (k != pairs->touching_count) assert_true(lower(pairs, k - 1) <= lower(pairs, k));
+                if (k != pairs->section[1].touching_end) assert_true(lower(pairs, k - 1) <= lower(pairs, k));
             for (size_t k = pairs->count; k < pairs->count + SCREE_PAIR_PADDING; k++)
                 assert_int_equal(pairs->first[k] + pairs->second[k], 0);
             assert_int_equal((uintptr_t)pairs->history % SCREE_ALIGNMENT, 0);
@@ -320,7 +321,7 @@ static void mark_list(const scree_state *state, scree_work *work, uint64_t round
 {
     for (size_t k = 0; k < work->pairs.count; k++) {
         uint64_t ids = (uint64_t)state->id[work->pairs.first[k]] << 32 | state->id[work->pairs.second[k]];
-        bool marked = k < work->pairs.touching_count || ids % 2;
+        bool marked = k < work->pairs.section[1].touching_end || ids % 2;
         work->pairs.history[k] = marked ? mark(ids, round) : (scree_history){{0}};
     }
     for (size_t k = 0; k < work->wall_pairs.count; k++) {
@@ -648,7 +649,7 @@ static void rebuild_without_growth_allocates_nothing(void **dimension)
 /// Each allocation of the first rebuilds fails once: an error, and the next refresh goes on with all histories.
 static void failed_allocations_lose_nothing(void **dimension)
 {
-    const scree_model model = {.mean_radius = 1, .law = {.law = SCREE_SLOT_hertz_mindlin}};
+    const scree_model model = {.mean_radius = 1, .laws = {{.law = SCREE_SLOT_hertz_mindlin}}};
     scree_error error;
     int failures = 0;
     for (uint64_t site = 1; site < 1000; site++) {

@@ -36,14 +36,14 @@ static void expect_moduli(const char *folder)
     check(scree_simulation_open_run(folder, &c, &s, &error), &error);
     check(scree_simulation_moduli(s, NULL, &m, &error), &error);
     // Printed with 17 digits; the last snapshot is the end.
-    assert_true(fabs(result(folder, "young_modulus") / m.isotropic.young - 1) < 1e-9);
-    assert_true(fabs(result(folder, "poisson_ratio") / m.isotropic.poisson - 1) < 1e-9);
-    assert_true(fabs(result(folder, "bulk_modulus") / m.isotropic.bulk - 1) < 1e-9);
-    assert_true(fabs(result(folder, "shear_modulus") / m.isotropic.shear - 1) < 1e-9);
-    assert_true(fabs(result(folder, "shear_modulus_voigt") / m.voigt.shear - 1) < 1e-9);
-    assert_true(fabs(result(folder, "shear_modulus_theory") / m.estimate.shear - 1) < 1e-9);
-    assert_true(fabs(result(folder, "elastic_anisotropy") / m.anisotropy - 1) < 1e-9);
-    assert_true(result(folder, "elastic_contacts") == result(folder, "bonds_made"));
+    assert_true(fabs(result(folder, "static_young_modulus") / m.isotropic.young - 1) < 1e-9);
+    assert_true(fabs(result(folder, "static_poisson_ratio") / m.isotropic.poisson - 1) < 1e-9);
+    assert_true(fabs(result(folder, "static_bulk_modulus") / m.isotropic.bulk - 1) < 1e-9);
+    assert_true(fabs(result(folder, "static_shear_modulus") / m.isotropic.shear - 1) < 1e-9);
+    assert_true(fabs(result(folder, "static_shear_modulus_voigt") / m.voigt.shear - 1) < 1e-9);
+    assert_true(fabs(result(folder, "static_shear_modulus_theory") / m.estimate.shear - 1) < 1e-9);
+    assert_true(fabs(result(folder, "static_anisotropy") / m.anisotropy - 1) < 1e-9);
+    assert_true(result(folder, "static_contacts") == result(folder, "bonds_made"));
     scree_simulation_free(s);
     scree_case_free(c);
 }
@@ -89,7 +89,7 @@ static void others_say_nothing(void **unused)
     (void)snprintf(folder, sizeof folder, "%s/other", place);
     run(folder, other, 3);
     assert_int_equal(scree_result_get(folder, "packing_bonds", value, sizeof value, &error), SCREE_ERROR_INPUT);
-    assert_int_equal(scree_result_get(folder, "young_modulus", value, sizeof value, &error), SCREE_ERROR_INPUT);
+    assert_int_equal(scree_result_get(folder, "static_young_modulus", value, sizeof value, &error), SCREE_ERROR_INPUT);
     scratch_destroy(place);
 }
 

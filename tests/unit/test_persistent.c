@@ -248,13 +248,13 @@ static void assert_lists(periodic_sample *s)
     const scree_pair_list *pairs = &s->work.pairs;
     const scree_persistent_list *list = scree_persistent(&s->state);
     size_t expected = 0, found = 0;
-    assert_int_equal(pairs->held_count, list->count);
+    assert_int_equal(scree_pairs_held(pairs), list->count);
     for (size_t p = 0; p < pairs->count; p++) {
         uint32_t a = s->state.id[pairs->first[p]], b = s->state.id[pairs->second[p]];
         assert_true(a < b);
-        assert_true((scree_persistent_find(&s->state, a, b) != SIZE_MAX) == (p < pairs->held_count));
+        assert_true((scree_persistent_find(&s->state, a, b) != SIZE_MAX) == (p < scree_pairs_held(pairs)));
         const scree_row *one = &s->state.row[pairs->first[p]], *other = &s->state.row[pairs->second[p]];
-        if (p >= pairs->held_count)
+        if (p >= scree_pairs_held(pairs))
             found += hypot(one->x - other->x, one->y - other->y) < one->radius + other->radius;
         else
             assert_true(p == 0 || pairs->first[p] != pairs->first[p - 1] || pairs->second[p] != pairs->second[p - 1]);
@@ -323,7 +323,7 @@ static void members_come_and_go(void **unused)
     hold(&s, kept.first, kept.second, kept.constant[0]);
     scree_error error;
     check(scree_neighbours_refresh(&s.model, &s.state, &s.work, &error), &error);
-    for (size_t p = 0; p < s.work.pairs.held_count; p++)
+    for (size_t p = 0; p < scree_pairs_held(&s.work.pairs); p++)
         if (s.state.id[s.work.pairs.first[p]] == kept.first && s.state.id[s.work.pairs.second[p]] == kept.second)
             assert_true(s.work.pairs.history[p].value[0] == 0);
     assert_int_equal(scree_persistent_remove(&s.state, kept.first, kept.second, NULL), SCREE_OK);

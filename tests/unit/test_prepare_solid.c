@@ -21,7 +21,7 @@ static void sample_set(sample *s, int dimension, int method, int64_t count)
 {
     biaxial_config_set(&s->c, count);
     s->c.config.dimension = dimension;
-    if (dimension == 3) s->c.config.particles.shape = SCREE_SHAPE_SPHERE;
+    if (dimension == 3) s->c.config.particles.shape = SCREE_SLOT_sphere;
     biaxial_prepare(&s->c)->method = (int)method;
     biaxial_gas(&s->c)->solid_fraction = biaxial_growth(&s->c)->solid_fraction = NAN;
     biaxial_prepare(&s->c)->aspect_ratio = 1;

@@ -70,7 +70,7 @@ static void test_spheres_before_they_run(void **unused)
     biaxial_config c;
     set_config(&c, 500);
     c.config.dimension = 3;
-    c.config.particles.shape = SCREE_SHAPE_SPHERE;
+    c.config.particles.shape = SCREE_SLOT_sphere;
     scree_model model = model_of(&c);
     scree_quasistatic q = scree_quasistatic_expect(&model, 2);
     assert_near(q.value[SCREE_QUASISTATIC_INERTIAL], 5e-3 * 1.5e-3 * sqrt(2.675e8 / 1e5));

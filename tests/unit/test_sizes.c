@@ -22,7 +22,7 @@ static void build(int distribution, int dimension)
     scree_error error;
     c.config.particles.distribution = distribution;
     c.config.dimension = dimension;
-    c.config.particles.shape = dimension == 3 ? SCREE_SHAPE_SPHERE : SCREE_SHAPE_DISC;
+    c.config.particles.shape = dimension == 3 ? SCREE_SLOT_sphere : SCREE_SLOT_disc;
     check(scree_model_build(&c.config, &model, &error), &error);
 }
 

@@ -311,7 +311,7 @@ static void create_oblique(fixture *f, law_choice law)
     fixture_measure_speed(f);
     f->state.largest_speed = 10;
     fixture_find_pairs(f, 1e-4);
-    assert_int_equal(f->work.pairs.touching_count, 1);
+    assert_int_equal(fixture_touching(&f->work.pairs), 1);
 }
 
 /// Forces and torques on the first sphere after five evaluations.

@@ -107,7 +107,7 @@ static void expected_force(const world *w, const double place[3], const double v
 {
     const scree_pair_constants *pair = &w->f.model.walls[0];
     const world_keys *wall = &w->wall[0];
-    const double *number = w->f.model.law.number;
+    const double *number = w->f.model.laws[0].number;
     const double d = R - distance, arm = R - 0.5 * d;
     double lever[3], turning[3], rolling[3], u[3], slip[3], speed = 0;
     double time = (double)scree_case_walls(&w->f.state)->ticks * w->f.state.tick;
@@ -512,7 +512,8 @@ static void what_has_no_place_in_a_plane_is_refused(void **unused)
 {
     (void)unused;
     refuse("shape: cylinder, start: [0, 0], end: [0, 10 mm], radius: 5 mm", "no walls of this shape in two dimensions");
-    refuse("shape: cone, start: [0, 0], end: [0, 10 mm], radius_start: 5 mm, radius_end: 1 mm", "no walls of this shape");
+    refuse("shape: cone, start: [0, 0], end: [0, 10 mm], radius_start: 5 mm, radius_end: 1 mm",
+           "no walls of this shape");
     refuse("shape: mesh, file: none.stl", "no walls of this shape");
     refuse("shape: plane, normal: [0, 1, 1], point: [0, 0, 0]", "there is no z in two dimensions");
     refuse("shape: box, lower: [0, 0], upper: [1 cm, 1 cm], spin: [1 rad/s, 0, 0]", "turns about z only");

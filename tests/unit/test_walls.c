@@ -260,7 +260,7 @@ static double slide(const scree_model *model, law_choice law, double friction, d
     for (int k = 0; k < steps; k++) {
         double power = law == HERTZ_MINDLIN || slip == 0
                            ? 1
-                           : pow(slip / model->reference_velocity, model->law.number[BRILLIANTOV_INVERSE_EXPONENT]);
+                           : pow(slip / model->reference_velocity, model->laws[0].number[BRILLIANTOV_INVERSE_EXPONENT]);
         double held = friction * G * cos(0.3) * power;
         velocity += time / steps * (G * sin(0.3) - held);
         slip += time / steps * (G * sin(0.3) - 3.5 * held);

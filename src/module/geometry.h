@@ -1,0 +1,19 @@
+/// The face of a geometry of contacts: how two bodies touch. A geometry is a header with always-inline functions
+/// (contact/geometry.h), a file with its module and this descriptor, and a row in module/table.h.
+#ifndef SCREE_MODULE_GEOMETRY_H
+#define SCREE_MODULE_GEOMETRY_H
+
+#include "module/shape.h"
+
+/// What the rest of the program must know of it; constants in the kernels.
+typedef struct scree_geometry_traits {
+    bool levers; ///< forces act at a point anywhere, along the normal too; else on the normal through both centres
+} scree_geometry_traits;
+
+typedef struct scree_geometry {
+    const scree_geometry_traits *traits;
+    /// Whether contacts of these two shapes are of it, in either order.
+    bool (*serves)(const scree_shape *one, const scree_shape *other);
+} scree_geometry;
+
+#endif
