@@ -267,20 +267,25 @@ static bool has_symmetric_scheme(const scree_specimen *s)
     return scree_specimen_has_potential(s) && !scree_specimen_is_damped(s);
 }
 
-/// The step at which the Rayleigh quotient of g, of length 1, is 1, from that at the present step: without dashpots the
-/// second part goes with its square.
-static double step_of_forces(operator_context *o, const double *g, double quotient)
+/// f . A f = g . S A S g of forces g: the part of their Rayleigh quotient that motion has.
+static double moved_by(operator_context *o, const double *g)
 {
     const scree_specimen *s = o->s;
-    const size_t width = (size_t)s->dimension, size = scree_specimen_contact_forces(s);
+    const size_t width = (size_t)s->dimension;
     for (size_t c = 0; c < s->contact_count; c++) {
         const scree_springs d = dynamic(o, &s->contact[c]);
         scree_specimen_along(s->dimension, &s->contact[c], sqrt(d.normal), sqrt(d.tangential), g + c * width,
                              o->contact[0] + c * width);
     }
     mobilise(o, o->contact[0], o->contact[1]);
-    // f . A f = g . S A S g
-    double moved = product(s->force, o->contact[0], o->contact[1], size), deformed = quotient - moved;
+    return product(s->force, o->contact[0], o->contact[1], scree_specimen_contact_forces(s));
+}
+
+/// The step at which the Rayleigh quotient of g, of length 1, is 1, from that at the present step: without dashpots the
+/// second part goes with its square.
+static double step_of_forces(operator_context *o, const double *g, double quotient)
+{
+    const double moved = moved_by(o, g), deformed = quotient - moved;
     if (deformed >= 1) return 0;
     // A mode in which nothing moves, such as slip without springs: those that do show at a larger step.
     return moved > STILL ? o->step * sqrt((1 - deformed) / moved) : 2 * o->step;
@@ -436,48 +441,68 @@ scree_status scree_stability_use(const scree_specimen *s, scree_strain_scheme sc
     return status;
 }
 
-/// Factors of the share between which the use passes 1: one without strains, one at which strains alone reach it.
-static scree_status bracket_softness(operator_context *o, double share, double factor[2], double value[2],
-                                     scree_error *error)
+/// Where the map is symmetric: the use is convex in the share, and Newton's iteration with the part that the strains
+/// have in the quotient of the last mode comes to the root from above.
+static scree_status soften_symmetric(operator_context *o, double share, double *factor, scree_error *error)
 {
-    factor[1] = 1 / (share * o->scheme.radius);
-    o->scheme.share = 0;
-    scree_status status = use_at(o, false, ACCURACY_BETWEEN, &value[0], error);
-    value[0] -= 1;
-    for (int k = 0; k < MOST_ITERATIONS && !status && value[0] < 0 && !(value[1] > 0); k++) {
-        factor[1] *= 1.02;
-        o->scheme.share = share * factor[1];
+    const scree_linear_map map = {apply_deformable, o, scree_specimen_contact_forces(o->s), true};
+    double *g, accuracy = COARSE;
+    scree_status status = scree_allocate(&g, map.size, sizeof *g, error);
+    bool settled = false;
+    for (int k = 0; k < MOST_ITERATIONS && !status && !settled; k++) {
+        scree_eigenvalue largest;
+        o->scheme.share = share * *factor;
+        status = scree_eigen_largest(&map, accuracy, &largest, g, error);
+        if (status) break;
+        const double last = *factor, moved = moved_by(o, g);
+        *factor *= (1 - moved) / (largest.value - moved);
+        settled = has_settled(*factor, last, &accuracy);
+    }
+    scree_release(&g);
+    return status;
+}
+
+/// Else by regula falsi as in find_between, between no strains and those that alone reach the limit.
+static scree_status soften_between(operator_context *o, double share, double below, double *factor, scree_error *error)
+{
+    double end[2] = {0, *factor}, value[2] = {below, 0};
+    scree_status status = SCREE_OK;
+    int last = -1;
+    for (int k = 0; k < MOST_ITERATIONS && !status && !(value[1] > 0); k++) {
+        end[1] *= 1.02;
+        o->scheme.share = share * end[1];
         status = use_at(o, true, COARSE, &value[1], error);
         value[1] -= 1;
+    }
+    for (int k = 0; k < MOST_ITERATIONS && !status; k++) {
+        *factor = (end[0] * value[1] - end[1] * value[0]) / (value[1] - value[0]);
+        double there;
+        o->scheme.share = share * *factor;
+        status = use_at(o, true, ACCURACY_BETWEEN, &there, error);
+        const int side = --there > 0;
+        if (side == last) value[1 - side] *= 0.5;
+        end[side] = *factor;
+        value[side] = there;
+        last = side;
+        if (fabs(there) <= SETTLED || end[1] - end[0] <= SETTLED * end[1]) break;
     }
     return status;
 }
 
-scree_status scree_stability_softness(const scree_specimen *s, scree_strain_scheme scheme, double step, double *answer,
+scree_status scree_stability_softness(const scree_specimen *s, scree_strain_scheme scheme, double step, double *factor,
                                       scree_error *error)
 {
     operator_context o;
-    double factor[2] = {0, 0}, value[2] = {0, 0};
-    int last = -1;
-    *answer = INFINITY;
+    double below = 0;
+    *factor = INFINITY;
     if (!(scheme.share > 0 && scheme.radius > 0)) return SCREE_OK;
     scree_status status = create(&o, s, scheme, error);
     o.step = step;
-    if (!status) status = bracket_softness(&o, scheme.share, factor, value, error);
-    // Regula falsi as in find_between.
-    *answer = value[0] < 0 ? factor[1] : 0;
-    for (int k = 0; k < MOST_ITERATIONS && !status && value[0] < 0; k++) {
-        *answer = (factor[0] * value[1] - factor[1] * value[0]) / (value[1] - value[0]);
-        double there;
-        o.scheme.share = scheme.share * *answer;
-        status = use_at(&o, true, ACCURACY_BETWEEN, &there, error);
-        const int end = --there > 0;
-        if (end == last) value[1 - end] *= 0.5;
-        factor[end] = *answer;
-        value[end] = there;
-        last = end;
-        if (fabs(there) <= SETTLED || factor[1] - factor[0] <= SETTLED * factor[1]) break;
-    }
+    if (!status) status = use_at(&o, false, ACCURACY_BETWEEN, &below, error);
+    *factor = below < 1 ? 1 / (scheme.share * scheme.radius) : 0;
+    if (!status && below < 1)
+        status = has_symmetric_scheme(s) ? soften_symmetric(&o, scheme.share, factor, error)
+                                         : soften_between(&o, scheme.share, below - 1, factor, error);
     destroy(&o);
     return status;
 }

@@ -473,18 +473,21 @@ static void use_and_softness_belong_to_the_step(void **unused)
         assert_within(use_of(&s, scree_strain_rigid(), rigid), 1, 1e-5);
         assert_within(use_of(&s, lagged, step), 1, 1e-5);
         assert_within(use_of(&s, scree_strain_rigid(), 0.5 * rigid), 0.25, 1e-6);
-        for (int which = 0; which < 2; which++) {
-            const scree_strain_scheme scheme = which ? relaxed : lagged;
+        // The last two with dashpots, whose maps are not symmetric.
+        for (int which = 0; which < 4; which++) {
+            const scree_strain_scheme scheme = which % 2 ? relaxed : lagged;
+            for (size_t c = 0; c < s.contact_count && which == 2; c++)
+                s.contact[c].damping = (scree_springs){0.2 * rigid * NORMAL * (k < 2 ? 1 : 1e-3), 0};
             double softness;
             scree_error error;
-            check(scree_stability_softness(&s, scheme, 0.7 * step, &softness, &error), &error);
+            check(scree_stability_softness(&s, scheme, 0.5 * step, &softness, &error), &error);
             assert_true(softness > 1);
             scree_specimen soft = s;
             soft.compliance = calloc(s.body_count, sizeof *soft.compliance);
             for (size_t body = 0; body < s.body_count; body++)
                 soft.compliance[body] =
                     (scree_compliance){softness * s.compliance[body].shear, softness * s.compliance[body].trace};
-            assert_within(use_of(&soft, scheme, 0.7 * step), 1, 1e-5);
+            assert_within(use_of(&soft, scheme, 0.5 * step), 1, 1e-5);
             free(soft.compliance);
             check(scree_stability_softness(&s, scheme, 1.01 * rigid, &softness, &error), &error);
             assert_true(softness == 0);
