@@ -5,6 +5,7 @@
 /// barrier, merges a range of rows and evaluates the wall contacts of these rows. Without memory for the partition, or
 /// when asked to (work->reference_kernel), the scalar reference does all the work: same bits, slower.
 #include "base/processor.h"
+#include "comm/comm.h"
 #include "contact/bounds.h"
 #include "contact/contact.h"
 #include "contact/diagnostics.h"
@@ -158,6 +159,24 @@ static contact_totals evaluate_parts(contact_kernel *kernel, contact_scratch *sc
     return totals;
 }
 
+/// The totals of all processes: each has found those of its own contacts. What has been counted is an integer.
+static void join_totals(const scree_state *state, contact_totals *totals)
+{
+    double flags[2] = {totals->settle, !totals->in_range};
+    scree_comm_maximum(state, flags, 2);
+    totals->settle = flags[0] > 0;
+    totals->in_range = !(flags[1] > 0);
+    scree_comm_maximum(state, &totals->largest_overlap, 1);
+    scree_comm_maximum(state, &totals->largest_deformation, 1);
+    scree_comm_maximum(state, &totals->largest_gap, 1);
+    uint64_t *const energies[] = {&totals->damping, &totals->friction, &totals->stiffness};
+    for (int k = 0; k < 3; k++) scree_comm_add(state, (int64_t *)energies[k], 1);
+    scree_comm_add(state, (int64_t *)totals->wall_force, SCREE_WALL_COUNT);
+    scree_comm_add(state, (int64_t *)totals->wall_shear, 3 * SCREE_WALL_COUNT);
+    scree_comm_add(state, (int64_t *)totals->surface_force, 3 * SCREE_SURFACES);
+    scree_comm_add(state, (int64_t *)totals->surface_torque, 3 * SCREE_SURFACES);
+}
+
 /// Tangential force on wall `w` [N].
 static void shear_of(const scree_state *state, const contact_totals *totals, int w, scree_vector shear)
 {
@@ -209,6 +228,8 @@ static contact_totals evaluate(contact_job *job, scree_state *state, scree_work 
     contact_scratch *scratch = kernel ? contact_scratch_refresh(work, state) : NULL;
     contact_totals totals =
         scratch ? evaluate_parts(kernel, scratch, job, state, work) : evaluate_serially(job, state, work);
+    join_totals(state, &totals);
+
     scree_ghosts_add_back(state, work);
     return totals;
 }

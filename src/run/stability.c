@@ -168,7 +168,7 @@ static void explain(const checked *c, double step, double softness, char *text, 
     (void)snprintf(
         text, size, "%s%s: take %s%s%s", what, ratio, step > 0 ? "a smaller integrator.step" : "",
         stiff ? (step > 0 ? ", stiffer particles or softer contacts" : "stiffer particles or softer contacts") : "",
-        lagged ? ", or contact.deformation: relaxed" : "");
+        lagged ? ", or contact.deformation: relaxed or implicit" : "");
 }
 
 static scree_status complain(scree_simulation *s, checked *c, scree_error *error)

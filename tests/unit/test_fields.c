@@ -412,6 +412,17 @@ static void the_manual_lists_every_dataset(void **unused)
     assert_int_equal(undocumented, 0);
 }
 
+/// What all modules could want together fits into the room that a model has for their numbers: nothing else looks.
+static void numbers_of_all_modules_fit(void **unused)
+{
+    (void)unused;
+    const scree_model model = {0};
+    size_t all = 0;
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++) all += (scree_modules[m]->numbers_size + 15) / 16 * 16;
+    print_message("%zu of %zu bytes\n", all, sizeof model.numbers);
+    assert_true(all > 0 && all <= sizeof model.numbers);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -426,6 +437,7 @@ int main(void)
         cmocka_unit_test(packing_and_unpacking_agree),
         cmocka_unit_test(permuting_moves_whole_elements),
         cmocka_unit_test(the_manual_lists_every_dataset),
+        cmocka_unit_test(numbers_of_all_modules_fit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
