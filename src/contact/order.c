@@ -2,7 +2,6 @@
 #include "contact/order.h"
 #include "state/plates.h"
 
-#include "contact/single.h"
 #include "contact/surfaces.h"
 
 /// Contact number k of all pairs, then all wall pairs, then all element pairs, of which `touching` tells which touch;

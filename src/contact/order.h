@@ -2,15 +2,12 @@
 #ifndef SCREE_CONTACT_ORDER_H
 #define SCREE_CONTACT_ORDER_H
 
-#include "state/work.h"
+#include "contact/single.h"
 
 typedef struct contact_reference {
     uint32_t first, second; ///< ids; a wall is SCREE_WALL_ID + its index, an element SCREE_PRIMITIVE_ID + its number
     uint32_t pair;          ///< in work->pairs, work->wall_pairs or work->primitive_pairs
 } contact_reference;
-
-/// The list that a contact is in.
-typedef enum contact_list { CONTACT_PAIR, CONTACT_PLATE, CONTACT_ELEMENT } contact_list;
 
 static inline contact_list contact_reference_list(const contact_reference *r)
 {

@@ -3,9 +3,11 @@
 #define SCREE_CONTACT_SINGLE_H
 
 #include "contact/contact.h"
-#include "contact/order.h"
 #include "contact/scalar.h"
 #include "state/plates.h"
+
+/// The list that a contact is in.
+typedef enum contact_list { CONTACT_PAIR, CONTACT_PLATE, CONTACT_ELEMENT } contact_list;
 
 /// A body with v(n - 1/2).
 typedef struct contact_body {

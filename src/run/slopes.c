@@ -101,7 +101,7 @@ static void rules(scree_reader *reader, const scree_config *whole)
 
 static scree_status resolve(scree_model *model, scree_error *error)
 {
-    const config *own = own_config(model->config);
+    const config *own = scree_config_own(&scree_module_slopes, "measure", model->config->measure.own);
     (void)error;
     if (own) *(config *)scree_model_reserve_numbers(model, SCREE_SLOT_slopes) = *own;
     return SCREE_OK;
