@@ -39,6 +39,8 @@
 #define SETTLED 1e-6
 /// Part of an eigenvalue below which its mode does not move.
 #define STILL 1e-9
+/// In the step at which the search begins: nothing moves that is not critical by then.
+#define FARTHEST 1e6
 enum { MOST_ITERATIONS = 40 };
 
 typedef struct operator_context {
@@ -291,9 +293,16 @@ static double step_of_forces(operator_context *o, const double *g, double quotie
     return moved > STILL ? o->step * sqrt((1 - deformed) / moved) : 2 * o->step;
 }
 
+/// Where nothing is free to move no step is critical.
+static bool is_beyond_all(double step, double first)
+{
+    return step > FARTHEST * first;
+}
+
 static scree_status find_symmetric(operator_context *o, double *g, scree_error *error)
 {
     const scree_linear_map map = {apply_deformable, o, scree_specimen_contact_forces(o->s), true};
+    const double first = o->step;
     double accuracy = COARSE;
     for (int k = 0; k < MOST_ITERATIONS; k++) {
         scree_eigenvalue largest;
@@ -301,7 +310,8 @@ static scree_status find_symmetric(operator_context *o, double *g, scree_error *
         if (status) return status;
         const double last = o->step;
         o->step = step_of_forces(o, g, largest.value);
-        if (o->step == 0 || has_settled(o->step, last, &accuracy)) return SCREE_OK;
+        if (is_beyond_all(o->step, first)) o->step = INFINITY;
+        if (o->step == 0 || isinf(o->step) || has_settled(o->step, last, &accuracy)) return SCREE_OK;
     }
     return scree_error_set(error, SCREE_ERROR_GUARD, "the critical step was not found in %d iterations",
                            MOST_ITERATIONS);
@@ -330,7 +340,8 @@ static double step_across(double step, double value, int attempt)
 /// Steps below and above the root, and the excess there.
 static scree_status bracket(operator_context *o, double step[2], double value[2], double *g, scree_error *error)
 {
-    double at = o->step;
+    const double first = o->step;
+    double at = first;
     bool found[2] = {false, false};
     scree_status status = SCREE_OK;
     for (int k = 0; k < MOST_ITERATIONS && !status && !(found[0] && found[1]); k++) {
@@ -343,6 +354,10 @@ static scree_status bracket(operator_context *o, double step[2], double value[2]
         at = step_across(at, there, k);
     }
     if (status || (found[0] && found[1])) return status;
+    if (!found[1] && is_beyond_all(at, first)) {
+        step[0] = step[1] = o->step = INFINITY;
+        return SCREE_OK;
+    }
     return scree_error_set(error, SCREE_ERROR_GUARD, "no critical step was found down to %.3g s", at);
 }
 
@@ -406,7 +421,7 @@ scree_status scree_critical_step(const scree_specimen *s, scree_strain_scheme sc
         if (isinf(o.step)) o.step = *step;
         status = scree_allocate(&forces, scree_specimen_contact_forces(s), sizeof *forces, error);
         if (!status) status = find_deformable(&o, step, forces, error);
-        if (!status && *step > 0) motion_of_forces(&o, forces, motion);
+        if (!status && *step > 0 && !isinf(*step)) motion_of_forces(&o, forces, motion);
     }
     if (!status && mode) memcpy(mode, motion, scree_specimen_motions(s) * sizeof *mode);
     scree_release(&motion);

@@ -27,6 +27,16 @@ soft=$(awk "BEGIN { print 1e8 * $ratio / 10 }")
 expect 0 '^explicit_step +0 ' "$scree" stability "${small[@]}" --at deform --young-modulus "$soft" --poisson-ratio 0.3
 holds "($(value spectral_radius) / 10 - 1)^2 < 1e-8 && $(value relaxed_step) > 0.7 * $rigid"
 
+# Where nothing is free to move no step is critical, and a case says so before it runs.
+for form in none=0 explicit=0 relaxed=0 explicit=0.5; do
+    held=(ddem-row --quick --set contact.deformation="${form%=*}" --set materials.disc.stiffness_ratio="${form#*=}")
+    expect 0 '^critical_step +inf ' "$scree" stability "${held[@]}"
+    [ "${form%=*}" = none ] || expect 0 '^explicit_step +inf ' "$scree" stability "${held[@]}"
+done
+for name in $("$scree" list | awk '{ print $1 }'); do
+    expect 0 '^# time needed ' "$scree" check "$name" --quick
+done
+
 # --- moduli
 expect 0 '^young_modulus +[0-9.e+]+ +Pa ' "$scree" moduli "${small[@]}" --at deform
 stiff=$(value young_modulus)
