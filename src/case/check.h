@@ -94,6 +94,9 @@ void scree_rule_refuse_name(scree_reader *reader, const char *path, const char *
 /// wrong, and noted.
 bool scree_rule_is_selection(scree_reader *reader, const scree_config *config, const char *path, const char *name);
 
+/// The same of a stage; true as well where there is no `name`.
+bool scree_rule_is_stage(scree_reader *reader, const scree_config *config, const char *path, const char *name);
+
 /// Those of the walls of the case (wall_rules.c). Files that they name are found: their paths become absolute, and the
 /// case holds the checksum of their content.
 void scree_rules_check_walls(scree_reader *reader, scree_config *config);

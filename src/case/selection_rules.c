@@ -50,3 +50,17 @@ void scree_rules_check_selections(scree_reader *reader, const scree_config *conf
                               scree_show(name).text);
     }
 }
+
+bool scree_rule_is_stage(scree_reader *reader, const scree_config *config, const char *path, const char *name)
+{
+    enum { MOST_STAGES = 100 };
+    const char *names[MOST_STAGES];
+    size_t count = 0;
+    if (!name) return true;
+    for (int64_t i = 0; i < config->stage_count && i < MOST_STAGES; i++) {
+        if (!config->stages[i].name || strcmp(config->stages[i].name, name) == 0) return true;
+        names[count++] = config->stages[i].name;
+    }
+    scree_rule_refuse_name(reader, path, "stage", name, names, count);
+    return false;
+}

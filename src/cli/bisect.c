@@ -16,19 +16,6 @@ static scree_status take(const scree_command *command, const char *name, const c
     return *value ? SCREE_OK : scree_command_refuse(error, field, "", "this option is missing");
 }
 
-/// A number without a unit; without the option *value stays.
-static scree_status take_number(const scree_command *command, const char *name, double *value, scree_error *error)
-{
-    const char *text = scree_command_value(command, name);
-    char *end, field[64];
-    if (!text) return SCREE_OK;
-    *value = strtod(text, &end);
-    (void)snprintf(field, sizeof field, "--%s", name);
-    return end == text || *end || !isfinite(*value)
-               ? scree_command_refuse(error, field, "a number in SI units", "'%s' is no number", text)
-               : SCREE_OK;
-}
-
 static scree_status read_bisection(const scree_command *command, scree_bisection *what, scree_error *error)
 {
     *what = (scree_bisection){.tolerance = 0.001, .below = NAN, .above = NAN};
@@ -37,9 +24,9 @@ static scree_status read_bisection(const scree_command *command, scree_bisection
     if (!status) status = take(command, "to", &what->between[1], error);
     if (!status) status = take(command, "measure", &what->measure, error);
     what->curve = scree_command_value(command, "curve");
-    if (!status) status = take_number(command, "tolerance", &what->tolerance, error);
-    if (!status) status = take_number(command, "below", &what->below, error);
-    if (!status) status = take_number(command, "above", &what->above, error);
+    if (!status) status = scree_command_real(command, "tolerance", &what->tolerance, error);
+    if (!status) status = scree_command_real(command, "below", &what->below, error);
+    if (!status) status = scree_command_real(command, "above", &what->above, error);
     return status;
 }
 

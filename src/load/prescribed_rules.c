@@ -7,8 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_STAGES = 100 };
-
 static const char *const motion_keys[] = {"velocity_x", "velocity_y", "velocity_z", "spin_x", "spin_y", "spin_z"};
 static const char *const push_keys[] = {"force_x", "force_y", "force_z", "torque_x", "torque_y", "torque_z"};
 
@@ -28,15 +26,7 @@ static bool gives(const judged *j, const char *key)
 
 static void check_stage(judged *j, const char *key, const char *name)
 {
-    const char *names[MOST_STAGES];
-    size_t count = 0;
-    for (int64_t i = 0; name && i < j->config->stage_count && i < MOST_STAGES; i++) {
-        if (!j->config->stages[i].name || strcmp(j->config->stages[i].name, name) == 0) return;
-        names[count++] = j->config->stages[i].name;
-    }
-    if (name)
-        scree_rule_refuse_name(j->reader, scree_element_path(j->path, "loads", j->index, key), "stage", name, names,
-                               count);
+    (void)scree_rule_is_stage(j->reader, j->config, scree_element_path(j->path, "loads", j->index, key), name);
 }
 
 static void check_stages(judged *j)

@@ -11,6 +11,7 @@
 ///
 /// Limits: along a direction in which the cell repeats itself there is no distance between bodies that may leave it.
 #include "measure/gauges.h"
+#include "model/measure_keys.h"
 
 #include "case/check.h"
 #include "model/model.h"
@@ -27,7 +28,8 @@ typedef struct config {
     int64_t gauge_count;
 } config;
 
-static const scree_choice axes[] = {{"x", 0, "the first coordinate"}, {"y", 1, "the second coordinate"}, {"z", 2, "the third coordinate, in 3D"}, {0}};
+static const scree_choice axes[] = {
+    {"x", 0, "the first coordinate"}, {"y", 1, "the second coordinate"}, {"z", 2, "the third coordinate, in 3D"}, {0}};
 
 typedef scree_gauge gauge;
 static const scree_key gauge_keys[] = {
@@ -70,11 +72,8 @@ int64_t scree_gauge_find(const scree_config *whole, const char *name)
 
 static scree_status resolve(scree_model *model, scree_error *error)
 {
-    const config *own = scree_config_own(&scree_module_gauges, "measure", model->config->measure.own);
     (void)error;
-    if (!own) return SCREE_OK; // a config made by hand, which no run is of
-    *(config *)scree_model_reserve_numbers(model, SCREE_SLOT_gauges) = *own;
-    return SCREE_OK;
+    return scree_model_keep_measure_keys(model, SCREE_SLOT_gauges);
 }
 
 static const config *own_numbers(const scree_model *model)
@@ -107,19 +106,6 @@ static const char *path_of(judged *j, const char *key)
     return scree_element_path(j->path, "measure.gauges", j->index, key);
 }
 
-static void check_stage(judged *j)
-{
-    enum { MOST_STAGES = 100 };
-    const char *names[MOST_STAGES];
-    size_t count = 0;
-    for (int64_t i = 0; i < j->config->stage_count && i < MOST_STAGES; i++) {
-        const char *name = j->config->stages[i].name;
-        if (!j->gauge->from || !name || strcmp(name, j->gauge->from) == 0) return;
-        names[count++] = name;
-    }
-    scree_rule_refuse_name(j->reader, path_of(j, "from"), "stage", j->gauge->from, names, count);
-}
-
 static void check_gauge(judged *j)
 {
     const scree_gauge *g = j->gauge;
@@ -136,7 +122,7 @@ static void check_gauge(judged *j)
     if (g->along >= 0 && (unsigned)j->config->boundary.periodic >> g->along & 1)
         scree_rule_refuse(j->reader, path_of(j, "along"), NULL,
                           "the cell repeats itself in this direction (boundary.periodic): there is no distance");
-    check_stage(j);
+    (void)scree_rule_is_stage(j->reader, j->config, path_of(j, "from"), j->gauge->from);
 }
 
 static void rules(scree_reader *reader, const scree_config *whole)

@@ -6,6 +6,7 @@
 /// cells and positions are those of the first instant, displacements lead to the second. A restarted run gives the same
 /// files: everything is read from run.h5. summary.json tells of the loading stage (io/loading_stage.h).
 #include "run/cell_results.h"
+#include "model/measure_keys.h"
 
 #include "io/cell_file.h"
 #include "io/loading_stage.h"
@@ -329,11 +330,8 @@ static const scree_key keys[] = {
 
 static scree_status resolve(scree_model *model, scree_error *error)
 {
-    const config *own = scree_config_own(&scree_module_cells, "measure", model->config->measure.own);
     (void)error;
-    if (!own) return SCREE_OK; // a config made by hand, which no run is of
-    *(config *)scree_model_reserve_numbers(model, SCREE_SLOT_cells) = *own;
-    return SCREE_OK;
+    return scree_model_keep_measure_keys(model, SCREE_SLOT_cells);
 }
 
 static const scree_result results[] = {

@@ -1,6 +1,7 @@
 /// Elastic moduli of the specimen as a run leaves it, by static solutions (specimen/moduli.h): what `scree moduli`
 /// tells, as results, so that sweeps can ask for them.
 #include "case/case.h"
+#include "model/measure_keys.h"
 #include "model/model.h"
 #include "module/key_rows.h"
 #include "run/conclusion.h"
@@ -20,11 +21,8 @@ static const scree_key keys[] = {
 
 static scree_status resolve(scree_model *model, scree_error *error)
 {
-    const config *own = scree_config_own(&scree_module_moduli, "measure", model->config->measure.own);
     (void)error;
-    if (!own) return SCREE_OK; // a config made by hand, which no run is of
-    *(config *)scree_model_reserve_numbers(model, SCREE_SLOT_moduli) = *own;
-    return SCREE_OK;
+    return scree_model_keep_measure_keys(model, SCREE_SLOT_moduli);
 }
 
 #define MODULI(after, of)                                                                                              \

@@ -6,6 +6,7 @@
 #include "case/case.h"
 #include "case/check.h"
 #include "measure/linear_range.h"
+#include "model/measure_keys.h"
 #include "model/model.h"
 #include "module/key_rows.h"
 #include "run/columns.h"
@@ -101,10 +102,8 @@ static void rules(scree_reader *reader, const scree_config *whole)
 
 static scree_status resolve(scree_model *model, scree_error *error)
 {
-    const config *own = scree_config_own(&scree_module_slopes, "measure", model->config->measure.own);
     (void)error;
-    if (own) *(config *)scree_model_reserve_numbers(model, SCREE_SLOT_slopes) = *own;
-    return SCREE_OK;
+    return scree_model_keep_measure_keys(model, SCREE_SLOT_slopes);
 }
 
 static const scree_result results[] = {
