@@ -251,9 +251,14 @@ int scree_model_drawn_species(const scree_model *model, uint64_t number)
     return species;
 }
 
+double scree_model_radius_of_species(const scree_model *model, int species, uint64_t number)
+{
+    const scree_species *drawn = &model->species[species];
+    double uniform = scree_random_uniform((uint64_t)model->config->seed, SCREE_RANDOM_RADIUS, number);
+    return drawn->distribution->radius(drawn->sizes, model->dimension, uniform);
+}
+
 double scree_model_drawn_radius(const scree_model *model, uint64_t number)
 {
-    const scree_species *species = &model->species[scree_model_drawn_species(model, number)];
-    double uniform = scree_random_uniform((uint64_t)model->config->seed, SCREE_RANDOM_RADIUS, number);
-    return species->distribution->radius(species->sizes, model->dimension, uniform);
+    return scree_model_radius_of_species(model, scree_model_drawn_species(model, number), number);
 }
