@@ -1,11 +1,13 @@
 /// What a body gets when it is born.
 ///
 /// Energy. The discrete kinetic energy T = m v(n-1/2) . v(n+1/2) / 2 + ... (measure/energy.c) of a body that touches
-/// nothing is work from outside. Its potential m g . x comes into the zero of the potential (`ledger.gravity`), so that
-/// the work of gravity stays what gravity has done on bodies that were there. Where gravity changes in the step that
-/// begins, load/gravity.c has taken its half at x(n) of all bodies before this one came: here is that of this one.
+/// nothing, m (v(n)^2 - h^2 g^2 / 4) / 2 with the step h that begins, is work from outside. Its potential m g . x comes
+/// into the zero of the potential (`ledger.gravity`), so that the work of gravity stays what gravity has done on bodies
+/// that were there. Where gravity changes in the step that begins, load/gravity.c has taken its half at x(n) of all
+/// bodies before this one came: here is that of this one.
 ///
-/// A body is bound to the velocity v(n) that is asked for: the scheme keeps v(n-1/2) + lead h a with a = g.
+/// A body is born with the velocity v(n) that is asked for: the scheme keeps v(n-1/2) + lead h a with a = g and the
+/// last step h, which follows from the kick: the mean of the last step and the one that begins.
 #include "prepare/birth.h"
 
 #include "integrate/integrate.h"
@@ -54,7 +56,8 @@ static void fill(const scree_model *model, scree_state *state, size_t row, int s
 /// Velocities as the scheme keeps them.
 static void set_moving(const scree_model *model, scree_state *state, size_t row, const scree_birth *birth)
 {
-    const double shift = (scree_integrator_get(model->scheme)->velocity_lead - 0.5) * state->step_size;
+    const double last = 2 * state->kick_size - state->step_size;
+    const double shift = (scree_integrator_get(model->scheme)->velocity_lead - 0.5) * last;
     scree_row *body = &state->row[row];
     scree_vector velocity;
     scree_along(birth->velocity, shift, model->gravity, velocity);
@@ -79,20 +82,20 @@ static void note_speed(scree_state *state, size_t row)
     state->largest_speed = fmax(state->largest_speed, speed);
 }
 
-/// J, half of the energy of motion counted twice: see the head of measure/energy.c.
-static double kinetic_of(const scree_model *model, const scree_state *state, size_t row)
+/// T [J] in the step that begins.
+static double kinetic_of(const scree_model *model, const scree_state *state, size_t row, const scree_birth *birth)
 {
-    scree_vector velocity, spin, later;
-    scree_body_half_velocity(model, state, row, velocity, spin);
-    scree_along(velocity, state->step_size, model->gravity, later);
-    return 0.5 * (scree_body_mass(state, row) * scree_dot(velocity, later) +
-                  scree_body_inertia(state, row) * scree_dot(spin, spin));
+    const double half = 0.5 * state->step_size;
+    return 0.5 * (scree_body_mass(state, row) * (scree_dot(birth->velocity, birth->velocity) -
+                                                 half * half * scree_dot(model->gravity, model->gravity)) +
+                  scree_body_inertia(state, row) * scree_dot(birth->spin, birth->spin));
 }
 
-static void book(const scree_model *model, scree_state *state, const scree_work *work, size_t row)
+static void book(const scree_model *model, scree_state *state, const scree_work *work, size_t row,
+                 const scree_birth *birth)
 {
     scree_vector position, next;
-    const double kinetic = kinetic_of(model, state, row);
+    const double kinetic = kinetic_of(model, state, row, birth);
     scree_body_position(state, row, position);
     scree_gravity_find(model, state, work->ticks, next);
     for (int k = 0; k < 3; k++) next[k] = model->gravity[k] + 0.5 * (next[k] - model->gravity[k]);
@@ -115,7 +118,7 @@ scree_status scree_birth_append(const scree_model *model, scree_state *state, co
     memcpy(state->sampled_velocity[*row], birth->velocity, sizeof(scree_vector));
     scree_births_of(state)->time[*row] = scree_state_time(state);
     note_speed(state, *row);
-    if (work->ledger) book(model, state, work, *row);
+    if (work->ledger) book(model, state, work, *row, birth);
     return SCREE_OK;
 }
 
