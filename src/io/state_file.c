@@ -186,6 +186,14 @@ static void read_field(scree_hdf5 *file, const char *group, const scree_field *f
     scree_array_destroy(&array);
 }
 
+/// Snapshots do not have optional fields of which there are no arrays.
+static bool is_there(scree_hdf5 *file, const char *group, const scree_field *field)
+{
+    char name[256];
+    (void)snprintf(name, sizeof name, "%s/%s", group, field->name);
+    return H5Lexists(file->file, name, H5P_DEFAULT) > 0;
+}
+
 /// Finds the row of each id.
 static void find_rows(scree_hdf5 *file, scree_state *state)
 {
@@ -211,7 +219,9 @@ void scree_state_read(scree_hdf5 *file, const char *group, const char *shared, i
     scree_hdf5_get_number(file, group, "stage_processor_time", &spent.processor);
     for (size_t k = 0; k < scree_field_total() && !file->status; k++) {
         const scree_field *field = stored_field(state, k);
-        if (field) read_field(file, shared && field->snapshot ? shared : group, field, state);
+        const char *from = field && shared && field->snapshot ? shared : group;
+        if (field && (from == group || !field->optional || is_there(file, from, field)))
+            read_field(file, from, field, state);
     }
     find_rows(file, state);
     state->spent = spent;
