@@ -9,6 +9,7 @@
 #include "module/preparation.h"
 #include "module/shape.h"
 #include "module/size_distribution.h"
+#include "module/source.h"
 #include "module/stage.h"
 
 #include <math.h>
@@ -123,6 +124,30 @@ typedef struct scree_config_load {
     void *own; ///< its struct
 } scree_config_load;
 
+enum { SCREE_SOURCES = 16 }; ///< most of a case
+
+/// How many grains a source lets go at once.
+typedef enum scree_source_batch { SCREE_SOURCE_ONE, SCREE_SOURCE_LAYER } scree_source_batch;
+
+/// Where grains come from while a stage pours. What stands in `own` is said by the module of its kind.
+typedef struct scree_config_source {
+    int kind;           ///< slot of a module that is a source (module/source.h)
+    char *name;         ///< unique among the sources: the kind, numbered if there are several
+    char *stage;        ///< name of the only stage that it pours in; auto (NULL): all that pour
+    char *species;      ///< name of the only species that it pours; auto (NULL): as `particles` says
+    int64_t count;      ///< at most; 0: as many as there are
+    double interval;    ///< s, between two births or layers
+    int batch;          ///< scree_source_batch
+    int64_t layer;      ///< grains of a layer; 0: as many as lie side by side
+    double velocity[3]; ///< m/s, of a grain that is born
+    double spread[3];   ///< m/s, by how much each component may differ at most
+    double turn;        ///< rad, a grain is turned by a random angle up to this, either way
+    double above;       ///< m, from the top of the pile to the lowest point of a grain; auto (NAN): the place stays
+    double motion[3];   ///< m/s, of the source itself
+    double shift[3];    ///< m, of each layer against the one before
+    void *own;          ///< its struct
+} scree_config_source;
+
 enum { SCREE_SELECTIONS = 32 }; ///< most of a case
 
 /// Some of the grains, under a name. What stands in `own` is said by the module of its kind.
@@ -211,6 +236,8 @@ struct scree_config {
     scree_config_boundary boundary;
     scree_config_wall *walls;
     int64_t wall_count;
+    scree_config_source *sources;
+    int64_t source_count;
     scree_config_selection *selections;
     int64_t selection_count;
     scree_config_load *loads;

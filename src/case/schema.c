@@ -3,6 +3,7 @@
 /// Ranges are wide: they keep out slips of the unit and numbers that would overflow, not unusual physics.
 #include "case/schema.h"
 
+#include "case/schema_sources.h"
 #include "case/schema_walls.h"
 #include "module/key_rows.h"
 
@@ -298,6 +299,10 @@ static const scree_key root_keys[] = {
         .section_count = SCREE_WALL_SECTIONS, .count_offset = offsetof(scree_config, wall_count),
         .element_size = sizeof(scree_config_wall),
         .meaning = "Rigid walls beside the plates, fixed or moving; for `relax`."),
+    KEY(scree_config, sources, SCREE_KEY_LIST, .standard = "[]", FROM("0"), TO("16"), .sections = scree_source_sections,
+        .section_count = SCREE_SOURCE_SECTIONS, .count_offset = offsetof(scree_config, source_count),
+        .element_size = sizeof(scree_config_source), .initial = &scree_source_before_reading,
+        .meaning = "Where particles come from while a stage pours."),
     KEY(scree_config, selections, SCREE_KEY_LIST, .standard = "[]", FROM("0"), TO("32"), .sections = selection_table,
         .section_count = 1, .count_offset = offsetof(scree_config, selection_count), .element_size = sizeof(selection),
         .meaning = "Particles under a name, for what acts on some of them; found when a stage begins that needs them."),

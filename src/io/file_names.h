@@ -12,6 +12,7 @@
 #define SCREE_FILE_PLACES     "receiver-places.csv"
 #define SCREE_FILE_ARRIVALS   "arrivals.csv"
 #define SCREE_FILE_DISPERSION "dispersion.csv"
+#define SCREE_FILE_OUTLINE    "outline.csv"
 #define SCREE_FILE_RUN        "run.h5"
 #define SCREE_FILE_RUN_WHOLE  "run.h5.whole" ///< run.h5 while it is gathered
 #define SCREE_FILE_LOG        "log.txt"

@@ -198,6 +198,15 @@ static void read_spin_magnitudes(scree_hdf5 *run, const char *group, scree_snaps
     scree_release(&spin);
 }
 
+/// Times of birth, where there are some.
+static void read_births(scree_hdf5 *run, const char *group, scree_snapshot *snapshot)
+{
+    char name[80];
+    (void)snprintf(name, sizeof name, "%s/birth", group);
+    if (run->status || H5Lexists(run->file, name, H5P_DEFAULT) <= 0) return;
+    snapshot->birth = read_column(run, group, "birth", SCREE_FIELD_DOUBLE, 1, &snapshot->count);
+}
+
 static void read_bodies(scree_hdf5 *run, const char *group, scree_snapshot *snapshot)
 {
     size_t *rows = &snapshot->count;
@@ -346,6 +355,7 @@ scree_status scree_snapshot_read(const char *directory, size_t which, scree_snap
     scree_hdf5_get_number(&run, group, "axial_strain", &snapshot->axial_strain);
     scree_hdf5_get_text(&run, group, "stage", snapshot->stage, sizeof snapshot->stage);
     read_bodies(&run, group, snapshot);
+    read_births(&run, group, snapshot);
     read_contacts(&run, group, snapshot);
     if (snapshot->dimension == 2) {
         snapshot->loop_count = SIZE_MAX;
@@ -372,7 +382,7 @@ void scree_snapshot_destroy(scree_snapshot *snapshot)
                             &snapshot->vz,        &snapshot->contact_z,    &snapshot->wall_triangle,
                             &snapshot->wall_line, &snapshot->branch_x,     &snapshot->branch_y,
                             &snapshot->branch_z,  &snapshot->first_corner, &snapshot->corner_count,
-                            &snapshot->corner};
+                            &snapshot->corner,    &snapshot->birth};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
     *snapshot = (scree_snapshot){0};
 }

@@ -444,6 +444,8 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
         .wall_count = config->wall_count,
         .loads = config->loads,
         .load_count = config->load_count,
+        .sources = config->sources,
+        .source_count = config->source_count,
         .selections = config->selections,
         .selection_count = config->selection_count,
         .stages = config->stages,

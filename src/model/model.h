@@ -101,6 +101,8 @@ struct scree_model {
     // ---- lists of the case; what an element says beside is for the module of its kind ----
     const scree_config_wall *walls_of_case;
     int64_t wall_count;
+    const scree_config_source *sources;
+    int64_t source_count;
     const scree_config_selection *selections;
     int64_t selection_count;
     const scree_config_load *loads;
@@ -237,6 +239,10 @@ int scree_model_drawn_species(const scree_model *model, uint64_t number);
 double scree_model_drawn_radius(const scree_model *model, uint64_t number);
 /// Bounding radius [m] of it: that of a round body is its radius.
 double scree_model_drawn_bound(const scree_model *model, uint64_t number);
+/// The radius that body `number` has as one of this species.
+double scree_model_radius_of_species(const scree_model *model, int species, uint64_t number);
+/// Its bounding radius then.
+double scree_model_bound_of_species(const scree_model *model, int species, uint64_t number);
 
 /// Moments, fractions and numbers of the species, once the materials are numbered. Errors: sizes that are not.
 scree_status scree_model_resolve_species(scree_model *model, scree_error *error) SCREE_MUST_USE;

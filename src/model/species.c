@@ -257,17 +257,27 @@ int scree_model_drawn_species(const scree_model *model, uint64_t number)
     return species;
 }
 
+double scree_model_radius_of_species(const scree_model *model, int species, uint64_t number)
+{
+    const scree_species *drawn = &model->species[species];
+    double uniform = scree_random_uniform((uint64_t)model->config->seed, SCREE_RANDOM_RADIUS, number);
+    return drawn->distribution->radius(drawn->sizes, model->dimension, uniform);
+}
+
 double scree_model_drawn_radius(const scree_model *model, uint64_t number)
 {
-    const scree_species *species = &model->species[scree_model_drawn_species(model, number)];
-    double uniform = scree_random_uniform((uint64_t)model->config->seed, SCREE_RANDOM_RADIUS, number);
-    return species->distribution->radius(species->sizes, model->dimension, uniform);
+    return scree_model_radius_of_species(model, scree_model_drawn_species(model, number), number);
 }
 
 double scree_model_drawn_bound(const scree_model *model, uint64_t number)
 {
-    const scree_species *species = &model->species[scree_model_drawn_species(model, number)];
-    const double radius = scree_model_drawn_radius(model, number);
-    if (!species->shape || species->shape->round) return radius;
-    return radius * species->shape->reach(species->outline, model->seed, number);
+    return scree_model_bound_of_species(model, scree_model_drawn_species(model, number), number);
+}
+
+double scree_model_bound_of_species(const scree_model *model, int species, uint64_t number)
+{
+    const scree_species *of = &model->species[species];
+    const double radius = scree_model_radius_of_species(model, species, number);
+    if (!of->shape || of->shape->round) return radius;
+    return radius * of->shape->reach(of->outline, model->seed, number);
 }

@@ -50,6 +50,7 @@ struct scree_module {
     const struct scree_stage *stage;              ///< run/stage.h
     const struct scree_boundary *boundary;        ///< module/boundary.h
     const struct scree_selection_kind *selection; ///< selection/selection.h
+    const struct scree_source_kind *source;       ///< module/source.h
 
     // ---- state: what it remembers ----
     size_t state_size;         ///< bytes of its struct in the store of the state, zero at first; 0: none

@@ -72,7 +72,7 @@ scree_status scree_prepare(const scree_model *model, const scree_config_stage *s
     const scree_module *module = scree_modules[prepare->method];
     const scree_preparation *method = module->preparation;
     const bool round = prepare->outline != SCREE_SAMPLE_BOX;
-    size_t count = model->count;
+    size_t count = method->count ? method->count(model, stage) : model->count;
     unsigned periodic = model->periodic;
     if (periodic && !method->periodic)
         return scree_prepare_error(

@@ -181,15 +181,6 @@ scree_status scree_polygons_set(const scree_model *model, scree_state *state, si
     return SCREE_OK;
 }
 
-scree_status scree_polygons_set_disc(scree_state *state, size_t row, scree_error *error)
-{
-    scree_status status = begin(state, error);
-    if (status) return status;
-    scree_polygons_of(state)->of[row] = (scree_corners){0};
-    state->form[row] = (scree_form){state->row[row].radius, state->row[row].radius};
-    return SCREE_OK;
-}
-
 void scree_polygons_pose(scree_state *state)
 {
     own *p = scree_polygons_of(state);

@@ -44,9 +44,6 @@ SCREE_INLINE scree_polygon scree_polygon_of_row(const scree_state *state, const 
 scree_status scree_polygons_set(const scree_model *model, scree_state *state, size_t row, int count,
                                 const double (*corner)[2], scree_error *error) SCREE_MUST_USE;
 
-/// A disc among polygons: sizes from its radius.
-scree_status scree_polygons_set_disc(scree_state *state, size_t row, scree_error *error) SCREE_MUST_USE;
-
 /// Renews the posed corners. Cost: one sine and cosine a body, four products a corner.
 void scree_polygons_pose(scree_state *state);
 
