@@ -195,9 +195,13 @@ void scree_polygons_pose(scree_state *state)
 
 // ---- the module --------------------------------------------------------------------------------------------------
 
+/// There may be some later in the stage.
 static bool in_use(const scree_context *c)
 {
-    return scree_polygons_of(c->state)->of != NULL;
+    bool some = scree_polygons_of(c->state)->of != NULL;
+    for (int s = 0; s < c->model->species_count; s++)
+        some = some || c->model->species[s].shape == scree_module_polygon.shape;
+    return some;
 }
 
 static scree_status pose(const scree_context *c, scree_error *error)
