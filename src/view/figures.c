@@ -12,6 +12,7 @@
     row(distortion)   /* cells in the strain windows */ \
     row(breaks)       /* bonds that broke */ \
     row(waves)        /* receivers and layers */ \
+    row(fem)          /* finite elements beside the run */ \
     row(circles)      /* pressure over growing circles */ \
     row(rotation)     /* a particle that was turned */
 // clang-format on
