@@ -73,7 +73,8 @@ static const config *own_config(const scree_config *whole)
 static void rules(scree_reader *reader, const scree_config *whole)
 {
     const config *own = own_config(whole);
-    if (!own || own->finite_elements == NONE) return;
+    // Below it: a choice that could not be read, of which more has been said.
+    if (!own || own->finite_elements <= NONE) return;
     if (whole->dimension == 3)
         scree_rule_refuse(reader, "measure.finite_elements", "none", "finite elements are of plane bodies only");
     if (!scree_elastic_is_asked(whole))
