@@ -3,7 +3,7 @@ BUILD ?= build
 JOBS  ?= $(shell nproc)
 PREFIX ?= /usr/local
 
-.PHONY: all packages demo test reproduce reproduce-full reference reference-check bench bench-estimates install clean help sanitize
+.PHONY: all packages programs demo test reproduce reproduce-full reference reference-check bench bench-estimates install clean help sanitize
 all: ## build/scree and libscree (static and shared)
 	@mkdir -p $(BUILD)
 	@cmake --preset release -B $(BUILD) >$(BUILD)/configure.log 2>&1 || \
@@ -21,11 +21,14 @@ test: packages ## all tests
 	@$(MAKE) --no-print-directory all
 	@cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
 
-reproduce: all ## the published experiments in their quick forms, compared in docs/reproduction.md
+programs: ## install what some published experiments are compared with, or go on without
+	@bash cmake/packages.sh --reproduce
+
+reproduce: all programs ## the published experiments in their quick forms, compared in docs/reproduction.md
 	@$(BUILD)/scree reproduce -o out-reproduce/quick; status=$$?; \
 	    $(BUILD)/scree report out-reproduce -o docs/reproduction.md || status=$$?; exit $$status
 
-reproduce-full: all ## the same with the sources' own numbers: many hours; interrupt it and call it again
+reproduce-full: all programs ## the same with the sources' own numbers: many hours; interrupt it and call it again
 	@$(BUILD)/scree reproduce --full -o out-reproduce/full; status=$$?; \
 	    $(BUILD)/scree report out-reproduce -o docs/reproduction.md || status=$$?; exit $$status
 

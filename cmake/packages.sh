@@ -5,13 +5,19 @@
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 command -v dpkg-query >/dev/null || exit 0
+list=debian-packages.txt
+[ "${1-}" = --reproduce ] && list=debian-packages-reproduce.txt
 missing=()
 while read -r package; do
     dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
-done <"$here/debian-packages.txt"
+done <"$here/$list"
 [ ${#missing[@]} -eq 0 ] && exit 0
 
 say_how() {
+    if [ "$list" = debian-packages-reproduce.txt ]; then
+        echo "Going on without: ${missing[*]} (sudo apt-get install ${missing[*]}). What needs it is not run." >&2
+        exit 0
+    fi
     echo "Scree needs packages that are not installed. Run this once, then try again:" >&2
     echo "    sudo apt-get install -y --no-install-recommends ${missing[*]}" >&2
     exit 1

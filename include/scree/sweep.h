@@ -28,6 +28,9 @@ SCREE_API size_t scree_sweep_builtin_count(void);
 SCREE_API const char *scree_sweep_builtin_name(size_t index);
 SCREE_API const char *scree_sweep_builtin_meaning(size_t index);
 
+/// The program that a sweep needs and that is not installed; NULL: there is none.
+SCREE_API const char *scree_sweep_lacks(const scree_sweep *sweep);
+
 /// Members are numbered from 0. Folder of a member below OUTPUT/members, and what it sets as a command line of `scree
 /// run`, or of `scree bisect` where it searches for a limit (cut to `size`).
 SCREE_API size_t scree_sweep_member_count(const scree_sweep *sweep);
@@ -56,7 +59,8 @@ typedef struct scree_sweep_options {
 /// Runs what is missing of a sweep, each member as a process of its own, then collects. A finished member whose case is
 /// the same is left as it is; an interrupted one is continued; a failed one stays so unless `retry`. The processes are
 /// asked to stop when the thread that called this ends. Errors:
-/// SCREE_ERROR_GUARD when members failed (the others are there), SCREE_ERROR_INPUT (another case in a directory),
+/// SCREE_ERROR_GUARD when members failed (the others are there), SCREE_ERROR_INPUT (another case in a directory; a
+/// program that the sweep needs is not installed),
 /// SCREE_ERROR_IO, SCREE_INTERRUPTED.
 SCREE_API scree_status scree_sweep_run(const scree_sweep *sweep, const scree_sweep_options *options,
                                        scree_error *error);

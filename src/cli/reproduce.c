@@ -35,6 +35,12 @@ static scree_status run_one(const scree_command *command, scree_sweep_command *c
         fprintf(stderr, "%s: not available\n", name);
         return status;
     }
+    if (scree_sweep_lacks(sweep)) {
+        fprintf(stderr, "%s: not run: it needs the program '%s', which is not installed\n", name,
+                scree_sweep_lacks(sweep));
+        scree_sweep_free(sweep);
+        return SCREE_OK;
+    }
     if (snprintf(path, sizeof path, "%s/%s", output, name) >= (int)sizeof path) {
         scree_sweep_free(sweep);
         scree_command_refuse(&error, "--output", "", "this path is too long");

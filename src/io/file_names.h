@@ -13,6 +13,9 @@
 #define SCREE_FILE_ARRIVALS   "arrivals.csv"
 #define SCREE_FILE_DISPERSION "dispersion.csv"
 #define SCREE_FILE_OUTLINE    "outline.csv"
+#define SCREE_FILE_FEM_STRAIN "fem-strain.csv"
+#define SCREE_FILE_FEM_FORCE  "fem-force.csv"
+#define SCREE_FILE_FEM_AXIS   "fem-axis.csv"
 #define SCREE_FILE_RUN        "run.h5"
 #define SCREE_FILE_RUN_WHOLE  "run.h5.whole" ///< run.h5 while it is gathered
 #define SCREE_FILE_LOG        "log.txt"

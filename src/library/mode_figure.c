@@ -86,6 +86,7 @@ static scree_status draw_picture(const picture *p, double step, const char *path
                                .arrow_x = p->arrow[0],
                                .arrow_y = p->arrow[1],
                                .arrow_scale = 1,
+                               .arrows_have_no_size = true,
                                .section = p->cut};
     return scree_scene_draw(path, &p->snapshot, &scene, error);
 }

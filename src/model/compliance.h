@@ -30,13 +30,18 @@ static inline scree_compliance scree_compliance_of(scree_plane_condition conditi
     return (scree_compliance){.shear = shear, .trace = -poisson_ratio * width / young_modulus};
 }
 
-/// The Young's modulus [Pa] that a compliance comes from; INFINITY of a rigid particle.
+/// The Poisson's ratio that a compliance comes from; NAN of a rigid particle.
+static inline double scree_compliance_ratio(scree_plane_condition condition, scree_compliance compliance)
+{
+    const double share = -compliance.trace / compliance.shear;
+    return condition == SCREE_PLANE_STRAIN ? share : share / (1 - share);
+}
+
+/// The Young's modulus [Pa] that it comes from; INFINITY of a rigid particle.
 static inline double scree_compliance_modulus(scree_plane_condition condition, scree_compliance compliance)
 {
     if (!(compliance.shear > 0)) return 1 / compliance.shear;
-    const double share = -compliance.trace / compliance.shear;
-    const double poisson_ratio = condition == SCREE_PLANE_STRAIN ? share : share / (1 - share);
-    return (1 + poisson_ratio) / compliance.shear;
+    return (1 + scree_compliance_ratio(condition, compliance)) / compliance.shear;
 }
 
 /// Whether an isotropic solid of these constants resists every strain: 0 < E < infinity, -1 < nu < 1/2. At nu = 1/2 a

@@ -2,6 +2,7 @@
 #ifndef SCREE_RUN_CONCLUSION_H
 #define SCREE_RUN_CONCLUSION_H
 
+#include "base/log.h"
 #include "io/series.h"
 #include "io/summary.h"
 #include "run/simulation.h"
@@ -11,6 +12,7 @@ typedef struct scree_conclusion {
     scree_simulation *s;        ///< the end
     const scree_series *series; ///< series.csv, so that a restarted run gives the same
     scree_summary *summary;     ///< takes the results
+    scree_log *log;             ///< takes what could not be found, and is no reason to end without results
 } scree_conclusion;
 
 /// All results that modules declare: those that are measured, then those that they conclude.

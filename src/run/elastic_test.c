@@ -10,13 +10,14 @@
 /// particle that deforms is missing there (docs/theory/ddem.md).
 ///
 /// Results are left out where the test has no such range. Cost: a pass over the series.
+#include "run/elastic_test.h"
+
 #include "case/check.h"
 #include "contact/deformation.h"
 #include "load/prescribed.h"
 #include "measure/gauges.h"
 #include "model/critical_step.h"
 #include "module/key_rows.h"
-#include "run/conclusion.h"
 #include "theory/lattice.h"
 
 #include <math.h>
@@ -164,12 +165,6 @@ static scree_status resolve(scree_model *model, scree_error *error)
 
 // ---- results -----------------------------------------------------------------------------------------------------
 
-/// Columns of the test.
-typedef struct series {
-    const double *stage, *force, *axial, *lateral, *shortening;
-    size_t first, peak; ///< rows: the begin of the stage with the largest force, that force
-} series;
-
 static const double *column(const scree_series *all, const char *name, const char *ending)
 {
     char text[SCREE_RESULT_NAME];
@@ -177,26 +172,9 @@ static const double *column(const scree_series *all, const char *name, const cha
     return scree_series_get(all, text);
 }
 
-/// False where the series has no force.
-static bool find(const scree_conclusion *run, const numbers *n, series *s)
-{
-    static const char *const forces[] = {"_exerted_force_x", "_exerted_force_y", "_exerted_force_z"};
-    const config *own = &n->said;
-    *s = (series){.stage = scree_series_get(run->series, "stage"),
-                  .force = column(run->series, own->load, forces[n->along]),
-                  .axial = column(run->series, own->axial, "_strain"),
-                  .lateral = own->lateral ? column(run->series, own->lateral, "_strain") : NULL,
-                  .shortening = column(run->series, own->axial, "_shortening")};
-    if (!s->stage || !s->force || !s->axial || !s->shortening) return false;
-    for (size_t k = 0; k < run->series->row_count; k++)
-        if (fabs(s->force[k]) > fabs(s->force[s->peak])) s->peak = k;
-    for (s->first = s->peak; s->first > 0 && s->stage[s->first - 1] == s->stage[s->peak];) s->first--;
-    return s->peak > s->first && fabs(s->force[s->peak]) > 0;
-}
-
 /// Row, and part of the way to the next one, at which the force comes to `value` the last time before its peak; NAN: it
 /// begins above.
-static double place_of(const series *s, double value)
+static double place_of(const scree_elastic_curves *s, double value)
 {
     for (size_t k = s->peak; k > s->first; k--) {
         const double before = fabs(s->force[k - 1]), after = fabs(s->force[k]);
@@ -211,6 +189,57 @@ static double at(const double *value, double place)
     const size_t row = (size_t)place;
     const double part = place - (double)row;
     return part > 0 ? value[row] + part * (value[row + 1] - value[row]) : value[row];
+}
+
+static void find_constants(const numbers *n, scree_elastic_curves *s)
+{
+    const config *own = &n->said;
+    const double most = fabs(s->force[s->peak]), from = place_of(s, own->from * most), to = place_of(s, own->to * most);
+    s->young = s->poisson = NAN;
+    if (isnan(from) || isnan(to)) return;
+    const double axial = at(s->axial, to) - at(s->axial, from), stress = (own->to - own->from) * most / own->area;
+    s->young = stress / axial;
+    if (s->lateral) s->poisson = -(at(s->lateral, to) - at(s->lateral, from)) / axial;
+}
+
+/// Length of a gauge when the stage began.
+static double length_of(const scree_series *all, const char *gauge, size_t row)
+{
+    const double *length = gauge ? column(all, gauge, "_length") : NULL,
+                 *shortening = gauge ? column(all, gauge, "_shortening") : NULL;
+    return length && shortening ? length[row] + shortening[row] : NAN;
+}
+
+bool scree_elastic_find(const scree_conclusion *run, scree_elastic_curves *s)
+{
+    static const char *const forces[] = {"_exerted_force_x", "_exerted_force_y", "_exerted_force_z"};
+    const numbers *n = scree_model_numbers(&run->s->model, SCREE_SLOT_elastic_test);
+    if (!n) return false;
+    const config *own = &n->said;
+    const double *stage = scree_series_get(run->series, "stage");
+    *s = (scree_elastic_curves){.time = scree_series_get(run->series, "time"),
+                                .force = column(run->series, own->load, forces[n->along]),
+                                .axial = column(run->series, own->axial, "_strain"),
+                                .lateral = own->lateral ? column(run->series, own->lateral, "_strain") : NULL,
+                                .shortening = column(run->series, own->axial, "_shortening"),
+                                .area = own->area,
+                                .along = n->along};
+    if (!stage || !s->time || !s->force || !s->axial || !s->shortening) return false;
+    for (size_t k = 0; k < run->series->row_count; k++)
+        if (fabs(s->force[k]) > fabs(s->force[s->peak])) s->peak = k;
+    for (s->first = s->peak; s->first > 0 && stage[s->first - 1] == stage[s->peak];) s->first--;
+    for (s->last = s->peak; s->last + 1 < run->series->row_count && stage[s->last + 1] == stage[s->peak];) s->last++;
+    if (s->peak == s->first || !(fabs(s->force[s->peak]) > 0)) return false;
+    s->length = length_of(run->series, own->axial, s->last);
+    s->width = length_of(run->series, own->lateral, s->last);
+    find_constants(n, s);
+    return true;
+}
+
+bool scree_elastic_is_asked(const scree_config *whole)
+{
+    const config *own = own_config(whole);
+    return own && own->axial;
 }
 
 static const scree_result results[] = {
@@ -236,21 +265,14 @@ static void tell_theory(const numbers *n, double young, scree_summary *summary)
 static scree_status conclude(const scree_conclusion *run, scree_error *error)
 {
     const numbers *n = scree_model_numbers(&run->s->model, SCREE_SLOT_elastic_test);
-    series s;
+    scree_elastic_curves s;
     (void)error;
-    if (!n || !find(run, n, &s)) return SCREE_OK;
-    const config *own = &n->said;
-    size_t last = s.peak;
-    while (last + 1 < run->series->row_count && s.stage[last + 1] == s.stage[s.peak]) last++;
-    scree_summary_set_number(run->summary, "centre_work", 0.5 * fabs(s.force[last]) * s.shortening[last]);
-    const double most = fabs(s.force[s.peak]), from = place_of(&s, own->from * most), to = place_of(&s, own->to * most);
-    if (isnan(from) || isnan(to)) return SCREE_OK;
-    const double axial = at(s.axial, to) - at(s.axial, from), stress = (own->to - own->from) * most / own->area;
-    scree_summary_set_number(run->summary, "axial_young_modulus", stress / axial);
-    if (own->theory != NO_LATTICE) tell_theory(n, stress / axial, run->summary);
-    if (s.lateral)
-        scree_summary_set_number(run->summary, "axial_poisson_ratio",
-                                 -(at(s.lateral, to) - at(s.lateral, from)) / axial);
+    if (!scree_elastic_find(run, &s)) return SCREE_OK;
+    scree_summary_set_number(run->summary, "centre_work", 0.5 * fabs(s.force[s.last]) * s.shortening[s.last]);
+    if (isnan(s.young)) return SCREE_OK;
+    scree_summary_set_number(run->summary, "axial_young_modulus", s.young);
+    if (n->said.theory != NO_LATTICE) tell_theory(n, s.young, run->summary);
+    if (s.lateral) scree_summary_set_number(run->summary, "axial_poisson_ratio", s.poisson);
     return SCREE_OK;
 }
 

@@ -312,7 +312,8 @@ scree_status scree_results_collect(const scree_recorder *recorder, scree_simulat
         status = summarise_energy(&series, s, *summary, error);
     }
     if (!status) status = summarise_stage(s, *summary, error);
-    const scree_conclusion run = {recorder->directory, s, &series, *summary};
+    scree_log log = recorder->log;
+    const scree_conclusion run = {recorder->directory, s, &series, *summary, &log};
     if (!status) status = scree_conclude(&run, error);
     const char *unknown = status ? NULL : scree_summary_unknown(*summary);
     if (unknown)

@@ -115,18 +115,26 @@ static scree_status draw_figures(scree_recorder *recorder, const scree_simulatio
     return SCREE_OK;
 }
 
-/// Says when tangential springs were given more than the documented share.
+/// Says when tangential springs were given more than the documented share, and by what: by the stiffening of their
+/// contacts, or by strains of the bodies.
 static void warn_of_springs(scree_recorder *recorder, const scree_simulation *s)
 {
     double share = scree_results_stiffness_share(&s->state);
     if (share <= SCREE_STIFFNESS_SHARE) return;
+    const bool strained = s->state.stretch, corrected = s->model.laws[0].number[SCREE_LAW_CORRECTED] > 0;
     const char *remedy = NULL;
-    for (int k = 0; k < scree_model_law_count(&s->model) && !remedy; k++)
+    for (int k = 0; k < scree_model_law_count(&s->model) && !remedy && !strained; k++)
         remedy = scree_law_get(s->model.laws[k].law)->against_stiffening;
+    if (strained && !corrected)
+        remedy = "`contact.tangential: corrected`, where strains stretch tangential springs, too,";
     scree_log_write(&recorder->log, SCREE_LOG_WARNING,
-                    "%.2g %% of the energy turned over was given to tangential springs by the stiffening of their "
-                    "contacts, which nothing paid for (stiffness_share; more than %g %%)%s%s%s",
-                    100 * share, 100 * SCREE_STIFFNESS_SHARE, remedy ? ": " : "", remedy ? remedy : "",
+                    "%.2g %% of the energy turned over was given to tangential springs by %s, which nothing paid for "
+                    "(stiffness_share; more than %g %%)%s%s%s",
+                    100 * share,
+                    !strained   ? "the stiffening of their contacts"
+                    : corrected ? "normals that turn past strained bodies"
+                                : "strains of the bodies that do not stretch them, as published",
+                    100 * SCREE_STIFFNESS_SHARE, remedy ? ": " : "", remedy ? remedy : "",
                     remedy ? " keeps springs from that" : "");
 }
 

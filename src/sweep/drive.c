@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "base/processor.h"
+#include "base/program.h"
 #include "io/run_directory.h"
 
 #include <math.h>
@@ -382,10 +383,27 @@ static void close_drive(drive *d)
     scree_folder_lock_release(&d->lock);
 }
 
+const char *scree_sweep_lacks(const scree_sweep *sweep)
+{
+    return sweep->config.needs[0] && !scree_program_is_there(sweep->config.needs) ? sweep->config.needs : NULL;
+}
+
+/// Results of runs without it would be there, and would lack what the sweep is about.
+static scree_status check_program(const scree_sweep *sweep, scree_error *error)
+{
+    const char *lacking = scree_sweep_lacks(sweep);
+    if (!lacking) return SCREE_OK;
+    return scree_error_set(error, SCREE_ERROR_INPUT,
+                           "the sweep %s needs the program '%s', which is not installed: install it, or run the case "
+                           "alone",
+                           sweep->config.name, lacking);
+}
+
 scree_status scree_sweep_run(const scree_sweep *sweep, const scree_sweep_options *options, scree_error *error)
 {
     drive d = {.sweep = sweep, .options = options, .error = error};
-    scree_status status = open_drive(&d, 0, sweep->member_count);
+    scree_status status = check_program(sweep, error);
+    if (!status) status = open_drive(&d, 0, sweep->member_count);
     if (!status) status = write_record(&d);
     if (!status) {
         if (d.done + d.failed > 0)
@@ -407,7 +425,8 @@ scree_status scree_sweep_run_member(const scree_sweep *sweep, size_t member, con
     if (member >= sweep->member_count)
         return scree_error_set(error, SCREE_ERROR_INPUT, "there is no member %zu: the sweep has %zu, numbered from 0",
                                member, sweep->member_count);
-    scree_status status = open_drive(&d, member, member + 1);
+    scree_status status = check_program(sweep, error);
+    if (!status) status = open_drive(&d, member, member + 1);
     if (!status) {
         if (d.done > 0) tell(&d, 0, "%s: is done", sweep->folder[member]);
         run_members(&d, member, member + 1);

@@ -33,18 +33,21 @@ static void write_title(char title[TITLE], const scree_sweep_results *results, c
     (void)snprintf(title, TITLE, "%s%s%s%s%s", name, detail[0] ? ": " : "", detail, bars, lost);
 }
 
-/// "stress_ratio" with unit "1" is "stress ratio"; a strain is shown in percent, which the factor returns.
-static double axis_label(char label[LABEL], const char *name, const char *unit)
+/// "stress_ratio" with unit "1" is "stress ratio", "limit_step" with unit "s" "limit step (s)".
+static void name_label(char label[LABEL], const char *name, const char *unit)
 {
-    const char *tail = strstr(name, "strain");
-    bool percent = unit && strcmp(unit, "1") == 0 && tail && strcmp(tail, "strain") == 0;
-    (void)snprintf(label, LABEL, "%s%s%s%s", name, unit && (percent || strcmp(unit, "1") != 0) ? " (" : "",
-                   percent                          ? "%"
-                   : unit && strcmp(unit, "1") != 0 ? unit
-                                                    : "",
-                   unit && (percent || strcmp(unit, "1") != 0) ? ")" : "");
+    const bool told = unit && strcmp(unit, "1") != 0;
+    (void)snprintf(label, LABEL, "%s%s%s%s", name, told ? " (" : "", told ? unit : "", told ? ")" : "");
     for (char *c = label; *c; c++)
         if (*c == '_') *c = ' ';
+}
+
+/// The same of a column; a strain is shown in percent, which the factor returns.
+static double column_label(char label[LABEL], const char *name, const char *unit)
+{
+    const char *tail = strstr(name, "strain");
+    const bool percent = unit && strcmp(unit, "1") == 0 && tail && strcmp(tail, "strain") == 0;
+    name_label(label, name, percent ? "%" : unit);
     return percent ? 100 : 1;
 }
 
@@ -111,8 +114,8 @@ static void draw_points(const scree_sweep_results *results, const scree_mean_cur
     char label[MOST_LINES][LABEL], x_label[LABEL], y_label[LABEL], text[LABEL];
     sheet s[MOST_LINES] = {0};
     scree_error error;
-    double x_factor = axis_label(x_label, curve->name_x, curve->unit_x);
-    double y_factor = axis_label(y_label, curve->name_y, curve->unit_y);
+    double x_factor = column_label(x_label, curve->name_x, curve->unit_x);
+    double y_factor = column_label(y_label, curve->name_y, curve->unit_y);
     size_t count = 0;
     for (size_t point = from; point < to && count < MOST_LINES; point++) {
         if (!curve->there[point] || take_sheet(&s[count], SCREE_CURVE_PLACES, &error)) continue;
@@ -270,8 +273,8 @@ static void draw_measure(const scree_sweep_results *results, size_t k, size_t di
         count++;
     }
     for (size_t i = 0; i < d->count && i < 1000; i++) names[i] = d->setting[i].label;
-    (void)axis_label(x_label, d->name, axis ? axis->unit : NULL);
-    (void)axis_label(y_label, sweep->measure[k], unit_of(sweep->measure[k]));
+    name_label(x_label, d->name, axis ? axis->unit : NULL);
+    name_label(y_label, sweep->measure[k], unit_of(sweep->measure[k]));
     write_title(title, results, "");
     scree_chart chart = {.title = title,
                          .x_label = x_label,
@@ -367,8 +370,8 @@ static void draw_relation(const scree_sweep_results *results, const char *name_x
         closed->label = NULL;
         points->colour = closed->colour = (int)k + 1;
     }
-    (void)axis_label(x_label, name_x, unit_of(name_x));
-    (void)axis_label(y_label, name_y, unit_of(name_y));
+    name_label(x_label, name_x, unit_of(name_x));
+    name_label(y_label, name_y, unit_of(name_y));
     write_title(title, results, lines > 1 && theory ? "closed forms as lines" : "");
     scree_chart chart = {.title = title, .x_label = x_label, .y_label = y_label, .line = line, .line_count = count};
     (void)snprintf(name, sizeof name, "%s-over-%s", name_y, name_x);

@@ -97,6 +97,8 @@ static const scree_key root_keys[] = {
      TO("1000"),
      .offset = offsetof(config, base),
      .meaning = "Name of a built-in case, or a case file beside this file."},
+    TEXT(config, needs, "63", .standard = "",
+         .meaning = "Program that has to be installed; without it nothing is run, and reports say so."),
     KEY(config, quick, SCREE_KEY_FLAG, .standard = "no", .meaning = "Apply the `quick` section of the case."),
     KEY(config, realisations, SCREE_KEY_INTEGER, .standard = "1", FROM("1"), TO("10000"),
         .meaning = "Number of samples at each point, which differ in their seed."),

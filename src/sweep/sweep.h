@@ -52,6 +52,7 @@ typedef struct scree_sweep_config {
     int64_t language;
     char *name, *title;
     char *base; ///< the case: name of a built-in one, or a file beside the sweep file
+    char *needs; ///< a program without which its members are not worth running; "": none
     int64_t realisations, quick_realisations;
     int64_t seed;
     bool quick;

@@ -19,6 +19,7 @@
 #define PNG_SCALE  3
 #define COLOURS    7
 #define TEXT_LIMIT 512
+#define CHARACTER  7.5 /* pt, width of one at the size of the numbers */
 
 static const char *const palette[COLOURS] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                              "#56b4e9", "#e69f00", "#000000"};
@@ -128,6 +129,55 @@ static void write_data(FILE *file, const scree_chart *chart)
     }
 }
 
+/// Powers of ten that the numbers of both axes are shown in, 0: as they are. The data file has the true values.
+typedef struct chart_scale {
+    int x, y;
+} chart_scale;
+
+/// A multiple of three where the largest magnitude is so small or large that its numbers would crowd the axis.
+static int find_exponent(double largest)
+{
+    if (!(largest > 0) || (largest >= 1e-3 && largest < 1e5)) return 0;
+    return 3 * (int)floor(log10(largest) / 3);
+}
+
+static chart_scale scale_of(const scree_chart *chart)
+{
+    double x = 0, y = 0;
+    for (size_t k = 0; k < chart->line_count; k++)
+        for (size_t row = 0; row < chart->line[k].count; row++) {
+            const scree_chart_line *line = &chart->line[k];
+            if (!drawable(chart, line->x[row], line->y[row])) continue;
+            x = fmax(x, fabs(line->x[row]));
+            y = fmax(y, fabs(line->y[row]));
+        }
+    return (chart_scale){chart->log_x || chart->x_name ? 0 : find_exponent(x), chart->log_y ? 0 : find_exponent(y)};
+}
+
+/// "limit (s)" becomes "limit (10^{-9} s)".
+static void write_axis_label(FILE *file, const char *label, int exponent)
+{
+    char text[TEXT_LIMIT];
+    const char *unit = label ? strrchr(label, '(') : NULL;
+    if (exponent == 0 || !label)
+        (void)snprintf(text, sizeof text, "%s", label ? label : "");
+    else if (!unit)
+        (void)snprintf(text, sizeof text, "%s (10^{%d})", label, exponent);
+    else
+        (void)snprintf(text, sizeof text, "%.*s(10^{%d}%s%s", (int)(unit - label), label, exponent,
+                       strcmp(unit, "(1)") == 0 ? "" : " ", strcmp(unit, "(1)") == 0 ? ")" : unit + 1);
+    write_quoted(file, text);
+}
+
+/// A column of the data file as `using` has it.
+static void write_column(FILE *file, const char *before, size_t column, int exponent)
+{
+    if (exponent == 0)
+        fprintf(file, "%s%zu", before, column);
+    else
+        fprintf(file, "%s($%zu*1e%d)", before, column, -exponent);
+}
+
 /// One line of the plot command: the columns of the data file, then how they are drawn.
 static void begin_plot(FILE *file, const char *name, bool first)
 {
@@ -137,20 +187,26 @@ static void begin_plot(FILE *file, const char *name, bool first)
 }
 
 /// The band or the error bars of the line whose y is in column y; they are drawn first, under the line.
-static void write_range(FILE *file, const scree_chart_line *line, size_t x, size_t y, const char *colour)
+static void write_range(FILE *file, const scree_chart_line *line, size_t x, size_t y, chart_scale scale,
+                        const char *colour)
 {
+    write_column(file, "", x, scale.x);
+    if (line->points) write_column(file, ":", y, scale.y);
+    write_column(file, ":", y + 1, scale.y);
+    write_column(file, ":", y + 2, scale.y);
     if (line->points)
-        fprintf(file, "%zu:%zu:%zu:%zu with yerrorbars linecolor rgb '%s' linewidth 1.4 pointtype 0", x, y, y + 1,
-                y + 2, colour);
+        fprintf(file, " with yerrorbars linecolor rgb '%s' linewidth 1.4 pointtype 0", colour);
     else
-        fprintf(file, "%zu:%zu:%zu with filledcurves fillcolor rgb '%s' fillstyle transparent solid 0.15 noborder", x,
-                y + 1, y + 2, colour);
+        fprintf(file, " with filledcurves fillcolor rgb '%s' fillstyle transparent solid 0.15 noborder", colour);
     fputs(" notitle", file);
 }
 
-static void write_line(FILE *file, const scree_chart_line *line, size_t x, size_t y, const char *colour)
+static void write_line(FILE *file, const scree_chart_line *line, size_t x, size_t y, chart_scale scale,
+                       const char *colour)
 {
-    fprintf(file, "%zu:%zu with %s linecolor rgb '%s'", x, y,
+    write_column(file, "", x, scale.x);
+    write_column(file, ":", y, scale.y);
+    fprintf(file, " with %s linecolor rgb '%s'",
             line->bare     ? "points"
             : line->points ? "linespoints"
                            : "lines",
@@ -174,6 +230,7 @@ static void write_line(FILE *file, const scree_chart_line *line, size_t x, size_
 /// Bands come before all lines, so that none is dulled by the band of another; error bars belong to their points.
 static void write_plot(FILE *file, const scree_chart *chart, const char *name)
 {
+    const chart_scale scale = scale_of(chart);
     bool first = true;
     for (int bands = 1; bands >= 0; bands--) {
         size_t column = 0, x_column = 0, written = 0;
@@ -187,29 +244,46 @@ static void write_plot(FILE *file, const scree_chart *chart, const char *name)
             written++;
             if (line->low && bands != line->points) {
                 begin_plot(file, name, first);
-                write_range(file, line, x_column, y_column, colour);
+                write_range(file, line, x_column, y_column, scale, colour);
                 first = false;
             }
             if (bands) continue;
             begin_plot(file, name, first);
-            write_line(file, line, x_column, y_column, colour);
+            write_line(file, line, x_column, y_column, scale, colour);
             first = false;
         }
     }
     fputc('\n', file);
 }
 
-/// Names in place of numbers along the x axis, with half a place free at both ends.
-static void write_x_names(FILE *file, const scree_chart *chart)
+/// Characters of the longest name, where names side by side would run into one another; 0: they have room.
+static size_t find_crowd(const scree_chart *chart, bool legend)
+{
+    size_t longest = 0;
+    for (size_t k = 0; chart->x_name && k < chart->x_name_count; k++) {
+        const size_t length = strlen(chart->x_name[k]);
+        if (length > longest) longest = length;
+    }
+    const double room = (legend ? 0.55 : 0.8) * WIDTH;
+    return longest > 0 && CHARACTER * (double)((longest + 1) * chart->x_name_count) > room ? longest : 0;
+}
+
+/// Names in place of numbers along the x axis, with half a place free at both ends. Crowded ones are turned.
+static void write_x_names(FILE *file, const scree_chart *chart, size_t crowd)
 {
     if (!chart->x_name) return;
-    fputs("unset mxtics\nset xtics (", file);
+    fputs("unset mxtics\nset xtics ", file);
+    if (crowd > 0) fputs("rotate by 35 right ", file);
+    fputs("(", file);
     for (size_t k = 0; k < chart->x_name_count; k++) {
         fputs(k > 0 ? ", " : "", file);
         write_quoted(file, chart->x_name[k]);
         fprintf(file, " %zu", k + 1);
     }
     fprintf(file, ") noenhanced\nset xrange [0.5:%zu.5]\n", chart->x_name_count);
+    // The names take this much more of the height below the axis; sin(35) is 0.57.
+    if (crowd > 0)
+        fprintf(file, "set bmargin at screen %.3f\n", fmin(0.5, 0.15 + 0.57 * CHARACTER * (double)crowd / HEIGHT));
 }
 
 static void write_output(FILE *file, const char *name, const char *extension, const char *terminal)
@@ -251,10 +325,11 @@ static void write_style(FILE *file, const scree_chart *chart)
           file);
     write_title(file, chart->title, title_size);
     fputs(" at screen 0.02,0.955 left textcolor rgb '#222222'\n", file);
+    const chart_scale scale = scale_of(chart);
     fputs("set xlabel ", file);
-    write_quoted(file, chart->x_label);
+    write_axis_label(file, chart->x_label, scale.x);
     fputs("\nset ylabel ", file);
-    write_quoted(file, chart->y_label);
+    write_axis_label(file, chart->y_label, scale.y);
     fputs("\nset border 3 linecolor rgb '#333333' linewidth 1\n"
           "set tics nomirror out scale 0.6 textcolor rgb '#222222'\nset mxtics 2\n"
           "set grid back xtics ytics linetype 1 linecolor rgb '#e4e4e4' linewidth 0.8\n"
@@ -271,7 +346,7 @@ static void write_style(FILE *file, const scree_chart *chart)
     const char *side = has_bars(chart) && !chart->log_x ? "graph 0.04" : "0";
     fprintf(file, "set offsets %s, %s, graph 0.03, %s\n%s", side, side, zero ? "0" : "graph 0.03",
             zero ? "set yrange [0:]\n" : "");
-    write_x_names(file, chart);
+    write_x_names(file, chart, find_crowd(chart, legend));
     if (chart->log_x) fputs("set logscale x\nset format x '10^{%L}'\n", file);
     if (chart->log_y) fputs("unset offsets\nset logscale y\nset format y '10^{%L}'\n", file);
 }

@@ -13,6 +13,7 @@
     row(breaks)       /* bonds that broke */ \
     row(pile)         /* what was poured */ \
     row(waves)        /* receivers and layers */ \
+    row(fem)          /* finite elements beside the run */ \
     row(circles)      /* pressure over growing circles */ \
     row(rotation)     /* a particle that was turned */
 // clang-format on

@@ -1,5 +1,5 @@
-/// Bonds that broke: how many over the strain of the loading, or over time where nothing measures a strain, and which
-/// particles they left.
+/// Bonds that broke: how many over the strain of the loading, or of the first gauge, or over time where nothing
+/// measures a strain, and which particles they left.
 #include "view/plot_parts.h"
 
 #include "base/memory.h"
@@ -9,6 +9,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 enum { CHART, SCENE };
 
@@ -35,23 +36,65 @@ static bool any_finite(const double *value, size_t count)
     return false;
 }
 
+/// What the bonds broke over: rows of the series, and how their values are called.
+typedef struct abscissa {
+    const double *value;
+    double factor;
+    char label[96];
+    size_t first, count;
+} abscissa;
+
+/// Strain of the first gauge (NAME_strain beside NAME_shortening) in the last stage; false: there is none.
+static bool find_gauge(const scree_series *series, abscissa *x)
+{
+    const double *stage = scree_series_get(series, "stage");
+    for (size_t c = 0; c < series->column_count && stage; c++) {
+        char other[128], name[64];
+        const size_t length = strlen(series->name[c]), ending = strlen("_strain");
+        if (length <= ending || length >= sizeof name || strcmp(series->name[c] + length - ending, "_strain") != 0)
+            continue;
+        (void)snprintf(name, sizeof name, "%.*s", (int)(length - ending), series->name[c]);
+        (void)snprintf(other, sizeof other, "%s_shortening", name);
+        if (!scree_series_get(series, other)) continue;
+        *x = (abscissa){.value = series->value[c], .factor = 100, .first = series->row_count - 1};
+        while (x->first > 0 && stage[x->first - 1] == stage[x->first]) x->first--;
+        x->count = series->row_count - x->first;
+        (void)snprintf(x->label, sizeof x->label, "%s strain (%%)", name);
+        return any_finite(x->value + x->first, x->count);
+    }
+    return false;
+}
+
+/// Axial strain of the loading, else that of a gauge, else time.
+static abscissa find_abscissa(const scree_plot_run *run)
+{
+    const double *strain = scree_series_get(&run->series, "axial_strain");
+    abscissa x = {
+        .value = strain, .factor = 100, .label = "axial strain (%)", .first = run->first_row, .count = run->row_count};
+    if (strain && any_finite(strain + x.first, x.count)) return x;
+    if (run->series.row_count > 0 && find_gauge(&run->series, &x)) return x;
+    return (abscissa){.value = scree_series_get(&run->series, "time"),
+                      .factor = 1e3,
+                      .label = "time (ms)",
+                      .count = run->series.row_count};
+}
+
 static scree_status draw_chart(const scree_plot_run *run, const char *path, scree_error *error)
 {
-    const double *strain = scree_series_get(&run->series, "axial_strain"),
-                 *time = scree_series_get(&run->series, "time");
+    const abscissa over = find_abscissa(run);
     const double *tension = scree_series_get(&run->series, "broken_tension"),
                  *shear = scree_series_get(&run->series, "broken_shear");
-    const bool strained = strain && any_finite(strain + run->first_row, run->row_count);
-    const size_t first = strained ? run->first_row : 0, count = strained ? run->row_count : run->series.row_count;
     double *x = NULL;
-    if (!shear || !time) return scree_error_set(error, SCREE_ERROR_INPUT, "%s has no broken bonds", SCREE_FILE_SERIES);
-    scree_status status = scree_allocate(&x, count, sizeof *x, error);
+    if (!shear || !over.value)
+        return scree_error_set(error, SCREE_ERROR_INPUT, "%s has no broken bonds", SCREE_FILE_SERIES);
+    scree_status status = scree_allocate(&x, over.count, sizeof *x, error);
     if (status) return status;
-    for (size_t k = 0; k < count; k++) x[k] = strained ? 100 * strain[first + k] : 1e3 * time[first + k];
-    const scree_chart_line line[] = {{.x = x, .y = tension + first, .count = count, .label = "in tension", .colour = 1},
-                                     {.x = x, .y = shear + first, .count = count, .label = "in shear", .colour = 2}};
+    for (size_t k = 0; k < over.count; k++) x[k] = over.factor * over.value[over.first + k];
+    const scree_chart_line line[] = {
+        {.x = x, .y = tension + over.first, .count = over.count, .label = "in tension", .colour = 1},
+        {.x = x, .y = shear + over.first, .count = over.count, .label = "in shear", .colour = 2}};
     const scree_chart chart = {.title = "Broken bonds",
-                               .x_label = strained ? "axial strain (%)" : "time (ms)",
+                               .x_label = over.label,
                                .y_label = "bonds that have broken (1)",
                                .line = line,
                                .line_count = 2};

@@ -24,6 +24,7 @@ const scree_colour scree_scene_ink = {0.13, 0.13, 0.15};
 const scree_colour scree_scene_quiet = {0.38, 0.38, 0.41};
 const scree_colour scree_scene_weak = {0.60, 0.66, 0.75};
 const scree_colour scree_scene_strong = {0.07, 0.13, 0.30};
+const scree_colour scree_scene_pull = {0.84, 0.37, 0.00};
 const scree_colour scree_scene_boundary = {0.0, 0.56, 0.42};
 
 const char *scree_strain_name(bool of_cell)
@@ -166,9 +167,11 @@ static void measure_forces(scree_scene_view *view)
     const scree_snapshot *s = view->snapshot;
     size_t touching = 0;
     for (size_t k = 0; view->scene->force_network && k < s->contact_count; k++) {
-        if (s->second[k] >= SCREE_PRIMITIVE_ID || !isfinite(s->normal_force[k]) || !(s->normal_force[k] > 0)) continue;
+        const double force = s->normal_force[k];
+        if (s->second[k] >= SCREE_PRIMITIVE_ID || !isfinite(force) || force == 0) continue;
         touching++;
-        view->mean_force += (s->normal_force[k] - view->mean_force) / (double)touching;
+        view->tension |= force < 0;
+        view->mean_force += (fabs(force) - view->mean_force) / (double)touching;
     }
 }
 

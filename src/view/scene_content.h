@@ -21,6 +21,7 @@ typedef struct scree_scene {
     const double *depth;             ///< per disc, m towards the viewer: discs are spheres, far ones first; NULL: flat
     const struct scree_projection *projection; ///< where the plates of a view in space lie; NULL: flat
     double arrow_scale;                        ///< drawn length over true length; 0: chosen, and told in the figure
+    bool arrows_have_no_size;                  ///< their lengths compare with one another only: nothing is told
     const scree_cells *cells;                  ///< Delaunay cells of a plane sample, in place of the discs; NULL: none
     const double *cell_place;                  ///< m, bodies x 3
     const double *cell_field;                  ///< per cell, >= 0; labelled with field_name

@@ -104,6 +104,19 @@ static double draw_bar(const scree_scene_view *view, cairo_t *cairo, double x, d
     return y + GAP;
 }
 
+/// The colour of contacts that pull; their widths are those of pressure.
+static double draw_tension_key(const scree_scene_view *view, cairo_t *cairo, double x, double y)
+{
+    const double width = scree_scene_force_width(view, 1), row = fmax(13, width + 5);
+    scree_page_colour(cairo, scree_scene_pull);
+    cairo_set_line_width(cairo, width);
+    cairo_move_to(cairo, x, y + row / 2);
+    cairo_line_to(cairo, x + 20, y + row / 2);
+    cairo_stroke(cairo);
+    scree_text_show(cairo, x + 25, y + row / 2 + 3, 0, "tension", scree_scene_text(8));
+    return y + row;
+}
+
 static double draw_widths(const scree_scene_view *view, cairo_t *cairo, double x, double y)
 {
     static const struct {
@@ -128,12 +141,13 @@ static double draw_widths(const scree_scene_view *view, cairo_t *cairo, double x
         scree_text_show(cairo, x + 25, y + row / 2 + 3, 0, sample[k].text, scree_scene_text(8));
         y += row;
     }
+    if (view->tension) y = draw_tension_key(view, cairo, x, y);
     return y + GAP;
 }
 
 static double draw_reference_arrow(const scree_scene_view *view, cairo_t *cairo, double x, double y)
 {
-    if (view->arrow_scale <= 0) return y;
+    if (view->arrow_scale <= 0 || view->scene->arrows_have_no_size) return y;
     double stretch = view->arrow_scale * view->scale;
     double reference = scree_round_below(36 / stretch);
     char length[64], factor[48], text[128];

@@ -166,27 +166,34 @@ static bool contact_end(const scree_snapshot *s, size_t k, double *x, double *y)
 
 static int width_level(const scree_scene_view *view, double force)
 {
-    double ratio = force / view->mean_force / SCREE_SCENE_FORCE_LIMIT;
+    double ratio = fabs(force) / view->mean_force / SCREE_SCENE_FORCE_LIMIT;
     return !(ratio > 0) ? -1 : ratio >= 1 ? SCREE_SCENE_LEVELS - 1 : (int)(ratio * (SCREE_SCENE_LEVELS - 1));
 }
 
-/// Weak contacts (below the mean) first and lighter, then the strong network on top of them.
-static void draw_network(const scree_scene_view *view, cairo_t *cairo)
+/// Contacts of one width that push, or pull.
+static void draw_level(const scree_scene_view *view, cairo_t *cairo, int level, bool pull)
 {
     const scree_snapshot *s = view->snapshot;
+    double ratio = (level + 0.5) / (SCREE_SCENE_LEVELS - 1) * SCREE_SCENE_FORCE_LIMIT, x, y;
+    for (size_t k = 0; k < s->contact_count; k++) {
+        const double force = s->normal_force[k];
+        if ((force < 0) != pull || width_level(view, force) != level || !contact_end(s, k, &x, &y)) continue;
+        cairo_move_to(cairo, scree_scene_x(view, s->x[s->first[k]]), scree_scene_y(view, s->y[s->first[k]]));
+        cairo_line_to(cairo, scree_scene_x(view, x), scree_scene_y(view, y));
+    }
+    cairo_set_line_width(cairo, scree_scene_force_width(view, ratio));
+    scree_page_colour(cairo, pull ? scree_scene_pull : ratio < 1 ? scree_scene_weak : scree_scene_strong);
+    cairo_stroke(cairo);
+}
+
+/// Weak contacts (below the mean) first and lighter, then the strong network on top of them; in each width those that
+/// pull on top of those that push.
+static void draw_network(const scree_scene_view *view, cairo_t *cairo)
+{
     if (!view->scene->force_network || view->mean_force <= 0) return;
     cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
-    for (int level = 0; level < SCREE_SCENE_LEVELS; level++) {
-        double ratio = (level + 0.5) / (SCREE_SCENE_LEVELS - 1) * SCREE_SCENE_FORCE_LIMIT, x, y;
-        for (size_t k = 0; k < s->contact_count; k++) {
-            if (width_level(view, s->normal_force[k]) != level || !contact_end(s, k, &x, &y)) continue;
-            cairo_move_to(cairo, scree_scene_x(view, s->x[s->first[k]]), scree_scene_y(view, s->y[s->first[k]]));
-            cairo_line_to(cairo, scree_scene_x(view, x), scree_scene_y(view, y));
-        }
-        cairo_set_line_width(cairo, scree_scene_force_width(view, ratio));
-        scree_page_colour(cairo, ratio < 1 ? scree_scene_weak : scree_scene_strong);
-        cairo_stroke(cairo);
-    }
+    for (int level = 0; level < SCREE_SCENE_LEVELS; level++)
+        for (int pull = 0; pull < 2; pull++) draw_level(view, cairo, level, pull);
 }
 
 static void draw_boundary(const scree_scene_view *view, cairo_t *cairo)

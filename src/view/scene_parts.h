@@ -25,7 +25,8 @@ typedef struct scree_scene_view {
     scree_limits limits;                      ///< of the field
     uint32_t *order;                          ///< drawn discs by colour level; with depth: far to near
     size_t start[SCREE_SCENE_LEVELS + 2];     ///< of each level in `order`; the last level is "undefined"
-    double mean_force;                        ///< N, over touching contacts between discs; 0: none
+    double mean_force;                        ///< N, magnitude over contacts between discs that bear one; 0: none
+    bool tension;                             ///< some of them pull
     double arrow_scale;                       ///< drawn over true length; 0: no arrows
     double overhang_low[2], overhang_high[2]; ///< m, how far arrows reach beyond the corners
     // where, pt
@@ -36,7 +37,7 @@ typedef struct scree_scene_view {
 } scree_scene_view;
 
 /// Line colours and text styles of all scenes.
-extern const scree_colour scree_scene_ink, scree_scene_quiet, scree_scene_weak, scree_scene_strong,
+extern const scree_colour scree_scene_ink, scree_scene_quiet, scree_scene_weak, scree_scene_strong, scree_scene_pull,
     scree_scene_boundary;
 scree_text_style scree_scene_text(double size);
 

@@ -457,6 +457,50 @@ static void charts_of_odd_values(void **state)
     assert_int_not_equal(access("undrawable.gp", F_OK), 0);
 }
 
+/// Whether a file has this text.
+static bool has_text(const char *name, const char *text)
+{
+    char block[8192];
+    FILE *file = fopen(name, "r");
+    if (!file) return false;
+    block[fread(block, 1, sizeof block - 1, file)] = 0;
+    (void)fclose(file);
+    return strstr(block, text) != NULL;
+}
+
+static void small_numbers_and_long_names_stay_legible(void **state)
+{
+    (void)state;
+    static const double place[] = {1, 2, 3}, step[] = {6.1e-8, 6.3e-8, 6.2e-8}, share[] = {2e-9, 3e-9, 4e-9};
+    static const char *const shorts[] = {"a", "b", "c"}, *const longs[] = {"a rather long name of a setting",
+                                                                           "another one of them", "and a third one"};
+    const scree_chart_line line = {.x = place, .y = step, .count = 3};
+    scree_chart chart = {.title = "steps",
+                         .x_label = "setting",
+                         .y_label = "limit (s)",
+                         .line = &line,
+                         .line_count = 1,
+                         .x_name = shorts,
+                         .x_name_count = 3};
+    scree_error error;
+    check(scree_chart_draw("small", &chart, &error), &error);
+    assert_true(has_text("small.gp", "set ylabel \"limit (10^{-9} s)\"") && has_text("small.gp", "1:($2*1e9)"));
+    // The table keeps the true values, and short names stand upright.
+    assert_true(has_text("small.csv", "6.1e-08") && !has_text("small.gp", "rotate"));
+    const scree_chart_line other = {.x = place, .y = share, .count = 3};
+    chart.line = &other;
+    chart.y_label = "share (1)";
+    chart.x_name = longs;
+    check(scree_chart_draw("long", &chart, &error), &error);
+    assert_true(has_text("long.gp", "share (10^{-9})") && has_text("long.gp", "rotate by 35 right"));
+    // Of ordinary size: nothing is changed; a number of names without names means nothing.
+    const scree_chart_line ordinary = {.x = place, .y = place, .count = 3};
+    chart.line = &ordinary;
+    chart.x_name = NULL;
+    check(scree_chart_draw("ordinary", &chart, &error), &error);
+    assert_true(has_text("ordinary.gp", "using 1:2") && has_text("ordinary.gp", "\"share (1)\""));
+}
+
 static void missing_or_failing_gnuplot_is_an_error_with_its_message(void **state)
 {
     (void)state;
@@ -501,6 +545,7 @@ int main(void)
         cmocka_unit_test(chart_is_written_and_drawn_again_by_its_script),
         cmocka_unit_test(texts_of_a_chart_are_only_texts),
         cmocka_unit_test(charts_of_odd_values),
+        cmocka_unit_test(small_numbers_and_long_names_stay_legible),
         cmocka_unit_test(missing_or_failing_gnuplot_is_an_error_with_its_message),
     };
     return cmocka_run_group_tests(tests, enter_scratch, leave_scratch);
