@@ -41,6 +41,7 @@ typedef struct scree_config_species {
     char *material;   ///< name in `materials`
     double share;     ///< 1, of the number or of the mass of all particles
     int64_t count;    ///< with SCREE_SHARE_BY_COUNT
+    int shape;        ///< slot of a module that is a shape; SCREE_CHOICE_AUTO: that of all particles
     int distribution; ///< slot of a module with sizes (module/size_distribution.h)
     void *own;        ///< structs of modules (scree_config_own)
 } scree_config_species;
@@ -305,6 +306,7 @@ static inline scree_config_species scree_config_species_at(const scree_config_pa
     return (scree_config_species){.material = particles->material,
                                   .share = 1,
                                   .count = particles->count,
+                                  .shape = particles->shape,
                                   .distribution = particles->distribution,
                                   .own = particles->own};
 }
@@ -321,6 +323,22 @@ static inline const void *scree_config_sizes(const scree_config_particles *parti
     scree_config_species species = scree_config_species_at(particles, index);
     return scree_config_own(scree_modules[species.distribution],
                             particles->species_count > 0 ? "particles.species" : "particles", species.own);
+}
+
+/// Shape of species `index`, and what it reads: the struct of its module.
+static inline int scree_config_shape(const scree_config_particles *particles, int64_t index)
+{
+    const int shape = scree_config_species_at(particles, index).shape;
+    return shape >= 0 && scree_modules[shape]->shape ? shape : particles->shape;
+}
+
+static inline const void *scree_config_shape_keys(const scree_config_particles *particles, int64_t index)
+{
+    const bool own = particles->species_count > 0 &&
+                     scree_config_shape(particles, index) == scree_config_species_at(particles, index).shape;
+    return scree_config_own(scree_modules[scree_config_shape(particles, index)],
+                            own ? "particles.species" : "particles",
+                            own ? particles->species[index].own : particles->own);
 }
 
 /// What a stage says that places the particles.

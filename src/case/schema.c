@@ -34,6 +34,10 @@ static const scree_choice boundaries[] = {
      "that of the stage before, at first the `walls` of the case, or as `boundary.lateral` says"},
     {0},
 };
+static const scree_choice shapes[] = {
+    {"auto", SCREE_CHOICE_AUTO, "that of all particles, `particles.shape`"},
+    {0},
+};
 // ---- sections ----------------------------------------------------------------------------------------------------
 
 typedef scree_config_material material;
@@ -58,10 +62,11 @@ static const scree_key species_keys[] = {
            .meaning = "Share of all particles; those of all species add up to 100 %."),
     INTEGER(species, count, FROM("1"), TO("1e8"), .when = "particles.share_by=count",
             .meaning = "Number of particles; those of all species add up to particles.count."),
+    CHOICE(species, shape, shapes, .standard = "auto", .meaning = "Shape of these particles."),
     CHOICE(species, distribution, NULL, .standard = "uniform", .meaning = "Distribution of the radii."),
     MODULE_KEYS,
 };
-static const species unknown_species = {.share = NAN, .distribution = SCREE_CHOICE_WRONG};
+static const species unknown_species = {.share = NAN, .shape = SCREE_CHOICE_AUTO, .distribution = SCREE_CHOICE_WRONG};
 static const scree_section species_table[] = {
     OPEN_TABLE("species", "Particles of one kind.", species_keys, scree_config_species)};
 
@@ -80,13 +85,13 @@ static const scree_key particles_keys[] = {
            .meaning = "Distribution of the radii."),
     MODULE_KEYS,
     NUMBER(particles, thickness, "m", .standard = "auto", FROM("1 nm"), TO("1 km"), .chooser = "shape", .fits = is_flat,
-           .meaning = "Length of a disc along its axis; auto: twice the mean radius."),
+           .meaning = "Length of a disc along its axis, or of a prism; auto: twice the mean radius."),
     CHOICE(particles, share_by, share_kinds, .standard = "number", .when = "species=given",
            .meaning = "What the shares of the species are of."),
     KEY(particles, species, SCREE_KEY_LIST, .standard = "[]", FROM("0"), TO("16"), .sections = species_table,
         .section_count = 1, .count_offset = offsetof(particles, species_count), .element_size = sizeof(species),
         .initial = &unknown_species, .choices = listed,
-        .meaning = "Particles of several kinds, each with its own material and sizes, at random places among each "
+        .meaning = "Particles of several kinds, each with its own shape, material and sizes, at random places among each "
                    "other."),
 };
 

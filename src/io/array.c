@@ -152,19 +152,16 @@ static const body_result body_results[] = {
 };
 enum { BODY_RESULT_COUNT = sizeof body_results / sizeof *body_results };
 
-/// Whether the field is one of snapshots, and is there.
-static bool is_in_snapshot(const scree_state *state, const scree_field *field)
-{
-    if (field->rows != SCREE_ROWS_BODIES || !field->snapshot || !scree_field_exists(field, state->dimension))
-        return false;
-    return !field->optional || scree_field_rows_count(state, field) > 0;
-}
-
-/// The index-th field of bodies in snapshots, NULL when there are fewer.
+/// The index-th field of bodies with snapshot = true, of those that there are; NULL when there are fewer.
 static const scree_field *snapshot_field(const scree_state *state, size_t index)
 {
-    for (size_t k = 0; k < scree_field_total(); k++)
-        if (is_in_snapshot(state, scree_field_at(k)) && index-- == 0) return scree_field_at(k);
+    for (size_t k = 0; k < scree_field_total(); k++) {
+        const scree_field *field = scree_field_at(k);
+        const bool of_bodies = field->rows == SCREE_ROWS_BODIES && field->snapshot;
+        if (!of_bodies || !scree_field_exists(field, state->dimension)) continue;
+        if (field->optional && scree_field_rows_count(state, field) == 0) continue;
+        if (index-- == 0) return field;
+    }
     return NULL;
 }
 

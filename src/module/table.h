@@ -18,16 +18,18 @@
 #define SCREE_STAGE_STATE_MODULES(row) row(forced_spin) row(loading)
 
 /// Contact laws, each with its header in contact/laws.h.
-#define SCREE_LAWS(row) row(hertz_brilliantov) row(hertz_mindlin) row(linear)
+#define SCREE_LAWS_OF_OVERLAPS(row) row(hertz_brilliantov) row(hertz_mindlin) row(linear)
+#define SCREE_LAWS_OF_AREAS(row)    row(polygon_overlap) row(polygon_potential)
+#define SCREE_LAWS(row)             SCREE_LAWS_OF_OVERLAPS(row) SCREE_LAWS_OF_AREAS(row)
 
 /// Geometries of contacts, each with its header in contact/geometry.h, which numbers them in this order: those that are
 /// evaluated in lanes, and those of which pairs are evaluated one at a time.
-#define SCREE_GEOMETRIES_IN_LANES(row) row(round)
-#define SCREE_GEOMETRIES_ONE_BY_ONE(row)
-#define SCREE_GEOMETRIES(row) SCREE_GEOMETRIES_IN_LANES(row) SCREE_GEOMETRIES_ONE_BY_ONE(row)
+#define SCREE_GEOMETRIES_IN_LANES(row)   row(round)
+#define SCREE_GEOMETRIES_ONE_BY_ONE(row) row(outlines)
+#define SCREE_GEOMETRIES(row)            SCREE_GEOMETRIES_IN_LANES(row) SCREE_GEOMETRIES_ONE_BY_ONE(row)
 
 /// Shapes of particles, in the order in which the case reference lists them.
-#define SCREE_SHAPES(row) row(disc) row(sphere)
+#define SCREE_SHAPES(row) row(disc) row(sphere) row(polygon)
 
 /// Kinds of selections, in the order in which the case reference lists them.
 #define SCREE_SELECTION_MODULES(row)                                                                                   \

@@ -24,20 +24,21 @@ static int species_of(const scree_model *model, int species, uint64_t number)
 
 double scree_birth_reach(const scree_model *model, int species, uint64_t number)
 {
-    return scree_model_radius_of_species(model, species_of(model, species, number), number);
+    return scree_model_bound_of_species(model, species_of(model, species, number), number);
 }
 
 double scree_birth_largest_reach(const scree_model *model)
 {
-    return model->radius_max;
+    return fmax(model->radius_max, model->bounding_max);
 }
 
-/// The row of a body of this species and number.
-static void fill(const scree_model *model, scree_state *state, size_t row, int species, uint64_t number,
-                 const scree_birth *birth)
+/// The row of a body of this species and number; one that is not round gets its outline within that radius.
+static scree_status fill(const scree_model *model, scree_state *state, size_t row, int species, uint64_t number,
+                         const scree_birth *birth, scree_error *error)
 {
+    const scree_species *kind = &model->species[species];
     const int material = model->species[species].material;
-    const double radius = scree_model_radius_of_species(model, species, number);
+    const double radius = scree_model_bound_of_species(model, species, number);
     scree_row *body = &state->row[row];
     *body = (scree_row){.x = birth->position[0],
                         .y = birth->position[1],
@@ -51,6 +52,9 @@ static void fill(const scree_model *model, scree_state *state, size_t row, int s
         body->material = material;
         state->angle[row] = birth->angle;
     }
+    if (state->form) state->form[row] = (scree_form){radius, radius};
+    if (!kind->shape || kind->shape->round) return SCREE_OK;
+    return kind->shape->dress(model, kind->outline, number, state, row, error);
 }
 
 /// Velocities as the scheme keeps them.
@@ -112,7 +116,8 @@ scree_status scree_birth_append(const scree_model *model, scree_state *state, co
     if (!status) status = scree_state_append(state, SCREE_MARK_GRAIN, 1, error);
     if (status) return status;
     *row = scree_state_row_of(state, number);
-    fill(model, state, *row, species_of(model, birth->species, number), number, birth);
+    status = fill(model, state, *row, species_of(model, birth->species, number), number, birth, error);
+    if (status) return status;
     set_moving(model, state, *row, birth);
     scree_body_position(state, *row, state->reference[*row]);
     memcpy(state->sampled_velocity[*row], birth->velocity, sizeof(scree_vector));

@@ -17,6 +17,8 @@ static const scree_key body_keys[] = {
         .meaning = "At the begin."),
     KEY(listed, spin, SCREE_KEY_VECTOR, .unit = "rad/s", .standard = "[0, 0]", FROM("-1e6 rad/s"), TO("1e6 rad/s"),
         .meaning = "Angular velocity at the begin; in two dimensions [0, 0, about z]."),
+    NUMBER(listed, angle, "rad", .standard = "0 degrees", FROM("-1e3 rad"), TO("1e3 rad"),
+           .meaning = "By which it lies turned, counter-clockwise; in two dimensions."),
     NUMBER(listed, radius, "m", .standard = "auto", FROM("1 nm"), TO("100 m"),
            .meaning = "Radius, within the limits of `particles`; auto: the one that all particles have."),
     KEY(listed, material, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),
@@ -54,7 +56,9 @@ static scree_status place(const scree_model *model, const scree_config_stage *st
     (void)error;
     for (size_t i = 0; i < packing->count; i++) {
         const scree_listed_body *body = &own->bodies[i];
-        packing->radius[i] = radius_of(model, body);
+        // What is drawn of it beside its radius is its shape.
+        packing->radius[i] =
+            radius_of(model, body) * scree_model_drawn_bound(model, i) / scree_model_drawn_radius(model, i);
         for (int c = 0; c < packing->dimension; c++) {
             packing->place[c][i] = body->position[c];
             reach[c] = fmax(reach[c], body->position[c] + packing->radius[i]);
@@ -82,6 +86,7 @@ static void set_moving(const scree_model *model, const scree_config_stage *stage
         row->vy = body->velocity[1];
         if (state->dimension == 2) {
             row->spin = body->spin[2];
+            state->angle[i] = body->angle;
             continue;
         }
         row->vz = body->velocity[2];
