@@ -239,9 +239,8 @@ int scree_model_drawn_species(const scree_model *model, uint64_t number);
 double scree_model_drawn_radius(const scree_model *model, uint64_t number);
 /// Bounding radius [m] of it: that of a round body is its radius.
 double scree_model_drawn_bound(const scree_model *model, uint64_t number);
-/// The radius that body `number` has as one of this species.
+/// The same of body `number` as one of this species.
 double scree_model_radius_of_species(const scree_model *model, int species, uint64_t number);
-/// Its bounding radius then.
 double scree_model_bound_of_species(const scree_model *model, int species, uint64_t number);
 
 /// Moments, fractions and numbers of the species, once the materials are numbered. Errors: sizes that are not.

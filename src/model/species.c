@@ -269,15 +269,15 @@ double scree_model_drawn_radius(const scree_model *model, uint64_t number)
     return scree_model_radius_of_species(model, scree_model_drawn_species(model, number), number);
 }
 
+double scree_model_bound_of_species(const scree_model *model, int species, uint64_t number)
+{
+    const scree_species *drawn = &model->species[species];
+    const double radius = scree_model_radius_of_species(model, species, number);
+    if (!drawn->shape || drawn->shape->round) return radius;
+    return radius * drawn->shape->reach(drawn->outline, model->seed, number);
+}
+
 double scree_model_drawn_bound(const scree_model *model, uint64_t number)
 {
     return scree_model_bound_of_species(model, scree_model_drawn_species(model, number), number);
-}
-
-double scree_model_bound_of_species(const scree_model *model, int species, uint64_t number)
-{
-    const scree_species *of = &model->species[species];
-    const double radius = scree_model_radius_of_species(model, species, number);
-    if (!of->shape || of->shape->round) return radius;
-    return radius * of->shape->reach(of->outline, model->seed, number);
 }

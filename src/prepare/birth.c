@@ -32,10 +32,11 @@ double scree_birth_largest_reach(const scree_model *model)
     return fmax(model->radius_max, model->bounding_max);
 }
 
-/// The row of a body of this species and number.
-static void fill(const scree_model *model, scree_state *state, size_t row, int species, uint64_t number,
-                 const scree_birth *birth)
+/// The row of a body of this species and number; one that is not round gets its outline within that radius.
+static scree_status fill(const scree_model *model, scree_state *state, size_t row, int species, uint64_t number,
+                         const scree_birth *birth, scree_error *error)
 {
+    const scree_species *kind = &model->species[species];
     const int material = model->species[species].material;
     const double radius = scree_model_bound_of_species(model, species, number);
     scree_row *body = &state->row[row];
@@ -51,15 +52,9 @@ static void fill(const scree_model *model, scree_state *state, size_t row, int s
         body->material = material;
         state->angle[row] = birth->angle;
     }
-}
-
-/// Outline, and sizes that follow from it, of one that is not round. Errors: memory; the run cannot go on then.
-static scree_status dress(const scree_model *model, scree_state *state, size_t row, int species, uint64_t number,
-                          scree_error *error)
-{
-    const scree_species *of = &model->species[species];
-    if (state->form) state->form[row] = (scree_form){state->row[row].radius, state->row[row].radius};
-    return of->shape->round ? SCREE_OK : of->shape->dress(model, of->outline, number, state, row, error);
+    if (state->form) state->form[row] = (scree_form){radius, radius};
+    if (!kind->shape || kind->shape->round) return SCREE_OK;
+    return kind->shape->dress(model, kind->outline, number, state, row, error);
 }
 
 /// Velocities as the scheme keeps them.
@@ -121,9 +116,7 @@ scree_status scree_birth_append(const scree_model *model, scree_state *state, co
     if (!status) status = scree_state_append(state, SCREE_MARK_GRAIN, 1, error);
     if (status) return status;
     *row = scree_state_row_of(state, number);
-    const int species = species_of(model, birth->species, number);
-    fill(model, state, *row, species, number, birth);
-    status = dress(model, state, *row, species, number, error);
+    status = fill(model, state, *row, species_of(model, birth->species, number), number, birth, error);
     if (status) return status;
     set_moving(model, state, *row, birth);
     scree_body_position(state, *row, state->reference[*row]);

@@ -25,7 +25,8 @@ double scree_birth_largest_reach(const scree_model *model);
 /// Adds one body with the next id, whose number that is, at the begin of a step that has been chosen (phase decide);
 /// `row` is where it is. Its energy goes into the ledger: what it moves with is `outside`, and where it is is the zero
 /// of the work that gravity will do on it. The contacts of the others must have been saved (scree_contacts_save); the
-/// list is made anew at its next refresh. It must touch nothing. Errors: memory.
+/// list is made anew at its next refresh. It must touch nothing. Errors: memory, with which the
+/// run ends.
 scree_status scree_birth_append(const scree_model *model, scree_state *state, const scree_work *work,
                                 const scree_birth *birth, uint32_t *row, scree_error *error) SCREE_MUST_USE;
 

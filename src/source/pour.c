@@ -124,7 +124,8 @@ static scree_status stop_blocked(const step *s, int64_t index, const scree_vecto
     if (by->what == BODY) {
         const bool rests = state->sum[by->index].contacts > 0;
         (void)snprintf(what, sizeof what, "particle %u, which %s", state->id[by->index],
-                       rests ? "touches others: the pile has reached the source" : "has not fallen away");
+                       rests ? "touches others: the pile has reached the source, or a funnel has clogged"
+                             : "has not fallen away");
         remedy = rests ? "raise the source, pour fewer particles, or let it stay `above` the pile"
                        : "give it a larger `interval` or `velocity`, or gravity";
     } else if (by->what == WALL)

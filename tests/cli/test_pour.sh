@@ -43,7 +43,7 @@ expect 2 "^bad\.yaml:[0-9]+:[0-9]+: sources\.1\.source: .*in the same place as s
 sed 's/place: \[0, 15 cm\]/place: [0, 1 mm]/' good.yaml >bad.yaml
 expect 2 "^bad\.yaml:$line:.*sources\.0.*: source 'spout' is in wall 'plate'.*move the source or the wall" "$scree" run bad.yaml -o wrong
 sed 's/place: \[0, 15 cm\]/place: [0, 12 mm]/; s/unbalanced_limit: 1e-4/patience: 50 ms/' good.yaml >bad.yaml
-expect 3 "the pile has reached the source; raise the source" "$scree" run bad.yaml -o blocked
+expect 3 "the pile has reached the source, or a funnel has clogged; raise the source" "$scree" run bad.yaml -o blocked
 expect 0 'stopped' "$scree" get blocked status
 
 finish

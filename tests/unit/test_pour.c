@@ -4,6 +4,7 @@
 
 #include "io_scratch.h"
 #include "measure/pile.h"
+#include "shape/polygons.h"
 #include "source/source.h"
 
 #define HEAD                                                                                                           \
@@ -23,6 +24,17 @@ static const char *const schemes[] = {"integrator.scheme=position_verlet", "inte
 
 /// Gravity of the stage turns and grows.
 #define TURNS "gravity=[[0 s, 0, -5], [20 ms, 4, -9], [50 ms, -8, -20]]"
+
+/// Polygons and discs.
+#define POLYGONS                                                                                                       \
+    "scree: 1\nname: mixed\ngravity: [0, -9.81]\n"                                                                     \
+    "materials: [{name: stone, young_modulus: 1e7 Pa, density: 5000 kg/m3, friction: 0.5}]\n"                          \
+    "contact: {law: polygon_overlap}\nintegrator: {step: 5e-6 s}\n"                                                    \
+    "measure: {samples: 50, cells: no}\noutput: {figures: no, paraview: no}\n"                                         \
+    "particles:\n  thickness: 1 m\n  count: 45\n  species:\n"                                                          \
+    "  - {name: grains, shape: polygon, material: stone, share: 0.6, radius_min: 1.5 mm, radius_max: 2.5 mm}\n"        \
+    "  - {name: discs, shape: disc, material: stone, share: 0.4, distribution: equal, radius: 2 mm}\n" FLOOR(          \
+        "0") "sources: [{source: line, start: [-10 mm, 20 mm], end: [10 mm, 20 mm], interval: 4 ms}]\n"
 
 // ---- births against closed forms ---------------------------------------------------------------------------------
 
@@ -112,6 +124,33 @@ static void the_balance_closes_on_a_pile(void **unused)
     assert_true(worst[0] < 1e-3 && worst[1] < worst[0] / 8);
 }
 
+/// Polygons are born with the outline and the size of their number, turned as the source says; no two touch.
+static void polygons_are_born(void **unused)
+{
+    (void)unused;
+    const char *const override = "walls.plate.point=[0, -1]";
+    scree_case *c = case_read(POLYGONS STAGES(""), &override, 1);
+    scree_simulation s;
+    size_t polygons = 0;
+    simulation_open(c, 1, &s);
+    assert_true(simulation_finish(&s) < 1e-10);
+    for (size_t row = 0; row < s.state.count; row++) {
+        const uint32_t id = s.state.id[row], corners = scree_polygons_of(&s.state)->of[row].count;
+        scree_vector velocity;
+        double angle;
+        scree_source_draw_motion(&s.model, &s.model.sources[0], id, velocity, &angle);
+        assert_true(s.state.angle[row] == angle);
+        assert_true(fabs(scree_body_equivalent_radius(&s.state, row) - scree_model_drawn_radius(&s.model, id)) < 1e-15);
+        assert_true(fabs(scree_body_bounding_radius(&s.state, row) - scree_model_drawn_bound(&s.model, id)) < 1e-15);
+        assert_int_equal(corners > 0, scree_model_drawn_species(&s.model, id) == 0);
+        polygons += corners > 0;
+        assert_int_equal(s.state.sum[row].contacts, 0);
+    }
+    assert_int_equal(polygons, 27);
+    scree_simulation_close(&s);
+    scree_case_free(c);
+}
+
 // ---- restarts, threads -------------------------------------------------------------------------------------------
 
 /// A case that needs all that sources remember: two of them, one follows the plateau and is shifted, one moves and
@@ -137,11 +176,11 @@ static void the_balance_closes_on_a_pile(void **unused)
 static void a_restart_changes_nothing(void **unused)
 {
     (void)unused;
-    static const char *const texts[] = {TWO STAGES(", past: take_out"), SPHERES STAGES("")};
+    static const char *const texts[] = {TWO STAGES(", past: take_out"), SPHERES STAGES(""), POLYGONS STAGES("")};
     const double instants[] = {0, 0.013, 0.0501, 0.09};
     char folder[64];
     assert_true(scratch_create(folder));
-    for (int k = 0; k < 8; k++) {
+    for (int k = 0; k < 12; k++) {
         scree_case *c = case_read(texts[k / 4], NULL, 0);
         scree_simulation s, other;
         simulation_open(c, 1, &s);
@@ -510,6 +549,7 @@ int main(void)
         cmocka_unit_test(what_is_born_falls),
         cmocka_unit_test(the_balance_closes),
         cmocka_unit_test(the_balance_closes_on_a_pile),
+        cmocka_unit_test(polygons_are_born),
         cmocka_unit_test(a_restart_changes_nothing),
         cmocka_unit_test(samples_and_lists_change_nothing),
         cmocka_unit_test(a_blocked_source_waits),
