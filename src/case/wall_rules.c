@@ -31,6 +31,7 @@ static const char *wrong_shape(const scree_config_wall *wall, int dimension, con
     const scree_wall_shape *shape = scree_modules[wall->shape]->wall;
     *key = "shape";
     if (dimension == 2 && shape->only_3d) return "there are no walls of this shape in two dimensions";
+    if (dimension == 3 && shape->only_2d) return "there are no walls of this shape in space: use a box or a mesh";
     return shape->wrong ? shape->wrong(wall->own, dimension, key) : NULL;
 }
 

@@ -45,9 +45,9 @@ static void check_elements(const scree_model *model, const scree_state *state, c
     scree_contact c;
     for (size_t begin = 0, end; begin < pairs->count; begin = end) {
         end = contact_group_end(pairs, begin);
-        contact_primitives_touching(work->wall_set, state->dimension, &state->row[pairs->body[begin]],
-                                    scree_stretch_row(state, pairs->body[begin]), pairs, begin, end, &touches);
         contact_body body = contact_body_get(state, pairs->body[begin]);
+        const bodies one = contact_body_lane(state->dimension, &body);
+        contact_primitives_touching(work->wall_set, state->dimension, &one, pairs, begin, end, &touches);
         for (int k = 0; k < touches.count; k++) {
             size_t p = touches.touch[k].pair;
             memory_rows memory = contact_memory_of(work, CONTACT_ELEMENT, p);

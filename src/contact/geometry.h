@@ -4,6 +4,7 @@
 ///   kinematics NAME_kinematics(dimension, first, second, step)   normal, overlap, levers, and the rates from them
 ///   kinematics NAME_beside(body, normal, distance, step)         the same beside a wall, without rates; the body moves
 ///                                                                as it does in the frame of the wall
+///   kinematics NAME_against(body, wall, apart, step)             the same beside a solid wall, of those with areas
 ///   lanes NAME_reach(body)                                       from the centre towards a wall
 /// With a constant geometry the compiler keeps one branch. In lanes bodies have what their rows say; of one by one a
 /// geometry finds the rest by `state` and `row` of the bodies (fields of its shape's module, which ghosts follow).
@@ -78,6 +79,21 @@ SCREE_INLINE kinematics geometry_beside(variant v, const bodies *body, const dou
     ALL_GEOMETRIES(GEOMETRY_BESIDE)
     return (kinematics){.overlap = lanes_all(0)};
 }
+
+/// Whether laws of areas take it.
+SCREE_INLINE bool geometry_has_areas(variant v)
+{
+    return all_geometry_traits[v.geometry]->areas;
+}
+
+#if SCREE_LANES == 1
+/// Beside the outline of a solid wall; the one geometry with areas.
+SCREE_INLINE kinematics geometry_against(const bodies *body, const scree_polygon *wall, const double apart[2],
+                                         double step)
+{
+    return outlines_against(body, wall, apart, step);
+}
+#endif
 
 #define GEOMETRY_REACH(name) GEOMETRY_CALL(name, reach, body)
 SCREE_INLINE lanes geometry_reach(variant v, const bodies *body)

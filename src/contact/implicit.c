@@ -200,8 +200,9 @@ static void find_elements(solve *s, size_t begin, size_t end)
     const uint32_t row = work->primitive_pairs.body[begin];
     const int material = scree_body_material(state, row);
     primitive_touches touches;
-    contact_primitives_touching(work->wall_set, s->d, &state->row[row], scree_stretch_row(state, row),
-                                &work->primitive_pairs, begin, end, &touches);
+    const contact_body body = contact_body_get(state, row);
+    const bodies one = contact_body_lane(s->d, &body);
+    contact_primitives_touching(work->wall_set, s->d, &one, &work->primitive_pairs, begin, end, &touches);
     for (int k = 0; k < touches.count; k++) {
         const scree_surface *surface = &work->wall_set->surface[touches.touch[k].surface];
         const scree_pair_constants constants = contact_surface_constants(s->c->model, surface, material);

@@ -3,7 +3,8 @@
 /// point of contact, anywhere on the bodies, so this geometry has levers.
 ///   normal n = -c / |c|,   depth d = A / l,   l = r_1 r_2 / (r_1 + r_2)   (R 2.30, 2.31; r: from centre to point)
 ///   dA/dt = |c| d',        d' the approach of the two bodies at the point
-/// Beside a straight wall, which has no centre, l = r_1.
+/// Beside a wall l = r_1: a half-plane has no centre, and of a solid wall (shape/wall_set.h) r_2 is taken as infinite.
+/// R's own walls are particles, whose l depends on the size of the plate.
 ///
 /// Rates of the middle of the step need the turn of the normal and the way of the point in the step. With two
 /// crossings, each lies on an edge of either body and moves with both: velocities of two lines give that of where they
@@ -107,7 +108,7 @@ SCREE_INLINE kinematics outlines_place(const scree_overlap *overlap, double leng
 /// r^2 / I of a body [1/kg]: what its turning adds to the mobility of the point.
 SCREE_INLINE double outlines_turning(const bodies *body, const double arm[2])
 {
-    const double turning = body->state->form[body->row].turning;
+    const double turning = body->state->form ? body->state->form[body->row].turning : body->radius;
     return 2 * (arm[0] * arm[0] + arm[1] * arm[1]) / (body->mass * turning * turning);
 }
 
@@ -150,6 +151,44 @@ SCREE_INLINE kinematics outlines_beside(const bodies *body, const double normal[
     const double velocity[2] = {-body->velocity.x, -body->velocity.y}, spin[2] = {body->spin.x, 0};
     if (step > 0) outlines_move(&m, &overlap, velocity, spin, step);
     m.tilted.x = 0; // the normal is that of the wall
+    return m;
+}
+
+/// Edge of `wall` that the centre of the other body is farthest beyond, from 1 on: most likely it keeps them apart.
+SCREE_INLINE int outlines_facing_edge(const scree_polygon *wall, const double apart[2])
+{
+    double farthest = 0;
+    int facing = 0;
+    for (int k = 0; k < wall->count; k++) {
+        const double *a = wall->corner[k], *b = wall->corner[scree_next_corner(wall->count, k)];
+        const double way[2] = {b[0] - a[0], b[1] - a[1]};
+        const double out = -way[1] * (apart[0] + a[0]) + way[0] * (apart[1] + a[1]);
+        const double square = out > 0 ? out * out / (way[0] * way[0] + way[1] * way[1]) : 0;
+        if (square > farthest) {
+            farthest = square;
+            facing = k + 1;
+        }
+    }
+    return facing;
+}
+
+/// Beside a solid wall, whose centroid lies `apart` from the centre of the body. The velocity of the body is that in
+/// the frame of the wall.
+SCREE_INLINE kinematics outlines_against(const bodies *body, const scree_polygon *wall, const double apart[2],
+                                         double step)
+{
+    const scree_polygon polygon[2] = {outlines_polygon(body), *wall};
+    scree_overlap overlap;
+    int8_t hint = (int8_t)-outlines_facing_edge(wall, apart);
+    const bool meet = outlines_meet(polygon, apart, &hint, &overlap);
+    kinematics m = {.normal = {1, 0, 0}, .overlap = 0, .chord = 1, .length = 1};
+    if (meet) m = outlines_place(&overlap, scree_overlap_wall_length(&overlap));
+    m.rest_length = m.reduced_radius = polygon[0].radius;
+    m.reduced_mass = m.reduced_mass_along = body->mass;
+    if (!meet || overlap.flags) return m;
+    m.reduced_mass_along = 1 / (1 / body->mass + outlines_turning(body, overlap.arm[0]));
+    const double velocity[2] = {-body->velocity.x, -body->velocity.y}, spin[2] = {body->spin.x, 0};
+    if (step > 0) outlines_move(&m, &overlap, velocity, spin, step);
     return m;
 }
 

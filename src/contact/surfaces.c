@@ -5,6 +5,7 @@
 #include "base/fixed.h"
 #include "base/vectors.h"
 #include "contact/advance.h"
+#include "contact/single.h"
 
 /// A memory passes between normals closer than this, where the wall has no larger angle `smooth`.
 #define PASSING 0.05 /* rad */
@@ -13,11 +14,11 @@
 
 // ---- which primitives ----------------------------------------------------------------------------------------------
 
-static void place_of(int dimension, const scree_row *body, scree_vector position)
+static void place_of(int dimension, const bodies *body, scree_vector position)
 {
-    position[0] = body->x;
-    position[1] = body->y;
-    position[2] = dimension == 3 ? body->z : 0;
+    position[0] = body->position.x;
+    position[1] = body->position.y;
+    position[2] = dimension == 3 ? body->position.z : 0;
 }
 
 /// Puts a touch in its place by distance; the last one of a full list falls out.
@@ -52,18 +53,49 @@ static void merge(const scree_wall_set *wall_set, primitive_touches *touches)
     touches->count = kept;
 }
 
-void contact_primitives_touching(const scree_wall_set *wall_set, int dimension, const scree_row *body, const double *of,
+/// Whether laws of areas take the outline of this wall in place of its closest point.
+static bool has_outline(variant v, const scree_surface *surface)
+{
+    return surface->corner_count > 0 && geometry_has_areas(v);
+}
+
+/// Normal, overlap and levers; and, of laws of areas, how they move in `step`. seen: as it moves in the frame of the
+/// wall.
+static kinematics lie_beside(const scree_surface *surface, variant v, const bodies *seen,
+                             const scree_closest_point *closest, double step)
+{
+    if (!has_outline(v, surface)) return geometry_beside(v, seen, closest->normal, closest->distance, step);
+    const scree_polygon outline = scree_surface_outline(surface);
+    const double apart[2] = {surface->centre[0] - seen->position.x, surface->centre[1] - seen->position.y};
+    return geometry_against(seen, &outline, apart, step);
+}
+
+/// Whether the body reaches its closest point, and if only kinematics tell, the wall.
+static bool touches_primitive(const scree_wall_set *wall_set, size_t primitive, variant v, const bodies *body,
+                              const scree_closest_point *closest)
+{
+    const scree_surface *surface = contact_surface_of(wall_set, primitive);
+    const double radius = wall_reach(v.dimension, body->radius, closest->normal, body->stretch);
+    if (has_outline(v, surface) ? closest->distance >= radius
+                                : !scree_closest_point_touches(wall_set, primitive, closest, radius))
+        return false;
+    if (!geometry_is_coarse(v)) return true;
+    const kinematics m = lie_beside(surface, v, body, closest, 0);
+    return expanded_touch(&m) != 0;
+}
+
+void contact_primitives_touching(const scree_wall_set *wall_set, int dimension, const bodies *body,
                                  const scree_wall_pair_list *pairs, size_t begin, size_t end,
                                  primitive_touches *touches)
 {
+    const variant v = {.dimension = dimension, .geometry = pairs->geometry};
     scree_vector position;
     place_of(dimension, body, position);
     touches->count = 0;
     for (size_t p = begin; p < end; p++) {
         primitive_touch touch = {.pair = p, .surface = scree_primitive_surface(wall_set, pairs->wall[p])};
         scree_primitive_closest_point(wall_set, pairs->wall[p], position, &touch.closest);
-        const double radius = wall_reach(dimension, body->radius, touch.closest.normal, of);
-        if (scree_closest_point_touches(wall_set, pairs->wall[p], &touch.closest, radius)) insert(touches, &touch);
+        if (touches_primitive(wall_set, pairs->wall[p], v, body, &touch.closest)) insert(touches, &touch);
     }
     merge(wall_set, touches);
 }
@@ -75,8 +107,9 @@ void contact_primitives_mark(const scree_state *state, const scree_work *work, u
     for (size_t begin = 0, end; begin < pairs->count; begin = end) {
         end = contact_group_end(pairs, begin);
         for (size_t p = begin; p < end; p++) touching[p] = 0;
-        contact_primitives_touching(work->wall_set, state->dimension, &state->row[pairs->body[begin]],
-                                    scree_stretch_row(state, pairs->body[begin]), pairs, begin, end, &touches);
+        const contact_body body = contact_body_get(state, pairs->body[begin]);
+        const bodies one = contact_body_lane(state->dimension, &body);
+        contact_primitives_touching(work->wall_set, state->dimension, &one, pairs, begin, end, &touches);
         for (int k = 0; k < touches.count; k++) touching[touches.touch[k].pair] = 1;
     }
 }
@@ -142,8 +175,8 @@ kinematics kinematics_of_surface(const scree_wall_set *wall_set, size_t primitiv
     bodies seen = *body;
     seen.velocity = velocity;
     seen.spin = spin;
-    kinematics m = geometry_beside(v, &seen, closest->normal, closest->distance, step);
-    if (!scree_surface_is_flat(surface))
+    kinematics m = lie_beside(surface, v, &seen, closest, step);
+    if (!scree_surface_is_flat(surface) && !has_outline(v, surface))
         m.tilted = tilt_of(wall_set, primitive, dimension, body, closest, velocity, step);
     kinematics_past(v, &m, velocity, spin, step);
     if (dimension == 3 && moving) {
@@ -313,10 +346,10 @@ void contact_surfaces(contact_job *job, const scree_state *state, const scree_wo
         g.end = contact_group_end(g.pairs, g.begin);
         size_t row = g.pairs->body[g.begin];
         if (row < begin || row >= end) continue;
-        contact_primitives_touching(g.wall_set, v.dimension, &job->row[row], contact_stretch_at(job, row), g.pairs,
-                                    g.begin, g.end, &g.touches);
+        const bodies one = contact_body_at(job, row);
+        contact_primitives_touching(g.wall_set, v.dimension, &one, g.pairs, g.begin, g.end, &g.touches);
         if (g.touches.count == 0 && !holds_memory(&g)) continue;
-        place_of(v.dimension, &job->row[row], g.position);
+        place_of(v.dimension, &one, g.position);
         if (job->law == 0) pass_memory(&g); // of all laws: that of a body on a wall does not change
         SCREE_LAWS(GROUP_OF_LAW)
         if (v.dimension == 2)

@@ -11,6 +11,10 @@
 /// a body is a continuous function of its place wherever faces meet at a smaller angle than `smooth` or at convex
 /// edges.
 ///
+/// Under laws of areas a plane touches where the outline of the body does, and a solid with an outline is one contact,
+/// whatever edges and corners of it the body covers: normal, point and depth are those of the overlap
+/// (contact/outlines.h), and the closest point of the centre only tells who is near.
+///
 /// What contacts remember goes with their primitive. When a body touches a primitive anew and has just left another one
 /// of the same wall whose normal is nearly the same, it takes the memory along: a spring survives the change of the
 /// triangle, and the ledger accumulates what it would have accumulated on one plane. In space a tangential displacement
@@ -50,8 +54,8 @@ static inline size_t contact_group_end(const scree_wall_pair_list *pairs, size_t
     return end;
 }
 
-/// Which of the pairs [begin, end) of one body touch. of: its row of stretch; NULL: it is rigid.
-void contact_primitives_touching(const scree_wall_set *wall_set, int dimension, const scree_row *body, const double *of,
+/// Which of the pairs [begin, end) of one body touch.
+void contact_primitives_touching(const scree_wall_set *wall_set, int dimension, const bodies *body,
                                  const scree_wall_pair_list *pairs, size_t begin, size_t end,
                                  primitive_touches *touches);
 

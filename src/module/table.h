@@ -44,8 +44,8 @@
         row(face_centred) row(body_centred) row(cubic) row(gas) row(growth) row(dense) row(pair) row(bodies)           \
             row(empty) row(prepare) row(confine) row(compress) row(deform) row(rotate_particle) row(relax)             \
                 row(collide) row(bond) row(pour) row(point) row(line) row(region) row(background_damping)              \
-                    row(prescribed) row(plane) row(box) row(cylinder) row(cone) row(mesh) row(uniform) row(two_sizes)  \
-                        row(equal) row(normal) row(log_normal) row(power_law) row(table)
+                    row(prescribed) row(plane) row(box) row(cylinder) row(cone) row(mesh) row(wall_polygon)            \
+                        row(uniform) row(two_sizes) row(equal) row(normal) row(log_normal) row(power_law) row(table)
 
 /// What is measured at the end of a run, with tables of its own.
 #define SCREE_MEASURE_MODULES(row)                                                                                     \

@@ -7,6 +7,7 @@
 #include "run/loading.h"
 #include "run/sample.h"
 #include "run/step.h"
+#include "shape/polygons.h"
 #include "shape/wall_set.h"
 #include "state/case_walls.h"
 
@@ -39,6 +40,8 @@ static const config *own_config(const scree_simulation *s)
     return scree_stage_config(s)->own;
 }
 
+/// Of polygons that lie on a wall the bounding circle may reach far into it: what lies in it for certain is refused,
+/// and a guard stops what lies too deep after all.
 static scree_status check_room(const scree_simulation *s, scree_error *error)
 {
     const scree_wall_set *wall_set = s->work.wall_set;
@@ -50,7 +53,7 @@ static scree_status check_room(const scree_simulation *s, scree_error *error)
             scree_body_position(state, row, place);
             double radius = scree_body_bounding_radius(state, row);
             double clearance = scree_surface_clearance(wall_set, k, place, radius);
-            if (clearance >= radius * (1 - s->model.overlap_limit)) continue;
+            if (clearance >= scree_body_inner_radius(state, row) * (1 - s->model.overlap_limit)) continue;
             return scree_error_set(error, SCREE_ERROR_INPUT,
                                    "particle %u at (%.4g, %.4g, %.4g) m, radius %.4g m, is %s wall '%s': its centre "
                                    "is %.4g m from it; move the wall, or change the box of the prepare stage (it "

@@ -8,6 +8,20 @@
 
 // ---- motion ------------------------------------------------------------------------------------------------------
 
+/// The outline as it lies; one that does not turn keeps its bits.
+static void pose_outline(scree_surface *surface)
+{
+    const double *r = surface->rotation, *about = surface->config->centre;
+    const double from[2] = {surface->middle[0] - about[0], surface->middle[1] - about[1]};
+    for (int i = 0; i < 2; i++)
+        surface->centre[i] = surface->turns ? surface->hub[i] + r[3 * i] * from[0] + r[3 * i + 1] * from[1]
+                                            : surface->middle[i] + surface->shift[i];
+    if (surface->turns)
+        scree_polygon_turn(surface->corner_count, (const double(*)[2])surface->corner, r[0], r[3], surface->posed);
+    else
+        memcpy(surface->posed, surface->corner, sizeof surface->posed);
+}
+
 void scree_wall_set_place(scree_wall_set *wall_set, const scree_case_wall_set *walls, double time, double step)
 {
     wall_set->time = time;
@@ -24,6 +38,7 @@ void scree_wall_set_place(scree_wall_set *wall_set, const scree_case_wall_set *w
         scree_wall_shift(config, walls ? walls->load[k].travel : 0, time, surface->shift);
         scree_wall_velocity(config, walls ? walls->load[k].speed : 0, time, step, surface->velocity);
         scree_along(config->centre, 1, surface->shift, surface->hub);
+        if (surface->corner_count > 0) pose_outline(surface);
     }
 }
 
@@ -109,6 +124,35 @@ static void closest_on_solid_box(int dimension, const scree_surface *box, const 
     closest->normal[face / 2] = face % 2 ? 1 : -1;
 }
 
+/// A solid polygon: its nearest edge or corner; inside it the nearest edge.
+static void closest_on_outline(const scree_surface *surface, const double place[3], scree_closest_point *closest)
+{
+    const double p[2] = {place[0] - surface->middle[0], place[1] - surface->middle[1]};
+    double nearest = INFINITY, deepest = -INFINITY, out[2] = {0}, in[2] = {0};
+    for (int k = 0; k < surface->corner_count; k++) {
+        const double *a = surface->corner[k], *b = surface->corner[k + 1 < surface->corner_count ? k + 1 : 0];
+        const double along[2] = {b[0] - a[0], b[1] - a[1]}, length = hypot(along[0], along[1]);
+        const double normal[2] = {along[1] / length, -along[0] / length}, from[2] = {p[0] - a[0], p[1] - a[1]};
+        const double height = from[0] * normal[0] + from[1] * normal[1];
+        const double share = (from[0] * along[0] + from[1] * along[1]) / (length * length);
+        const double end = fmin(fmax(share, 0), 1);
+        const double apart[2] = {from[0] - end * along[0], from[1] - end * along[1]};
+        const bool foot = share >= 0 && share <= 1;
+        const double distance = foot ? fabs(height) : hypot(apart[0], apart[1]);
+        if (distance < nearest) {
+            nearest = distance;
+            for (int i = 0; i < 2; i++) out[i] = foot || !(distance > 0) ? normal[i] : apart[i] / distance;
+        }
+        if (height > deepest) {
+            deepest = height;
+            memcpy(in, normal, sizeof in);
+        }
+    }
+    const bool outside = deepest > 0;
+    *closest = (scree_closest_point){.distance = outside ? nearest : deepest, .minimum = true};
+    memcpy(closest->normal, outside ? out : in, sizeof out);
+}
+
 /// A point (s, r) against a line of the half-plane. *inner: its foot lies on the line. The normal of the line is taken
 /// there, at an end the direction from it.
 static double profile_distance(const scree_profile *line, double s, double r, double normal[2], bool *inner)
@@ -186,6 +230,8 @@ void scree_primitive_closest_point(const scree_wall_set *wall_set, size_t primit
         closest_on_round(surface, primitive, inner, closest);
     else if (surface->kind == SCREE_SURFACE_BOX)
         closest_on_solid_box(wall_set->dimension, surface, inner, closest);
+    else if (surface->kind == SCREE_SURFACE_OUTLINE)
+        closest_on_outline(surface, inner, closest);
     else
         closest_on_plane(surface, primitive, inner, closest);
     leave_frame(surface, closest->normal);

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-enum { FACETS = 96, MOST_FLAT = 12 };
+enum { FACETS = 96, MOST_FLAT = SCREE_POLYGON_CORNERS };
 
 /// Adds a triangle given in the frame of the wall.
 static void add(scree_wall_triangles *triangles, const scree_surface *surface, int wall, const double *const corner[3])
@@ -75,6 +75,16 @@ static void add_box(scree_wall_triangles *triangles, const scree_surface *surfac
     }
 }
 
+static void add_outline(scree_wall_triangles *triangles, const scree_surface *surface, int wall)
+{
+    const double *m = surface->middle;
+    for (int k = 0; k < surface->corner_count; k++) {
+        const double *a = surface->corner[k], *b = surface->corner[k + 1 < surface->corner_count ? k + 1 : 0];
+        const double from[3] = {m[0] + a[0], m[1] + a[1], 0}, to[3] = {m[0] + b[0], m[1] + b[1], 0};
+        add(triangles, surface, wall, (const double *const[3]){from, to, to});
+    }
+}
+
 static void add_round(scree_wall_triangles *triangles, const scree_surface *surface, int wall)
 {
     const double *axis = surface->axis;
@@ -120,6 +130,7 @@ scree_status scree_wall_set_triangles(const scree_wall_set *wall_set, const doub
         const scree_surface *surface = &wall_set->surface[k];
         if (surface->endless) add_plane(triangles, surface, k, wall_set->dimension, low, high);
         if (surface->cornered) add_box(triangles, surface, k, wall_set->dimension);
+        if (surface->kind == SCREE_SURFACE_OUTLINE) add_outline(triangles, surface, k);
         add_mesh(triangles, surface, k);
         add_round(triangles, surface, k);
     }

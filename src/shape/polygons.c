@@ -181,6 +181,21 @@ scree_status scree_polygons_set(const scree_model *model, scree_state *state, si
     return SCREE_OK;
 }
 
+double scree_body_inner_radius(const scree_state *state, size_t row)
+{
+    const own *p = scree_polygons_of(state);
+    const double bound = state->row[row].radius;
+    if (!p->of || p->of[row].count == 0) return bound;
+    const scree_corners of = p->of[row];
+    const double(*corner)[2] = (const double(*)[2])p->corner + of.first;
+    double least = bound;
+    for (uint32_t k = 0; k < of.count; k++) {
+        const double *a = corner[k], *b = corner[k + 1 < of.count ? k + 1 : 0];
+        least = fmin(least, (a[0] * b[1] - a[1] * b[0]) / hypot(b[0] - a[0], b[1] - a[1]));
+    }
+    return least;
+}
+
 void scree_polygons_pose(scree_state *state)
 {
     own *p = scree_polygons_of(state);

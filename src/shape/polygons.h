@@ -29,9 +29,10 @@ static inline scree_polygons *scree_polygons_of(const scree_state *state)
     return state->own[SCREE_SLOT_polygon];
 }
 
-/// The body in `row` as it lies; of a disc without corners.
+/// The body in `row` as it lies; of a disc without corners, as all are where there have been no polygons.
 SCREE_INLINE scree_polygon scree_polygon_of_row(const scree_state *state, const scree_polygons *polygons, size_t row)
 {
+    if (!polygons->of) return (scree_polygon){.radius = state->row[row].radius, .bound = state->row[row].radius};
     const scree_corners *of = &polygons->of[row];
     return (scree_polygon){.corner = (const double(*)[2])polygons->posed + of->first,
                            .count = (int)of->count,
@@ -43,6 +44,9 @@ SCREE_INLINE scree_polygon scree_polygon_of_row(const scree_state *state, const 
 /// material), inertia and sizes follow. Errors: memory.
 scree_status scree_polygons_set(const scree_model *model, scree_state *state, size_t row, int count,
                                 const double (*corner)[2], scree_error *error) SCREE_MUST_USE;
+
+/// Of the largest circle about its centre that lies in the body [m].
+double scree_body_inner_radius(const scree_state *state, size_t row);
 
 /// Renews the posed corners. Cost: one sine and cosine a body, four products a corner.
 void scree_polygons_pose(scree_state *state);

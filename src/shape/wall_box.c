@@ -42,6 +42,11 @@ static scree_status make(const void *own, int dimension, scree_surface *surface,
     surface->cornered = true;
     memcpy(surface->lower, c->lower, sizeof surface->lower);
     memcpy(surface->upper, c->upper, sizeof surface->upper);
+    if (surface->kind == SCREE_SURFACE_BOX && dimension == 2) {
+        const double *l = c->lower, *u = c->upper,
+                     corner[4][2] = {{l[0], l[1]}, {u[0], l[1]}, {u[0], u[1]}, {l[0], u[1]}};
+        scree_surface_outline_set(surface, 4, corner);
+    }
     for (int k = 0; k < 2 * dimension; k++) {
         surface->normal[k][k / 2] = k % 2 ? -1 : 1;
         surface->offset[k] = k % 2 ? -c->upper[k / 2] : c->lower[k / 2];

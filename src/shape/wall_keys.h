@@ -19,6 +19,11 @@ typedef struct scree_box_keys {
     int side;                  ///< scree_side, where the bodies are
 } scree_box_keys;
 
+typedef struct scree_polygon_keys {
+    double (*corners)[2]; ///< m, counter-clockwise
+    int64_t corner_count;
+} scree_polygon_keys;
+
 /// Of a cylinder radius_start alone.
 typedef struct scree_round_keys {
     double start[3], end[3];         ///< m: axis
@@ -49,6 +54,10 @@ typedef struct scree_mesh_keys {
 /// A body of revolution between two radii [m]: its sides and, where it is closed, its ends.
 void scree_round_make(const scree_round_keys *keys, double low, double high, scree_surface *surface);
 const char *scree_round_wrong(const scree_round_keys *keys, const char **key);
+
+/// Gives a surface the outline of a solid body in the plane, by its corners [m]: the overlap with it is what laws of
+/// areas take (contact/outlines.h).
+void scree_surface_outline_set(scree_surface *surface, int count, const double (*corner)[2]);
 
 /// Area of the larger end, seen along the axis; 0 from elsewhere.
 double scree_round_face(const scree_round_keys *keys, double radius, const double direction[3]);

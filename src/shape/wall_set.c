@@ -19,6 +19,9 @@ static double find_reach(const scree_surface *surface)
         for (int i = 0; i < 3; i++) apart[i] = (k >> i & 1 ? surface->upper[i] : surface->lower[i]) - config->centre[i];
         reach = fmax(reach, sqrt(scree_dot(apart, apart)));
     }
+    for (int k = 0; k < surface->corner_count; k++)
+        reach = fmax(reach, hypot(surface->middle[0] + surface->corner[k][0] - config->centre[0],
+                                  surface->middle[1] + surface->corner[k][1] - config->centre[1]));
     for (int k = 0; k < surface->profile_count; k++)
         for (int i = 0; i < 2; i++) {
             scree_along(surface->start, surface->profile[k].s[i], surface->axis, apart);

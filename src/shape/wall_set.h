@@ -1,9 +1,11 @@
-/// The walls of a case beside the six plates: planes, boxes, cylinders, cones and triangle meshes, fixed or moving.
+/// The walls of a case beside the six plates: planes, boxes, cylinders, cones, triangle meshes and, in two dimensions,
+/// convex polygons, fixed or moving.
 ///
 /// A wall consists of primitives, each of which can touch a sphere at one point at most: a plane is one; a box seen
 /// from inside has six planes, a closed cylinder or cone its side and two ends; what is convex seen from outside (box,
-/// rod) is one; a mesh has its triangles, edges and vertices. Elements of all walls are numbered through. Contacts are
-/// the local minima of the distance to a wall (shape/mesh.h); walls that meet each other do not know of each other.
+/// rod, polygon) is one; a mesh has its triangles, edges and vertices. Elements of all walls are numbered through.
+/// Contacts are the local minima of the distance to a wall (shape/mesh.h); walls that meet each other do not know of
+/// each other.
 ///
 /// Motion. A wall turns with a constant spin w about a centre that moves by s(t) (case/wall_motion.h): with its time t
 /// (scree_case_walls(state)->ticks x tick, never accumulated), x(t) = c + s(t) + R(w t) (x(0) - c), R a rotation by |w|
@@ -11,11 +13,16 @@
 /// wall that moves in itself with a constant velocity (a drum about its axis, a plane along itself) is not moved at
 /// all: only its points are.
 ///
+/// Outlines. Laws of areas take no closest point but what two outlines share (shape/overlap.h): a polygon, and a box
+/// seen from outside in two dimensions, have an outline, which lies as the wall does; planes, and boxes seen from
+/// inside, are half-planes. A grain at a corner touches the outline once.
+///
 /// A surface with an inside counts up to one radius behind it, a plane without limit.
 #ifndef SCREE_SHAPE_WALL_SET_H
 #define SCREE_SHAPE_WALL_SET_H
 
 #include "shape/mesh.h"
+#include "shape/polygon.h"
 #include "state/case_walls.h"
 
 /// A line in the half-plane of coordinate `s` along the axis and distance `r` from it, m.
@@ -29,6 +36,7 @@ typedef struct scree_profile {
 typedef enum scree_surface_kind {
     SCREE_SURFACE_PLANES,  ///< half-spaces, a primitive each
     SCREE_SURFACE_BOX,     ///< a solid box, one primitive
+    SCREE_SURFACE_OUTLINE, ///< a solid convex polygon in the plane, one primitive
     SCREE_SURFACE_PROFILE, ///< lines that turn about an axis
     SCREE_SURFACE_MESH,    ///< triangles, edges and vertices
 } scree_surface_kind;
@@ -45,6 +53,12 @@ typedef struct scree_surface {
     // between the corners of a box, seen from inside or outside
     bool cornered;
     scree_vector lower, upper; ///< m
+    // solid in the plane; corner_count is 0 of all others
+    int corner_count;
+    double corner[SCREE_POLYGON_CORNERS][2]; ///< m, from the centroid
+    double middle[2], bound;                 ///< m, the centroid; no corner is farther from it
+    double posed[SCREE_POLYGON_CORNERS][2];  ///< m, corners as they lie now
+    double centre[2];                        ///< m, the centroid now
     // body of revolution
     scree_vector start, axis; ///< m, one end of the axis; unit vector from there to the other
     scree_profile profile[3];
@@ -103,6 +117,15 @@ static inline int scree_primitive_surface(const scree_wall_set *wall_set, size_t
 static inline bool scree_surface_is_flat(const scree_surface *surface)
 {
     return surface->kind == SCREE_SURFACE_PLANES;
+}
+
+/// The outline of a solid as it lies, about surface->centre; its radius is that of no grain, which l_0 could come from.
+static inline scree_polygon scree_surface_outline(const scree_surface *surface)
+{
+    return (scree_polygon){.corner = (const double(*)[2])surface->posed,
+                           .count = surface->corner_count,
+                           .radius = 0,
+                           .bound = surface->bound};
 }
 
 /// Where a sphere with its centre at `place` may touch a primitive, now.
