@@ -282,6 +282,24 @@ static void a_moving_wall_is_one_at_rest_from_elsewhere(void **unused)
     for (int i = 0; i < 3; i++) assert_true(fabs(seen[0][i] - seen[1][i]) < 1e-7);
 }
 
+/// A lid that is a polygon, under a servo, presses a hexagon onto the floor with the force that it is told.
+static void a_servo_presses(void **unused)
+{
+    (void)unused;
+    const char *const overrides[] = {"walls=[{shape: plane, point: [0, 0], normal: [0, 1]}, {shape: polygon, corners: "
+                                     "[[0.47, 19.08 mm], [0.53, 19.08 mm], "
+                                     "[0.5, 40 mm]], motion: servo, direction: [0, -1], force: 20 N}]",
+                                     "stages.0.bodies=[{position: [0.5, 9.523e-3 m]}]", "stages.1.duration=0.3 s"};
+    scree_case *c;
+    scree_simulation s = open_with(edge_text, overrides, COUNT_OF(overrides), &c);
+    const double worst = simulation_finish(&s), weight = 10 * scree_body_mass(&s.state, 0);
+    const double lid = force_on(&s, 1)[1], floor = force_on(&s, 0)[1];
+    print_message("lid %.9g N, floor %.9g N of %.9g N, travel %.4g mm, residual %.2g\n", lid, floor, weight + 20,
+                  1e3 * scree_case_walls(&s.state)->load[1].travel, worst);
+    assert_true(fabs(lid / 20 - 1) < 1e-6 && fabs(floor / (weight + 20) + 1) < 1e-6 && worst < 1e-4);
+    close_both(&s, c);
+}
+
 // ---- round bodies under other laws
 // -----------------------------------------------------------------------------------
 
@@ -377,6 +395,39 @@ static void a_rough_bottom_bears_grains(void **unused)
     close_both(&s, c);
 }
 
+/// The pour stage takes a bottom of fixed polygons: what is poured beside walls that are polygons comes to rest on it.
+static void grains_are_poured_on_a_rough_bottom(void **unused)
+{
+    (void)unused;
+    static const char text[] = MATTER
+        "particles: {shape: polygon, thickness: 1 m, material: stone, count: 12, distribution: equal, radius: 1 cm}\n"
+        "walls:\n  - {shape: polygon, name: left, corners: [[0, -3 cm], [8 cm, -3 cm], [6 cm, 20 cm], [0, 20 cm]]}\n"
+        "  - {shape: box, name: right, side: outside, lower: [22 cm, -3 cm], upper: [30 cm, 20 cm]}\n"
+        "selections: [{select: ids, name: bottom, ids: [0, 1, 2, 3, 4, 5]}]\n"
+        "loads: [{load: prescribed, selection: bottom, velocity_x: 0, velocity_y: 0, spin_z: 0}]\n"
+        "sources: [{source: line, start: [12 cm, 15 cm], end: [18 cm, 15 cm], interval: 0.1 s}]\n"
+        "stages:\n  - {stage: prepare, method: bodies, width: 30 cm, height: 20 cm, bodies: [{position: [9.5 cm, 0]}, "
+        "{position: [11.5 cm, 0], angle: 0.4}, {position: [13.5 cm, 0], angle: 0.9}, {position: [15.5 cm, 0], angle: "
+        "1.3}, {position: [17.5 cm, 0], angle: 2}, {position: [19.5 cm, 0]}]}\n"
+        "  - {stage: pour, unbalanced_limit: 1e-4}\n";
+    scree_case *c;
+    scree_simulation s = open_with(text, NULL, 0, &c);
+    const double worst = simulation_finish(&s);
+    double reaction[8], up, weight = 0;
+    scree_error error;
+    const scree_context context = scree_step_context(&s);
+    check(scree_module_prescribed.columns.measure(&context, 0, reaction, &error), &error);
+    assert_int_equal(s.state.count, 12);
+    for (size_t row = 0; row < s.state.count; row++) {
+        weight += 10 * scree_body_mass(&s.state, row);
+        assert_true(s.state.id[row] < 6 || s.state.row[row].y > 0);
+    }
+    up = reaction[1] - force_on(&s, 0)[1] - force_on(&s, 1)[1];
+    print_message("bottom and walls hold %.6g of the weight, residual %.2g\n", up / weight, worst);
+    assert_true(fabs(up / weight - 1) < 1e-3);
+    close_both(&s, c);
+}
+
 // ---- nothing but the state -----------------------------------------------------------------------------------------
 
 enum { FORGET = 1, LOSE = 2 };
@@ -463,9 +514,11 @@ int main(void)
         cmocka_unit_test(it_slides_over_a_joint),
         cmocka_unit_test(the_balance_closes_beside_moving_walls),
         cmocka_unit_test(a_moving_wall_is_one_at_rest_from_elsewhere),
+        cmocka_unit_test(a_servo_presses),
         cmocka_unit_test(discs_under_other_laws_see_a_box),
         cmocka_unit_test(a_funnel_is_emptied),
         cmocka_unit_test(a_rough_bottom_bears_grains),
+        cmocka_unit_test(grains_are_poured_on_a_rough_bottom),
         cmocka_unit_test(nothing_but_the_state_decides),
         cmocka_unit_test(a_restart_goes_on),
         cmocka_unit_test(what_is_wrong_is_said),

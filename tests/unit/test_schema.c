@@ -92,7 +92,7 @@ static void check_key(const scree_section *section, const scree_key *key)
     }
     if (number || key->type == SCREE_KEY_INTEGER) assert_true(key->least.text && key->most.text);
     if (key->type == SCREE_KEY_VECTOR && key->standard) assert_string_equal(key->standard, "[0, 0]");
-    if (key->type == SCREE_KEY_PAIRS) assert_string_equal(key->standard, "[]");
+    if (key->type == SCREE_KEY_PAIRS && key->standard) assert_string_equal(key->standard, "[]");
     if (key->type == SCREE_KEY_TENSOR) assert_string_equal(key->standard, "{}");
     for (const scree_choice *choice = key->choices; choice && choice->name; choice++)
         assert_true(strlen(choice->meaning) > 8);
