@@ -409,10 +409,10 @@ static void grains_are_poured_on_a_rough_bottom(void **unused)
         "stages:\n  - {stage: prepare, method: bodies, width: 30 cm, height: 20 cm, bodies: [{position: [9.5 cm, 0]}, "
         "{position: [11.5 cm, 0], angle: 0.4}, {position: [13.5 cm, 0], angle: 0.9}, {position: [15.5 cm, 0], angle: "
         "1.3}, {position: [17.5 cm, 0], angle: 2}, {position: [19.5 cm, 0]}]}\n"
-        "  - {stage: pour, unbalanced_limit: 1e-4}\n";
+        "  - {stage: pour, unbalanced_limit: 1e-4}\n  - {stage: relax, duration: 0.5 s}\n";
     scree_case *c;
     scree_simulation s = open_with(text, NULL, 0, &c);
-    const double worst = simulation_finish(&s);
+    (void)simulation_finish(&s);
     double reaction[8], up, weight = 0;
     scree_error error;
     const scree_context context = scree_step_context(&s);
@@ -423,7 +423,7 @@ static void grains_are_poured_on_a_rough_bottom(void **unused)
         assert_true(s.state.id[row] < 6 || s.state.row[row].y > 0);
     }
     up = reaction[1] - force_on(&s, 0)[1] - force_on(&s, 1)[1];
-    print_message("bottom and walls hold %.6g of the weight, residual %.2g\n", up / weight, worst);
+    print_message("bottom and walls hold %.6g of the weight\n", up / weight);
     assert_true(fabs(up / weight - 1) < 1e-3);
     close_both(&s, c);
 }
