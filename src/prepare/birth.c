@@ -52,7 +52,7 @@ static scree_status fill(const scree_model *model, scree_state *state, size_t ro
         body->material = material;
         state->angle[row] = birth->angle;
     }
-    if (state->form) state->form[row] = (scree_form){radius, radius};
+    scree_body_make_round(state, row);
     if (!kind->shape || kind->shape->round) return SCREE_OK;
     return kind->shape->dress(model, kind->outline, number, state, row, error);
 }

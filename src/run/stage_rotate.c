@@ -117,6 +117,11 @@ static scree_status choose(scree_simulation *s, uint32_t *id, scree_error *error
     int64_t *load = NULL;
     long long stage = (long long)s->state.stage.index;
     int64_t found = isnan(named) ? -1 : (int64_t)named;
+    if (s->state.form)
+        return scree_error_set(error, SCREE_ERROR_GUARD,
+                               "stage %lld (rotate_particle): rotations are measured of round particles alone, from "
+                               "where they lie at the begin",
+                               stage);
     if (isnan(named)) {
         scree_status status = measure_loads(s, &load, error);
         if (!status) found = find_central(s, load);

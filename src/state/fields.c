@@ -54,7 +54,7 @@ static const scree_field fields[] = {
     {"held", SCREE_FIELD_UINT8, 1, "1", SCREE_FIELD_STATE, false,
      "bits 0 to 2: velocity x, y, z, bits 3 to 5: spin about x, y, z is prescribed", PLAIN_ARRAY(held, uint8_t),
      .rows = SCREE_ROWS_BODIES, .optional = true, SCREE_RANGE(0, 63)},
-    {"angle", SCREE_FIELD_DOUBLE, 1, "rad", SCREE_FIELD_STATE, true, "rotation since the start, counter-clockwise",
+    {"angle", SCREE_FIELD_DOUBLE, 1, "rad", SCREE_FIELD_STATE, true, "rotation since the start of the loading, counter-clockwise; of bodies that are not round how they lie turned",
      PLAIN_ARRAY(angle, double), .rows = SCREE_ROWS_BODIES, .only_dimension = 2},
     {"scheme_velocity", SCREE_FIELD_DOUBLE, SCREE_VECTOR, "m/s", SCREE_FIELD_STATE, false,
      "velocity that the integrator keeps: half a step behind the position in position_verlet",
