@@ -1,11 +1,11 @@
-/// Nanoseconds of scree_polygon_overlap a pair: polygons with 6 to 24 corners (in sectors of a circle, equal area, any
+/// Nanoseconds of scree_polygon_pair_overlap a pair: polygons with 6 to 24 corners (in sectors of a circle, equal area, any
 /// angle) that touch at a depth of 0.002 radii, and that are 0.01 radii apart, with the edge remembered and without.
 /// 512 pairs, one thread.
 #include "bench.h"
 
 #include "base/random.h"
 #include "shape/polygon_make.h"
-#include "shape/polygon_overlap.h"
+#include "shape/polygon_pair.h"
 
 enum { PAIRS = 512, ROUNDS = 2000 };
 
@@ -20,7 +20,7 @@ static pair pairs[PAIRS];
 /// The call as a kernel makes it, but for being inline.
 __attribute__((noinline)) static bool look(pair *p, scree_overlap *overlap)
 {
-    return scree_polygon_overlap(&p->polygon[0], &p->polygon[1], p->apart, &p->hint, overlap);
+    return scree_polygon_pair_overlap(&p->polygon[0], &p->polygon[1], p->apart, &p->hint, overlap);
 }
 
 static void put(pair *p, double angle, double distance)

@@ -17,6 +17,8 @@ typedef enum scree_random_stream {
     SCREE_RANDOM_EIGENVECTOR = 10,
     SCREE_RANDOM_CORNER = 11,
     SCREE_RANDOM_CORNER_COUNT = 12,
+    SCREE_RANDOM_BIRTH_PLACE = 13,
+    SCREE_RANDOM_BIRTH_MOTION = 14,
     SCREE_RANDOM_TEST = 100,
 } scree_random_stream;
 

@@ -101,4 +101,7 @@ bool scree_rule_is_stage(scree_reader *reader, const scree_config *config, const
 /// case holds the checksum of their content.
 void scree_rules_check_walls(scree_reader *reader, scree_config *config);
 
+/// Those of the sources (source_rules.c).
+void scree_rules_check_sources(scree_reader *reader, scree_config *config);
+
 #endif

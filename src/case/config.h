@@ -9,6 +9,7 @@
 #include "module/preparation.h"
 #include "module/shape.h"
 #include "module/size_distribution.h"
+#include "module/source.h"
 #include "module/stage.h"
 
 #include <math.h>
@@ -40,6 +41,7 @@ typedef struct scree_config_species {
     char *material;   ///< name in `materials`
     double share;     ///< 1, of the number or of the mass of all particles
     int64_t count;    ///< with SCREE_SHARE_BY_COUNT
+    int shape;        ///< slot of a module that is a shape; SCREE_CHOICE_AUTO: that of all particles
     int distribution; ///< slot of a module with sizes (module/size_distribution.h)
     void *own;        ///< structs of modules (scree_config_own)
 } scree_config_species;
@@ -121,6 +123,30 @@ typedef struct scree_config_load {
     int kind;  ///< slot of a module that is a load
     void *own; ///< its struct
 } scree_config_load;
+
+enum { SCREE_SOURCES = 16 }; ///< most of a case
+
+/// How many grains a source lets go at once.
+typedef enum scree_source_batch { SCREE_SOURCE_ONE, SCREE_SOURCE_LAYER } scree_source_batch;
+
+/// Where grains come from while a stage pours. What stands in `own` is said by the module of its kind.
+typedef struct scree_config_source {
+    int kind;           ///< slot of a module that is a source (module/source.h)
+    char *name;         ///< unique among the sources: the kind, numbered if there are several
+    char *stage;        ///< name of the only stage that it pours in; auto (NULL): all that pour
+    char *species;      ///< name of the only species that it pours; auto (NULL): as `particles` says
+    int64_t count;      ///< at most; 0: as many as there are
+    double interval;    ///< s, between two births or layers
+    int batch;          ///< scree_source_batch
+    int64_t layer;      ///< grains of a layer; 0: as many as lie side by side
+    double velocity[3]; ///< m/s, of a grain that is born
+    double spread[3];   ///< m/s, by how much each component may differ at most
+    double turn;        ///< rad, a grain is turned by a random angle up to this, either way
+    double above;       ///< m, from the top of the pile to the lowest point of a grain; auto (NAN): the place stays
+    double motion[3];   ///< m/s, of the source itself
+    double shift[3];    ///< m, of each layer against the one before
+    void *own;          ///< its struct
+} scree_config_source;
 
 enum { SCREE_SELECTIONS = 32 }; ///< most of a case
 
@@ -210,6 +236,8 @@ struct scree_config {
     scree_config_boundary boundary;
     scree_config_wall *walls;
     int64_t wall_count;
+    scree_config_source *sources;
+    int64_t source_count;
     scree_config_selection *selections;
     int64_t selection_count;
     scree_config_load *loads;
@@ -278,6 +306,7 @@ static inline scree_config_species scree_config_species_at(const scree_config_pa
     return (scree_config_species){.material = particles->material,
                                   .share = 1,
                                   .count = particles->count,
+                                  .shape = particles->shape,
                                   .distribution = particles->distribution,
                                   .own = particles->own};
 }
@@ -294,6 +323,22 @@ static inline const void *scree_config_sizes(const scree_config_particles *parti
     scree_config_species species = scree_config_species_at(particles, index);
     return scree_config_own(scree_modules[species.distribution],
                             particles->species_count > 0 ? "particles.species" : "particles", species.own);
+}
+
+/// Shape of species `index`, and what it reads: the struct of its module.
+static inline int scree_config_shape(const scree_config_particles *particles, int64_t index)
+{
+    const int shape = scree_config_species_at(particles, index).shape;
+    return shape >= 0 && scree_modules[shape]->shape ? shape : particles->shape;
+}
+
+static inline const void *scree_config_shape_keys(const scree_config_particles *particles, int64_t index)
+{
+    const bool own = particles->species_count > 0 &&
+                     scree_config_shape(particles, index) == scree_config_species_at(particles, index).shape;
+    return scree_config_own(scree_modules[scree_config_shape(particles, index)],
+                            own ? "particles.species" : "particles",
+                            own ? particles->species[index].own : particles->own);
 }
 
 /// What a stage says that places the particles.

@@ -124,11 +124,25 @@ static void check_shares(scree_reader *reader, const scree_config_particles *par
     }
 }
 
+static void check_shape(scree_reader *reader, const scree_config *config, int64_t index)
+{
+    const scree_config_particles *particles = &config->particles;
+    const int slot = scree_config_species_at(particles, index).shape, common = particles->shape;
+    if (slot == SCREE_CHOICE_WRONG || common < 0 || !scree_modules[common]->shape) return; // noted
+    const scree_shape *shape = scree_modules[scree_config_shape(particles, index)]->shape;
+    const char *key;
+    if (shape->dimension != config->dimension && slot != common && slot != SCREE_CHOICE_AUTO)
+        refuse(reader, particles, index, "shape", shape->elsewhere, shape->only_here);
+    else if (shape->wrong && (shape->wrong)(scree_config_shape_keys(particles, index), &key))
+        refuse(reader, particles, index, key, NULL, shape->wrong(scree_config_shape_keys(particles, index), &key));
+}
+
 void scree_rules_check_particles(scree_reader *reader, const scree_config *config)
 {
     for (int64_t i = 0; i < scree_config_species_count(&config->particles); i++) {
         check_material(reader, config, i);
         check_sizes(reader, config, i);
+        check_shape(reader, config, i);
     }
     check_names(reader, &config->particles);
     check_shares(reader, &config->particles);

@@ -115,6 +115,8 @@ static void check_stage_order(scree_reader *reader, const scree_config *config)
             wrong = "the first stage must be prepare: it places the particles";
         else if (i > 0 && stage->places)
             wrong = "only the first stage can be prepare";
+        else if (i == 1 && method && method->empty && !stage->pours)
+            wrong = "there are no particles yet: the stage behind an empty preparation must be pour";
         else if (stage->needs_pressure && !confined && !stands_by_bonds(config, i, bonded))
             wrong = stage->needs_pressure;
         else if (i > 0 && stage->needs_approach && method && !method->approaching)
@@ -263,6 +265,7 @@ void scree_rules_check(scree_reader *reader, scree_config *config)
     check_windows(reader, config);
     scree_rules_check_boundaries(reader, config);
     scree_rules_check_walls(reader, config);
+    scree_rules_check_sources(reader, config);
     scree_rules_check_selections(reader, config);
     scree_rules_check_pair_laws(reader, config);
     scree_rules_check_modules(reader, config);

@@ -3,6 +3,7 @@
 /// Ranges are wide: they keep out slips of the unit and numbers that would overflow, not unusual physics.
 #include "case/schema.h"
 
+#include "case/schema_sources.h"
 #include "case/schema_walls.h"
 #include "module/key_rows.h"
 
@@ -33,6 +34,10 @@ static const scree_choice boundaries[] = {
      "that of the stage before, at first the `walls` of the case, or as `boundary.lateral` says"},
     {0},
 };
+static const scree_choice shapes[] = {
+    {"auto", SCREE_CHOICE_AUTO, "that of all particles, `particles.shape`"},
+    {0},
+};
 // ---- sections ----------------------------------------------------------------------------------------------------
 
 typedef scree_config_material material;
@@ -57,10 +62,11 @@ static const scree_key species_keys[] = {
            .meaning = "Share of all particles; those of all species add up to 100 %."),
     INTEGER(species, count, FROM("1"), TO("1e8"), .when = "particles.share_by=count",
             .meaning = "Number of particles; those of all species add up to particles.count."),
+    CHOICE(species, shape, shapes, .standard = "auto", .meaning = "Shape of these particles."),
     CHOICE(species, distribution, NULL, .standard = "uniform", .meaning = "Distribution of the radii."),
     MODULE_KEYS,
 };
-static const species unknown_species = {.share = NAN, .distribution = SCREE_CHOICE_WRONG};
+static const species unknown_species = {.share = NAN, .shape = SCREE_CHOICE_AUTO, .distribution = SCREE_CHOICE_WRONG};
 static const scree_section species_table[] = {
     OPEN_TABLE("species", "Particles of one kind.", species_keys, scree_config_species)};
 
@@ -79,13 +85,13 @@ static const scree_key particles_keys[] = {
            .meaning = "Distribution of the radii."),
     MODULE_KEYS,
     NUMBER(particles, thickness, "m", .standard = "auto", FROM("1 nm"), TO("1 km"), .chooser = "shape", .fits = is_flat,
-           .meaning = "Length of a disc along its axis; auto: twice the mean radius."),
+           .meaning = "Length of a disc along its axis, or of a prism; auto: twice the mean radius."),
     CHOICE(particles, share_by, share_kinds, .standard = "number", .when = "species=given",
            .meaning = "What the shares of the species are of."),
     KEY(particles, species, SCREE_KEY_LIST, .standard = "[]", FROM("0"), TO("16"), .sections = species_table,
         .section_count = 1, .count_offset = offsetof(particles, species_count), .element_size = sizeof(species),
         .initial = &unknown_species, .choices = listed,
-        .meaning = "Particles of several kinds, each with its own material and sizes, at random places among each "
+        .meaning = "Particles of several kinds, each with its own shape, material and sizes, at random places among each "
                    "other."),
 };
 
@@ -293,6 +299,10 @@ static const scree_key root_keys[] = {
         .section_count = SCREE_WALL_SECTIONS, .count_offset = offsetof(scree_config, wall_count),
         .element_size = sizeof(scree_config_wall),
         .meaning = "Rigid walls beside the plates, fixed or moving; for `relax`."),
+    KEY(scree_config, sources, SCREE_KEY_LIST, .standard = "[]", FROM("0"), TO("16"), .sections = scree_source_sections,
+        .section_count = SCREE_SOURCE_SECTIONS, .count_offset = offsetof(scree_config, source_count),
+        .element_size = sizeof(scree_config_source), .initial = &scree_source_before_reading,
+        .meaning = "Where particles come from while a stage pours."),
     KEY(scree_config, selections, SCREE_KEY_LIST, .standard = "[]", FROM("0"), TO("32"), .sections = selection_table,
         .section_count = 1, .count_offset = offsetof(scree_config, selection_count), .element_size = sizeof(selection),
         .meaning = "Particles under a name, for what acts on some of them; found when a stage begins that needs them."),

@@ -56,6 +56,7 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
         .moment = state->moment,
         .first = work->pairs.first,
         .second = work->pairs.second,
+        .hint = work->pairs.hint,
         .history = work->pairs.history,
         .last_force = work->pairs.last_force,
         .rolling = work->pairs.rolling,

@@ -2,7 +2,8 @@
 /// NAME_traits and always-inline functions:
 ///   lanes_bits NAME_touches(dimension, first, second)            the distance test
 ///   kinematics NAME_kinematics(dimension, first, second, step)   normal, overlap, levers, and the rates from them
-///   kinematics NAME_beside(body, normal, distance, step)         the same beside a wall, without rates
+///   kinematics NAME_beside(body, normal, distance, step)         the same beside a wall, without rates; the body moves
+///                                                                as it does in the frame of the wall
 ///   lanes NAME_reach(body)                                       from the centre towards a wall
 /// With a constant geometry the compiler keeps one branch. In lanes bodies have what their rows say; of one by one a
 /// geometry finds the rest by `state` and `row` of the bodies (fields of its shape's module, which ghosts follow).
@@ -12,6 +13,10 @@
 
 #include "contact/law.h"
 #include "contact/round.h"
+
+#if SCREE_LANES == 1
+#include "contact/outlines.h"
+#endif
 
 /// Kernels know those in lanes alone. A test may have one of its own behind all others, with code that it compiles
 /// itself.
@@ -36,6 +41,12 @@ static const scree_geometry_traits *const all_geometry_traits[GEOMETRIES] = {ALL
 SCREE_INLINE bool geometry_has_levers(variant v)
 {
     return all_geometry_traits[v.geometry]->levers;
+}
+
+/// Whether its kinematics alone tell who touches.
+SCREE_INLINE bool geometry_is_coarse(variant v)
+{
+    return all_geometry_traits[v.geometry]->coarse;
 }
 
 SCREE_INLINE bool geometry_is_one_by_one(variant v)

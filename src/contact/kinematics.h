@@ -49,7 +49,8 @@ typedef struct bodies {
     lanes radius, mass, material;
     const double *stretch;           ///< one body at a time: its row (state/state.h); NULL: it is rigid
     const struct scree_state *state; ///< one body at a time: where its geometry finds more of it,
-    size_t row;                      ///< in this row
+    size_t row;                      ///< in this row;
+    int8_t *hint;                    ///< what it may keep of a pair, to be faster, with no effect; NULL: nothing
 } bodies;
 
 /// Radius times strain of the bodies of a contact, their sum: xx, yy, xy in 2D; xx, yy, zz, yz, xz, xy in 3D.
@@ -75,6 +76,10 @@ typedef struct kinematics {
     vector moved_first, moved_second; ///< m, by which they have changed in the last step
     lanes reduced_radius;             ///< m, R_eff
     lanes reduced_mass;               ///< kg, m_eff
+    lanes area;                       ///< m2, that the bodies share, of geometries with `areas`; its gradient as the
+    lanes chord;                      ///< m,  first body moves along -n; lengths l of R 2.31, and the same of the radii
+    lanes length, rest_length;        ///< m,  of equal area;
+    lanes reduced_mass_along;         ///< kg, of the tangential motion at the point
     vector tilted;                    ///< rad, phi; zero against a plane
     lanes half;                       ///< 1, half of L / L(n - 1), of pairs in space
     vector turned;                    ///< rad, psi n, in space

@@ -6,6 +6,8 @@
 #include "contact/hertz_brilliantov.h"
 #include "contact/hertz_mindlin.h"
 #include "contact/linear.h"
+#include "contact/polygon_overlap.h"
+#include "contact/polygon_potential.h"
 
 #define LAW_TRAITS(law) [SCREE_SLOT_##law] = law##_traits,
 static const scree_law_traits *const all_law_traits[SCREE_MODULE_COUNT] = {SCREE_LAWS(LAW_TRAITS)};

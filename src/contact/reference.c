@@ -33,40 +33,61 @@ void contact_totals_add(contact_totals *into, const contact_totals *more)
         }
 }
 
-static void evaluate_pair(contact_job *job, size_t p)
+SCREE_INLINE void evaluate_pair(contact_job *job, variant v, size_t p)
 {
-    const int dimension = job->variant.dimension;
+    const int dimension = v.dimension;
     const size_t first = job->first[p], second = job->second[p];
     memory_rows rows = memory_rows_at(job->history, job->last_force, job->rolling, p);
     bodies one = contact_body_at(job, first), other = contact_body_at(job, second);
-    bool touching = law_holds(job->variant) || pair_touches(job->variant, &one, &other);
+    bool touching = law_holds(v) ||
+                    (geometry_is_coarse(v) ? geometry_touches(v, &one, &other) != 0 : pair_touches(v, &one, &other));
     if (!touching && memory_is_clear(&rows)) return;
-    kinematics m = geometry_kinematics(job->variant, &one, &other, job->settings.step);
-    const bool deforms = law_deforms(job->variant);
+    one.hint = job->hint ? &job->hint[p] : NULL;
+    kinematics m = geometry_kinematics(v, &one, &other, job->settings.step);
+    if (geometry_is_coarse(v) && !(touching = touching && expanded_touch(&m)) && memory_is_clear(&rows)) return;
+    const bool deforms = law_deforms(v);
     if (deforms) {
         const stretch both = stretch_get(dimension, one.stretch, other.stretch);
         kinematics_expand(dimension, &m, &both, job->settings.step);
     }
-    if (law_predicts(job->variant)) {
+    if (law_predicts(v)) {
         prediction ahead = prediction_get(dimension, &job->predicted[first]);
         prediction ahead_second = prediction_get(dimension, &job->predicted[second]);
         kinematics_predict(dimension, &m, &one, &ahead, &other, &ahead_second);
     }
     const scree_pair_constants *constants = &job->pairs[(int)one.material][(int)other.material];
-    const scree_member_row *own = law_holds(job->variant) ? &job->own[p] : NULL;
-    contact_quanta q = contact_advance(job, job->variant, constants, own, &m, touching, &rows);
+    const scree_member_row *own = law_holds(v) ? &job->own[p] : NULL;
+    contact_quanta q = contact_advance(job, v, constants, own, &m, touching, &rows);
     contact_add_to_sums(job, first, q.force, q.torque_first, q.count);
     contact_add_to_sums(job, second, quanta_opposite(q.force), q.torque_second, q.count);
-    contact_add_moments(job, deforms, first, contact_branch_of(job->variant, &m, true), q.straining);
-    contact_add_moments(job, deforms, second, contact_branch_of(job->variant, &m, false), q.straining);
+    contact_add_moments(job, deforms, first, contact_branch_of(v, &m, true), q.straining);
+    contact_add_moments(job, deforms, second, contact_branch_of(v, &m, false), q.straining);
 }
+
+SCREE_INLINE void evaluate_range(contact_job *job, variant v)
+{
+    const contact_range *range = &job->range;
+    for (size_t p = range->touching_begin; p < range->touching_end; p++) evaluate_pair(job, v, p);
+    for (size_t p = range->near_begin; p < range->near_end; p++) evaluate_pair(job, v, p);
+}
+
+/// The geometry of laws of areas.
+#define AREAS_OF(name) +(name##_traits.areas ? GEOMETRY_##name : 0)
+#define AREAS          (0 SCREE_GEOMETRIES_ONE_BY_ONE(AREAS_OF))
+
+/// Laws of areas have no kernels: this is their hot loop, with law and geometry as constants.
+#define PAIRS_OF_LAW(law_)                                                                                             \
+    if (law_##_traits[0].areas && v.law == SCREE_SLOT_##law_ && v.geometry == AREAS && v.ledger) {                     \
+        evaluate_range(job, (variant){2, SCREE_SLOT_##law_, 0, true, true, v.moments, AREAS});                         \
+        return;                                                                                                        \
+    }
 
 void contact_pairs_reference(contact_job *job)
 {
-    const contact_range *range = &job->range;
+    const variant v = job->variant;
     job->totals = contact_totals_none();
-    for (size_t p = range->touching_begin; p < range->touching_end; p++) evaluate_pair(job, p);
-    for (size_t p = range->near_begin; p < range->near_end; p++) evaluate_pair(job, p);
+    SCREE_LAWS(PAIRS_OF_LAW)
+    evaluate_range(job, v);
 }
 
 /// The bodies at a wall lie apart in memory.

@@ -118,8 +118,10 @@ static inline bool memory_is_clear(const memory_rows *rows)
 /// Two bodies, each with what its geometry reads of it.
 static inline bool pair_touches(variant v, const bodies *one, const bodies *other)
 {
-    if (!one->stretch) return geometry_touches(v, one, other) != 0;
+    if (!one->stretch && !geometry_is_coarse(v)) return geometry_touches(v, one, other) != 0;
+    if (!one->stretch && !geometry_touches(v, one, other)) return false;
     kinematics m = geometry_kinematics(v, one, other, 0);
+    if (!one->stretch) return expanded_touch(&m) != 0;
     const stretch both = stretch_get(v.dimension, one->stretch, other->stretch);
     kinematics_expand(v.dimension, &m, &both, 0);
     return expanded_touch(&m) != 0;
@@ -146,11 +148,13 @@ SCREE_INLINE kinematics kinematics_of_wall(variant v, const bodies *body, const 
     const int dimension = v.dimension;
     const double *slide = wall->tangential_velocity;
     vector normal = {wall->normal[0], wall->normal[1], wall->normal[2]};
-    kinematics m =
-        geometry_beside(v, body, wall->normal, vector_dot(dimension, normal, body->position) - wall->position, step);
     vector moving = {wall->velocity * normal.x + slide[0], wall->velocity * normal.y + slide[1],
                      wall->velocity * normal.z + slide[2]};
-    kinematics_past(v, &m, vector_minus(dimension, body->velocity, moving), body->spin, step);
+    bodies seen = *body;
+    seen.velocity = vector_minus(dimension, body->velocity, moving);
+    kinematics m =
+        geometry_beside(v, &seen, wall->normal, vector_dot(dimension, normal, body->position) - wall->position, step);
+    kinematics_past(v, &m, seen.velocity, body->spin, step);
     return m;
 }
 
@@ -169,7 +173,10 @@ SCREE_INLINE bool wall_touches(variant v, const bodies *body, const scree_wall *
     const vector normal = {wall->normal[0], wall->normal[1], wall->normal[2]};
     const double height = vector_dot(v.dimension, normal, body->position);
     const double reach = wall_reach(v.dimension, geometry_reach(v, body), wall->normal, body->stretch);
-    return wall->active && !(reach <= height - wall->position);
+    if (!wall->active || reach <= height - wall->position) return false;
+    if (!geometry_is_coarse(v)) return true;
+    const kinematics m = geometry_beside(v, body, wall->normal, height - wall->position, 0);
+    return expanded_touch(&m) != 0;
 }
 
 #endif

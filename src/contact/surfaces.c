@@ -137,9 +137,12 @@ kinematics kinematics_of_surface(const scree_wall_set *wall_set, size_t primitiv
 {
     const scree_surface *surface = contact_surface_of(wall_set, primitive);
     const int dimension = v.dimension;
-    kinematics m = geometry_beside(v, body, closest->normal, closest->distance, step);
     vector velocity = body->velocity, spin = body->spin;
     if (moving) see_from_wall(dimension, surface, body, step, &velocity, &spin);
+    bodies seen = *body;
+    seen.velocity = velocity;
+    seen.spin = spin;
+    kinematics m = geometry_beside(v, &seen, closest->normal, closest->distance, step);
     if (!scree_surface_is_flat(surface))
         m.tilted = tilt_of(wall_set, primitive, dimension, body, closest, velocity, step);
     kinematics_past(v, &m, velocity, spin, step);

@@ -1,7 +1,8 @@
 /// The one loop that all schemes are made of: v += h a, h in s, optionally x += dt v and, in 2D, angle += dt spin.
-/// Mass and inertia: m, m R^2 / 2 of a disc, 2 m R^2 / 5 of a sphere. Cost: one division and about 30 flops a body (50
-/// in 3D); streams one row and one sum, in 3D a row of spins and one of torques more. A kick before a drift is the last
-/// to read the sums: it leaves them clear for the forces at the new positions, while they are in the cache.
+/// Mass and inertia: m, m R^2 / 2 of a disc, 2 m R^2 / 5 of a sphere, R the turning radius of state/body.h. Cost: one
+/// division and about 30 flops a body (50 in 3D); streams one row and one sum, in 3D a row of spins and one of torques
+/// more. A kick before a drift is the last to read the sums: it leaves them clear for the forces at the new positions,
+/// while they are in the cache.
 #ifndef SCREE_INTEGRATE_KICK_H
 #define SCREE_INTEGRATE_KICK_H
 
@@ -30,6 +31,7 @@ typedef struct scree_kick_rows {
     scree_torque_row *torque;
     double *angle;
     scree_predicted *predicted;
+    const scree_form *form; ///< NULL: all are round
 } scree_kick_rows;
 
 #define KICK_INLINE static inline __attribute__((always_inline))
@@ -41,7 +43,8 @@ KICK_INLINE scree_predicted scree_kick_velocity(int dimension, const scree_kick_
     scree_row *row = &rows->row[i];
     const scree_sum_row *sum = &rows->sum[i];
     // One division for mass and inertia.
-    double square = row->radius * row->radius, inverse = 1.0 / (row->mass * square), inverse_mass = inverse * square;
+    const double radius = rows->form ? rows->form[i].turning : row->radius;
+    double square = radius * radius, inverse = 1.0 / (row->mass * square), inverse_mass = inverse * square;
     scree_predicted added = {.vx = (double)sum->fx * scale->force * inverse_mass + scale->gravity[0],
                              .vy = (double)sum->fy * scale->force * inverse_mass + scale->gravity[1],
                              .contacts = (double)sum->contacts};
@@ -105,11 +108,12 @@ typedef struct scree_kick_task {
 } scree_kick_task;
 
 /// Dimension and drift are constants here, and what is added is a copy, so that rows do not overlap it.
-KICK_INLINE scree_speeds scree_kick_loop(int dimension, bool drift, const scree_kick_task *task, size_t begin,
-                                         size_t end)
+KICK_INLINE scree_speeds scree_kick_loop(int dimension, bool drift, const scree_form *form, const scree_kick_task *task,
+                                         size_t begin, size_t end)
 {
     const scree_state *state = task->state;
-    const scree_kick_rows rows = {state->row, state->turn, state->sum, state->torque, state->angle, state->predicted};
+    const scree_kick_rows rows = {state->row,   state->turn,      state->sum, state->torque,
+                                  state->angle, state->predicted, form};
     const scree_kick_scale scale = task->scale;
     const double dt = state->step_size;
     double surface = 0, centre = 0;
@@ -128,18 +132,24 @@ KICK_INLINE scree_speeds scree_kick_loop(int dimension, bool drift, const scree_
     return (scree_speeds){.surface = surface, .centre = centre};
 }
 
+/// NULL is a constant in the loops of round bodies.
 static void scree_kick_share(void *argument, int index, int count)
 {
     scree_kick_task *task = argument;
-    size_t begin = task->state->count * (size_t)index / (size_t)count;
-    size_t end = task->state->count * (size_t)(index + 1) / (size_t)count;
-    const bool in_3d = task->state->dimension == 3;
-    if (task->drift)
-        task->speeds[index] =
-            in_3d ? scree_kick_loop(3, true, task, begin, end) : scree_kick_loop(2, true, task, begin, end);
+    const size_t begin = task->state->count * (size_t)index / (size_t)count;
+    const size_t end = task->state->count * (size_t)(index + 1) / (size_t)count;
+    const scree_form *form = task->state->form;
+    scree_speeds speeds;
+    if (task->state->dimension == 3)
+        speeds = task->drift ? scree_kick_loop(3, true, NULL, task, begin, end)
+                             : scree_kick_loop(3, false, NULL, task, begin, end);
+    else if (form)
+        speeds = task->drift ? scree_kick_loop(2, true, form, task, begin, end)
+                             : scree_kick_loop(2, false, form, task, begin, end);
     else
-        task->speeds[index] =
-            in_3d ? scree_kick_loop(3, false, task, begin, end) : scree_kick_loop(2, false, task, begin, end);
+        speeds = task->drift ? scree_kick_loop(2, true, NULL, task, begin, end)
+                             : scree_kick_loop(2, false, NULL, task, begin, end);
+    if (task->drift) task->speeds[index] = speeds;
 }
 
 static inline scree_speeds scree_kick(const scree_model *model, scree_state *state, scree_work *work, double h,

@@ -152,35 +152,40 @@ static const body_result body_results[] = {
 };
 enum { BODY_RESULT_COUNT = sizeof body_results / sizeof *body_results };
 
-/// The index-th field of this dimension with snapshot = true, NULL when there are fewer.
-static const scree_field *snapshot_field(int dimension, size_t index)
+/// Whether the field is one of snapshots, and is there.
+static bool is_in_snapshot(const scree_state *state, const scree_field *field)
 {
-    for (size_t k = 0; k < scree_field_total(); k++) {
-        const scree_field *field = scree_field_at(k);
-        if (field->rows == SCREE_ROWS_BODIES && field->snapshot && scree_field_exists(field, dimension) && index-- == 0)
-            return field;
-    }
+    if (field->rows != SCREE_ROWS_BODIES || !field->snapshot || !scree_field_exists(field, state->dimension))
+        return false;
+    return !field->optional || scree_field_rows_count(state, field) > 0;
+}
+
+/// The index-th field of bodies in snapshots, NULL when there are fewer.
+static const scree_field *snapshot_field(const scree_state *state, size_t index)
+{
+    for (size_t k = 0; k < scree_field_total(); k++)
+        if (is_in_snapshot(state, scree_field_at(k)) && index-- == 0) return scree_field_at(k);
     return NULL;
 }
 
-static size_t snapshot_field_count(int dimension)
+static size_t snapshot_field_count(const scree_state *state)
 {
     size_t count = 0;
-    while (snapshot_field(dimension, count)) count++;
+    while (snapshot_field(state, count)) count++;
     return count;
 }
 
 size_t scree_body_array_count(const scree_state *state)
 {
-    return snapshot_field_count(state->dimension) + BODY_RESULT_COUNT;
+    return snapshot_field_count(state) + BODY_RESULT_COUNT;
 }
 
 scree_status scree_body_array(const scree_model *model, const scree_state *state, size_t index, scree_array *array,
                               scree_error *error)
 {
-    const scree_field *field = snapshot_field(state->dimension, index);
+    const scree_field *field = snapshot_field(state, index);
     if (field) return scree_array_from_field(state, field, true, array, error);
-    const body_result *result = &body_results[index - snapshot_field_count(state->dimension)];
+    const body_result *result = &body_results[index - snapshot_field_count(state)];
     *array = (scree_array){.name = result->name,
                            .type = SCREE_FIELD_DOUBLE,
                            .rows = state->count,

@@ -12,6 +12,7 @@
 #define SCREE_FILE_PLACES     "receiver-places.csv"
 #define SCREE_FILE_ARRIVALS   "arrivals.csv"
 #define SCREE_FILE_DISPERSION "dispersion.csv"
+#define SCREE_FILE_OUTLINE    "outline.csv"
 #define SCREE_FILE_FEM_STRAIN "fem-strain.csv"
 #define SCREE_FILE_FEM_FORCE  "fem-force.csv"
 #define SCREE_FILE_FEM_AXIS   "fem-axis.csv"

@@ -48,6 +48,7 @@ static void write_members(scree_hdf5 *part, const char *group, const scree_state
         const scree_field *field = scree_field_at(k);
         bool member = field->rows != SCREE_ROWS_BODIES && field->snapshot;
         if (!member || !scree_field_exists(field, state->dimension)) continue;
+        if (field->optional && scree_field_rows_count(state, field) == 0) continue;
         scree_array array;
         part->status = scree_array_from_field(state, field, true, &array, part->error);
         scree_hdf5_write(part, group, &array);
@@ -197,6 +198,15 @@ static void read_spin_magnitudes(scree_hdf5 *run, const char *group, scree_snaps
     scree_release(&spin);
 }
 
+/// Times of birth, where there are some.
+static void read_births(scree_hdf5 *run, const char *group, scree_snapshot *snapshot)
+{
+    char name[80];
+    (void)snprintf(name, sizeof name, "%s/birth", group);
+    if (run->status || H5Lexists(run->file, name, H5P_DEFAULT) <= 0) return;
+    snapshot->birth = read_column(run, group, "birth", SCREE_FIELD_DOUBLE, 1, &snapshot->count);
+}
+
 static void read_bodies(scree_hdf5 *run, const char *group, scree_snapshot *snapshot)
 {
     size_t *rows = &snapshot->count;
@@ -279,6 +289,21 @@ static void read_sheet(scree_hdf5 *run, const char *group, scree_snapshot *snaps
     if (run->status) snapshot->triangle_count = 0;
 }
 
+/// Outlines of polygons, where there are some.
+static void read_polygons(scree_hdf5 *run, const char *group, scree_snapshot *snapshot)
+{
+    char name[80];
+    (void)snprintf(name, sizeof name, "%s/corner_count", group);
+    if (run->status || H5Lexists(run->file, name, H5P_DEFAULT) <= 0) return;
+    snapshot->first_corner = read_column(run, group, "first_corner", SCREE_FIELD_UINT32, 1, &snapshot->count);
+    snapshot->corner_count = read_column(run, group, "corner_count", SCREE_FIELD_UINT32, 1, &snapshot->count);
+    snapshot->corners = SIZE_MAX;
+    snapshot->corner = read_column(run, group, "polygons/corner", SCREE_FIELD_DOUBLE, 2, &snapshot->corners);
+    for (size_t k = 0; k < snapshot->count && !run->status; k++)
+        if ((size_t)snapshot->first_corner[k] + snapshot->corner_count[k] > snapshot->corners)
+            scree_hdf5_damaged(run, "a body has corners that are not there");
+}
+
 /// Turns ids into places in the snapshot; the number of those that name no body.
 static size_t find_places(const scree_snapshot *snapshot, uint32_t *ids, size_t count)
 {
@@ -330,6 +355,7 @@ scree_status scree_snapshot_read(const char *directory, size_t which, scree_snap
     scree_hdf5_get_number(&run, group, "axial_strain", &snapshot->axial_strain);
     scree_hdf5_get_text(&run, group, "stage", snapshot->stage, sizeof snapshot->stage);
     read_bodies(&run, group, snapshot);
+    read_births(&run, group, snapshot);
     read_contacts(&run, group, snapshot);
     if (snapshot->dimension == 2) {
         snapshot->loop_count = SIZE_MAX;
@@ -338,6 +364,7 @@ scree_status scree_snapshot_read(const char *directory, size_t which, scree_snap
     read_members(&run, group, snapshot);
     read_wall_triangles(&run, group, snapshot);
     read_sheet(&run, group, snapshot);
+    read_polygons(&run, group, snapshot);
     resolve_ids(&run, snapshot);
     status = scree_hdf5_close(&run);
     if (status) scree_snapshot_destroy(snapshot);
@@ -354,7 +381,8 @@ void scree_snapshot_destroy(scree_snapshot *snapshot)
                             &snapshot->contact_x, &snapshot->contact_y,    &snapshot->z,
                             &snapshot->vz,        &snapshot->contact_z,    &snapshot->wall_triangle,
                             &snapshot->wall_line, &snapshot->branch_x,     &snapshot->branch_y,
-                            &snapshot->branch_z};
+                            &snapshot->branch_z,  &snapshot->first_corner, &snapshot->corner_count,
+                            &snapshot->corner,    &snapshot->birth};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) scree_release(arrays[k]);
     *snapshot = (scree_snapshot){0};
 }

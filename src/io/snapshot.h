@@ -106,6 +106,10 @@ typedef struct scree_snapshot {
     uint8_t *mark;                                   ///< scree_mark
     double *x, *y, *radius, *angle, *vx, *vy, *spin; ///< in 3D no angle (NULL), and spin is the magnitude
     double *z, *vz;                                  ///< 3D only, else NULL
+    uint32_t *first_corner, *corner_count;           ///< of polygons, 0 of a disc; NULL: all are round
+    double (*corner)[2];                             ///< m, in the frames of their bodies
+    size_t corners;                                  ///< so many
+    double *birth;                                   ///< s; NULL: no body was born in the run
     size_t contact_count;
     uint32_t *first, *second;                ///< places in these arrays; second >= SCREE_PRIMITIVE_ID is a wall
     double *normal_force, *tangential_force; ///< N

@@ -175,6 +175,14 @@ static scree_status make_room(scree_state *state, const scree_field *field, size
     return field->rows == SCREE_ROWS_CONTACTS ? make_contact_room(state, field, rows, error) : SCREE_OK;
 }
 
+/// A snapshot has no optional field that the run did not have.
+static bool is_left_out(const scree_hdf5 *file, const char *group, const scree_field *field)
+{
+    char name[160];
+    (void)snprintf(name, sizeof name, "%s/%s", group, field->name);
+    return field->optional && field->snapshot && H5Lexists(file->file, name, H5P_DEFAULT) <= 0;
+}
+
 static void read_field(scree_hdf5 *file, const char *group, const scree_field *field, scree_state *state)
 {
     scree_array array = scree_array_of_field(state, field);
@@ -211,7 +219,9 @@ void scree_state_read(scree_hdf5 *file, const char *group, const char *shared, i
     scree_hdf5_get_number(file, group, "stage_processor_time", &spent.processor);
     for (size_t k = 0; k < scree_field_total() && !file->status; k++) {
         const scree_field *field = stored_field(state, k);
-        if (field) read_field(file, shared && field->snapshot ? shared : group, field, state);
+        if (!field) continue;
+        const char *from = shared && field->snapshot ? shared : group;
+        if (from == group || !is_left_out(file, from, field)) read_field(file, from, field, state);
     }
     find_rows(file, state);
     state->spent = spent;

@@ -88,6 +88,8 @@ static scree_status check_body(const scree_simulation *s, const scree_body_value
         return refuse_body(error, id, "its spin is not finite");
     if (values->radius && !(values->radius[k] > 0 && values->radius[k] <= scree_model_largest_radius(&s->model)))
         return refuse_body(error, id, "its radius is not positive, or above the largest one of the case");
+    if (values->radius && s->state.form)
+        return refuse_body(error, id, "its size is that of its outline: bodies that are not round keep it");
     return SCREE_OK;
 }
 

@@ -94,7 +94,8 @@ static double inertial_power(const scree_model *model, const scree_state *state,
     const scree_row *row = &state->row[index];
     const scree_sum_row *sum = &state->sum[index];
     const double *gravity = model->gravity, quantum = state->force_quantum;
-    double square = row->radius * row->radius, inverse = 1 / (row->mass * square);
+    const double radius = scree_body_turning_radius(state, index);
+    double square = radius * radius, inverse = 1 / (row->mass * square);
     double fx = (double)sum->fx * quantum + row->mass * gravity[0];
     double fy = (double)sum->fy * quantum + row->mass * gravity[1];
     if (state->dimension == 2) {

@@ -83,9 +83,7 @@ static double solid_of_all(const scree_state *state)
     while (scree_comm_sum_next(state, &solid, 1))
         for (size_t row = 0; row < state->count; row++) {
             if (!scree_body_is_grain(state, row)) continue;
-            double square = state->row[row].radius * state->row[row].radius;
-            scree_integer_sum_add(&solid,
-                                  M_PI * square * (state->dimension == 2 ? 1 : 4.0 / 3 * state->row[row].radius));
+            scree_integer_sum_add(&solid, scree_body_volume(state, row));
         }
     return scree_integer_sum_total(&solid);
 }
@@ -103,7 +101,7 @@ static scree_status solid_in_hull(const scree_state *state, double *solid, scree
         *solid = solid_of_all(state);
         for (size_t k = 0; k < hull->node_count; k++) {
             double inside = angle[k] - 4 * M_PI * floor(angle[k] / (4 * M_PI));
-            *solid -= (4 * M_PI - inside) / 3 * pow(state->row[state->row_of_id[hull->id[k]]].radius, 3);
+            *solid -= (4 * M_PI - inside) / 3 * pow(scree_body_equivalent_radius(state, state->row_of_id[hull->id[k]]), 3);
         }
     }
     scree_release(&inward);
@@ -116,7 +114,7 @@ static double solid_in_loop(const scree_state *state)
 {
     double solid = solid_of_all(state);
     for (size_t k = 0; k < scree_loop_of(state)->count; k++) {
-        double radius = state->row[state->row_of_id[scree_loop_of(state)->id[k]]].radius;
+        double radius = scree_body_equivalent_radius(state, state->row_of_id[scree_loop_of(state)->id[k]]);
         solid -= (M_PI - interior_angle(state, k) / 2) * radius * radius;
     }
     return solid;

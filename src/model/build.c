@@ -309,14 +309,14 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
     return SCREE_OK;
 }
 
-/// Geometry of the contacts of two shapes: its number among the geometries, in their order.
-static int geometry_of(const scree_shape *one, const scree_shape *other)
+/// Geometry of the contacts of two shapes, under laws of areas or not: its number among the geometries, in their order.
+static int geometry_of(const scree_shape *one, const scree_shape *other, bool areas)
 {
     int number = 0, found = -1;
     for (int m = 0; m < SCREE_MODULE_COUNT; m++) {
         const scree_geometry *geometry = scree_modules[m]->geometry;
         if (!geometry) continue;
-        if (found < 0 && geometry->serves(one, other)) found = number;
+        if (found < 0 && geometry->traits->areas == areas && geometry->serves(one, other)) found = number;
         number++;
     }
     return found;
@@ -324,11 +324,25 @@ static int geometry_of(const scree_shape *one, const scree_shape *other)
 
 static scree_status resolve_geometry(scree_model *model, scree_error *error)
 {
-    const scree_shape *shape = scree_model_shape(model);
-    model->geometry = geometry_of(shape, shape);
-    return model->geometry >= 0
-               ? SCREE_OK
-               : FIELD_ERROR(error, "particles.shape", "there is no geometry for contacts of such particles");
+    const bool areas = scree_model_traits(model)->areas;
+    const scree_config_particles *particles = &model->config->particles;
+    for (int k = 1; k < scree_model_law_count(model); k++)
+        if (scree_law_use_traits(&model->laws[k])->areas != areas)
+            return FIELD_ERROR(error, "contact.pairs", "laws of areas and others do not go together in one case");
+    model->geometry = 0;
+    for (int64_t s = 0; s < scree_config_species_count(particles) && model->geometry >= 0; s++)
+        for (int64_t t = 0; t <= s && model->geometry >= 0; t++)
+            model->geometry = geometry_of(scree_modules[scree_config_shape(particles, s)]->shape,
+                                          scree_modules[scree_config_shape(particles, t)]->shape, areas);
+    if (model->geometry >= 0) return SCREE_OK;
+    char others[256] = "";
+    for (int m = 0, length = 0; m < SCREE_MODULE_COUNT; m++)
+        if (scree_modules[m]->law && scree_modules[m]->law->traits[0].areas != areas)
+            length += snprintf(others + length, sizeof others - (size_t)length, "%s%s", length > 0 ? ", " : "",
+                               scree_modules[m]->name);
+    return FIELD_ERROR(error, "contact.law",
+                       "law %s has no meaning for particles of these shapes; those that may are: %s",
+                       scree_modules[model->laws[0].law]->name, others);
 }
 
 static scree_status resolve_law(scree_model *model, scree_error *error)
@@ -430,6 +444,8 @@ scree_status scree_model_build(const scree_config *config, scree_model *model, s
         .wall_count = config->wall_count,
         .loads = config->loads,
         .load_count = config->load_count,
+        .sources = config->sources,
+        .source_count = config->source_count,
         .selections = config->selections,
         .selection_count = config->selection_count,
         .stages = config->stages,

@@ -37,8 +37,8 @@
 /// Loads: the largest confining pressure; gravity as the weight of a column of the whole sample; velocities of a gas
 /// and falls through its box as the force of an elastic impact of two smallest discs at six times the root-mean-square
 /// velocity component; listed bodies as that of an impact at their largest relative velocity, with the fall from the
-/// highest. None of them counts above the force at the overlap where the guard would stop the run; a case without
-/// any load gets that force.
+/// highest; what is poured as that of an impact at the speed of its fall (pour_speed). None of them counts above the
+/// force at the overlap where the guard would stop the run; a case without any load gets that force.
 ///
 /// Several materials: the least over all pairs of them. Contacts of two materials stand between the smallest bodies of
 /// each, and all bodies of the lattice have the smaller of the two masses: lighter than they are, so that the step is
@@ -152,6 +152,25 @@ static double wall_speed(const scree_model *model)
     return fastest;
 }
 
+/// Speed [m/s] at which grains that are poured meet the pile: those of a source that stays above its top fall by that
+/// distance, others from their place to the origin, where the box of the preparation begins.
+static double pour_speed(const scree_model *model)
+{
+    double fastest = 0, gravity = scree_model_gravity(model);
+    const int up = model->dimension - 1;
+    for (int64_t k = 0; k < model->config->source_count; k++) {
+        const scree_config_source *source = &model->config->sources[k];
+        scree_source_place place;
+        scree_modules[source->kind]->source->place(source->own, &place);
+        double height = place.origin[up];
+        for (int e = 0; e < place.edges; e++) height += fmax(0, place.edge[e][up]);
+        if (!isnan(source->above)) height = source->above + 2 * model->radius_max;
+        double speed = scree_length(source->velocity) + scree_length(source->spread);
+        fastest = fmax(fastest, hypot(speed, sqrt(2 * gravity * fmax(0, height))));
+    }
+    return fastest;
+}
+
 /// Smallest body that there may be of a material. Of those that are not listed as a species' own, any may be.
 static double least_radius(const scree_model *model, int material)
 {
@@ -182,8 +201,8 @@ static double estimate_of(const scree_model *model, int one, int other)
     if (method && method->impact_speed)
         force = fmax(force, elastic->impact_force(pair, effective_radius, effective_mass,
                                                   method->impact_speed(model, stage, fall)));
-    if (wall_speed(model) > 0)
-        force = fmax(force, elastic->impact_force(pair, effective_radius, effective_mass, wall_speed(model)));
+    const double striking = fmax(wall_speed(model), pour_speed(model));
+    if (striking > 0) force = fmax(force, elastic->impact_force(pair, effective_radius, effective_mass, striking));
     double guard = elastic->force(pair, effective_radius, model->config->guard.overlap * fmin(a, b));
     if (!(force > 0 && force < guard)) force = guard;
 

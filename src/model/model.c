@@ -33,7 +33,7 @@ double scree_model_stiffness(const scree_model *model, double pressure, double d
 
 double scree_model_largest_radius(const scree_model *model)
 {
-    return fmax(model->radius_max, model->added_radius);
+    return fmax(fmax(model->radius_max, model->bounding_max), model->added_radius);
 }
 
 void *scree_model_reserve_numbers(scree_model *model, int slot)

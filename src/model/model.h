@@ -18,6 +18,8 @@ typedef struct scree_species {
     int material;                                ///< number of what they are made of
     const scree_size_distribution *distribution; ///< of their radii
     const void *sizes;                           ///< its keys, in the config
+    const scree_shape *shape;
+    const void *outline; ///< its keys, in the config
     scree_size_moments radius;
     double fraction; ///< of the number of all particles
     uint64_t end;    ///< this and all species before it are as many of the particles of a case
@@ -45,7 +47,7 @@ typedef struct scree_servo_limits {
 
 struct scree_model {
     const char *name;         ///< of the case
-    const scree_shape *shape; ///< of the particles; NULL: of no case, and round
+    const scree_shape *shape; ///< of the first species; NULL: of no case, and round
     int geometry;             ///< number of the geometry of their contacts (contact/geometry.h)
     uint64_t seed;
     uint64_t count;    ///< particles of the case
@@ -68,6 +70,7 @@ struct scree_model {
     double mean_radius;            ///< m, of all particles, by number
     double mean_square, mean_cube; ///< m2, m3, of R^2 and R^3
     double radius_min, radius_max; ///< m
+    double bounding_max;           ///< m, largest bounding radius
     double phi, psi; ///< quasistatic and size coefficients (P 2.13, 2.14, B1), NAN without a loading stage
     int listed[SCREE_MAX_MATERIALS]; ///< where each material stands in the list of the case
     int material_count; ///< in use; they are numbered from 0, and what no body is made of has no part in anything
@@ -98,6 +101,8 @@ struct scree_model {
     // ---- lists of the case; what an element says beside is for the module of its kind ----
     const scree_config_wall *walls_of_case;
     int64_t wall_count;
+    const scree_config_source *sources;
+    int64_t source_count;
     const scree_config_selection *selections;
     int64_t selection_count;
     const scree_config_load *loads;
@@ -184,10 +189,10 @@ static inline bool scree_model_predicts(const scree_model *model)
 /// Normal stiffness [N/m] of a contact of two mean particles under the force pressure x diameter x depth.
 double scree_model_stiffness(const scree_model *model, double pressure, double diameter, double depth);
 
-/// Largest radius of all bodies [m], those of a membrane included.
+/// Largest bounding radius of all bodies [m], those of a membrane included.
 double scree_model_largest_radius(const scree_model *model);
 
-/// Mass [kg] of a round body: a sphere, or a disc of the model's thickness.
+/// Mass [kg] of a body of this equivalent radius: a sphere, or a disc or prism of the model's thickness.
 static inline double scree_model_mass(const scree_model *model, int material, double radius)
 {
     double length = model->dimension == 3 ? 4.0 / 3.0 * radius : model->thickness;
@@ -232,6 +237,11 @@ double scree_model_filling_radius(const scree_model *model);
 /// is drawn and in which order (model/species.c).
 int scree_model_drawn_species(const scree_model *model, uint64_t number);
 double scree_model_drawn_radius(const scree_model *model, uint64_t number);
+/// Bounding radius [m] of it: that of a round body is its radius.
+double scree_model_drawn_bound(const scree_model *model, uint64_t number);
+/// The same of body `number` as one of this species.
+double scree_model_radius_of_species(const scree_model *model, int species, uint64_t number);
+double scree_model_bound_of_species(const scree_model *model, int species, uint64_t number);
 
 /// Moments, fractions and numbers of the species, once the materials are numbered. Errors: sizes that are not.
 scree_status scree_model_resolve_species(scree_model *model, scree_error *error) SCREE_MUST_USE;

@@ -82,6 +82,8 @@ scree_status scree_model_resolve_species(scree_model *model, scree_error *error)
         *species = (scree_species){.material = scree_model_material(model, said.material),
                                    .distribution = scree_modules[said.distribution]->sizes,
                                    .sizes = scree_config_sizes(particles, s),
+                                   .shape = scree_modules[scree_config_shape(particles, s)]->shape,
+                                   .outline = scree_config_shape_keys(particles, s),
                                    .name = said.name};
         if (species->distribution->wrong(species->sizes, &problem)) return refuse_sizes(model, s, &problem, error);
         species->radius = species->distribution->moments(species->sizes, model->dimension);
@@ -90,11 +92,15 @@ scree_status scree_model_resolve_species(scree_model *model, scree_error *error)
     const scree_species *first = &model->species[0];
     model->radius_min = first->radius.least;
     model->radius_max = first->radius.most;
+    model->bounding_max = 0;
     model->mean_radius = model->mean_square = model->mean_cube = 0;
     for (int s = 0; s < model->species_count; s++) {
         const scree_species *species = &model->species[s];
         model->radius_min = fmin(model->radius_min, species->radius.least);
         model->radius_max = fmax(model->radius_max, species->radius.most);
+        const bool round = !species->shape || species->shape->round;
+        const double reach = round ? 1 : species->shape->largest_reach(species->outline);
+        model->bounding_max = fmax(model->bounding_max, reach * species->radius.most);
         model->mean_radius += species->fraction * species->radius.mean;
         model->mean_square += species->fraction * species->radius.square;
         model->mean_cube += species->fraction * species->radius.cube;
@@ -251,9 +257,27 @@ int scree_model_drawn_species(const scree_model *model, uint64_t number)
     return species;
 }
 
+double scree_model_radius_of_species(const scree_model *model, int species, uint64_t number)
+{
+    const scree_species *drawn = &model->species[species];
+    double uniform = scree_random_uniform((uint64_t)model->config->seed, SCREE_RANDOM_RADIUS, number);
+    return drawn->distribution->radius(drawn->sizes, model->dimension, uniform);
+}
+
 double scree_model_drawn_radius(const scree_model *model, uint64_t number)
 {
-    const scree_species *species = &model->species[scree_model_drawn_species(model, number)];
-    double uniform = scree_random_uniform((uint64_t)model->config->seed, SCREE_RANDOM_RADIUS, number);
-    return species->distribution->radius(species->sizes, model->dimension, uniform);
+    return scree_model_radius_of_species(model, scree_model_drawn_species(model, number), number);
+}
+
+double scree_model_bound_of_species(const scree_model *model, int species, uint64_t number)
+{
+    const scree_species *drawn = &model->species[species];
+    const double radius = scree_model_radius_of_species(model, species, number);
+    if (!drawn->shape || drawn->shape->round) return radius;
+    return radius * drawn->shape->reach(drawn->outline, model->seed, number);
+}
+
+double scree_model_drawn_bound(const scree_model *model, uint64_t number)
+{
+    return scree_model_bound_of_species(model, scree_model_drawn_species(model, number), number);
 }

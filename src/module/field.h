@@ -94,7 +94,7 @@ typedef struct scree_field {
     scree_field_ghosts ghosts; ///< of bodies; if not NONE, the array has rows of ghosts behind those of the bodies
     bool optional; ///< of contacts: there where they follow several laws; of bodies: there is no array, and no part of
                    ///< messages, until scree_state_begin_field asks for it, in `begin` of the module; without it every
-                   ///< run has the array, used or not
+                   ///< run has the array, used or not; of groups: not in snapshots while it has no rows
     const scree_module *law; ///< of what contacts remember: there where they follow this law; NULL: always
     unsigned options;        ///< and one of these of its options, a bit each; 0: any
     bool in_checksum;        ///< of what contacts remember: enters the state checksum

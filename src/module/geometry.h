@@ -8,11 +8,13 @@
 /// What the rest of the program must know of it; constants in the kernels.
 typedef struct scree_geometry_traits {
     bool levers; ///< forces act at a point anywhere, along the normal too; else on the normal through both centres
+    bool coarse; ///< `touches` may say yes of bodies that do not: kinematics tell, by an overlap above zero
+    bool areas;  ///< kinematics have what laws of areas read: area, chord, length, rest_length, reduced_mass_along
 } scree_geometry_traits;
 
 typedef struct scree_geometry {
     const scree_geometry_traits *traits;
-    /// Whether contacts of these two shapes are of it, in either order.
+    /// Whether contacts of these two shapes may be of it, in either order; those that the law cannot use are passed by.
     bool (*serves)(const scree_shape *one, const scree_shape *other);
 } scree_geometry;
 

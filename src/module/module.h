@@ -50,6 +50,7 @@ struct scree_module {
     const struct scree_stage *stage;              ///< run/stage.h
     const struct scree_boundary *boundary;        ///< module/boundary.h
     const struct scree_selection_kind *selection; ///< selection/selection.h
+    const struct scree_source_kind *source;       ///< module/source.h
 
     // ---- state: what it remembers ----
     size_t state_size;         ///< bytes of its struct in the store of the state, zero at first; 0: none
@@ -63,6 +64,10 @@ struct scree_module {
     const char *(*keeps)(const scree_state *state, uint32_t id);
     /// A body is about to be taken out: what refers to it by its id ends. Its row is still there. NULL: nothing does.
     void (*forget)(scree_state *state, uint32_t id);
+
+    /// Renews what it derives from places and angles for contacts: when a neighbour list is made. In a step its pass
+    /// does so. NULL: nothing.
+    void (*derive)(scree_state *state);
 
     /// A stage begins that takes steps (not: is taken up again), and its boundary stands. An error of the user's input
     /// has its field. NULL: nothing to do.

@@ -17,6 +17,7 @@ typedef struct scree_preparation {
     bool binary;           ///< the particles can only collide
     bool approaching;      ///< the particles may be about to collide
     int lattice;           ///< scree_lattice + 1 (theory/lattice.h) that it makes; 0: none
+    bool empty;            ///< places nothing: all particles come later
     bool turned;           ///< its horizontal axes are diagonals of the cubic cell
     int only_dimension;    ///< exists in this dimension alone; 0: in both
     const char *elsewhere; ///< method that takes its place in the other dimension
@@ -32,6 +33,9 @@ typedef struct scree_preparation {
     double (*solid_fraction)(const scree_model *model, const struct scree_config_stage *stage);
     /// Speed [m/s] of strong impacts, with `fall` what a fall through the sample brings. NULL: none are expected.
     double (*impact_speed)(const scree_model *model, const struct scree_config_stage *stage, double fall);
+
+    /// Particles that it places. NULL: all of the case.
+    size_t (*count)(const scree_model *model, const struct scree_config_stage *stage);
 
     // ---- what it does ----
     /// Places the bodies of `packing` (radii drawn; width and depth of its box given, or NAN for auto) and sets the

@@ -5,6 +5,8 @@
 
 #include "module/module.h"
 
+#include <stdint.h>
+
 typedef struct scree_shape {
     int dimension;         ///< of the space that such bodies are in
     const char *elsewhere; ///< shape that takes its place in the other dimension,
@@ -13,6 +15,16 @@ typedef struct scree_shape {
     /// Area [m2] of bodies in two dimensions from their <R^2>, volume [m3] in three from <R^3>, R the equivalent
     /// radius.
     double (*volume)(double power);
+    // ---- of a shape that is not round; keys: its struct of the section of the particles ----
+    /// What is wrong with the keys, and in `key` under which; NULL: nothing.
+    const char *(*wrong)(const void *keys, const char **key);
+    /// Bounding radius over equivalent radius: no body has more; that of body `number` as drawn.
+    double (*largest_reach)(const void *keys);
+    double (*reach)(const void *keys, uint64_t seed, uint64_t number);
+    /// Gives the body in `row` the outline of body `number` as drawn, within the radius that its row has, with mass,
+    /// inertia and sizes that follow. Errors: memory.
+    scree_status (*dress)(const scree_model *model, const void *keys, uint64_t number, scree_state *state, size_t row,
+                          scree_error *error);
 } scree_shape;
 
 #endif

@@ -14,6 +14,7 @@ typedef struct scree_stage_numbers {
     bool bonds;    ///< makes bonds
     bool held;     ///< something holds the sample, which has the keys boundary and friction
     bool settles;  ///< waits until the sample is at rest under the pressure
+    bool pours;    ///< sources let grains go
     bool collides; ///< nothing holds or drives the bodies, which meet and part
     const char *needs_pressure; ///< what is wrong where no stage before settles; NULL: it needs none
     const char *needs_approach; ///< what is wrong where the particles cannot be about to collide; NULL: they need not

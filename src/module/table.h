@@ -7,7 +7,7 @@
 
 #define SCREE_STATE_MODULES(row)                                                                                       \
     row(gravity) row(plates) row(case_walls) row(periodic_cell) row(delaunay_boundary) row(pressure) row(own_force)    \
-        row(imposed_gradient) row(selections) row(persistent) row(bonds) row(deformation)
+        row(imposed_gradient) row(selections) row(persistent) row(bonds) row(deformation) row(births)
 
 /// Boundaries, in the order in which the case reference lists them; then those that no key chooses.
 #define SCREE_BOUNDARY_MODULES(row)                                                                                    \
@@ -18,16 +18,18 @@
 #define SCREE_STAGE_STATE_MODULES(row) row(forced_spin) row(loading)
 
 /// Contact laws, each with its header in contact/laws.h.
-#define SCREE_LAWS(row) row(hertz_brilliantov) row(hertz_mindlin) row(linear)
+#define SCREE_LAWS_OF_OVERLAPS(row) row(hertz_brilliantov) row(hertz_mindlin) row(linear)
+#define SCREE_LAWS_OF_AREAS(row)    row(polygon_overlap) row(polygon_potential)
+#define SCREE_LAWS(row)             SCREE_LAWS_OF_OVERLAPS(row) SCREE_LAWS_OF_AREAS(row)
 
 /// Geometries of contacts, each with its header in contact/geometry.h, which numbers them in this order: those that are
 /// evaluated in lanes, and those of which pairs are evaluated one at a time.
-#define SCREE_GEOMETRIES_IN_LANES(row) row(round)
-#define SCREE_GEOMETRIES_ONE_BY_ONE(row)
-#define SCREE_GEOMETRIES(row) SCREE_GEOMETRIES_IN_LANES(row) SCREE_GEOMETRIES_ONE_BY_ONE(row)
+#define SCREE_GEOMETRIES_IN_LANES(row)   row(round)
+#define SCREE_GEOMETRIES_ONE_BY_ONE(row) row(outlines)
+#define SCREE_GEOMETRIES(row)            SCREE_GEOMETRIES_IN_LANES(row) SCREE_GEOMETRIES_ONE_BY_ONE(row)
 
 /// Shapes of particles, in the order in which the case reference lists them.
-#define SCREE_SHAPES(row) row(disc) row(sphere)
+#define SCREE_SHAPES(row) row(disc) row(sphere) row(polygon)
 
 /// Kinds of selections, in the order in which the case reference lists them.
 #define SCREE_SELECTION_MODULES(row)                                                                                   \
@@ -40,14 +42,15 @@
     SCREE_LAWS(row)                                                                                                    \
     row(position_verlet) row(velocity_verlet) row(two_timescales) row(drop_and_roll) row(hexagonal) row(square)        \
         row(face_centred) row(body_centred) row(cubic) row(gas) row(growth) row(dense) row(pair) row(bodies)           \
-            row(prepare) row(confine) row(compress) row(deform) row(rotate_particle) row(relax) row(collide) row(bond) \
-                row(background_damping) row(prescribed) row(plane) row(box) row(cylinder) row(cone) row(mesh)          \
-                    row(uniform) row(two_sizes) row(equal) row(normal) row(log_normal) row(power_law) row(table)
+            row(empty) row(prepare) row(confine) row(compress) row(deform) row(rotate_particle) row(relax)             \
+                row(collide) row(bond) row(pour) row(point) row(line) row(region) row(background_damping)              \
+                    row(prescribed) row(plane) row(box) row(cylinder) row(cone) row(mesh) row(uniform) row(two_sizes)  \
+                        row(equal) row(normal) row(log_normal) row(power_law) row(table)
 
 /// What is measured at the end of a run, with tables of its own.
 #define SCREE_MEASURE_MODULES(row)                                                                                     \
     row(cells) row(breaks) row(moduli) row(waves) row(gauges) row(elastic_test) row(stability) row(mean_strain)        \
-        row(slopes) row(finite_elements)
+        row(slopes) row(pile) row(finite_elements)
 
 #define SCREE_MODULES(row)                                                                                             \
     SCREE_STATE_MODULES(row)                                                                                           \

@@ -17,6 +17,8 @@ static const scree_key body_keys[] = {
         .meaning = "At the begin."),
     KEY(listed, spin, SCREE_KEY_VECTOR, .unit = "rad/s", .standard = "[0, 0]", FROM("-1e6 rad/s"), TO("1e6 rad/s"),
         .meaning = "Angular velocity at the begin; in two dimensions [0, 0, about z]."),
+    NUMBER(listed, angle, "rad", .standard = "0 degrees", FROM("-1e3 rad"), TO("1e3 rad"),
+           .meaning = "By which it lies turned, counter-clockwise; in two dimensions."),
     NUMBER(listed, radius, "m", .standard = "auto", FROM("1 nm"), TO("100 m"),
            .meaning = "Radius, within the limits of `particles`; auto: the one that all particles have."),
     KEY(listed, material, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),
@@ -29,7 +31,8 @@ static const scree_key keys[] = {
            .meaning = "Height of the box, which begins at the origin; auto: as far as the bodies reach."),
     KEY(config, bodies, SCREE_KEY_LIST, FROM("1"), TO("1000"), .sections = body_table, .section_count = 1,
         .count_offset = offsetof(config, body_count), .element_size = sizeof(listed), .when = "method=bodies",
-        .meaning = "The particles, numbered from 0; as many as particles.count says."),
+        .meaning = "The particles, numbered from 0; as many as particles.count says, unless a stage pours "
+                   "the others."),
 };
 
 /// Radius [m] of a listed body; left out: that of all particles.
@@ -38,17 +41,24 @@ static double radius_of(const scree_model *model, const scree_listed_body *body)
     return isnan(body->radius) ? model->species[0].radius.least : body->radius;
 }
 
+/// The others are poured.
+static size_t count_of(const scree_model *model, const scree_config_stage *stage)
+{
+    (void)model;
+    return (size_t)scree_bodies_of(stage)->body_count;
+}
+
 static scree_status place(const scree_model *model, const scree_config_stage *stage, scree_packing *packing,
                           scree_error *error)
 {
     const config *own = scree_bodies_of(stage);
-    if (packing->count != (size_t)own->body_count)
-        return scree_prepare_error(error, model, stage, "bodies", "%lld bodies are listed, and the sample has %zu",
-                                   (long long)own->body_count, packing->count);
     double reach[3] = {0};
+    (void)error;
     for (size_t i = 0; i < packing->count; i++) {
         const scree_listed_body *body = &own->bodies[i];
-        packing->radius[i] = radius_of(model, body);
+        // What is drawn of it beside its radius is its shape.
+        packing->radius[i] =
+            radius_of(model, body) * scree_model_drawn_bound(model, i) / scree_model_drawn_radius(model, i);
         for (int c = 0; c < packing->dimension; c++) {
             packing->place[c][i] = body->position[c];
             reach[c] = fmax(reach[c], body->position[c] + packing->radius[i]);
@@ -76,6 +86,7 @@ static void set_moving(const scree_model *model, const scree_config_stage *stage
         row->vy = body->velocity[1];
         if (state->dimension == 2) {
             row->spin = body->spin[2];
+            state->angle[i] = body->angle;
             continue;
         }
         row->vz = body->velocity[2];
@@ -136,6 +147,7 @@ static const scree_preparation preparation = {
     .sizes_box = true,
     .approaching = true,
     .check = check,
+    .count = count_of,
     .uses = uses,
     .height = height_of,
     .impact_speed = impact_speed,

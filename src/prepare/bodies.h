@@ -8,7 +8,8 @@ typedef struct scree_listed_body {
     double position[3]; ///< m, of its centre
     double velocity[3]; ///< m/s
     double spin[3];     ///< rad/s
-    double radius;      ///< m; auto: that of all particles
+    double angle;       ///< rad, in two dimensions
+    double radius;      ///< m, of equal area; auto: that of all particles
     char *material;     ///< name in `materials`; auto: that of the particles
 } scree_listed_body;
 

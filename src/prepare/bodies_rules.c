@@ -175,10 +175,19 @@ static void check_overlap(const listed *l, int64_t index, const shown *s)
     }
 }
 
+/// Whether a stage brings the particles that are not listed.
+static bool pours(const scree_config *config)
+{
+    for (int64_t i = 0; i < config->stage_count; i++)
+        if (config->stages[i].kind >= 0 && scree_modules[config->stages[i].kind]->numbers->pours) return true;
+    return false;
+}
+
 static void check_count(const listed *l)
 {
     const scree_node *node = scree_node_find(scree_node_find(l->reader->root, "particles"), "count");
-    if (!node || l->config->particles.count == l->own->body_count) return;
+    const bool fewer = pours(l->config) && l->own->body_count <= l->config->particles.count;
+    if (!node || l->config->particles.count == l->own->body_count || fewer) return;
     char accepted[32];
     (void)snprintf(accepted, sizeof accepted, "%lld", (long long)l->own->body_count);
     scree_problem_add(l->reader, node->place, "particles.count", node->text, accepted, "stages.0 lists %s bodies",

@@ -18,6 +18,7 @@ scree_status scree_packing_create(scree_packing *packing, int dimension, size_t 
     *packing = (scree_packing){.dimension = dimension, .count = count, .aspect_ratio = 1};
     scree_status status = scree_allocate(&packing->radius, count, sizeof(double), error);
     if (!status) status = scree_allocate(&packing->species, count, sizeof *packing->species, error);
+    if (!status) status = scree_allocate(&packing->number, count, sizeof *packing->number, error);
     for (int c = 0; c < dimension && !status; c++)
         status = scree_allocate(&packing->place[c], count, sizeof(double), error);
     if (status) scree_packing_destroy(packing);
@@ -28,6 +29,7 @@ void scree_packing_destroy(scree_packing *packing)
 {
     scree_release(&packing->radius);
     scree_release(&packing->species);
+    scree_release(&packing->number);
     for (int c = 0; c < 3; c++) scree_release(&packing->place[c]);
     *packing = (scree_packing){.dimension = packing->dimension};
 }
@@ -36,7 +38,8 @@ void scree_packing_draw(const scree_model *model, scree_packing *packing)
 {
     for (size_t i = 0; i < packing->count; i++) {
         packing->species[i] = (uint8_t)scree_model_drawn_species(model, i);
-        packing->radius[i] = scree_model_drawn_radius(model, i);
+        packing->radius[i] = scree_model_drawn_bound(model, i);
+        packing->number[i] = (uint32_t)i;
     }
 }
 

@@ -35,6 +35,19 @@ static void fill_rows(const scree_model *model, const scree_config_stage *stage,
     }
 }
 
+/// Bodies that are not round get the outline that they were drawn with, within the radius that the packing has.
+static scree_status dress_rows(const scree_model *model, const scree_packing *packing, scree_state *state,
+                               scree_error *error)
+{
+    scree_status status = SCREE_OK;
+    for (size_t i = 0; i < state->count && !status; i++) {
+        const scree_species *species = &model->species[packing->species[i]];
+        if (species->shape && !species->shape->round)
+            status = species->shape->dress(model, species->outline, packing->number[i], state, i, error);
+    }
+    return status;
+}
+
 /// Walls of the box. Those of a round sample say where it is, but do not exist.
 static void stand_walls(const scree_model *model, const scree_box *box, bool active, scree_state *state)
 {
@@ -59,7 +72,7 @@ scree_status scree_prepare(const scree_model *model, const scree_config_stage *s
     const scree_module *module = scree_modules[prepare->method];
     const scree_preparation *method = module->preparation;
     const bool round = prepare->outline != SCREE_SAMPLE_BOX;
-    size_t count = model->count;
+    size_t count = method->count ? method->count(model, stage) : model->count;
     unsigned periodic = model->periodic;
     if (periodic && !method->periodic)
         return scree_prepare_error(
@@ -79,8 +92,9 @@ scree_status scree_prepare(const scree_model *model, const scree_config_stage *s
         scree_packing_draw(model, &packing);
         status = method->place(model, stage, &packing, error);
     }
+    if (!status) fill_rows(model, stage, method, &packing, state);
+    if (!status) status = dress_rows(model, &packing, state, error);
     if (!status) {
-        fill_rows(model, stage, method, &packing, state);
         stand_walls(model, &packing.box, !round, state);
         state->tick = model->step;
         state->step_size = state->kick_size = (double)model->largest_step * model->step;

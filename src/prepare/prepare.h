@@ -15,8 +15,9 @@ typedef struct scree_box {
 typedef struct scree_packing {
     int dimension; ///< 2 or 3
     size_t count;
-    double *radius; ///< m
+    double *radius; ///< m, bounding
     uint8_t *species;
+    uint32_t *number; ///< as which each was drawn
     double *place[3];    ///< m, x, y, z; z is NULL in 2D
     double aspect_ratio; ///< 1, height over width where the width is auto
     scree_box box;
@@ -35,6 +36,7 @@ static inline void scree_packing_take(scree_packing *packing, size_t index, cons
 {
     packing->radius[index] = from->radius[other];
     packing->species[index] = from->species[other];
+    packing->number[index] = from->number[other];
 }
 
 /// Area (2D) or volume (3D) of the bodies.
@@ -53,7 +55,7 @@ scree_status scree_packing_cut_round(const scree_model *model, const scree_confi
                                      const scree_preparation *method, scree_packing *packing,
                                      scree_error *error) SCREE_MUST_USE;
 
-/// Creates the state: radii, positions, masses (density * pi R^2 * thickness, density * 4/3 pi R^3), walls of the box,
+/// Creates the state: radii, positions, masses (density * pi R^2 * thickness, density * 4/3 pi R^3), outlines of bodies that are not round, walls of the box,
 /// ids in order of placement. A round sample (stage->outline) is the middle of a larger packing; its walls bound it but
 /// are not active.
 scree_status scree_prepare(const scree_model *model, const scree_config_stage *stage, scree_state *state,

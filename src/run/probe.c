@@ -121,6 +121,7 @@ static scree_status prepare(probe_case *probe, scree_error *error)
     probe->periodic = s->model.periodic;
     if (probe->dropped) {
         stage->method = dense_method();
+        if (!(stage->aspect_ratio > 0)) stage->aspect_ratio = 1; // the method that it takes the place of has none
         s->model.periodic = 0;
     }
     if (!status) status = scree_simulation_step(s, error);

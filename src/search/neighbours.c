@@ -141,6 +141,7 @@ void scree_pair_lists_destroy(scree_work *work)
     release_list(&walls);
     release_list(&elements);
     scree_release(&work->pairs.own);
+    scree_release(&work->pairs.hint);
     work->pairs.own_capacity = 0;
 }
 
@@ -439,6 +440,9 @@ static scree_status assemble(const scree_model *model, scree_state *state, scree
     bool held_rolls = held > 0 && scree_model_held_traits(model)->rolling;
     scree_status status = reserve_list(&of_pairs, count, books || held_keeps, rolls || held_rolls, false, error);
     if (!status) status = scree_held_list(state, &search->held, pairs, error);
+    scree_release(&pairs->hint);
+    if (!status && scree_model_traits(model)->areas)
+        status = scree_allocate(&pairs->hint, count + 1, sizeof *pairs->hint, error);
     if (!status) status = reserve_list(&of_walls, wall, books, rolls, laws, error);
     if (!status && work->wall_set) status = reserve_list(&of_elements, element, books, rolls, laws, error);
     if (status) {
@@ -518,6 +522,8 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     work->wall_pairs.count = work->primitive_pairs.count = work->ghosts.count = 0;
     if (state->count >= LARGE) scree_pair_lists_destroy(work);
 
+    for (int m = 0; m < SCREE_MODULE_COUNT; m++)
+        if (scree_modules[m]->derive) scree_modules[m]->derive(state);
     scree_cell_grid_fit(&search->grid, state, work->skin);
     if (!search->grid.finite) {
         work->flags |= SCREE_FLAG_NAN;

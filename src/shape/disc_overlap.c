@@ -20,6 +20,20 @@ double scree_disc_cap(double radius, double half, double away)
     return radius * radius / 2 * angle_less_sine(2 * atan2(half, away));
 }
 
+/// Directions of the outline of a disc about `centre` at both ends of the chord, seen from the first centre.
+static void set_tangents(scree_overlap *overlap, int body, const double centre[2])
+{
+    for (int k = 0; k < 2; k++) {
+        const double half = k == 0 ? -0.5 : 0.5;
+        const double x[2] = {overlap->arm[0][0] - half * overlap->chord[1] - centre[0],
+                             overlap->arm[0][1] + half * overlap->chord[0] - centre[1]};
+        overlap->edge[k][body][0] = -x[1];
+        overlap->edge[k][body][1] = x[0];
+    }
+}
+
+static const double ORIGIN[2] = {0, 0};
+
 // ---- two discs ----------------------------------------------------------------------------------------------------
 
 /// One disc wholly inside the other. In one place and of one size, the second counts as the inner one.
@@ -55,6 +69,8 @@ bool scree_disc_overlap(const double radius[2], const double apart[2], scree_ove
     memcpy(arm, overlap->arm[1], sizeof arm);
     scree_overlap_finish(overlap, apart, radius, radius);
     memcpy(overlap->arm[1], arm, sizeof arm);
+    set_tangents(overlap, 0, ORIGIN);
+    set_tangents(overlap, 1, apart);
     return true;
 }
 
@@ -66,6 +82,7 @@ typedef struct outline {
     double in[SCREE_POLYGON_CORNERS][2], out[SCREE_POLYGON_CORNERS][2];
     int ins, outs;
     double origin[2], last[2], twice;
+    double edge_in[2], edge_out[2]; ///< directions of the edges of the last of both
 } outline;
 
 static void go_to(outline *way, const double place[2])
@@ -103,8 +120,14 @@ static void follow_edge(outline *way, double radius, const double a[2], const do
     double share[2] = {fmin(fmax(foot - half, 0), 1), fmin(fmax(foot + half, 0), 1)}, place[2][2];
     for (int k = 0; k < 2; k++)
         for (int i = 0; i < 2; i++) place[k][i] = a[i] + share[k] * u[i];
-    if ((!from && to) || through) enter(way, place[0]);
-    if ((from && !to) || through) leave(way, place[1]);
+    if ((!from && to) || through) {
+        enter(way, place[0]);
+        memcpy(way->edge_in, u, sizeof u);
+    }
+    if ((from && !to) || through) {
+        leave(way, place[1]);
+        memcpy(way->edge_out, u, sizeof u);
+    }
     if (to) go_to(way, b);
 }
 
@@ -124,7 +147,7 @@ static bool uncrossed(double radius, const scree_polygon *polygon, const double 
     return disc_inside(0, radius, apart, overlap);
 }
 
-bool scree_disc_polygon_overlap(double radius, const scree_polygon *polygon, const double apart[2],
+bool scree_disc_overlap_polygon(double radius, const scree_polygon *polygon, const double apart[2],
                                 scree_overlap *overlap)
 {
     double reach = radius + polygon->bound, corner[SCREE_POLYGON_CORNERS][2], end[2 * SCREE_POLYGON_CORNERS][2];
@@ -161,6 +184,9 @@ bool scree_disc_polygon_overlap(double radius, const scree_polygon *polygon, con
     }
     overlap->flags = 0;
     scree_overlap_find_line(overlap, way.ins, (const double(*)[2])end, true);
+    set_tangents(overlap, 0, ORIGIN);
+    memcpy(overlap->edge[0][1], way.edge_out, sizeof way.edge_out);
+    memcpy(overlap->edge[1][1], way.edge_in, sizeof way.edge_in);
     if (overlap->area <= 0) return false;
     scree_overlap_finish(overlap, apart, radii, bounds);
     return true;

@@ -28,7 +28,7 @@ bool scree_disc_overlap(const double radius[2], const double apart[2], scree_ove
 
 /// A disc and a polygon, whose centre lies `apart` [m] from that of the disc. False: none. The polygon and the disc:
 /// the same with scree_overlap_exchange.
-bool scree_disc_polygon_overlap(double radius, const scree_polygon *polygon, const double apart[2],
+bool scree_disc_overlap_polygon(double radius, const scree_polygon *polygon, const double apart[2],
                                 scree_overlap *overlap);
 
 #endif

@@ -40,6 +40,10 @@ bool scree_polygon_half_plane_overlap(const scree_polygon *polygon, const double
         if (leaves != stays) {
             double share = depth[k] / (depth[k] - depth[next]), at = from + share * (to - from);
             *(leaves ? &to : &from) = at;
+            for (int i = 0; i < 2; i++) {
+                overlap->edge[leaves][0][i] = p[next][i] - p[k][i];
+                overlap->edge[leaves][1][i] = tangent[i];
+            }
             // The outline runs backwards behind the wall: from where it goes in to where it comes out.
             way += leaves ? -at : at;
             for (int i = 0; i < 2; i++) place[i] += p[k][i] + share * (p[next][i] - p[k][i]);
@@ -71,6 +75,14 @@ bool scree_disc_half_plane_overlap(double radius, const double normal[2], double
         for (int i = 0; i < 2; i++) {
             overlap->chord[i] = -2 * half * normal[i];
             overlap->arm[0][i] = -height * normal[i];
+        }
+        const double tangent[2] = {-normal[1], normal[0]};
+        for (int k = 0; k < 2; k++) {
+            // From the foot on the wall, half a chord along it.
+            const double along = k == 0 ? half : -half;
+            for (int i = 0; i < 2; i++) overlap->edge[k][1][i] = tangent[i];
+            overlap->edge[k][0][0] = -(overlap->arm[0][1] + along * tangent[1]);
+            overlap->edge[k][0][1] = overlap->arm[0][0] + along * tangent[0];
         }
     }
     finish(normal, height, radius, radius, overlap);

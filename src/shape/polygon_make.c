@@ -57,6 +57,8 @@ scree_status scree_polygon_make_on_ellipse(uint64_t seed, uint64_t id, int count
             corner[k][1] = sin(angle[k]) / sqrt(axes);
         }
         status = scree_polygon_check(count, (const double(*)[2])corner, NULL);
+        const scree_polygon_measures m = scree_polygon_measure(count, (const double(*)[2])corner);
+        if (m.bound > SCREE_POLYGON_REACH * sqrt(axes) * m.radius) status = SCREE_ERROR_INPUT;
     }
     if (status)
         return scree_error_set(

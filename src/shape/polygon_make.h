@@ -11,6 +11,11 @@
 
 #include "shape/polygon.h"
 
+/// No polygon on an ellipse has a bounding radius above this many times the square root of the ratio of axes, over the
+/// radius of the disc of equal area: thinner ones are drawn anew. So lists and forces have bounds before anything is
+/// drawn.
+#define SCREE_POLYGON_REACH 3.0
+
 typedef enum scree_polygon_scatter {
     SCREE_POLYGON_SECTORS, ///< one corner in each equal sector of the eccentric angle
     SCREE_POLYGON_FREE,    ///< all corners at random

@@ -14,7 +14,7 @@ static double sphere_volume(double cube)
     return 4.0 / 3.0 * M_PI * cube;
 }
 
-static const scree_choice_of choice[] = {{.key = "particles.shape"}, {0}};
+static const scree_choice_of choice[] = {{.key = "particles.shape"}, {.key = "particles.species.shape"}, {0}};
 
 const scree_module scree_module_disc = {
     .name = "disc",

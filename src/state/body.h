@@ -1,11 +1,11 @@
 /// What a body is, read through one function each: place and motion, mass and inertia, orientation, size, material,
-/// mark. Bodies are discs (cylinders) in 2D, spheres in 3D. Kernels read the rows themselves.
+/// mark. Bodies are discs (cylinders) and polygons (prisms) in 2D, spheres in 3D. Kernels read the rows themselves.
 ///
 /// Size has three names, since a radius is not the same thing for all who ask:
 ///   bounding radius     of the smallest circle or sphere around the centre that holds the body: what may touch
 ///   equivalent radius   of the disc or sphere with its area or volume: what a mean size, a diameter of a sample means
 ///   volume              area [m2] in 2D, volume [m3] in 3D: what is filled
-/// They agree for the round bodies that there are; another shape answers each in its own way, here.
+/// They agree for round bodies. Others have a row in state->form, and the bounding radius in their own.
 #ifndef SCREE_STATE_BODY_H
 #define SCREE_STATE_BODY_H
 
@@ -62,16 +62,23 @@ static inline void scree_body_contact_moment(const scree_state *state, size_t ro
         moment[k] = state->moment ? (double)state->moment[row * size + k] * scree_moment_unit(state, row) : 0;
 }
 
-/// Moment of inertia [kg m2] about the centre, the same about every axis: m R^2 / 2 of a disc (a cylinder) about its
-/// axis, 2 m R^2 / 5 of a sphere.
-static inline double scree_body_inertia(const scree_state *state, size_t row)
+/// Radius [m] of the disc or sphere with the mass and the moment of inertia of the body.
+static inline double scree_body_turning_radius(const scree_state *state, size_t row)
 {
-    const scree_row *body = &state->row[row];
-    return (state->dimension == 3 ? 0.4 : 0.5) * body->mass * body->radius * body->radius;
+    return state->form ? state->form[row].turning : state->row[row].radius;
 }
 
-/// Angle [rad] that the body has turned by since the start, 2D. In 3D no sphere needs an orientation and none is kept:
-/// a shape that does declares a quaternion a body as a field of its module, optional, which its passes turn.
+/// Moment of inertia [kg m2] about the centre, of a sphere the same about every axis: m R^2 / 2 in 2D, about the normal
+/// of the plane, and 2 m R^2 / 5 in 3D, R the turning radius.
+static inline double scree_body_inertia(const scree_state *state, size_t row)
+{
+    const double radius = scree_body_turning_radius(state, row);
+    return (state->dimension == 3 ? 0.4 : 0.5) * state->row[row].mass * radius * radius;
+}
+
+/// Angle [rad] by which the body lies turned, 2D: of a disc since the start. In 3D no sphere needs an orientation and
+/// none is kept: a shape that does declares a quaternion a body as a field of its module, optional, which its passes
+/// turn.
 static inline double scree_body_angle(const scree_state *state, size_t row)
 {
     return state->angle[row];
@@ -86,7 +93,7 @@ static inline double scree_body_bounding_radius(const scree_state *state, size_t
 /// Radius [m] of the disc or sphere with the area or volume of the body.
 static inline double scree_body_equivalent_radius(const scree_state *state, size_t row)
 {
-    return state->row[row].radius;
+    return state->form ? state->form[row].radius : state->row[row].radius;
 }
 
 /// Area [m2] in 2D, volume [m3] in 3D.

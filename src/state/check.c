@@ -220,7 +220,9 @@ static scree_status check_frame(const scree_state *state, const scree_model *mod
 
 scree_status scree_state_check(const scree_state *state, const scree_model *model, scree_error *error)
 {
-    if (state->count == 0) return scree_error_set(error, SCREE_ERROR_IO, "dataset 'position': there is no body");
+    // Before the first birth there is none.
+    if (state->count == 0 && model->source_count == 0)
+        return scree_error_set(error, SCREE_ERROR_IO, "dataset 'position': there is no body");
     scree_status status = SCREE_OK;
     for (size_t k = 0; k < scree_field_total() && !status; k++)
         if (scree_field_is_stored(state, scree_field_at(k)))

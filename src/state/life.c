@@ -78,6 +78,11 @@ scree_status scree_state_predict(scree_state *state, scree_error *error)
     return scree_allocate(&state->predicted, state->row_capacity, sizeof *state->predicted, error);
 }
 
+scree_status scree_state_begin_form(scree_state *state, scree_error *error)
+{
+    return state->form ? SCREE_OK : scree_allocate(&state->form, state->row_capacity, sizeof *state->form, error);
+}
+
 scree_status scree_state_ask_for_moments(scree_state *state, bool wanted, scree_error *error)
 {
     if (!wanted) scree_release(&state->moment);

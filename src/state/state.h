@@ -91,6 +91,12 @@ typedef struct scree_torque_row {
 /// In the place of a species: a body of a membrane.
 #define SCREE_NO_SPECIES UINT8_MAX
 
+/// Sizes of a body that is not round, in 2D: its row has the bounding radius.
+typedef struct scree_form {
+    double radius;  ///< m, of the disc of equal area
+    double turning; ///< m, of the disc of equal mass and equal moment of inertia
+} scree_form;
+
 /// A vector of cold data; z is zero in 2D.
 typedef double scree_vector[3];
 
@@ -203,6 +209,7 @@ struct scree_state {
     scree_torque_row *torque; ///< 3D: count; NULL in 2D
     int64_t *moment;          ///< of a row: scree_moment_size, of scree_moment_unit; NULL unless a module asks for them
     double *stretch;          ///< of a row: scree_stretch_size numbers; NULL unless bodies deform
+    scree_form *form;         ///< of a row; NULL: all bodies are round
     double force_quantum;     ///< N
     double torque_quantum;    ///< N m
     double largest_overlap;   ///< m, over all contacts at `step`
@@ -277,6 +284,9 @@ scree_status scree_grains_by_id(const scree_state *state, uint32_t **rows, scree
 
 /// Makes the array of an optional field of bodies, all zero, if there is none yet. Errors: memory.
 scree_status scree_state_begin_field(scree_state *state, const scree_field *field, scree_error *error) SCREE_MUST_USE;
+
+/// Makes room for the sizes of bodies that are not round, if there is none yet; all zero. Errors: memory.
+scree_status scree_state_begin_form(scree_state *state, scree_error *error) SCREE_MUST_USE;
 
 /// Makes room for what laws that look ahead need, if there is none yet.
 scree_status scree_state_predict(scree_state *state, scree_error *error) SCREE_MUST_USE;

@@ -31,6 +31,7 @@ typedef struct scree_pair_list {
     scree_history *history;       ///< one a pair, seen from `first`
     scree_last_force *last_force; ///< with scree_contacts_add_work: one a pair; else NULL
     scree_rolling *rolling;       ///< with scree_contacts_roll: one a pair; else NULL
+    int8_t *hint;                 ///< with laws of areas: what the geometry keeps of a pair, with no effect; else NULL
     size_t count, capacity;
     scree_pair_section section[SCREE_PAIR_SECTIONS];
     int section_count;

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-enum { FIELD_NONE, FIELD_ROTATION, FIELD_SPIN, FIELD_SPIN_MAGNITUDE, FIELD_SPEED, FIELD_DISPLACEMENT };
+enum { FIELD_NONE, FIELD_ROTATION, FIELD_SPIN, FIELD_SPIN_MAGNITUDE, FIELD_SPEED, FIELD_DISPLACEMENT, FIELD_BIRTH };
 enum { VIEW_PLANE, VIEW_SPACE, VIEW_SECTION }; // VIEW_PLANE is for discs, the others for spheres
 
 static const struct field_entry {
@@ -20,6 +20,7 @@ static const struct field_entry {
     [FIELD_SPIN_MAGNITUDE] = {"spin, magnitude (rad/s)", SCREE_COLOUR_SEQUENTIAL},
     [FIELD_SPEED] = {"speed (mm/s)", SCREE_COLOUR_SEQUENTIAL},
     [FIELD_DISPLACEMENT] = {"displacement since the start of loading (mm)", SCREE_COLOUR_SEQUENTIAL},
+    [FIELD_BIRTH] = {"time of birth (s)", SCREE_COLOUR_SEQUENTIAL},
 };
 
 typedef struct scene_row {
@@ -54,6 +55,10 @@ static const scene_row rows[] = {
      "Spin at the end",
      SCREE_AT_END,
      .field = FIELD_SPIN},
+    {{"pile", "the pile at the end, its particles coloured by when they were born"},
+     "Pile: time of birth",
+     SCREE_AT_END,
+     .field = FIELD_BIRTH},
     {{"packing-start", "particles at the start of loading"},
      "Packing at the start of loading",
      SCREE_AT_START,
@@ -78,6 +83,16 @@ static const scene_row rows[] = {
      SCREE_AT_END,
      .force_network = true,
      .view = VIEW_SPACE},
+    {{"pile", "the pile at the end, its particles coloured by when they were born"},
+     "Pile: time of birth",
+     SCREE_AT_END,
+     .field = FIELD_BIRTH,
+     .view = VIEW_SPACE},
+    {{"pile-section", "section of the pile at the end, coloured by when its particles were born"},
+     "Section of the pile: time of birth",
+     SCREE_AT_END,
+     .field = FIELD_BIRTH,
+     .view = VIEW_SECTION},
 };
 
 static double displacement(const scree_snapshot *start, const scree_snapshot *now, size_t k)
@@ -96,6 +111,8 @@ static double field_value(int field, const scree_snapshot *start, const scree_sn
         return now->spin[k];
     case FIELD_DISPLACEMENT:
         return 1e3 * displacement(start, now, k);
+    case FIELD_BIRTH:
+        return now->birth ? now->birth[k] : NAN;
     default:
         return 1e3 * sqrt(now->vx[k] * now->vx[k] + now->vy[k] * now->vy[k] + (now->vz ? now->vz[k] * now->vz[k] : 0));
     }
@@ -153,7 +170,8 @@ static scree_status draw_scene(const scree_plot_run *run, const scree_figure_job
 static bool is_meant(const scree_plot_run *run, const scree_figure *figure)
 {
     const scene_row *row = (const scene_row *)figure;
-    return run->snapshot_count > 0 && (row->view == VIEW_PLANE) == (run->dimension == 2);
+    const bool born = row->field != FIELD_BIRTH || scree_series_get(&run->series, "pile_grains");
+    return run->snapshot_count > 0 && born && (row->view == VIEW_PLANE) == (run->dimension == 2);
 }
 
 static scree_status has_snapshot(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
@@ -175,12 +193,23 @@ static scree_status keep_standing(const scree_plot_run *run, size_t which, scree
     return SCREE_OK;
 }
 
+/// Whether the row compares its snapshot with that of the start.
+static bool compares(const scene_row *row)
+{
+    return row->field == FIELD_ROTATION || row->field == FIELD_DISPLACEMENT;
+}
+
 static scree_status draw(const scree_plot_run *run, const scree_figure_job *job, scree_error *error)
 {
-    scree_snapshot start, now;
+    const scene_row *row = (const scene_row *)job->figure;
+    scree_snapshot start = {0}, now;
     size_t which;
-    scree_status status = scree_plot_find_snapshot(run, ((const scene_row *)job->figure)->when, &which, error);
-    if (!status) status = scree_plot_read_two(run, scree_plot_end_snapshot(run, false), which, &start, &now, error);
+    scree_status status = scree_plot_find_snapshot(run, row->when, &which, error);
+    // Bodies may have come since the start.
+    if (!status && compares(row))
+        status = scree_plot_read_two(run, scree_plot_end_snapshot(run, false), which, &start, &now, error);
+    else if (!status)
+        status = scree_snapshot_read(run->directory, which, &now, error);
     if (status) return status;
     status = keep_standing(run, which, &now, error);
     if (!status) status = draw_scene(run, job, &start, &now, error);

@@ -6,16 +6,26 @@
 
 #include <math.h>
 
-static void draw_disc_paths(const scree_scene_view *view, cairo_t *cairo, size_t from, size_t to)
+/// Adds the outline of a body to the path: a circle, or the corners of a polygon as it lies.
+static void add_outline(const scree_scene_view *view, cairo_t *cairo, size_t k)
 {
     const scree_snapshot *s = view->snapshot;
-    for (size_t k = from; k < to; k++) {
-        uint32_t disc = view->order[k];
-        cairo_new_sub_path(cairo);
-        cairo_arc(cairo, scree_scene_x(view, s->x[disc]), scree_scene_y(view, s->y[disc]),
-                  s->radius[disc] * view->scale, 0, 2 * M_PI);
-        cairo_close_path(cairo);
+    const uint32_t corners = s->corner_count ? s->corner_count[k] : 0;
+    cairo_new_sub_path(cairo);
+    if (corners == 0)
+        cairo_arc(cairo, scree_scene_x(view, s->x[k]), scree_scene_y(view, s->y[k]), s->radius[k] * view->scale, 0,
+                  2 * M_PI);
+    for (uint32_t c = 0; c < corners; c++) {
+        const double *own = s->corner[s->first_corner[k] + c], sine = sin(s->angle[k]), cosine = cos(s->angle[k]);
+        cairo_line_to(cairo, scree_scene_x(view, s->x[k] + cosine * own[0] - sine * own[1]),
+                      scree_scene_y(view, s->y[k] + sine * own[0] + cosine * own[1]));
     }
+    cairo_close_path(cairo);
+}
+
+static void draw_disc_paths(const scree_scene_view *view, cairo_t *cairo, size_t from, size_t to)
+{
+    for (size_t k = from; k < to; k++) add_outline(view, cairo, view->order[k]);
 }
 
 /// A lighter colour; weight 0: the same, 1: white.
@@ -310,9 +320,7 @@ static void draw_marked(const scree_scene_view *view, cairo_t *cairo)
 {
     const scree_snapshot *s = view->snapshot;
     if (!view->scene->marked || !scree_scene_drawn(s, *view->scene->marked)) return;
-    size_t disc = *view->scene->marked;
-    cairo_arc(cairo, scree_scene_x(view, s->x[disc]), scree_scene_y(view, s->y[disc]), s->radius[disc] * view->scale, 0,
-              2 * M_PI);
+    add_outline(view, cairo, *view->scene->marked);
     cairo_set_source_rgb(cairo, 0, 0, 0);
     cairo_fill(cairo);
 }

@@ -26,7 +26,7 @@ for folder in src/*/; do
     done < <(grep -nHE '^#include "[a-z]+/' "$folder"*.[ch])
 done
 # A law is known to its own two files, its row, and its header in contact/laws.h; else it may only be a default of the schema.
-mapfile -t laws < <(grep 'define SCREE_LAWS' src/module/table.h | grep -oE 'row\([a-z_]+\)' | sed -E 's/row\((.*)\)/\1/')
+mapfile -t laws < <(grep 'define SCREE_LAWS_OF' src/module/table.h | grep -oE 'row\([a-z_]+\)' | sed -E 's/row\((.*)\)/\1/')
 [ ${#laws[@]} -ge 2 ] || complain "the laws of src/module/table.h were not found"
 for law in "${laws[@]}"; do
     for own in src/contact/$law.h src/contact/$law.c; do [ -f "$own" ] || complain "law $law has no $own"; done

@@ -1,5 +1,5 @@
 /// Area of the overlap of two convex polygons without any rounding, by GMP: the clipping of Sutherland and Hodgman on
-/// whole numbers in homogeneous coordinates. It shares nothing with shape/polygon_overlap.h.
+/// whole numbers in homogeneous coordinates. It shares nothing with shape/polygon_pair.h.
 #ifndef SCREE_TESTS_EXACT_POLYGON_H
 #define SCREE_TESTS_EXACT_POLYGON_H
 

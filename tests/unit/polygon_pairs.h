@@ -6,7 +6,7 @@
 #include "base/random.h"
 #include "exact_polygon.h"
 #include "shape/polygon_make.h"
-#include "shape/polygon_overlap.h"
+#include "shape/polygon_pair.h"
 
 typedef enum pair_kind {
     PAIR_ROUNDISH, ///< 3 to 12 corners, axes to 3 : 1, anywhere near each other
@@ -226,8 +226,8 @@ static inline bool pair_is_pure(const pair_sample *s, bool met, const scree_over
     scree_overlap other = {0}, hinted = {0};
     int none = 0, hint = s->polygon[0].count - (int)(s->polygon[1].count * (s->corner[0][0][0] > 0));
     if (hint < -s->polygon[1].count) hint = 0;
-    if (scree_polygon_overlap(&s->polygon[1], &s->polygon[0], back, &none, &other) != met) return false;
-    if (scree_polygon_overlap(&s->polygon[0], &s->polygon[1], s->apart, &hint, &hinted) != met) return false;
+    if (scree_polygon_pair_overlap(&s->polygon[1], &s->polygon[0], back, &none, &other) != met) return false;
+    if (scree_polygon_pair_overlap(&s->polygon[0], &s->polygon[1], s->apart, &hint, &hinted) != met) return false;
     if (!met) return true;
     scree_overlap_exchange(&other);
     return same_bits(&other, overlap) && same_bits(&hinted, overlap);
@@ -243,7 +243,7 @@ static inline bool pair_check(exact_clip *clip, const pair_sample *s, pair_tally
         for (int c = 0; c < 2; c++) shifted[k][c] = s->corner[1][k][c] + s->apart[c];
     double exact =
         exact_overlap_area(clip, n, (const double(*)[2])s->corner[0], m, (const double(*)[2])shifted, &length);
-    bool met = scree_polygon_overlap(&s->polygon[0], &s->polygon[1], s->apart, &hint, &overlap);
+    bool met = scree_polygon_pair_overlap(&s->polygon[0], &s->polygon[1], s->apart, &hint, &overlap);
     double unit = 0x1p-53 * (s->polygon[0].bound + s->polygon[1].bound), scale = unit * (length + AREA_ERROR * unit);
     double error = fabs((met ? overlap.area : 0) - exact);
     tally->pairs++;

@@ -4,7 +4,7 @@
 #include "shape/disc_overlap.h"
 #include "shape/half_plane_overlap.h"
 #include "shape/polygon_make.h"
-#include "shape/polygon_overlap.h"
+#include "shape/polygon_pair.h"
 #include "testing.h"
 
 #include <string.h>
@@ -114,7 +114,7 @@ static void test_half_plane_is_polygon(void **state)
         int hint = 0;
         const double apart[2] = {-height * normal[0], -height * normal[1]};
         bool touch = scree_polygon_half_plane_overlap(&p, normal, height, &a);
-        assert_int_equal(scree_polygon_overlap(&p, &w, apart, &hint, &b), touch);
+        assert_int_equal(scree_polygon_pair_overlap(&p, &w, apart, &hint, &b), touch);
         if (!touch) continue;
         met++;
         // The corners of the wall are rounded at a distance of 10; what crosses it does so at 0.05 rad or more, but for
@@ -179,7 +179,7 @@ static void test_disc_and_square(void **state)
     scree_overlap o, p;
     // Against the middle of an edge it is a half-plane.
     for (double depth = 0.5; depth > 1e-9; depth /= 8) {
-        assert_true(scree_disc_polygon_overlap(0.5, &box, (const double[2]){0.25, -1.5 + depth}, &o));
+        assert_true(scree_disc_overlap_polygon(0.5, &box, (const double[2]){0.25, -1.5 + depth}, &o));
         assert_true(scree_disc_half_plane_overlap(0.5, (const double[2]){0, 1}, 0.5 - depth, &p));
         assert_true(fabs(o.area - p.area) <= 32 * 0x1p-53 * hypot(p.chord[0], p.chord[1]));
         // The half chord is a root of a difference: half an error of R over the depth.
@@ -188,27 +188,27 @@ static void test_disc_and_square(void **state)
         near_point(o.arm[0], p.arm[0][0], p.arm[0][1]);
     }
     // Its centre on a corner: a quarter, and the chord turned by 45 degrees.
-    assert_true(scree_disc_polygon_overlap(0.5, &box, (const double[2]){1, 1}, &o));
+    assert_true(scree_disc_overlap_polygon(0.5, &box, (const double[2]){1, 1}, &o));
     near(o.area, M_PI / 16, 1);
     near_point(o.chord, 0.5, 0.5);
     near_point(o.arm[0], 0.25, 0.25);
     // Across all four edges: four caps less than the disc; nothing pushes.
-    assert_true(scree_disc_polygon_overlap(1.25, &box, (const double[2]){0, 0}, &o));
+    assert_true(scree_disc_overlap_polygon(1.25, &box, (const double[2]){0, 0}, &o));
     near(o.area, M_PI * 1.25 * 1.25 - 4 * scree_disc_cap(1.25, 0.75, 1), 5);
     assert_int_equal(o.crossings, 8);
     assert_true(o.flags & SCREE_OVERLAP_NO_POINT);
     // One inside the other, both ways, and beside a corner.
-    assert_true(scree_disc_polygon_overlap(0.5, &box, (const double[2]){0.25, 0}, &o));
+    assert_true(scree_disc_overlap_polygon(0.5, &box, (const double[2]){0.25, 0}, &o));
     near(o.area, M_PI / 4, 1);
     assert_true(o.flags & SCREE_OVERLAP_INSIDE);
-    assert_true(scree_disc_polygon_overlap(2, &box, (const double[2]){0.25, 0}, &o));
+    assert_true(scree_disc_overlap_polygon(2, &box, (const double[2]){0.25, 0}, &o));
     assert_true(o.area == 4 && o.flags & SCREE_OVERLAP_INSIDE);
     near_point(o.arm[0], 0.25, 0);
     near_point(o.arm[1], 0, 0);
-    assert_false(scree_disc_polygon_overlap(0.5, &box, (const double[2]){1.4, 1.4}, &o));
-    assert_false(scree_disc_polygon_overlap(0.5, &box, (const double[2]){1.51, 0}, &o));
-    assert_true(scree_disc_polygon_overlap(0.5, &box, (const double[2]){1.35, 1.35}, &o));
-    assert_true(scree_disc_polygon_overlap(0.5, &box, (const double[2]){NAN, 0}, &o));
+    assert_false(scree_disc_overlap_polygon(0.5, &box, (const double[2]){1.4, 1.4}, &o));
+    assert_false(scree_disc_overlap_polygon(0.5, &box, (const double[2]){1.51, 0}, &o));
+    assert_true(scree_disc_overlap_polygon(0.5, &box, (const double[2]){1.35, 1.35}, &o));
+    assert_true(scree_disc_overlap_polygon(0.5, &box, (const double[2]){NAN, 0}, &o));
     assert_true(o.flags & SCREE_OVERLAP_INSIDE);
 }
 
@@ -223,7 +223,7 @@ static bool overlap_at(const sample *s, const double motion[3], double size, scr
     scree_polygon_turn(s->count, (const double(*)[2])s->corner, cos(angle), sin(angle), turned);
     scree_polygon p = polygon_of(s->count, (const double(*)[2])turned);
     const double apart[2] = {s->apart[0] + motion[0] * size, s->apart[1] + motion[1] * size};
-    return scree_disc_polygon_overlap(s->radius, &p, apart, o);
+    return scree_disc_overlap_polygon(s->radius, &p, apart, o);
 }
 
 static double area_at(const sample *s, const double motion[3], double size)

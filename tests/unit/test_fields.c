@@ -264,6 +264,7 @@ static void memory_is_what_the_traits_say(void **unused)
         for (unsigned option = 0; scree_modules[m]->law && option < scree_modules[m]->law->option_count; option++)
             for (int dimension = 2; dimension <= 3; dimension++) {
                 const scree_law_traits *traits = &scree_modules[m]->law->traits[option];
+                if (traits->areas && dimension == 3) continue; // of polygons, in the plane
                 const scree_list list = traits->holds ? SCREE_LIST_PERSISTENT : SCREE_LIST_CONTACTS;
                 scree_state state = {.dimension = dimension};
                 state.law[list] = (scree_remembered_law){scree_modules[m], option};

@@ -14,7 +14,7 @@ static scree_polygon polygon_of(int count, const double (*corner)[2])
 static bool meet(const scree_polygon *first, const scree_polygon *second, double x, double y, scree_overlap *overlap)
 {
     int hint = 0;
-    return scree_polygon_overlap(first, second, (const double[2]){x, y}, &hint, overlap);
+    return scree_polygon_pair_overlap(first, second, (const double[2]){x, y}, &hint, overlap);
 }
 
 /// A closed form of sizes of order one, some ten operations.
@@ -374,31 +374,31 @@ static void test_hint(void **state)
     scree_overlap o;
     int hint = 0;
     const double apart[2] = {1.6, 1.5};
-    assert_false(scree_polygon_overlap(&tip, &tip, apart, &hint, &o));
+    assert_false(scree_polygon_pair_overlap(&tip, &tip, apart, &hint, &o));
     // The line of the centres separates these: no edge is looked for.
     assert_int_equal(hint, 0);
     const double beside[2] = {1.9, 0.5}, near_by[2] = {1.2, 0.5};
     const double blade[4][2] = {{-0.1, -2}, {0.1, -2}, {0.1, 2}, {-0.1, 2}};
     scree_polygon thin = polygon_of(4, blade);
-    assert_false(scree_polygon_overlap(&box, &thin, (const double[2]){1.2, 1.5}, &hint, &o));
+    assert_false(scree_polygon_pair_overlap(&box, &thin, (const double[2]){1.2, 1.5}, &hint, &o));
     assert_int_equal(hint, 2);
     int other = 0;
-    assert_false(scree_polygon_overlap(&thin, &box, (const double[2]){-1.2, -1.5}, &other, &o));
+    assert_false(scree_polygon_pair_overlap(&thin, &box, (const double[2]){-1.2, -1.5}, &other, &o));
     assert_int_equal(other, -2);
     // Another edge that separates them, in either order, is kept; one that does not is not.
     hint = -4;
     other = 4;
-    assert_false(scree_polygon_overlap(&box, &thin, (const double[2]){1.2, 1.5}, &hint, &o));
-    assert_false(scree_polygon_overlap(&thin, &box, (const double[2]){-1.2, -1.5}, &other, &o));
+    assert_false(scree_polygon_pair_overlap(&box, &thin, (const double[2]){1.2, 1.5}, &hint, &o));
+    assert_false(scree_polygon_pair_overlap(&thin, &box, (const double[2]){-1.2, -1.5}, &other, &o));
     assert_int_equal(hint, -4);
     assert_int_equal(other, 4);
     hint = 1;
-    assert_false(scree_polygon_overlap(&box, &thin, (const double[2]){1.2, 1.5}, &hint, &o));
+    assert_false(scree_polygon_pair_overlap(&box, &thin, (const double[2]){1.2, 1.5}, &hint, &o));
     assert_int_equal(hint, 2);
-    assert_false(scree_polygon_overlap(&box, &thin, beside, &hint, &o));
+    assert_false(scree_polygon_pair_overlap(&box, &thin, beside, &hint, &o));
     assert_int_equal(hint, 2);
-    assert_false(scree_polygon_overlap(&box, &thin, near_by, &hint, &o));
-    assert_true(scree_polygon_overlap(&box, &thin, (const double[2]){1.05, 0.5}, &hint, &o));
+    assert_false(scree_polygon_pair_overlap(&box, &thin, near_by, &hint, &o));
+    assert_true(scree_polygon_pair_overlap(&box, &thin, (const double[2]){1.05, 0.5}, &hint, &o));
     near(o.area, 0.05 * 2);
     assert_int_equal(hint, 0);
 }

@@ -56,6 +56,9 @@ static void check_when(const scree_section *section, const scree_key *key)
         scree_key one = *key;
         one.when = condition;
         scree_usage usage = scree_key_usage(&root, section, NULL, &one);
+        // Of a key that depends on one that is not used itself, the usage is that of the latter.
+        const scree_key *own = scree_section_find(section, condition, strcspn(condition, "="));
+        if (own) usage.chooser = own;
         assert_non_null(usage.chooser);
         char *rest = strchr(condition, '=') + 1;
         for (char *value; (value = strtok_r(rest, "|", &rest));) {

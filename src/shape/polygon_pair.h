@@ -16,8 +16,8 @@
 /// that touch are 2 to 4 of each, whatever the number of corners.
 ///
 /// Limits: shape/side.h, with R the bounding radius and a distance in place of coordinates.
-#ifndef SCREE_SHAPE_POLYGON_OVERLAP_H
-#define SCREE_SHAPE_POLYGON_OVERLAP_H
+#ifndef SCREE_SHAPE_POLYGON_PAIR_H
+#define SCREE_SHAPE_POLYGON_PAIR_H
 
 #include "shape/overlap.h"
 #include "shape/polygon.h"
@@ -142,7 +142,7 @@ SCREE_INLINE void scree_polygon_crossing(const scree_polygon_pair *pair, int i, 
 }
 
 /// Twice the area that the way from `last` to `next` sweeps, seen from `origin`.
-SCREE_INLINE double scree_sweep(const double origin[2], const double last[2], const double next[2])
+SCREE_INLINE double scree_outline_sweep(const double origin[2], const double last[2], const double next[2])
 {
     return (last[0] - origin[0]) * (next[1] - origin[1]) - (last[1] - origin[1]) * (next[0] - origin[0]);
 }
@@ -161,10 +161,10 @@ SCREE_INLINE double scree_sweep_corners(int count, const double (*corner)[2], in
     double twice = 0;
     for (int k = from; k != to;) {
         k = scree_next_corner(count, k);
-        twice += scree_sweep(origin, last, corner[k]);
+        twice += scree_outline_sweep(origin, last, corner[k]);
         last = corner[k];
     }
-    return twice + scree_sweep(origin, last, end);
+    return twice + scree_outline_sweep(origin, last, end);
 }
 
 /// Area, chord and line of two polygons whose outlines cross. The outline of the overlap is, for each piece, corners of
@@ -188,6 +188,15 @@ SCREE_INLINE void scree_polygon_assemble(const scree_polygon_pair *pair, const s
         twice += scree_sweep_corners(pair->count[1], pair->corner[1], crossings->out[edge[2 * k + 1]],
                                      crossings->in[edge[2 * next]], end[0], out, end[2 * next]);
     }
+    for (int k = 0; k < 2; k++) {
+        const int i = edge[k], j = (k == 0 ? crossings->in : crossings->out)[i];
+        const double *s = pair->corner[0][i], *e = pair->corner[0][scree_next_corner(pair->count[0], i)];
+        const double *a = pair->corner[1][j], *b = pair->corner[1][scree_next_corner(pair->count[1], j)];
+        for (int c = 0; c < 2; c++) {
+            overlap->edge[k][0][c] = e[c] - s[c];
+            overlap->edge[k][1][c] = b[c] - a[c];
+        }
+    }
     overlap->area = twice / 2;
     scree_overlap_find_line(overlap, pieces, (const double(*)[2])end, false);
 }
@@ -195,8 +204,8 @@ SCREE_INLINE void scree_polygon_assemble(const scree_polygon_pair *pair, const s
 /// The overlap of two polygons, the centre of the second `apart` [m] from that of the first. False: none, `overlap` is
 /// not set. hint: in and out, an edge of these two bodies as scree_polygon_uncrossed tells it, or 0; the result does
 /// not depend on it. A pose that is not a number counts as inside, so that it is noticed.
-SCREE_INLINE bool scree_polygon_overlap(const scree_polygon *first, const scree_polygon *second, const double apart[2],
-                                        int *hint, scree_overlap *overlap)
+SCREE_INLINE bool scree_polygon_pair_overlap(const scree_polygon *first, const scree_polygon *second,
+                                             const double apart[2], int *hint, scree_overlap *overlap)
 {
     double reach = first->bound + second->bound;
     if (apart[0] * apart[0] + apart[1] * apart[1] > reach * reach * (1 + 0x1p-40)) return false;

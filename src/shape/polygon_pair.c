@@ -1,5 +1,5 @@
 /// What is rare when two polygons are compared: one inside the other, a new separating edge, two centres in one place.
-#include "shape/polygon_overlap.h"
+#include "shape/polygon_pair.h"
 
 #include <string.h>
 
@@ -8,8 +8,7 @@ int scree_polygon_compare(const scree_polygon *first, const scree_polygon *secon
     if (first->count != second->count) return first->count - second->count;
     for (int k = 0; k < first->count; k++)
         for (int i = 0; i < 2; i++)
-            if (first->corner[k][i] != second->corner[k][i])
-                return first->corner[k][i] > second->corner[k][i] ? 1 : -1;
+            if (first->corner[k][i] != second->corner[k][i]) return first->corner[k][i] > second->corner[k][i] ? 1 : -1;
     return 0;
 }
 

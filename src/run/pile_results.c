@@ -1,0 +1,185 @@
+/// What a pile that was poured tells: its grains, height, width, angles of repose, and the force on its plate against
+/// its weight (measure/pile.h); at every sample, and at the end with the table of its outline, outline.csv.
+#include "case/check.h"
+#include "io/run_directory.h"
+#include "measure/measure.h"
+#include "measure/pile.h"
+#include "module/key_rows.h"
+#include "run/conclusion.h"
+#include "state/births.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct config {
+    char *plate; ///< name of a wall
+} config;
+
+static const scree_key keys[] = {
+    KEY(config, plate, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),
+        .meaning = "Name of the wall whose force is compared with the weight of a pile; auto: all that stands."),
+};
+
+static const config *own_config(const scree_config *whole)
+{
+    return whole->measure.own ? scree_config_own(&scree_module_pile, "measure", whole->measure.own) : NULL;
+}
+
+static void rules(scree_reader *reader, const scree_config *whole)
+{
+    const config *own = own_config(whole);
+    const char *names[SCREE_SURFACES];
+    size_t count = 0;
+    if (!own || !own->plate) return;
+    for (int64_t k = 0; k < whole->wall_count; k++) {
+        if (!whole->walls[k].name || strcmp(whole->walls[k].name, own->plate) == 0) return;
+        names[count++] = whole->walls[k].name;
+    }
+    scree_rule_refuse_name(reader, "measure.plate", "wall", own->plate, names, count);
+}
+
+typedef struct numbers {
+    int plate; ///< number of the wall; -1: all that stands
+} numbers;
+
+static scree_status resolve(scree_model *model, scree_error *error)
+{
+    const config *own = scree_config_own(&scree_module_pile, "measure", model->config->measure.own);
+    numbers *n = scree_model_reserve_numbers(model, SCREE_SLOT_pile);
+    (void)error;
+    n->plate = -1;
+    for (int64_t k = 0; own && own->plate && k < model->wall_count; k++)
+        if (model->walls_of_case[k].name && strcmp(model->walls_of_case[k].name, own->plate) == 0) n->plate = (int)k;
+    return SCREE_OK;
+}
+
+static scree_status measure(const scree_context *c, scree_pile *pile, scree_error *error)
+{
+    const numbers *n = scree_model_numbers(c->model, SCREE_SLOT_pile);
+    return scree_pile_measure(c->model, c->state, c->work, c->table, n ? n->plate : -1, pile, error);
+}
+
+/// There is a pile where there are sources.
+static bool told(const scree_config *whole, size_t index, char name[SCREE_RESULT_NAME])
+{
+    name[0] = 0;
+    return index == 0 && whole->source_count > 0;
+}
+
+static double degrees(double angle)
+{
+    return angle * 180 / M_PI;
+}
+
+static const scree_result columns[] = {
+    {"pile_grains", "1", "particles that rest on what stands, by their contacts"},
+    {"pile_height", "m", "from the lowest contact with what stands to the highest point of the pile"},
+    {"pile_width", "m", "of the foot of its heap, without single particles that lie apart"},
+    {"pile_weight", "N", "weight of its particles"},
+    {"plate_force", "N", "upward force of the plate (measure.plate), or of all that stands, on them"},
+    {"grains_lost", "1", "particles that have fallen past everything that stands, and were taken out"},
+};
+
+static scree_status sample(const scree_context *c, size_t index, double *value, scree_error *error)
+{
+    scree_pile pile;
+    (void)index;
+    scree_status status = measure(c, &pile, error);
+    if (status) return status;
+    value[0] = (double)pile.grains;
+    value[1] = pile.grains > 0 ? pile.top - pile.base : 0;
+    value[2] = pile.grains > 0 ? pile.right - pile.left : 0;
+    value[3] = pile.weight;
+    value[4] = pile.plate;
+    value[5] = (double)scree_births_of(c->state)->lost;
+    scree_pile_destroy(&pile);
+    return SCREE_OK;
+}
+
+static const scree_result results[] = {
+    {"grains", "1", "particles of the pile"},
+    {"pile_height", "m", "from the lowest contact with what stands to the highest point of the pile"},
+    {"pile_width", "m", "of the foot of its heap"},
+    {"pile_apex", "m", "x of the highest point"},
+    {"angle_of_repose", "degree", "mean of the left and the right one, by the corners of the heap: foot to apex"},
+    {"angle_of_repose_left", "degree", "slope of the line from its left foot to its highest point"},
+    {"angle_of_repose_right", "degree", "slope of the line from its right foot to its highest point"},
+    {"angle_of_surface", "degree", "mean of the left and the right one, by a fit"},
+    {"angle_of_surface_left", "degree",
+     "slope of the line of least squares through its left surface, from 10 to 90 % of the height"},
+    {"angle_of_surface_right", "degree", "the same of the right one"},
+    {"pile_weight", "N", "weight of its particles"},
+    {"weight_ratio", "1", "upward force of the plate (measure.plate), or of all that stands, over this weight"},
+    {"unbalanced", "1", "mean unbalanced force on its particles now over the mean contact force"},
+    {"grains_lost", "1", "particles that have fallen past everything that stands, and were taken out"},
+};
+
+static scree_status conclude_numbers(const scree_context *c, size_t index, double *value, scree_error *error)
+{
+    scree_pile pile;
+    (void)index;
+    scree_status status = measure(c, &pile, error);
+    if (status) return status;
+    value[0] = (double)pile.grains;
+    value[1] = pile.top - pile.base;
+    value[2] = pile.right - pile.left;
+    value[3] = pile.apex;
+    value[4] = degrees(0.5 * (pile.angle[0] + pile.angle[1]));
+    value[5] = degrees(pile.angle[0]);
+    value[6] = degrees(pile.angle[1]);
+    value[7] = degrees(0.5 * (pile.fitted[0] + pile.fitted[1]));
+    value[8] = degrees(pile.fitted[0]);
+    value[9] = degrees(pile.fitted[1]);
+    value[10] = pile.weight;
+    value[11] = pile.plate / pile.weight;
+    value[12] = scree_unbalanced_ratio(c->model, c->state, c->table);
+    value[13] = (double)scree_births_of(c->state)->lost;
+    scree_pile_destroy(&pile);
+    return SCREE_OK;
+}
+
+static void write_outline(FILE *file, const scree_pile *pile)
+{
+    fputs("x [m],height [m],heap [1]\n", file);
+    for (size_t k = 0; k < pile->columns; k++) {
+        const scree_pile_column *column = &pile->column[k];
+        if (isnan(column->height)) continue;
+        fprintf(file, "%.9g,%.9g,%d\n", column->x, column->height, column->x > pile->left && column->x < pile->right);
+    }
+}
+
+static scree_status conclude(const scree_conclusion *run, scree_error *error)
+{
+    char path[PATH_MAX];
+    FILE *file;
+    scree_pile pile;
+    scree_simulation *s = run->s;
+    if (s->model.source_count == 0 || s->state.count == 0) return SCREE_OK;
+    const scree_context c = {.model = &s->stage_model, .state = &s->state, .work = &s->work, .table = &s->table};
+    scree_status status = measure(&c, &pile, error);
+    if (status) return status;
+    status = scree_path_join(path, sizeof path, run->directory, SCREE_FILE_OUTLINE, error);
+    if (!status) status = scree_replace_begin(path, &file, error);
+    if (!status) {
+        write_outline(file, &pile);
+        status = scree_replace_finish(path, file, true, error);
+    }
+    scree_pile_destroy(&pile);
+    return status;
+}
+
+const scree_module scree_module_pile = {
+    .name = "pile",
+    .meaning = "the pile that was poured: height, width, angles of repose, force on its plate",
+    .keys = (const scree_keys[]){KEYS_OF("measure", keys, config)},
+    .keys_count = 1,
+    .rules = rules,
+    .numbers_size = sizeof(numbers),
+    .resolve = resolve,
+    .columns = SCREE_RESULTS(columns, sample),
+    .results = SCREE_RESULTS(results, conclude_numbers),
+    .told = told,
+    .conclude = conclude,
+};

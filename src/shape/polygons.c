@@ -1,0 +1,286 @@
+/// The shape `polygon`: its keys, its fields, outlines as they are drawn.
+#include "shape/polygons.h"
+
+#include "base/checksum.h"
+#include "case/check.h"
+#include "module/key_rows.h"
+#include "module/shape.h"
+#include "shape/polygon_make.h"
+#include "state/fields.h"
+
+#include <sleef.h>
+#include <string.h>
+
+typedef scree_polygons own;
+
+// ---- keys --------------------------------------------------------------------------------------------------------
+
+typedef enum outline_kind { ON_ELLIPSE, REGULAR } outline_kind;
+
+typedef struct config {
+    int outline; ///< outline_kind
+    int64_t corners_min;
+    int64_t corners_max;
+    double axis_ratio;
+    int corner_angles; ///< scree_polygon_scatter
+} config;
+
+static const scree_choice outlines[] = {
+    {"ellipse", ON_ELLIPSE, "corners at random on an ellipse"},
+    {"regular", REGULAR, "all sides and angles alike"},
+    {0},
+};
+static const scree_choice scatters[] = {
+    {"sectors", SCREE_POLYGON_SECTORS, "one corner in each of as many equal sectors of the eccentric angle"},
+    {"free", SCREE_POLYGON_FREE, "all corners anywhere on the ellipse: slivers among them"},
+    {0},
+};
+#define WITH_POLYGON .when = "shape=polygon"
+static const scree_key keys[] = {
+    CHOICE(config, outline, outlines, .standard = "ellipse", WITH_POLYGON,
+           .meaning = "How the corners are drawn. The radius of a polygon is that of the disc of equal area."),
+    INTEGER(config, corners_min, .standard = "6", FROM("3"), TO("32"), WITH_POLYGON,
+            .meaning = "Fewest corners; each number up to `corners_max` is equally likely."),
+    INTEGER(config, corners_max, .standard = "8", FROM("3"), TO("32"), WITH_POLYGON, .meaning = "Most corners."),
+    NUMBER(config, axis_ratio, "1", .standard = "1", FROM("1"), TO("20"), .when = "outline=ellipse",
+           .meaning = "Long over short axis of the ellipse."),
+    CHOICE(config, corner_angles, scatters, .standard = "sectors", .when = "outline=ellipse",
+           .meaning = "Where on the ellipse corners may lie."),
+};
+
+static const char *wrong(const void *said, const char **key)
+{
+    const config *c = said;
+    *key = "corners_max";
+    return c->corners_max < c->corners_min ? "is less than corners_min" : NULL;
+}
+
+// ---- drawing -----------------------------------------------------------------------------------------------------
+
+/// Of a regular triangle 1.56.
+static double largest_reach(const void *said)
+{
+    return SCREE_POLYGON_REACH * sqrt(((const config *)said)->axis_ratio);
+}
+
+/// Corners of body `number` with the area of a disc of radius 1.
+static int draw(const config *c, uint64_t seed, uint64_t number, double corner[SCREE_POLYGON_CORNERS][2])
+{
+    const int count = scree_polygon_draw_count(seed, number, (int)c->corners_min, (int)c->corners_max);
+    // A list of 64 draws of one corner in each sector does not fail; where it does, the regular one is a polygon, too.
+    if (c->outline == REGULAR ||
+        scree_polygon_make_on_ellipse(seed, number, count, c->axis_ratio, (scree_polygon_scatter)c->corner_angles, 1,
+                                      corner, NULL))
+        scree_polygon_make_regular(count, 1, corner);
+    return count;
+}
+
+static double reach(const void *said, uint64_t seed, uint64_t number)
+{
+    double corner[SCREE_POLYGON_CORNERS][2];
+    const int count = draw(said, seed, number, corner);
+    return scree_polygon_measure(count, (const double(*)[2])corner).bound;
+}
+
+static scree_status dress(const scree_model *model, const void *said, uint64_t number, scree_state *state, size_t row,
+                          scree_error *error)
+{
+    double corner[SCREE_POLYGON_CORNERS][2];
+    const int count = draw(said, model->seed, number, corner);
+    const double bound = scree_polygon_measure(count, (const double(*)[2])corner).bound;
+    const double scale = state->row[row].radius / bound;
+    for (int k = 0; k < count; k++)
+        for (int i = 0; i < 2; i++) corner[k][i] *= scale;
+    return scree_polygons_set(model, state, row, count, (const double(*)[2])corner, error);
+}
+
+// ---- fields ------------------------------------------------------------------------------------------------------
+
+static const scree_group pool = {
+    .row = "corner",
+    .symbol = "k",
+    .count_offset = offsetof(own, count),
+    .capacity_offset = offsetof(own, capacity),
+};
+
+enum { FIRST };
+static const scree_field fields[] = {
+    [FIRST] = SCREE_FIELD_BODY(polygon, own, of, scree_corners, "first_corner", SCREE_FIELD_UINT32, 1, "1",
+                               "place of its first corner in polygons/corner, where there are polygons",
+                               .offset = offsetof(scree_corners, first), .only_dimension = 2, .optional = true,
+                               .ghosts = SCREE_GHOSTS_KEEP, .snapshot = true, SCREE_RANGE_TO(SCREE_LIMIT_MANY)),
+    SCREE_FIELD_BODY(polygon, own, of, scree_corners, "corner_count", SCREE_FIELD_UINT32, 1, "1",
+                     "number of its corners; 0 of a disc", .offset = offsetof(scree_corners, count),
+                     .only_dimension = 2, .optional = true, .ghosts = SCREE_GHOSTS_KEEP, .snapshot = true,
+                     SCREE_RANGE(0, SCREE_POLYGON_CORNERS)),
+    SCREE_FIELD_GROUP(polygon, own, pool, corner, double[2], "polygons/corner", SCREE_FIELD_DOUBLE, 2, "m",
+                      "corners in the frames of their bodies, counter-clockwise, from the centroid", .snapshot = true,
+                      .optional = true),
+    SCREE_FIELD_GROUP(polygon, own, pool, posed, double[2], "polygons/posed", SCREE_FIELD_DOUBLE, 2, "m",
+                      "corners as they lie, from the centroid", .role = SCREE_FIELD_DERIVED),
+};
+
+/// Leaves out of the pool what no body has.
+static void compact(scree_state *state, double (*kept)[2])
+{
+    own *p = scree_polygons_of(state);
+    size_t count = 0;
+    for (size_t row = 0; row < state->count; row++) {
+        memcpy(kept + count, p->corner + p->of[row].first, p->of[row].count * sizeof *kept);
+        p->of[row].first = (uint32_t)count;
+        count += p->of[row].count;
+    }
+    memcpy(p->corner, kept, count * sizeof *kept);
+    p->count = count;
+}
+
+/// Room for `more` corners: where half of a full pool is of bodies that are gone, theirs.
+static scree_status reserve(scree_state *state, size_t more, scree_error *error)
+{
+    own *p = scree_polygons_of(state);
+    size_t used = 0;
+    if (p->count + more <= p->capacity) return SCREE_OK;
+    for (size_t row = 0; row < state->count; row++) used += p->of[row].count;
+    if (used > p->count / 2) return scree_group_reserve(state, &scree_module_polygon, &pool, p->count + more, error);
+    double(*kept)[2] = NULL;
+    scree_status status = scree_allocate(&kept, used + 1, sizeof *kept, error);
+    if (!status) compact(state, kept);
+    scree_release(&kept);
+    if (status || p->count + more <= p->capacity) return status;
+    return scree_group_reserve(state, &scree_module_polygon, &pool, p->count + more, error);
+}
+
+/// The arrays that are there only with polygons; all that were there before are discs.
+static scree_status begin(scree_state *state, scree_error *error)
+{
+    const bool first = !state->form;
+    scree_status status = scree_state_begin_field(state, &fields[FIRST], error);
+    if (!status) status = scree_state_begin_form(state, error);
+    for (size_t row = 0; row < state->count && first && !status; row++)
+        state->form[row] = (scree_form){state->row[row].radius, state->row[row].radius};
+    return status;
+}
+
+scree_status scree_polygons_set(const scree_model *model, scree_state *state, size_t row, int count,
+                                const double (*corner)[2], scree_error *error)
+{
+    own *p = scree_polygons_of(state);
+    scree_status status = begin(state, error);
+    p->of[row].count = 0;
+    if (!status) status = reserve(state, (size_t)count, error);
+    if (status) return status;
+    const scree_polygon_measures m = scree_polygon_measure(count, corner);
+    for (int k = 0; k < count; k++)
+        for (int i = 0; i < 2; i++) p->corner[p->count + (size_t)k][i] = corner[k][i] - m.centroid[i];
+    p->of[row] = (scree_corners){(uint32_t)p->count, (uint32_t)count};
+    p->count += (size_t)count;
+    state->row[row].radius = m.bound * (1 + 0x1p-50);
+    // The disc of equal inertia: m R^2 / 2 = m (integral of x^2 + y^2) / A.
+    state->form[row] = (scree_form){m.radius, sqrt(2 * (m.moment[0] + m.moment[1]) / m.area)};
+    state->row[row].mass = scree_model_mass(model, scree_body_material(state, row), m.radius);
+    return SCREE_OK;
+}
+
+void scree_polygons_pose(scree_state *state)
+{
+    own *p = scree_polygons_of(state);
+    for (size_t row = 0; row < state->count && p->of; row++) {
+        const scree_corners of = p->of[row];
+        if (of.count == 0) continue;
+        const Sleef_double_2 turn = Sleef_cinz_sincosd1_u10purec(state->angle[row]);
+        scree_polygon_turn((int)of.count, (const double(*)[2])p->corner + of.first, turn.y, turn.x,
+                           p->posed + of.first);
+    }
+}
+
+// ---- the module --------------------------------------------------------------------------------------------------
+
+/// There may be some later in the stage.
+static bool in_use(const scree_context *c)
+{
+    bool some = scree_polygons_of(c->state)->of != NULL;
+    for (int s = 0; s < c->model->species_count; s++)
+        some = some || c->model->species[s].shape == scree_module_polygon.shape;
+    return some;
+}
+
+static scree_status pose(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    scree_polygons_pose(c->state);
+    return SCREE_OK;
+}
+
+static const scree_pass passes[] = {{SCREE_PHASE_SEARCH, pose}};
+
+/// Outlines that are stored.
+static scree_status check(const scree_state *state, const scree_model *model, scree_error *error)
+{
+    const own *p = scree_polygons_of(state);
+    (void)model;
+    for (size_t row = 0; row < state->count && p->of; row++) {
+        const scree_corners of = p->of[row];
+        if (of.count == 0) continue;
+        if (!state->form || (size_t)of.first + of.count > p->count)
+            return scree_error_set(error, SCREE_ERROR_INPUT, "first_corner: body %u has corners that are not there",
+                                   state->id[row]);
+        scree_error why;
+        if (scree_polygon_check((int)of.count, (const double(*)[2])p->corner + of.first, &why))
+            return scree_error_set(error, SCREE_ERROR_INPUT, "polygons/corner: body %u: %s", state->id[row],
+                                   why.message);
+        const double bound = scree_polygon_measure((int)of.count, (const double(*)[2])p->corner + of.first).bound;
+        if (!(bound <= state->row[row].radius))
+            return scree_error_set(error, SCREE_ERROR_INPUT, "radius: body %u reaches farther than its radius",
+                                   state->id[row]);
+    }
+    return SCREE_OK;
+}
+
+/// Of each polygon, in the order of ids: its id, its angle, the number of its corners and they themselves, in its
+/// frame; radii of the discs of equal area and inertia follow from them.
+static uint64_t checksum(const scree_model *model, const scree_state *state, uint64_t c)
+{
+    const own *p = scree_polygons_of(state);
+    (void)model;
+    size_t id = 0;
+    for (uint32_t row; p->of && (row = scree_next_by_id(state, &id)) != SCREE_NO_ROW;) {
+        const scree_corners of = p->of[row];
+        if (of.count == 0) continue;
+        c = scree_checksum_word(c, state->id[row]);
+        c = scree_checksum_number(c, state->angle[row]);
+        c = scree_checksum_word(c, of.count);
+        for (size_t k = 0; k < of.count; k++)
+            for (int i = 0; i < 2; i++) c = scree_checksum_number(c, p->corner[of.first + k][i]);
+    }
+    return c;
+}
+
+static double area(double square)
+{
+    return M_PI * square;
+}
+
+const scree_module scree_module_polygon = {
+    .name = "polygon",
+    .meaning = "a convex polygon, the section of a prism, in two dimensions",
+    .choice_of = CHOICE_OF(IS("particles.shape"), IS("particles.species.shape")),
+    .keys = (const scree_keys[]){KEYS_OF("particles", keys, config), KEYS_OF("particles.species", keys, config)},
+    .keys_count = 2,
+    .state_size = sizeof(own),
+    .fields = fields,
+    .field_count = sizeof fields / sizeof *fields,
+    .check = check,
+    .checksum = checksum,
+    .passes = passes,
+    .pass_count = 1,
+    .in_use = in_use,
+    .derive = scree_polygons_pose,
+    .shape = &(const scree_shape){.dimension = 2,
+                                  .elsewhere = "sphere",
+                                  .only_here = "polygons are bodies in the plane: dimension: 2",
+                                  .volume = area,
+                                  .wrong = wrong,
+                                  .largest_reach = largest_reach,
+                                  .reach = reach,
+                                  .dress = dress},
+};

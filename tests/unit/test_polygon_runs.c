@@ -1,0 +1,328 @@
+/// Polygons in runs: they slide, topple, roll and bounce as closed forms say; momentum and energy are kept, with the
+/// order of the scheme; discs run among them; nothing but the state decides.
+#include "run_fixture.h"
+
+#include "integrate/integrate.h"
+#include "shape/half_plane_overlap.h"
+#include "shape/polygon_make.h"
+#include "shape/polygons.h"
+
+// ---- cases ---------------------------------------------------------------------------------------------------------
+
+/// One regular polygon on a floor; gravity is turned in place of the floor.
+static const char one_text[] = "scree: 1\n"
+                               "name: one\n"
+                               "dimension: 2\n"
+                               "gravity: [0, -10]\n"
+                               "materials:\n"
+                               "  - {name: stone, young_modulus: 1e8 Pa, density: 2500 kg/m3, friction: 0.5}\n"
+                               "particles: {shape: polygon, outline: regular, corners_min: 6, corners_max: 6,\n"
+                               "            thickness: 1 m, material: stone, count: 1, distribution: equal,\n"
+                               "            radius: 1 cm}\n"
+                               "contact: {law: polygon_potential}\n"
+                               "integrator: {scheme: velocity_verlet, step: 2e-6 s}\n"
+                               "walls:\n"
+                               "  - {shape: plane, name: floor, point: [0, 0], normal: [0, 1]}\n"
+                               "stages:\n"
+                               "  - stage: prepare\n"
+                               "    method: bodies\n"
+                               "    width: 1 m\n"
+                               "    height: 1 m\n"
+                               "    bodies: [{position: [0.5 m, 9.523065e-3 m], angle: 0}]\n"
+                               "  - {stage: relax, boundary: walls, duration: 0.2 s}\n";
+
+/// A gas between three walls.
+#define GAS(particles)                                                                                                 \
+    "scree: 1\n"                                                                                                       \
+    "name: gas\n"                                                                                                      \
+    "dimension: 2\n"                                                                                                   \
+    "seed: 3\n"                                                                                                        \
+    "gravity: [0, -10]\n"                                                                                              \
+    "materials:\n"                                                                                                     \
+    "  - {name: stone, young_modulus: 1e7 Pa, density: 5000 kg/m3, friction: 0.5}\n" particles                         \
+    "contact: {law: polygon_overlap}\n"                                                                                \
+    "integrator: {scheme: velocity_verlet, step: 5e-6 s}\n"                                                            \
+    "walls:\n"                                                                                                         \
+    "  - {shape: plane, point: [0, 0], normal: [0, 1]}\n"                                                              \
+    "  - {shape: plane, point: [0, 0], normal: [1, 0]}\n"                                                              \
+    "  - {shape: plane, point: [32 mm, 0], normal: [-1, 0]}\n"                                                         \
+    "stages:\n"                                                                                                        \
+    "  - {stage: prepare, method: gas, width: 32 mm, solid_fraction: 30 %, velocity: 0.5 m/s}\n"                       \
+    "  - {stage: relax, boundary: walls, duration: 0.06 s}\n"
+static const char gas_text[] = GAS("particles: {shape: polygon, thickness: 1 m, material: stone, count: 24,\n"
+                                   "            distribution: uniform, radius_min: 2 mm, radius_max: 3 mm}\n");
+static const char mixed_text[] =
+    GAS("particles:\n"
+        "  thickness: 1 m\n"
+        "  count: 24\n"
+        "  species:\n"
+        "  - {name: grains, shape: polygon, material: stone, share: 0.5, distribution: equal, radius: 2 mm}\n"
+        "  - {name: discs, shape: disc, material: stone, share: 0.5, distribution: equal, radius: 2.5 mm}\n");
+
+#define COUNT_OF(list) (sizeof(list) / sizeof *(list))
+
+static scree_simulation open_with(const char *text, const char *const *overrides, size_t count, scree_case **c)
+{
+    scree_simulation s;
+    *c = case_read(text, overrides, count);
+    simulation_open(*c, 1, &s);
+    return s;
+}
+
+static void close_both(scree_simulation *s, scree_case *c)
+{
+    scree_simulation_close(s);
+    scree_case_free(c);
+}
+
+// ---- one polygon on a floor ----------------------------------------------------------------------------------------
+
+/// Runs to the end under gravity turned by `slope` [degrees] against the floor.
+static scree_simulation slide(double slope, const char *friction, const char *angle, scree_case **c)
+{
+    char gravity[96], turned[64];
+    const double a = slope * M_PI / 180;
+    (void)snprintf(gravity, sizeof gravity, "gravity=[%.17g, %.17g]", 10 * sin(a), -10 * cos(a));
+    (void)snprintf(turned, sizeof turned, "stages.0.bodies.0.angle=%s degrees", angle);
+    const char *const overrides[] = {gravity, friction, turned};
+    scree_simulation s = open_with(one_text, overrides, COUNT_OF(overrides), c);
+    (void)simulation_finish(&s);
+    return s;
+}
+
+/// Of a hexagon that lies on an edge. It starts some way above the floor and takes 0.02 s to come to rest on it.
+static void it_slides_as_coulomb_says(void **unused)
+{
+    (void)unused;
+    scree_case *c;
+    scree_simulation s = slide(20, "materials.0.friction=0.2", "0", &c);
+    scree_vector velocity, spin;
+    scree_body_velocity(&s.model, &s.state, 0, velocity, spin);
+    const double a = 20 * M_PI / 180, expected = 10 * (sin(a) - 0.2 * cos(a)) * 0.2;
+    print_message("velocity %.5f m/s, expected %.5f\n", velocity[0], expected);
+    assert_true(fabs(velocity[0] / expected - 1) < 0.01);
+    assert_true(fabs(spin[2]) < 1e-3);
+    close_both(&s, c);
+    s = slide(10, "materials.0.friction=0.2", "0", &c);
+    scree_body_velocity(&s.model, &s.state, 0, velocity, spin);
+    assert_true(fabs(velocity[0]) < 1e-6);
+    close_both(&s, c);
+}
+
+/// A hexagon stands on an edge as long as the slope is below 30 degrees, where its centre is above a corner;
+/// gravity that is turned at once makes it rock.
+static void it_topples_where_its_centre_passes_a_corner(void **unused)
+{
+    (void)unused;
+    scree_case *c;
+    scree_vector velocity, spin;
+    scree_simulation s = slide(14, "materials.0.friction=2", "0", &c);
+    scree_body_velocity(&s.model, &s.state, 0, velocity, spin);
+    print_message("below: spin %.3g rad/s, angle %.3g, velocity %.3g m/s\n", spin[2], s.state.angle[0], velocity[0]);
+    assert_true(fabs(spin[2]) < 1e-3);
+    assert_true(fabs(s.state.angle[0]) < 1e-3);
+    close_both(&s, c);
+    s = slide(26, "materials.0.friction=2", "0", &c);
+    assert_true(fabs(s.state.angle[0]) < 0.02);
+    close_both(&s, c);
+    s = slide(31, "materials.0.friction=2", "0", &c);
+    assert_true(s.state.angle[0] < -0.02);
+    close_both(&s, c);
+}
+
+/// What the floor bears is the weight, and the contact points are under the grain.
+static void the_floor_bears_the_weight(void **unused)
+{
+    (void)unused;
+    scree_case *c;
+    const char *const longer[] = {"stages.1.duration=0.5 s"};
+    scree_simulation s = open_with(one_text, longer, 1, &c);
+    (void)simulation_finish(&s);
+    const double weight = 10 * scree_body_mass(&s.state, 0), force = scree_case_walls(&s.state)->load[0].force[1];
+    assert_true(fabs(force / weight + 1) < 1e-9);
+    const double area = M_PI * 1e-4, inertia = scree_body_inertia(&s.state, 0);
+    assert_true(fabs(scree_body_mass(&s.state, 0) / (2500 * area) - 1) < 1e-12);
+    // Of a hexagon of side a: 5 sqrt(3) / 16 a^4 times the density, area 3 sqrt(3) / 2 a^2.
+    const double side2 = area / (1.5 * sqrt(3.0));
+    assert_true(fabs(inertia / (2500 * 5 * sqrt(3.0) / 8 * side2 * side2) - 1) < 1e-12);
+    close_both(&s, c);
+}
+
+// ---- energy and momentum -------------------------------------------------------------------------------------------
+
+static double residual_of(const char *text, const char *const *overrides, size_t count, double *law_share)
+{
+    scree_case *c;
+    scree_simulation s = open_with(text, overrides, count, &c);
+    const double worst = simulation_finish(&s);
+    const scree_ledger *ledger = &s.state.ledger;
+    *law_share = fabs(ledger->stiffness) / fabs(ledger->initial - ledger->gravity);
+    close_both(&s, c);
+    return worst;
+}
+
+#define LOSSLESS "materials.0.friction=0", "materials.0.damping_constant=0"
+
+/// Under the law with a potential nothing is booked, and the energy is kept with the order of the scheme.
+static void a_potential_keeps_its_energy(void **unused)
+{
+    (void)unused;
+    const char *const coarse[] = {LOSSLESS, "contact.law=polygon_potential"};
+    const char *const fine[] = {LOSSLESS, "contact.law=polygon_potential", "integrator.step=1.25e-6 s"};
+    double share;
+    const double first = residual_of(gas_text, coarse, COUNT_OF(coarse), &share),
+                 second = residual_of(gas_text, fine, COUNT_OF(fine), &share);
+    print_message("residual %.3g, with a quarter of the step %.3g\n", first, second);
+    assert_true(first < 3e-4);
+    assert_true(second < first / 5);
+    assert_true(share == 0);
+}
+
+/// The law without a potential has its row; with it the balance closes, with dashpots and friction, too.
+static void the_balance_of_the_other_law_has_a_row(void **unused)
+{
+    (void)unused;
+    const char *const coarse[] = {LOSSLESS}, *const fine[] = {LOSSLESS, "integrator.step=1.25e-6 s"};
+    const char *const damped[] = {"integrator.step=1.25e-6 s"};
+    double share[3];
+    const double first = residual_of(gas_text, coarse, 2, &share[0]),
+                 second = residual_of(gas_text, fine, 3, &share[1]);
+    const double third = residual_of(gas_text, damped, 1, &share[2]);
+    print_message("residual %.3g, with a quarter of the step %.3g (law %.2g); damped %.3g (law %.2g)\n", first, second,
+                  share[1], third, share[2]);
+    assert_true(second < first / 4);
+    assert_true(second < 1e-4 && third < 6e-5);
+    assert_true(share[1] > 30 * second);
+}
+
+/// A pair in free space: linear and angular momentum, whatever the law does.
+static void momentum_is_kept(void **unused)
+{
+    (void)unused;
+    scree_case *c;
+    const char *const overrides[] = {
+        "gravity=[0, 0]", "particles.count=2", "contact.law=polygon_overlap",
+        "stages.0.bodies=[{position: [0.5 m, 0.5 m], spin: [0, 0, 30]}, {position: [0.52 m, "
+        "0.507 m], velocity: [-1, 0.2], angle: 0.3}]",
+        "stages.1.duration=0.01 s"};
+    scree_simulation s = open_with(one_text, overrides, COUNT_OF(overrides), &c);
+    double before[3] = {0}, after[3] = {0};
+    for (int pass = 0; pass < 2; pass++) {
+        double *sum = pass ? after : before;
+        if (pass) (void)simulation_finish(&s);
+        while (!pass && s.state.stage.index < 1) simulation_step(&s);
+        for (size_t row = 0; row < s.state.count; row++) {
+            const scree_row *body = &s.state.row[row];
+            scree_vector velocity, spin;
+            scree_body_velocity(&s.model, &s.state, row, velocity, spin);
+            sum[0] += body->mass * velocity[0];
+            sum[1] += body->mass * velocity[1];
+            sum[2] += body->mass * (body->x * velocity[1] - body->y * velocity[0]) +
+                      scree_body_inertia(&s.state, row) * spin[2];
+        }
+    }
+    print_message("momentum %.17g %.17g %.17g\n", after[0], after[1], after[2]);
+    assert_true(s.state.ledger.damping > 0);
+    for (int k = 0; k < 2; k++) assert_true(fabs(after[k] - before[k]) < 1e-12 * fabs(before[0]));
+    assert_true(fabs(after[2] - before[2]) < 1e-9 * fabs(before[2]));
+    close_both(&s, c);
+}
+
+/// A hexagon that rocks on an edge, pressed in and turned, let out and turned back: the work of the force of R round
+/// the closed path of its pose is a tenth of what was done on the way; that of the gradient is none.
+static void only_one_law_has_a_potential(void **unused)
+{
+    (void)unused;
+    enum { STEPS = 4000 };
+    double corner[6][2], work[2] = {0}, done[2] = {0}, last = 0, share[2] = {0};
+    scree_polygon_make_regular(6, 1, corner);
+    for (int k = 0; k <= STEPS; k++) {
+        const double way = 4.0 * k / STEPS, part = way - floor(way), rock = 4e-3;
+        const int side = (int)way % 4;
+        const double depth = 1e-3 * (side == 0 ? part : side == 1 ? 1 : side == 2 ? 1 - part : 0);
+        const double angle = rock * (side == 0 ? 0 : side == 1 ? part : side == 2 ? 1 : 1 - part);
+        double posed[6][2], apothem = 0;
+        scree_polygon_turn(6, (const double(*)[2])corner, cos(angle), sin(angle), posed);
+        for (int i = 0; i < 6; i++) apothem = fmax(apothem, corner[i][1]);
+        const scree_polygon polygon = {(const double(*)[2])posed, 6, 1, 1.2};
+        scree_overlap o = {.area = 0};
+        const bool meet = scree_polygon_half_plane_overlap(&polygon, (const double[2]){0, 1}, apothem - depth, &o);
+        const double chord = hypot(o.chord[0], o.chord[1]), length = meet ? scree_overlap_wall_length(&o) : 1;
+        const double now[2] = {meet ? o.area / (length * chord) : 0, o.area};
+        for (int law = 0; law < 2 && k > 0; law++) {
+            const double step = 0.5 * (now[law] + share[law]) * (o.area - last);
+            work[law] += step;
+            done[law] += fabs(step);
+        }
+        last = o.area;
+        memcpy(share, now, sizeof share);
+    }
+    print_message("closed path: %.3g of the work, %.3g\n", work[0] / done[0], work[1] / done[1]);
+    assert_true(fabs(work[0] / done[0]) > 0.03);
+    assert_true(fabs(work[1] / done[1]) < 1e-9);
+}
+
+// ---- nothing but the state -----------------------------------------------------------------------------------------
+
+enum { FORGET = 1, LOSE = 2 };
+
+static uint64_t bits_of(const char *text, const char *const *overrides, size_t count, int threads, int disturbance)
+{
+    scree_case *c;
+    scree_simulation s = open_with(text, overrides, count, &c);
+    simulation_lose_work(&s, threads);
+    s.work.keep_threads = true;
+    for (int k = 0; k < 6000 && simulation_goes_on(&s); k++) {
+        if (disturbance == FORGET && k % 3 == 0) scree_neighbours_invalidate(&s.work);
+        if (disturbance == LOSE && k % 997 == 500) simulation_lose_work(&s, threads);
+        simulation_step(&s);
+    }
+    scree_error error;
+    check(scree_contacts_save(&s.state, &s.work, &error), &error);
+    const uint64_t checksum = scree_state_checksum(&s.model, &s.state);
+    close_both(&s, c);
+    return checksum;
+}
+
+static void nothing_but_the_state_decides(void **unused)
+{
+    (void)unused;
+    for (int mixed = 0; mixed < 2; mixed++) {
+        const char *text = mixed ? mixed_text : gas_text;
+        const uint64_t expected = bits_of(text, NULL, 0, 1, 0);
+        assert_true(bits_of(text, NULL, 0, 3, 0) == expected);
+        assert_true(bits_of(text, NULL, 0, 1, FORGET) == expected);
+        assert_true(bits_of(text, NULL, 0, 2, LOSE) == expected);
+        const char *const other[] = {"seed=4"};
+        assert_true(bits_of(text, other, 1, 1, 0) != expected);
+    }
+}
+
+/// Half of the bodies are discs.
+static void discs_run_among_them(void **unused)
+{
+    (void)unused;
+    const char *const potential[] = {LOSSLESS, "contact.law=polygon_potential", "integrator.step=2.5e-6 s"};
+    const char *const fine[] = {LOSSLESS, "contact.law=polygon_potential", "integrator.step=1.25e-6 s"};
+    double share;
+    const double first = residual_of(mixed_text, potential, 4, &share),
+                 second = residual_of(mixed_text, fine, 4, &share);
+    print_message("residual %.3g, with half of the step %.3g\n", first, second);
+    assert_true(first < 1e-4 && second < first / 2.5);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(it_slides_as_coulomb_says),
+        cmocka_unit_test(it_topples_where_its_centre_passes_a_corner),
+        cmocka_unit_test(the_floor_bears_the_weight),
+        cmocka_unit_test(a_potential_keeps_its_energy),
+        cmocka_unit_test(the_balance_of_the_other_law_has_a_row),
+        cmocka_unit_test(momentum_is_kept),
+        cmocka_unit_test(only_one_law_has_a_potential),
+        cmocka_unit_test(nothing_but_the_state_decides),
+        cmocka_unit_test(discs_run_among_them),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
