@@ -127,7 +127,7 @@ static void judge_stage(scree_reader *reader, const scree_config *whole, int64_t
     const scree_boundary *boundary = scree_config_held_by(whole, index);
     (void)snprintf(path, sizeof path, "stages.%lld.boundary", (long long)index);
     if (boundary && boundary->needs_rigid)
-        scree_rule_refuse(reader, path, "plates, periodic, none", "%s", boundary->needs_rigid);
+        scree_rule_refuse(reader, path, "plates, pressure, affine, periodic, none", "%s", boundary->needs_rigid);
 }
 
 static void rules(scree_reader *reader, const scree_config *whole)
