@@ -30,6 +30,9 @@ typedef struct scree_integrator {
     /// Velocity, spin or mass of the body were set from outside: what it remembers of the motion is void. NULL:
     /// nothing.
     void (*begin_anew)(scree_state *state, size_t row);
+    /// Largest omega dt with which an oscillator of this damping ratio stays bounded. NULL: that of a leapfrog whose
+    /// dashpots follow the velocity of the middle of the step (model/critical_step.c).
+    double (*limit)(double ratio);
     double velocity_lead; ///< stored velocity = v(n - 1/2) + velocity_lead * dt * a(n): 0 position, 1/2 velocity Verlet
 } scree_integrator;
 

@@ -121,8 +121,9 @@ static const scree_field fields[] = {
      "increments of velocity and spin by the forces of the last step", PLAIN_ARRAY(predicted, scree_predicted),
      .rows = SCREE_ROWS_BODIES, .ghosts = SCREE_GHOSTS_FOLLOW, .optional = true},
     {"lead", SCREE_FIELD_DOUBLE, 8, "1", SCREE_FIELD_STATE, false,
-     "of the integrator gear: what the predicted velocity [m/s] and spin [rad/s] are more than those of the scheme, "
-     "2D: x, y, spin; 3D: x, y, z, 0, spin x, y, z",
+     "where the scheme predicts: predicted velocity [m/s] and spin [rad/s] less those that it keeps; 2D: x, y, spin; "
+     "3D: "
+     "x, y, z, 0, spin x, y, z",
      PLAIN_ARRAY(lead, scree_predicted), .rows = SCREE_ROWS_BODIES, .ghosts = SCREE_GHOSTS_FOLLOW, .optional = true},
 
     CONTACT("first", SCREE_FIELD_UINT32, 1, "1", first, "id of the first body", SCREE_RANGE_TO(SCREE_LIMIT_BODY)),
@@ -172,7 +173,7 @@ static const scree_field fields[] = {
     ONE("ledger/gravity", SCREE_FIELD_DOUBLE, 1, "J", ledger.gravity, "work of gravity on the bodies"),
     ONE("ledger/initial", SCREE_FIELD_DOUBLE, 1, "J", ledger.initial, "energy when the ledger was opened"),
     ONE("ledger/scheme", SCREE_FIELD_DOUBLE, 1, "J", ledger.scheme,
-        "put into the kinetic energy of the scheme by changes of its step"),
+        "put into the kinetic energy by the scheme: changes of the step, errors of gear"),
     ONE("ledger/turnover", SCREE_FIELD_DOUBLE, 1, "J", ledger.turnover, "sum of the magnitudes of all work increments",
         SCREE_RANGE(0, DBL_MAX)),
     ONE("ledger/removed", SCREE_FIELD_DOUBLE, 1, "J", ledger.removed,
