@@ -145,7 +145,7 @@ kinematics kinematics_of_surface(const scree_wall_set *wall_set, size_t primitiv
     kinematics m = geometry_beside(v, &seen, closest->normal, closest->distance, step);
     if (!scree_surface_is_flat(surface))
         m.tilted = tilt_of(wall_set, primitive, dimension, body, closest, velocity, step);
-    kinematics_past(v, &m, velocity, spin, step);
+    kinematics_past(v, &m, &seen, step);
     if (dimension == 3 && moving) {
         // What the contact remembers turns with the wall, too.
         const double *w = surface->config->spin;
