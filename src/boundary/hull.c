@@ -118,41 +118,53 @@ scree_status scree_hull_renew(const scree_model *model, scree_state *state, scre
     return status;
 }
 
-static void add_force(scree_state *state, size_t node, const int64_t force[3])
+/// Where forces go.
+typedef struct hull_press {
+    scree_state *state;
+    double quantum; ///< N
+    double scale;   ///< p / 6 / quantum
+    bool adds;      ///< to the sums, too
+} hull_press;
+
+static void add_force(const hull_press *press, size_t node, const int64_t force[3])
 {
-    scree_sum_row *sum = &state->sum[state->row_of_id[scree_hull_of(state)->id[node]]];
-    scree_wrapping_add(&sum->fx, force[0]);
-    scree_wrapping_add(&sum->fy, force[1]);
-    scree_wrapping_add(&sum->fz, force[2]);
-    for (int k = 0; k < 3; k++) scree_hull_of(state)->force[node][k] += (double)force[k] * state->force_quantum;
+    scree_hull *hull = scree_hull_of(press->state);
+    scree_sum_row *sum = &press->state->sum[press->state->row_of_id[hull->id[node]]];
+    if (press->adds) {
+        scree_wrapping_add(&sum->fx, force[0]);
+        scree_wrapping_add(&sum->fy, force[1]);
+        scree_wrapping_add(&sum->fz, force[2]);
+    }
+    for (int k = 0; k < 3; k++) hull->force[node][k] += (double)force[k] * press->quantum;
 }
 
-static void press_triangle(scree_state *state, size_t t, double scale, scree_vector corner[3])
+static void press_triangle(const hull_press *press, size_t t, scree_vector corner[3])
 {
     int64_t force[3];
-    scree_triangle_press(scale, corner, force);
-    for (int c = 0; c < 3; c++) add_force(state, scree_hull_of(state)->triangle[t][c], force);
+    scree_triangle_press(press->scale, corner, force);
+    for (int c = 0; c < 3; c++) add_force(press, scree_hull_of(press->state)->triangle[t][c], force);
 }
 
 /// The walls between the edges of a triangle and the plate at height `plate`.
-static void press_walls(scree_state *state, size_t t, double scale, double plate, scree_vector corner[3])
+static void press_walls(const hull_press *press, size_t t, double plate, scree_vector corner[3])
 {
+    const scree_hull *hull = scree_hull_of(press->state);
     for (int c = 0; c < 3; c++) {
         int64_t at_a[3], at_b[3];
-        size_t a = scree_hull_of(state)->triangle[t][c], b = scree_hull_of(state)->triangle[t][(c + 1) % 3];
-        scree_wall_press(scale, plate, corner[c], corner[(c + 1) % 3], a < b, at_a, at_b);
-        add_force(state, a, at_a);
-        add_force(state, b, at_b);
+        size_t a = hull->triangle[t][c], b = hull->triangle[t][(c + 1) % 3];
+        scree_wall_press(press->scale, plate, corner[c], corner[(c + 1) % 3], a < b, at_a, at_b);
+        add_force(press, a, at_a);
+        add_force(press, b, at_b);
     }
 }
 
-void scree_hull_press(scree_state *state)
+void scree_hull_press(scree_state *state, double quantum, bool adds)
 {
     scree_hull *hull = scree_hull_of(state);
     if (hull->node_count == 0) return;
     memset(hull->force, 0, hull->node_count * sizeof *hull->force);
     if (!(scree_direct_pressure(state) > 0)) return;
-    double scale = scree_direct_pressure(state) / 6 / state->force_quantum;
+    const hull_press press = {state, quantum, scree_direct_pressure(state) / 6 / quantum, adds};
     scree_vector origin, corner[3];
     scree_hull_position(state, 0, origin);
     for (size_t t = 0; t < hull->triangle_count; t++) {
@@ -160,12 +172,12 @@ void scree_hull_press(scree_state *state)
         scree_hull_corners(state, t, origin, corner);
         int index = scree_hull_wall(hull, t);
         if (index < 0) {
-            press_triangle(state, t, scale, corner);
+            press_triangle(&press, t, corner);
             continue;
         }
         const scree_wall *wall = &scree_plates(state)[index];
         double plate = wall->normal[2] * wall->position - origin[2];
-        press_walls(state, t, scale, plate, corner);
+        press_walls(&press, t, plate, corner);
     }
 }
 

@@ -10,8 +10,9 @@
 /// place. Errors: memory, SCREE_ERROR_GUARD; the state is unchanged then.
 scree_status scree_hull_renew(const scree_model *model, scree_state *state, scree_error *error) SCREE_MUST_USE;
 
-/// Adds the forces of scree_pressure_now(state) at the present positions to the sums, and keeps them in hull.force.
-void scree_hull_press(scree_state *state);
+/// Keeps the forces of scree_pressure_now(state) at the present positions in hull.force, rounded to `quantum` [N]; with
+/// `adds` these quanta are those of the state, and go to the sums as well.
+void scree_hull_press(scree_state *state, double quantum, bool adds);
 
 /// A bound of the force of the pressure on a body [N], for the quanta.
 double scree_hull_pressure_bound(const scree_model *model, const scree_state *state);

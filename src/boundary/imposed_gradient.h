@@ -51,7 +51,6 @@ void scree_imposed_deform(const scree_context *context, const scree_demand *dema
 /// Its members that are always the same.
 #define SCREE_IMPOSED                                                                                                  \
     .free = true, .round = true, .equal_steps = true,                                                                  \
-    .needs_rigid = "particles that deform cannot feel the forces on a Delaunay boundary yet: give boundary: plates",   \
     .needs_ends = "its forces act on the Delaunay boundary, which goes around a sample that does not repeat itself: "  \
                   "give boundary: plates, or make the sample periodic in all directions",                              \
     .kept = "plates cannot come back to a sample that has deformed freely: only minimal or affine can follow",         \

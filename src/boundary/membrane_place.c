@@ -57,6 +57,7 @@ static void place_side(const scree_model *model, scree_state *state, size_t firs
                         .material = scree_membrane_numbers_of(model)->material,
                         .radius = membrane->radius,
                         .mass = scree_model_mass(model, scree_membrane_numbers_of(model)->material, membrane->radius)};
+        scree_body_make_round(state, row);
         state->species[row] = SCREE_NO_SPECIES;
         scree_body_position(state, row, state->reference[row]);
         membrane->rest[first + k][0] =

@@ -234,6 +234,9 @@ static const scree_pass passes[] = SCREE_IMPOSED_PASSES(add_forces);
 
 static const scree_boundary face = {
     .full_mirrors = true,
+    // Its tractions hang on velocities, so they are known behind the contacts only, too late for strains.
+    .needs_rigid = "particles that deform cannot feel the tractions of minimal conditions: give boundary: plates, "
+                   "pressure or affine",
     .resolve = resolve,
     .passes = passes,
     .pass_count = COUNT(passes),

@@ -4,7 +4,6 @@
 
 static const scree_boundary face = {
     .walls = SCREE_AXIAL_WALLS,
-    .needs_rigid = "particles that deform cannot feel the pressure on a Delaunay boundary yet: give boundary: plates",
     .needs_ends = "the Delaunay boundary goes around a sample that does not repeat itself: give boundary: plates",
     SCREE_AXIAL_PLATES,
 };

@@ -40,6 +40,7 @@ SCREE_INLINE bodies contact_body_at(const contact_job *job, size_t row)
 {
     bodies body = body_get(job->variant.dimension, &job->row[row], job->turn ? &job->turn[row] : NULL);
     body.stretch = contact_stretch_at(job, row);
+    body.lead = job->lead ? &job->lead[row] : NULL;
     body.state = job->state;
     body.row = row;
     return body;

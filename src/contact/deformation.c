@@ -41,6 +41,7 @@
 #include "contact/stretch.h"
 #include "model/critical_step.h"
 #include "module/boundary.h"
+#include "module/integrator.h"
 #include "module/key_rows.h"
 #include "state/body.h"
 
@@ -127,7 +128,7 @@ static void judge_stage(scree_reader *reader, const scree_config *whole, int64_t
     const scree_boundary *boundary = scree_config_held_by(whole, index);
     (void)snprintf(path, sizeof path, "stages.%lld.boundary", (long long)index);
     if (boundary && boundary->needs_rigid)
-        scree_rule_refuse(reader, path, "plates, periodic, none", "%s", boundary->needs_rigid);
+        scree_rule_refuse(reader, path, "plates, pressure, affine, periodic, none", "%s", boundary->needs_rigid);
 }
 
 static void rules(scree_reader *reader, const scree_config *whole)
@@ -142,6 +143,10 @@ static void rules(scree_reader *reader, const scree_config *whole)
         scree_rule_refuse(reader, k > 0 ? pair : "contact.deformation", k > 0 ? NULL : "none",
                           "the law of the contacts does not carry particles that deform: take law: linear");
     }
+    if (whole->integrator.scheme >= 0 && scree_integrator_get(whole->integrator.scheme)->velocity)
+        scree_rule_refuse(reader, "integrator.scheme", "velocity_verlet, position_verlet",
+                          "the strains of particles that deform follow the steps of a leapfrog: choose another scheme, "
+                          "or contact.deformation: none");
     for (int64_t i = 0; i < whole->material_count; i++) judge_material(reader, whole, i);
     for (int64_t i = 0; i < whole->stage_count; i++)
         if (whole->stages[i].kind >= 0) judge_stage(reader, whole, i);

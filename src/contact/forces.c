@@ -3,7 +3,8 @@
 /// The sums are clear from the last kick on (integrate/kick.h), or are cleared here.
 /// Each thread runs the kernels of the sections on its part of the pair list (contact/partition.h), then, after a
 /// barrier, merges a range of rows and evaluates the wall contacts of these rows. Without memory for the partition, or
-/// when asked to (work->reference_kernel), the scalar reference does all the work: same bits, slower.
+/// when asked to (work->reference_kernel), the scalar reference does all the work: same bits, slower. It takes the
+/// place of the kernels, in threads, where the motion at n is known (state->lead), of which they know nothing.
 #include "base/processor.h"
 #include "comm/comm.h"
 #include "contact/bounds.h"
@@ -50,6 +51,7 @@ static contact_job describe_job(const scree_model *model, const scree_state *sta
         .row = state->row,
         .turn = state->turn,
         .predicted = state->predicted,
+        .lead = state->lead,
         .stretch = state->moment ? state->stretch : NULL,
         .sum = state->sum,
         .torque = state->torque,
@@ -225,7 +227,9 @@ static contact_totals evaluate(contact_job *job, scree_state *state, scree_work 
     contact_clear_rows(state, work->clear_rows, scree_row_count(state, work));
     work->clear_rows = 0;
     contact_clear_moments(state, scree_row_count(state, work));
-    contact_kernel *kernel = work->reference_kernel ? NULL : choose_kernel(state->dimension, work->instruction_set);
+    contact_kernel *kernel = work->reference_kernel ? NULL
+                             : state->lead          ? contact_pairs_reference
+                                                    : choose_kernel(state->dimension, work->instruction_set);
     contact_scratch *scratch = kernel ? contact_scratch_refresh(work, state) : NULL;
     contact_totals totals =
         scratch ? evaluate_parts(kernel, scratch, job, state, work) : evaluate_serially(job, state, work);

@@ -108,7 +108,7 @@ SCREE_INLINE vector regularised_friction(variant v, lanes cap, const law_setting
     const bool implicit = v.option & BRILLIANTOV_IMPLICIT;
     // Nothing advances: the force that the last step ended with.
     if (implicit && settings->step == 0) return before;
-    vector slip = m->slip;
+    vector slip = m->dashpot_slip;
     lanes mobility = lanes_all(0);
     if (implicit) {
         mobility = settings->step * m->mobility;
@@ -130,7 +130,7 @@ SCREE_INLINE law_force hertz_brilliantov(variant v, const law_constants *constan
     lanes stiffness = constants->value[HERTZ_NORMAL] * lanes_root(m->reduced_radius * d);
     lanes elastic = stiffness * d;
     lanes normal =
-        lanes_at_least(elastic + stiffness * (settings->number[BRILLIANTOV_TIME] * m->approach), lanes_all(0));
+        lanes_at_least(elastic + stiffness * (settings->number[BRILLIANTOV_TIME] * m->dashpot_approach), lanes_all(0));
 
     lanes damping = normal - elastic, none = lanes_all(0), damping_before = before->value[1];
     vector tangential_before = {.x = before->value[0]};

@@ -125,12 +125,13 @@ SCREE_INLINE lanes kept_displacement(variant v, const law_memory *before, lanes 
 }
 
 /// slider_move, of a displacement of which `kept` is left where springs are rescaled.
-SCREE_INLINE slider advance_slider(variant v, int count, slider_memory *before, lanes kept, vector rate, double step,
-                                   lanes stiffness, lanes viscosity, lanes cap, lanes_bits touching)
+SCREE_INLINE slider advance_slider(variant v, int count, slider_memory *before, lanes kept, vector rate,
+                                   vector dashpot_rate, double step, lanes stiffness, lanes viscosity, lanes cap,
+                                   lanes_bits touching)
 {
     lanes lost = lanes_all(0);
     if (is_rescaled(v)) lost = slider_rescale(count, before, kept);
-    slider s = slider_move(count, before, rate, step, stiffness, viscosity, cap, touching);
+    slider s = slider_move(count, before, rate, dashpot_rate, step, stiffness, viscosity, cap, touching);
     if (is_rescaled(v)) s.stiffness = s.stiffness - lost;
     return s;
 }
@@ -152,7 +153,7 @@ SCREE_INLINE void resist_turning(variant v, const law_constants *constants, cons
     const int dimension = v.dimension, count = tangential_count(dimension);
     lanes kept = kept_displacement(v, before, tangential_stiffness);
     slider_memory rolled = remembered(dimension, m, before, before->rolling, before->rolling_last);
-    slider roll = advance_slider(v, count, &rolled, kept, m->roll, step, tangential_stiffness, eta,
+    slider roll = advance_slider(v, count, &rolled, kept, m->roll, m->dashpot_roll, step, tangential_stiffness, eta,
                                  constants->value[HERTZ_ROLLING] * normal, touching);
     f->couple = vector_times(count, moment_of(dimension, m->normal, roll.resistance), -m->reduced_radius);
     slider_work(f, &roll);
@@ -167,9 +168,10 @@ SCREE_INLINE void resist_turning(variant v, const law_constants *constants, cons
     lanes twisting_before = before->value[3] * (0.5 * (radius_before * radius_before));
     slider_memory twisted = {
         {.x = before->rolling[3]}, {.x = twisting_before * before->rolling[3]}, {.x = before->rolling_last[3]}};
-    slider twist = advance_slider(v, 1, &twisted, kept * kept * kept, (vector){.x = m->twist}, step,
-                                  tangential_stiffness * half_square, eta * half_square,
-                                  constants->value[HERTZ_TWISTING] * m->reduced_radius * normal, touching);
+    slider twist =
+        advance_slider(v, 1, &twisted, kept * kept * kept, (vector){.x = m->twist}, (vector){.x = m->dashpot_twist},
+                       step, tangential_stiffness * half_square, eta * half_square,
+                       constants->value[HERTZ_TWISTING] * m->reduced_radius * normal, touching);
     f->couple = vector_minus(3, f->couple, vector_times(3, m->normal, twist.resistance.x));
     slider_work(f, &twist);
     vector tangential_displacement = roll.now.displacement, dashpot = roll.now.dashpot;
@@ -190,14 +192,14 @@ SCREE_INLINE law_force hertz_mindlin(variant v, const law_constants *constants, 
     lanes tangential_stiffness = constants->value[HERTZ_TANGENTIAL] * contact_radius;
     lanes eta = constants->value[HERTZ_DAMPING] * lanes_root(m->reduced_mass * normal_stiffness);
     lanes elastic = normal_stiffness * d;
-    lanes normal = lanes_at_least(elastic + eta * m->approach, lanes_all(0));
+    lanes normal = lanes_at_least(elastic + eta * m->dashpot_approach, lanes_all(0));
     lanes damping = normal - elastic;
 
     slider_memory slipped =
         remembered(dimension, m, before, before->value, dimension == 2 ? before->value + 3 : before->last + 1);
     lanes kept = kept_displacement(v, before, tangential_stiffness);
-    slider slip = advance_slider(v, count, &slipped, kept, m->slip, settings->step, tangential_stiffness, eta,
-                                 constants->value[SCREE_FRICTION] * normal, touching);
+    slider slip = advance_slider(v, count, &slipped, kept, m->slip, m->dashpot_slip, settings->step,
+                                 tangential_stiffness, eta, constants->value[SCREE_FRICTION] * normal, touching);
     vector tangential_displacement = slip.now.displacement, dashpot = slip.now.dashpot;
     lanes damping_before = before->value[2];
     *after = (law_memory){.value = {tangential_displacement.x, tangential_stiffness, damping, dashpot.x}};

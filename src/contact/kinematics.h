@@ -47,10 +47,11 @@ typedef struct bodies {
     vector position, velocity;
     vector spin; ///< one component in two dimensions
     lanes radius, mass, material;
-    const double *stretch;           ///< one body at a time: its row (state/state.h); NULL: it is rigid
-    const struct scree_state *state; ///< one body at a time: where its geometry finds more of it,
-    size_t row;                      ///< in this row;
-    int8_t *hint;                    ///< what it may keep of a pair, to be faster, with no effect; NULL: nothing
+    const double *stretch;              ///< one body at a time: its row (state/state.h); NULL: it is rigid
+    const struct scree_state *state;    ///< one body at a time: where its geometry finds more of it,
+    size_t row;                         ///< in this row;
+    const struct scree_predicted *lead; ///< one body at a time: what it moves faster at n; NULL: not known
+    int8_t *hint;                       ///< what it may keep of a pair, to be faster, with no effect; NULL: nothing
 } bodies;
 
 /// Radius times strain of the bodies of a contact, their sum: xx, yy, xy in 2D; xx, yy, zz, yz, xz, xy in 3D.
@@ -59,18 +60,23 @@ typedef struct stretch {
     lanes change[6]; ///< m, in the last step
 } stretch;
 
-/// Rates are those of the middle of the step.
+/// Rates are those of the middle of the step. Dashpots have rates of their own: the same ones, but where bodies are
+/// known to move differently at n (kinematics_at_end).
 typedef struct kinematics {
-    vector normal;    ///< n, from second to first
-    lanes overlap;    ///< m, negative when apart
-    lanes expansion;  ///< m, the part of it that the strains of the bodies add
-    lanes expanding;  ///< m/s, its rate
-    vector spreading; ///< m/s, at which the strains move the surfaces past each other, as slip
-    lanes turning;    ///< m, by which the overlap has changed since the normal turned past the strained bodies
-    lanes approach;   ///< m/s, d'
-    vector slip;      ///< m/s, s
-    vector roll;      ///< m/s
-    lanes twist;      ///< rad/s, in space
+    vector normal;          ///< n, from second to first
+    lanes overlap;          ///< m, negative when apart
+    lanes expansion;        ///< m, the part of it that the strains of the bodies add
+    lanes expanding;        ///< m/s, its rate
+    vector spreading;       ///< m/s, at which the strains move the surfaces past each other, as slip
+    lanes turning;          ///< m, by which the overlap has changed since the normal turned past the strained bodies
+    lanes approach;         ///< m/s, d'
+    vector slip;            ///< m/s, s
+    vector roll;            ///< m/s
+    lanes twist;            ///< rad/s, in space
+    lanes dashpot_approach; ///< m/s, of the dashpots, in the same order
+    vector dashpot_slip;    ///< m/s
+    vector dashpot_roll;    ///< m/s
+    lanes dashpot_twist;    ///< rad/s
     lanes arm_first, arm_second;      ///< m, of the levers, along the normal
     vector lever_first, lever_second; ///< m, from the centres to the contact point, of geometries with levers;
     vector moved_first, moved_second; ///< m, by which they have changed in the last step
@@ -136,6 +142,41 @@ SCREE_INLINE void kinematics_turn(kinematics *m, vector spins, vector relative, 
     m->roll = turn_half(m, vector_times(3, vector_cross(relative, m->normal), m->reduced_radius));
 }
 
+/// Dashpots follow the rates of the middle of the step.
+SCREE_INLINE void kinematics_set_dashpots(int dimension, kinematics *m)
+{
+    m->dashpot_approach = m->approach;
+    m->dashpot_slip = m->slip;
+    m->dashpot_roll = m->roll;
+    if (dimension == 3) m->dashpot_twist = m->twist;
+}
+
+/// Where the motion at n is known, and not only that of the middle of the step: dashpots have the rates of n, in the
+/// geometry of n, which makes their forces functions of places and velocities at one time. Springs, and the work of
+/// all forces, keep the way of the step. levers: of geometries that have them. velocities and spins: at n, of the
+/// first body relative to a wall that moves; second: NULL beside a wall.
+SCREE_INLINE void kinematics_at_end(int dimension, bool levers, kinematics *m, const bodies *first,
+                                    const bodies *second)
+{
+    const int count = tangential_count(dimension);
+    const vector n = m->normal;
+    const vector lever = levers ? m->lever_first : vector_times(dimension, n, -m->arm_first);
+    vector passing = vector_plus(dimension, first->velocity, spin_cross(dimension, first->spin, lever));
+    vector relative = first->spin;
+    if (second) {
+        const vector there = levers ? m->lever_second : vector_times(dimension, n, m->arm_second);
+        const vector moving = spin_cross(dimension, second->spin, there);
+        passing = vector_minus(dimension, passing, vector_plus(dimension, second->velocity, moving));
+        relative = vector_minus(count, relative, second->spin);
+    }
+    m->dashpot_approach = -vector_dot(dimension, passing, n);
+    m->dashpot_slip = vector_across(dimension, passing, n);
+    m->dashpot_roll = vector_times(count, relative, m->reduced_radius);
+    if (dimension == 2) return;
+    m->dashpot_twist = vector_dot(3, relative, n);
+    m->dashpot_roll = vector_times(3, vector_cross(relative, n), m->reduced_radius);
+}
+
 /// Everything that depends on velocities; normal, overlap, arms, reduced radius and `tilted` are set.
 /// along: P u. lever: a_first w_first + a_second w_second.
 SCREE_INLINE void kinematics_advance(int dimension, kinematics *m, vector velocity, vector along, vector lever,
@@ -152,9 +193,11 @@ SCREE_INLINE void kinematics_advance(int dimension, kinematics *m, vector veloci
     along = vector_minus(count, along, vector_times(count, half, m->approach));
     m->slip = vector_minus(count, along, spin_across(dimension, lever, n));
     m->roll = vector_times(count, relative, m->reduced_radius);
-    if (dimension == 2) return;
-    kinematics_turn(m, spins, relative, step);
-    m->slip = turn_half(m, m->slip);
+    if (dimension == 3) {
+        kinematics_turn(m, spins, relative, step);
+        m->slip = turn_half(m, m->slip);
+    }
+    kinematics_set_dashpots(dimension, m);
 }
 
 /// The same of geometries with levers: normal, overlap, reduced radius and mass, `tilted`, the levers and their changes
@@ -186,9 +229,11 @@ SCREE_INLINE void kinematics_from_levers(int dimension, kinematics *m, const bod
     m->roll = vector_times(count, relative, m->reduced_radius);
     m->expansion = m->expanding = m->turning = lanes_all(0);
     m->spreading = vector_none();
-    if (dimension == 2) return;
-    kinematics_turn(m, spins, relative, step);
-    m->slip = turn_half(m, m->slip);
+    if (dimension == 3) {
+        kinematics_turn(m, spins, relative, step);
+        m->slip = turn_half(m, m->slip);
+    }
+    kinematics_set_dashpots(dimension, m);
 }
 
 /// 1 / m + a^2 / J times the number of contacts that pull at the body: each may move its share of the mass alone.

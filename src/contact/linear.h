@@ -36,18 +36,21 @@ enum { LINEAR_HELD = 1, LINEAR_DEFORMS = 2 };
 /// Bodies that deform: how strains go into the law, and what of it their ledger does not get from the slider and the
 /// contact, per step: strains take up f_t . w dt of the spreading w, the slider only where slip has w in it.
 typedef struct linear_strained {
-    vector slip; ///< m/s
-    lanes rate;  ///< m/s, along the normal, that the dashpot dissipates with
+    vector slip;         ///< m/s
+    vector dashpot_slip; ///< m/s
+    lanes rate;          ///< m/s, along the normal, that the dashpot dissipates with
     double loose, corrected;
 } linear_strained;
 
 SCREE_INLINE linear_strained linear_strain(variant v, const law_settings *settings, const kinematics *m)
 {
     const int count = tangential_count(v.dimension);
-    if (!(v.option & LINEAR_DEFORMS)) return (linear_strained){.slip = m->slip, .rate = m->approach};
+    if (!(v.option & LINEAR_DEFORMS))
+        return (linear_strained){.slip = m->slip, .dashpot_slip = m->dashpot_slip, .rate = m->approach};
     linear_strained s = {.loose = settings->number[SCREE_LAW_LOOSE],
                          .corrected = settings->number[SCREE_LAW_CORRECTED]};
     s.slip = vector_plus(count, m->slip, vector_times(count, m->spreading, lanes_all(s.corrected)));
+    s.dashpot_slip = s.slip; // integrators that know the motion at n refuse bodies that deform
     s.rate = m->approach + (1 - s.loose) * m->expanding;
     return s;
 }
@@ -150,15 +153,16 @@ SCREE_INLINE law_force linear(variant v, const law_constants *constants, const l
     lanes stiffness = lanes_keep(touching, whole);
     lanes root = lanes_root(m->reduced_mass * stiffness);
     lanes elastic = stiffness * d;
-    lanes normal = elastic + constant[LINEAR_DAMPING] * root * m->approach;
+    lanes normal = elastic + constant[LINEAR_DAMPING] * root * m->dashpot_approach;
     normal = lanes_select(sound, normal, lanes_at_least(normal, none));
     lanes cap = lanes_select(sound, lanes_all(INFINITY), constant[SCREE_FRICTION] * normal);
     lanes damping = normal - elastic, damping_before = before->value[dimension == 2 ? 1 : 3];
 
     const linear_strained strained = linear_strain(v, settings, m);
     slider_memory slipped = linear_remembered(dimension, m, before, constant[LINEAR_RATIO] * whole);
-    slider slip = slider_move(count, &slipped, strained.slip, settings->step, constant[LINEAR_RATIO] * stiffness,
-                              constant[LINEAR_TANGENTIAL_DAMPING] * root, cap, touching);
+    slider slip =
+        slider_move(count, &slipped, strained.slip, strained.dashpot_slip, settings->step,
+                    constant[LINEAR_RATIO] * stiffness, constant[LINEAR_TANGENTIAL_DAMPING] * root, cap, touching);
     vector tangential_displacement = slip.now.displacement, dashpot = slip.now.dashpot;
     *after = (law_memory){.value = {tangential_displacement.x, damping, dashpot.x, none}};
     if (dimension == 3)

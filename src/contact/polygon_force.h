@@ -52,7 +52,7 @@ SCREE_INLINE law_force polygon_force(const law_constants *constants, const law_s
     stored = lanes_keep(touching, stored);
     const lanes stiffness = lanes_keep(touching, constant[POLYGON_STIFFNESS]);
     const lanes tangential = lanes_keep(touching, constant[POLYGON_TANGENTIAL]);
-    const lanes rate = m->chord / m->length * m->approach;
+    const lanes rate = m->chord / m->length * m->dashpot_approach;
     lanes damping = constant[POLYGON_DAMPING] * lanes_root(stiffness * m->reduced_mass) * rate;
     damping = lanes_at_least(damping, -elastic);
     const lanes normal = elastic + damping, cap = constant[SCREE_FRICTION] * normal;
@@ -60,7 +60,8 @@ SCREE_INLINE law_force polygon_force(const law_constants *constants, const law_s
     const slider_memory slipped = {
         {.x = before->value[0]}, {.x = constant[POLYGON_TANGENTIAL] * before->value[0]}, {.x = before->last[1]}};
     const lanes viscosity = constant[POLYGON_VISCOSITY] * lanes_root(tangential * m->reduced_mass_along);
-    const slider slip = slider_move(1, &slipped, m->slip, settings->step, tangential, viscosity, cap, touching);
+    const slider slip =
+        slider_move(1, &slipped, m->slip, m->dashpot_slip, settings->step, tangential, viscosity, cap, touching);
     *after = (law_memory){.value = {slip.now.displacement.x, elastic, stored, none},
                           .last = {damping, slip.now.dashpot.x, none, none}};
     const lanes way = m->approach * settings->step;

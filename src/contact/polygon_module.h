@@ -39,7 +39,7 @@ scree_status scree_polygon_told(const scree_context *context, size_t index, doub
 #define POLYGON_LAW(traits_)                                                                                           \
     .traits = traits_, .option_count = 1, .elastic = &scree_polygon_elastic, .constant_count = POLYGON_VISCOSITY + 1,  \
     .resistances = 1U << SCREE_FRICTION, .options = scree_polygon_options, .bound = scree_polygon_bound,               \
-    .tangent = scree_polygon_tangent, .impact = scree_polygon_impact, .impact_duration = true, .confine_falls = 20
+    .tangent = scree_polygon_tangent, .impact = scree_polygon_impact, .impact_duration = true, .confine_falls = 60
 
 #define POLYGON_FIELDS(law)                                                                                            \
     SCREE_REMEMBERS(law, history, 0, SCREE_AXIAL_VECTOR, SCREE_TANGENTIAL_DISPLACEMENT_FIELD, .in_checksum = true,     \

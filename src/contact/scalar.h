@@ -42,6 +42,30 @@ static inline prediction prediction_get(int dimension, const scree_predicted *f)
     return (prediction){.velocity = {f->vx, f->vy, f->vz}, .spin = {f->wx, f->wy, f->wz}, f->contacts};
 }
 
+/// The body with velocity and spin at n.
+SCREE_INLINE bodies body_at_end(int dimension, const bodies *body)
+{
+    const int count = tangential_count(dimension);
+    const prediction lead = prediction_get(dimension, body->lead);
+    bodies moving = *body;
+    moving.velocity = vector_plus(dimension, body->velocity, lead.velocity);
+    moving.spin = vector_plus(count, body->spin, lead.spin);
+    return moving;
+}
+
+/// Rates of dashpots where the motion of the bodies at n is known. second: NULL beside a wall.
+SCREE_INLINE void kinematics_lead(variant v, kinematics *m, const bodies *first, const bodies *second)
+{
+    if (!first->lead) return;
+    const bodies one = body_at_end(v.dimension, first);
+    if (!second) {
+        kinematics_at_end(v.dimension, geometry_has_levers(v), m, &one, NULL);
+        return;
+    }
+    const bodies other = body_at_end(v.dimension, second);
+    kinematics_at_end(v.dimension, geometry_has_levers(v), m, &one, &other);
+}
+
 /// own: constants of the pair's own; NULL: it has none.
 static inline law_constants constants_get(const scree_pair_constants *c, const scree_member_row *own)
 {
@@ -127,19 +151,19 @@ static inline bool pair_touches(variant v, const bodies *one, const bodies *othe
     return expanded_touch(&m) != 0;
 }
 
-/// The rest of it: velocity and spin of the body are `velocity` and `spin` in the frame of the wall, whose normal turns
-/// there as m->tilted says.
-SCREE_INLINE void kinematics_past(variant v, kinematics *m, vector velocity, vector spin, double step)
+/// The rest of it: `seen` has the velocity and the spin of the body in the frame of the wall, whose normal turns there
+/// as m->tilted says.
+SCREE_INLINE void kinematics_past(variant v, kinematics *m, const bodies *seen, double step)
 {
     const int dimension = v.dimension;
     if (geometry_has_levers(v)) {
-        const bodies seen = {.velocity = velocity, .spin = spin};
-        kinematics_from_levers(dimension, m, &seen, NULL, step);
-        return;
+        kinematics_from_levers(dimension, m, seen, NULL, step);
+    } else {
+        vector along = vector_across(dimension, seen->velocity, m->normal);
+        vector lever = vector_times(tangential_count(dimension), seen->spin, m->arm_first);
+        kinematics_advance(dimension, m, seen->velocity, along, lever, seen->spin, vector_none(), step);
     }
-    vector along = vector_across(dimension, velocity, m->normal);
-    vector lever = vector_times(tangential_count(dimension), spin, m->arm_first);
-    kinematics_advance(dimension, m, velocity, along, lever, spin, vector_none(), step);
+    kinematics_lead(v, m, seen, NULL);
 }
 
 /// A plate moves with its normal and tangential velocity.
@@ -154,7 +178,7 @@ SCREE_INLINE kinematics kinematics_of_wall(variant v, const bodies *body, const 
     seen.velocity = vector_minus(dimension, body->velocity, moving);
     kinematics m =
         geometry_beside(v, &seen, wall->normal, vector_dot(dimension, normal, body->position) - wall->position, step);
-    kinematics_past(v, &m, seen.velocity, body->spin, step);
+    kinematics_past(v, &m, &seen, step);
     return m;
 }
 

@@ -125,6 +125,7 @@ bool contact_of_pair(const scree_model *model, const scree_state *state, const c
     const variant v = variant_of(model, dimension, of.law);
     if (!own && !pair_touches(v, &one, &other)) return false;
     kinematics m = geometry_kinematics(v, &one, &other, state->step_size);
+    kinematics_lead(v, &m, &one, &other);
     if (state->stretch) expand(state, &m, first, second);
     const bool in_contact = describe(v, of, own, &m, memory, contact);
     place(v, &one, &m, contact);
@@ -149,6 +150,7 @@ contact_evaluation contact_evaluate_again(const scree_model *model, const scree_
     e.variant = variant_of(model, dimension, of.law);
     e.variant.ledger = ledger;
     e.kinematics = geometry_kinematics(e.variant, &e.first, &e.second, state->step_size);
+    kinematics_lead(e.variant, &e.kinematics, &e.first, &e.second);
     if (state->stretch) expand(state, &e.kinematics, first, second);
     kinematics_hold(&e.kinematics);
     const contact_scale scale = {.inverse_force = 1 / state->force_quantum,

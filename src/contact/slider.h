@@ -67,13 +67,13 @@ SCREE_INLINE void slider_limit(int count, slider *s, vector viscous, lanes stiff
     s->resistance = vector_at_most(count, vector_plus(count, s->now.spring, viscous), cap);
 }
 
-/// step: dt; 0 evaluates without moving.
-SCREE_INLINE slider slider_move(int count, const slider_memory *before, vector rate, double step, lanes stiffness,
-                                lanes viscosity, lanes cap, lanes_bits touching)
+/// rate: moves the spring; dashpot_rate: the dashpot's. step: dt; 0 evaluates without moving.
+SCREE_INLINE slider slider_move(int count, const slider_memory *before, vector rate, vector dashpot_rate, double step,
+                                lanes stiffness, lanes viscosity, lanes cap, lanes_bits touching)
 {
     vector moved = vector_times(count, rate, lanes_all(step));
     vector reached = vector_plus(count, before->displacement, moved);
-    vector viscous = vector_times(count, rate, viscosity);
+    vector viscous = vector_times(count, dashpot_rate, viscosity);
     slider s = {.now = {.displacement = reached, .spring = vector_times(count, reached, stiffness)},
                 .friction = lanes_all(0)};
     s.resistance = vector_plus(count, s.now.spring, viscous);

@@ -178,7 +178,7 @@ kinematics kinematics_of_surface(const scree_wall_set *wall_set, size_t primitiv
     kinematics m = lie_beside(surface, v, &seen, closest, step);
     if (!scree_surface_is_flat(surface) && !has_outline(v, surface))
         m.tilted = tilt_of(wall_set, primitive, dimension, body, closest, velocity, step);
-    kinematics_past(v, &m, velocity, spin, step);
+    kinematics_past(v, &m, &seen, step);
     if (dimension == 3 && moving) {
         // What the contact remembers turns with the wall, too.
         const double *w = surface->config->spin;

@@ -55,8 +55,31 @@ static void shifted_velocity(const scree_model *model, const scree_state *state,
 void scree_body_velocity(const scree_model *model, const scree_state *state, size_t row, scree_vector velocity,
                          scree_vector spin)
 {
-    double shift = 0.5 - scree_integrator_get(model->scheme)->velocity_lead;
+    const scree_integrator *integrator = scree_integrator_get(model->scheme);
+    if (integrator->velocity) {
+        integrator->velocity(model, state, row, velocity, spin);
+        return;
+    }
+    double shift = 0.5 - integrator->velocity_lead;
     shifted_velocity(model, state, row, shift, velocity, spin);
+}
+
+void scree_body_velocity_so_far(const scree_model *model, const scree_state *state, size_t row, scree_vector velocity,
+                                scree_vector spin)
+{
+    if (!state->lead) {
+        scree_body_velocity(model, state, row, velocity, spin);
+        return;
+    }
+    const scree_predicted *lead = &state->lead[row];
+    const bool in_3d = state->dimension == 3;
+    scree_body_motion(state, row, velocity, spin);
+    velocity[0] += lead->vx;
+    velocity[1] += lead->vy;
+    velocity[2] += in_3d ? lead->vz : 0;
+    spin[0] += lead->wx;
+    spin[1] += lead->wy;
+    spin[2] += in_3d ? lead->wz : lead->spin;
 }
 
 void scree_body_half_velocity(const scree_model *model, const scree_state *state, size_t row, scree_vector velocity,

@@ -23,6 +23,11 @@ void scree_body_force(const scree_model *model, const scree_state *state, size_t
 void scree_body_velocity(const scree_model *model, const scree_state *state, size_t row, scree_vector velocity,
                          scree_vector spin);
 
+/// What is known of them while forces at n are still being found: the predicted ones where the scheme predicts (lead of
+/// the state), else as above, with the forces that are there.
+void scree_body_velocity_so_far(const scree_model *model, const scree_state *state, size_t row, scree_vector velocity,
+                                scree_vector spin);
+
 /// Velocity v(n - 1/2) and spin with which the contact forces at n were evaluated.
 void scree_body_half_velocity(const scree_model *model, const scree_state *state, size_t row, scree_vector velocity,
                               scree_vector spin);

@@ -1,6 +1,9 @@
 /// ParaView files of one snapshot: what lies in paraview/ and which data each file carries.
 ///
 ///   discs-000012.vtp     a point a disc (3D: spheres-000012.vtp); all fields of a snapshot
+///   polygons-000012.vtp  the outlines of bodies that are not round, as triangles from their first corners, with the
+///   same
+///                        fields; discs-... have their centres and bounding radii
 ///   contacts-000012.vtp  a line a contact, between centres (a wall: from the centre to the contact point)
 ///   boundary-000012.vtp  2D: a line an edge of the closed Delaunay boundary
 ///   hull-000012.vtp      3D: a triangle a face of the closed Delaunay hull
@@ -11,6 +14,7 @@
 ///   discs.pvd, ...       the collections of all snapshots with their times
 #include "io/paraview.h"
 #include "measure/delaunay_boundary.h"
+#include "shape/polygons.h"
 #include "state/plates.h"
 
 #include "boundary/membrane.h"
@@ -60,6 +64,74 @@ static scree_status build_bodies(scree_vtp *vtp, const scene *from, scree_error 
         scree_array array;
         status = scree_body_array(from->model, state, k, &array, error);
         if (!status) status = scree_vtp_add(vtp, false, array, error);
+    }
+    return status;
+}
+
+/// Triangles of all outlines.
+static size_t count_triangles(const scree_state *state, size_t *corners)
+{
+    const scree_polygons *polygons = scree_polygons_of(state);
+    size_t triangles = 0;
+    *corners = 0;
+    for (size_t row = 0; row < state->count && polygons->of; row++) {
+        const size_t count = polygons->of[row].count;
+        *corners += count;
+        triangles += count > 2 ? count - 2 : 0;
+    }
+    return triangles;
+}
+
+static void place_outlines(scree_vtp *vtp, const scree_state *state)
+{
+    const scree_polygons *polygons = scree_polygons_of(state);
+    size_t point = 0, cell = 0, id = 0;
+    for (uint32_t row; (row = scree_next_by_id(state, &id)) != SCREE_NO_ROW;) {
+        const scree_corners of = polygons->of[row];
+        double placed[SCREE_POLYGON_CORNERS][2];
+        scree_polygon_place((int)of.count, (const double(*)[2])polygons->corner + of.first,
+                            (const double[2]){state->row[row].x, state->row[row].y}, state->angle[row], placed);
+        for (size_t k = 0; k < of.count; k++)
+            scree_vtp_place(vtp, point + k, (const double[3]){placed[k][0], placed[k][1], 0});
+        for (size_t k = 2; k < of.count; k++, cell++) {
+            scree_vtp_join(vtp, cell, 0, point);
+            scree_vtp_join(vtp, cell, 1, point + k - 1);
+            scree_vtp_join(vtp, cell, 2, point + k);
+        }
+        point += of.count;
+    }
+}
+
+/// The element of a body for each of its triangles.
+static scree_status spread_over_triangles(const scree_state *state, const scree_array *array, size_t triangles,
+                                          scree_array *spread, scree_error *error)
+{
+    const size_t size = (size_t)array->components * scree_field_size(array->type);
+    *spread = *array;
+    spread->rows = triangles;
+    scree_status status = scree_array_allocate(spread, error);
+    if (status) return status;
+    unsigned char *to = spread->data;
+    const unsigned char *from = array->data;
+    size_t id = 0;
+    for (uint32_t row; (row = scree_next_by_id(state, &id)) != SCREE_NO_ROW; from += size)
+        for (size_t k = 2; k < scree_polygons_of(state)->of[row].count; k++, to += size) memcpy(to, from, size);
+    return SCREE_OK;
+}
+
+static scree_status build_polygons(scree_vtp *vtp, const scene *from, scree_error *error)
+{
+    const scree_state *state = from->state;
+    size_t corners, triangles = count_triangles(state, &corners);
+    scree_status status = scree_vtp_create(vtp, corners, SCREE_VTP_TRIANGLES, triangles, error);
+    if (status) return status;
+    place_outlines(vtp, state);
+    for (size_t k = 0; k < scree_body_array_count(state) && !status; k++) {
+        scree_array array = {0}, spread;
+        status = scree_body_array(from->model, state, k, &array, error);
+        if (!status) status = spread_over_triangles(state, &array, triangles, &spread, error);
+        scree_array_destroy(&array);
+        if (!status) status = scree_vtp_add(vtp, true, spread, error);
     }
     return status;
 }
@@ -367,14 +439,15 @@ scree_status scree_paraview_write(const char *directory, const scree_model *mode
         const char *kind;
         scree_status (*build)(scree_vtp *vtp, const scene *from, scree_error *error);
         int only_dimension; ///< 0: both
-    } scenes[] = {{"discs", build_bodies, 2},      {"spheres", build_bodies, 3},  {"contacts", build_contacts, 0},
-                  {"boundary", build_boundary, 2}, {"hull", build_hull, 3},       {"membrane", build_membrane, 3},
-                  {"plates", build_plates, 0},     {"lattice", build_lattice, 0}, {"walls", build_walls, 0},
-                  {"cells", build_cells, 0}};
+    } scenes[] = {{"discs", build_bodies, 2},      {"spheres", build_bodies, 3},   {"contacts", build_contacts, 0},
+                  {"boundary", build_boundary, 2}, {"hull", build_hull, 3},        {"membrane", build_membrane, 3},
+                  {"plates", build_plates, 0},     {"lattice", build_lattice, 0},  {"walls", build_walls, 0},
+                  {"cells", build_cells, 0},       {"polygons", build_polygons, 2}};
     const scene from = {model, state, table, info->cells, info->walls};
     for (size_t k = 0; k < sizeof scenes / sizeof *scenes && !status; k++) {
         if (scenes[k].only_dimension && scenes[k].only_dimension != state->dimension) continue;
         if (scenes[k].build == build_cells && (!info->cells || info->cells->count == 0)) continue;
+        if (scenes[k].build == build_polygons && !state->form) continue;
         if (scenes[k].build == build_membrane && scree_membrane_of(state)->count == 0) continue;
         if (scenes[k].build == build_walls && (!info->walls || info->walls->count == 0)) continue;
         scree_vtp vtp;

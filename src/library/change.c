@@ -155,6 +155,8 @@ static void put(scree_simulation *s, const scree_body_values *values)
         }
         move(state, row, values->velocity ? values->velocity + dimension * k : NULL,
              values->spin ? values->spin + turns * k : NULL);
+        if (s->integrator->begin_anew && (values->velocity || values->spin || values->radius))
+            s->integrator->begin_anew(state, row);
         note_speed(state, row);
     }
 }

@@ -106,7 +106,10 @@ void scree_simulation_copy(const scree_simulation *s, double *position, double *
         scree_vector place, speed, turn;
         size_t row = scree_next_by_id(state, &next);
         scree_body_position(state, row, place);
-        scree_body_velocity(&s->stage_model, state, row, speed, turn);
+        if (s->forces.called)
+            scree_body_velocity_so_far(&s->stage_model, state, row, speed, turn);
+        else
+            scree_body_velocity(&s->stage_model, state, row, speed, turn);
         if (position) memcpy(position + components * k, place, components * sizeof *place);
         if (velocity) memcpy(velocity + components * k, speed, components * sizeof *speed);
         if (spin) memcpy(spin + turns * k, turn + 3 - turns, turns * sizeof *turn);

@@ -3,6 +3,7 @@
 #include "base/vectors.h"
 #include "case/check.h"
 #include "load/prescribed.h"
+#include "module/integrator.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -162,12 +163,26 @@ static void check_boundaries(judged *j)
     }
 }
 
+/// Whether it is refused: what drives a body finds its force from the next kick of a leapfrog.
+static bool refuse_scheme(scree_reader *reader, const scree_config *config)
+{
+    const int scheme = config->integrator.scheme;
+    if (scheme < 0 || !scree_integrator_get(scheme)->velocity) return false;
+    scree_rule_refuse(
+        reader, "integrator.scheme", "velocity_verlet, position_verlet",
+        "a load prescribes motions by forces that a leapfrog turns into velocities: choose such a scheme, "
+        "or leave the load out");
+    return true;
+}
+
 void scree_prescribed_rules(scree_reader *reader, const scree_config *config)
 {
+    bool refused = false;
     for (int64_t i = 0; i < config->load_count; i++) {
         judged j = {
             .reader = reader, .config = config, .index = i, .own = scree_prescribed_config_of(config->loads, i)};
         if (!j.own) continue;
+        refused = refused || refuse_scheme(reader, config);
         scree_element_path(j.path, "loads", i, "selection");
         (void)scree_rule_is_selection(reader, config, j.path, j.own->selection);
         check_stages(&j);

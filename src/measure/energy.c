@@ -13,7 +13,9 @@
 /// Where the step changes from h to h', T(n) is taken with h by the step that ends and with h' by the one that begins
 /// (two_timescales.c): with v(n) = v(n-1/2) + h/2 a(n), T = sum 1/2 m (v(n)^2 - h^2/4 a(n)^2), and likewise for spins.
 /// The difference, sum m a^2 (h^2 - h'^2) / 8, is accumulated as `scheme`; it goes to zero with the square of the step.
-/// J = m R^2 / 2 (disc), 2 m R^2 / 5 (sphere). Cost: O(bodies + contacts).
+/// A scheme with velocities of its own at n has T = sum 1/2 m v^2 + 1/2 J w^2 of these, and tells `scheme` what it adds
+/// to that beside the work of the forces by the same rule (integrate/gear.c). J = m R^2 / 2 (disc), 2 m R^2 / 5
+/// (sphere). Cost: O(bodies + contacts).
 ///
 /// The guard stops a run by what is measured here, and `scheme` is part of the state: all sums are in integers, over
 /// rows and contacts in any order (base/integer_sum.h).
@@ -69,6 +71,16 @@ static turners find_turners(void)
     return found;
 }
 
+/// Of a scheme with velocities of its own at n (module/integrator.h).
+static void own_kinetic(const scree_model *model, const scree_state *state, size_t index, double *kinetic,
+                        double *rotation)
+{
+    scree_vector velocity, spin;
+    scree_body_velocity(model, state, index, velocity, spin);
+    *kinetic = 0.5 * scree_body_mass(state, index) * scree_dot(velocity, velocity);
+    *rotation = 0.5 * scree_body_inertia(state, index) * scree_dot(spin, spin);
+}
+
 /// v(n-1/2) . v(n+1/2) of a body, translation and rotation.
 static void add_kinetic(const scree_model *model, const scree_state *state, const turners *turned, size_t index,
                         scree_integer_sum *sum)
@@ -82,6 +94,7 @@ static void add_kinetic(const scree_model *model, const scree_state *state, cons
         kinetic += 0.5 * mass * velocity[k] * (velocity[k] + dt * force[k] / mass);
         rotation += 0.5 * inertia * spin[k] * (spin[k] + dt * torque[k] / inertia);
     }
+    if (scree_integrator_get(model->scheme)->velocity) own_kinetic(model, state, index, &kinetic, &rotation);
     scree_integer_sum_add(&sum[KINETIC], kinetic);
     for (size_t k = 0; k < turned->count; k++)
         if (turned->by[k](state, index)) return;
@@ -112,6 +125,7 @@ static double inertial_power(const scree_model *model, const scree_state *state,
 void scree_energy_change_step(const scree_model *model, scree_state *state, double before, double after)
 {
     scree_integer_sum sum = {0};
+    if (scree_integrator_get(model->scheme)->velocity) return;
     while (scree_comm_sum_next(state, &sum, 1))
         for (size_t row = 0; row < state->count; row++) scree_integer_sum_add(&sum, inertial_power(model, state, row));
     state->ledger.scheme += 0.125 * (before * before - after * after) * scree_integer_sum_total(&sum);

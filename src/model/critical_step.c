@@ -4,7 +4,7 @@
 ///     (M - dt/2 C) (x+ - 2x + x-)/dt^2 + C (x+ - x-)/(2 dt) + K x = 0,
 /// a central difference with the mass M - dt/2 C, stable exactly as long as M - dt/2 C - dt^2/4 K is positive definite.
 /// For one oscillator that is dt = (2/omega) (sqrt(1 + z^2) - z), z its damping ratio; without damping 2/omega
-/// (M 2.15).
+/// (M 2.15). Another scheme says its own limit for one oscillator (module/integrator.h).
 ///
 /// Assembly. The reference is the hexagonal lattice of the smallest discs (mass m, inertia m R^2/2), every contact at
 /// the force of a strong one. Its fastest modes are known: all discs turning alike, so that every contact slides, and
@@ -50,6 +50,7 @@
 #include "model/critical_step.h"
 
 #include "case/wall_motion.h"
+#include "module/integrator.h"
 
 #include "base/vectors.h"
 
@@ -70,20 +71,24 @@ scree_contact_tangent scree_contact_linearise(const scree_law_use *law, const sc
 }
 
 /// Step at which one mode of given stiffness and damping, both per mass, becomes unstable.
-static double critical_step_of_mode(double stiffness, double damping)
+static double critical_step_of_mode(double stiffness, double damping, double (*limit)(double ratio))
 {
     if (!(stiffness > 0)) return INFINITY;
     double frequency = sqrt(stiffness), ratio = damping / (2 * frequency);
+    if (limit) return limit(ratio) / frequency;
     // sqrt(1 + z^2) - z without cancellation.
     return 2 / frequency / (sqrt(1 + ratio * ratio) + ratio);
 }
 
-double scree_critical_step_lattice(int dimension, const scree_contact_tangent *t, double mass)
+double scree_critical_step_lattice(int dimension, const scree_contact_tangent *t, double mass,
+                                   double (*limit)(double ratio))
 {
     const double turn = dimension == 3 ? 40 : 24, normal = dimension == 3 ? 8 : 6, across = dimension == 3 ? 8 : 2;
-    double turning = critical_step_of_mode(turn * t->tangential_stiffness / mass, turn * t->tangential_damping / mass);
-    double shifting = critical_step_of_mode((normal * t->normal_stiffness + across * t->tangential_stiffness) / mass,
-                                            (normal * t->normal_damping + across * t->tangential_damping) / mass);
+    double turning =
+        critical_step_of_mode(turn * t->tangential_stiffness / mass, turn * t->tangential_damping / mass, limit);
+    double shifting =
+        critical_step_of_mode((normal * t->normal_stiffness + across * t->tangential_stiffness) / mass,
+                              (normal * t->normal_damping + across * t->tangential_damping) / mass, limit);
     return fmin(turning, shifting);
 }
 
@@ -207,7 +212,8 @@ static double estimate_of(const scree_model *model, int one, int other)
     if (!(force > 0 && force < guard)) force = guard;
 
     scree_contact_tangent tangent = scree_contact_linearise(law, pair, effective_radius, effective_mass, force);
-    return scree_critical_step_lattice(model->dimension, &tangent, fmin(mass, second));
+    return scree_critical_step_lattice(model->dimension, &tangent, fmin(mass, second),
+                                       scree_integrator_get(model->scheme)->limit);
 }
 
 double scree_critical_step_estimate(const scree_model *model)

@@ -10,8 +10,9 @@ scree_contact_tangent scree_contact_linearise(const scree_law_use *law, const sc
                                               double effective_radius, double effective_mass, double force);
 
 /// Largest stable step [s] of a hexagonal lattice of discs, in 3D a face-centred cubic one of spheres, of `mass` [kg]
-/// with such contacts. INFINITY without stiffness.
-double scree_critical_step_lattice(int dimension, const scree_contact_tangent *tangent, double mass);
+/// with such contacts, of a scheme with this limit (module/integrator.h; NULL: a leapfrog). INFINITY without stiffness.
+double scree_critical_step_lattice(int dimension, const scree_contact_tangent *tangent, double mass,
+                                   double (*limit)(double ratio));
 
 /// Estimate for the loads of the model's case (confining pressure, gravity, velocities). Reads everything of the model
 /// but the step.

@@ -23,6 +23,16 @@ typedef struct scree_integrator {
     void (*first)(const scree_model *model, scree_state *state, struct scree_work *work);
     /// Finishes velocities with the sums at n+1. May be NULL.
     void (*second)(const scree_model *model, scree_state *state, struct scree_work *work);
+    /// Velocity and spin at n of one that keeps more than velocities of the middle of the step, whose kinetic energy is
+    /// theirs. NULL: they follow from velocity_lead and the sums, and the kinetic energy from those half a step away.
+    void (*velocity)(const scree_model *model, const scree_state *state, size_t row, double velocity[3],
+                     double spin[3]);
+    /// Velocity, spin or mass of the body were set from outside: what it remembers of the motion is void. NULL:
+    /// nothing.
+    void (*begin_anew)(scree_state *state, size_t row);
+    /// Largest omega dt with which an oscillator of this damping ratio stays bounded. NULL: that of a leapfrog whose
+    /// dashpots follow the velocity of the middle of the step (model/critical_step.c).
+    double (*limit)(double ratio);
     double velocity_lead; ///< stored velocity = v(n - 1/2) + velocity_lead * dt * a(n): 0 position, 1/2 velocity Verlet
 } scree_integrator;
 

@@ -52,7 +52,7 @@ static scree_status fill(const scree_model *model, scree_state *state, size_t ro
         body->material = material;
         state->angle[row] = birth->angle;
     }
-    if (state->form) state->form[row] = (scree_form){radius, radius};
+    scree_body_make_round(state, row);
     if (!kind->shape || kind->shape->round) return SCREE_OK;
     return kind->shape->dress(model, kind->outline, number, state, row, error);
 }
@@ -89,7 +89,8 @@ static void note_speed(scree_state *state, size_t row)
 /// T [J] in the step that begins.
 static double kinetic_of(const scree_model *model, const scree_state *state, size_t row, const scree_birth *birth)
 {
-    const double half = 0.5 * state->step_size;
+    const bool own = scree_integrator_get(model->scheme)->velocity != NULL;
+    const double half = own ? 0 : 0.5 * state->step_size;
     return 0.5 * (scree_body_mass(state, row) * (scree_dot(birth->velocity, birth->velocity) -
                                                  half * half * scree_dot(model->gravity, model->gravity)) +
                   scree_body_inertia(state, row) * scree_dot(birth->spin, birth->spin));

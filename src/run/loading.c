@@ -75,7 +75,8 @@ void scree_loading_begin(scree_simulation *s, double pressure)
     s->boundary->fit(&context, pressure);
     if (s->boundary->mark) s->boundary->mark(&context);
     for (size_t row = 0; row < state->count; row++) scree_body_position(state, row, state->reference[row]);
-    if (state->angle) memset(state->angle, 0, state->count * sizeof *state->angle);
+    // Of bodies that are not round it is how they lie.
+    if (state->angle && !state->form) memset(state->angle, 0, state->count * sizeof *state->angle);
 }
 
 double scree_loading_planned(double time, double rise_time, double wave)

@@ -120,7 +120,8 @@ static scree_status draw_figures(scree_recorder *recorder, const scree_simulatio
 static void warn_of_springs(scree_recorder *recorder, const scree_simulation *s)
 {
     double share = scree_results_stiffness_share(&s->state);
-    if (share <= SCREE_STIFFNESS_SHARE) return;
+    // Of laws of areas the row is the work of their normal force, and a result of its own (law_work).
+    if (share <= SCREE_STIFFNESS_SHARE || scree_model_traits(&s->model)->areas) return;
     const bool strained = s->state.stretch, corrected = s->model.laws[0].number[SCREE_LAW_CORRECTED] > 0;
     const char *remedy = NULL;
     for (int k = 0; k < scree_model_law_count(&s->model) && !remedy && !strained; k++)

@@ -8,10 +8,12 @@
 /// over its time the mean spins, from which the waves of single instants have gone.
 #include "base/fixed.h"
 #include "base/integer_sum.h"
+#include "case/check.h"
 #include "comm/comm.h"
 #include "integrate/forced_spin.h"
 #include "measure/measure.h"
 #include "measure/rotation.h"
+#include "module/integrator.h"
 #include "module/key_rows.h"
 #include "run/loading.h"
 #include "run/rotation_results.h"
@@ -117,6 +119,11 @@ static scree_status choose(scree_simulation *s, uint32_t *id, scree_error *error
     int64_t *load = NULL;
     long long stage = (long long)s->state.stage.index;
     int64_t found = isnan(named) ? -1 : (int64_t)named;
+    if (s->state.form)
+        return scree_error_set(error, SCREE_ERROR_GUARD,
+                               "stage %lld (rotate_particle): rotations are measured of round particles alone, from "
+                               "where they lie at the begin",
+                               stage);
     if (isnan(named)) {
         scree_status status = measure_loads(s, &load, error);
         if (!status) found = find_central(s, load);
@@ -305,6 +312,19 @@ static const scree_result results[] = {
     {"rigid_rotation_ratio", "1", "rotation of the boundary over that of the particle"},
 };
 
+/// The torque that prescribes the spin is found from the kicks of a leapfrog (integrate/forced_spin.c).
+static void rules(scree_reader *reader, const scree_config *whole)
+{
+    if (whole->integrator.scheme < 0 || !scree_integrator_get(whole->integrator.scheme)->velocity) return;
+    for (int64_t i = 0; i < whole->stage_count; i++) {
+        if (whole->stages[i].kind != SCREE_SLOT_rotate_particle) continue;
+        scree_rule_refuse(reader, "integrator.scheme", "velocity_verlet, position_verlet",
+                          "stages.%lld prescribes a spin in the steps of a leapfrog: choose such a scheme",
+                          (long long)i);
+        return;
+    }
+}
+
 const scree_module scree_module_rotate_particle = {
     .name = "rotate_particle",
     .meaning =
@@ -314,6 +334,7 @@ const scree_module scree_module_rotate_particle = {
     .choice_of = CHOICE_OF(IS("stages", .meaning = "turns one particle and watches how rotations spread")),
     .keys = (const scree_keys[]){KEYS_OF(NULL, keys, config)},
     .keys_count = 1,
+    .rules = rules,
     .numbers = &numbers,
     .stage = &stage_face,
     .state_size = sizeof(scree_rotation),

@@ -96,6 +96,13 @@ static inline double scree_body_equivalent_radius(const scree_state *state, size
     return state->form ? state->form[row].radius : state->row[row].radius;
 }
 
+/// Of a body that has come among others that are not round: it is, with the radius of its row.
+static inline void scree_body_make_round(scree_state *state, size_t row)
+{
+    const double radius = state->row[row].radius;
+    if (state->form) state->form[row] = (scree_form){radius, radius};
+}
+
 /// Area [m2] in 2D, volume [m3] in 3D.
 static inline double scree_body_volume(const scree_state *state, size_t row)
 {

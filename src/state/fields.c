@@ -54,7 +54,8 @@ static const scree_field fields[] = {
     {"held", SCREE_FIELD_UINT8, 1, "1", SCREE_FIELD_STATE, false,
      "bits 0 to 2: velocity x, y, z, bits 3 to 5: spin about x, y, z is prescribed", PLAIN_ARRAY(held, uint8_t),
      .rows = SCREE_ROWS_BODIES, .optional = true, SCREE_RANGE(0, 63)},
-    {"angle", SCREE_FIELD_DOUBLE, 1, "rad", SCREE_FIELD_STATE, true, "rotation since the start, counter-clockwise",
+    {"angle", SCREE_FIELD_DOUBLE, 1, "rad", SCREE_FIELD_STATE, true,
+     "rotation since the start of the loading, counter-clockwise; of bodies that are not round how they lie turned",
      PLAIN_ARRAY(angle, double), .rows = SCREE_ROWS_BODIES, .only_dimension = 2},
     {"scheme_velocity", SCREE_FIELD_DOUBLE, SCREE_VECTOR, "m/s", SCREE_FIELD_STATE, false,
      "velocity that the integrator keeps: half a step behind the position in position_verlet",
@@ -119,6 +120,11 @@ static const scree_field fields[] = {
     {"predicted", SCREE_FIELD_DOUBLE, 8, "1", SCREE_FIELD_DERIVED, false,
      "increments of velocity and spin by the forces of the last step", PLAIN_ARRAY(predicted, scree_predicted),
      .rows = SCREE_ROWS_BODIES, .ghosts = SCREE_GHOSTS_FOLLOW, .optional = true},
+    {"lead", SCREE_FIELD_DOUBLE, 8, "1", SCREE_FIELD_STATE, false,
+     "where the scheme predicts: predicted velocity [m/s] and spin [rad/s] less those that it keeps; 2D: x, y, spin; "
+     "3D: "
+     "x, y, z, 0, spin x, y, z",
+     PLAIN_ARRAY(lead, scree_predicted), .rows = SCREE_ROWS_BODIES, .ghosts = SCREE_GHOSTS_FOLLOW, .optional = true},
 
     CONTACT("first", SCREE_FIELD_UINT32, 1, "1", first, "id of the first body", SCREE_RANGE_TO(SCREE_LIMIT_BODY)),
     CONTACT("second", SCREE_FIELD_UINT32, 1, "1", second,
@@ -167,7 +173,7 @@ static const scree_field fields[] = {
     ONE("ledger/gravity", SCREE_FIELD_DOUBLE, 1, "J", ledger.gravity, "work of gravity on the bodies"),
     ONE("ledger/initial", SCREE_FIELD_DOUBLE, 1, "J", ledger.initial, "energy when the ledger was opened"),
     ONE("ledger/scheme", SCREE_FIELD_DOUBLE, 1, "J", ledger.scheme,
-        "put into the kinetic energy of the scheme by changes of its step"),
+        "put into the kinetic energy by the scheme: changes of the step, errors of gear"),
     ONE("ledger/turnover", SCREE_FIELD_DOUBLE, 1, "J", ledger.turnover, "sum of the magnitudes of all work increments",
         SCREE_RANGE(0, DBL_MAX)),
     ONE("ledger/removed", SCREE_FIELD_DOUBLE, 1, "J", ledger.removed,

@@ -8,6 +8,9 @@
 /// State of the module `pressure`.
 typedef struct scree_pressure {
     double now; ///< Pa, compression positive
+    /// N, moments over the radius of the forces of the last step on the surfaces of bodies that deform, symmetric: xx,
+    /// yy, xy in 2D; xx, yy, zz, yz, xz, xy. NULL until the pressure acts on such bodies.
+    double (*surface)[6];
 } scree_pressure;
 
 /// Pa.

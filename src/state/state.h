@@ -166,7 +166,7 @@ typedef struct scree_ledger {
     double forced;    ///< work of the torque that keeps a body at a prescribed spin
     double gravity;   ///< sum of m g . x when the ledger was opened
     double initial;   ///< kinetic + elastic energy when the ledger was opened
-    double scheme;    ///< put into the kinetic energy of the scheme by changes of its step (measure/energy.c)
+    double scheme;    ///< put into the kinetic energy by the scheme: changes of its step, errors (measure/energy.c)
     double turnover;  ///< sum of |work| increments, the scale of the residual
     double outside;   ///< work from outside of the program: own forces, changes of bodies (include/scree/simulation.h)
     double removed;   ///< energy that left with bodies that were taken out (measure/removal.c)
@@ -226,6 +226,8 @@ struct scree_state {
     scree_vector *rebuild;          ///< m, positions at the last neighbour rebuild (derived, kept sorted with rows)
     uint32_t *row_of_id;            ///< id_count (derived); SCREE_NO_ROW: taken out
     scree_predicted *predicted;     ///< derived, sorted with rows; NULL unless the law looks ahead
+    scree_predicted *lead; ///< what velocities and spins at n are more than those of the rows, for dashpots and
+                           ///< forces from outside; NULL: the scheme does not know them (integrate/gear.c)
     // contacts: filled from `work` by scree_contacts_save, consumed by scree_contacts_load (contact/contact.h)
     scree_contact_memory *contact;
     scree_last_force *last_force; ///< beside `contact` where the law has last_force rows; else NULL

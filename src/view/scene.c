@@ -216,6 +216,17 @@ static scree_status measure_arrows(scree_scene_view *view, scree_error *error)
     return SCREE_OK;
 }
 
+/// What the bodies are called.
+static const char *kind_of(const scree_scene_view *view)
+{
+    const scree_snapshot *s = view->snapshot;
+    size_t round = 0;
+    if (view->scene->depth || view->scene->section) return "sphere";
+    if (!s->corner_count) return "disc";
+    for (size_t k = 0; k < s->count; k++) round += s->corner_count[k] == 0;
+    return round == 0 ? "polygon" : "polygons and disc";
+}
+
 static void write_caption(scree_scene_view *view)
 {
     const scree_snapshot *s = view->snapshot;
@@ -231,8 +242,7 @@ static void write_caption(scree_scene_view *view)
     size_t grains = 0;
     for (size_t k = 0; k < s->count; k++) grains += scree_snapshot_is_grain(s, k) && scree_scene_drawn(s, k);
     (void)snprintf(view->caption, sizeof view->caption, "%s%zu %s%s%s%s%s", view->scene->section ? "section, " : "",
-                   grains, view->scene->depth || view->scene->section ? "sphere" : "disc", grains == 1 ? "" : "s",
-                   left_out, strain, time);
+                   grains, kind_of(view), grains == 1 ? "" : "s", left_out, strain, time);
 }
 
 /// Title and caption from the top margin; returns the y below them.

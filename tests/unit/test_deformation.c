@@ -489,8 +489,8 @@ static void what_cannot_deform_is_refused(void **unused)
     (void)unused;
     expect_refusal(BOXED_GAS, "materials.rubber.poisson_ratio=0.5", "between -1 and 0.5");
     expect_refusal(BOXED_GAS,
-                   "stages=[{stage: prepare, method: gas}, {stage: confine, pressure: 1 kPa, boundary: pressure}]",
-                   "plates");
+                   "stages=[{stage: prepare, method: gas}, {stage: confine, pressure: 1 kPa, boundary: membrane}]",
+                   "membrane");
 }
 
 int main(void)

@@ -382,7 +382,7 @@ static void test_critical_step_of_the_lattice(void **unused)
     prepare_assembly(SCREE_SLOT_hexagonal, 200, &state);
     for (size_t k = 0; k < sizeof TANGENTS / sizeof *TANGENTS; k++) {
         assembly a = assemble(&state, TANGENTS[k]);
-        double ratio = true_critical_step(&a) / scree_critical_step_lattice(2, &TANGENTS[k], 1);
+        double ratio = true_critical_step(&a) / scree_critical_step_lattice(2, &TANGENTS[k], 1, NULL);
         assert_true(ratio > 0.999 && ratio < 1.015);
         disassemble(&a);
     }
@@ -398,7 +398,7 @@ static void test_lattice_is_faster_than_a_random_packing(void **unused)
     prepare_assembly(SCREE_SLOT_drop_and_roll, 300, &state);
     for (size_t k = 0; k < sizeof TANGENTS / sizeof *TANGENTS; k++) {
         assembly a = assemble(&state, TANGENTS[k]);
-        double ratio = true_critical_step(&a) / scree_critical_step_lattice(2, &TANGENTS[k], 1);
+        double ratio = true_critical_step(&a) / scree_critical_step_lattice(2, &TANGENTS[k], 1, NULL);
         assert_true(ratio > 1 && ratio < 2.5);
         disassemble(&a);
     }

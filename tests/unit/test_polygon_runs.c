@@ -311,6 +311,39 @@ static void discs_run_among_them(void **unused)
     assert_true(first < 1e-4 && second < first / 2.5);
 }
 
+// ---- what does not go together -------------------------------------------------------------------------------------
+
+static void what_does_not_go_together_is_refused(void **unused)
+{
+    (void)unused;
+    static const char *const wrong[][2] = {
+        {"contact.law=linear", "has no meaning for particles of these shapes; those that may are: polygon_overlap"},
+        {"particles.corners_max=5", "less than corners_min"},
+        {"particles.corners_min=2", "too small"},
+        {"particles.axis_ratio=0.9", "too small"},
+        {"dimension=3", "polygons are bodies in the plane"},
+        {"walls=[{shape: box, lower: [0, 0], upper: [1 m, 1 m], side: inside}]", "know no walls of this shape"},
+    };
+    for (size_t k = 0; k < COUNT_OF(wrong); k++) {
+        scree_case *c;
+        scree_problems *problems;
+        bool told = false;
+        if (case_parse(gas_text, &wrong[k][0], 1, &c, &problems) == SCREE_OK) {
+            // What only shows when values meet is for the model.
+            scree_simulation s;
+            scree_error error;
+            assert_true(scree_simulation_open(c, 1, &s, &error) != SCREE_OK);
+            if (!strstr(error.message, wrong[k][1])) fail_msg("%s: %s", wrong[k][0], error.message);
+            scree_case_free(c);
+            continue;
+        }
+        for (size_t i = 0; i < scree_problems_count(problems); i++)
+            told = told || strstr(scree_problems_get(problems, i)->message, wrong[k][1]);
+        if (!told) fail_msg("%s: %s", wrong[k][0], scree_problems_get(problems, 0)->message);
+        scree_problems_free(problems);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -323,6 +356,7 @@ int main(void)
         cmocka_unit_test(only_one_law_has_a_potential),
         cmocka_unit_test(nothing_but_the_state_decides),
         cmocka_unit_test(discs_run_among_them),
+        cmocka_unit_test(what_does_not_go_together_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

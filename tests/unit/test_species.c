@@ -179,7 +179,7 @@ static void critical_step_is_of_the_worst_pair(void **unused)
             double a = scree_model_mass(&model, i, radius[i]), b = scree_model_mass(&model, k, radius[k]);
             scree_contact_tangent tangent = scree_contact_linearise(
                 &model.laws[0], &model.pairs[i][k], 1 / (1 / radius[i] + 1 / radius[k]), 1 / (1 / a + 1 / b), force);
-            steps[i][k] = scree_critical_step_lattice(2, &tangent, fmin(a, b));
+            steps[i][k] = scree_critical_step_lattice(2, &tangent, fmin(a, b), NULL);
             least = fmin(least, steps[i][k]);
         }
     assert_true(fabs(model.critical_step / least - 1) < 1e-12);
