@@ -4,7 +4,6 @@
 /// stages).
 #include "case/check.h"
 #include "model/model.h"
-#include "module/wall_shape.h"
 
 #include "model/critical_step.h"
 #include "module/integrator.h"
@@ -331,15 +330,6 @@ static scree_status resolve_geometry(scree_model *model, scree_error *error)
     for (int k = 1; k < scree_model_law_count(model); k++)
         if (scree_law_use_traits(&model->laws[k])->areas != areas)
             return FIELD_ERROR(error, "contact.pairs", "laws of areas and others do not go together in one case");
-    for (int64_t w = 0; w < model->wall_count && areas; w++) {
-        char path[SCREE_PATH_BYTES];
-        (void)scree_element_path(path, "walls", w, "shape");
-        if (!scree_modules[model->walls_of_case[w].shape]->wall->endless)
-            return FIELD_ERROR(error, path,
-                               "polygons and discs under law %s know no walls of this shape: build it of planes, each "
-                               "of which is a half-plane",
-                               scree_modules[model->laws[0].law]->name);
-    }
     model->geometry = 0;
     for (int64_t s = 0; s < scree_config_species_count(particles) && model->geometry >= 0; s++)
         for (int64_t t = 0; t <= s && model->geometry >= 0; t++)

@@ -322,7 +322,6 @@ static void what_does_not_go_together_is_refused(void **unused)
         {"particles.corners_min=2", "too small"},
         {"particles.axis_ratio=0.9", "too small"},
         {"dimension=3", "polygons are bodies in the plane"},
-        {"walls=[{shape: box, lower: [0, 0], upper: [1 m, 1 m], side: inside}]", "know no walls of this shape"},
     };
     for (size_t k = 0; k < COUNT_OF(wrong); k++) {
         scree_case *c;
