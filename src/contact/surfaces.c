@@ -5,7 +5,7 @@
 #include "base/fixed.h"
 #include "base/vectors.h"
 #include "contact/advance.h"
-#include "contact/single.h"
+#include "contact/one_body.h"
 
 /// A memory passes between normals closer than this, where the wall has no larger angle `smooth`.
 #define PASSING 0.05 /* rad */

@@ -49,12 +49,12 @@ for name in "${modules[@]}"; do
         case $file in "${owner[0]%.c}"*) ;; *) complain "$file knows the module $name of ${owner[0]}" ;; esac
     done < <(grep -rlE "(SCREE_SLOT_|scree_module_)$name\b" src)
 done
-# A shape of walls is known by its name to its own file alone.
+# A shape of walls is known by its name to its own file alone (a shape of particles may be called so too).
 mapfile -t shapes < <(grep -lE '^    \.wall = ' src/shape/wall_*.c | sed -E 's/.*wall_(.*)\.c/\1/')
 [ ${#shapes[@]} -ge 5 ] || complain "the shapes of walls were not found"
 for shape in "${shapes[@]}"; do
     while IFS= read -r file; do complain "$file knows the wall shape $shape"; done \
-        < <(grep -rlE "shape=([a-z|]*\|)?$shape\b|SCREE_SHAPE_OF_|scree_${shape}_keys" src | grep -vE "src/shape/wall_($shape|keys|round)\.")
+        < <(grep -rlE "shape=([a-z|]*\|)?$shape\b|SCREE_SHAPE_OF_|scree_${shape}_keys" src | grep -vE "src/shape/(wall_($shape|keys|round)|${shape}s)\.")
 done
 # What the user said is read by what resolves the model, where a module takes its own keys for that; by nobody below.
 while IFS= read -r hit; do complain "$hit: only the model reads the config" ; done \
