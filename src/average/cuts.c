@@ -78,6 +78,8 @@ scree_status scree_average_view_open(scree_average_sample *sample, const scree_a
     if (!status) status = scree_average_sample_repeat(sample, view->side, error); // unless it has its images
     if (!status)
         status = scree_average_bins_make(sample, fmax(2 * sample->mean_radius, view->side / 4), &view->bins, error);
+    for (size_t p = 0; p < sample->bodies; p++) view->moved = view->moved || sample->grain[p].moved;
+    if (!status && view->moved) status = scree_average_strain_open(sample, &view->bins, &view->strain, error);
     if (status) scree_average_view_close(view);
     return status;
 }
@@ -86,6 +88,7 @@ void scree_average_view_close(scree_average_view *view)
 {
     scree_average_surface_destroy(&view->surface);
     scree_average_bins_destroy(&view->bins);
+    scree_average_strain_close(&view->strain);
 }
 
 // ---- tables ------------------------------------------------------------------------------------------------------
@@ -111,6 +114,7 @@ static void tell_fields(const scree_average_view *view, const scree_average_plan
     scree_average_value value;
     scree_average_measure(view->sample, &view->bins, &view->surface, &element, &value);
     scree_average_tell(view->sample, &value, plan->fields, scree_average_table_take, table);
+    if (view->moved) scree_average_strain_tell(&view->strain, &element, scree_average_table_take, table);
     if (plan->fields & SCREE_AVERAGE_STRESS)
         scree_average_table_take(table, "vertical_pressure_scaled", "1",
                                  g > 0 ? vertical_pressure(view, &value) / (view->bulk_density * g * view->height)

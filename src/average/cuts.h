@@ -10,6 +10,7 @@
 #define SCREE_AVERAGE_CUTS_H
 
 #include "average/fields.h"
+#include "average/strain.h"
 #include "average/table.h"
 
 enum { SCREE_AVERAGE_CUTS = 64 };
@@ -37,6 +38,8 @@ typedef struct scree_average_view {
     const scree_average_sample *sample;
     scree_average_surface surface;
     scree_average_bins bins;
+    scree_average_strain strain; ///< where `moved`
+    bool moved;
     double side;          ///< m, of the element
     double grains;        ///< that it holds at the mean density
     double axis, half;    ///< m
@@ -47,7 +50,7 @@ typedef struct scree_average_view {
 } scree_average_view;
 
 /// Looks at a finished sample, which stays with the caller. Errors: SCREE_ERROR_INPUT with field `element` when it is
-/// larger than the sample; memory.
+/// larger than the sample; memory. Strains are told where grains have displacements (scree_average_move).
 scree_status scree_average_view_open(scree_average_sample *sample, const scree_average_plan *plan,
                                      scree_average_view *view, scree_error *error) SCREE_MUST_USE;
 void scree_average_view_close(scree_average_view *view);

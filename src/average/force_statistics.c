@@ -181,9 +181,8 @@ scree_status scree_average_friction_table(const scree_average_sample *sample, sc
 static int sector_of(const scree_average_sample *sample, const scree_vector n, double sign)
 {
     if (sample->dimension == 3) return (int)fmin(BANDS - 1, floor(0.5 * (1 + sign * n[2]) * BANDS));
-    double angle = atan2(sign * n[1], sign * n[0]);
-    if (angle < 0) angle += 2 * M_PI;
-    return (int)fmin(SECTORS - 1, floor(angle / (2 * M_PI) * SECTORS));
+    const double angle = atan2(sign * n[1], sign * n[0]) / (2 * M_PI) * SECTORS;
+    return ((int)floor(angle + 0.5) + SECTORS) % SECTORS; // the first one lies about 0
 }
 
 scree_status scree_average_rose_table(const scree_average_sample *sample, scree_average_table *table,
@@ -196,6 +195,7 @@ scree_status scree_average_rose_table(const scree_average_sample *sample, scree_
     for (size_t c = 0; c < sample->contacts; c++)
         for (int way = -1; way <= 1; way += 2) {
             const scree_average_contact *contact = &sample->contact[c];
+            if (contact->second == SCREE_AVERAGE_OUTSIDE) continue;
             const int at = sector_of(sample, contact->normal, way);
             count[at]++;
             normal[at] += contact->normal_force;
@@ -203,7 +203,7 @@ scree_status scree_average_rose_table(const scree_average_sample *sample, scree_
             sum[0]++, sum[1] += contact->normal_force, sum[2] += fabs(contact->tangential_force);
         }
     for (int k = 0; k < sectors && !status; k++) {
-        const double at = (k + 0.5) / sectors, angle = in_3d ? asin(2 * at - 1) : 2 * M_PI * at;
+        const double angle = in_3d ? asin(2 * (k + 0.5) / sectors - 1) : 2 * M_PI * k / sectors;
         status = scree_average_table_begin_row(table, error);
         if (status) break;
         scree_average_table_take(table, "angle", "degree", angle * 180 / M_PI);

@@ -9,9 +9,9 @@
 /// and 2 sum (n - 1) / length follows chi square with 2 k degrees of freedom, which gives the interval (exact for
 /// independent forces; forces in one sample are not quite, so intervals over samples are to be preferred).
 /// Friction is mobilised by |f_t| / f_n, what R 2.6.2 calls effective friction; a contact slides when the law says so.
-/// Roses: directions of normals, of each contact both ways, in sectors of equal angle in 2D, of equal solid angle by
-/// elevation in 3D; density 1 where all directions are alike; beside them the mean normal and tangential force by
-/// direction over the mean of all.
+/// Roses: directions of normals between bodies, of each contact both ways, in sectors of equal angle in 2D, of equal
+/// solid angle by elevation in 3D; density 1 where all directions are alike; beside them the mean normal and tangential
+/// force by direction over the mean of all.
 #ifndef SCREE_AVERAGE_FORCE_STATISTICS_H
 #define SCREE_AVERAGE_FORCE_STATISTICS_H
 

@@ -24,6 +24,9 @@
 typedef struct scree_average_grain {
     scree_vector position, velocity; ///< m, m/s; z = 0 in 2D
     scree_vector resultant;          ///< N, of all that acts on it, gravity too
+    scree_vector displacement;       ///< m, since an earlier instant (average/strain.h)
+    double turn;                     ///< rad, in the same time, 2D
+    bool moved;                      ///< both are known
     double radius;                   ///< m, no point of it is farther from its centre
     double volume;                   ///< m2 in 2D, m3
     double mass;                     ///< kg

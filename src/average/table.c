@@ -5,6 +5,7 @@
 
 #include <gsl/gsl_sort.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -94,10 +95,31 @@ static scree_status make_like(const scree_average_table *form, scree_average_tab
     return status;
 }
 
+/// An angle of an axis [degree], for which 180 degrees are none: its mean is that of the doubled angles.
+static bool is_axis(const scree_average_table *table, size_t at)
+{
+    const char *name = table->column[at % table->columns].name;
+    const size_t length = strlen(name);
+    return length > 6 && strcmp(name + length - 6, "_angle") == 0;
+}
+
+static double mean_axis(const scree_average_table *table, size_t count, size_t at, const uint32_t *drawn)
+{
+    double cosine = 0, sine = 0;
+    for (size_t k = 0; k < count; k++) {
+        const double angle = table[drawn ? drawn[k] : k].value[at] * M_PI / 90;
+        if (!isfinite(angle)) continue;
+        cosine += cos(angle);
+        sine += sin(angle);
+    }
+    return cosine != 0 || sine != 0 ? atan2(sine, cosine) * 90 / M_PI : NAN;
+}
+
 /// Mean of the finite ones of value `at` of the tables; of those that were drawn, NULL: of each once.
 static double mean_of(const scree_average_table *table, size_t count, size_t at, const uint32_t *drawn)
 {
     double sum = 0, number = 0;
+    if (is_axis(table, at)) return mean_axis(table, count, at, drawn);
     for (size_t k = 0; k < count; k++) {
         const double value = table[drawn ? drawn[k] : k].value[at];
         if (!isfinite(value)) continue;
@@ -105,6 +127,17 @@ static double mean_of(const scree_average_table *table, size_t count, size_t at,
         number++;
     }
     return number > 0 ? sum / number : NAN;
+}
+
+/// Means of the samples that were drawn; of axes within a right angle of their mean.
+static void resample(const scree_average_table *table, size_t count, size_t at, const uint32_t *drawn, double mean,
+                     double *draws)
+{
+    const bool axis = is_axis(table, at);
+    for (size_t b = 0; b < SCREE_AVERAGE_BOOTSTRAP; b++) {
+        draws[b] = mean_of(table, count, at, drawn + b * count);
+        if (axis) draws[b] = mean + remainder(draws[b] - mean, 180);
+    }
 }
 
 scree_status scree_average_table_mean(const scree_average_table *table, size_t count, scree_average_table *mean,
@@ -129,7 +162,7 @@ scree_status scree_average_table_mean(const scree_average_table *table, size_t c
         mean->value[at] = mean_of(table, count, at, NULL);
         if (low) low->value[at] = high->value[at] = NAN;
         if (count < 2 || !low) continue;
-        for (size_t b = 0; b < SCREE_AVERAGE_BOOTSTRAP; b++) draws[b] = mean_of(table, count, at, drawn + b * count);
+        resample(table, count, at, drawn, mean->value[at], draws);
         low->value[at] = scree_average_quantile(draws, SCREE_AVERAGE_BOOTSTRAP, 0.025);
         high->value[at] = scree_average_quantile(draws, SCREE_AVERAGE_BOOTSTRAP, 0.975);
     }

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
+enum { BANDS = 60000 };  ///< numbers of a table that has bands; each is resampled
 #define SIGNIFICANT 0.05 /* largest p of a dip that is one */
 
 // ---- ensembles ---------------------------------------------------------------------------------------------------

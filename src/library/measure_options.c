@@ -127,6 +127,8 @@ scree_status measure_plan_read(const scree_measure_options *options, measure_pla
                            .element_given = options->element != NULL};
     plan->mean = strncmp(plan->at, mean, sizeof mean - 1) == 0;
     if (plan->mean) plan->at += sizeof mean - 1;
+    if (plan->mean && plan->from)
+        return refuse(error, "from", "--at with one snapshot", "a mean over a stage has no displacements");
     plan->average.points = 41;
     if (options->points != 0 && (options->points < 1 || options->points > 10001 || options->points % 2 == 0))
         return refuse(error, "points", "an odd number from 1 to 10001", "%ld places have no middle", options->points);

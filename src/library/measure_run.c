@@ -217,15 +217,30 @@ static void warn(const char *directory, const measure_plan *plan, const scree_av
                     directory, sample->unbalanced_ratio);
 }
 
-static scree_status measure_snapshot(const char *directory, const scree_snapshot_mark *mark, const measure_plan *plan,
-                                     bool first, measure_tables *tables, scree_error *error)
+/// Moves the grains from where they were in the snapshot `from`, if any.
+static scree_status move(const char *directory, const scree_snapshot_mark *from, scree_average_sample *sample,
+                         scree_error *error)
+{
+    scree_average_sample before;
+    if (!from) return SCREE_OK;
+    scree_status status = scree_sample_read(directory, from->index, &before, error);
+    if (status) return status;
+    status = scree_average_move(sample, &before, error);
+    scree_average_sample_destroy(&before);
+    return status;
+}
+
+static scree_status measure_snapshot(const char *directory, const scree_snapshot_mark *mark,
+                                     const scree_snapshot_mark *from, const measure_plan *plan, bool first,
+                                     measure_tables *tables, scree_error *error)
 {
     scree_average_sample sample;
     scree_average_view view;
     measure_plan own = *plan;
     scree_status status = scree_sample_read(directory, mark->index, &sample, error);
     if (status) return status;
-    status = scree_average_sample_finish(&sample, error);
+    status = move(directory, from, &sample, error);
+    if (!status) status = scree_average_sample_finish(&sample, error);
     if (!status && !own.element_given)
         own.average.grains = sample.counted < SHARE * USUAL ? fmax(1, (double)(sample.counted / SHARE)) : USUAL;
     // Kernels reach out of a periodic cell as far as they are wide, branches included.
@@ -270,7 +285,7 @@ static scree_status measure_stage(const char *directory, const scree_snapshot_ma
     scree_status status = scree_allocate(&each, of_stage, sizeof *each, error);
     for (size_t k = 0; k < count && !status; k++) {
         if (strcmp(mark[k].stage, plan->at) != 0) continue;
-        status = measure_snapshot(directory, &mark[k], plan, taken == 0, &each[taken], error);
+        status = measure_snapshot(directory, &mark[k], NULL, plan, taken == 0, &each[taken], error);
         taken++;
     }
     if (!status) measure_say(plan, "%s: mean over %zu snapshots of '%s'", directory, taken, plan->at);
@@ -283,14 +298,17 @@ static scree_status measure_stage(const char *directory, const scree_snapshot_ma
 scree_status measure_run(const char *directory, const measure_plan *plan, measure_tables *tables, scree_error *error)
 {
     scree_snapshot_mark *mark;
-    size_t count, which = 0;
+    size_t count, which = 0, from = 0;
     scree_status status = scree_snapshot_marks(directory, &mark, &count, error);
     if (status) return status;
     if (plan->mean) {
         status = measure_stage(directory, mark, count, plan, tables, error);
     } else {
         status = find_mark(directory, "at", plan->at, mark, count, &which, error);
-        if (!status) status = measure_snapshot(directory, &mark[which], plan, true, tables, error);
+        if (!status && plan->from) status = find_mark(directory, "from", plan->from, mark, count, &from, error);
+        if (!status)
+            status =
+                measure_snapshot(directory, &mark[which], plan->from ? &mark[from] : NULL, plan, true, tables, error);
     }
     scree_release(&mark);
     return status;

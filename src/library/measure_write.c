@@ -36,7 +36,7 @@ static scree_status write_table(const char *folder, const measure_found *found, 
 {
     char path[PATH_MAX];
     FILE *file;
-    const bool bands = found->runs > 1;
+    const bool bands = found->runs > 1 && found->low.of[product].rows > 0;
     if (found->mean.of[product].rows == 0) return SCREE_OK;
     scree_status status = scree_path_join(path, sizeof path, folder, measure_files[product], error);
     if (!status) status = scree_replace_begin(path, &file, error);
