@@ -62,7 +62,7 @@ static scree_status check_side(const scree_average_view *view, scree_error *erro
         "an element of %.3g m (%.0f grains) is larger than the sample, which is %.3g m wide and %.3g m high with %zu "
         "grains: take fewer grains",
         view->side, view->grains, width, view->height, view->sample->counted);
-    if (error) (void)snprintf(error->field, sizeof error->field, "element");
+    if (error) (void)snprintf(error->field, sizeof error->field, "--element");
     return status;
 }
 

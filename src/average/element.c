@@ -153,8 +153,12 @@ double scree_average_sphere_part(double radius, const double low[3], const doubl
             at[j] = at[j - 1];
             at[j - 1] = other;
         }
-    for (int k = 1; k < count; k++)
-        if (at[k] > at[k - 1]) volume += piece(radius, low, high, at[k - 1], at[k]);
+    // In halves: singular places close behind an end would cost digits.
+    for (int k = 1; k < count; k++) {
+        const double middle = 0.5 * (at[k - 1] + at[k]);
+        if (!(at[k] > at[k - 1])) continue;
+        volume += piece(radius, low, high, at[k - 1], middle) + piece(radius, low, high, middle, at[k]);
+    }
     return volume;
 }
 

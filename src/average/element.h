@@ -8,7 +8,8 @@
 ///     sphere     the integral over z of the part of a disc, in pieces between the places where the circle of the
 ///     section
 ///                begins to meet another side or corner; substituted so that the square roots at the ends of the pieces
-///                vanish, 12 points of Gauss each: below 1e-10 of the volume
+///                vanish, 12 points of Gauss in each half: below 1e-8 of the
+///                volume
 /// A grain whose circle lies inside or outside costs a comparison.
 #ifndef SCREE_AVERAGE_ELEMENT_H
 #define SCREE_AVERAGE_ELEMENT_H

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+enum { OF_DIAMETER = 4 }; ///< columns of a mean diameter
+
 void scree_average_surface_destroy(scree_average_surface *surface)
 {
     scree_release(&surface->bottom);
@@ -16,10 +18,10 @@ static size_t column_at(const scree_average_surface *s, int axis, double place)
     return at <= 0 ? 0 : at >= (double)last ? last : (size_t)at;
 }
 
-/// Distance of a place from the nearest point of column k along an axis.
+/// Distance of a place from the middle of column k along an axis.
 static double away(const scree_average_surface *s, int axis, size_t k, double place)
 {
-    return fmax(0, fabs(s->origin[axis] + ((double)k + 0.5) * s->width - place) - 0.5 * s->width);
+    return s->origin[axis] + ((double)k + 0.5) * s->width - place;
 }
 
 /// Lets a grain raise and lower the columns that it covers.
@@ -56,6 +58,12 @@ static double find_base(const scree_average_sample *sample)
     return isfinite(base) ? base : sample->low[up];
 }
 
+/// The first column within a mean diameter.
+static size_t first_near(size_t column)
+{
+    return column < OF_DIAMETER ? 0 : column - OF_DIAMETER;
+}
+
 /// The lower surface of what has no voids below it.
 static scree_status smooth_bottom(const scree_average_sample *sample, scree_average_surface *s, scree_error *error)
 {
@@ -65,8 +73,9 @@ static scree_status smooth_bottom(const scree_average_sample *sample, scree_aver
     for (size_t i = 0; i < s->columns[0] && !status; i++)
         for (size_t j = 0; j < n; j++) {
             double low = NAN;
-            for (size_t a = i < 2 ? 0 : i - 2; a <= i + 2 && a < s->columns[0]; a++)
-                for (size_t b = j < 2 ? 0 : j - 2; b <= j + 2 && b < n; b++) low = fmin(low, s->bottom[a * n + b]);
+            for (size_t a = first_near(i); a <= i + OF_DIAMETER && a < s->columns[0]; a++)
+                for (size_t b = first_near(j); b <= j + OF_DIAMETER && b < n; b++)
+                    low = fmin(low, s->bottom[a * n + b]);
             const bool near = low < s->base + 2 * sample->mean_radius;
             least[i * n + j] = isnan(s->bottom[i * n + j]) ? NAN : near ? s->base : low;
         }
@@ -83,12 +92,12 @@ static bool is_covered(const scree_average_surface *s, size_t i)
     return false;
 }
 
-/// The last covered column from the apex on in the direction of `step`, before a gap of two.
+/// The last covered column from the apex on in the direction of `step`, before a gap of a mean diameter.
 static size_t foot(const scree_average_surface *s, int step)
 {
     size_t last = column_at(s, 0, s->apex);
     int gap = 0;
-    for (size_t k = last; k < s->columns[0] && gap < 2; k += (size_t)step) { // below 0 it is large
+    for (size_t k = last; k < s->columns[0] && gap < OF_DIAMETER; k += (size_t)step) { // below 0 it is large
         gap = is_covered(s, k) ? 0 : gap + 1;
         if (gap == 0) last = k;
     }
@@ -117,8 +126,10 @@ static void find_ends(const scree_average_sample *sample, scree_average_surface 
 scree_status scree_average_surface_find(const scree_average_sample *sample, scree_average_surface *s,
                                         scree_error *error)
 {
-    *s = (scree_average_surface){
-        .dimension = sample->dimension, .width = sample->mean_radius, .columns = {1, 1}, .base = find_base(sample)};
+    *s = (scree_average_surface){.dimension = sample->dimension,
+                                 .width = 2 * sample->mean_radius / OF_DIAMETER,
+                                 .columns = {1, 1},
+                                 .base = find_base(sample)};
     for (int k = 0; k < sample->dimension - 1; k++) {
         s->origin[k] = sample->low[k];
         s->columns[k] = (size_t)ceil((sample->high[k] - sample->low[k]) / s->width);

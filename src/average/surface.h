@@ -1,9 +1,9 @@
-/// Where a sample is: its lower and upper surface in columns of a mean radius, so that the part of an element that lies
-/// inside the sample is known, and of a pile its foot and its top.
+/// Where a sample is: its lower and upper surface in columns of half a mean radius, so that the part of an element that
+/// lies inside the sample is known, and of a pile its foot and its top.
 ///
-/// The upper surface of a column is the highest point of the circles of the grains over it; the lower one the lowest
-/// point of those within two columns of it (what stands below has no voids), and the base where it is not a mean
-/// diameter above that. The base is the lowest point where a grain touches what is no body, or the lowest grain.
+/// The upper surface of a column is the highest point of the circles of the grains at its middle; the lower one the
+/// lowest point of those within a mean diameter of it (what stands below has no voids), and the base where it is not a
+/// mean diameter above that. The base is the lowest point where a grain touches what is no body, or the lowest grain.
 /// Columns without a grain are outside. The heap is what lies around the highest grain without a gap of more than a
 /// mean diameter, as in measure/pile.h. Grains that touch nothing count where they are not above all that do. Up is the
 /// last axis. Limits: sizes are those of the bounding circles. Cost: linear.

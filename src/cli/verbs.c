@@ -468,8 +468,8 @@ const scree_verb scree_verbs[] = {
                                "the kernel in mean diameters, or a length"},
                    {.name = "at",
                     .value = "WHEN",
-                    .meaning = "start, end, a STAGE (its last snapshot), an axial strain, or mean:STAGE, the mean over "
-                               "its snapshots",
+                    .meaning = "start, end, a STAGE (its last snapshot), an axial strain; mean:STAGE or mean:N, "
+                               "the mean over its snapshots, or over the last N",
                     .preset = "end"},
                    {.name = "from", .value = "WHEN", .meaning = "displacements and strains from there to --at"},
                    {.name = "threads", .letter = 't', .value = "N", .meaning = "for --kernel", .preset = "1"},
@@ -483,7 +483,7 @@ const scree_verb scree_verbs[] = {
         .example = {{"scree measure out --fields stress,fabric,density --cuts 5 --element 150", "cuts through a pile"},
                     {"scree measure out --grid 100x50 --kernel 3", "maps of elements and of smooth fields"},
                     {"scree measure piles/* -o ensemble", "several piles, with bands and the dip"},
-                    {"scree measure drum --at mean:rotate --fields density,velocity", "a mean over time"}},
+                    {"scree measure drum --at mean:10 --fields density,velocity", "a mean over time"}},
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO},
         .function = scree_verb_measure,
     },

@@ -40,13 +40,21 @@ void measure_say(const measure_plan *plan, const char *format, ...)
 
 // ---- which snapshot ----------------------------------------------------------------------------------------------
 
-static scree_status refuse_when(const char *directory, const char *option, const char *when, scree_error *error)
+/// The stages that there are snapshots of.
+static void list_stages(const scree_snapshot_mark *mark, size_t count, char *text, size_t size)
+{
+    size_t used = (size_t)snprintf(text, size, "start, end, an axial strain of the run");
+    for (size_t k = 0; k < count && used < size; k++)
+        if (k == 0 || strcmp(mark[k].stage, mark[k - 1].stage) != 0)
+            used += (size_t)snprintf(text + used, size - used, ", %s", mark[k].stage);
+}
+
+static scree_status refuse_when(const char *directory, const char *option, const char *when,
+                                const scree_snapshot_mark *mark, size_t count, scree_error *error)
 {
     (void)scree_error_set(error, SCREE_ERROR_INPUT, "the run in '%s' has no snapshot of '%s'", directory, when);
     if (error) (void)snprintf(error->field, sizeof error->field, "--%s", option);
-    if (error)
-        (void)snprintf(error->accepted, sizeof error->accepted,
-                       "end, start, the name of a stage with a snapshot, or an axial strain such as 10 %%");
+    if (error) list_stages(mark, count, error->accepted, sizeof error->accepted);
     return SCREE_ERROR_INPUT;
 }
 
@@ -63,14 +71,15 @@ static scree_status find_mark(const char *directory, const char *option, const c
             *found = k;
             return SCREE_OK;
         }
-    if (scree_units_parse(when, "1", &strain, &problem)) return refuse_when(directory, option, when, error);
+    if (scree_units_parse(when, "1", &strain, &problem))
+        return refuse_when(directory, option, when, mark, count, error);
     size_t best = SIZE_MAX;
     for (size_t k = 0; k < count; k++)
         if (isfinite(mark[k].axial_strain) &&
             (best == SIZE_MAX || fabs(mark[k].axial_strain - strain) < fabs(mark[best].axial_strain - strain)))
             best = k;
     *found = best;
-    return best == SIZE_MAX ? refuse_when(directory, option, when, error) : SCREE_OK;
+    return best == SIZE_MAX ? refuse_when(directory, option, when, mark, count, error) : SCREE_OK;
 }
 
 // ---- tables ------------------------------------------------------------------------------------------------------
@@ -275,20 +284,31 @@ static scree_status average_over(const measure_tables *each, size_t count, measu
     return status;
 }
 
+/// Whether snapshot k is one of those that a mean is taken over: of a stage, or the last ones.
+static bool is_meant(const measure_plan *plan, bool by_number, unsigned long last, const scree_snapshot_mark *mark,
+                     size_t count, size_t k)
+{
+    return by_number ? k + last >= count : strcmp(mark[k].stage, plan->at) == 0;
+}
+
 static scree_status measure_stage(const char *directory, const scree_snapshot_mark *mark, size_t count,
                                   const measure_plan *plan, measure_tables *tables, scree_error *error)
 {
     measure_tables *each;
     size_t taken = 0, of_stage = 0;
-    for (size_t k = 0; k < count; k++) of_stage += strcmp(mark[k].stage, plan->at) == 0;
-    if (of_stage == 0) return refuse_when(directory, "at", plan->at, error);
+    char *end;
+    // A whole number means so many snapshots, the last ones.
+    const unsigned long last = strtoul(plan->at, &end, 10);
+    const bool by_number = *plan->at && *end == 0 && last > 0;
+    for (size_t k = 0; k < count; k++) of_stage += is_meant(plan, by_number, last, mark, count, k);
+    if (of_stage == 0) return refuse_when(directory, "at", plan->at, mark, count, error);
     scree_status status = scree_allocate(&each, of_stage, sizeof *each, error);
     for (size_t k = 0; k < count && !status; k++) {
-        if (strcmp(mark[k].stage, plan->at) != 0) continue;
+        if (!is_meant(plan, by_number, last, mark, count, k)) continue;
         status = measure_snapshot(directory, &mark[k], NULL, plan, taken == 0, &each[taken], error);
         taken++;
     }
-    if (!status) measure_say(plan, "%s: mean over %zu snapshots of '%s'", directory, taken, plan->at);
+    if (!status) measure_say(plan, "%s: mean over %zu snapshots", directory, taken);
     if (!status) status = average_over(each, taken, tables, error);
     for (size_t k = 0; k < taken; k++) measure_tables_destroy(&each[k]);
     scree_release(&each);
