@@ -133,8 +133,30 @@ static int add_break(double radius, double distance, double from, double to, dou
     return count;
 }
 
+/// Volume of the sphere below a height.
+static double below(double radius, double height)
+{
+    const double h = fmax(0, fmin(2 * radius, radius + height));
+    return M_PI * h * h * (3 * radius - h) / 3;
+}
+
+/// The part of a sphere that only sides across one axis cut; false: others do, too.
+static bool is_slice(double radius, const double low[3], const double high[3], double *volume)
+{
+    int cut = -1;
+    for (int k = 0; k < 3; k++) {
+        if (low[k] <= -radius && high[k] >= radius) continue;
+        if (cut >= 0) return false;
+        cut = k;
+    }
+    *volume = cut < 0 ? below(radius, radius) : below(radius, high[cut]) - below(radius, low[cut]);
+    return true;
+}
+
 double scree_average_sphere_part(double radius, const double low[3], const double high[3])
 {
+    double slice;
+    if (is_slice(radius, low, high, &slice)) return slice;
     const double from = fmax(low[2], -radius), to = fmin(high[2], radius), *side[2] = {low, high};
     double at[24], volume = 0;
     int count = 0;

@@ -1,15 +1,12 @@
 /// Averaging elements: rectangles with sides along the axes, in 3D boxes, and the exact part of each grain inside one.
 ///
 /// Parts are those of areas in 2D and volumes in 3D:
-///     disc       sum over the corners of the rectangle of the area of the disc left of and below them, each by
-///     circular
-///                sectors and triangles: exact to round-off
-///     polygon    the polygon clipped at the four sides (Sutherland and Hodgman 1974), by its corners: exact
-///     sphere     the integral over z of the part of a disc, in pieces between the places where the circle of the
-///     section
-///                begins to meet another side or corner; substituted so that the square roots at the ends of the pieces
-///                vanish, 12 points of Gauss in each half: below 1e-8 of the
-///                volume
+///   disc      sum over the corners of the rectangle of the area left of and below them: exact to round-off
+///   polygon   clipped at the four sides (Sutherland and Hodgman 1974), by its corners: exact
+///   sphere    cut by sides across one axis: by caps, exact. Else the integral over z of the part of a disc, in pieces
+///             between the heights at which the circle of the section begins to meet another side or corner;
+///             substituted so that the roots at the ends of the pieces vanish, 12 points of Gauss a half: below 1e-8 of
+///             the volume
 /// A grain whose circle lies inside or outside costs a comparison.
 #ifndef SCREE_AVERAGE_ELEMENT_H
 #define SCREE_AVERAGE_ELEMENT_H

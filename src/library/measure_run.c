@@ -43,7 +43,7 @@ void measure_say(const measure_plan *plan, const char *format, ...)
 /// The stages that there are snapshots of.
 static void list_stages(const scree_snapshot_mark *mark, size_t count, char *text, size_t size)
 {
-    size_t used = (size_t)snprintf(text, size, "start, end, an axial strain of the run");
+    size_t used = (size_t)snprintf(text, size, "start, end, #N for snapshot N, an axial strain of the run");
     for (size_t k = 0; k < count && used < size; k++)
         if (k == 0 || strcmp(mark[k].stage, mark[k - 1].stage) != 0)
             used += (size_t)snprintf(text + used, size - used, ", %s", mark[k].stage);
@@ -67,7 +67,7 @@ static scree_status find_mark(const char *directory, const char *option, const c
     *found = strcmp(when, "start") == 0 ? 0 : count - 1;
     if (strcmp(when, "end") == 0 || strcmp(when, "start") == 0) return SCREE_OK;
     for (size_t k = count; k-- > 0;)
-        if (strcmp(mark[k].stage, when) == 0) {
+        if (strcmp(mark[k].stage, when) == 0 || (*when == '#' && strtoll(when + 1, NULL, 10) == mark[k].index)) {
             *found = k;
             return SCREE_OK;
         }
