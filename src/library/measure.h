@@ -21,6 +21,9 @@ typedef enum measure_product {
     MEASURE_PRODUCTS
 } measure_product;
 
+enum { MEASURE_FEW = 30 };   ///< an element with fewer grains is warned of
+#define MEASURE_AT_REST 1e-2 /* what is not at rest has a larger unbalanced ratio */
+
 /// The options, read.
 typedef struct measure_plan {
     scree_average_plan average;

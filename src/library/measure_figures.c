@@ -8,6 +8,7 @@
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 enum { MOST_LINES = 7, SECTORS = 36 };
 
@@ -19,7 +20,8 @@ static scree_status forgive(scree_status status)
 
 // ---- cuts --------------------------------------------------------------------------------------------------------
 
-/// A quantity of the cuts: the column, and sign for pressures, which are tension positive in tables.
+/// A quantity of the cuts: its column in 2D (where a component ends in y, that of z in 3D), and sign for pressures,
+/// which are tension positive in tables.
 typedef struct cut_figure {
     const char *file, *column, *title, *label;
     double factor;
@@ -28,10 +30,9 @@ typedef struct cut_figure {
 static const cut_figure cut_figures[] = {
     {"cuts-pressure-scaled", "vertical_pressure_scaled", "Vertical pressure by height",
      "vertical pressure / (bulk density g height)", 1},
-    {"cuts-stress-vertical", "stress_yy", "Vertical pressure by height", "minus stress yy (kPa)", -1e-3},
+    {"cuts-stress-vertical", "stress_yy", "Vertical pressure by height", "vertical pressure (kPa)", -1e-3},
     {"cuts-stress-horizontal", "stress_xx", "Horizontal pressure by height", "minus stress xx (kPa)", -1e-3},
-    {"cuts-stress-shear", "stress_xy", "Shear stress by height", "stress xy (kPa)", 1e-3},
-    {"cuts-stress-axial", "stress_zz", "Axial pressure by height", "minus stress zz (kPa)", -1e-3},
+    {"cuts-stress-shear", "stress_xy", "Shear stress by height", "shear stress (kPa)", 1e-3},
     {"cuts-density", "volume_fraction", "Volume fraction by height", "volume fraction of whole elements", 1},
     {"cuts-density-inside", "volume_fraction_parts_inside", "Volume fraction by height, inside the surface",
      "volume fraction of the part inside", 1},
@@ -40,8 +41,21 @@ static const cut_figure cut_figures[] = {
     {"cuts-fabric-angle", "fabric_angle", "Major axis of the fabric tensor by height", "angle (degrees)", 1},
     {"cuts-long-axis", "long_axis_angle", "Long axis of the mean inertia tensor by height", "angle (degrees)", 1},
     {"cuts-velocity", "velocity_x", "Horizontal velocity by height", "velocity x (m/s)", 1},
-    {"cuts-strain", "cambou_yy", "Vertical strain by height (Cambou)", "minus strain yy", -1},
+    {"cuts-strain", "cambou_yy", "Vertical strain by height (Cambou)", "vertical strain, compression positive", -1},
 };
+
+/// The column of a figure; up is y in 2D and z in 3D.
+static size_t find_column(const scree_average_table *table, const char *name)
+{
+    char upright[64];
+    const size_t length = strlen(name);
+    (void)snprintf(upright, sizeof upright, "%s", name);
+    if (scree_average_table_find(table, "z") != SIZE_MAX && length > 3 && length < sizeof upright) {
+        for (size_t k = length - 2; k < length; k++)
+            if (upright[length - 3] == '_' && upright[k] == 'y') upright[k] = 'z';
+    }
+    return scree_average_table_find(table, upright);
+}
 
 /// Values of a column over the rows of a cut, times a factor; NULL when memory ran out.
 static double *take(const scree_average_table *table, size_t column, size_t first, size_t count, double factor,
@@ -57,7 +71,7 @@ static scree_status draw_cuts(const char *folder, const measure_plan *plan, cons
                               const cut_figure *figure, scree_error *error)
 {
     const scree_average_table *cuts = &found->mean.of[MEASURE_CUTS];
-    const size_t column = scree_average_table_find(cuts, figure->column), x = scree_average_table_find(cuts, "x");
+    const size_t column = find_column(cuts, figure->column), x = scree_average_table_find(cuts, "x");
     const size_t count = plan->average.cuts < MOST_LINES ? plan->average.cuts : MOST_LINES, n = plan->average.points;
     const bool bands = found->runs > 1 && found->low.of[MEASURE_CUTS].rows > 0;
     scree_chart_line line[MOST_LINES] = {{0}};

@@ -12,15 +12,11 @@
 #include <string.h>
 
 enum {
-    FEW = 30,     ///< an element with fewer grains is warned of
     USUAL = 150,  ///< grains of an element unless the user says
     SHARE = 10,   ///< and in small samples the whole over this
     GRID_X = 100, ///< points of smooth fields unless there is a grid
     GRID_Y = 50
 };
-
-/// What is not at rest has a larger unbalanced ratio.
-#define AT_REST 1e-2
 
 void measure_tables_destroy(measure_tables *tables)
 {
@@ -216,10 +212,10 @@ static scree_status measure_view(scree_average_sample *sample, const scree_avera
 static void warn(const char *directory, const measure_plan *plan, const scree_average_view *view)
 {
     const scree_average_sample *sample = view->sample;
-    if (view->grains < FEW)
+    if (view->grains < MEASURE_FEW)
         measure_say(plan, "warning: %s: an element holds %.3g grains, fewer than %d: averages over it are noise",
-                    directory, view->grains, FEW);
-    if (!(sample->unbalanced_ratio < AT_REST))
+                    directory, view->grains, MEASURE_FEW);
+    if (!(sample->unbalanced_ratio < MEASURE_AT_REST))
         measure_say(plan,
                     "warning: %s: not at rest: the mean force that is left on a grain is %.3g of the mean contact "
                     "force (averages of stress miss what moves the grains)",

@@ -7,6 +7,7 @@
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 const char *const measure_files[MEASURE_PRODUCTS] = {"values.csv", "cuts.csv",     "map.csv", "kernel.csv",
                                                      "forces.csv", "friction.csv", "rose.csv"};
@@ -63,11 +64,27 @@ static scree_status write_dips(const char *folder, const measure_plan *plan, con
     return scree_replace_finish(path, file, true, error);
 }
 
+/// What has to be known before the averages are believed.
+static void set_warnings(scree_summary *summary, const scree_average_table *values)
+{
+    const double grains = values->value[scree_average_table_find(values, "element_grains")];
+    const double rest = values->value[scree_average_table_find(values, "unbalanced_ratio")];
+    char text[200] = "";
+    if (grains < MEASURE_FEW)
+        (void)snprintf(text, sizeof text, "elements hold %.3g grains, fewer than %d", grains, MEASURE_FEW);
+    if (!(rest < MEASURE_AT_REST)) {
+        const size_t used = strlen(text);
+        (void)snprintf(text + used, sizeof text - used, "%snot at rest, unbalanced ratio %.3g", used ? "; " : "", rest);
+    }
+    scree_summary_set_text(summary, "warnings", text);
+}
+
 static void set_values(scree_summary *summary, const measure_found *found)
 {
     const scree_average_table *mean = &found->mean.of[MEASURE_VALUES];
     char name[64];
     scree_summary_set_integer(summary, "runs", (int64_t)found->runs);
+    set_warnings(summary, mean);
     for (size_t k = 0; k < mean->columns; k++) {
         scree_summary_set_number(summary, mean->column[k].name, mean->value[k]);
         if (found->runs < 2) continue;

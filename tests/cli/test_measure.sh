@@ -26,6 +26,7 @@ for pair in "dip dip" "element_grains dip_element"; do
         'BEGIN { exit !(a > 0 && (a / b - 1) ^ 2 < 1e-18) }' || complain "the run's own $pair"
 done
 same "$("$scree" get one grains)" 60 "grains"
+same "$("$scree" get one warnings)" "elements hold 6 grains, fewer than 30" "warnings"
 checks=$((checks + 1))
 awk -v plate="$("$scree" get one outside_force_ratio)" -v row="$("$scree" get one bottom_row_ratio)" \
     -v residual="$("$scree" get one kernel_residual)" -v run="$("$scree" get pile1 weight_ratio)" \

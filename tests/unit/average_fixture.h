@@ -122,8 +122,8 @@ static inline scree_average_sample average_cloud(int dimension, size_t count)
         (void)average_add(&s, x[0], x[1], x[2], 0.02 + 0.03 * average_random(at++));
     }
     for (uint32_t k = 0; k < count; k++) {
-        double force[3] = {average_random(at++) - 0.5, average_random(at++) - 0.5, 0};
-        if (dimension == 3) force[2] = average_random(at++) - 0.5;
+        double force[3] = {0};
+        for (int i = 0; i < dimension; i++) force[i] = average_random(at++) - 0.5;
         if (k > 0) average_touch(&s, k, (uint32_t)(average_random(at++) * k), force);
         if (k % 5 == 0) {
             const double *x = s.grain[k].position;
