@@ -7,6 +7,7 @@
 #include "module/shape.h"
 #include "shape/polygon_make.h"
 #include "state/fields.h"
+#include "state/sleep.h"
 
 #include <sleef.h>
 #include <string.h>
@@ -196,16 +197,26 @@ double scree_body_inner_radius(const scree_state *state, size_t row)
     return least;
 }
 
-void scree_polygons_pose(scree_state *state)
+/// Of all, or of those that are awake.
+static void pose_them(scree_state *state, bool all)
 {
     own *p = scree_polygons_of(state);
-    for (size_t row = 0; row < state->count && p->of; row++) {
+    size_t count;
+    const uint32_t *moving = all ? NULL : scree_moving_rows(state, &count);
+    if (all) count = state->count;
+    for (size_t k = 0; k < count && p->of; k++) {
+        const size_t row = moving ? moving[k] : k;
         const scree_corners of = p->of[row];
         if (of.count == 0) continue;
         const Sleef_double_2 turn = Sleef_cinz_sincosd1_u10purec(state->angle[row]);
         scree_polygon_turn((int)of.count, (const double(*)[2])p->corner + of.first, turn.y, turn.x,
                            p->posed + of.first);
     }
+}
+
+void scree_polygons_pose(scree_state *state)
+{
+    pose_them(state, true);
 }
 
 // ---- the module --------------------------------------------------------------------------------------------------
@@ -222,7 +233,7 @@ static bool in_use(const scree_context *c)
 static scree_status pose(const scree_context *c, scree_error *error)
 {
     (void)error;
-    scree_polygons_pose(c->state);
+    pose_them(c->state, false);
     return SCREE_OK;
 }
 
