@@ -304,7 +304,7 @@ static scree_status add_figure(scree_theory *t, const scree_theory_pile_of *of, 
     for (size_t i = 0; i < POINTS; i++) f->x[i] = left + (right - left) * (double)i / (POINTS - 1);
     // Kinks are drawn where they are.
     for (size_t k = 0; k < all->count; k++)
-        for (size_t i = 0; i < all->of[k].pile.sectors; i++) {
+        for (size_t i = 0; i + 1 < all->of[k].pile.sectors; i++) {
             const double kink = all->of[k].pile.sector[i].to * of->height;
             f->x[lround((kink - left) / (right - left) * (POINTS - 1))] = kink;
         }
@@ -312,8 +312,10 @@ static scree_status add_figure(scree_theory *t, const scree_theory_pile_of *of, 
         f->curve[k].name = all->of[k].column;
         f->curve[k].label = all->of[k].label;
         f->curve[k].colour = (int)k + 1;
-        for (size_t i = 0; i < POINTS; i++)
+        for (size_t i = 1; i + 1 < POINTS; i++)
             f->curve[k].y[i] = value_of(what, scree_pile_stress(&all->of[k].pile, f->x[i], of->height));
+        // The feet lie on the surface.
+        f->curve[k].y[0] = f->curve[k].y[POINTS - 1] = value_of(what, (scree_stress_2d){0});
     }
     return SCREE_OK;
 }

@@ -1,7 +1,6 @@
 #include "theory/fit.h"
 
 #include "base/memory.h"
-#include "theory/fit_theories.h"
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_cdf.h>

@@ -11,29 +11,11 @@
 #ifndef SCREE_THEORY_FIT_H
 #define SCREE_THEORY_FIT_H
 
-#include "base/error.h"
-#include "theory/pile.h"
-
-enum { SCREE_FIT_PARAMETERS = 8 };
-
-/// A measured stress, in the frame of the theory (theory/pile.h, theory/layer.h). A component without an error above
-/// zero is left out.
-typedef struct scree_fit_point {
-    double x, y;            ///< m
-    scree_stress_2d stress; ///< Pa, compression positive
-    scree_stress_2d error;  ///< Pa, standard error
-} scree_fit_point;
-
-typedef struct scree_fit_parameter {
-    const char *name, *unit, *meaning;
-    double value; ///< where the search begins; after it the best
-    double error; ///< standard error; 0 of what is held
-    bool free;
-} scree_fit_parameter;
+#include "theory/fit_theories.h"
 
 /// A theory with its parameters, and what the fit found.
 typedef struct scree_fit {
-    const struct scree_fit_theory *theory;
+    const scree_fit_theory *theory;
     size_t parameters;
     scree_fit_parameter parameter[SCREE_FIT_PARAMETERS];
     double covariance[SCREE_FIT_PARAMETERS][SCREE_FIT_PARAMETERS]; ///< of all parameters; 0 with those that are held

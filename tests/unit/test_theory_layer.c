@@ -157,6 +157,23 @@ static void scales_and_ends(void **unused)
     }
 }
 
+/// Nothing pulls along a smooth base, so no upright cut beside the load carries a horizontal force.
+static void cuts_of_a_smooth_layer_carry_nothing(void **unused)
+{
+    (void)unused;
+    gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(60);
+    for (double x = 0.3; x < 3; x += 0.3) {
+        double along = 0;
+        for (size_t k = 0; k < 60; k++) {
+            double y, share;
+            (void)gsl_integration_glfixed_point(0, 1, k, &y, &share, table);
+            along += share * stress((scree_layer){1, 1, 0.3, SCREE_LAYER_SMOOTH}, x, y).xx;
+        }
+        assert_near(along, 0, 1e-10);
+    }
+    gsl_integration_glfixed_table_free(table);
+}
+
 static void half_widths(void **unused)
 {
     (void)unused;
@@ -183,6 +200,7 @@ int main(void)
         cmocka_unit_test(thick_layers_are_half_spaces),
         cmocka_unit_test(bases_raise_the_peak),
         cmocka_unit_test(scales_and_ends),
+        cmocka_unit_test(cuts_of_a_smooth_layer_carry_nothing),
         cmocka_unit_test(half_widths),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
