@@ -4,6 +4,7 @@
 #include <gsl/gsl_odeiv2.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #define TOLERANCE 1e-13
@@ -58,6 +59,16 @@ static bool is_too_much(const incipient *of, double on_axis)
     return true;
 }
 
+static scree_status refuse(scree_error *error)
+{
+    scree_status status = scree_error_set(error, SCREE_ERROR_INPUT,
+                                          "the pile at the limit of failure was not found: take a smaller angle");
+    if (!error) return status;
+    (void)snprintf(error->field, sizeof error->field, "slope");
+    (void)snprintf(error->accepted, sizeof error->accepted, "up to 86 degrees");
+    return status;
+}
+
 static scree_status fill_series(const incipient *of, double on_axis, scree_pile *p, scree_error *error)
 {
     enum { N = SCREE_PILE_TERMS };
@@ -66,8 +77,7 @@ static scree_status fill_series(const incipient *of, double on_axis, scree_pile 
     // Zeros of the Nth polynomial in v = 2 u / c - 1, from the axis to the surface.
     for (int k = N - 1; k >= 0; k--) {
         const double v = cos(M_PI * (k + 0.5) / N), to = -log(0.5 * (1 - v));
-        if (gsl_odeiv2_driver_apply(of->driver, &t, to, state) != GSL_SUCCESS)
-            return scree_error_set(error, SCREE_ERROR_GUARD, "the pile at the limit of failure was not found");
+        if (gsl_odeiv2_driver_apply(of->driver, &t, to, state) != GSL_SUCCESS) return refuse(error);
         mean[k] = state[0];
         turn[k] = state[1];
     }

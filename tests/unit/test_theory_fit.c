@@ -75,7 +75,7 @@ typedef struct truth_row {
 /// Free parameters with their truth and a start some way off; a start of 0: held.
 static const truth_row truths[] = {
     {"ife", {{"weight", 39000, 30000}, {"slope", 0.5, 0}}},
-    {"bcc", {{"weight", 39000, 30000}, {"apex_x", 0.03, 1e-3}, {"apex_y", 0.05, 0.01}, {"slope", 0.5, 0}}},
+    {"bcc", {{"weight", 39000, 30000}, {"apex_x", 0.03, 1e-3}, {"apex_y", 0.05, 0.01}, {"slope", 0.5, 0.48}}},
     {"fpa", {{"weight", 39000, 50000}, {"slope", 0.5, 0}}},
     {"osl", {{"weight", 39000, 30000}, {"eta", 0.74, 0.9}, {"slope", 0.5, 0}}},
     {"oriented", {{"weight", 39000, 30000}, {"eta", 0.74, 0.6}, {"mu", -0.31, -0.1}, {"slope", 0.5, 0}}},
