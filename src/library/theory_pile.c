@@ -24,7 +24,7 @@ static const char *const titles[KINDS] = {"Incipient failure everywhere", "Const
 /// One solution, as it is drawn.
 typedef struct solution {
     const char *column, *label;
-    scree_pile pile;
+    scree_ideal_pile pile;
 } solution;
 
 typedef struct solutions {
@@ -107,7 +107,7 @@ static scree_status choose_relation(const scree_theory_pile_of *of, pile_kind ki
 
 // ---- values ------------------------------------------------------------------------------------------------------
 
-static void add_relation(scree_theory *t, const scree_pile *pile, double slope, scree_oriented o)
+static void add_relation(scree_theory *t, const scree_ideal_pile *pile, double slope, scree_oriented o)
 {
     const scree_oriented_axes axes = scree_oriented_axes_of(o);
     const scree_stress_2d surface = pile->sector[3].y;
@@ -128,7 +128,8 @@ static void add_relation(scree_theory *t, const scree_pile *pile, double slope, 
 }
 
 /// What a pile does on its base.
-static void add_base(scree_theory *t, const char *const name[5], const scree_theory_pile_of *of, const scree_pile *pile)
+static void add_base(scree_theory *t, const char *const name[5], const scree_theory_pile_of *of,
+                     const scree_ideal_pile *pile)
 {
     double ray;
     const double dip = scree_pile_dip(pile, &ray);
@@ -204,7 +205,7 @@ static void add_wedge(scree_theory *t, const wedge_names *n, const scree_theory_
     add_base(t, n->base, of, &w->pile);
 }
 
-static void keep(solutions *all, const char *column, const char *label, const scree_pile *pile)
+static void keep(solutions *all, const char *column, const char *label, const scree_ideal_pile *pile)
 {
     all->of[all->count++] = (solution){column, label, *pile};
 }
@@ -246,7 +247,7 @@ static scree_status solve_one(scree_theory *t, const scree_theory_pile_of *of, p
 {
     const double slope = of->slope[1] * DEGREE, weight = of->density * of->gravity;
     scree_oriented o = {0};
-    scree_pile pile;
+    scree_ideal_pile pile;
     scree_status status = SCREE_OK;
     if (kind == IFE) {
         status = scree_incipient_pile(slope, weight, &pile, error);

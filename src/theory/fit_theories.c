@@ -23,8 +23,8 @@ static scree_status no_solution(const char *field, scree_error *error)
     return status;
 }
 
-static void look_up(const scree_pile *pile, const scree_fit_parameter *p, size_t count, const scree_fit_point *points,
-                    scree_stress_2d *stress)
+static void look_up(const scree_ideal_pile *pile, const scree_fit_parameter *p, size_t count,
+                    const scree_fit_point *points, scree_stress_2d *stress)
 {
     for (size_t k = 0; k < count; k++)
         stress[k] = scree_pile_stress(pile, points[k].x - p[APEX_X].value, points[k].y - p[APEX_Y].value);
@@ -40,7 +40,7 @@ static scree_status one_slope(const scree_fit_theory *theory, const scree_fit_pa
                               const scree_fit_point *points, scree_stress_2d *stress, scree_error *error)
 {
     const double slope = p[SLOPE].value, weight = p[WEIGHT].value;
-    scree_pile pile;
+    scree_ideal_pile pile;
     scree_status status;
     if (!is_angle(slope)) return no_solution("slope", error);
     if (theory->kind == IFE) {

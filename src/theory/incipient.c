@@ -69,7 +69,7 @@ static scree_status refuse(scree_error *error)
     return status;
 }
 
-static scree_status fill_series(const incipient *of, double on_axis, scree_pile *p, scree_error *error)
+static scree_status fill_series(const incipient *of, double on_axis, scree_ideal_pile *p, scree_error *error)
 {
     enum { N = SCREE_PILE_TERMS };
     double state[2], t = 0, mean[N], turn[N];
@@ -93,7 +93,7 @@ static scree_status fill_series(const incipient *of, double on_axis, scree_pile 
     return SCREE_OK;
 }
 
-static scree_status solve(const incipient *of, scree_pile *p, scree_error *error)
+static scree_status solve(const incipient *of, scree_ideal_pile *p, scree_error *error)
 {
     double low = 0, high = 1;
     (void)gsl_odeiv2_driver_set_nmax(of->driver, 2000);
@@ -104,7 +104,7 @@ static scree_status solve(const incipient *of, scree_pile *p, scree_error *error
     return fill_series(of, 0.5 * (low + high), p, error);
 }
 
-scree_status scree_incipient_pile(double slope, double weight, scree_pile *p, scree_error *error)
+scree_status scree_incipient_pile(double slope, double weight, scree_ideal_pile *p, scree_error *error)
 {
     incipient of = {.slope = slope, .sine = sin(slope), .cotangent = 1 / tan(slope)};
     gsl_odeiv2_system system = {rates, NULL, 2, &of};

@@ -113,7 +113,7 @@ static scree_pile_sector mirror(scree_pile_sector s)
     return s;
 }
 
-scree_status scree_oriented_pile(double slope, double weight, scree_oriented o, scree_pile *p, scree_error *error)
+scree_status scree_oriented_pile(double slope, double weight, scree_oriented o, scree_ideal_pile *p, scree_error *error)
 {
     scree_status status = check(slope, o, error);
     if (status) return status;
@@ -132,7 +132,7 @@ scree_status scree_oriented_pile(double slope, double weight, scree_oriented o, 
     outer.closure = inner.closure = SCREE_PILE_LINEAR;
     const double relation[3] = {1, -o.eta, -o.mu};
     for (int k = 0; k < 3; k++) outer.relation[k] = inner.relation[k] = relation[k];
-    *p = (scree_pile){.weight = weight, .slope = {slope, slope}, .sectors = 4};
+    *p = (scree_ideal_pile){.weight = weight, .slope = {slope, slope}, .sectors = 4};
     p->sector[0] = mirror(outer);
     p->sector[1] = mirror(inner);
     p->sector[2] = inner;

@@ -42,7 +42,7 @@ void scree_oriented_characteristics(scree_oriented oriented, double *outward, do
 
 /// The pile (R 4.28, which prints mu for eta in sigma_xy, and 4.29). Errors: SCREE_ERROR_INPUT for relations without
 /// real characteristics, with both to one side, or with one that does not leave the surface into the pile; field `eta`.
-scree_status scree_oriented_pile(double slope, double weight, scree_oriented oriented, scree_pile *pile,
+scree_status scree_oriented_pile(double slope, double weight, scree_oriented oriented, scree_ideal_pile *pile,
                                  scree_error *error) SCREE_MUST_USE;
 
 #endif

@@ -33,7 +33,7 @@ static double series_sum(const double *term, size_t terms, double v, double *der
 }
 
 /// Stress over rho g y on the ray u = x / y > 0, and its derivative by u.
-static scree_stress_2d series_stress(const scree_pile *p, double u, scree_stress_2d *derivative)
+static scree_stress_2d series_stress(const scree_ideal_pile *p, double u, scree_stress_2d *derivative)
 {
     const double c = 1 / tan(p->slope[1]), s = sin(p->sector[0].friction);
     double by_ray, turn_rate;
@@ -49,7 +49,7 @@ static scree_stress_2d series_stress(const scree_pile *p, double u, scree_stress
 
 // ---- stresses ----------------------------------------------------------------------------------------------------
 
-static const scree_pile_sector *sector_of(const scree_pile *p, double u)
+static const scree_pile_sector *sector_of(const scree_ideal_pile *p, double u)
 {
     if (!(u >= p->sector[0].from && u <= p->sector[p->sectors - 1].to)) return NULL;
     size_t k = 0;
@@ -57,7 +57,7 @@ static const scree_pile_sector *sector_of(const scree_pile *p, double u)
     return &p->sector[k];
 }
 
-scree_stress_2d scree_pile_stress(const scree_pile *p, double x, double y)
+scree_stress_2d scree_pile_stress(const scree_ideal_pile *p, double x, double y)
 {
     const scree_pile_sector *s = y > 0 ? sector_of(p, x / y) : NULL;
     scree_stress_2d unused, found = {0};
@@ -68,7 +68,8 @@ scree_stress_2d scree_pile_stress(const scree_pile *p, double x, double y)
     return found;
 }
 
-void scree_pile_gradient(const scree_pile *p, double x, double y, scree_stress_2d *along_x, scree_stress_2d *along_y)
+void scree_pile_gradient(const scree_ideal_pile *p, double x, double y, scree_stress_2d *along_x,
+                         scree_stress_2d *along_y)
 {
     const scree_pile_sector *s = y > 0 ? sector_of(p, x / y) : NULL;
     *along_x = *along_y = (scree_stress_2d){0};
@@ -104,7 +105,7 @@ static double closure_residual(const scree_pile_sector *s, double u, scree_stres
 }
 
 /// Into `check` what one ray inside of a sector shows.
-static void examine_ray(const scree_pile *p, const scree_pile_sector *s, double u, scree_pile_check *check)
+static void examine_ray(const scree_ideal_pile *p, const scree_pile_sector *s, double u, scree_pile_check *check)
 {
     scree_stress_2d dx, dy, stress = scree_pile_stress(p, u, 1);
     scree_pile_gradient(p, u, 1, &dx, &dy);
@@ -117,7 +118,7 @@ static void examine_ray(const scree_pile *p, const scree_pile_sector *s, double 
 }
 
 /// Force on the part of a cut at depth 1 that lies in a sector, over rho g.
-static double sector_force(const scree_pile *p, const scree_pile_sector *s)
+static double sector_force(const scree_ideal_pile *p, const scree_pile_sector *s)
 {
     gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(SCREE_PILE_TERMS);
     double sum = 0;
@@ -132,7 +133,7 @@ static double sector_force(const scree_pile *p, const scree_pile_sector *s)
     return sum / p->weight;
 }
 
-scree_pile_check scree_pile_examine(const scree_pile *p)
+scree_pile_check scree_pile_examine(const scree_ideal_pile *p)
 {
     scree_pile_check check = {0};
     double force = 0;
@@ -150,7 +151,7 @@ scree_pile_check scree_pile_examine(const scree_pile *p)
     return check;
 }
 
-double scree_pile_dip(const scree_pile *p, double *largest_ray)
+double scree_pile_dip(const scree_ideal_pile *p, double *largest_ray)
 {
     double most = 0;
     *largest_ray = 0;

@@ -32,7 +32,7 @@ typedef struct scree_pile_sector {
 } scree_pile_sector;
 
 /// Plain values: it can be copied.
-typedef struct scree_pile {
+typedef struct scree_ideal_pile {
     double weight;                                ///< N/m3, rho g
     double slope[2];                              ///< rad, left and right angle of the surface
     scree_pile_sector sector[SCREE_PILE_SECTORS]; ///< from left to right; with a series one, without x and y
@@ -40,7 +40,7 @@ typedef struct scree_pile {
     double mean[SCREE_PILE_TERMS]; ///< Chebyshev terms over |x| / y of the mean stress over its distance from the
     double turn[SCREE_PILE_TERMS]; ///< surface, and of the angle of the major axis from the vertical [rad]
     size_t terms;                  ///< of the series; 0: linear sectors
-} scree_pile;
+} scree_ideal_pile;
 
 /// Residuals of a solution. Stresses are over rho g and the depth below the apex.
 typedef struct scree_pile_check {
@@ -53,16 +53,16 @@ typedef struct scree_pile_check {
 } scree_pile_check;
 
 /// Stress at a point [Pa]; zero outside of the pile and at its apex.
-scree_stress_2d scree_pile_stress(const scree_pile *pile, double x, double y);
+scree_stress_2d scree_pile_stress(const scree_ideal_pile *pile, double x, double y);
 
 /// Its derivatives [Pa/m] inside of a sector, from the solution itself; zero outside of the pile.
-void scree_pile_gradient(const scree_pile *pile, double x, double y, scree_stress_2d *along_x,
+void scree_pile_gradient(const scree_ideal_pile *pile, double x, double y, scree_stress_2d *along_x,
                          scree_stress_2d *along_y);
 
-scree_pile_check scree_pile_examine(const scree_pile *pile);
+scree_pile_check scree_pile_examine(const scree_ideal_pile *pile);
 
 /// 1 - sigma_yy(0) / largest sigma_yy of a horizontal cut, and the ray x / y of the largest one.
-double scree_pile_dip(const scree_pile *pile, double *largest_ray);
+double scree_pile_dip(const scree_ideal_pile *pile, double *largest_ray);
 
 /// sin of the mobilised friction: radius over centre of the circle of stress.
 double scree_mobilised_friction(scree_stress_2d stress);

@@ -172,8 +172,8 @@ static scree_pile_sector between(double from, scree_stress_2d first, double to, 
 static void make_pile(const sides *w, const core *c, scree_wedge *wedge)
 {
     const double boundary[2] = {c->left, c->right};
-    scree_pile *p = &wedge->pile;
-    *p = (scree_pile){.weight = w->of->weight, .slope = {w->of->slope[0], w->of->slope[1]}, .sectors = 4};
+    scree_ideal_pile *p = &wedge->pile;
+    *p = (scree_ideal_pile){.weight = w->of->weight, .slope = {w->of->slope[0], w->of->slope[1]}, .sectors = 4};
     for (int side = 0; side < 2; side++) {
         scree_pile_sector s = scree_pile_surface(w->of->slope[side], w->plastic[side], side);
         *(side ? &s.from : &s.to) = boundary[side];

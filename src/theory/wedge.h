@@ -34,7 +34,7 @@ typedef struct scree_wedge {
     double axis;            ///< rad, angle of the ray from the vertical, positive to the right
     scree_stress_2d inside; ///< on the ray, over rho g y
     double jump;            ///< of d sigma_yy / dx across the ray from left to right, over rho g
-    scree_pile pile;
+    scree_ideal_pile pile;
 } scree_wedge;
 
 /// The solution of one kind; with `axis` NULL the ray carries no shear. *found says whether there is one.

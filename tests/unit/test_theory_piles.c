@@ -26,13 +26,13 @@
 
 enum { MOST = 24 };
 typedef struct pile_list {
-    scree_pile pile[MOST];
+    scree_ideal_pile pile[MOST];
     const char *name[MOST];
     double tolerance[MOST];
     size_t count;
 } pile_list;
 
-static scree_pile *add(pile_list *all, const char *name, double tolerance)
+static scree_ideal_pile *add(pile_list *all, const char *name, double tolerance)
 {
     assert_true(all->count < MOST);
     all->name[all->count] = name;
@@ -84,7 +84,7 @@ enum { ANGLES = sizeof angles / sizeof angles[0] };
 // ---- every theory ------------------------------------------------------------------------------------------------
 
 /// div sigma by central differences of sixth order, which a linear field obeys exactly.
-static void balance_at(const scree_pile *p, double x, double y, double step, double balance[2])
+static void balance_at(const scree_ideal_pile *p, double x, double y, double step, double balance[2])
 {
     static const double share[] = {0, 0.75, -0.15, 1. / 60};
     balance[0] = 0;
@@ -130,7 +130,7 @@ static void gradients_are_those_of_the_stress(void **unused)
     for (size_t i = 0; i < all.count; i++)
         for (double u = -1.4; u < 1.5; u += 0.1234) {
             scree_stress_2d dx, dy;
-            const scree_pile *p = &all.pile[i];
+            const scree_ideal_pile *p = &all.pile[i];
             scree_pile_gradient(p, u, 1, &dx, &dy);
             const scree_stress_2d r = scree_pile_stress(p, u + h, 1), l = scree_pile_stress(p, u - h, 1);
             const scree_stress_2d d = scree_pile_stress(p, u, 1 + h), t = scree_pile_stress(p, u, 1 - h);
@@ -171,7 +171,7 @@ static void halves_balance(void **unused)
     for (int a = 0; a < ANGLES; a++) {
         const pile_list all = all_piles(angles[a]);
         for (size_t i = 0; i < all.count; i++) {
-            const scree_pile *p = &all.pile[i];
+            const scree_ideal_pile *p = &all.pile[i];
             const double thrust = 0.5 * scree_pile_stress(p, 0, 1).xx, shear = 0.5 * scree_pile_stress(p, 0, 1).xy;
             double along[2] = {0}, up[2] = {0};
             for (size_t s = 0; s < p->sectors; s++)
@@ -336,7 +336,7 @@ static void stresses_in_their_axes(void **unused)
     for (double tau = 60 * DEGREE; tau < 115 * DEGREE; tau += 5 * DEGREE) {
         const scree_oriented_axes axes = scree_oriented_of_tau(phi, tau);
         const scree_oriented o = scree_oriented_of_axes(axes);
-        scree_pile p;
+        scree_ideal_pile p;
         assert_near(scree_oriented_consistency(phi, o), 0, 1e-12);
         check(scree_oriented_pile(phi, 1, o, &p, &error), &error);
         for (double x = 0.05; x < 1.7; x += 0.1) {
@@ -361,7 +361,7 @@ static void osl_closed_forms(void **unused)
             const scree_oriented o = scree_oriented_of_eta(phi, eta);
             const double star = c / (c * c - o.mu * c - eta);
             double c1, c2;
-            scree_pile p;
+            scree_ideal_pile p;
             check(scree_oriented_pile(phi, 1, o, &p, &error), &error);
             scree_oriented_characteristics(o, &c1, &c2);
             assert_near(c1 * c1 - o.mu * c1 - eta, 0, 1e-12);
@@ -384,7 +384,7 @@ static void osl_limits(void **unused)
     (void)unused;
     const double phi = 28 * DEGREE;
     scree_error error = {0};
-    scree_pile bcc, fpa, near;
+    scree_ideal_pile bcc, fpa, near;
     double ray;
     check(scree_oriented_pile(phi, 1, scree_oriented_bcc(phi), &bcc, &error), &error);
     check(scree_oriented_pile(phi, 1, scree_oriented_fpa(phi), &fpa, &error), &error);
@@ -416,7 +416,7 @@ static void osl_refused(void **unused)
                {{0.5, NAN}, "does not contain sigma_xx"}};
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
         scree_error error = {0};
-        scree_pile p;
+        scree_ideal_pile p;
         assert_int_equal(scree_oriented_pile(28 * DEGREE, 1, bad[k].of, &p, &error), SCREE_ERROR_INPUT);
         assert_non_null(strstr(error.message, bad[k].message));
         assert_string_equal(error.field, "eta");
@@ -436,7 +436,7 @@ static void incipient_ends(void **unused)
     for (int a = 0; a < ANGLES; a++) {
         const double phi = angles[a] * DEGREE, c = 1 / tan(phi), d = 2e-3 * c;
         scree_error error = {0};
-        scree_pile p;
+        scree_ideal_pile p;
         check(scree_incipient_pile(phi, 1, &p, &error), &error);
         const scree_stress_2d axis = scree_pile_stress(&p, 1e-12, 1), near = scree_pile_stress(&p, c - d, 1);
         assert_near(axis.xx / axis.yy, (1 - sin(phi)) / (1 + sin(phi)), 1e-10);
@@ -447,7 +447,7 @@ static void incipient_ends(void **unused)
         assert_near((turn - (M_PI_4 - phi / 2)) / d, q, 2e-2 * fabs(q));
         assert_near((mean / (d * tan(phi)) - 1) / d, 2 * tan(phi) * q, 5e-2 * fabs(2 * tan(phi) * q));
         // More than BCC's plateau on the axis, less towards the feet.
-        scree_pile bcc;
+        scree_ideal_pile bcc;
         check(scree_oriented_pile(phi, 1, scree_oriented_bcc(phi), &bcc, &error), &error);
         assert_true(axis.yy > scree_pile_stress(&bcc, 0, 1).yy);
     }
@@ -504,7 +504,7 @@ static void wedges_are_osl(void **unused)
             const scree_oriented o = scree_oriented_of_eta(phi, eta);
             scree_error error = {0};
             scree_wedge w;
-            scree_pile p;
+            scree_ideal_pile p;
             bool found;
             double outward, inward;
             scree_oriented_characteristics(o, &outward, &inward);
