@@ -1,6 +1,7 @@
 /// Whether a run is within its limits of stability: checked before the first step of each stage, and when the number of
 /// bonds (looked at after every step) or contacts (at every sample) has changed by a hundredth since the last check.
-/// Only where bonds hold or particles deform; another run has the estimate of its case (model/critical_step.c).
+/// Only where bonds hold or particles deform, and something moves; another run has the estimate of its case
+/// (model/critical_step.c).
 ///
 /// Method. The step of the scheme, the largest one of two_timescales, uses a part of what the specimen bears: the
 /// largest eigenvalue of (1) in specimen/stability.c with the strain as the run treats it. A bound from single bodies
@@ -90,6 +91,7 @@ static const numbers *own_numbers(const scree_simulation *s)
 
 static bool matters(const scree_simulation *s)
 {
+    if (scree_modules[scree_stage_config(s)->kind]->numbers->still) return false;
     return s->state.count > 0 && (scree_model_traits(&s->model)->deforms || scree_bonds_standing(&s->state) > 0);
 }
 
