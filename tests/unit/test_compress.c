@@ -2,6 +2,7 @@
 #include "run_fixture.h"
 #include "simulation_cases.h"
 
+#include "boundary/plates.h"
 #include "model/critical_step.h"
 #include "run/loading.h"
 #include "run/quasistatic.h"
@@ -70,6 +71,52 @@ static void a_rate_is_the_same(void **unused)
     assert_true(bits[0] == bits[1]);
 }
 
+#define BLOCK                                                                                                          \
+    "scree: 1\nname: block\n"                                                                                          \
+    "materials: [{name: steel, young_modulus: 200 GPa, poisson_ratio: 0.35, density: 2000 kg/m3, friction: 0.5,\n"     \
+    "  normal_stiffness: 7e10 N/m, stiffness_ratio: 0.5, damping_ratio: 0}]\n"                                         \
+    "particles: {shape: disc, material: steel, count: 60, distribution: equal, radius: 1 mm, thickness: 1 m}\n"        \
+    "contact: {law: linear}\nintegrator: {step: 5e-8 s}\nboundary: {lateral: pressure}\n"                              \
+    "loads: [{load: background_damping, translation: 0.2, rotation: 0.2}]\n"                                           \
+    "measure: {cells: no, samples: 50}\noutput: {figures: no, paraview: no}\nstages:\n"                                \
+    "  - {stage: prepare, method: hexagonal, aspect_ratio: 1}\n  - {stage: bond}\n"                                    \
+    "  - {stage: compress, velocity: 5 mm/s, strain: 0.02 %}\n"
+
+/// M 4.3: bonds hold the block, its sides are free, and the plates move at 5 mm/s each. The stress of the plates rises
+/// with their way.
+static void a_bonded_block_needs_no_pressure(void **unused)
+{
+    (void)unused;
+    scree_case *c = case_read(BLOCK, NULL, 0);
+    scree_simulation s;
+    double fast = 0, worst = 0, stress[2] = {0, 0}, strain[2] = {0, 0};
+    simulation_open(c, 1, &s);
+    simulation_load(&s);
+    while (simulation_goes_on(&s)) {
+        simulation_step(&s);
+        worst = simulation_residual(&s, worst);
+        if (!simulation_goes_on(&s)) break;
+        const int half = scree_axial_strain(&s) > 1e-4;
+        fast = fmax(fast, scree_plates(&s.state)[SCREE_WALL_TOP].velocity);
+        stress[half] = scree_plate_stress(&s.stage_model, &s.state, SCREE_WALL_TOP);
+        strain[half] = scree_axial_strain(&s);
+    }
+    print_message("%.6g m/s, %.4g Pa at %.4g, %.4g at %.4g, residual %.2g\n", fast, stress[0], strain[0], stress[1],
+                  strain[1], worst);
+    assert_true(fabs(fast / 5e-3 - 1) < 1e-15 && worst < 1e-6);
+    // What swings is damped, not gone.
+    assert_true(fabs(stress[1] / stress[0] / 2 - 1) < 0.1 && strain[1] > 1.9e-4);
+    scree_simulation_close(&s);
+    scree_case_free(c);
+    // Without bonds something has to press.
+    scree_problems *problems;
+    static const char *const loose[] = {"stages=[{stage: prepare, method: hexagonal, aspect_ratio: 1}, {stage: "
+                                        "compress, velocity: 5 mm/s, strain: 0.02 %}]"};
+    assert_true(case_parse(BLOCK, loose, 1, &c, &problems) != SCREE_OK);
+    assert_non_null(strstr(scree_problems_get(problems, 0)->message, "a confine stage must come before"));
+    scree_problems_free(problems);
+}
+
 static void expect_problem(const char *const *overrides, size_t count, const char *message)
 {
     scree_case *c;
@@ -98,6 +145,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plates_have_their_velocity),
         cmocka_unit_test(a_rate_is_the_same),
+        cmocka_unit_test(a_bonded_block_needs_no_pressure),
         cmocka_unit_test(wrong_ways_to_say_it_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
