@@ -50,7 +50,7 @@ typedef struct numbers {
 
 static scree_status resolve(scree_model *model, scree_error *error)
 {
-    const config *own = own_config(model->config);
+    const config *own = scree_config_own(&scree_module_orientation, "measure", model->config->measure.own);
     numbers *n = scree_model_reserve_numbers(model, SCREE_SLOT_orientation);
     (void)error;
     n->kept = own && own->orientation;
