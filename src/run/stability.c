@@ -23,6 +23,7 @@
 #include "search/neighbours.h"
 #include "specimen/from_state.h"
 #include "specimen/stability.h"
+#include "state/persistent.h"
 
 #include <float.h>
 #include <math.h>
@@ -62,6 +63,7 @@ typedef struct memory {
     uint64_t asked;           ///< 1: before the next step
     uint64_t bonds, contacts; ///< at the last check
     double step;              ///< s, critical one
+    uint64_t looked;          ///< 1, breaks and held pairs when bonds were counted last, in one number (derived)
     double softness;          ///< 1, largest k_n/E_p at the step of the run over the present one
 } memory;
 
@@ -71,6 +73,8 @@ static const scree_field fields[] = {
     ONE(asked, SCREE_FIELD_UINT64, "1", "1: limits are checked before the next step", SCREE_RANGE(0, 1)),
     ONE(bonds, SCREE_FIELD_UINT64, "1", "bonds at the last check of the limits", SCREE_RANGE_TO(SCREE_LIMIT_MANY)),
     ONE(contacts, SCREE_FIELD_UINT64, "1", "contacts of two bodies or a wall then", SCREE_RANGE_TO(SCREE_LIMIT_MANY)),
+    ONE(looked, SCREE_FIELD_UINT64, "1", "breaks and held pairs when bonds were counted last",
+        .role = SCREE_FIELD_DERIVED),
     ONE(step, SCREE_FIELD_DOUBLE, "s", "critical step of the specimen when a stage began, where it is told",
         .range = {.least = 0, .limit = SCREE_LIMIT_NUMBER, .most = INFINITY, .undefined = true}),
     ONE(softness, SCREE_FIELD_DOUBLE, "1", "largest k_n/E_p at the step of the run over that of the run",
@@ -100,10 +104,19 @@ static bool has_changed(uint64_t before, uint64_t now)
     return fabs((double)now - (double)before) > CHANGE * (double)before;
 }
 
+/// Bonds are counted when some have broken, or pairs have come or gone.
+static bool bonds_have_changed(const scree_state *state, memory *all)
+{
+    const uint64_t now = (uint64_t)scree_bonds_of(state)->count << 32 | scree_persistent(state)->count;
+    if (scree_bonds_of(state)->made == 0 || now == all->looked) return false;
+    all->looked = now;
+    return has_changed(all->bonds, scree_bonds_standing(state));
+}
+
 void scree_stability_ask(scree_simulation *s, bool stage_begins)
 {
     memory *all = memory_of(&s->state);
-    const bool bonds = scree_bonds_of(&s->state)->made > 0 && has_changed(all->bonds, scree_bonds_standing(&s->state));
+    const bool bonds = bonds_have_changed(&s->state, all);
     const bool contacts = s->sampled && has_changed(all->contacts, s->table.count);
     if (stage_begins || bonds || contacts) all->asked = 1;
 }
