@@ -60,6 +60,9 @@ typedef struct scree_prescribed {
     scree_exerted *exerted;
     scree_vector *reference; ///< m, where the body was when the first load that drives it began
     scree_departure *departure;
+    uint32_t *row; ///< the first `listed`: rows of bodies that a load prescribes, or whose `exerted` it has made; from
+                   ///< the begin of a step to the search, and from there to its end (derived)
+    uint64_t listed;
     int64_t acts[SCREE_LOADS]; ///< 1: in the present stage
     double begun[SCREE_LOADS]; ///< s
     double work[SCREE_LOADS];  ///< J, on the bodies

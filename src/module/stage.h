@@ -23,6 +23,7 @@ typedef struct scree_stage_numbers {
     bool held;     ///< something holds the sample, which has the keys boundary and friction
     bool settles;  ///< waits until the sample is at rest under the pressure
     bool pours;    ///< sources let grains go
+    bool still;    ///< no particle moves: there is no critical step
     bool collides; ///< nothing holds or drives the bodies, which meet and part
     const char *needs_pressure; ///< what is wrong where no stage before settles; NULL: it needs none
     const char *needs_approach; ///< what is wrong where the particles cannot be about to collide; NULL: they need not
@@ -30,8 +31,9 @@ typedef struct scree_stage_numbers {
     const char *needs_free;     ///< what is wrong where plates stand: it imposes a velocity gradient; NULL: they may
     /// Largest normal stress that it holds [Pa, compression positive], NAN: none. NULL: holds none.
     double (*pressure)(const void *config);
-    /// Strain rate that it imposes [1/s], of several components the largest. NULL: it loads nothing.
-    double (*rate)(const void *config);
+    /// Strain rate that it imposes [1/s], of several components the largest, on the sample that the model expects.
+    /// NULL: it loads nothing.
+    double (*rate)(const scree_model *model, const void *config);
     /// Strain at which it ends. NULL: none.
     double (*strain)(const void *config);
     /// When its bodies may sleep. NULL: never.
