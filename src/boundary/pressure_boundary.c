@@ -4,6 +4,7 @@
 
 static const scree_boundary face = {
     .walls = SCREE_AXIAL_WALLS,
+    .unpressed = true,
     .needs_ends = "the Delaunay boundary goes around a sample that does not repeat itself: give boundary: plates",
     SCREE_AXIAL_PLATES,
 };

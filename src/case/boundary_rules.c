@@ -64,13 +64,13 @@ static const char *wrong_order(const scree_boundary *boundary, const scree_bound
 static const char *wrong_boundary(const scree_config *config, const scree_stage_numbers *stage,
                                   const scree_boundary *boundary)
 {
-    const bool falls = scree_config_has_gravity(config);
-    if (!stage->needs_standing && config->wall_count > 0)
+    const bool falls = scree_config_has_gravity(config) && !stage->still, free = stage->still || stage->collides;
+    if (!stage->needs_standing && !stage->still && config->wall_count > 0)
         return "in a case with walls only relax can follow: the other stages need plates or a free surface of the "
                "sample";
     if (boundary->needs_walls && config->wall_count == 0) return boundary->needs_walls;
     if (stage->needs_standing && !boundary->stands && !boundary->open) return stage->needs_standing;
-    if (!stage->needs_standing && !stage->collides && boundary->open)
+    if (!stage->needs_standing && !free && boundary->open)
         return "nothing stands around the sample that could press it: only relax can follow";
     if ((boundary->free || (boundary->open && config->wall_count == 0 && !stage->collides)) && falls)
         return "without plates nothing holds the sample against gravity";

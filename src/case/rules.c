@@ -95,11 +95,11 @@ static void name_stages(scree_reader *reader, scree_config *config)
     }
 }
 
-/// Bonds hold a sample in a periodic cell together without a pressure.
+/// Bonds hold a sample together without a pressure: in a periodic cell, or between plates with its sides free.
 static bool stands_by_bonds(const scree_config *config, int64_t index, bool bonded)
 {
     const scree_boundary *boundary = bonded ? scree_config_held_by(config, index) : NULL;
-    return boundary && boundary->periodic;
+    return boundary && (boundary->periodic || boundary->unpressed);
 }
 
 static void check_stage_order(scree_reader *reader, const scree_config *config)

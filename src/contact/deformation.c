@@ -111,6 +111,12 @@ static const config *own_config(const scree_config *whole)
     return scree_config_own(&scree_module_deformation, "contact", whole->contact.own);
 }
 
+bool scree_deformation_iterates(const scree_config *whole)
+{
+    const config *own = whole->contact.own ? own_config(whole) : NULL;
+    return own && (own->deformation == EXPLICIT || own->deformation == RELAXED);
+}
+
 static void judge_material(scree_reader *reader, const scree_config *whole, int64_t index)
 {
     const scree_config_material *material = &whole->materials[index];

@@ -5,6 +5,9 @@
 #include "model/compliance.h"
 #include "model/model.h"
 
+/// Whether strains follow the forces of the step before, as the case says.
+bool scree_deformation_iterates(const scree_config *config);
+
 /// Of bodies of this material; zero where they are rigid.
 scree_compliance scree_deformation_compliance(const scree_model *model, int material);
 

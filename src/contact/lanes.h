@@ -12,6 +12,7 @@
 #define SCREE_CONTACT_LANES_H
 
 #include "base/fixed.h"
+#include "base/inline.h"
 
 #include <sleef.h>
 
@@ -30,8 +31,6 @@
 #define SCREE_LANES 2
 #endif
 #endif
-
-#define SCREE_INLINE static inline __attribute__((always_inline))
 
 #if SCREE_LANES == 1
 

@@ -457,6 +457,22 @@ static void gather_part(scree_hdf5 *run, const char *directory, scree_part_kind 
     if (!part.status && H5Ocopy(part.file, group, run->file, group, H5P_DEFAULT, H5P_DEFAULT) < 0)
         scree_hdf5_fail(&part, "copy", group);
     run->status = scree_hdf5_close(&part);
+    (void)H5garbage_collect();
+}
+
+/// What HDF5 keeps of a file that is open grows up to 32 MB by itself, and parts are copied once: some of it will do.
+static void keep_little(scree_hdf5 *run)
+{
+    enum { CACHE_BYTES = 1 << 20 };
+    H5AC_cache_config_t config = {.version = H5AC__CURR_CACHE_CONFIG_VERSION};
+    if (run->status || H5Fget_mdc_config(run->file, &config) < 0) return;
+    config.set_initial_size = true;
+    config.initial_size = config.max_size = CACHE_BYTES;
+    config.min_size = CACHE_BYTES / 2;
+    config.incr_mode = H5C_incr__off;
+    config.flash_incr_mode = H5C_flash_incr__off;
+    config.decr_mode = H5C_decr__off;
+    (void)H5Fset_mdc_config(run->file, &config);
 }
 
 /// Builds the self-contained file under the name `temporary`.
@@ -471,6 +487,7 @@ static scree_status gather(const char *directory, const char *temporary, const c
     if (!status) status = reserve(temporary, bytes, error);
     if (status) return status;
     scree_hdf5_extend(&run, temporary, error);
+    keep_little(&run);
     for (scree_part_kind kind = 0; kind < SCREE_PART_KINDS; kind++)
         for (size_t k = 0; k < lists[kind].count; k++) gather_part(&run, directory, kind, lists[kind].index[k]);
     return scree_hdf5_close(&run);

@@ -119,6 +119,10 @@ static const scree_field fields[] = {
     BODY(reference, scree_vector, "reference", SCREE_FIELD_DOUBLE, 3, "m", "place when it came to be driven"),
     BODY(departure, scree_departure, "departure", SCREE_FIELD_DOUBLE, 10, "1", "place and acceleration before a step",
          .role = SCREE_FIELD_DERIVED),
+    BODY(row, uint32_t, "row", SCREE_FIELD_UINT32, 1, "1", "rows of the bodies that loads prescribe",
+         .role = SCREE_FIELD_DERIVED),
+    SCREE_FIELD_ONE(prescribed, own, listed, "prescribed/listed", SCREE_FIELD_UINT64, 1, "1", "number of these bodies",
+                    .role = SCREE_FIELD_DERIVED),
     LOAD(acts, int64_t, SCREE_FIELD_INT64, "1", "1: the load acts in the present stage", SCREE_RANGE(0, 1)),
     LOAD(begun, double, SCREE_FIELD_DOUBLE, "s", "when it began to act"),
     LOAD(work, double, SCREE_FIELD_DOUBLE, "J", "work of the load on the bodies"),
@@ -176,7 +180,8 @@ static scree_status depart(const scree_context *c, scree_error *error)
 {
     scree_status status = SCREE_OK;
     for (size_t k = 0; k < sizeof fields / sizeof *fields && !status; k++)
-        if (fields[k].role == SCREE_FIELD_DERIVED) status = scree_state_begin_field(c->state, &fields[k], error);
+        if (fields[k].role == SCREE_FIELD_DERIVED && fields[k].optional)
+            status = scree_state_begin_field(c->state, &fields[k], error);
     return status ? status : scree_prescribed_depart(c, error);
 }
 

@@ -60,6 +60,9 @@ typedef struct scree_prescribed {
     scree_exerted *exerted;
     scree_vector *reference; ///< m, where the body was when the first load that drives it began
     scree_departure *departure;
+    uint32_t *row; ///< the first `listed`: rows of bodies that a load prescribes, or whose `exerted` it has made; from
+                   ///< the begin of a step to the search, and from there to its end (derived)
+    uint64_t listed;
     int64_t acts[SCREE_LOADS]; ///< 1: in the present stage
     double begun[SCREE_LOADS]; ///< s
     double work[SCREE_LOADS];  ///< J, on the bodies
@@ -91,10 +94,6 @@ static inline const char *scree_prescribed_name(const scree_prescribed_config *o
 /// Whether it says the velocity of a component, or a force on it.
 bool scree_prescribed_drives(const scree_prescribed_config *own, int component);
 bool scree_prescribed_pushes(const scree_prescribed_config *own, int component);
-
-/// First and last stage of `count` in which it acts; -1: there is none of that name.
-void scree_prescribed_stages(const scree_config_stage *stages, int64_t count, const scree_prescribed_config *own,
-                             int64_t range[2]);
 
 /// prescribed_begin.c: who is prescribed what in the stage that begins. Errors: a selection without bodies; two loads
 /// that say the same component of a body; memory.

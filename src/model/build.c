@@ -288,7 +288,7 @@ static scree_status resolve_loading(scree_model *model, scree_error *error)
             if (status) return status;
         }
         if (scree_held_pressure(stage) > 0) pressure = scree_held_pressure(stage);
-        rate = scree_model_loading_rate(stage);
+        rate = scree_model_loading_rate(model, stage);
     }
     model->reference_velocity = config->contact.reference_velocity;
     if (isnan(model->reference_velocity) && !isnan(rate)) model->reference_velocity = 2 * rate * model->mean_radius;

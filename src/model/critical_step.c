@@ -126,7 +126,7 @@ static double shear_speed(const scree_model *model)
 {
     double fastest = 0;
     for (int64_t i = 0; i < model->config->stage_count; i++)
-        fastest = fmax(fastest, scree_model_loading_rate(&model->config->stages[i]));
+        fastest = fmax(fastest, scree_model_loading_rate(model, &model->config->stages[i]));
     return 2 * model->mean_radius * fastest;
 }
 

@@ -60,10 +60,10 @@ double scree_held_pressure(const scree_config_stage *stage)
     return numbers->pressure ? numbers->pressure(stage->own) : NAN;
 }
 
-double scree_model_loading_rate(const scree_config_stage *stage)
+double scree_model_loading_rate(const scree_model *model, const scree_config_stage *stage)
 {
     const scree_stage_numbers *numbers = scree_modules[stage->kind]->numbers;
-    return numbers->rate ? numbers->rate(stage->own) : NAN;
+    return numbers->rate ? numbers->rate(model, stage->own) : NAN;
 }
 
 const scree_boundary *scree_model_boundary_of(const scree_model *model, int64_t index)

@@ -247,7 +247,7 @@ double scree_model_bound_of_species(const scree_model *model, int species, uint6
 scree_status scree_model_resolve_species(scree_model *model, scree_error *error) SCREE_MUST_USE;
 
 /// Strain rate that a stage imposes [1/s]; of a deform stage the largest component. NAN: it loads nothing.
-double scree_model_loading_rate(const scree_config_stage *stage);
+double scree_model_loading_rate(const scree_model *model, const scree_config_stage *stage);
 
 /// Number of the material of this name, NULL that of the first species; -1: the case has none of that name.
 int scree_model_material(const scree_model *model, const char *name);

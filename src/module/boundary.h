@@ -17,6 +17,7 @@ typedef struct scree_boundary {
     bool free;         ///< no plates: forces on the boundary of the sample impose a velocity gradient
     bool round;        ///< can hold a round sample; a periodic one never is
     bool equal_steps;  ///< imposes velocities, for which all steps must have one size
+    bool unpressed;    ///< may do without a pressure where bonds hold the bodies together
     bool full_mirrors; ///< a component of the velocity gradient beside the diagonal needs its mirror: a rotation would
                        ///< satisfy it alone
 

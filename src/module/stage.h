@@ -7,6 +7,14 @@
 
 struct scree_config_stage;
 
+/// When bodies may sleep (integrate/sleep.c).
+typedef struct scree_sleep_limits {
+    double window; ///< s, for which a body must be quiet before it sleeps; NAN: none sleeps
+    double force;  ///< 1, resultant over weight (torque: over weight and radius) below which it is quiet
+    double motion; ///< 1, way of its surface in the window at its present speed, over its radius, below which it is
+    double wake;   ///< 1, mean resultant of a window over weight above which it wakes
+} scree_sleep_limits;
+
 /// `config` is the stage's own struct, in which its keys are.
 typedef struct scree_stage_numbers {
     bool places;   ///< places the particles: the first stage of a case, and no other
@@ -15,6 +23,7 @@ typedef struct scree_stage_numbers {
     bool held;     ///< something holds the sample, which has the keys boundary and friction
     bool settles;  ///< waits until the sample is at rest under the pressure
     bool pours;    ///< sources let grains go
+    bool still;    ///< no particle moves: there is no critical step
     bool collides; ///< nothing holds or drives the bodies, which meet and part
     const char *needs_pressure; ///< what is wrong where no stage before settles; NULL: it needs none
     const char *needs_approach; ///< what is wrong where the particles cannot be about to collide; NULL: they need not
@@ -22,10 +31,13 @@ typedef struct scree_stage_numbers {
     const char *needs_free;     ///< what is wrong where plates stand: it imposes a velocity gradient; NULL: they may
     /// Largest normal stress that it holds [Pa, compression positive], NAN: none. NULL: holds none.
     double (*pressure)(const void *config);
-    /// Strain rate that it imposes [1/s], of several components the largest. NULL: it loads nothing.
-    double (*rate)(const void *config);
+    /// Strain rate that it imposes [1/s], of several components the largest, on the sample that the model expects.
+    /// NULL: it loads nothing.
+    double (*rate)(const scree_model *model, const void *config);
     /// Strain at which it ends. NULL: none.
     double (*strain)(const void *config);
+    /// When its bodies may sleep. NULL: never.
+    scree_sleep_limits (*sleep)(const void *config);
     /// What is wrong with the keys of the stage `index` of a case, and under which; NULL: nothing. NULL: never
     /// anything.
     const char *(*wrong)(const scree_config *config, int64_t index, const char **key);

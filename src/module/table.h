@@ -7,7 +7,7 @@
 
 #define SCREE_STATE_MODULES(row)                                                                                       \
     row(gravity) row(plates) row(case_walls) row(periodic_cell) row(delaunay_boundary) row(pressure) row(own_force)    \
-        row(imposed_gradient) row(selections) row(persistent) row(bonds) row(deformation) row(births)
+        row(imposed_gradient) row(selections) row(persistent) row(bonds) row(deformation) row(births) row(sleep)
 
 /// Boundaries, in the order in which the case reference lists them; then those that no key chooses.
 #define SCREE_BOUNDARY_MODULES(row)                                                                                    \
@@ -43,14 +43,14 @@
     row(position_verlet) row(velocity_verlet) row(two_timescales) row(gear) row(drop_and_roll) row(hexagonal)          \
         row(square) row(face_centred) row(body_centred) row(cubic) row(gas) row(growth) row(dense) row(pair)           \
             row(bodies) row(empty) row(prepare) row(confine) row(compress) row(deform) row(rotate_particle) row(relax) \
-                row(collide) row(bond) row(pour) row(point) row(line) row(region) row(background_damping)              \
+                row(iterate) row(collide) row(bond) row(pour) row(point) row(line) row(region) row(background_damping) \
                     row(prescribed) row(plane) row(box) row(cylinder) row(cone) row(mesh) row(wall_polygon)            \
                         row(uniform) row(two_sizes) row(equal) row(normal) row(log_normal) row(power_law) row(table)
 
 /// What is measured at the end of a run, with tables of its own.
 #define SCREE_MEASURE_MODULES(row)                                                                                     \
     row(cells) row(breaks) row(moduli) row(waves) row(gauges) row(elastic_test) row(stability) row(mean_strain)        \
-        row(slopes) row(pile) row(finite_elements)
+        row(slopes) row(pile) row(finite_elements) row(orientation)
 
 #define SCREE_MODULES(row)                                                                                             \
     SCREE_STATE_MODULES(row)                                                                                           \

@@ -5,6 +5,7 @@
 
 #include "run/loading.h"
 
+#include "integrate/orientation.h"
 #include "measure/measure.h"
 #include "run/step.h"
 #include "state/plates.h"
@@ -77,6 +78,7 @@ void scree_loading_begin(scree_simulation *s, double pressure)
     for (size_t row = 0; row < state->count; row++) scree_body_position(state, row, state->reference[row]);
     // Of bodies that are not round it is how they lie.
     if (state->angle && !state->form) memset(state->angle, 0, state->count * sizeof *state->angle);
+    scree_orientation_forget(state);
 }
 
 double scree_loading_planned(double time, double rise_time, double wave)

@@ -56,8 +56,9 @@ static double inertial_number(const scree_model *model, double rate, double pres
 scree_quasistatic scree_quasistatic_expect(const scree_model *model, int64_t index)
 {
     const scree_config_stage *stage = &model->stages[index];
-    scree_quasistatic q = {
-        .stage = index, .rate = scree_model_loading_rate(stage), .pressure = scree_confining_pressure(model, index)};
+    scree_quasistatic q = {.stage = index,
+                           .rate = scree_model_loading_rate(model, stage),
+                           .pressure = scree_confining_pressure(model, index)};
     for (int k = 0; k < SCREE_QUASISTATIC_COUNT; k++) q.value[k] = NAN;
     if (!means_to_be_quasistatic(stage) || isnan(q.pressure)) return q;
     double fraction = scree_expected_solid_fraction(model), height = scree_expected_height(model, fraction);
@@ -147,7 +148,8 @@ void scree_quasistatic_warn(const scree_model *model, scree_log *log)
 
 double scree_quasistatic_inertial_now(const scree_simulation *s, double mean_stress)
 {
-    double rate = scree_model_loading_rate(scree_stage_config(s)), loaded;
+    double rate = s->stage->rate ? s->stage->rate(s) : scree_model_loading_rate(&s->model, scree_stage_config(s)),
+           loaded;
     if (isnan(rate)) return NAN;
     // fmin passes over a pressure that there is not.
     double pressure = fmin(scree_confining_pressure(&s->model, s->state.stage.index), mean_stress);

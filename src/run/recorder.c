@@ -170,8 +170,8 @@ static double ticks_left(const scree_simulation *s)
     double left = (double)s->plan.expected - (double)(s->state.step - s->state.stage.first_step);
     for (int64_t k = s->state.stage.index + 1; k < s->model.stage_count; k++) {
         const scree_config_stage *stage = &s->model.stages[k];
-        double (*duration)(const void *own) = scree_modules[stage->kind]->stage->duration;
-        left += duration ? duration(stage->own) / s->state.tick : NAN;
+        double (*duration)(const scree_model *model, const void *own) = scree_modules[stage->kind]->stage->duration;
+        left += duration ? duration(&s->model, stage->own) / s->state.tick : NAN;
     }
     return left;
 }

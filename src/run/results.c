@@ -275,7 +275,7 @@ static int64_t loading_stage(const scree_simulation *s, int64_t wanted)
 {
     const scree_config_stage *stage = s->model.stages;
     for (int64_t k = wanted; k >= 0; k--)
-        if (!isnan(scree_model_loading_rate(&stage[k]))) return k;
+        if (!isnan(scree_model_loading_rate(&s->model, &stage[k]))) return k;
     int64_t k = wanted;
     while (k >= 0 && !scree_modules[stage[k].kind]->stage->loading) k--;
     return k;
@@ -288,7 +288,7 @@ static scree_status summarise_stage(const scree_simulation *s, scree_summary *su
     if (s->state.count == 0 || loading_stage(s, present) != present) return SCREE_OK;
     summarise_cost(s, summary);
     bool plates = scree_boundary_has_plates(scree_model_boundary_of(&s->model, present));
-    bool strained = !isnan(scree_model_loading_rate(&s->model.stages[present]));
+    bool strained = !isnan(scree_model_loading_rate(&s->model, &s->model.stages[present]));
     bool cornered = strained && !plates && !scree_cell(&s->state)->directions;
     return cornered ? summarise_shape(s, summary, error) : SCREE_OK;
 }

@@ -1,6 +1,7 @@
 /// Whether a run is within its limits of stability: checked before the first step of each stage, and when the number of
 /// bonds (looked at after every step) or contacts (at every sample) has changed by a hundredth since the last check.
-/// Only where bonds hold or particles deform; another run has the estimate of its case (model/critical_step.c).
+/// Only where bonds hold or particles deform, and something moves; another run has the estimate of its case
+/// (model/critical_step.c).
 ///
 /// Method. The step of the scheme, the largest one of two_timescales, uses a part of what the specimen bears: the
 /// largest eigenvalue of (1) in specimen/stability.c with the strain as the run treats it. A bound from single bodies
@@ -22,6 +23,7 @@
 #include "search/neighbours.h"
 #include "specimen/from_state.h"
 #include "specimen/stability.h"
+#include "state/persistent.h"
 
 #include <float.h>
 #include <math.h>
@@ -61,6 +63,7 @@ typedef struct memory {
     uint64_t asked;           ///< 1: before the next step
     uint64_t bonds, contacts; ///< at the last check
     double step;              ///< s, critical one
+    uint64_t looked;          ///< 1, breaks and held pairs when bonds were counted last, in one number (derived)
     double softness;          ///< 1, largest k_n/E_p at the step of the run over the present one
 } memory;
 
@@ -70,6 +73,8 @@ static const scree_field fields[] = {
     ONE(asked, SCREE_FIELD_UINT64, "1", "1: limits are checked before the next step", SCREE_RANGE(0, 1)),
     ONE(bonds, SCREE_FIELD_UINT64, "1", "bonds at the last check of the limits", SCREE_RANGE_TO(SCREE_LIMIT_MANY)),
     ONE(contacts, SCREE_FIELD_UINT64, "1", "contacts of two bodies or a wall then", SCREE_RANGE_TO(SCREE_LIMIT_MANY)),
+    ONE(looked, SCREE_FIELD_UINT64, "1", "breaks and held pairs when bonds were counted last",
+        .role = SCREE_FIELD_DERIVED),
     ONE(step, SCREE_FIELD_DOUBLE, "s", "critical step of the specimen when a stage began, where it is told",
         .range = {.least = 0, .limit = SCREE_LIMIT_NUMBER, .most = INFINITY, .undefined = true}),
     ONE(softness, SCREE_FIELD_DOUBLE, "1", "largest k_n/E_p at the step of the run over that of the run",
@@ -90,6 +95,7 @@ static const numbers *own_numbers(const scree_simulation *s)
 
 static bool matters(const scree_simulation *s)
 {
+    if (scree_modules[scree_stage_config(s)->kind]->numbers->still) return false;
     return s->state.count > 0 && (scree_model_traits(&s->model)->deforms || scree_bonds_standing(&s->state) > 0);
 }
 
@@ -98,10 +104,19 @@ static bool has_changed(uint64_t before, uint64_t now)
     return fabs((double)now - (double)before) > CHANGE * (double)before;
 }
 
+/// Bonds are counted when some have broken, or pairs have come or gone.
+static bool bonds_have_changed(const scree_state *state, memory *all)
+{
+    const uint64_t now = (uint64_t)scree_bonds_of(state)->count << 32 | scree_persistent(state)->count;
+    if (scree_bonds_of(state)->made == 0 || now == all->looked) return false;
+    all->looked = now;
+    return has_changed(all->bonds, scree_bonds_standing(state));
+}
+
 void scree_stability_ask(scree_simulation *s, bool stage_begins)
 {
     memory *all = memory_of(&s->state);
-    const bool bonds = scree_bonds_of(&s->state)->made > 0 && has_changed(all->bonds, scree_bonds_standing(&s->state));
+    const bool bonds = bonds_have_changed(&s->state, all);
     const bool contacts = s->sampled && has_changed(all->contacts, s->table.count);
     if (stage_begins || bonds || contacts) all->asked = 1;
 }

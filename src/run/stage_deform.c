@@ -79,9 +79,10 @@ static double pressure_of(const void *own)
     return largest;
 }
 
-static double rate_of(const void *own)
+static double rate_of(const scree_model *model, const void *own)
 {
     scree_demand demand;
+    (void)model;
     return fabs(demand.rate[find_demand(own, &demand)]);
 }
 
@@ -96,7 +97,7 @@ static scree_status begin(scree_simulation *s, scree_error *error)
 static void plan(scree_simulation *s)
 {
     const config *stage = own_config(s);
-    s->plan = scree_loading_plan(s, stage->strain / rate_of(stage), stage->rise_time);
+    s->plan = scree_loading_plan(s, stage->strain / rate_of(&s->model, stage), stage->rise_time);
 }
 
 static void control(scree_simulation *s)
@@ -123,7 +124,7 @@ static double strain(const scree_simulation *s)
 static scree_status finished(scree_simulation *s, bool *done, scree_error *error)
 {
     const config *stage = own_config(s);
-    return scree_loading_finished(s, "strain", strain(s), stage->strain, rate_of(stage), done, error);
+    return scree_loading_finished(s, "strain", strain(s), stage->strain, rate_of(&s->model, stage), done, error);
 }
 
 static double fraction(const scree_simulation *s)
@@ -137,15 +138,14 @@ static double strain_of(const void *own)
     return ((const config *)own)->strain;
 }
 
-static double duration(const void *own)
+static double duration(const scree_model *model, const void *own)
 {
-    return strain_of(own) / rate_of(own);
+    return strain_of(own) / rate_of(model, own);
 }
 
 static double planned(const scree_model *model, const void *own, double wave)
 {
-    (void)model;
-    return scree_loading_planned(duration(own), ((const config *)own)->rise_time, wave);
+    return scree_loading_planned(duration(model, own), ((const config *)own)->rise_time, wave);
 }
 
 static bool is_given(const double tensor[9], int component)

@@ -25,8 +25,8 @@ typedef struct scree_stage {
     int samples_a_wave; ///< samples in a wave time of the sample; 0: evenly over the stage
 
     // ---- asked before the stage begins; `config` is its own struct. Each may be NULL ----
-    /// Time [s] at its full rate. NULL: not known.
-    double (*duration)(const void *config);
+    /// Time [s] at its full rate, of the sample that the model expects. NULL: not known.
+    double (*duration)(const scree_model *model, const void *config);
     /// Time [s] that it is planned to last, where a wave goes through the sample in `wave` [s]. NULL: none.
     double (*planned)(const scree_model *model, const void *config, double wave);
     /// Makes it fit a case of `count` particles only.
@@ -37,6 +37,8 @@ typedef struct scree_stage {
     // ---- while a simulation is in it ----
     /// Strain that the stage imposes, as far as it has come. NULL: none.
     double (*strain)(const scree_simulation *s);
+    /// Strain rate [1/s] that it has come to, or will. NULL: that which its numbers say (module/stage.h).
+    double (*rate)(const scree_simulation *s);
     /// Once, when the stage begins: what the sample is like now goes into its own state. NULL: nothing to do.
     scree_status (*begin)(scree_simulation *s, scree_error *error);
     /// Derives the plan from the state; at begin and after a restart. NULL: for instant stages alone.

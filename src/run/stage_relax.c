@@ -106,16 +106,16 @@ static double fraction(const scree_simulation *s)
     return (double)(s->state.step - s->state.stage.first_step) / (double)s->plan.expected;
 }
 
-static double duration(const void *own)
+static double duration(const scree_model *model, const void *own)
 {
+    (void)model;
     return ((const config *)own)->duration;
 }
 
 static double planned(const scree_model *model, const void *own, double wave)
 {
-    (void)model;
     (void)wave;
-    return duration(own);
+    return duration(model, own);
 }
 
 static const scree_stage stage_face = {.name = "relax",

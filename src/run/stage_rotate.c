@@ -11,6 +11,7 @@
 #include "case/check.h"
 #include "comm/comm.h"
 #include "integrate/forced_spin.h"
+#include "integrate/orientation.h"
 #include "measure/measure.h"
 #include "measure/rotation.h"
 #include "module/integrator.h"
@@ -204,6 +205,7 @@ static double background(const scree_simulation *s, uint64_t ticks)
 static void forget_angles(scree_state *state)
 {
     if (state->angle) memset(state->angle, 0, state->count * sizeof *state->angle);
+    scree_orientation_forget(state);
 }
 
 static void control(scree_simulation *s)

@@ -76,9 +76,8 @@ static inline double scree_body_inertia(const scree_state *state, size_t row)
     return (state->dimension == 3 ? 0.4 : 0.5) * state->row[row].mass * radius * radius;
 }
 
-/// Angle [rad] by which the body lies turned, 2D: of a disc since the start. In 3D no sphere needs an orientation and
-/// none is kept: a shape that does declares a quaternion a body as a field of its module, optional, which its passes
-/// turn.
+/// Angle [rad] by which the body lies turned, 2D: of a disc since the start. In 3D contacts of spheres need no
+/// orientation: it is kept where somebody asks for it (integrate/orientation.h).
 static inline double scree_body_angle(const scree_state *state, size_t row)
 {
     return state->angle[row];

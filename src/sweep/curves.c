@@ -78,7 +78,8 @@ scree_status scree_mean_curve_make(const scree_sweep_results *results, size_t in
     const scree_sweep *sweep = results->sweep;
     scree_curve *member = NULL;
     bool any = false;
-    *curve = (scree_mean_curve){.name_x = sweep->config.curves[index].x, .name_y = sweep->config.curves[index].y};
+    const scree_sweep_curve *said = &sweep->config.curves[index];
+    *curve = (scree_mean_curve){.name_x = said->x, .name_y = said->y, .log_y = said->log_y};
     size_t places = sweep->point_count * SCREE_CURVE_PLACES;
     scree_status status = scree_allocate(&curve->there, sweep->point_count, sizeof *curve->there, error);
     if (!status) status = scree_allocate(&curve->x, places, sizeof *curve->x, error);

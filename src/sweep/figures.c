@@ -133,7 +133,12 @@ static void draw_points(const scree_sweep_results *results, const scree_mean_cur
                                          .label = text[0] ? label[count] : NULL};
         count++;
     }
-    scree_chart chart = {.title = title, .x_label = x_label, .y_label = y_label, .line = line, .line_count = count};
+    scree_chart chart = {.title = title,
+                         .x_label = x_label,
+                         .y_label = y_label,
+                         .line = line,
+                         .line_count = count,
+                         .log_y = curve->log_y};
     if (count > 0) draw(results, name, &chart);
     for (size_t i = 0; i < count; i++) scree_release(&s[i].x);
 }

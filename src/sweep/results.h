@@ -29,6 +29,7 @@ scree_status scree_sweep_write_record(const scree_sweep_results *results, scree_
 /// Averages of one curve at each point of the grid, on an abscissa of its own for each.
 typedef struct scree_mean_curve {
     const char *name_x, *name_y;
+    bool log_y;
     char unit_x[32], unit_y[32];
     bool *there;              ///< [point]
     double *x;                ///< [point][place]

@@ -53,6 +53,7 @@ typedef scree_sweep_curve curve;
 static const scree_key curve_keys[] = {
     TEXT(curve, x, "63", .standard = "axial_strain", .meaning = "Column of series.csv that the curve runs along."),
     TEXT(curve, y, "63", .meaning = "Column of series.csv."),
+    KEY(curve, log_y, SCREE_KEY_FLAG, .standard = "no", .meaning = "Whether its axis is logarithmic."),
 };
 static const scree_section curve_table[] = {TABLE("curves", "A curve, averaged over realisations.", curve_keys)};
 

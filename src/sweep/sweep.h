@@ -32,6 +32,7 @@ typedef struct scree_sweep_vary {
 
 typedef struct scree_sweep_curve {
     char *x, *y; ///< columns of series.csv
+    bool log_y;
 } scree_sweep_curve;
 
 typedef struct scree_sweep_relation {
@@ -51,7 +52,7 @@ typedef struct scree_sweep_bisect {
 typedef struct scree_sweep_config {
     int64_t language;
     char *name, *title;
-    char *base; ///< the case: name of a built-in one, or a file beside the sweep file
+    char *base;  ///< the case: name of a built-in one, or a file beside the sweep file
     char *needs; ///< a program without which its members are not worth running; "": none
     int64_t realisations, quick_realisations;
     int64_t seed;

@@ -11,6 +11,7 @@
     row(fluctuations) /* displacements in the strain windows */ \
     row(distortion)   /* cells in the strain windows */ \
     row(breaks)       /* bonds that broke */ \
+    row(iterates)     /* strains of particles that are held */ \
     row(pile)         /* what was poured */ \
     row(waves)        /* receivers and layers */ \
     row(fem)          /* finite elements beside the run */ \
