@@ -567,6 +567,7 @@ static scree_status check_list(const scree_model *model, scree_state *state, scr
         shrunk = scree_matrix_norm(change) * (work->ghosts.largest_radius + 0.5 * work->skin);
     }
     double moved = largest_displacement(state, deformation, work) + shrunk + scree_deformation_of(state)->largest_reach;
+    scree_comm_maximum(state, &moved, 1);
     if (!(moved < half_skin(work))) return rebuild(model, state, work, error);
     work->budget = half_skin(work) - moved;
     return SCREE_OK;
@@ -580,10 +581,15 @@ scree_status scree_neighbours_refresh(const scree_model *model, scree_state *sta
         scree_wall_set_place(work->wall_set, walls, scree_case_walls_time(walls, state), state->step_size);
         walls->speed = walls->moving ? scree_wall_set_speed(work->wall_set) : 0;
     }
+    // All processes make their lists anew when one of them has to.
+    enum { KEEP, LOOK, REBUILD };
+    double due = work->budget >= 0 ? KEEP : LOOK;
     if (!work->valid || !is_of_these_bodies(work->search, state) || scree_held_changed(state, &work->search->held) ||
         walls_need_rebuild(model, state, work))
-        return rebuild(model, state, work, error);
-    scree_status status = work->budget >= 0 ? SCREE_OK : check_list(model, state, work, error);
+        due = REBUILD;
+    scree_comm_maximum(state, &due, 1);
+    if (due == REBUILD) return rebuild(model, state, work, error);
+    scree_status status = due == KEEP ? SCREE_OK : check_list(model, state, work, error);
     if (!status && work->ghosts.count > 0) scree_comm_exchange(state, work);
     return status;
 }
