@@ -66,33 +66,34 @@ static void write_verb(FILE *file, const scree_verb *verb)
 /// Whether the verb of this number is the first one with its first word.
 static bool is_first(size_t number)
 {
-    const size_t length = strcspn(scree_verbs[number].name, " ");
+    const size_t length = strcspn(scree_verb_at(number)->name, " ");
     for (size_t i = 0; i < number; i++)
-        if (strcspn(scree_verbs[i].name, " ") == length &&
-            strncmp(scree_verbs[i].name, scree_verbs[number].name, length) == 0)
+        if (strcspn(scree_verb_at(i)->name, " ") == length &&
+            strncmp(scree_verb_at(i)->name, scree_verb_at(number)->name, length) == 0)
             return false;
     return true;
 }
 
 static void write_first_words(FILE *file)
 {
-    for (size_t i = 0; i < scree_verbs_count; i++)
+    for (size_t i = 0; scree_verb_at(i); i++)
         if (is_first(i))
-            fprintf(file, "%s%.*s", i > 0 ? " " : "", (int)strcspn(scree_verbs[i].name, " "), scree_verbs[i].name);
+            fprintf(file, "%s%.*s", i > 0 ? " " : "", (int)strcspn(scree_verb_at(i)->name, " "),
+                    scree_verb_at(i)->name);
 }
 
 /// Of a group of verbs: its second words, and from there on both are the verb.
 static void write_group(FILE *file, size_t number)
 {
-    const char *name = scree_verbs[number].name;
+    const char *name = scree_verb_at(number)->name;
     const int length = (int)strcspn(name, " ");
     if (!name[length] || !is_first(number)) return;
     fprintf(file,
             "    %.*s)\n        if [[ $COMP_CWORD -eq 2 ]]; then\n            mapfile -t COMPREPLY < <(compgen -W \"",
             length, name);
-    for (size_t i = number; i < scree_verbs_count; i++)
-        if (strncmp(scree_verbs[i].name, name, (size_t)length + 1) == 0)
-            fprintf(file, "%s ", scree_verbs[i].name + length + 1);
+    for (size_t i = number; scree_verb_at(i); i++)
+        if (strncmp(scree_verb_at(i)->name, name, (size_t)length + 1) == 0)
+            fprintf(file, "%s ", scree_verb_at(i)->name + length + 1);
     fprintf(file, "\" -- \"$word\")\n            return\n        fi\n        verb=\"$verb ${COMP_WORDS[2]}\";;\n");
 }
 
@@ -111,12 +112,12 @@ void scree_help_write_completion(FILE *file)
                   "        return\n"
                   "    fi\n"
                   "    case $verb in\n");
-    for (size_t i = 0; i < scree_verbs_count; i++) write_group(file, i);
+    for (size_t i = 0; scree_verb_at(i); i++) write_group(file, i);
     fprintf(file, "    esac\n    case \"$verb $previous\" in\n");
-    for (size_t i = 0; i < scree_verbs_count; i++)
-        for (const scree_verb_option *row = scree_verbs[i].option; row->name; row++)
-            write_value(file, &scree_verbs[i], row);
+    for (size_t i = 0; scree_verb_at(i); i++)
+        for (const scree_verb_option *row = scree_verb_at(i)->option; row->name; row++)
+            write_value(file, scree_verb_at(i), row);
     fprintf(file, "    esac\n    case $verb in\n");
-    for (size_t i = 0; i < scree_verbs_count; i++) write_verb(file, &scree_verbs[i]);
+    for (size_t i = 0; scree_verb_at(i); i++) write_verb(file, scree_verb_at(i));
     fprintf(file, "    esac\n}\ncomplete -o filenames -F _scree scree\n");
 }

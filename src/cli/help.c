@@ -49,7 +49,7 @@ void scree_help_write(FILE *file)
     fprintf(file, "Usage: scree VERB [OPTION]... [ARGUMENT]...\n\n");
     write_wrapped(file, scree_purpose, 0, 0);
     fprintf(file, "\nVerbs:\n");
-    for (size_t i = 0; i < scree_verbs_count; i++) write_term(file, scree_verbs[i].name, scree_verbs[i].meaning);
+    for (size_t i = 0; scree_verb_at(i); i++) write_term(file, scree_verb_at(i)->name, scree_verb_at(i)->meaning);
     fprintf(file, "\nOptions:\n");
     write_term(file, "-h, --help", "print this help; `scree VERB --help` tells about one verb");
     write_term(file, "-V, --version", "print the version");
@@ -111,9 +111,9 @@ static size_t group_of(const scree_verb *verb)
 
 static bool is_group(const char *word)
 {
-    for (size_t i = 0; i < scree_verbs_count; i++) {
-        const size_t length = group_of(&scree_verbs[i]);
-        if (length > 0 && strlen(word) == length && strncmp(scree_verbs[i].name, word, length) == 0) return true;
+    for (size_t i = 0; scree_verb_at(i); i++) {
+        const size_t length = group_of(scree_verb_at(i));
+        if (length > 0 && strlen(word) == length && strncmp(scree_verb_at(i)->name, word, length) == 0) return true;
     }
     return false;
 }
@@ -125,11 +125,11 @@ static void refuse_verb(const char *name, bool in_group)
     size_t count = 0;
     scree_error error;
     char accepted[sizeof error.accepted] = "";
-    for (size_t i = 0; i < scree_verbs_count && count < sizeof names / sizeof names[0]; i++) {
-        if (in_group && strncmp(scree_verbs[i].name, name, strcspn(name, " ")) != 0) continue;
+    for (size_t i = 0; scree_verb_at(i) && count < sizeof names / sizeof names[0]; i++) {
+        if (in_group && strncmp(scree_verb_at(i)->name, name, strcspn(name, " ")) != 0) continue;
         size_t used = strlen(accepted);
-        names[count++] = scree_verbs[i].name;
-        (void)snprintf(accepted + used, sizeof accepted - used, "%s%s", count > 1 ? ", " : "", scree_verbs[i].name);
+        names[count++] = scree_verb_at(i)->name;
+        (void)snprintf(accepted + used, sizeof accepted - used, "%s%s", count > 1 ? ", " : "", scree_verb_at(i)->name);
     }
     const char *nearest = scree_nearest(name, names, count);
     scree_command_refuse(&error, name, nearest ? nearest : accepted, "there is no such verb");
@@ -145,6 +145,19 @@ const scree_verb *scree_verb_match(size_t count, const char *const *words, size_
     const scree_verb *verb = scree_verb_find(name);
     if (!verb) refuse_verb(name, in_group);
     return verb;
+}
+
+bool scree_help_write_group(FILE *file, size_t count, const char *const *words, bool second)
+{
+    if (count != (second ? 2 : 1) || !is_group(words[0])) return false;
+    if (second && strcmp(words[1], "--help") != 0 && strcmp(words[1], "-h") != 0) return false;
+    const size_t length = strlen(words[0]);
+    fprintf(file, "Usage: scree %s NAME [OPTION...]\n\nVerbs of this group:\n", words[0]);
+    for (size_t i = 0; scree_verb_at(i); i++)
+        if (group_of(scree_verb_at(i)) == length && strncmp(scree_verb_at(i)->name, words[0], length) == 0)
+            write_term(file, scree_verb_at(i)->name, scree_verb_at(i)->meaning);
+    fprintf(file, "\n`scree %s NAME --help` says more.\n", words[0]);
+    return true;
 }
 
 scree_status scree_verb_help(const scree_command *command)
@@ -165,6 +178,7 @@ scree_status scree_verb_help(const scree_command *command)
         scree_status status = scree_schema_write_manual(stdout, &error);
         return status ? scree_terminal_error("help", &error) : SCREE_OK;
     }
+    if (scree_help_write_group(stdout, command->argument_count, command->argument, false)) return SCREE_OK;
     size_t used = 0;
     const scree_verb *verb = named ? scree_verb_match(command->argument_count, command->argument, &used) : NULL;
     if (named && !verb) return SCREE_ERROR_INPUT;

@@ -56,6 +56,7 @@ static scree_status call_verb(const scree_verb *verb, int count, char *const *wo
 static scree_status find_verb(int count, char **words)
 {
     size_t used;
+    if (scree_help_write_group(stdout, (size_t)count, (const char *const *)words, true)) return SCREE_OK;
     const scree_verb *verb = scree_verb_match((size_t)count, (const char *const *)words, &used);
     return verb ? call_verb(verb, count - (int)used, words + used) : SCREE_ERROR_INPUT;
 }

@@ -75,15 +75,15 @@ void scree_help_write_manual(FILE *file)
     fprintf(file, ".\\\" Made by `scree help --man` from the table of verbs.\n");
     fprintf(file, ".TH SCREE 1 \"\" \"Scree %s\" \"Scree\"\n.SH NAME\nscree \\- ", SCREE_VERSION);
     fprintf(file, "discrete\\-element laboratory for granular matter\n.SH SYNOPSIS\n");
-    for (size_t i = 0; i < scree_verbs_count; i++) {
+    for (size_t i = 0; scree_verb_at(i); i++) {
         char usage[160];
-        scree_help_usage(&scree_verbs[i], usage, sizeof usage);
+        scree_help_usage(scree_verb_at(i), usage, sizeof usage);
         fprintf(file, "%s.B scree\n%s\n", i > 0 ? ".br\n" : "", usage);
     }
     fprintf(file, ".SH DESCRIPTION\n");
     write_text(file, scree_purpose);
     fprintf(file, ".SH VERBS\n");
-    for (size_t i = 0; i < scree_verbs_count; i++) write_verb(file, &scree_verbs[i]);
+    for (size_t i = 0; scree_verb_at(i); i++) write_verb(file, scree_verb_at(i));
     fprintf(file, ".SH OPTIONS\n");
     for (const scree_verb_option *row = scree_common_options; row->name; row++) write_option(file, row);
     fprintf(file, ".TP\n\\fB\\-V\\fR, \\fB\\-\\-version\\fR\nprint the version, the compiler and the instruction set "

@@ -84,7 +84,7 @@ const scree_verb_option scree_common_options[] = {
         .name = "no-figures", .meaning = "leave all figures out"                                                       \
     }
 
-const scree_verb scree_verbs[] = {
+static const scree_verb case_verbs[] = {
     {
         .name = "list",
         .meaning = "list the built-in cases, one line each",
@@ -186,46 +186,9 @@ const scree_verb scree_verbs[] = {
         .status = {SCREE_ERROR_INPUT, SCREE_ERROR_GUARD, SCREE_ERROR_IO},
         .function = scree_verb_moduli,
     },
-    {
-        .name = "theory lattice",
-        .meaning = "limits, moduli, critical steps and waves of a lattice, from closed forms",
-        .text =
-            "Equal discs (row, square, hexagonal) or spheres (simple_cubic, body_centred, face_centred) that touch, "
-            "with springs k_n and k_t at each contact, rigid or deformed by their mean stress (DDEM, Madan 2019): "
-            "the largest k_n / E_p of explicit strains, the elasticity of the unbounded lattice, in its axes and "
-            "as the nearest isotropic tensor, Voigt's estimate of it, the critical step of each scheme as that of the "
-            "fastest wave, and "
-            "the frequencies of all plane waves along the usual path through the zone.\n\n"
-            "Prints a line a value; `-o` writes them as a table, with the waves as a table and a figure. All values "
-            "are SI; "
-            "without options everything is 1, so that results are in units of k_n, the radius and the mass.",
-        .option = {{.name = "kind",
-                    .value = "LATTICE",
-                    .meaning = "row, square, hexagonal, simple_cubic, body_centred or face_centred",
-                    .preset = "hexagonal"},
-                   {.name = "kn", .value = "N/M", .meaning = "normal stiffness of a contact", .preset = "1"},
-                   {.name = "kt", .value = "RATIO", .meaning = "tangential over normal stiffness", .preset = "0"},
-                   {.name = "young-modulus", .value = "PA", .meaning = "of the particles", .preset = "rigid"},
-                   {.name = "poisson-ratio", .value = "NU", .meaning = "of the particles", .preset = "0"},
-                   {.name = "plane", .value = "CONDITION", .meaning = "of discs: strain or stress", .preset = "strain"},
-                   {.name = "tangential",
-                    .value = "FORM",
-                    .meaning = "as_published; or corrected: strains stretch tangential springs, too",
-                    .preset = "as_published"},
-                   {.name = "radius", .value = "M", .meaning = "of the particles", .preset = "1"},
-                   {.name = "length", .value = "M", .meaning = "of discs", .preset = "1"},
-                   {.name = "density", .value = "KG/M3", .meaning = "of the particles", .preset = "1"},
-                   {.name = "output",
-                    .letter = 'o',
-                    .value = "DIR",
-                    .meaning = "write values.csv, the table of waves and the figure into DIR",
-                    .kind = SCREE_VALUE_FOLDER}},
-        .example = {{"scree theory lattice --kind hexagonal --kt 0.5", "in units of k_n, radius and mass"},
-                    {"scree theory lattice --kind square --young-modulus 2 -o square",
-                     "discs that deform; the figure of their waves"}},
-        .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO},
-        .function = scree_verb_theory_lattice,
-    },
+};
+
+static const scree_verb run_verbs[] = {
     {
         .name = "run",
         .meaning = "run a case into a folder of results, or continue a run",
@@ -464,13 +427,25 @@ const scree_verb scree_verbs[] = {
         .function = scree_verb_help,
     },
 };
-const size_t scree_verbs_count = sizeof scree_verbs / sizeof scree_verbs[0];
+
+// ---- the table ---------------------------------------------------------------------------------------------------
+
+#define ROWS(table) (sizeof(table) / sizeof(table)[0])
+
+const scree_verb *scree_verb_at(size_t number)
+{
+    if (number < ROWS(case_verbs)) return &case_verbs[number];
+    number -= ROWS(case_verbs);
+    if (number < scree_theory_verbs_count) return &scree_theory_verbs[number];
+    number -= scree_theory_verbs_count;
+    return number < ROWS(run_verbs) ? &run_verbs[number] : NULL;
+}
 
 const scree_verb *scree_verb_find(const char *name)
 {
-    for (size_t i = 0; i < scree_verbs_count; i++)
-        if (strcmp(scree_verbs[i].name, name) == 0) return &scree_verbs[i];
-    return NULL;
+    size_t k = 0;
+    while (scree_verb_at(k) && strcmp(scree_verb_at(k)->name, name) != 0) k++;
+    return scree_verb_at(k);
 }
 
 const char *scree_exit_status_meaning(int status)

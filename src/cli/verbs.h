@@ -58,8 +58,12 @@ typedef struct scree_verb {
     scree_status (*function)(const struct scree_command *command);
 } scree_verb;
 
-extern const scree_verb scree_verbs[];
-extern const size_t scree_verbs_count;
+/// The verbs in their order; NULL behind the last one.
+const scree_verb *scree_verb_at(size_t number);
+
+/// Those of the group `theory` (verbs_theory.c).
+extern const scree_verb scree_theory_verbs[];
+extern const size_t scree_theory_verbs_count;
 
 /// Options that every verb has.
 extern const scree_verb_option scree_common_options[];
@@ -88,6 +92,8 @@ scree_status scree_verb_check(const struct scree_command *command);
 scree_status scree_verb_stability(const struct scree_command *command);
 scree_status scree_verb_moduli(const struct scree_command *command);
 scree_status scree_verb_theory_lattice(const struct scree_command *command);
+scree_status scree_verb_theory_pile(const struct scree_command *command);
+scree_status scree_verb_theory_layer(const struct scree_command *command);
 scree_status scree_verb_run(const struct scree_command *command);
 scree_status scree_verb_bisect(const struct scree_command *command);
 scree_status scree_verb_sweep(const struct scree_command *command);

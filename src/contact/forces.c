@@ -17,6 +17,9 @@
 #include "contact/surfaces.h"
 #include "state/persistent.h"
 #include "state/plates.h"
+#include "state/sleep.h"
+
+#include <math.h>
 
 int scree_contact_instruction_set(int wanted)
 {
@@ -91,7 +94,7 @@ static void evaluate_sections(contact_kernel *kernel, contact_job *job, const sc
     contact_totals before;
     bool first = true;
     for (int k = 0; k < pairs->section_count; k++) {
-        if (contact_range_is_empty(&range[k])) continue;
+        if (pairs->section[k].asleep || contact_range_is_empty(&range[k])) continue;
         if (!first) before = job->totals;
         contact_job_enter(job, &pairs->section[k], &range[k], near_touched ? near_touched + near_byte[k] : NULL);
         if (geometry_is_one_by_one(job->variant))
@@ -252,7 +255,7 @@ void scree_contact_forces(const scree_model *model, scree_state *state, scree_wo
     double plates = settle_walls(state, &totals) + contact_surfaces_settle(state, work, &totals, &job.scale);
     if (work->ledger) settle_ledger(&state->ledger, &totals, &job.scale, plates);
     work->settle = totals.settle;
-    state->largest_overlap = totals.largest_overlap;
+    state->largest_overlap = fmax(totals.largest_overlap, scree_sleep_of(state)->overlap);
     scree_persistent(state)->largest_deformation = totals.largest_deformation;
     scree_persistent(state)->largest_gap = totals.largest_gap;
     if (!totals.in_range || totals.largest_overlap > contact_overlap_limit(model) * model->radius_min)

@@ -7,12 +7,13 @@
 #include "search/held.h"
 #include "state/periodic.h"
 #include "state/plates.h"
+#include "state/sleep.h"
 
 /// A body with its velocity at n - 1/2; a scheme may keep v(n), half a step of acceleration later.
 static contact_body stored_body_at_half_step(const scree_model *model, const scree_state *state, size_t k)
 {
     contact_body body = contact_body_get(state, k);
-    if (scree_integrator_get(model->scheme)->velocity_lead == 0) return body;
+    if (scree_integrator_get(model->scheme)->velocity_lead == 0 || scree_body_sleeps(state, k)) return body;
     scree_row *row = &body.row;
     const scree_sum_row *sum = &state->sum[k];
     double half = 0.5 * state->step_size, inertia = scree_body_inertia(state, k);

@@ -262,6 +262,8 @@ typedef struct gear_task {
     const scree_model *model;
     scree_state *state;
     lengths step;
+    const uint32_t *moving; ///< rows; NULL: the first `count`
+    size_t count;
     scree_speeds speeds[SCREE_TEAM_MOST];
 } gear_task;
 
@@ -270,10 +272,11 @@ static void share_first(void *argument, int index, int count)
 {
     gear_task *task = argument;
     scree_state *state = task->state;
-    const size_t begin = state->count * (size_t)index / (size_t)count;
-    const size_t end = state->count * (size_t)(index + 1) / (size_t)count;
+    const size_t begin = task->count * (size_t)index / (size_t)count;
+    const size_t end = task->count * (size_t)(index + 1) / (size_t)count;
     scree_speeds largest = {0};
-    for (size_t row = begin; row < end; row++) {
+    for (size_t k = begin; k < end; k++) {
+        const size_t row = task->moving ? task->moving[k] : k;
         advance(task->model, state, row, task->step);
         state->sum[row] = (scree_sum_row){0};
         if (state->torque) state->torque[row] = (scree_torque_row){0};
@@ -291,7 +294,9 @@ static void first(const scree_model *model, scree_state *state, scree_work *work
                       .step = {.last = 2 * state->kick_size - state->step_size, .next = state->step_size}};
     if (!(task.step.last > 0)) task.step.last = task.step.next;
     const int count = scree_work_shares(work);
+    task.moving = scree_moving_rows(state, &task.count);
     scree_thread_pool_run(&work->pool, count, share_first, &task);
+    scree_sleep_clear_sums(state);
     work->clear_rows = scree_row_count(state, work);
     scree_speeds largest = {0};
     for (int k = 0; k < count; k++) {
@@ -305,9 +310,10 @@ static void share_second(void *argument, int index, int count)
 {
     const gear_task *task = argument;
     const scree_state *state = task->state;
-    const size_t begin = state->count * (size_t)index / (size_t)count;
-    const size_t end = state->count * (size_t)(index + 1) / (size_t)count;
-    for (size_t row = begin; row < end; row++) {
+    const size_t begin = task->count * (size_t)index / (size_t)count;
+    const size_t end = task->count * (size_t)(index + 1) / (size_t)count;
+    for (size_t k = begin; k < end; k++) {
+        const size_t row = task->moving ? task->moving[k] : k;
         gear_row *body = &own_state(state)->row[row];
         // A body that was not there when the step began brings its energy with it.
         if (!body->begun) continue;
@@ -322,6 +328,7 @@ static void second(const scree_model *model, scree_state *state, scree_work *wor
 {
     if (!work->ledger) return;
     gear_task task = {.model = model, .state = state};
+    task.moving = scree_moving_rows(state, &task.count);
     const gear_row *row = own_state(state)->row;
     scree_thread_pool_run(&work->pool, scree_work_shares(work), share_second, &task);
     scree_integer_sum added = {0};

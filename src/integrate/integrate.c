@@ -2,6 +2,7 @@
 #include "integrate/integrate.h"
 
 #include "base/fixed.h"
+#include "state/sleep.h"
 
 static uint64_t next_ticks(const scree_integrator *integrator, const scree_model *model, const scree_state *state,
                            bool loading)
@@ -24,6 +25,16 @@ uint64_t scree_integrator_choose_step(const scree_integrator *integrator, const 
     return ticks;
 }
 
+/// What others that sleep exert on a body that does.
+static void add_resting(const scree_state *state, size_t row, scree_vector force, scree_vector torque)
+{
+    const scree_sleep *sleep = scree_sleep_of(state);
+    for (int k = 0; k < 3; k++) {
+        force[k] += (double)sleep->resting[row].force[k] * sleep->force_unit;
+        torque[k] += (double)sleep->resting[row].torque[k] * sleep->torque_unit;
+    }
+}
+
 void scree_body_force(const scree_model *model, const scree_state *state, size_t row, scree_vector force,
                       scree_vector torque)
 {
@@ -36,6 +47,7 @@ void scree_body_force(const scree_model *model, const scree_state *state, size_t
     torque[0] = turning ? scree_fixed_to(turning->x, state->torque_quantum) : 0;
     torque[1] = turning ? scree_fixed_to(turning->y, state->torque_quantum) : 0;
     torque[2] = scree_fixed_to(turning ? turning->z : sum->torque, state->torque_quantum);
+    if (scree_body_sleeps(state, row)) add_resting(state, row, force, torque);
 }
 
 /// Stored velocity + shift * dt * acceleration.
@@ -44,6 +56,7 @@ static void shifted_velocity(const scree_model *model, const scree_state *state,
 {
     scree_vector force, torque;
     scree_body_motion(state, row, velocity, spin);
+    if (scree_body_sleeps(state, row)) return; // nothing moves it, whatever acts on it
     scree_body_force(model, state, row, force, torque);
     double mass = state->row[row].mass, inertia = scree_body_inertia(state, row);
     for (int k = 0; k < 3; k++) {
@@ -56,7 +69,7 @@ void scree_body_velocity(const scree_model *model, const scree_state *state, siz
                          scree_vector spin)
 {
     const scree_integrator *integrator = scree_integrator_get(model->scheme);
-    if (integrator->velocity) {
+    if (integrator->velocity && !scree_body_sleeps(state, row)) {
         integrator->velocity(model, state, row, velocity, spin);
         return;
     }
@@ -67,7 +80,7 @@ void scree_body_velocity(const scree_model *model, const scree_state *state, siz
 void scree_body_velocity_so_far(const scree_model *model, const scree_state *state, size_t row, scree_vector velocity,
                                 scree_vector spin)
 {
-    if (!state->lead) {
+    if (!state->lead || scree_body_sleeps(state, row)) {
         scree_body_velocity(model, state, row, velocity, spin);
         return;
     }
@@ -86,4 +99,24 @@ void scree_body_half_velocity(const scree_model *model, const scree_state *state
                               scree_vector spin)
 {
     shifted_velocity(model, state, row, -scree_integrator_get(model->scheme)->velocity_lead, velocity, spin);
+}
+
+void scree_body_kinetic(const scree_model *model, const scree_state *state, size_t row, double *translation,
+                        double *rotation)
+{
+    const double mass = state->row[row].mass, inertia = scree_body_inertia(state, row), dt = state->step_size;
+    scree_vector velocity, spin, force, torque;
+    *translation = *rotation = 0;
+    if (scree_integrator_get(model->scheme)->velocity) {
+        scree_body_velocity(model, state, row, velocity, spin);
+        *translation = 0.5 * scree_body_mass(state, row) * scree_dot(velocity, velocity);
+        *rotation = 0.5 * inertia * scree_dot(spin, spin);
+        return;
+    }
+    scree_body_half_velocity(model, state, row, velocity, spin);
+    scree_body_force(model, state, row, force, torque);
+    for (int k = 0; k < 3; k++) {
+        *translation += 0.5 * mass * velocity[k] * (velocity[k] + dt * force[k] / mass);
+        *rotation += 0.5 * inertia * spin[k] * (spin[k] + dt * torque[k] / inertia);
+    }
 }

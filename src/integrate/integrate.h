@@ -28,6 +28,11 @@ void scree_body_velocity(const scree_model *model, const scree_state *state, siz
 void scree_body_velocity_so_far(const scree_model *model, const scree_state *state, size_t row, scree_vector velocity,
                                 scree_vector spin);
 
+/// Kinetic energies [J] of the balance: with v(n - 1/2) . v(n + 1/2), or of a scheme with velocities of its own at n
+/// (module/integrator.h) with these (measure/energy.c).
+void scree_body_kinetic(const scree_model *model, const scree_state *state, size_t row, double *translation,
+                        double *rotation);
+
 /// Velocity v(n - 1/2) and spin with which the contact forces at n were evaluated.
 void scree_body_half_velocity(const scree_model *model, const scree_state *state, size_t row, scree_vector velocity,
                               scree_vector spin);

@@ -2,12 +2,13 @@
 /// Mass and inertia: m, m R^2 / 2 of a disc, 2 m R^2 / 5 of a sphere, R the turning radius of state/body.h. Cost: one
 /// division and about 30 flops a body (50 in 3D); streams one row and one sum, in 3D a row of spins and one of torques
 /// more. A kick before a drift is the last to read the sums: it leaves them clear for the forces at the new positions,
-/// while they are in the cache.
+/// while they are in the cache. Rows that sleep are no part of it.
 #ifndef SCREE_INTEGRATE_KICK_H
 #define SCREE_INTEGRATE_KICK_H
 
 #include "base/fixed.h"
 #include "integrate/integrate.h"
+#include "state/sleep.h"
 
 #include <math.h>
 
@@ -104,12 +105,15 @@ typedef struct scree_kick_task {
     scree_state *state;
     scree_kick_scale scale;
     bool drift;
+    const uint32_t *moving; ///< rows; NULL: the first `count`
+    size_t count;
     scree_speeds speeds[SCREE_TEAM_MOST]; ///< as of scree_drift
 } scree_kick_task;
 
-/// Dimension and drift are constants here, and what is added is a copy, so that rows do not overlap it.
-KICK_INLINE scree_speeds scree_kick_loop(int dimension, bool drift, const scree_form *form, const scree_kick_task *task,
-                                         size_t begin, size_t end)
+/// Dimension, drift and (NULL) form and moving are constants here, and what is added is a copy, so that rows do not
+/// overlap it.
+KICK_INLINE scree_speeds scree_kick_loop(int dimension, bool drift, const scree_form *form, const uint32_t *moving,
+                                         const scree_kick_task *task, size_t begin, size_t end)
 {
     const scree_state *state = task->state;
     const scree_kick_rows rows = {state->row,   state->turn,      state->sum, state->torque,
@@ -117,7 +121,8 @@ KICK_INLINE scree_speeds scree_kick_loop(int dimension, bool drift, const scree_
     const scree_kick_scale scale = task->scale;
     const double dt = state->step_size;
     double surface = 0, centre = 0;
-    for (size_t i = begin; i < end; i++) {
+    for (size_t k = begin; k < end; k++) {
+        const size_t i = moving ? moving[k] : k;
         scree_predicted added = scree_kick_velocity(dimension, &rows, i, &scale);
         if (!drift) continue;
         rows.sum[i] = (scree_sum_row){0};
@@ -132,23 +137,31 @@ KICK_INLINE scree_speeds scree_kick_loop(int dimension, bool drift, const scree_
     return (scree_speeds){.surface = surface, .centre = centre};
 }
 
-/// NULL is a constant in the loops of round bodies.
+KICK_INLINE scree_speeds scree_kick_of(int dimension, const scree_form *form, const uint32_t *moving,
+                                       const scree_kick_task *task, size_t begin, size_t end)
+{
+    return task->drift ? scree_kick_loop(dimension, true, form, moving, task, begin, end)
+                       : scree_kick_loop(dimension, false, form, moving, task, begin, end);
+}
+
+/// NULL is a constant in the loops of round bodies that are all awake.
 static void scree_kick_share(void *argument, int index, int count)
 {
     scree_kick_task *task = argument;
-    const size_t begin = task->state->count * (size_t)index / (size_t)count;
-    const size_t end = task->state->count * (size_t)(index + 1) / (size_t)count;
+    const size_t begin = task->count * (size_t)index / (size_t)count;
+    const size_t end = task->count * (size_t)(index + 1) / (size_t)count;
     const scree_form *form = task->state->form;
+    const uint32_t *moving = task->moving;
     scree_speeds speeds;
     if (task->state->dimension == 3)
-        speeds = task->drift ? scree_kick_loop(3, true, NULL, task, begin, end)
-                             : scree_kick_loop(3, false, NULL, task, begin, end);
+        speeds =
+            moving ? scree_kick_of(3, NULL, moving, task, begin, end) : scree_kick_of(3, NULL, NULL, task, begin, end);
     else if (form)
-        speeds = task->drift ? scree_kick_loop(2, true, form, task, begin, end)
-                             : scree_kick_loop(2, false, form, task, begin, end);
+        speeds =
+            moving ? scree_kick_of(2, form, moving, task, begin, end) : scree_kick_of(2, form, NULL, task, begin, end);
     else
-        speeds = task->drift ? scree_kick_loop(2, true, NULL, task, begin, end)
-                             : scree_kick_loop(2, false, NULL, task, begin, end);
+        speeds =
+            moving ? scree_kick_of(2, NULL, moving, task, begin, end) : scree_kick_of(2, NULL, NULL, task, begin, end);
     if (task->drift) task->speeds[index] = speeds;
 }
 
@@ -162,9 +175,13 @@ static inline scree_speeds scree_kick(const scree_model *model, scree_state *sta
                                       .gravity = {gravity[0] * h, gravity[1] * h, gravity[2] * h},
                                       .whole = state->step_size / h},
                             .drift = drift};
+    task.moving = scree_moving_rows(state, &task.count);
     int count = scree_work_shares(work);
     scree_thread_pool_run(&work->pool, count, scree_kick_share, &task);
-    if (drift) work->clear_rows = scree_row_count(state, work);
+    if (drift) {
+        scree_sleep_clear_sums(state);
+        work->clear_rows = scree_row_count(state, work);
+    }
     double surface = 0, centre = 0;
     for (int k = 0; k < count; k++) {
         surface = fmax(surface, task.speeds[k].surface);

@@ -14,15 +14,29 @@ scree_status theory_create(scree_theory **theory, scree_error *error)
     return scree_allocate(theory, 1, sizeof **theory, error);
 }
 
-scree_status theory_begin_curves(scree_theory *t, size_t points, size_t curves, scree_error *error)
+scree_status theory_begin_figure(scree_theory *t, const char *name, size_t points, size_t curves,
+                                 theory_figure **figure, scree_error *error)
 {
-    scree_status status = scree_allocate(&t->x, points, sizeof *t->x, error);
-    if (!status) status = scree_allocate(&t->curve, curves, sizeof *t->curve, error);
+    assert(t->figure_count < THEORY_FIGURES);
+    theory_figure *f = &t->figure[t->figure_count];
+    *figure = f;
+    f->name = name;
+    scree_status status = scree_allocate(&f->x, points, sizeof *f->x, error);
+    t->figure_count++;
+    if (!status) status = scree_allocate(&f->curve, curves, sizeof *f->curve, error);
     if (status) return status;
-    t->points = points;
-    t->curve_count = curves;
+    f->points = points;
+    f->curve_count = curves;
     for (size_t k = 0; k < curves && !status; k++)
-        status = scree_allocate(&t->curve[k].y, points, sizeof *t->curve[k].y, error);
+        status = scree_allocate(&f->curve[k].y, points, sizeof *f->curve[k].y, error);
+    return status;
+}
+
+scree_status theory_refuse(scree_error *error, const char *field, const char *accepted, const char *message)
+{
+    scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "%s", message);
+    (void)snprintf(error->field, sizeof error->field, "%s", field);
+    (void)snprintf(error->accepted, sizeof error->accepted, "%s", accepted);
     return status;
 }
 
@@ -41,67 +55,72 @@ size_t scree_theory_values(const scree_theory *t, const scree_theory_value **val
 void scree_theory_free(scree_theory *t)
 {
     if (!t) return;
-    for (size_t k = 0; k < t->curve_count; k++) scree_release(&t->curve[k].y);
-    scree_release(&t->curve);
-    scree_release(&t->x);
+    for (size_t i = 0; i < t->figure_count; i++) {
+        theory_figure *f = &t->figure[i];
+        for (size_t k = 0; k < f->curve_count; k++) scree_release(&f->curve[k].y);
+        scree_release(&f->curve);
+        scree_release(&f->x);
+    }
     scree_release(&t);
 }
 
 // ---- files -------------------------------------------------------------------------------------------------------
 
-static void write_values(FILE *file, const scree_theory *t)
+static void write_values(FILE *file, const void *of)
 {
+    const scree_theory *t = of;
     fputs("name,value,unit,meaning\n", file);
     for (size_t k = 0; k < t->value_count; k++)
         fprintf(file, "%s,%.17g,%s,\"%s\"\n", t->value[k].name, t->value[k].value, t->value[k].unit,
                 t->value[k].meaning);
 }
 
-static void write_curves(FILE *file, const scree_theory *t)
+static void write_curves(FILE *file, const void *of)
 {
-    fprintf(file, "%s [1]", t->x_name);
-    for (size_t k = 0; k < t->curve_count; k++) fprintf(file, ",%s [%s]", t->curve[k].name, t->y_unit);
+    const theory_figure *f = of;
+    fprintf(file, "%s [%s]", f->x_name, f->x_unit);
+    for (size_t k = 0; k < f->curve_count; k++) fprintf(file, ",%s [%s]", f->curve[k].name, f->y_unit);
     fputc('\n', file);
-    for (size_t row = 0; row < t->points; row++) {
-        fprintf(file, "%.9g", t->x[row]);
-        for (size_t k = 0; k < t->curve_count; k++) fprintf(file, ",%.9g", t->curve[k].y[row]);
+    for (size_t row = 0; row < f->points; row++) {
+        fprintf(file, "%.9g", f->x[row]);
+        for (size_t k = 0; k < f->curve_count; k++) fprintf(file, ",%.9g", f->curve[k].y[row]);
         fputc('\n', file);
     }
 }
 
-static scree_status write_table(const char *folder, const char *name, void (*rows)(FILE *, const scree_theory *),
-                                const scree_theory *t, scree_error *error)
+static scree_status write_table(const char *folder, const char *name, void (*rows)(FILE *, const void *),
+                                const void *of, scree_error *error)
 {
     char path[PATH_MAX];
     FILE *file;
     scree_status status = scree_path_join(path, sizeof path, folder, name, error);
     if (!status) status = scree_replace_begin(path, &file, error);
     if (status) return status;
-    rows(file, t);
+    rows(file, of);
     return scree_replace_finish(path, file, true, error);
 }
 
-static scree_status draw(const char *folder, const scree_theory *t, scree_error *error)
+static scree_status draw(const char *folder, const theory_figure *f, scree_error *error)
 {
     char path[PATH_MAX];
     scree_chart_line *line;
-    scree_status status = scree_path_join(path, sizeof path, folder, t->figure, error);
-    if (!status) status = scree_allocate(&line, t->curve_count, sizeof *line, error);
+    scree_status status = scree_path_join(path, sizeof path, folder, f->name, error);
+    if (!status) status = scree_allocate(&line, f->curve_count, sizeof *line, error);
     if (status) return status;
-    for (size_t k = 0; k < t->curve_count; k++)
-        line[k] = (scree_chart_line){.x = t->x,
-                                     .y = t->curve[k].y,
-                                     .count = t->points,
-                                     .label = t->curve[k].label,
-                                     .colour = t->curve[k].colour,
-                                     .dashed = t->curve[k].dashed};
-    const scree_chart chart = {.title = t->title,
-                               .x_label = t->x_label,
-                               .y_label = t->y_label,
+    for (size_t k = 0; k < f->curve_count; k++)
+        line[k] = (scree_chart_line){.x = f->x,
+                                     .y = f->curve[k].y,
+                                     .count = f->points,
+                                     .label = f->curve[k].label,
+                                     .colour = f->curve[k].colour,
+                                     .dashed = f->curve[k].dashed};
+    const scree_chart chart = {.title = f->title,
+                               .x_label = f->x_label,
+                               .y_label = f->y_label,
                                .line = line,
-                               .line_count = t->curve_count,
-                               .x_name = t->corner_count > 0 ? t->corner : NULL,
-                               .x_name_count = t->corner_count};
+                               .line_count = f->curve_count,
+                               .x_name = f->corner_count > 0 ? f->corner : NULL,
+                               .x_name_count = f->corner_count};
     status = scree_chart_draw(path, &chart, error);
     scree_release(&line);
     return status;
@@ -112,8 +131,10 @@ scree_status scree_theory_write(const scree_theory *t, const char *folder, scree
     char name[NAME_MAX];
     scree_status status = scree_folders_make(folder, error);
     if (!status) status = write_table(folder, "values.csv", write_values, t, error);
-    if (status || t->points == 0) return status;
-    (void)snprintf(name, sizeof name, "%s-table.csv", t->figure);
-    status = write_table(folder, name, write_curves, t, error);
-    return status ? status : draw(folder, t, error);
+    for (size_t k = 0; k < t->figure_count && !status; k++) {
+        (void)snprintf(name, sizeof name, "%s-table.csv", t->figure[k].name);
+        status = write_table(folder, name, write_curves, &t->figure[k], error);
+        if (!status) status = draw(folder, &t->figure[k], error);
+    }
+    return status;
 }

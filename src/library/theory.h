@@ -6,7 +6,7 @@
 
 #include <scree/theory.h>
 
-enum { THEORY_VALUES = 48, THEORY_CORNERS = 12 };
+enum { THEORY_VALUES = 96, THEORY_CORNERS = 12, THEORY_FIGURES = 4 };
 
 /// One line of the figure.
 typedef struct theory_curve {
@@ -17,25 +17,33 @@ typedef struct theory_curve {
     double *y;
 } theory_curve;
 
-struct scree_theory {
-    scree_theory_value value[THEORY_VALUES];
-    size_t value_count;
-
-    // ---- curves over one x; none where there are no points ----
-    const char *figure; ///< stem of the files
+/// Curves over one x.
+typedef struct theory_figure {
+    const char *name; ///< stem of the files
     char title[96];
-    const char *x_name, *x_label, *y_unit, *y_label;
+    const char *x_name, *x_unit, *x_label, *y_unit, *y_label;
     const char *corner[THEORY_CORNERS]; ///< names that stand at x = 1, 2, ...; none: numbers do
     size_t corner_count, points, curve_count;
     double *x;
     theory_curve *curve;
+} theory_figure;
+
+struct scree_theory {
+    scree_theory_value value[THEORY_VALUES];
+    size_t value_count;
+    theory_figure figure[THEORY_FIGURES];
+    size_t figure_count;
 };
 
 /// Empty. Errors: memory.
 scree_status theory_create(scree_theory **theory, scree_error *error);
 
-/// Room for curves. Errors: memory.
-scree_status theory_begin_curves(scree_theory *theory, size_t points, size_t curves, scree_error *error);
+/// A further figure with room for curves. Errors: memory.
+scree_status theory_begin_figure(scree_theory *theory, const char *name, size_t points, size_t curves,
+                                 theory_figure **figure, scree_error *error);
+
+/// Fills an error of input: the member, what is accepted, and what is wrong.
+scree_status theory_refuse(scree_error *error, const char *field, const char *accepted, const char *message);
 
 /// A value that is NAN is left out.
 void theory_add(scree_theory *theory, const char *name, double value, const char *unit, const char *meaning);

@@ -24,14 +24,6 @@ static const char *const names[SCREE_LATTICES + 1] = {
 
 // ---- what is asked -----------------------------------------------------------------------------------------------
 
-static scree_status refuse(scree_error *error, const char *field, const char *accepted, const char *message)
-{
-    scree_status status = scree_error_set(error, SCREE_ERROR_INPUT, "%s", message);
-    (void)snprintf(error->field, sizeof error->field, "%s", field);
-    (void)snprintf(error->accepted, sizeof error->accepted, "%s", accepted);
-    return status;
-}
-
 static scree_status find_kind(const char *kind, scree_lattice *lattice, scree_error *error)
 {
     for (int k = 0; k <= SCREE_LATTICES; k++)
@@ -40,8 +32,9 @@ static scree_status find_kind(const char *kind, scree_lattice *lattice, scree_er
             return SCREE_OK;
         }
     const char *nearest = kind ? scree_nearest(kind, names, SCREE_LATTICES + 1) : NULL;
-    return refuse(error, "kind", nearest ? nearest : "row, square, hexagonal, simple_cubic, body_centred, face_centred",
-                  "there is no such lattice");
+    return theory_refuse(error, "kind",
+                         nearest ? nearest : "row, square, hexagonal, simple_cubic, body_centred, face_centred",
+                         "there is no such lattice");
 }
 
 static scree_status check(const scree_theory_lattice_of *of, scree_error *error)
@@ -55,15 +48,16 @@ static scree_status check(const scree_theory_lattice_of *of, scree_error *error)
                     {"normal_stiffness", of->normal_stiffness}};
     for (size_t k = 0; k < sizeof positive / sizeof *positive; k++)
         if (!(positive[k].value > 0 && isfinite(positive[k].value)))
-            return refuse(error, positive[k].name, "a number above 0", "this has to be a finite number above 0");
+            return theory_refuse(error, positive[k].name, "a number above 0", "this has to be a finite number above 0");
     if (!(of->stiffness_ratio >= 0 && isfinite(of->stiffness_ratio)))
-        return refuse(error, "stiffness_ratio", "0 or more", "k_t over k_n has to be a finite number, 0 or more");
+        return theory_refuse(error, "stiffness_ratio", "0 or more",
+                             "k_t over k_n has to be a finite number, 0 or more");
     if (!(of->young_modulus > 0))
-        return refuse(error, "young_modulus", "above 0, infinite for rigid particles",
-                      "the Young's modulus of particles has to be above 0");
+        return theory_refuse(error, "young_modulus", "above 0, infinite for rigid particles",
+                             "the Young's modulus of particles has to be above 0");
     if (!scree_elasticity_is_stable(1, of->poisson_ratio))
-        return refuse(error, "poisson_ratio", "above -1 and below 0.5",
-                      "no particle of this Poisson's ratio resists every strain");
+        return theory_refuse(error, "poisson_ratio", "above -1 and below 0.5",
+                             "no particle of this Poisson's ratio resists every strain");
     return SCREE_OK;
 }
 
@@ -179,7 +173,7 @@ static void add_steps(scree_theory *t, scree_lattice lattice, const scree_lattic
 // ---- waves -------------------------------------------------------------------------------------------------------
 
 /// Frequencies along the path, at point `row`: of rigid particles, behind them those of deformable ones.
-static void find_point(scree_theory *t, scree_lattice lattice, const scree_lattice_material *m, size_t row)
+static void find_point(theory_figure *f, scree_lattice lattice, const scree_lattice_material *m, size_t row)
 {
     const scree_lattice_corner *path = scree_lattice_path(lattice);
     const size_t corner = row / BETWEEN;
@@ -189,12 +183,12 @@ static void find_point(scree_theory *t, scree_lattice lattice, const scree_latti
         const double to = share > 0 ? path[corner + 1].wave[k] : 0;
         wave[k] = (path[corner].wave[k] * (1 - share) + to * share) / (2 * m->radius);
     }
-    t->x[row] = 1 + (double)corner + share;
+    f->x[row] = 1 + (double)corner + share;
     int count = scree_lattice_frequencies(lattice, m, wave, SCREE_STRAIN_NONE, frequency);
-    for (int k = 0; k < count; k++) t->curve[k].y[row] = frequency[k];
-    if (t->curve_count == (size_t)count) return;
+    for (int k = 0; k < count; k++) f->curve[k].y[row] = frequency[k];
+    if (f->curve_count == (size_t)count) return;
     count = scree_lattice_frequencies(lattice, m, wave, SCREE_STRAIN_AT_ONCE, frequency);
-    for (int k = 0; k < count; k++) t->curve[count + k].y[row] = frequency[k];
+    for (int k = 0; k < count; k++) f->curve[count + k].y[row] = frequency[k];
 }
 
 static scree_status add_waves(scree_theory *t, scree_lattice lattice, const scree_lattice_material *m,
@@ -206,24 +200,29 @@ static scree_status add_waves(scree_theory *t, scree_lattice lattice, const scre
     const scree_lattice_corner *path = scree_lattice_path(lattice);
     const size_t branches = scree_lattice_dimension(lattice) == 3 ? 6 : 3;
     const bool deforms = m->shear > 0;
-    for (; path[t->corner_count].name; t->corner_count++) t->corner[t->corner_count] = path[t->corner_count].name;
-    t->figure = "dispersion";
-    (void)snprintf(t->title, sizeof t->title, "Plane waves: %s%s", scree_lattice_name(lattice),
+    theory_figure *f;
+    size_t corners = 0;
+    while (path[corners].name) corners++;
+    scree_status status =
+        theory_begin_figure(t, "dispersion", (corners - 1) * BETWEEN + 1, branches << deforms, &f, error);
+    if (status) return status;
+    for (; f->corner_count < corners; f->corner_count++) f->corner[f->corner_count] = path[f->corner_count].name;
+    (void)snprintf(f->title, sizeof f->title, "Plane waves: %s%s", scree_lattice_name(lattice),
                    lattice == SCREE_LATTICE_ROW ? " of discs" : " lattice");
-    t->x_name = "path";
-    t->x_label = "wave vector, by corners of the zone";
-    t->y_unit = "rad/s";
-    t->y_label = "circular frequency (rad/s)";
-    scree_status status = theory_begin_curves(t, (t->corner_count - 1) * BETWEEN + 1, branches << deforms, error);
-    for (size_t k = 0; k < t->curve_count && !status; k++) {
+    f->x_name = "path";
+    f->x_unit = "1";
+    f->x_label = "wave vector, by corners of the zone";
+    f->y_unit = "rad/s";
+    f->y_label = "circular frequency (rad/s)";
+    for (size_t k = 0; k < f->curve_count; k++) {
         const bool second = k >= branches;
-        t->curve[k].name = columns[second][k % branches];
-        if (k % branches == 0) t->curve[k].label = second ? "deformable" : "rigid";
-        t->curve[k].colour = second ? 2 : 1;
-        t->curve[k].dashed = second;
+        f->curve[k].name = columns[second][k % branches];
+        if (k % branches == 0) f->curve[k].label = second ? "deformable" : "rigid";
+        f->curve[k].colour = second ? 2 : 1;
+        f->curve[k].dashed = second;
     }
-    for (size_t row = 0; row < t->points && !status; row++) find_point(t, lattice, m, row);
-    return status;
+    for (size_t row = 0; row < f->points; row++) find_point(f, lattice, m, row);
+    return SCREE_OK;
 }
 
 scree_status scree_theory_lattice(const scree_theory_lattice_of *of, scree_theory **theory, scree_error *error)

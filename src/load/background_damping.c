@@ -28,6 +28,7 @@ typedef struct config {
     double translation; ///< 1, share of the resultant force
     double rotation;    ///< 1, of the resultant torque
     int direction;      ///< damped
+    char *from, *until; ///< names of the first and the last stage in which it acts; NULL: of the case
 } config;
 
 /// State of the module.
@@ -144,6 +145,7 @@ static scree_status damp(const scree_context *c, scree_error *error)
     const config *own = first_config(c->model);
     scree_integer_sum power[2] = {0};
     (void)error;
+    if (!scree_load_acts(c->model, state, own->from, own->until)) return SCREE_OK;
     while (scree_comm_sum_next(state, power, 2))
         for (size_t row = 0; row < state->count; row++) {
             const turn t = plan_body(c, own, row);
@@ -172,9 +174,11 @@ static uint64_t checksum(const scree_model *model, const scree_state *state, uin
 }
 
 /// A boundary that imposes velocities finds its forces from the sums before the damping, which then brakes its bodies.
-static void check_boundaries(scree_reader *reader, const scree_config *whole, const char *path)
+static void check_boundaries(scree_reader *reader, const scree_config *whole, const config *own, const char *path)
 {
-    for (int64_t i = 0; i < whole->stage_count; i++) {
+    int64_t range[2];
+    scree_load_stages(whole->stages, whole->stage_count, own->from, own->until, range);
+    for (int64_t i = range[0] < 0 ? 0 : range[0]; i <= range[1]; i++) {
         const scree_boundary *boundary = scree_config_held_by(whole, i);
         if (!boundary || !boundary->equal_steps) continue;
         scree_rule_refuse(reader, path, NULL,
@@ -196,8 +200,10 @@ static void rules(scree_reader *reader, const scree_config *whole)
             scree_rule_refuse(reader, path, NULL, "loads.%lld damps the same bodies: give one background_damping",
                               (long long)first);
         else
-            check_boundaries(reader, whole, path);
+            check_boundaries(reader, whole, whole->loads[i].own, path);
         first = first < 0 ? i : first;
+        const config *own = whole->loads[i].own;
+        scree_load_check_stages(reader, whole, i, own->from, own->until);
     }
 }
 
@@ -213,6 +219,10 @@ static const scree_key keys[] = {
     NUMBER(config, rotation, "1", .standard = "0.2", FROM("0"), BELOW("1"),
            .meaning = "Share of the resultant torque on it that acts against its spin."),
     CHOICE(config, direction, directions, .standard = "vector", .meaning = "What it acts against."),
+    KEY(config, from, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),
+        .meaning = "Name of the first stage in which it acts; auto: the first one."),
+    KEY(config, until, SCREE_KEY_WORD, .standard = "auto", FROM("1"), TO("63"),
+        .meaning = "Name of the last stage in which it acts; auto: the last one."),
 };
 
 static const scree_field fields[] = {

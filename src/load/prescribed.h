@@ -95,10 +95,6 @@ static inline const char *scree_prescribed_name(const scree_prescribed_config *o
 bool scree_prescribed_drives(const scree_prescribed_config *own, int component);
 bool scree_prescribed_pushes(const scree_prescribed_config *own, int component);
 
-/// First and last stage of `count` in which it acts; -1: there is none of that name.
-void scree_prescribed_stages(const scree_config_stage *stages, int64_t count, const scree_prescribed_config *own,
-                             int64_t range[2]);
-
 /// prescribed_begin.c: who is prescribed what in the stage that begins. Errors: a selection without bodies; two loads
 /// that say the same component of a body; memory.
 scree_status scree_prescribed_begin(const scree_context *context, scree_error *error) SCREE_MUST_USE;

@@ -21,27 +21,10 @@ bool scree_prescribed_pushes(const scree_prescribed_config *own, int component)
     return !isnan(scree_schedule_at(&own->push[component], 0));
 }
 
-static int64_t find_stage(const scree_config_stage *stages, int64_t count, const char *name, int64_t standard)
-{
-    for (int64_t i = 0; name && i < count; i++)
-        if (stages[i].name && strcmp(stages[i].name, name) == 0) return i;
-    return name ? -1 : standard;
-}
-
-void scree_prescribed_stages(const scree_config_stage *stages, int64_t count, const scree_prescribed_config *own,
-                             int64_t range[2])
-{
-    range[0] = find_stage(stages, count, own->from, 0);
-    range[1] = find_stage(stages, count, own->until, count - 1);
-}
-
 static bool acts_now(const scree_context *c, int64_t load)
 {
-    int64_t range[2];
     const scree_prescribed_config *own = scree_prescribed_config_of(c->model->loads, load);
-    if (!own) return false;
-    scree_prescribed_stages(c->model->stages, c->model->stage_count, own, range);
-    return c->state->stage.index >= range[0] && c->state->stage.index <= range[1];
+    return own && scree_load_acts(c->model, c->state, own->from, own->until);
 }
 
 static bool has_any(const scree_model *model)

@@ -25,22 +25,6 @@ static bool gives(const judged *j, const char *key)
     return scree_node_find(scree_node_at(scree_node_find(j->reader->root, "loads"), (size_t)j->index), key) != NULL;
 }
 
-static void check_stage(judged *j, const char *key, const char *name)
-{
-    (void)scree_rule_is_stage(j->reader, j->config, scree_element_path(j->path, "loads", j->index, key), name);
-}
-
-static void check_stages(judged *j)
-{
-    int64_t range[2];
-    check_stage(j, "from", j->own->from);
-    check_stage(j, "until", j->own->until);
-    scree_prescribed_stages(j->config->stages, j->config->stage_count, j->own, range);
-    if (range[0] >= 0 && range[1] >= 0 && range[1] < range[0])
-        scree_rule_refuse(j->reader, scree_element_path(j->path, "loads", j->index, "until"), NULL,
-                          "comes before stage '%s', with which it begins", j->own->from);
-}
-
 /// Components that the dimension has, and each said once.
 static void check_components(judged *j)
 {
@@ -126,12 +110,12 @@ static void check_name(judged *j)
 static void check_others(judged *j)
 {
     int64_t mine[2], others[2];
-    scree_prescribed_stages(j->config->stages, j->config->stage_count, j->own, mine);
+    scree_load_stages(j->config->stages, j->config->stage_count, j->own->from, j->own->until, mine);
     for (int64_t i = 0; i < j->index; i++) {
         const scree_prescribed_config *other = scree_prescribed_config_of(j->config->loads, i);
         if (!other || !other->selection || !j->own->selection || strcmp(other->selection, j->own->selection) != 0)
             continue;
-        scree_prescribed_stages(j->config->stages, j->config->stage_count, other, others);
+        scree_load_stages(j->config->stages, j->config->stage_count, other->from, other->until, others);
         if (mine[0] > others[1] || others[0] > mine[1]) continue;
         for (int d = 0; d < SCREE_COMPONENTS; d++) {
             bool held = scree_prescribed_drives(other, d), drives = scree_prescribed_drives(j->own, d);
@@ -151,7 +135,7 @@ static void check_boundaries(judged *j)
     int64_t range[2];
     bool drives = false;
     for (int d = 0; d < SCREE_COMPONENTS; d++) drives = drives || scree_prescribed_drives(j->own, d);
-    scree_prescribed_stages(j->config->stages, j->config->stage_count, j->own, range);
+    scree_load_stages(j->config->stages, j->config->stage_count, j->own->from, j->own->until, range);
     for (int64_t i = range[0] < 0 ? 0 : range[0]; drives && i <= range[1]; i++) {
         const scree_boundary *boundary = scree_config_held_by(j->config, i);
         if (!boundary || !boundary->equal_steps) continue;
@@ -185,7 +169,7 @@ void scree_prescribed_rules(scree_reader *reader, const scree_config *config)
         refused = refused || refuse_scheme(reader, config);
         scree_element_path(j.path, "loads", i, "selection");
         (void)scree_rule_is_selection(reader, config, j.path, j.own->selection);
-        check_stages(&j);
+        scree_load_check_stages(j.reader, j.config, j.index, j.own->from, j.own->until);
         check_components(&j);
         check_use(&j);
         check_name(&j);

@@ -71,30 +71,12 @@ static turners find_turners(void)
     return found;
 }
 
-/// Of a scheme with velocities of its own at n (module/integrator.h).
-static void own_kinetic(const scree_model *model, const scree_state *state, size_t index, double *kinetic,
-                        double *rotation)
-{
-    scree_vector velocity, spin;
-    scree_body_velocity(model, state, index, velocity, spin);
-    *kinetic = 0.5 * scree_body_mass(state, index) * scree_dot(velocity, velocity);
-    *rotation = 0.5 * scree_body_inertia(state, index) * scree_dot(spin, spin);
-}
-
 /// v(n-1/2) . v(n+1/2) of a body, translation and rotation.
 static void add_kinetic(const scree_model *model, const scree_state *state, const turners *turned, size_t index,
                         scree_integer_sum *sum)
 {
-    double kinetic = 0, rotation = 0;
-    double mass = state->row[index].mass, inertia = scree_body_inertia(state, index), dt = state->step_size;
-    scree_vector velocity, spin, force, torque;
-    scree_body_half_velocity(model, state, index, velocity, spin);
-    scree_body_force(model, state, index, force, torque);
-    for (int k = 0; k < 3; k++) {
-        kinetic += 0.5 * mass * velocity[k] * (velocity[k] + dt * force[k] / mass);
-        rotation += 0.5 * inertia * spin[k] * (spin[k] + dt * torque[k] / inertia);
-    }
-    if (scree_integrator_get(model->scheme)->velocity) own_kinetic(model, state, index, &kinetic, &rotation);
+    double kinetic, rotation;
+    scree_body_kinetic(model, state, index, &kinetic, &rotation);
     scree_integer_sum_add(&sum[KINETIC], kinetic);
     for (size_t k = 0; k < turned->count; k++)
         if (turned->by[k](state, index)) return;

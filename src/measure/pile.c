@@ -199,19 +199,74 @@ static void find_angles(scree_pile *pile)
     pile->fitted[1] = fit(pile, apex, right, 1);
 }
 
+// ---- what is in it -----------------------------------------------------------------------------------------------
+
+/// Area under the surface of the heap [m2].
+static double area_under(const scree_pile *pile)
+{
+    const double width = pile->columns > 1 ? pile->column[1].x - pile->column[0].x : 0;
+    double area = 0;
+    for (size_t k = 0; k < pile->columns; k++)
+        if (pile->column[k].x > pile->left && pile->column[k].x < pile->right && !isnan(pile->column[k].height))
+            area += width * pile->column[k].height;
+    return area;
+}
+
+/// Solid fraction, in the plane.
+static double solid_of(const scree_state *state, const scree_pile *pile)
+{
+    scree_integer_sum sum = {0};
+    while (scree_integer_sum_next(&sum, 1))
+        for (size_t row = 0; row < state->count; row++) {
+            const double x = state->row[row].x;
+            if (!pile->member[row] || x < pile->left || x > pile->right) continue;
+            scree_integer_sum_add(&sum, scree_body_volume(state, row));
+        }
+    return state->dimension == 2 ? scree_integer_sum_total(&sum) / area_under(pile) : NAN;
+}
+
+/// Contacts a grain, and the share of the plate's force that acts on the middle third of the foot.
+static void count_contacts(const scree_state *state, const scree_work *work, const scree_contact_table *table,
+                           int plate, scree_pile *pile)
+{
+    const int up = state->dimension - 1;
+    const double third = (pile->right - pile->left) / 3, from = pile->left + third, to = pile->right - third;
+    scree_integer_sum middle = {0};
+    size_t ends = 0;
+    while (scree_integer_sum_next(&middle, 1)) {
+        ends = 0;
+        for (size_t c = 0; c < table->count; c++) {
+            const scree_contact *contact = &table->contact[c];
+            ends += pile->member[contact->first];
+            ends += !contact->wall && pile->member[contact->second];
+            const bool on = pile->member[contact->first] && contact->wall &&
+                            (plate < 0 || is_of_wall(work, contact, plate)) && contact->point[0] >= from &&
+                            contact->point[0] <= to;
+            scree_integer_sum_add(&middle, on ? lift_of(contact, up) : 0);
+        }
+    }
+    pile->coordination = (double)ends / (double)pile->grains;
+    pile->middle = scree_integer_sum_total(&middle) / pile->plate;
+}
+
 // ---- the whole ---------------------------------------------------------------------------------------------------
 
 scree_status scree_pile_measure(const scree_model *model, const scree_state *state, const scree_work *work,
                                 const scree_contact_table *table, int plate, scree_pile *pile, scree_error *error)
 {
     *pile = (scree_pile){.base = NAN, .top = NAN, .left = NAN, .right = NAN, .apex = NAN};
+    pile->solid_fraction = pile->coordination = pile->middle = NAN;
     for (int k = 0; k < 2; k++) pile->angle[k] = pile->fitted[k] = NAN;
     scree_status status = find_members(state, table, pile, error);
     if (!status && pile->grains > 0) {
         sum_forces(state, work, table, plate, pile);
         weigh(model, state, pile);
         status = make_columns(model, state, pile, error);
-        if (!status) find_angles(pile);
+        if (!status) {
+            find_angles(pile);
+            pile->solid_fraction = solid_of(state, pile);
+            count_contacts(state, work, table, plate, pile);
+        }
     }
     if (status) scree_pile_destroy(pile);
     return status;

@@ -16,7 +16,12 @@
 ///                                            the height; NAN with less than 3 columns
 /// Of a pile with a plateau the corners give less than the slopes have, and the fit leaves the plateau out.
 ///
-/// Limits: sizes are those of the bounding circles. Cost: linear in contacts and bodies.
+/// Solid fraction of the heap: area (volume) of its grains over that under its surface; coordination: contacts a grain
+/// of the pile, those with what stands among them; share of the middle: of the force on the plate what acts on the
+/// middle third of the foot.
+///
+/// Limits: sizes are those of the bounding circles, so that the surface lies somewhat outside. Cost: linear in contacts
+/// and bodies.
 #ifndef SCREE_MEASURE_PILE_H
 #define SCREE_MEASURE_PILE_H
 
@@ -37,6 +42,7 @@ typedef struct scree_pile {
     double left, right; ///< m, ends of the heap
     double apex;        ///< m, place of the top
     double angle[2], fitted[2];
+    double solid_fraction, coordination, middle; ///< 2D, 1, 1
     scree_pile_column *column;
     size_t columns;
 } scree_pile;

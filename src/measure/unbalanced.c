@@ -12,6 +12,7 @@
 #include "base/integer_sum.h"
 #include "comm/comm.h"
 #include "integrate/integrate.h"
+#include "state/sleep.h"
 
 #include <math.h>
 
@@ -36,7 +37,7 @@ static double ratio(const scree_model *model, const scree_state *state, const sc
     while (scree_comm_sum_next(state, &resultant, 1)) {
         number[0] = 0;
         for (size_t row = 0; row < state->count; row++) {
-            if (!scree_body_is_grain(state, row) || state->sum[row].contacts == 0) continue;
+            if (!scree_body_is_grain(state, row) || scree_body_contacts(state, row) == 0) continue;
             if ((scree_body_held(state, row) & all) == all) continue;
             resultant_on(model, state, row, force);
             scree_body_leave_free(state, row, force, (scree_vector){0});

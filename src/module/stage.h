@@ -7,6 +7,14 @@
 
 struct scree_config_stage;
 
+/// When bodies may sleep (integrate/sleep.c).
+typedef struct scree_sleep_limits {
+    double window; ///< s, for which a body must be quiet before it sleeps; NAN: none sleeps
+    double force;  ///< 1, resultant over weight (torque: over weight and radius) below which it is quiet
+    double motion; ///< 1, way of its surface in the window at its present speed, over its radius, below which it is
+    double wake;   ///< 1, mean resultant of a window over weight above which it wakes
+} scree_sleep_limits;
+
 /// `config` is the stage's own struct, in which its keys are.
 typedef struct scree_stage_numbers {
     bool places;   ///< places the particles: the first stage of a case, and no other
@@ -28,6 +36,8 @@ typedef struct scree_stage_numbers {
     double (*rate)(const scree_model *model, const void *config);
     /// Strain at which it ends. NULL: none.
     double (*strain)(const void *config);
+    /// When its bodies may sleep. NULL: never.
+    scree_sleep_limits (*sleep)(const void *config);
     /// What is wrong with the keys of the stage `index` of a case, and under which; NULL: nothing. NULL: never
     /// anything.
     const char *(*wrong)(const scree_config *config, int64_t index, const char **key);

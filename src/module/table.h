@@ -7,7 +7,7 @@
 
 #define SCREE_STATE_MODULES(row)                                                                                       \
     row(gravity) row(plates) row(case_walls) row(periodic_cell) row(delaunay_boundary) row(pressure) row(own_force)    \
-        row(imposed_gradient) row(selections) row(persistent) row(bonds) row(deformation) row(births)
+        row(imposed_gradient) row(selections) row(persistent) row(bonds) row(deformation) row(births) row(sleep)
 
 /// Boundaries, in the order in which the case reference lists them; then those that no key chooses.
 #define SCREE_BOUNDARY_MODULES(row)                                                                                    \

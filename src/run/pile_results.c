@@ -112,6 +112,9 @@ static const scree_result results[] = {
     {"angle_of_surface_right", "degree", "the same of the right one"},
     {"pile_weight", "N", "weight of its particles"},
     {"weight_ratio", "1", "upward force of the plate (measure.plate), or of all that stands, over this weight"},
+    {"pile_solid_fraction", "1", "area of the particles of its heap over that under its surface, 2D"},
+    {"pile_coordination", "1", "contacts a particle of the pile, those with what stands among them"},
+    {"plate_share_middle", "1", "of the force on the plate what acts on the middle third of the foot"},
     {"unbalanced", "1", "mean unbalanced force on its particles now over the mean contact force"},
     {"grains_lost", "1", "particles that have fallen past everything that stands, and were taken out"},
 };
@@ -134,8 +137,11 @@ static scree_status conclude_numbers(const scree_context *c, size_t index, doubl
     value[9] = degrees(pile.fitted[1]);
     value[10] = pile.weight;
     value[11] = pile.plate / pile.weight;
-    value[12] = scree_unbalanced_ratio(c->model, c->state, c->table);
-    value[13] = (double)scree_births_of(c->state)->lost;
+    value[12] = pile.solid_fraction;
+    value[13] = pile.coordination;
+    value[14] = pile.middle;
+    value[15] = scree_unbalanced_ratio(c->model, c->state, c->table);
+    value[16] = (double)scree_births_of(c->state)->lost;
     scree_pile_destroy(&pile);
     return SCREE_OK;
 }

@@ -6,6 +6,7 @@
 /// boundary, a membrane or a periodic cell has no place for grains that come.
 #include "case/check.h"
 #include "module/key_rows.h"
+#include "module/stage.h"
 #include "run/loading.h"
 #include "run/sample.h"
 #include "run/step.h"
@@ -43,6 +44,15 @@ static const scree_key keys[] = {
                       "times what a particle needs to fall by its diameter."),
     CHOICE(config, past, pasts, .standard = "stop",
            .meaning = "What happens when a particle has fallen past everything that stands."),
+    NUMBER(config, sleep_window, "s", .standard = "auto", ABOVE("0 s"), TO("1e9 s"),
+           .meaning = "Time for which a particle must be quiet before it is left out of the steps until it is pushed; "
+                      "auto: all are in all steps. When the sources have stopped all are awake."),
+    NUMBER(config, sleep_force, "1", .standard = "0.01", ABOVE("0"), TO("1"),
+           .meaning = "Resultant force over weight below which it is quiet."),
+    NUMBER(config, sleep_motion, "1", .standard = "1e-4", ABOVE("0"), TO("1"),
+           .meaning = "Way in that time, at the present speed, over its radius, below which it is quiet."),
+    NUMBER(config, wake_force, "1", .standard = "0.1", ABOVE("0"), TO("1e6"),
+           .meaning = "Mean resultant force of the last sleep_window, over weight, above which it wakes."),
 };
 
 static const config *own_config(const scree_simulation *s)
@@ -200,7 +210,14 @@ static const scree_stage stage_face = {.name = "pour",
                                        .finished = finished,
                                        .fraction = fraction};
 
+static scree_sleep_limits sleep(const void *own)
+{
+    const config *stage = own;
+    return (scree_sleep_limits){stage->sleep_window, stage->sleep_force, stage->sleep_motion, stage->wake_force};
+}
+
 static const scree_stage_numbers numbers = {.held = true,
+                                            .sleep = sleep,
                                             .pours = true,
                                             .needs_standing =
                                                 "pour needs something that stands: give walls and boundary: walls",

@@ -67,8 +67,7 @@ typedef struct scree_cell_grid {
 void scree_cell_grid_fit(scree_cell_grid *grid, const scree_state *state, double skin);
 
 /// Fills grid->order: the rows of `state` in the order of the curve, bodies of one cell by id. Errors: memory.
-scree_status scree_cell_grid_order(scree_cell_grid *grid, const scree_state *state,
-                                   scree_error *error) SCREE_MUST_USE;
+scree_status scree_cell_grid_order(scree_cell_grid *grid, const scree_state *state, scree_error *error) SCREE_MUST_USE;
 
 /// Builds cells and slots, after the rows have been brought into grid->order. Errors: memory.
 scree_status scree_cell_grid_fill(scree_cell_grid *grid, const scree_state *state, scree_error *error) SCREE_MUST_USE;

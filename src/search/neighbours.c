@@ -21,6 +21,7 @@
 #include "state/deformation.h"
 #include "state/periodic.h"
 #include "state/plates.h"
+#include "state/sleep.h"
 
 #include "base/matrix.h"
 #include "comm/comm.h"
@@ -44,7 +45,10 @@ void scree_neighbours_invalidate(scree_work *work)
 
 typedef struct displacement_task {
     const scree_state *state;
+    const scree_fast *fast;
     const double *deformation;
+    const uint32_t *moving; ///< rows; NULL: the first `count`
+    size_t count;
     double square[SCREE_TEAM_MOST];
 } displacement_task;
 
@@ -53,11 +57,14 @@ static void displacement_share(void *argument, int index, int count)
     displacement_task *task = argument;
     const scree_state *state = task->state;
     double largest = 0;
-    size_t end = scree_thread_pool_begin(state->count, index + 1, count);
-    for (size_t k = scree_thread_pool_begin(state->count, index, count); k < end; k++) {
+    int next = 0;
+    size_t end = scree_thread_pool_begin(task->count, index + 1, count);
+    for (size_t k = scree_thread_pool_begin(task->count, index, count); k < end; k++) {
+        const size_t row = task->moving ? task->moving[k] : k;
         scree_vector now, then;
-        scree_body_position(state, k, now);
-        scree_matrix_apply(task->deformation, state->rebuild[k], then);
+        if (scree_fast_number(task->fast, row, &next) >= 0) continue;
+        scree_body_position(state, row, now);
+        scree_matrix_apply(task->deformation, state->rebuild[row], then);
         double square = 0;
         for (int i = 0; i < 3; i++) square += (now[i] - then[i]) * (now[i] - then[i]);
         square = square <= DBL_MAX ? square : (double)INFINITY;
@@ -66,11 +73,12 @@ static void displacement_share(void *argument, int index, int count)
     task->square[index] = largest;
 }
 
-/// Largest displacement of a body since the last rebuild [m], relative to the affine field that follows a periodic
-/// cell; infinite if a position is not finite.
+/// Largest displacement of a body since the last rebuild [m], but for fast ones and those that sleep, relative to the
+/// affine field that follows a periodic cell; infinite if a position is not finite.
 static double largest_displacement(const scree_state *state, const double deformation[9], scree_work *work)
 {
-    displacement_task task = {.state = state, .deformation = deformation};
+    displacement_task task = {.state = state, .fast = &work->search->fast, .deformation = deformation};
+    task.moving = scree_moving_rows(state, &task.count);
     const int shares = scree_work_shares(work);
     scree_thread_pool_run(&work->pool, shares, displacement_share, &task);
     double largest = 0;
@@ -193,9 +201,9 @@ static void pairs_share(void *argument, int index, int count)
     size_t begin = scree_thread_pool_begin(state->count, index, count),
            end = scree_thread_pool_begin(state->count, index + 1, count);
     chunk->element.count = 0;
-    task->failed[index] =
-        task->find(&task->search->grid, state, begin, end, chunk, NULL) ||
-        scree_primitives_search(task->work->wall_set, state, begin, end, task->work->skin, &chunk->element, NULL);
+    task->failed[index] = task->find(&task->search->grid, state, begin, end, chunk, NULL) ||
+                          scree_primitives_search(task->work->wall_set, state, begin, end, task->work->skin,
+                                                  &task->search->fast, &chunk->element, NULL);
     scree_held_drop(state, &chunk->touching);
     scree_held_drop(state, &chunk->near);
     if (state->marked[SCREE_MARK_MEMBRANE] == 0) return;
@@ -213,105 +221,6 @@ static scree_status search_pairs(const scree_state *state, scree_work *work, scr
         if (task.failed[c])
             return scree_error_set_memory(error, search->chunk[c].touching.capacity * sizeof(scree_row_pair));
     return SCREE_OK;
-}
-
-static uint32_t lower_row(scree_row_pair pair)
-{
-    return pair.first < pair.second ? pair.first : pair.second;
-}
-
-/// Which of the pairs that were found are meant: touching or near ones of one law, by the materials of the bodies.
-typedef struct part {
-    const scree_model *model;
-    const scree_state *state;
-    const scree_work *work;
-    int law; ///< its number; of any, where there is no other
-    bool touching;
-} part;
-
-static bool is_of(const part *p, scree_row_pair pair)
-{
-    if (p->model->pair_laws == 0) return true;
-    const int one = scree_body_material(p->state, scree_parent_row(p->state, p->work, pair.first));
-    const int other = scree_body_material(p->state, scree_parent_row(p->state, p->work, pair.second));
-    return p->model->law_of_pairs[one][other] == p->law;
-}
-
-static const scree_pair_buffer *buffer_of(const part *p, const scree_pair_chunk *chunk)
-{
-    return p->touching ? &chunk->touching : &chunk->near;
-}
-
-/// How many there are in a chunk.
-static size_t count_part(const part *p, const scree_pair_chunk *chunk)
-{
-    const scree_pair_buffer *from = buffer_of(p, chunk);
-    size_t count = p->model->pair_laws == 0 ? from->count : 0;
-    for (size_t k = 0; k < from->count && p->model->pair_laws > 0; k++) count += is_of(p, from->pair[k]);
-    return count;
-}
-
-static size_t count_all(const part *p, const scree_search *search)
-{
-    size_t count = count_part(p, &search->ghosts);
-    for (int c = 0; c < search->chunks; c++) count += count_part(p, &search->chunk[c]);
-    return count;
-}
-
-/// Puts the pairs of all chunks that are meant into the list from number `at` on; returns where they end.
-/// Within one level they come in the order of their lower rows; else a counting sort brings them into it.
-static size_t list_pairs(scree_search *search, const part *p, scree_pair_list *pairs, size_t at)
-{
-    uint32_t *next = search->grid.order;
-    const bool sorted = search->grid.levels_in_use <= 1;
-    if (!sorted) memset(next, 0, search->bodies * sizeof *next);
-    for (int c = 0; c < search->chunks && !sorted; c++) {
-        const scree_pair_buffer *from = buffer_of(p, &search->chunk[c]);
-        for (size_t k = 0; k < from->count; k++)
-            if (is_of(p, from->pair[k])) next[lower_row(from->pair[k])]++;
-    }
-    size_t sum = at;
-    for (size_t row = 0; row < search->bodies && !sorted; row++) {
-        size_t size = next[row];
-        next[row] = (uint32_t)sum;
-        sum += size;
-    }
-    for (int c = 0; c < search->chunks; c++) {
-        const scree_pair_buffer *from = buffer_of(p, &search->chunk[c]);
-        for (size_t k = 0; k < from->count; k++) {
-            if (!is_of(p, from->pair[k])) continue;
-            size_t to = sorted ? at++ : next[lower_row(from->pair[k])]++;
-            pairs->first[to] = from->pair[k].first;
-            pairs->second[to] = from->pair[k].second;
-        }
-    }
-    return sorted ? at : sum;
-}
-
-/// Puts the pairs with ghosts into the list from number `at` on.
-static void list_ghost_pairs(const scree_search *search, const part *p, scree_pair_list *pairs, size_t at)
-{
-    const scree_pair_buffer *from = buffer_of(p, &search->ghosts);
-    for (size_t k = 0; k < from->count; k++) {
-        if (!is_of(p, from->pair[k])) continue;
-        pairs->first[at] = from->pair[k].first;
-        pairs->second[at++] = from->pair[k].second;
-    }
-}
-
-/// Puts the pairs into their sections: those of bodies, then those with ghosts, in each part.
-static void list_sections(const scree_model *model, const scree_state *state, scree_work *work)
-{
-    scree_search *search = work->search;
-    scree_pair_list *pairs = &work->pairs;
-    for (int k = 0; k < pairs->section_count; k++) {
-        const scree_pair_section *section = &pairs->section[k];
-        part p = {model, state, work, section->law, true};
-        if (section->persistent) continue; // they are there
-        list_ghost_pairs(search, &p, pairs, list_pairs(search, &p, pairs, section->begin));
-        p.touching = false;
-        list_ghost_pairs(search, &p, pairs, list_pairs(search, &p, pairs, section->touching_end));
-    }
 }
 
 /// Numbers of laws, by what bodies and walls are made of.
@@ -405,18 +314,6 @@ static void pad_list(const scree_state *state, const list_arrays *list, size_t c
     }
 }
 
-/// How many pairs each section has: the held ones, then those of each law.
-static void cut_sections(const scree_model *model, const scree_state *state, scree_work *work)
-{
-    scree_pair_list *pairs = &work->pairs;
-    (void)scree_pairs_add_section(pairs, model->geometry, 0, true, work->search->held.count, 0);
-    for (int law = 0; law < scree_model_law_count(model); law++) {
-        const part touching = {model, state, work, law, true}, near = {model, state, work, law, false};
-        (void)scree_pairs_add_section(pairs, model->geometry, law, false, count_all(&touching, work->search),
-                                      count_all(&near, work->search));
-    }
-}
-
 /// The chunks' pairs one after the other: the same list however many chunks there are.
 static scree_status assemble(const scree_model *model, scree_state *state, scree_work *work, scree_error *error)
 {
@@ -429,7 +326,7 @@ static scree_status assemble(const scree_model *model, scree_state *state, scree
         element += search->chunk[c].element.count;
     }
     scree_pairs_clear(pairs);
-    cut_sections(model, state, work);
+    scree_pair_sections_cut(model, state, work);
     const size_t count = pairs->count, held = search->held.count;
     pairs->count = walls->count = elements->count = 0;
     const list_arrays of_pairs = arrays_of_pairs(pairs), of_walls = arrays_of_wall_pairs(walls);
@@ -453,7 +350,7 @@ static scree_status assemble(const scree_model *model, scree_state *state, scree
     walls->count = wall;
     walls->geometry = elements->geometry = model->geometry;
     elements->count = element;
-    list_sections(model, state, work);
+    scree_pair_sections_fill(model, state, work);
     list_wall_pairs(search, work);
     list_wall_laws(model, state, work);
     attach_histories(state, work);
@@ -534,9 +431,14 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     if (!status) status = scree_state_permute(state, search->grid.order, error);
     if (!status) status = scree_cell_grid_fill(&search->grid, state, error);
     if (!status) status = scree_histories_index(search, state, error);
+    scree_fast_find(&search->fast, state, work->skin);
     if (!status) status = search_pairs(state, work, error);
     if (!status) status = scree_ghosts_make(state, work, error);
     if (!status) status = scree_ghosts_search(state, work, &search->ghosts, error);
+    // Behind the others, with those of ghosts.
+    if (!status)
+        status = scree_fast_pairs(&search->fast, state, work->skin, search->chunk, search->chunks, &search->ghosts.near,
+                                  error);
     scree_held_drop(state, &search->ghosts.touching);
     scree_held_drop(state, &search->ghosts.near);
     if (!status) status = scree_held_find(model, state, work, &search->held, error);
@@ -551,6 +453,8 @@ static scree_status rebuild(const scree_model *model, scree_state *state, scree_
     release_scratch(search, state);
     search->listed = work->valid = true;
     work->budget = half_skin(work) - scree_deformation_of(state)->largest_reach;
+    work->pairs.sleep_changes = scree_sleep_of(state)->changes;
+    scree_sleep_list(state);
     work->rebuilds++;
     return SCREE_OK;
 }
@@ -566,10 +470,13 @@ static scree_status check_list(const scree_model *model, scree_state *state, scr
         for (int k = 0; k < 9; k++) change[k] = deformation[k] - (k % 4 == 0);
         shrunk = scree_matrix_norm(change) * (work->ghosts.largest_radius + 0.5 * work->skin);
     }
-    double moved = largest_displacement(state, deformation, work) + shrunk + scree_deformation_of(state)->largest_reach;
-    scree_comm_maximum(state, &moved, 1);
-    if (!(moved < half_skin(work))) return rebuild(model, state, work, error);
-    work->budget = half_skin(work) - moved;
+    const double moved =
+        largest_displacement(state, deformation, work) + shrunk + scree_deformation_of(state)->largest_reach;
+    const double left = fmin(half_skin(work) - moved, scree_fast_left(&work->search->fast, state));
+    double worst[] = {moved, -left};
+    scree_comm_maximum(state, worst, 2);
+    if (!(worst[1] < 0) || !(worst[0] < half_skin(work))) return rebuild(model, state, work, error);
+    work->budget = -worst[1];
     return SCREE_OK;
 }
 
@@ -585,7 +492,7 @@ scree_status scree_neighbours_refresh(const scree_model *model, scree_state *sta
     enum { KEEP, LOOK, REBUILD };
     double due = work->budget >= 0 ? KEEP : LOOK;
     if (!work->valid || !is_of_these_bodies(work->search, state) || scree_held_changed(state, &work->search->held) ||
-        walls_need_rebuild(model, state, work))
+        work->pairs.sleep_changes != scree_sleep_of(state)->changes || walls_need_rebuild(model, state, work))
         due = REBUILD;
     scree_comm_maximum(state, &due, 1);
     if (due == REBUILD) return rebuild(model, state, work, error);

@@ -28,14 +28,17 @@ static scree_status collect(void *context, size_t primitive)
 }
 
 scree_status scree_primitives_search(const scree_wall_set *wall_set, const scree_state *state, size_t begin, size_t end,
-                                     double skin, scree_pair_buffer *buffer, scree_error *error)
+                                     double skin, const scree_fast *fast, scree_pair_buffer *buffer, scree_error *error)
 {
     scree_status status = SCREE_OK;
+    int next = 0;
     for (size_t row = begin; wall_set && row < end && !status; row++) {
         collector c = {buffer, (uint32_t)row, buffer->count, error};
         scree_vector position;
         scree_body_position(state, row, position);
-        status = scree_wall_set_near(wall_set, position, state->row[row].radius + skin, collect, &c);
+        const int number = scree_fast_number(fast, row, &next);
+        const double own = number < 0 ? skin : fast->skin[number];
+        status = scree_wall_set_near(wall_set, position, state->row[row].radius + own, collect, &c);
     }
     return status;
 }

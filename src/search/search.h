@@ -2,6 +2,7 @@
 #ifndef SCREE_SEARCH_SEARCH_H
 #define SCREE_SEARCH_SEARCH_H
 
+#include "search/fast.h"
 #include "search/held.h"
 #include "search/pair_search.h"
 #include "state/plates.h"
@@ -16,6 +17,7 @@ struct scree_search {
     int chunks;
     scree_pair_chunk ghosts;           ///< pairs with ghosts of a periodic cell
     scree_held_buffer held;            ///< pairs of the persistent list
+    scree_fast fast;                   ///< bodies with skins of their own
     bool listed;                       ///< the list in `work` is whole and holds the contact histories
     size_t bodies;                     ///< in the list
     uint64_t changes;                  ///< of the state, when it was made
@@ -28,9 +30,17 @@ struct scree_search {
 };
 
 /// Appends the bodies of rows [begin, end) with the elements of the walls of the case that are closer than R + skin, by
-/// row, then element. `wall_set` may be NULL. Errors: memory.
+/// row, then element; of fast ones with their own. `wall_set` may be NULL. Errors: memory.
 scree_status scree_primitives_search(const scree_wall_set *wall_set, const scree_state *state, size_t begin, size_t end,
-                                     double skin, scree_pair_buffer *buffer, scree_error *error) SCREE_MUST_USE;
+                                     double skin, const scree_fast *fast, scree_pair_buffer *buffer,
+                                     scree_error *error) SCREE_MUST_USE;
+
+/// Says how many pairs each section of the list has: the held ones, those of each law, and those of each that sleep.
+void scree_pair_sections_cut(const scree_model *model, const scree_state *state, scree_work *work);
+
+/// Puts the pairs that were found into their sections: those of bodies, then those with ghosts, in each part. Those
+/// that are held are there.
+void scree_pair_sections_fill(const scree_model *model, const scree_state *state, scree_work *work);
 
 /// Frees the lists of pairs and of wall pairs.
 void scree_pair_lists_destroy(scree_work *work);

@@ -7,6 +7,7 @@
 #include "module/shape.h"
 #include "shape/polygon_make.h"
 #include "state/fields.h"
+#include "state/sleep.h"
 
 #include <sleef.h>
 #include <string.h>
@@ -15,19 +16,22 @@ typedef scree_polygons own;
 
 // ---- keys --------------------------------------------------------------------------------------------------------
 
-typedef enum outline_kind { ON_ELLIPSE, REGULAR } outline_kind;
+typedef enum outline_kind { ON_ELLIPSE, REGULAR, GIVEN } outline_kind;
 
 typedef struct config {
     int outline; ///< outline_kind
     int64_t corners_min;
     int64_t corners_max;
     double axis_ratio;
-    int corner_angles; ///< scree_polygon_scatter
+    int corner_angles;    ///< scree_polygon_scatter
+    double (*corners)[2]; ///< of `given`, in any unit of length; NULL: not said
+    int64_t corner_count;
 } config;
 
 static const scree_choice outlines[] = {
     {"ellipse", ON_ELLIPSE, "corners at random on an ellipse"},
     {"regular", REGULAR, "all sides and angles alike"},
+    {"given", GIVEN, "`corners`, scaled to the radius; for several outlines give several species"},
     {0},
 };
 static const scree_choice scatters[] = {
@@ -42,30 +46,60 @@ static const scree_key keys[] = {
     INTEGER(config, corners_min, .standard = "6", FROM("3"), TO("32"), WITH_POLYGON,
             .meaning = "Fewest corners; each number up to `corners_max` is equally likely."),
     INTEGER(config, corners_max, .standard = "8", FROM("3"), TO("32"), WITH_POLYGON, .meaning = "Most corners."),
+    KEY(config, corners, SCREE_KEY_PAIRS, .unit = "1", FROM("-1e12"), TO("1e12"), .when = "outline=given",
+        .count_offset = offsetof(config, corner_count), .element_size = sizeof(double[2]),
+        .meaning =
+            "Its corners, 3 to 32, counter-clockwise, [[x, y], [x, y], [x, y]] or a .csv file; in any unit, since "
+            "they are scaled."),
     NUMBER(config, axis_ratio, "1", .standard = "1", FROM("1"), TO("20"), .when = "outline=ellipse",
            .meaning = "Long over short axis of the ellipse."),
     CHOICE(config, corner_angles, scatters, .standard = "sectors", .when = "outline=ellipse",
            .meaning = "Where on the ellipse corners may lie."),
 };
 
+/// What is wrong with the outline that is given.
+static const char *wrong_outline(const config *c)
+{
+    static _Thread_local scree_error why;
+    if (!c->corners) return NULL; // missing, and noted
+    const int count = c->corner_count > SCREE_POLYGON_CORNERS ? SCREE_POLYGON_CORNERS + 1 : (int)c->corner_count;
+    return scree_polygon_check(count, (const double(*)[2])c->corners, &why) ? why.message : NULL;
+}
+
 static const char *wrong(const void *said, const char **key)
 {
     const config *c = said;
+    *key = "corners";
+    if (c->outline == GIVEN) return wrong_outline(c);
     *key = "corners_max";
     return c->corners_max < c->corners_min ? "is less than corners_min" : NULL;
 }
 
 // ---- drawing -----------------------------------------------------------------------------------------------------
 
+/// The outline that is given, with the area of a disc of radius 1.
+static int take(const config *c, double corner[SCREE_POLYGON_CORNERS][2])
+{
+    const int count = (int)c->corner_count;
+    memcpy(corner, c->corners, (size_t)count * sizeof *corner);
+    scree_polygon_fit(count, 1, corner);
+    return count;
+}
+
 /// Of a regular triangle 1.56.
 static double largest_reach(const void *said)
 {
-    return SCREE_POLYGON_REACH * sqrt(((const config *)said)->axis_ratio);
+    const config *c = said;
+    double corner[SCREE_POLYGON_CORNERS][2];
+    if (c->outline != GIVEN) return SCREE_POLYGON_REACH * sqrt(c->axis_ratio);
+    if (!c->corners || wrong_outline(c)) return SCREE_POLYGON_REACH; // noted
+    return scree_polygon_measure(take(c, corner), (const double(*)[2])corner).bound * (1 + 0x1p-40);
 }
 
 /// Corners of body `number` with the area of a disc of radius 1.
 static int draw(const config *c, uint64_t seed, uint64_t number, double corner[SCREE_POLYGON_CORNERS][2])
 {
+    if (c->outline == GIVEN) return take(c, corner);
     const int count = scree_polygon_draw_count(seed, number, (int)c->corners_min, (int)c->corners_max);
     // A list of 64 draws of one corner in each sector does not fail; where it does, the regular one is a polygon, too.
     if (c->outline == REGULAR ||
@@ -196,16 +230,26 @@ double scree_body_inner_radius(const scree_state *state, size_t row)
     return least;
 }
 
-void scree_polygons_pose(scree_state *state)
+/// Of all, or of those that are awake.
+static void pose_them(scree_state *state, bool all)
 {
     own *p = scree_polygons_of(state);
-    for (size_t row = 0; row < state->count && p->of; row++) {
+    size_t count;
+    const uint32_t *moving = all ? NULL : scree_moving_rows(state, &count);
+    if (all) count = state->count;
+    for (size_t k = 0; k < count && p->of; k++) {
+        const size_t row = moving ? moving[k] : k;
         const scree_corners of = p->of[row];
         if (of.count == 0) continue;
         const Sleef_double_2 turn = Sleef_cinz_sincosd1_u10purec(state->angle[row]);
         scree_polygon_turn((int)of.count, (const double(*)[2])p->corner + of.first, turn.y, turn.x,
                            p->posed + of.first);
     }
+}
+
+void scree_polygons_pose(scree_state *state)
+{
+    pose_them(state, true);
 }
 
 // ---- the module --------------------------------------------------------------------------------------------------
@@ -222,7 +266,7 @@ static bool in_use(const scree_context *c)
 static scree_status pose(const scree_context *c, scree_error *error)
 {
     (void)error;
-    scree_polygons_pose(c->state);
+    pose_them(c->state, false);
     return SCREE_OK;
 }
 

@@ -23,6 +23,7 @@
 #include "shape/wall_set.h"
 #include "source/source.h"
 #include "state/plates.h"
+#include "state/sleep.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -122,7 +123,7 @@ static scree_status stop_blocked(const step *s, int64_t index, const scree_vecto
     char what[160];
     const char *remedy = "give it another place";
     if (by->what == BODY) {
-        const bool rests = state->sum[by->index].contacts > 0;
+        const bool rests = scree_body_contacts(state, by->index) > 0;
         (void)snprintf(what, sizeof what, "particle %u, which %s", state->id[by->index],
                        rests ? "touches others: the pile has reached the source, or a funnel has clogged"
                              : "has not fallen away");

@@ -16,6 +16,8 @@ typedef struct scree_pour_config {
     double rest_time;        ///< s, behind the last birth, after which it ends in any case
     double patience;         ///< s, that a source may be blocked; NAN: see scree_pour_patience
     int past;                ///< SCREE_PAST_...
+    double sleep_window;     ///< s; and the others: of scree_sleep_limits (module/stage.h)
+    double sleep_force, sleep_motion, wake_force;
 } scree_pour_config;
 
 /// The stage that runs now; NULL: it does not pour.

@@ -19,12 +19,14 @@ typedef struct scree_pair_section {
     int geometry;    ///< its number (contact/geometry.h)
     int law;         ///< its number in the model; of held pairs the law is that of model->persistent
     bool persistent; ///< held: of the persistent list, in contact at any distance
+    bool asleep;     ///< of two bodies that sleep (state/sleep.h): not evaluated
     size_t begin, touching_end, end;
 } scree_pair_section;
 
-enum { SCREE_PAIR_SECTIONS = 2 + SCREE_MOST_PAIR_LAWS };
+enum { SCREE_PAIR_SECTIONS = 1 + 2 * (1 + SCREE_MOST_PAIR_LAWS) };
 
-/// Neighbour pairs in row indices, in sections: first the persistent one, then one for each law. Row indices are valid
+/// Neighbour pairs in row indices, in sections: first the persistent one, then one for each law, and behind it one of
+/// those that sleep. Row indices are valid
 /// until the next rebuild.
 typedef struct scree_pair_list {
     uint32_t *first, *second;     ///< rows; id[first] < id[second]
@@ -35,8 +37,9 @@ typedef struct scree_pair_list {
     size_t count, capacity;
     scree_pair_section section[SCREE_PAIR_SECTIONS];
     int section_count;
-    uint64_t held_changes; ///< of the persistent list, when this was made
-    scree_member_row *own; ///< one a held pair
+    uint64_t held_changes;  ///< of the persistent list, when this was made
+    uint64_t sleep_changes; ///< of the bodies that sleep, then
+    scree_member_row *own;  ///< one a held pair
     size_t own_capacity;
 } scree_pair_list;
 
@@ -60,7 +63,12 @@ static inline scree_pair_section *scree_pairs_add_section(scree_pair_list *list,
 {
     scree_pair_section *section = &list->section[list->section_count];
     const size_t begin = list->section_count++ > 0 ? section[-1].end : 0;
-    *section = (scree_pair_section){geometry, law, persistent, begin, begin + touching, begin + touching + near};
+    *section = (scree_pair_section){.geometry = geometry,
+                                    .law = law,
+                                    .persistent = persistent,
+                                    .begin = begin,
+                                    .touching_end = begin + touching,
+                                    .end = begin + touching + near};
     list->count = section->end;
     return section;
 }

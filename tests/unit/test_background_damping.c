@@ -154,6 +154,60 @@ static void no_boundary_that_moves_its_bodies(void **unused)
     }
 }
 
+/// A body falls with g in the stages in which the load does not act, and with g (1 - a) in the one that it names; the
+/// balance closes over all of them.
+static void it_acts_in_the_stages_that_it_names(void **unused)
+{
+    (void)unused;
+    const char *const overrides[] = {
+        "loads=[{load: background_damping, translation: 0.5, from: second, until: second}]",
+        "stages=[{stage: prepare, method: bodies, bodies: [{position: [10 mm, 11 mm]}, {position: [30 mm, 31 mm]}]}, "
+        "{stage: "
+        "relax, name: first, duration: 10 ms}, {stage: relax, name: second, duration: 10 ms}, {stage: relax, name: "
+        "third, "
+        "duration: 10 ms}]"};
+    scree_case *c = case_read(BALL, overrides, 2);
+    scree_simulation s;
+    double before = 0, worst = 0;
+    int64_t stage = 1;
+    simulation_open(c, 1, &s);
+    simulation_load(&s);
+    for (int k = 0; k < 3; k++) {
+        const double from = scree_state_time(&s.state);
+        while (simulation_goes_on(&s) && s.state.stage.index == stage) {
+            simulation_step(&s);
+            worst = simulation_residual(&s, worst);
+        }
+        const double gained = ball(&s)->vy - before, time = scree_state_time(&s.state) - from;
+        print_message("stage %d: acceleration %.6g m/s2\n", k + 1, gained / time);
+        assert_true(fabs(gained / time / (k == 1 ? 0.5 * 9.81 : 9.81) + 1) < 2e-3);
+        before = ball(&s)->vy;
+        stage = s.state.stage.index;
+    }
+    assert_true(worst < 1e-9);
+    scree_simulation_close(&s);
+    scree_case_free(c);
+}
+
+static void stages_that_are_not_there_are_refused(void **unused)
+{
+    (void)unused;
+    static const char *const wrong[][2] = {
+        {"loads=[{load: background_damping, from: settel}]", "settel"},
+        {"loads=[{load: background_damping, from: relax, until: prepare}]", "comes before stage"},
+    };
+    for (size_t k = 0; k < 2; k++) {
+        scree_case *c;
+        scree_problems *problems;
+        char line[1024];
+        assert_int_equal(case_parse(BALL, &wrong[k][0], 1, &c, &problems), SCREE_ERROR_INPUT);
+        scree_error_format(scree_problems_get(problems, 0), line, sizeof line);
+        print_message("%s\n", line);
+        assert_non_null(strstr(line, wrong[k][1]));
+        scree_problems_free(problems);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -162,6 +216,8 @@ int main(void)
         cmocka_unit_test(books_of_energy_are_closed),
         cmocka_unit_test(one_is_enough),
         cmocka_unit_test(no_boundary_that_moves_its_bodies),
+        cmocka_unit_test(it_acts_in_the_stages_that_it_names),
+        cmocka_unit_test(stages_that_are_not_there_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,8 @@
 /// order of the scheme; discs run among them; nothing but the state decides.
 #include "run_fixture.h"
 
+#include "io_scratch.h"
+
 #include "integrate/integrate.h"
 #include "shape/half_plane_overlap.h"
 #include "shape/polygon_make.h"
@@ -311,6 +313,49 @@ static void discs_run_among_them(void **unused)
     assert_true(first < 1e-4 && second < first / 2.5);
 }
 
+/// Outlines that are given, in the case or in a file, have its angles and the area of the disc of the drawn radius,
+/// with the centroid in the middle, whatever the unit.
+static void outlines_are_given(void **unused)
+{
+    (void)unused;
+    char folder[64], file[100], keys[400];
+    assert_true(scratch_create(folder));
+    (void)snprintf(file, sizeof file, "%s/outline.csv", folder);
+    FILE *csv = fopen(file, "w");
+    assert_non_null(csv);
+    (void)fprintf(csv, "x,y\n0,0\n30,0\n0,40\n");
+    assert_int_equal(fclose(csv), 0);
+    const char *const said[] = {"[[0, 0], [3, 0], [0, 4]]", file};
+    for (int k = 0; k < 2; k++) {
+        (void)snprintf(
+            keys, sizeof keys,
+            "particles={shape: polygon, outline: given, corners: %s, material: stone, thickness: 1 m, count: 9, "
+            "radius_min: 2 mm, radius_max: 3 mm}",
+            said[k]);
+        const char *const override = keys;
+        scree_case *c = case_read(gas_text, &override, 1);
+        scree_simulation s;
+        simulation_open(c, 1, &s);
+        simulation_load(&s);
+        for (size_t row = 0; row < s.state.count; row++) {
+            const scree_corners of = scree_polygons_of(&s.state)->of[row];
+            const double(*corner)[2] = (const double(*)[2])scree_polygons_of(&s.state)->corner + of.first;
+            const scree_polygon_measures m = scree_polygon_measure(3, corner);
+            const double unit = m.radius * sqrt(M_PI / 6); // of the triangle with the sides 3, 4, 5
+            assert_int_equal(of.count, 3);
+            assert_true(m.radius > 2e-3 && m.radius < 3e-3);
+            assert_true(hypot(m.centroid[0], m.centroid[1]) < 1e-12 * unit);
+            for (int i = 0; i < 3; i++) {
+                const double *a = corner[i], *b = corner[(i + 1) % 3];
+                assert_true(fabs(hypot(b[0] - a[0], b[1] - a[1]) / unit - (i == 0 ? 3 : i == 1 ? 5 : 4)) < 1e-9);
+            }
+        }
+        scree_simulation_close(&s);
+        scree_case_free(c);
+    }
+    scratch_destroy(folder);
+}
+
 // ---- what does not go together -------------------------------------------------------------------------------------
 
 static void what_does_not_go_together_is_refused(void **unused)
@@ -322,6 +367,13 @@ static void what_does_not_go_together_is_refused(void **unused)
         {"particles.corners_min=2", "too small"},
         {"particles.axis_ratio=0.9", "too small"},
         {"dimension=3", "polygons are bodies in the plane"},
+        {"particles={shape: polygon, outline: given, corners: [[0, 0], [0, 1], [1, 1]], material: stone, count: 3}",
+         "clockwise"},
+        {"particles={shape: polygon, outline: given, corners: [[0, 0], [3, 0], [1, 1], [0, 3]], material: stone, "
+         "count: 3}",
+         "not convex at corner 2"},
+        {"particles={shape: polygon, outline: given, material: stone, count: 3}", "required, but not given"},
+        {"particles={shape: polygon, outline: given, corners: nowhere.csv, material: stone, count: 3}", "No such file"},
     };
     for (size_t k = 0; k < COUNT_OF(wrong); k++) {
         scree_case *c;
@@ -355,6 +407,7 @@ int main(void)
         cmocka_unit_test(only_one_law_has_a_potential),
         cmocka_unit_test(nothing_but_the_state_decides),
         cmocka_unit_test(discs_run_among_them),
+        cmocka_unit_test(outlines_are_given),
         cmocka_unit_test(what_does_not_go_together_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

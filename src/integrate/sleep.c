@@ -1,0 +1,456 @@
+/// Who falls asleep and who wakes, at the begin of a step, from what is known at n. Bodies that are quiet in a pile are
+/// left out of the step: they are not moved, and contacts among them are not evaluated, so that a step costs what is
+/// awake.
+///
+/// Falls asleep: what touches something, is not prescribed, and has for `window` been quiet: its resultant force was
+/// below `force` times its weight, its resultant torque below that times its radius, and its surface so slow that it
+/// would have gone no farther than `motion` radii in the window. It is looked at every FALL_EVERY steps. Its velocity
+/// is taken away, and the kinetic energy booked.
+///
+/// Wakes: what something that is awake, a wall or a load acts on so that the mean of its resultant (with its weight and
+/// what others that sleep exert) over the last window, fading exponentially, exceeds `wake` times its weight: it would
+/// have been given that momentum. The mean is taken in every step, and looked at every WAKE_EVERY, one by one, so that
+/// a push runs through a pile as far as it is strong. All wake when gravity changes, when the sources have stopped, and
+/// when another stage begins.
+///
+/// What two that sleep exert on each other is a function of their poses and of what their contact remembers: elastic
+/// forces, no dashpots. It is added to both when the second of them falls asleep, and taken away when the first wakes,
+/// as whole numbers (state/sleep.h).
+///
+/// An approximation: pushes below `wake` do not pass what sleeps, and motion below `force` and `motion` stops; momentum
+/// is not kept by what sleeps, as by a wall. What it changes is measured in docs/theory/pouring.md. Cost: 2 ns a body
+/// that sleeps, 20 ns one that is pushed, or awake (every FALL_EVERY steps); a new neighbour list when one falls asleep
+/// or wakes.
+#include "state/sleep.h"
+
+#include "base/checksum.h"
+#include "base/integer_sum.h"
+#include "case/config.h"
+#include "comm/comm.h"
+#include "contact/settle.h"
+#include "contact/single.h"
+#include "integrate/integrate.h"
+#include "module/stage.h"
+#include "search/neighbours.h"
+#include "state/births.h"
+#include "state/plates.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/// Steps from one time at which some wake, or fall asleep, to the next: each makes a new list.
+enum { WAKE_EVERY = 16, FALL_EVERY = 128 };
+
+/// In `asleep`, while a step decides.
+enum { AWAKE = 0, ASLEEP = 1, FALLS = 2, WAKES = 3 };
+
+// ---- whether ------------------------------------------------------------------------------------------------------
+
+static scree_sleep_limits limits_of(const scree_model *model, const scree_state *state)
+{
+    const scree_sleep_limits none = {.window = NAN};
+    if (state->stage.index >= model->stage_count) return none;
+    const scree_config_stage *stage = &model->stages[state->stage.index];
+    const scree_stage_numbers *numbers = scree_modules[stage->kind]->numbers;
+    return numbers->sleep ? numbers->sleep(stage->own) : none;
+}
+
+static bool may_sleep(const scree_context *c, const scree_sleep_limits *limits)
+{
+    return !isnan(limits->window) && scree_births_of(c->state)->end == SCREE_POUR_GOES_ON &&
+           scree_length(c->model->gravity) > 0;
+}
+
+static scree_status make_room(scree_state *state, scree_error *error)
+{
+    scree_status status = SCREE_OK;
+    for (size_t k = 0; k < scree_module_sleep.field_count && !status; k++)
+        if (scree_module_sleep.fields[k].rows == SCREE_ROWS_BODIES)
+            status = scree_state_begin_field(state, &scree_module_sleep.fields[k], error);
+    return status;
+}
+
+/// Gravity of the last step; all wake when it has changed.
+static void follow_gravity(const scree_context *c)
+{
+    scree_sleep *sleep = scree_sleep_of(c->state);
+    if (memcmp(sleep->gravity, c->model->gravity, sizeof sleep->gravity) == 0) return;
+    scree_sleep_end(c->state);
+    memcpy(sleep->gravity, c->model->gravity, sizeof sleep->gravity);
+}
+
+// ---- who ----------------------------------------------------------------------------------------------------------
+
+/// Resultant force over weight, and torque over weight and radius.
+static void find_resultant(const scree_context *c, size_t row, double resultant[6])
+{
+    const scree_state *state = c->state;
+    const double weight = scree_body_mass(state, row) * scree_length(c->model->gravity);
+    scree_body_force(c->model, state, row, resultant, resultant + 3);
+    for (int k = 0; k < 3; k++) {
+        resultant[k] /= weight;
+        resultant[3 + k] /= weight * state->row[row].radius;
+    }
+}
+
+/// The larger of the two.
+static double size_of(const double resultant[6])
+{
+    return fmax(scree_length(resultant), scree_length(resultant + 3));
+}
+
+static bool is_quiet(const scree_context *c, const scree_sleep_limits *limits, size_t row)
+{
+    const scree_state *state = c->state;
+    const double radius = state->row[row].radius;
+    scree_vector velocity, spin;
+    if (!scree_body_is_grain(state, row) || scree_body_held(state, row) || state->sum[row].contacts == 0) return false;
+    scree_body_motion(state, row, velocity, spin);
+    const double speed = scree_length(velocity) + radius * scree_length(spin);
+    double resultant[6];
+    if (speed * limits->window > limits->motion * radius) return false;
+    find_resultant(c, row, resultant);
+    return size_of(resultant) <= limits->force;
+}
+
+/// Marks those that fall asleep; returns how many.
+static size_t mark_falling(const scree_context *c, const scree_sleep_limits *limits)
+{
+    scree_sleep *sleep = scree_sleep_of(c->state);
+    size_t count, found = 0;
+    const uint32_t *moving = scree_moving_rows(c->state, &count);
+    const double needed = limits->window / c->state->step_size;
+    for (size_t k = 0; k < count; k++) {
+        const size_t row = moving ? moving[k] : k;
+        sleep->quiet[row] = is_quiet(c, limits, row) ? sleep->quiet[row] + FALL_EVERY : 0;
+        if (!(sleep->quiet[row] >= needed)) continue;
+        sleep->asleep[row] = FALLS;
+        found++;
+    }
+    return found;
+}
+
+/// Adds the resultant of a step to the mean that fades within the window.
+static void add_push(const scree_context *c, const scree_sleep_limits *limits, size_t row)
+{
+    double *push = scree_sleep_of(c->state)->push[row], resultant[6];
+    find_resultant(c, row, resultant);
+    const double share = fmin(c->state->step_size / limits->window, 1);
+    for (int k = 0; k < 6; k++) push[k] += share * (resultant[k] - push[k]);
+}
+
+static bool is_pushed(const scree_state *state, size_t row)
+{
+    const scree_sum_row *sum = &state->sum[row];
+    const int64_t third = state->dimension == 3 ? sum->fz : sum->torque;
+    return sum->contacts != 0 || sum->fx != 0 || sum->fy != 0 || third != 0;
+}
+
+/// Marks those that wake; returns how many. What nothing acts on but others that sleep keeps its mean.
+static size_t mark_waking(const scree_context *c, const scree_sleep_limits *limits)
+{
+    const bool now = c->state->evaluations % WAKE_EVERY == 0;
+    const scree_state *state = c->state;
+    scree_sleep *sleep = scree_sleep_of(state);
+    size_t found = 0;
+    for (size_t row = 0; row < state->count && sleep->count > 0; row++) {
+        if (sleep->asleep[row] != ASLEEP || !is_pushed(state, row)) continue;
+        add_push(c, limits, row);
+        if (!now || size_of(sleep->push[row]) <= limits->wake) continue;
+        sleep->asleep[row] = WAKES;
+        found++;
+    }
+    return found;
+}
+
+// ---- from the sums to what rests, and back ------------------------------------------------------------------------
+
+static void add(int64_t *units, uint64_t integer, double quantum, double unit, bool minus)
+{
+    const int64_t more = llrint((double)(int64_t)integer * (quantum / unit));
+    *units += minus ? -more : more;
+}
+
+/// What a contact exerts on one of its bodies.
+static void add_to_one(scree_state *state, uint32_t row, const contact_evaluation *e, bool is_first, bool minus)
+{
+    const scree_sleep *sleep = scree_sleep_of(state);
+    scree_resting *resting = &sleep->resting[row];
+    const bool in_3d = state->dimension == 3;
+    const contact_quanta *q = &e->quanta;
+    const quanta force = is_first ? q->force : quanta_opposite(q->force);
+    const quanta torque = is_first ? q->torque_first : q->torque_second;
+    const uint64_t forces[3] = {force.x, force.y, in_3d ? force.z : 0};
+    const uint64_t torques[3] = {in_3d ? torque.x : 0, in_3d ? torque.y : 0, in_3d ? torque.z : torque.x};
+    for (int k = 0; k < 3; k++) {
+        add(&resting->force[k], forces[k], state->force_quantum, sleep->force_unit, minus);
+        add(&resting->torque[k], torques[k], state->torque_quantum, sleep->torque_unit, minus);
+    }
+    resting->contacts += minus ? -1 : 1;
+}
+
+/// Dashpots are at rest among those that sleep.
+static void forget_dashpots(scree_pair_list *pairs, size_t p)
+{
+    if (pairs->last_force) pairs->last_force[p] = (scree_last_force){{0}};
+    if (pairs->rolling) memset(pairs->rolling[p].last, 0, sizeof pairs->rolling[p].last);
+}
+
+/// A pair of which one falls asleep beside one that sleeps, or wakes.
+static void move_pair(const scree_context *c, size_t p, bool rests)
+{
+    scree_state *state = c->state;
+    scree_work *work = c->work;
+    if (!contact_pair_is_there(state, work, p)) return;
+    const uint32_t first = work->pairs.first[p], second = work->pairs.second[p];
+    const contact_body one = contact_body_get(state, first), other = contact_body_get(state, second);
+    const memory_rows memory = contact_memory_of(work, CONTACT_PAIR, p);
+    const contact_evaluation e = contact_evaluate_again(c->model, state, true, &one, &other, NULL, &memory);
+    add_to_one(state, first, &e, true, !rests);
+    add_to_one(state, second, &e, false, !rests);
+    if (rests) forget_dashpots(&work->pairs, p);
+}
+
+static bool slept(uint8_t mark)
+{
+    return mark == ASLEEP || mark == WAKES;
+}
+
+static bool will_sleep(uint8_t mark)
+{
+    return mark == ASLEEP || mark == FALLS;
+}
+
+static void move_pairs(const scree_context *c)
+{
+    const scree_pair_list *pairs = &c->work->pairs;
+    const uint8_t *mark = scree_sleep_of(c->state)->asleep;
+    for (size_t p = scree_pairs_held(pairs); p < pairs->count; p++) {
+        const uint8_t one = mark[pairs->first[p]], other = mark[pairs->second[p]];
+        const bool rested = slept(one) && slept(other), rests = will_sleep(one) && will_sleep(other);
+        if (rested != rests) move_pair(c, p, rests);
+    }
+}
+
+static void stop(scree_state *state, size_t row)
+{
+    scree_row *body = &state->row[row];
+    body->vx = body->vy = 0;
+    if (state->dimension == 2)
+        body->spin = 0;
+    else {
+        body->vz = 0;
+        state->turn[row].wx = state->turn[row].wy = state->turn[row].wz = 0;
+    }
+}
+
+/// Rows that are marked, before pairs are moved: velocities of those that fall, sums of those that wake.
+static void begin_change(const scree_context *c)
+{
+    scree_state *state = c->state;
+    scree_sleep *sleep = scree_sleep_of(state);
+    const scree_integrator *integrator = scree_integrator_get(c->model->scheme);
+    scree_integer_sum taken = {0};
+    while (scree_comm_sum_next(state, &taken, 1))
+        for (size_t row = 0; row < state->count; row++) {
+            if (sleep->asleep[row] != FALLS) continue;
+            double translation, rotation;
+            scree_body_kinetic(c->model, state, row, &translation, &rotation);
+            scree_integer_sum_add(&taken, translation + rotation);
+        }
+    for (size_t row = 0; row < state->count; row++) {
+        if (sleep->asleep[row] == FALLS)
+            stop(state, row);
+        else if (sleep->asleep[row] == WAKES)
+            scree_sleep_add_resting(state, row);
+        if (integrator->begin_anew && sleep->asleep[row] > ASLEEP) integrator->begin_anew(state, row);
+    }
+    sleep->taken += scree_integer_sum_total(&taken);
+    state->ledger.turnover += fabs(scree_integer_sum_total(&taken));
+}
+
+static void end_change(scree_state *state)
+{
+    scree_sleep *sleep = scree_sleep_of(state);
+    for (size_t row = 0; row < state->count; row++) {
+        if (sleep->asleep[row] == WAKES) sleep->resting[row] = (scree_resting){0};
+        if (sleep->asleep[row] == FALLS) {
+            state->sum[row] = (scree_sum_row){0};
+            if (state->torque) state->torque[row] = (scree_torque_row){0};
+        }
+        if (sleep->asleep[row] > ASLEEP) {
+            sleep->quiet[row] = 0;
+            memset(sleep->push[row], 0, sizeof sleep->push[row]);
+        }
+        sleep->asleep[row] = will_sleep(sleep->asleep[row]);
+    }
+    sleep->changes++;
+    scree_sleep_list_moving(state);
+}
+
+static void change(const scree_context *c)
+{
+    scree_state *state = c->state;
+    scree_sleep *sleep = scree_sleep_of(state);
+    if (!(sleep->force_unit > 0)) {
+        sleep->force_unit = ldexp(state->force_quantum, 8);
+        sleep->torque_unit = ldexp(state->torque_quantum, 8);
+    }
+    sleep->overlap = fmax(sleep->overlap, state->largest_overlap);
+    begin_change(c);
+    move_pairs(c);
+    end_change(state);
+}
+
+// ---- the pass -----------------------------------------------------------------------------------------------------
+
+static scree_status decide(const scree_context *c, scree_error *error)
+{
+    scree_state *state = c->state;
+    scree_sleep *sleep = scree_sleep_of(state);
+    const scree_sleep_limits limits = limits_of(c->model, state);
+    scree_status status = SCREE_OK;
+    if (sleep->asleep && !sleep->moving) {
+        status = make_room(state, error);
+        if (!status) scree_sleep_list(state);
+    }
+    if (!status && sleep->asleep && (!sleep->listed || sleep->bodies != state->changes))
+        status = scree_neighbours_refresh(c->model, state, c->work, error);
+    if (!may_sleep(c, &limits)) {
+        scree_sleep_end(state);
+        return status;
+    }
+    if (!status) status = make_room(state, error);
+    if (status) return status;
+    follow_gravity(c);
+    size_t awake;
+    (void)scree_moving_rows(state, &awake);
+    sleep->awake_steps += awake;
+    sleep->steps++;
+    size_t found = mark_waking(c, &limits);
+    if (state->evaluations % FALL_EVERY == 0) found += mark_falling(c, &limits);
+    if (found > 0) change(c);
+    return status;
+}
+
+// ---- the module ---------------------------------------------------------------------------------------------------
+
+static bool in_use(const scree_context *c)
+{
+    return scree_sleep_of(c->state)->asleep || !isnan(limits_of(c->model, c->state).window);
+}
+
+static scree_status begin(const scree_context *c, scree_error *error)
+{
+    (void)error;
+    scree_sleep_end(c->state);
+    return SCREE_OK;
+}
+
+static double work(const scree_state *state)
+{
+    return -scree_sleep_of(state)->taken;
+}
+
+/// By id: whether it sleeps, since when it is quiet.
+static uint64_t checksum(const scree_model *model, const scree_state *state, uint64_t c)
+{
+    const scree_sleep *sleep = scree_sleep_of(state);
+    (void)model;
+    size_t id = 0;
+    for (uint32_t row; sleep->asleep && (row = scree_next_by_id(state, &id)) != SCREE_NO_ROW;)
+        c = scree_checksum_word(c, 2 * (uint64_t)sleep->quiet[row] + sleep->asleep[row]);
+    return c;
+}
+
+static void derive(scree_state *state)
+{
+    scree_sleep_list_moving(state);
+}
+
+static const scree_result columns[] = {{"awake", "1", "particles that do not sleep"}};
+
+static scree_status sample(const scree_context *c, size_t index, double *value, scree_error *error)
+{
+    (void)index, (void)error;
+    value[0] = (double)(c->state->count - scree_sleep_of(c->state)->count);
+    return SCREE_OK;
+}
+
+static const scree_result results[] = {
+    {"mean_awake", "1", "mean number of particles that were awake while some might sleep"},
+    {"sleep_taken", "J", "kinetic energy of particles when they fell asleep"},
+};
+
+static scree_status tell(const scree_context *c, size_t index, double *value, scree_error *error)
+{
+    const scree_sleep *sleep = scree_sleep_of(c->state);
+    (void)index, (void)error;
+    value[0] = (double)sleep->awake_steps / (double)sleep->steps;
+    value[1] = sleep->taken;
+    return SCREE_OK;
+}
+
+typedef scree_sleep own;
+#define BODY(array, element, name, type, components, unit, meaning, ...)                                               \
+    SCREE_FIELD_BODY(sleep, own, array, element, name, type, components, unit, meaning, .optional = true, __VA_ARGS__)
+#define ONE(member, type, components, unit, meaning, ...)                                                              \
+    SCREE_FIELD_ONE(sleep, own, member, "sleep/" #member, type, components, unit, meaning, __VA_ARGS__)
+#define DERIVED(member, meaning) ONE(member, SCREE_FIELD_UINT64, 1, "1", meaning, .role = SCREE_FIELD_DERIVED)
+static const scree_field fields[] = {
+    BODY(asleep, uint8_t, "asleep", SCREE_FIELD_UINT8, 1, "1", "1: the body sleeps", .snapshot = true,
+         SCREE_RANGE(0, 1)),
+    BODY(quiet, uint32_t, "quiet", SCREE_FIELD_UINT32, 1, "1", "steps for which it has been quiet"),
+    BODY(resting, scree_resting, "resting", SCREE_FIELD_INT64, 7, "1",
+         "of a body that sleeps, from others that do: force in units of sleep/force_unit, torque in units of "
+         "sleep/torque_unit, number of contacts",
+         SCREE_RANGE(-0x1p62, 0x1p62)),
+    BODY(push, double[6], "push", SCREE_FIELD_DOUBLE, 6, "1",
+         "of a body that sleeps, mean of its resultants: force over weight, torque over weight and radius"),
+    BODY(moving, uint32_t, "moving", SCREE_FIELD_UINT32, 1, "1", "rows that are awake", .role = SCREE_FIELD_DERIVED),
+    ONE(force_unit, SCREE_FIELD_DOUBLE, 1, "N", "unit of what rests", SCREE_RANGE(0, DBL_MAX)),
+    ONE(torque_unit, SCREE_FIELD_DOUBLE, 1, "N m", "unit of its torques", SCREE_RANGE(0, DBL_MAX)),
+    ONE(gravity, SCREE_FIELD_DOUBLE, 3, "m/s2", "gravity of the last step in which bodies might sleep"),
+    ONE(overlap, SCREE_FIELD_DOUBLE, 1, "m", "bound of the overlaps of those that sleep", SCREE_RANGE(0, DBL_MAX)),
+    ONE(taken, SCREE_FIELD_DOUBLE, 1, "J", "kinetic energy of bodies when they fell asleep"),
+    ONE(awake_steps, SCREE_FIELD_UINT64, 1, "1", "steps of all bodies that were awake, since some might sleep"),
+    ONE(steps, SCREE_FIELD_UINT64, 1, "1", "steps since then"),
+    DERIVED(count, "bodies that sleep"),
+    DERIVED(changes, "times that some fell asleep or woke"),
+    DERIVED(moving_count, "rows that are awake"),
+    DERIVED(listed, "1: they are listed"),
+    DERIVED(bodies, "changes of the bodies, then"),
+};
+
+static const scree_pass passes[] = {{SCREE_PHASE_DECIDE, decide}};
+
+static bool told(const scree_config *config, size_t index, char name[SCREE_RESULT_NAME])
+{
+    bool may = false;
+    name[0] = 0;
+    for (int64_t k = 0; k < config->stage_count && index == 0; k++) {
+        if (config->stages[k].kind < 0 || !config->stages[k].own) continue; // wrong, and noted
+        const scree_stage_numbers *numbers = scree_modules[config->stages[k].kind]->numbers;
+        may = may || (numbers->sleep && !isnan(numbers->sleep(config->stages[k].own).window));
+    }
+    return may;
+}
+
+const scree_module scree_module_sleep = {
+    .name = "sleep",
+    .meaning = "bodies that are quiet are left out of the steps",
+    .state_size = sizeof(scree_sleep),
+    .fields = fields,
+    .field_count = sizeof fields / sizeof *fields,
+    .checksum = checksum,
+    .begin = begin,
+    .derive = derive,
+    .passes = passes,
+    .pass_count = 1,
+    .in_use = in_use,
+    .work = work,
+    .columns = SCREE_RESULTS(columns, sample),
+    .results = SCREE_RESULTS(results, tell),
+    .told = told,
+};

@@ -1,0 +1,127 @@
+#include "theory/fit_theories.h"
+
+#include "theory/incipient.h"
+#include "theory/layer.h"
+#include "theory/oriented.h"
+#include "theory/wedge.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/// Places of the parameters that piles have in common.
+enum { WEIGHT, APEX_X, APEX_Y, SLOPE, FIRST_OWN, SLOPE_RIGHT = FIRST_OWN, CORE };
+/// Those of layers.
+enum { FORCE, LOAD_X, THICKNESS, POISSON };
+
+typedef enum pile_kind { IFE, BCC, FPA, OSL, ORIENTED } pile_kind;
+
+static scree_status no_solution(const char *field, scree_error *error)
+{
+    scree_status status =
+        scree_error_set(error, SCREE_ERROR_INPUT, "this theory has no solution with these parameters: begin elsewhere");
+    if (error) (void)snprintf(error->field, sizeof error->field, "%s", field);
+    return status;
+}
+
+static void look_up(const scree_ideal_pile *pile, const scree_fit_parameter *p, size_t count,
+                    const scree_fit_point *points, scree_stress_2d *stress)
+{
+    for (size_t k = 0; k < count; k++)
+        stress[k] = scree_pile_stress(pile, points[k].x - p[APEX_X].value, points[k].y - p[APEX_Y].value);
+}
+
+static bool is_angle(double angle)
+{
+    return angle > 0 && angle < M_PI_2;
+}
+
+/// One slope on both sides.
+static scree_status one_slope(const scree_fit_theory *theory, const scree_fit_parameter *p, size_t count,
+                              const scree_fit_point *points, scree_stress_2d *stress, scree_error *error)
+{
+    const double slope = p[SLOPE].value, weight = p[WEIGHT].value;
+    scree_ideal_pile pile;
+    scree_status status;
+    if (!is_angle(slope)) return no_solution("slope", error);
+    if (theory->kind == IFE) {
+        status = scree_incipient_pile(slope, weight, &pile, error);
+    } else {
+        const scree_oriented of = theory->kind == BCC   ? scree_oriented_bcc(slope)
+                                  : theory->kind == FPA ? scree_oriented_fpa(slope)
+                                  : theory->kind == OSL ? scree_oriented_of_eta(slope, p[FIRST_OWN].value)
+                                                        : (scree_oriented){p[FIRST_OWN].value, p[FIRST_OWN + 1].value};
+        status = scree_oriented_pile(slope, weight, of, &pile, error);
+    }
+    if (!status) look_up(&pile, p, count, points, stress);
+    return status;
+}
+
+static scree_status wedge(const scree_fit_theory *theory, const scree_fit_parameter *p, size_t count,
+                          const scree_fit_point *points, scree_stress_2d *stress, scree_error *error)
+{
+    const scree_wedge_of of = {.slope = {p[SLOPE].value, p[SLOPE_RIGHT].value}, .weight = p[WEIGHT].value};
+    const double upright = 0;
+    scree_wedge found;
+    bool there = false;
+    scree_status status = theory->kind == SCREE_WEDGES
+                              ? scree_wedge_of_core(&of, p[CORE].value, upright, &there, &found, error)
+                              : scree_wedge_solve(&of, (scree_wedge_kind)theory->kind, &upright, &there, &found, error);
+    if (!status && !there) status = no_solution("core", error);
+    if (!status) look_up(&found.pile, p, count, points, stress);
+    return status;
+}
+
+static scree_status layer(const scree_fit_theory *theory, const scree_fit_parameter *p, size_t count,
+                          const scree_fit_point *points, scree_stress_2d *stress, scree_error *error)
+{
+    const scree_layer of = {.force = p[FORCE].value,
+                            .base = (scree_layer_base)theory->kind,
+                            .thickness = theory->kind == SCREE_LAYER_NONE ? 1 : p[THICKNESS].value,
+                            .poisson = theory->kind == SCREE_LAYER_BONDED ? p[POISSON].value : 0};
+    if (!(of.thickness > 0)) return no_solution("thickness", error);
+    if (!(of.poisson > -1 && of.poisson <= 0.5)) return no_solution("poisson_ratio", error);
+    scree_status status = SCREE_OK;
+    for (size_t k = 0; k < count && !status; k++)
+        status = scree_layer_stress(&of, points[k].x - p[LOAD_X].value, points[k].y, &stress[k], error);
+    return status;
+}
+
+#define HELD(name_, unit_, meaning_, start)                                                                            \
+    {                                                                                                                  \
+        .name = (name_), .unit = (unit_), .meaning = (meaning_), .value = (start)                                      \
+    }
+#define FREE(name_, unit_, meaning_, start)                                                                            \
+    {                                                                                                                  \
+        .name = (name_), .unit = (unit_), .meaning = (meaning_), .value = (start), .free = true                        \
+    }
+#define PILE                                                                                                           \
+    FREE("weight", "N/m3", "density times gravity", 1), HELD("apex_x", "m", "place of the apex", 0),                   \
+        HELD("apex_y", "m", "place of the apex", 0)
+#define ONE_SLOPE HELD("slope", "rad", "of both sides, also the angle of internal friction", 0.5)
+#define TWO_SLOPES                                                                                                     \
+    HELD("slope_left", "rad", "also the angle of internal friction", 0.5),                                             \
+        HELD("slope_right", "rad", "also the angle of internal friction", 0.5)
+#define LOAD  FREE("force", "N/m", "load a length", 1), HELD("load_x", "m", "place of the load", 0)
+#define THICK HELD("thickness", "m", "of the layer", 1)
+
+const scree_fit_theory scree_fit_theories[] = {
+    {"ife", {PILE, ONE_SLOPE}, one_slope, IFE},
+    {"bcc", {PILE, ONE_SLOPE}, one_slope, BCC},
+    {"fpa", {PILE, ONE_SLOPE}, one_slope, FPA},
+    {"osl", {PILE, ONE_SLOPE, FREE("eta", "1", "mu follows by R 4.24", 0.7)}, one_slope, OSL},
+    {"oriented",
+     {PILE, ONE_SLOPE, FREE("eta", "1", "of R 4.22", 0.7), FREE("mu", "1", "of R 4.22", -0.2)},
+     one_slope,
+     ORIENTED},
+    {"wedge_dip", {PILE, TWO_SLOPES}, wedge, SCREE_WEDGE_DIP},
+    {"wedge_smooth", {PILE, TWO_SLOPES}, wedge, SCREE_WEDGE_SMOOTH},
+    {"wedge_peak", {PILE, TWO_SLOPES}, wedge, SCREE_WEDGE_PEAK},
+    {"wedge_core",
+     {PILE, TWO_SLOPES, FREE("core", "rad", "right boundary of the core from the vertical", 0.6)},
+     wedge,
+     SCREE_WEDGES},
+    {"flamant", {LOAD}, layer, SCREE_LAYER_NONE},
+    {"layer_smooth", {LOAD, THICK}, layer, SCREE_LAYER_SMOOTH},
+    {"layer_bonded", {LOAD, THICK, FREE("poisson_ratio", "1", "of plane strain", 0.3)}, layer, SCREE_LAYER_BONDED},
+    {.name = NULL},
+};

@@ -1,0 +1,306 @@
+/// Bodies that sleep: what rests is what contacts exert, the balance closes, who wakes, and nothing but the state
+/// decides.
+#include "run_fixture.h"
+
+#include "io_scratch.h"
+
+#include "contact/contact.h"
+#include "integrate/integrate.h"
+#include "state/births.h"
+#include "state/sleep.h"
+
+#define COUNT_OF(list) (sizeof(list) / sizeof *(list))
+#define SLEEPS         ", sleep_window: 4 ms, sleep_force: 0.5, sleep_motion: 2e-2, wake_force: 2"
+#define OUT            "measure: {samples: 50, cells: no}\noutput: {figures: no, paraview: no}\n"
+#define STAGES         "stages: [{stage: prepare, method: empty}, {stage: pour" SLEEPS "}]\n"
+
+/// A heap of polygons and discs in a trough, which calms down between two births.
+static const char polygons[] =
+    "scree: 1\nname: heap\ngravity: [0, -9.81]\n"
+    "materials: [{name: stone, young_modulus: 1e6 Pa, density: 5000 kg/m3, friction: 0.5, damping_constant: 1}]\n"
+    "contact: {law: polygon_overlap}\nintegrator: {step: 2e-5 s}\n" OUT
+    "particles:\n  thickness: 1 m\n  count: 24\n  species:\n"
+    "  - {name: grains, shape: polygon, material: stone, share: 0.6, radius_min: 1.5 mm, radius_max: 2.5 mm}\n"
+    "  - {name: discs, shape: disc, material: stone, share: 0.4, distribution: equal, radius: 2 mm}\n"
+    "walls: [{shape: plane, point: [0, 0], normal: [0.3, 1]}, {shape: plane, point: [0, 0], normal: [-0.3, 1]}]\n"
+    "sources: [{source: line, start: [-10 mm, 30 mm], end: [10 mm, 30 mm], interval: 60 ms}]\n" STAGES;
+
+static const char discs[] =
+    "scree: 1\nname: heap\ngravity: [0, -9.81]\n"
+    "materials: [{name: glass, young_modulus: 10 MPa, density: 2500 kg/m3, friction: 0.5, restitution: 0.3}]\n"
+    "contact: {law: hertz_mindlin}\nintegrator: {step_fraction: 0.2}\n" OUT
+    "particles: {shape: disc, material: glass, count: 24, radius_min: 1.5 mm, radius_max: 2.5 mm}\n"
+    "walls: [{shape: plane, point: [0, 0], normal: [0.3, 1]}, {shape: plane, point: [0, 0], normal: [-0.3, 1]}]\n"
+    "sources: [{source: line, start: [-10 mm, 30 mm], end: [10 mm, 30 mm], interval: 60 ms}]\n" STAGES;
+
+static const char spheres[] =
+    "scree: 1\nname: heap\ndimension: 3\ngravity: [0, 0, -9.81]\n"
+    "materials: [{name: glass, young_modulus: 10 MPa, density: 2500 kg/m3, friction: 0.5, restitution: 0.3}]\n"
+    "contact: {law: hertz_mindlin}\nintegrator: {step_fraction: 0.2}\n" OUT
+    "particles: {shape: sphere, material: glass, count: 24, radius_min: 1.5 mm, radius_max: 2.5 mm}\n"
+    "walls: [{shape: cone, start: [0, 0, -20 mm], end: [0, 0, 60 mm], radius_start: 0, radius_end: 120 mm}]\n"
+    "sources: [{source: point, place: [2 mm, 1 mm, 35 mm], interval: 60 ms}]\n" STAGES;
+
+static const char *const texts[] = {polygons, discs, spheres};
+
+static scree_simulation open_with(const char *text, const char *const *overrides, size_t count, scree_case **c)
+{
+    scree_simulation s;
+    *c = case_read(text, overrides, count);
+    simulation_open(*c, 1, &s);
+    return s;
+}
+
+static void close_both(scree_simulation *s, scree_case *c)
+{
+    scree_simulation_close(s);
+    scree_case_free(c);
+}
+
+/// Steps to the first step from `time` [s] on.
+static void step_to(scree_simulation *s, double time)
+{
+    while (simulation_goes_on(s) && scree_state_time(&s->state) < time) simulation_step(s);
+}
+
+static size_t asleep(const scree_simulation *s)
+{
+    return scree_sleep_of(&s->state)->count;
+}
+
+// ---- what rests ----------------------------------------------------------------------------------------------------
+
+/// Force on each body, by all of its contacts as measures see them.
+static void sum_table(scree_simulation *s, scree_vector *force)
+{
+    scree_contact_table table = {0};
+    scree_error error;
+    check(scree_neighbours_refresh(&s->model, &s->state, &s->work, &error), &error);
+    check(scree_contact_table_build(&s->model, &s->state, &s->work, &table, &error), &error);
+    memset(force, 0, s->state.count * sizeof *force);
+    for (size_t k = 0; k < table.count; k++) {
+        const scree_contact *contact = &table.contact[k];
+        for (int i = 0; i < 3; i++) {
+            const double f =
+                contact->normal_force * contact->normal[i] + contact->tangential_force * contact->tangent[i];
+            force[contact->first][i] += f;
+            if (!contact->wall) force[contact->second][i] -= f;
+        }
+    }
+    scree_contact_table_destroy(&table);
+}
+
+/// On each that sleeps the sums, what rests, and the weight are the contacts of the table and the weight: nothing is
+/// lost and nothing counts twice, through all events.
+static void what_rests_is_what_contacts_exert(void **unused)
+{
+    (void)unused;
+    for (size_t t = 0; t < COUNT_OF(texts); t++) {
+        scree_case *c;
+        scree_simulation s = open_with(texts[t], NULL, 0, &c);
+        scree_vector all[32], force, torque;
+        size_t seen = 0;
+        double worst = 0;
+        for (int k = 1; k <= 28; k++) {
+            step_to(&s, 0.05 * k);
+            sum_table(&s, all);
+            for (size_t row = 0; row < s.state.count; row++) {
+                if (!scree_body_sleeps(&s.state, row)) continue;
+                const double weight = 9.81 * scree_body_mass(&s.state, row);
+                scree_body_force(&s.model, &s.state, row, force, torque);
+                for (int i = 0; i < 3; i++) {
+                    const double own = scree_body_mass(&s.state, row) * s.stage_model.gravity[i];
+                    worst = fmax(worst, fabs(force[i] - own - all[row][i]) / weight);
+                }
+                seen++;
+            }
+        }
+        print_message("%zu that sleep: largest difference %.2g weights\n", seen, worst);
+        assert_true(seen > 50 && worst < 1e-6);
+        close_both(&s, c);
+    }
+}
+
+/// What is taken from those that fall asleep is booked: the balance closes as with all awake.
+static void the_balance_closes(void **unused)
+{
+    (void)unused;
+    for (size_t t = 0; t < COUNT_OF(texts); t++) {
+        const char *const overrides[] = {"stages.pour.sleep_window=auto"};
+        double worst[2];
+        for (int k = 0; k < 2; k++) {
+            scree_case *c;
+            scree_simulation s = open_with(texts[t], overrides, (size_t)k, &c);
+            worst[k] = simulation_finish(&s);
+            if (k == 0) assert_true(scree_sleep_of(&s.state)->taken > 0);
+            close_both(&s, c);
+        }
+        print_message("residual %.2g, all awake %.2g\n", worst[0], worst[1]);
+        assert_true(worst[0] < fmax(3 * worst[1], 3e-5));
+    }
+}
+
+// ---- who sleeps, and who wakes -------------------------------------------------------------------------------------
+
+/// In mid-pour most sleep between two births; all are awake when the sources have stopped.
+static void they_sleep_and_wake(void **unused)
+{
+    (void)unused;
+    for (size_t t = 0; t < COUNT_OF(texts); t++) {
+        scree_case *c;
+        scree_simulation s = open_with(texts[t], NULL, 0, &c);
+        size_t most = 0, changes = 0, before = 0;
+        while (simulation_goes_on(&s)) {
+            simulation_step(&s);
+            if (asleep(&s) > most) most = asleep(&s);
+            changes += asleep(&s) < before; // some woke
+            before = asleep(&s);
+            for (size_t row = 0; row < s.state.count && s.state.dimension == 2; row++)
+                if (scree_body_sleeps(&s.state, row))
+                    assert_true(s.state.row[row].vx == 0 && s.state.row[row].vy == 0 && s.state.row[row].spin == 0);
+        }
+        print_message("at most %zu of %zu asleep, %zu times some woke\n", most, s.state.count, changes);
+        assert_true(most > 12 && changes > 5);
+        assert_int_equal(asleep(&s), 0);
+        close_both(&s, c);
+    }
+}
+
+/// Bodies that fall never sleep, not even where they turn round with no velocity; nor does one that is prescribed.
+static void what_falls_does_not_sleep(void **unused)
+{
+    (void)unused;
+    const char *const overrides[] = {"sources=[{source: point, place: [0, 200 mm], interval: 60 ms, velocity: [0, 1]}]",
+                                     "stages.pour.wake_force=1e6", "stages.pour.sleep_motion=1",
+                                     "stages.pour.sleep_window=1 ms"};
+    scree_case *c;
+    scree_simulation s = open_with(polygons, overrides, COUNT_OF(overrides), &c);
+    step_to(&s, 0.2);
+    assert_true(s.state.count >= 3);
+    assert_int_equal(asleep(&s), 0);
+    close_both(&s, c);
+}
+
+/// All wake in the step in which gravity changes.
+static void gravity_wakes(void **unused)
+{
+    (void)unused;
+    const char *const overrides[] = {"gravity=[[0 s, 0, -9.81], [0.999 s, 0, -9.81], [1.001 s, 1, -9.81]]"};
+    scree_case *c;
+    scree_simulation s = open_with(polygons, overrides, 1, &c);
+    size_t before = 0;
+    while (scree_state_time(&s.state) < 0.9989) simulation_step(&s);
+    before = asleep(&s);
+    while (scree_state_time(&s.state) < 0.9994) simulation_step(&s);
+    print_message("%zu asleep, then %zu\n", before, asleep(&s));
+    assert_true(before > 3);
+    assert_int_equal(asleep(&s), 0);
+    close_both(&s, c);
+}
+
+/// A disc that sleeps on the floor under a force that grows wakes when the mean of its resultant, which fades within
+/// the window, has reached wake_force times its weight; here it is pushed up by a load that grows linearly.
+static void a_push_wakes_at_its_mean(void **unused)
+{
+    (void)unused;
+    const double weight = 2500 * M_PI * 4e-6 * 9.81, rate = 100, window = 4e-3, wake = 2;
+    char push[300];
+    (void)snprintf(push, sizeof push,
+                   "loads=[{load: prescribed, selection: one, force_x: [[0 s, 0], [0.5 s, 0], [1.5 s, %.17g]]}]",
+                   -rate * weight);
+    const char *const overrides[] = {
+        "particles={shape: disc, material: glass, thickness: 1 m, count: 3, distribution: equal, radius: 2 mm}",
+        "walls=[{shape: plane, point: [0, 0], normal: [0, 1]}, {shape: plane, point: [-2 mm, 0], normal: [1, 0]}]",
+        "materials.glass.friction=0",
+        "materials.glass.young_modulus=10 GPa",
+        "selections=[{select: ids, name: one, ids: [0]}]",
+        push,
+        "stages=[{stage: prepare, method: bodies, width: 1, height: 1, bodies: [{position: [0, 2 mm]}]}, {stage: pour, "
+        "sleep_window: 4 ms, sleep_force: 0.5, sleep_motion: 2e-2, wake_force: 2}]",
+        "sources=[{source: point, place: [0.5, 0.01], interval: 10 s}]"};
+    scree_case *c;
+    scree_simulation s = open_with(discs, overrides, COUNT_OF(overrides), &c);
+    step_to(&s, 0.5);
+    const uint32_t row = scree_state_row_of(&s.state, 0);
+    assert_true(scree_body_sleeps(&s.state, row));
+    while (scree_body_sleeps(&s.state, scree_state_row_of(&s.state, 0))) simulation_step(&s);
+    // The wall beside it does not push back before it moves: resultant r = rate s (in weights), and the mean m follows
+    // m' = (r - m) / window: m = rate (s - window (1 - exp(-s / window))).
+    const double since = scree_state_time(&s.state) - 0.5;
+    const double mean = rate * (since - window * (1 - exp(-since / window)));
+    print_message("woke after %.6g ms, mean %.6g weights\n", 1e3 * since, mean);
+    assert_true(fabs(mean - wake) < 0.02);
+    close_both(&s, c);
+}
+
+// ---- nothing but the state -----------------------------------------------------------------------------------------
+
+enum { FORGET = 1, LOSE = 2 };
+
+static uint64_t bits_of(const char *text, const char *override, int threads, int disturbance)
+{
+    scree_case *c;
+    scree_simulation s = open_with(text, &override, override ? 1 : 0, &c);
+    simulation_lose_work(&s, threads);
+    s.work.keep_threads = true;
+    for (int k = 0; simulation_goes_on(&s) && scree_state_time(&s.state) < 0.9; k++) {
+        if (disturbance == FORGET && k % 3 == 0) scree_neighbours_invalidate(&s.work);
+        if (disturbance == LOSE && k % 997 == 500) simulation_lose_work(&s, threads);
+        simulation_step(&s);
+    }
+    const uint64_t bits = simulation_bits(&s);
+    close_both(&s, c);
+    return bits;
+}
+
+static void nothing_but_the_state_decides(void **unused)
+{
+    (void)unused;
+    for (size_t t = 0; t < COUNT_OF(texts); t++) {
+        const uint64_t expected = bits_of(texts[t], NULL, 1, 0);
+        assert_true(bits_of(texts[t], NULL, 3, 0) == expected);
+        assert_true(bits_of(texts[t], NULL, 1, FORGET) == expected);
+        assert_true(bits_of(texts[t], NULL, 2, LOSE) == expected);
+        assert_true(bits_of(texts[t], "stages.pour.wake_force=1.9", 1, 0) != expected);
+    }
+}
+
+/// From a checkpoint in mid-pour, while some sleep.
+static void a_restart_goes_on(void **unused)
+{
+    (void)unused;
+    char folder[64];
+    assert_true(scratch_create(folder));
+    for (size_t t = 0; t < COUNT_OF(texts); t++) {
+        scree_case *c;
+        scree_simulation s = open_with(texts[t], NULL, 0, &c), other;
+        for (int k = 0; k < 3; k++) {
+            step_to(&s, 0.5 + 0.071 * k);
+            simulation_reopen(&s, 2, folder, &other);
+            for (int step = 0; step < 2000; step++) {
+                simulation_step(&other);
+                simulation_step(&s);
+            }
+            assert_true(simulation_bits(&s) == simulation_bits(&other));
+            scree_simulation_close(&other);
+        }
+        print_message("%zu asleep\n", asleep(&s));
+        close_both(&s, c);
+    }
+    scratch_destroy(folder);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_rests_is_what_contacts_exert),
+        cmocka_unit_test(the_balance_closes),
+        cmocka_unit_test(they_sleep_and_wake),
+        cmocka_unit_test(what_falls_does_not_sleep),
+        cmocka_unit_test(gravity_wakes),
+        cmocka_unit_test(a_push_wakes_at_its_mean),
+        cmocka_unit_test(nothing_but_the_state_decides),
+        cmocka_unit_test(a_restart_goes_on),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
