@@ -1,5 +1,6 @@
 /// What all boundaries share: walls that come and go.
 #include "boundary/boundary.h"
+#include "comm/comm.h"
 #include "state/plates.h"
 
 #include "base/integer_sum.h"
@@ -14,10 +15,10 @@ bool scree_boundary_has_plates(const scree_boundary *boundary)
     return (boundary->walls & SCREE_AXIAL_WALLS) == SCREE_AXIAL_WALLS;
 }
 
-static double held_by_wall(const scree_contact_table *table, int wall)
+static double held_by_wall(const scree_state *state, const scree_contact_table *table, int wall)
 {
     scree_integer_sum energy = {0};
-    while (scree_integer_sum_next(&energy, 1))
+    while (scree_comm_sum_next(state, &energy, 1))
         for (size_t c = 0; c < table->count; c++) {
             const scree_contact *contact = &table->contact[c];
             if (contact->wall && (int)contact->second == wall)
@@ -34,7 +35,7 @@ static bool change_walls(scree_state *state, uint32_t walls, const scree_contact
         scree_wall *wall = &scree_plates(state)[w];
         bool stands = walls >> w & 1;
         if (stands == (wall->active != 0)) continue;
-        if (!stands) state->ledger.plates -= held_by_wall(table, w);
+        if (!stands) state->ledger.plates -= held_by_wall(state, table, w);
         wall->active = stands;
         wall->velocity = wall->force = 0;
         for (int i = 0; i < 3; i++) wall->tangential_velocity[i] = wall->shear[i] = 0;

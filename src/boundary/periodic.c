@@ -332,7 +332,7 @@ static void measure_motion(const scree_model *model, scree_state *state, scree_w
     task.maps = maps;
     task.quantum = scree_fixed_quantum(4 * bound);
     run_shares(work, kinematics_share, &task);
-    scree_wide_total(task.sum, scree_work_shares(work), task.quantum, scree_cell(state)->motion);
+    scree_comm_wide_total(state, task.sum, scree_work_shares(work), task.quantum, scree_cell(state)->motion);
 }
 
 /// Work of the cell on the bodies for a part of its stress times volume, sum over dt.

@@ -71,6 +71,9 @@ void scree_rules_check_modules(scree_reader *reader, scree_config *config);
 void scree_rule_refuse(scree_reader *reader, const char *path, const char *accepted, const char *format, ...)
     SCREE_PRINTF(4, 5);
 
+/// Whether the case gives the key at a path a value, right or wrong: not `auto`.
+bool scree_rule_is_said(scree_reader *reader, const char *path);
+
 /// Gives a key of the case a text, in the tree as in its member. path: of the key, "walls.0.file".
 void scree_rule_set_text(scree_reader *reader, const char *path, const char *text, char **member);
 

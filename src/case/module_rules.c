@@ -90,6 +90,12 @@ void scree_rule_refuse(scree_reader *reader, const char *path, const char *accep
     scree_problem_add(reader, found->place, path, node ? node->text : NULL, accepted, "%s", message);
 }
 
+bool scree_rule_is_said(scree_reader *reader, const char *path)
+{
+    scree_node *found, *node = find_node(reader, path, &found);
+    return node && !(node->text && strcmp(node->text, "auto") == 0);
+}
+
 void scree_rule_set_text(scree_reader *reader, const char *path, const char *text, char **member)
 {
     scree_node *section, *node = find_node(reader, path, &section);

@@ -7,6 +7,7 @@
 #define SCREE_COMM_COMM_H
 
 #include "base/integer_sum.h"
+#include "base/wide_sum.h"
 #include "comm/message.h"
 
 /// The list of ghosts in `work` is new: makes room for them behind the own rows, tells them what they keep and where
@@ -28,6 +29,13 @@ void scree_comm_add_back(scree_state *state, scree_work *work);
 /// scree_integer_sum_next over the terms of all processes: between the passes their parts are joined, so that all have
 /// the same quantum and the same total. All of them call it, as often.
 bool scree_comm_sum_next(const scree_state *state, scree_integer_sum *sum, int count);
+
+/// scree_integer_sum_of over the terms of all processes.
+double scree_comm_sum_of(const scree_state *state, const double *term, size_t count);
+
+/// scree_wide_total over the parts of all processes, which have the same quantum.
+void scree_comm_wide_total(const scree_state *state, const scree_wide_sum *part, int count, double quantum,
+                           double total[9]);
 
 /// Replaces each value by the largest one of all processes.
 void scree_comm_maximum(const scree_state *state, double *values, size_t count);

@@ -83,6 +83,19 @@ bool scree_comm_sum_next(const scree_state *state, scree_integer_sum *sum, int c
     return scree_integer_sum_next(sum, count);
 }
 
+double scree_comm_sum_of(const scree_state *state, const double *term, size_t count)
+{
+    (void)state;
+    return scree_integer_sum_of(term, count);
+}
+
+void scree_comm_wide_total(const scree_state *state, const scree_wide_sum *part, int count, double quantum,
+                           double total[9])
+{
+    (void)state;
+    scree_wide_total(part, count, quantum, total);
+}
+
 void scree_comm_maximum(const scree_state *state, double *values, size_t count)
 {
     (void)state;

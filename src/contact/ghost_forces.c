@@ -109,10 +109,11 @@ static void sum_bodies(const scree_state *state, scree_work *work, double produc
     task.state = state;
     scree_thread_pool_run(&work->pool, shares, bound_share, &task);
     for (int k = 0; k < shares; k++) largest = fmax(largest, task.largest[k]);
+    scree_comm_maximum(state, &largest, 1);
     (void)frexp(largest, &exponent);
     task.bound = ldexp(1.0, exponent);
     scree_thread_pool_run(&work->pool, shares, sum_share, &task);
-    scree_wide_total(task.sum, shares, state->force_quantum * task.bound, product);
+    scree_comm_wide_total(state, task.sum, shares, state->force_quantum * task.bound, product);
 }
 
 void scree_ghosts_add_back(scree_state *state, scree_work *work)

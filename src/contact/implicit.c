@@ -119,7 +119,7 @@ static void resist(const solve *s, size_t row, const tensor z, tensor r)
 static double dot(const solve *s, tensor *a, tensor *b)
 {
     for (size_t row = 0; row < s->count; row++) s->term[row] = scree_tensor_product(s->d, a[row], b[row]);
-    return scree_integer_sum_of(s->term, s->count);
+    return scree_comm_sum_of(s->c->state, s->term, s->count);
 }
 
 // ---- springs -----------------------------------------------------------------------------------------------------

@@ -15,6 +15,7 @@
 
 #include "base/integer_sum.h"
 #include "case/config.h"
+#include "comm/comm.h"
 #include "measure/measure.h"
 
 #include <string.h>
@@ -34,7 +35,7 @@ void scree_gravity_find(const scree_model *model, const scree_state *state, uint
 static double moment(const scree_state *state, const double by[3])
 {
     scree_integer_sum sum = {0};
-    while (scree_integer_sum_next(&sum, 1))
+    while (scree_comm_sum_next(state, &sum, 1))
         for (size_t row = 0; row < state->count; row++) {
             scree_vector position;
             scree_body_position(state, row, position);

@@ -2,6 +2,7 @@
 #include "measure/pile.h"
 
 #include "base/integer_sum.h"
+#include "comm/comm.h"
 #include "shape/wall_set.h"
 
 #include <math.h>
@@ -75,7 +76,7 @@ static void sum_forces(const scree_state *state, const scree_work *work, const s
     const int up = state->dimension - 1;
     scree_integer_sum sum[2] = {0};
     pile->base = INFINITY;
-    while (scree_integer_sum_next(sum, 2))
+    while (scree_comm_sum_next(state, sum, 2))
         for (size_t c = 0; c < table->count; c++) {
             const scree_contact *contact = &table->contact[c];
             const bool first = pile->member[contact->first], second = !contact->wall && pile->member[contact->second];
@@ -96,7 +97,7 @@ static void weigh(const scree_model *model, const scree_state *state, scree_pile
 {
     const int up = state->dimension - 1;
     scree_integer_sum sum = {0};
-    while (scree_integer_sum_next(&sum, 1))
+    while (scree_comm_sum_next(state, &sum, 1))
         for (size_t row = 0; row < state->count; row++)
             if (pile->member[row]) scree_integer_sum_add(&sum, scree_body_mass(state, row));
     pile->weight = -model->gravity[up] * scree_integer_sum_total(&sum);

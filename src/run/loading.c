@@ -5,6 +5,7 @@
 
 #include "run/loading.h"
 
+#include "comm/comm.h"
 #include "integrate/orientation.h"
 #include "measure/measure.h"
 #include "run/step.h"
@@ -63,7 +64,9 @@ static double present_height(scree_simulation *s)
         low = fmin(low, place[state->dimension - 1] - state->row[row].radius);
         high = fmax(high, place[state->dimension - 1] + state->row[row].radius);
     }
-    return high - low;
+    double ends[] = {high, -low};
+    scree_comm_maximum(state, ends, 2);
+    return ends[0] + ends[1];
 }
 
 void scree_loading_begin(scree_simulation *s, double pressure)

@@ -17,6 +17,7 @@
 #include "run/stability.h"
 
 #include "bond/bond.h"
+#include "comm/comm.h"
 #include "contact/deformation.h"
 #include "module/key_rows.h"
 #include "run/stage.h"
@@ -104,13 +105,22 @@ static bool has_changed(uint64_t before, uint64_t now)
     return fabs((double)now - (double)before) > CHANGE * (double)before;
 }
 
+static uint64_t bonds_standing(const scree_state *state)
+{
+    int64_t standing = (int64_t)scree_bonds_standing(state);
+    scree_comm_add(state, &standing, 1);
+    return (uint64_t)standing;
+}
+
 /// Bonds are counted when some have broken, or pairs have come or gone.
 static bool bonds_have_changed(const scree_state *state, memory *all)
 {
-    const uint64_t now = (uint64_t)scree_bonds_of(state)->count << 32 | scree_persistent(state)->count;
+    int64_t number[] = {(int64_t)scree_bonds_of(state)->count, (int64_t)scree_persistent(state)->count};
+    scree_comm_add(state, number, 2);
+    const uint64_t now = (uint64_t)number[0] << 32 | (uint64_t)number[1];
     if (scree_bonds_of(state)->made == 0 || now == all->looked) return false;
     all->looked = now;
-    return has_changed(all->bonds, scree_bonds_standing(state));
+    return has_changed(all->bonds, bonds_standing(state));
 }
 
 void scree_stability_ask(scree_simulation *s, bool stage_begins)
@@ -224,7 +234,7 @@ scree_status scree_stability_check(scree_simulation *s, scree_error *error)
         if (!status && told) status = find_limits(&c, &all->step, &all->softness, error);
         if (!status) status = judge(s, &c, error);
         all->contacts = c.specimen.contact_count;
-        all->bonds = scree_bonds_standing(&s->state);
+        all->bonds = bonds_standing(&s->state);
         scree_specimen_destroy(&c.specimen);
     }
     // What stops the run stays asked for: it stops again.

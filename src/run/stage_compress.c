@@ -8,6 +8,7 @@
 #include "run/stage_compress.h"
 
 #include "boundary/boundary.h"
+#include "case/check.h"
 #include "model/critical_step.h"
 #include "module/key_rows.h"
 #include "run/loading.h"
@@ -100,13 +101,24 @@ static double planned(const scree_model *model, const void *own, double wave)
     return scree_loading_planned(duration(model, own), ((const config *)own)->rise_time, wave);
 }
 
+static void rules(scree_reader *reader, const scree_config *whole)
+{
+    char path[SCREE_PATH_BYTES];
+    for (int64_t i = 0; i < whole->stage_count; i++) {
+        if (whole->stages[i].kind != SCREE_SLOT_compress) continue;
+        if (scree_rule_is_said(reader, scree_element_path(path, "stages", i, "velocity")) ||
+            scree_rule_is_said(reader, scree_element_path(path, "stages", i, "rate")))
+            continue;
+        scree_rule_refuse(reader, path, NULL, "how fast is not said: give rate, or the velocity of the plates");
+    }
+}
+
 /// What is wrong with the two ways to say how fast, and under which key; NULL: nothing.
 static const char *wrong(const scree_config *whole, int64_t index, const char **key)
 {
     const config *stage = whole->stages[index].own;
     const bool rate = !isnan(stage->rate), velocity = !isnan(stage->velocity);
     *key = velocity ? "velocity" : "rate";
-    if (!rate && !velocity) return "how fast is not said: give rate, or the velocity of the plates";
     if (rate && velocity) return "rate is given: give one of the two";
     if (velocity && !scree_boundary_has_plates(scree_config_held_by(whole, index)))
         return "the boundary of this stage has no plates that could have a velocity: give rate";
@@ -141,6 +153,7 @@ const scree_module scree_module_compress = {
     .choice_of = CHOICE_OF(IS("stages", .meaning = "shortens the sample along its axis to a strain")),
     .keys = (const scree_keys[]){KEYS_OF(NULL, keys, config)},
     .keys_count = 1,
+    .rules = rules,
     .numbers = &numbers,
     .stage = &stage_face,
 };

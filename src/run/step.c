@@ -5,6 +5,7 @@
 /// the modules in use by their place in the table, then those of the boundary of the stage.
 #include "run/step.h"
 
+#include "comm/comm.h"
 #include "measure/measure.h"
 #include "run/guard.h"
 #include "search/neighbours.h"
@@ -69,12 +70,14 @@ static double bound_of_loads(const scree_context *c)
     double bound = c->boundary->bound ? c->boundary->bound(c) : 0;
     const scree_simulation *s = c->simulation;
     for (size_t k = 0; k < s->bound_count; k++) bound = fmax(bound, s->bounds[k](c));
+    scree_comm_maximum(c->state, &bound, 1);
     return bound;
 }
 
 static scree_status contact_forces(const scree_context *c, scree_error *error)
 {
     (void)error;
+    scree_comm_maximum(c->state, &c->state->largest_speed, 1);
     scree_contact_set_quanta(c->model, c->state, bound_of_loads(c));
     scree_contact_forces(c->model, c->state, c->work);
     return SCREE_OK;

@@ -470,10 +470,13 @@ static scree_status check_list(const scree_model *model, scree_state *state, scr
         for (int k = 0; k < 9; k++) change[k] = deformation[k] - (k % 4 == 0);
         shrunk = scree_matrix_norm(change) * (work->ghosts.largest_radius + 0.5 * work->skin);
     }
-    double moved = largest_displacement(state, deformation, work) + shrunk + scree_deformation_of(state)->largest_reach;
+    const double moved =
+        largest_displacement(state, deformation, work) + shrunk + scree_deformation_of(state)->largest_reach;
     const double left = fmin(half_skin(work) - moved, scree_fast_left(&work->search->fast, state));
-    if (!(left > 0) || !(moved < half_skin(work))) return rebuild(model, state, work, error);
-    work->budget = left;
+    double worst[] = {moved, -left};
+    scree_comm_maximum(state, worst, 2);
+    if (!(worst[1] < 0) || !(worst[0] < half_skin(work))) return rebuild(model, state, work, error);
+    work->budget = -worst[1];
     return SCREE_OK;
 }
 
@@ -485,10 +488,15 @@ scree_status scree_neighbours_refresh(const scree_model *model, scree_state *sta
         scree_wall_set_place(work->wall_set, walls, scree_case_walls_time(walls, state), state->step_size);
         walls->speed = walls->moving ? scree_wall_set_speed(work->wall_set) : 0;
     }
+    // All processes make their lists anew when one of them has to.
+    enum { KEEP, LOOK, REBUILD };
+    double due = work->budget >= 0 ? KEEP : LOOK;
     if (!work->valid || !is_of_these_bodies(work->search, state) || scree_held_changed(state, &work->search->held) ||
         work->pairs.sleep_changes != scree_sleep_of(state)->changes || walls_need_rebuild(model, state, work))
-        return rebuild(model, state, work, error);
-    scree_status status = work->budget >= 0 ? SCREE_OK : check_list(model, state, work, error);
+        due = REBUILD;
+    scree_comm_maximum(state, &due, 1);
+    if (due == REBUILD) return rebuild(model, state, work, error);
+    scree_status status = due == KEEP ? SCREE_OK : check_list(model, state, work, error);
     if (!status && work->ghosts.count > 0) scree_comm_exchange(state, work);
     return status;
 }
