@@ -12,6 +12,8 @@
 
 enum { MOST_LINES = 7, SECTORS = 36 };
 
+#define LEAST_INSIDE 0.2 /* elements of which less lies in the sample are left white */
+
 /// A figure that has nothing to show is left out.
 static scree_status forgive(scree_status status)
 {
@@ -145,7 +147,7 @@ static void blank(const scree_average_table *table, double *value)
 {
     const size_t inside = scree_average_table_find(table, "inside"), full = scree_average_table_find(table, "density");
     for (size_t k = 0; k < table->rows; k++) {
-        const bool empty = inside != SIZE_MAX ? !(scree_average_table_get(table, k, inside) > 0.05)
+        const bool empty = inside != SIZE_MAX ? !(scree_average_table_get(table, k, inside) > LEAST_INSIDE)
                                               : !(scree_average_table_get(table, k, full) > 0);
         if (empty) value[k] = NAN;
     }
@@ -204,8 +206,8 @@ static scree_status draw_distribution(const char *folder, const measure_found *f
     for (size_t k = 0; k < n && !status; k++) x[k] += 0.5 * scree_average_table_get(table, k, to);
     if (!status) status = scree_path_join(path, sizeof path, folder, "force-distribution", error);
     const scree_chart_line line[] = {
-        {.x = x, .y = y[0], .count = n, .label = "normal forces of contacts", .points = true},
-        {.x = x, .y = y[1], .count = n, .label = "vertical forces on what it stands on", .points = true}};
+        {.x = x, .y = y[0], .count = n, .label = "contacts, normal", .points = true},
+        {.x = x, .y = y[1], .count = n, .label = "on the floor, vertical", .points = true}};
     const scree_chart chart = {.title = "Distribution of forces",
                                .x_label = "force over its mean, n",
                                .y_label = "P(n)",
