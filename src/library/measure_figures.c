@@ -3,6 +3,7 @@
 
 #include "io/run_directory.h"
 #include "view/chart.h"
+#include "view/links.h"
 #include "view/map.h"
 
 #include <limits.h>
@@ -262,6 +263,40 @@ static scree_status draw_rose(const char *folder, const measure_found *found, sc
     scree_release(&angle);
     scree_release(&petal);
     scree_release(&line);
+    return status;
+}
+
+/// From centre to centre, or to the point of contact with what is no body.
+static scree_link link_of(const scree_average_sample *sample, const scree_average_contact *contact, bool marked)
+{
+    const double *x = sample->grain[contact->first].position;
+    scree_link link = {.force = scree_length(contact->force) / sample->mean_force, .marked = marked};
+    for (int k = 0; k < 2; k++) {
+        link.from[k] = x[k];
+        link.to[k] = x[k] - contact->branch[k];
+    }
+    return link;
+}
+
+scree_status measure_draw_network(const char *folder, const scree_average_sample *sample, const uint8_t *linked,
+                                  scree_error *error)
+{
+    scree_link *link;
+    char path[PATH_MAX];
+    if (sample->dimension == 3) return SCREE_OK;
+    scree_status status = scree_folders_make(folder, error);
+    if (!status) status = scree_path_join(path, sizeof path, folder, "chains", error);
+    if (!status) status = scree_allocate(&link, sample->contacts, sizeof *link, error);
+    if (status) return status;
+    for (size_t c = 0; c < sample->contacts; c++) link[c] = link_of(sample, &sample->contact[c], linked[c]);
+    const scree_links links = {.title = "Force network and its chains",
+                               .marked_name = "in a chain of three grains or more",
+                               .other_name = "other contacts; widths as forces",
+                               .link = link,
+                               .count = sample->contacts,
+                               .width = 0.22 * sample->mean_radius};
+    status = forgive(scree_links_draw(path, &links, error));
+    scree_release(&link);
     return status;
 }
 
