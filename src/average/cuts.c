@@ -144,6 +144,14 @@ scree_status scree_average_cuts_table(const scree_average_view *view, const scre
     return status;
 }
 
+void scree_average_grid(const scree_average_plan *plan, int dimension, size_t number[3])
+{
+    const bool upright = dimension == 3 && plan->grid[2] == 0;
+    number[0] = plan->grid[0];
+    number[1] = upright ? 1 : plan->grid[1];
+    number[2] = upright ? plan->grid[1] : dimension == 3 ? plan->grid[2] : 1;
+}
+
 scree_status scree_average_map_table(const scree_average_view *view, const scree_average_plan *plan,
                                      scree_average_table *table, scree_error *error)
 {
@@ -151,7 +159,9 @@ scree_status scree_average_map_table(const scree_average_view *view, const scree
     const double low[3] = {view->surface.left, sample->dimension == 2 ? view->base : sample->low[1], view->base};
     const double high[3] = {view->surface.right, sample->dimension == 2 ? view->surface.highest : sample->high[1],
                             view->surface.highest};
-    const size_t *n = plan->grid, count = n[0] * n[1] * n[2];
+    size_t n[3];
+    scree_average_grid(plan, sample->dimension, n);
+    const size_t count = n[0] * n[1] * n[2];
     scree_status status = SCREE_OK;
     for (size_t k = 0; k < count && !status; k++) {
         const size_t number[3] = {k % n[0], k / n[0] % n[1], k / n[0] / n[1]};

@@ -30,7 +30,7 @@ typedef struct scree_average_plan {
     size_t points;                     ///< of a cut, odd
     scree_average_axis axis;
     double axis_given; ///< m
-    size_t grid[3];    ///< 0: no map
+    size_t grid[3]; ///< 0: no map; with grid[2] 0 the second number is that of rows upwards, in the middle of y in 3D
 } scree_average_plan;
 
 /// What a sample looks like to its averages.
@@ -54,6 +54,9 @@ typedef struct scree_average_view {
 scree_status scree_average_view_open(scree_average_sample *sample, const scree_average_plan *plan,
                                      scree_average_view *view, scree_error *error) SCREE_MUST_USE;
 void scree_average_view_close(scree_average_view *view);
+
+/// Points of the grid along x, y, z.
+void scree_average_grid(const scree_average_plan *plan, int dimension, size_t number[3]);
 
 /// Rows of all cuts: cut, height [1], y (z in 3D) [m], place [1], x [m], and the fields; with stress also
 /// `vertical_pressure_scaled`, minus the vertical normal stress over bulk_density g height. Errors: memory.

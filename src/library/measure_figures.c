@@ -34,7 +34,7 @@ static const cut_figure cut_figures[] = {
     {"cuts-pressure-scaled", "vertical_pressure_scaled", "Vertical pressure by height",
      "vertical pressure / (bulk density g height)", 1},
     {"cuts-stress-vertical", "stress_yy", "Vertical pressure by height", "vertical pressure (kPa)", -1e-3},
-    {"cuts-stress-horizontal", "stress_xx", "Horizontal pressure by height", "minus stress xx (kPa)", -1e-3},
+    {"cuts-stress-horizontal", "stress_xx", "Horizontal pressure by height", "horizontal pressure (kPa)", -1e-3},
     {"cuts-stress-shear", "stress_xy", "Shear stress by height", "shear stress (kPa)", 1e-3},
     {"cuts-density", "volume_fraction", "Volume fraction by height", "volume fraction of whole elements", 1},
     {"cuts-density-inside", "volume_fraction_parts_inside", "Volume fraction by height, inside the surface",
@@ -70,13 +70,19 @@ static double *take(const scree_average_table *table, size_t column, size_t firs
     return value;
 }
 
+/// Axes have no order: a line would run from one end of the scale to the other.
+static bool is_angle(const cut_figure *figure)
+{
+    return strstr(figure->column, "_angle") != NULL;
+}
+
 static scree_status draw_cuts(const char *folder, const measure_plan *plan, const measure_found *found,
                               const cut_figure *figure, scree_error *error)
 {
     const scree_average_table *cuts = &found->mean.of[MEASURE_CUTS];
     const size_t column = find_column(cuts, figure->column), x = scree_average_table_find(cuts, "x");
     const size_t count = plan->average.cuts < MOST_LINES ? plan->average.cuts : MOST_LINES, n = plan->average.points;
-    const bool bands = found->runs > 1 && found->low.of[MEASURE_CUTS].rows > 0;
+    const bool bands = found->runs > 1 && found->low.of[MEASURE_CUTS].rows > 0 && !is_angle(figure);
     scree_chart_line line[MOST_LINES] = {{0}};
     double *part[MOST_LINES][4] = {{NULL}};
     char label[MOST_LINES][32], path[PATH_MAX];
@@ -97,7 +103,8 @@ static scree_status draw_cuts(const char *folder, const measure_plan *plan, cons
                                      .high = part[k][3],
                                      .count = n,
                                      .label = label[k],
-                                     .points = n < 3};
+                                     .points = n < 3 || is_angle(figure),
+                                     .bare = is_angle(figure)};
     }
     const scree_chart chart = {.title = figure->title,
                                .x_label = "x from the axis (mm)",
@@ -125,10 +132,10 @@ static const map_figure map_figures[] = {
     {MEASURE_MAP, "map-density", "volume_fraction_parts_inside", "Volume fraction, exact parts inside the surface",
      "volume fraction", 1, SEQUENTIAL, NULL},
     {MEASURE_MAP, "map-stress-vertical", "stress_yy_inside",
-     "Vertical pressure inside, and the axis of the largest one", "minus stress yy (kPa)", -1e-3, SEQUENTIAL,
+     "Vertical pressure inside, and the axis of the largest one", "vertical pressure (kPa)", -1e-3, SEQUENTIAL,
      "pressure_angle"},
-    {MEASURE_MAP, "map-stress-horizontal", "stress_xx_inside", "Horizontal pressure inside", "minus stress xx (kPa)",
-     -1e-3, SEQUENTIAL, NULL},
+    {MEASURE_MAP, "map-stress-horizontal", "stress_xx_inside", "Horizontal pressure inside",
+     "horizontal pressure (kPa)", -1e-3, SEQUENTIAL, NULL},
     {MEASURE_MAP, "map-fabric", "fabric_trace", "Trace of the fabric tensor, and its major axis", "tr F", 1, SEQUENTIAL,
      "fabric_angle"},
     {MEASURE_MAP, "map-long-axis", "axes_order", "Order of the long axes, and their mean direction",
@@ -139,11 +146,11 @@ static const map_figure map_figures[] = {
      SCREE_COLOUR_DIVERGING, NULL},
     {MEASURE_KERNEL, "kernel-density", "volume_fraction", "Volume fraction, smooth", "volume fraction", 1, SEQUENTIAL,
      NULL},
-    {MEASURE_KERNEL, "kernel-stress-vertical", "stress_yy", "Vertical pressure, smooth", "minus stress yy (kPa)", -1e-3,
-     SEQUENTIAL, NULL},
-    {MEASURE_KERNEL, "kernel-stress-horizontal", "stress_xx", "Horizontal pressure, smooth", "minus stress xx (kPa)",
+    {MEASURE_KERNEL, "kernel-stress-vertical", "stress_yy", "Vertical pressure, smooth", "vertical pressure (kPa)",
      -1e-3, SEQUENTIAL, NULL},
-    {MEASURE_KERNEL, "kernel-stress-shear", "stress_xy", "Shear stress, smooth", "stress xy (kPa)", 1e-3,
+    {MEASURE_KERNEL, "kernel-stress-horizontal", "stress_xx", "Horizontal pressure, smooth",
+     "horizontal pressure (kPa)", -1e-3, SEQUENTIAL, NULL},
+    {MEASURE_KERNEL, "kernel-stress-shear", "stress_xy", "Shear stress, smooth", "shear stress (kPa)", 1e-3,
      SCREE_COLOUR_DIVERGING, NULL},
 };
 
@@ -162,12 +169,17 @@ static scree_status draw_map(const char *folder, const measure_found *found, con
                              scree_error *error)
 {
     const scree_average_table *table = &found->mean.of[figure->product];
-    const size_t column = scree_average_table_find(table, figure->column), n = table->rows;
+    const size_t column = find_column(table, figure->column), n = table->rows;
     const size_t angle = figure->axis ? scree_average_table_find(table, figure->axis) : SIZE_MAX;
     char path[PATH_MAX];
-    if (n == 0 || column == SIZE_MAX || scree_average_table_find(table, "z") != SIZE_MAX) return SCREE_OK;
+    const size_t up = scree_average_table_find(table, "z") != SIZE_MAX ? 2 : 1;
+    // Of spheres a section is drawn, and no block.
+    if (n == 0 || column == SIZE_MAX ||
+        (up == 2 && scree_average_table_get(table, 0, 1) != scree_average_table_get(table, n - 1, 1)))
+        return SCREE_OK;
     size_t columns = 1;
-    while (columns < n && scree_average_table_get(table, columns, 1) == scree_average_table_get(table, 0, 1)) columns++;
+    while (columns < n && scree_average_table_get(table, columns, up) == scree_average_table_get(table, 0, up))
+        columns++;
     scree_map map = {.title = figure->title,
                      .name = figure->label,
                      .columns = columns,
@@ -175,13 +187,15 @@ static scree_status draw_map(const char *folder, const measure_found *found, con
                      .colours = figure->colours};
     if (map.columns < 2 || map.rows < 2) return SCREE_OK;
     for (size_t i = 0; i < 2; i++) {
-        const double first = scree_average_table_get(table, 0, i), last = scree_average_table_get(table, n - 1, i);
+        const size_t along = i == 0 ? 0 : up;
+        const double first = scree_average_table_get(table, 0, along);
+        const double last = scree_average_table_get(table, n - 1, along);
         const double gap = (last - first) / (double)((i == 0 ? map.columns : map.rows) - 1);
         map.low[i] = first - 0.5 * gap;
         map.high[i] = last + 0.5 * gap;
     }
     double *value = take(table, column, 0, n, figure->factor, error);
-    double *axis = angle == SIZE_MAX || n > 1500 ? NULL : take(table, angle, 0, n, M_PI / 180, error);
+    double *axis = angle == SIZE_MAX || up == 2 || n > 1500 ? NULL : take(table, angle, 0, n, M_PI / 180, error);
     scree_status status = value ? scree_path_join(path, sizeof path, folder, figure->file, error) : SCREE_ERROR_IO;
     map.value = value;
     map.axis = axis;

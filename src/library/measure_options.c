@@ -87,11 +87,11 @@ static scree_status read_grid(const char *text, scree_average_plan *plan, scree_
 {
     char rest;
     size_t *n = plan->grid;
-    n[2] = 1;
+    n[2] = 0;
     const int read = sscanf(text, "%zux%zu%c", &n[0], &n[1], &rest) == 2
                          ? 2
                          : (sscanf(text, "%zux%zux%zu%c", &n[0], &n[1], &n[2], &rest) == 3 ? 3 : 0);
-    if (read == 0 || n[0] < 1 || n[1] < 1 || n[2] < 1 || n[0] > 4096 || n[1] > 4096 || n[2] > 4096)
+    if (read == 0 || n[0] < 1 || n[1] < 1 || (read == 3 && n[2] < 1) || n[0] > 4096 || n[1] > 4096 || n[2] > 4096)
         return refuse(error, "grid", "points, such as 100x50 or in 3D 20x20x20, up to 4096 each", "'%s' is no grid",
                       text);
     return SCREE_OK;

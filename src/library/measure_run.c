@@ -131,8 +131,8 @@ static scree_average_points points_of(const scree_average_view *view, const scre
                             view->surface.highest};
     scree_average_points points = {.number = {GRID_X, GRID_Y, 1}};
     if (sample->dimension == 3) points.number[0] = points.number[1] = points.number[2] = GRID_Y;
+    if (plan->grid[0] > 0) scree_average_grid(plan, sample->dimension, points.number);
     for (int k = 0; k < 3; k++) {
-        if (plan->grid[0] > 0) points.number[k] = plan->grid[k];
         points.gap[k] = (high[k] - low[k]) / (double)points.number[k];
         points.first[k] = low[k] + 0.5 * points.gap[k];
         if (k < sample->dimension) continue;
