@@ -34,34 +34,45 @@ static double centre_of_mass(const scree_average_sample *sample, const scree_ave
     return moment / mass;
 }
 
+static scree_average_frame find_frame(const scree_average_sample *sample, const scree_average_plan *plan,
+                                      const scree_average_surface *s)
+{
+    const double apart = s->volume / (double)sample->counted; // room of a grain
+    const int up = sample->dimension - 1;
+    scree_average_frame frame = {.side =
+                                     plan->grains > 0 ? pow(plan->grains * apart, 1.0 / sample->dimension) : plan->side,
+                                 .half = 0.5 * (s->right - s->left),
+                                 .base = s->base,
+                                 .height = s->highest - s->base,
+                                 .middle = 0.5 * (sample->low[1] + sample->high[1]),
+                                 .axis = plan->axis == SCREE_AVERAGE_AXIS_MASS   ? centre_of_mass(sample, s)
+                                         : plan->axis == SCREE_AVERAGE_AXIS_APEX ? s->apex
+                                                                                 : plan->axis_given};
+    for (int k = 0; k < 3; k++) {
+        frame.low[k] = k == 0 ? s->left : k == up ? s->base : sample->low[k];
+        frame.high[k] = k == 0 ? s->right : k == up ? s->highest : sample->high[k];
+    }
+    return frame;
+}
+
 static void place(const scree_average_sample *sample, const scree_average_plan *plan, scree_average_view *view)
 {
-    const scree_average_surface *s = &view->surface;
-    const double apart = s->volume / (double)sample->counted; // room of a grain
-    const int d = sample->dimension;
-    view->side = plan->grains > 0 ? pow(plan->grains * apart, 1.0 / d) : plan->side;
-    view->grains = pow(view->side, d) / apart;
-    view->base = s->base;
-    view->height = s->highest - s->base;
-    view->half = 0.5 * (s->right - s->left);
-    view->axis = plan->axis == SCREE_AVERAGE_AXIS_MASS   ? centre_of_mass(sample, s)
-                 : plan->axis == SCREE_AVERAGE_AXIS_APEX ? s->apex
-                                                         : plan->axis_given;
-    view->middle = 0.5 * (sample->low[1] + sample->high[1]);
-    view->bulk_density = sample->mass / (s->volume * sample->thickness);
-    view->weight = -sample->mass * sample->gravity[d - 1];
+    view->frame = plan->frame ? *plan->frame : find_frame(sample, plan, &view->surface);
+    view->grains = pow(view->frame.side, sample->dimension) * (double)sample->counted / view->surface.volume;
+    view->bulk_density = sample->mass / (view->surface.volume * sample->thickness);
+    view->weight = -sample->mass * sample->gravity[sample->dimension - 1];
     view->plate = plate_force(sample);
 }
 
 static scree_status check_side(const scree_average_view *view, scree_error *error)
 {
-    const double width = 2 * view->half;
-    if (view->side <= view->height && view->side <= width) return SCREE_OK;
+    const double width = 2 * view->frame.half;
+    if (view->frame.side <= view->frame.height && view->frame.side <= width) return SCREE_OK;
     scree_status status = scree_error_set(
         error, SCREE_ERROR_INPUT,
         "an element of %.3g m (%.0f grains) is larger than the sample, which is %.3g m wide and %.3g m high with %zu "
         "grains: take fewer grains",
-        view->side, view->grains, width, view->height, view->sample->counted);
+        view->frame.side, view->grains, width, view->frame.height, view->sample->counted);
     if (error) (void)snprintf(error->field, sizeof error->field, "--element");
     return status;
 }
@@ -75,9 +86,10 @@ scree_status scree_average_view_open(scree_average_sample *sample, const scree_a
         place(sample, plan, view);
         status = check_side(view, error);
     }
-    if (!status) status = scree_average_sample_repeat(sample, view->side, error); // unless it has its images
+    if (!status) status = scree_average_sample_repeat(sample, view->frame.side, error); // unless it has its images
     if (!status)
-        status = scree_average_bins_make(sample, fmax(2 * sample->mean_radius, view->side / 4), &view->bins, error);
+        status =
+            scree_average_bins_make(sample, fmax(2 * sample->mean_radius, view->frame.side / 4), &view->bins, error);
     for (size_t p = 0; p < sample->bodies; p++) view->moved = view->moved || sample->grain[p].moved;
     if (!status && view->moved) status = scree_average_strain_open(sample, &view->bins, &view->strain, error);
     if (status) scree_average_view_close(view);
@@ -96,7 +108,8 @@ void scree_average_view_close(scree_average_view *view)
 static scree_average_element element_at(const scree_average_view *view, const scree_vector centre)
 {
     const bool in_3d = view->sample->dimension == 3;
-    return scree_average_element_at(centre, (scree_vector){view->side, view->side, in_3d ? view->side : 0});
+    return scree_average_element_at(centre,
+                                    (scree_vector){view->frame.side, view->frame.side, in_3d ? view->frame.side : 0});
 }
 
 /// Minus the vertical normal stress [Pa].
@@ -117,7 +130,7 @@ static void tell_fields(const scree_average_view *view, const scree_average_plan
     if (view->moved) scree_average_strain_tell(&view->strain, &element, scree_average_table_take, table);
     if (plan->fields & SCREE_AVERAGE_STRESS)
         scree_average_table_take(table, "vertical_pressure_scaled", "1",
-                                 g > 0 ? vertical_pressure(view, &value) / (view->bulk_density * g * view->height)
+                                 g > 0 ? vertical_pressure(view, &value) / (view->bulk_density * g * view->frame.height)
                                        : NAN);
 }
 
@@ -129,15 +142,16 @@ scree_status scree_average_cuts_table(const scree_average_view *view, const scre
     for (size_t k = 0; k < plan->cuts * plan->points && !status; k++) {
         const size_t cut = k / plan->points, half = plan->points / 2;
         const double at = half > 0 ? ((double)(k % plan->points) - (double)half) / (double)half : 0;
-        scree_vector centre = {view->axis + at * view->half, view->middle, 0};
-        centre[up] = view->base + 0.5 * view->side + plan->height[cut] * (view->height - view->side);
+        scree_vector centre = {view->frame.axis + at * view->frame.half, view->frame.middle, 0};
+        centre[up] =
+            view->frame.base + 0.5 * view->frame.side + plan->height[cut] * (view->frame.height - view->frame.side);
         status = scree_average_table_begin_row(table, error);
         if (status) break;
         scree_average_table_take(table, "cut", "1", (double)cut);
         scree_average_table_take(table, "height", "1", plan->height[cut]);
-        scree_average_table_take(table, up == 1 ? "y" : "z", "m", centre[up] - view->base);
+        scree_average_table_take(table, up == 1 ? "y" : "z", "m", centre[up] - view->frame.base);
         scree_average_table_take(table, "place", "1", at);
-        scree_average_table_take(table, "x", "m", centre[0] - view->axis);
+        scree_average_table_take(table, "x", "m", centre[0] - view->frame.axis);
         tell_fields(view, plan, centre, table);
         status = scree_average_table_end_row(table, error);
     }
@@ -156,9 +170,6 @@ scree_status scree_average_map_table(const scree_average_view *view, const scree
                                      scree_average_table *table, scree_error *error)
 {
     const scree_average_sample *sample = view->sample;
-    const double low[3] = {view->surface.left, sample->dimension == 2 ? view->base : sample->low[1], view->base};
-    const double high[3] = {view->surface.right, sample->dimension == 2 ? view->surface.highest : sample->high[1],
-                            view->surface.highest};
     size_t n[3];
     scree_average_grid(plan, sample->dimension, n);
     const size_t count = n[0] * n[1] * n[2];
@@ -167,7 +178,8 @@ scree_status scree_average_map_table(const scree_average_view *view, const scree
         const size_t number[3] = {k % n[0], k / n[0] % n[1], k / n[0] / n[1]};
         scree_vector centre = {0};
         for (int i = 0; i < sample->dimension; i++)
-            centre[i] = low[i] + ((double)number[i] + 0.5) / (double)n[i] * (high[i] - low[i]);
+            centre[i] = view->frame.low[i] +
+                        ((double)number[i] + 0.5) / (double)n[i] * (view->frame.high[i] - view->frame.low[i]);
         status = scree_average_table_begin_row(table, error);
         if (status) break;
         for (int i = 0; i < sample->dimension; i++)
@@ -186,17 +198,17 @@ void scree_average_plate_force(const scree_average_view *view, double *averages,
     scree_average_element row;
     scree_average_value value;
     for (int k = 0; k < 3; k++) {
-        row.low[k] = sample->low[k] - view->side;
-        row.high[k] = sample->high[k] + view->side;
+        row.low[k] = sample->low[k] - view->frame.side;
+        row.high[k] = sample->high[k] + view->frame.side;
     }
-    row.low[up] = view->base;
-    row.high[up] = view->base + view->side;
+    row.low[up] = view->frame.base;
+    row.high[up] = view->frame.base + view->frame.side;
     scree_average_measure(sample, &view->bins, &view->surface, &row, &value);
-    *averages = -value.parts.moment[4 * up] / view->side;
+    *averages = -value.parts.moment[4 * up] / view->frame.side;
     *weight = 0;
     for (size_t p = 0; p < sample->bodies; p++) {
         const scree_average_grain *grain = &sample->grain[p];
-        const double above = (grain->position[up] - view->base) / view->side;
+        const double above = (grain->position[up] - view->frame.base) / view->frame.side;
         if (grain->counted) *weight -= grain->mass * sample->gravity[up] * fmax(0, fmin(1, above));
     }
 }

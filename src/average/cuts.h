@@ -21,7 +21,17 @@ typedef enum scree_average_axis {
     SCREE_AVERAGE_AXIS_GIVEN
 } scree_average_axis;
 
+/// Where the places of a sample are; time averages take those of their first instant for all.
+typedef struct scree_average_frame {
+    double side;            ///< m, of the element
+    double axis, half;      ///< m
+    double base, height;    ///< m
+    double middle;          ///< m, of y in 3D
+    scree_vector low, high; ///< m, of the map
+} scree_average_frame;
+
 typedef struct scree_average_plan {
+    const scree_average_frame *frame;  ///< NULL: the sample's own
     unsigned fields;                   ///< of SCREE_AVERAGE_DENSITY ...
     double grains;                     ///< in an element; 0: `side` says
     double side;                       ///< m
@@ -40,11 +50,8 @@ typedef struct scree_average_view {
     scree_average_bins bins;
     scree_average_strain strain; ///< where `moved`
     bool moved;
-    double side;          ///< m, of the element
-    double grains;        ///< that it holds at the mean density
-    double axis, half;    ///< m
-    double base, height;  ///< m
-    double middle;        ///< m, of y in 3D
+    scree_average_frame frame;
+    double grains;        ///< that an element holds at the mean density
     double bulk_density;  ///< kg/m3, of the sample with its voids
     double weight, plate; ///< N, of its grains; upward force of what is no grain on them
 } scree_average_view;

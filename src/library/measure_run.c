@@ -94,11 +94,11 @@ static void tell_whole(const scree_average_view *view, scree_average_table *valu
     scree_average_table_take(values, "coordination", "1", contacts / (double)sample->counted);
     scree_average_table_take(values, "volume_fraction", "1", sample->solid / view->surface.volume);
     scree_average_table_take(values, "unbalanced_ratio", "1", sample->unbalanced_ratio);
-    scree_average_table_take(values, "element_side", "m", view->side);
+    scree_average_table_take(values, "element_side", "m", view->frame.side);
     scree_average_table_take(values, "element_grains", "1", view->grains);
-    scree_average_table_take(values, "height", "m", view->height);
-    scree_average_table_take(values, "half_width", "m", view->half);
-    scree_average_table_take(values, "axis", "m", view->axis);
+    scree_average_table_take(values, "height", "m", view->frame.height);
+    scree_average_table_take(values, "half_width", "m", view->frame.half);
+    scree_average_table_take(values, "axis", "m", view->frame.axis);
     scree_average_table_take(values, "weight", "N", view->weight);
     scree_average_table_take(values, "outside_force", "N", view->plate);
     scree_average_table_take(values, "outside_force_ratio", "1", view->weight > 0 ? view->plate / view->weight : NAN);
@@ -126,9 +126,7 @@ static scree_status tell_chains(const scree_average_sample *sample, const measur
 static scree_average_points points_of(const scree_average_view *view, const scree_average_plan *plan)
 {
     const scree_average_sample *sample = view->sample;
-    const double low[3] = {view->surface.left, sample->dimension == 2 ? view->base : sample->low[1], view->base};
-    const double high[3] = {view->surface.right, sample->dimension == 2 ? view->surface.highest : sample->high[1],
-                            view->surface.highest};
+    const double *low = view->frame.low, *high = view->frame.high;
     scree_average_points points = {.number = {GRID_X, GRID_Y, 1}};
     if (sample->dimension == 3) points.number[0] = points.number[1] = points.number[2] = GRID_Y;
     if (plan->grid[0] > 0) scree_average_grid(plan, sample->dimension, points.number);
@@ -240,13 +238,15 @@ static scree_status move(const char *directory, const scree_snapshot_mark *from,
     return status;
 }
 
+/// frame: where places are, found by the first one of several; NULL: there is one.
 static scree_status measure_snapshot(const char *directory, const scree_snapshot_mark *mark,
                                      const scree_snapshot_mark *from, const measure_plan *plan, bool first,
-                                     measure_tables *tables, scree_error *error)
+                                     scree_average_frame *frame, measure_tables *tables, scree_error *error)
 {
     scree_average_sample sample;
     scree_average_view view;
     measure_plan own = *plan;
+    own.average.frame = first ? NULL : frame;
     scree_status status = scree_sample_read(directory, mark->index, &sample, error);
     if (status) return status;
     status = move(directory, from, &sample, error);
@@ -260,6 +260,7 @@ static scree_status measure_snapshot(const char *directory, const scree_snapshot
             error);
     if (!status) status = scree_average_view_open(&sample, &own.average, &view, error);
     if (!status) {
+        if (first && frame) *frame = view.frame;
         if (first) warn(directory, plan, &view);
         status = measure_view(&sample, &view, &own, tables, error);
         scree_average_view_close(&view);
@@ -296,6 +297,7 @@ static scree_status measure_stage(const char *directory, const scree_snapshot_ma
                                   const measure_plan *plan, measure_tables *tables, scree_error *error)
 {
     measure_tables *each;
+    scree_average_frame frame;
     size_t taken = 0, of_stage = 0;
     char *end;
     // A whole number means so many snapshots, the last ones.
@@ -306,7 +308,7 @@ static scree_status measure_stage(const char *directory, const scree_snapshot_ma
     scree_status status = scree_allocate(&each, of_stage, sizeof *each, error);
     for (size_t k = 0; k < count && !status; k++) {
         if (!is_meant(plan, by_number, last, mark, count, k)) continue;
-        status = measure_snapshot(directory, &mark[k], NULL, plan, taken == 0, &each[taken], error);
+        status = measure_snapshot(directory, &mark[k], NULL, plan, taken == 0, &frame, &each[taken], error);
         taken++;
     }
     if (!status) measure_say(plan, "%s: mean over %zu snapshots", directory, taken);
@@ -328,8 +330,8 @@ scree_status measure_run(const char *directory, const measure_plan *plan, measur
         status = find_mark(directory, "at", plan->at, mark, count, &which, error);
         if (!status && plan->from) status = find_mark(directory, "from", plan->from, mark, count, &from, error);
         if (!status)
-            status =
-                measure_snapshot(directory, &mark[which], plan->from ? &mark[from] : NULL, plan, true, tables, error);
+            status = measure_snapshot(directory, &mark[which], plan->from ? &mark[from] : NULL, plan, true, NULL,
+                                      tables, error);
     }
     scree_release(&mark);
     return status;

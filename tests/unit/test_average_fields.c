@@ -205,9 +205,9 @@ static void test_surface(void **state)
     near(told(&view, &element, SCREE_AVERAGE_DENSITY, "volume_fraction_parts_inside"), 0.75 * M_PI / 4 / inside, 1e-13);
     near(view.surface.base, 0, 1e-14);
     near(view.surface.highest, 12, 1e-14);
-    near(view.height, 12, 1e-13);
-    near(view.axis, 6, 1e-12);
-    near(view.half, 6, 0.25);
+    near(view.frame.height, 12, 1e-13);
+    near(view.frame.axis, 6, 1e-12);
+    near(view.frame.half, 6, 0.25);
     scree_average_view_close(&view);
     scree_average_sample_destroy(&s);
 }
