@@ -19,6 +19,7 @@ typedef enum scree_random_stream {
     SCREE_RANDOM_CORNER_COUNT = 12,
     SCREE_RANDOM_BIRTH_PLACE = 13,
     SCREE_RANDOM_BIRTH_MOTION = 14,
+    SCREE_RANDOM_BOOTSTRAP = 15,
     SCREE_RANDOM_TEST = 100,
 } scree_random_stream;
 

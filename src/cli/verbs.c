@@ -392,6 +392,68 @@ static const scree_verb run_verbs[] = {
         .function = scree_verb_get,
     },
     {
+        .name = "measure",
+        .meaning = "continuum averages of runs: stress, fabric, density, forces, the dip of a pile",
+        .text =
+            "Reads a snapshot of a finished run of discs, spheres or polygons and averages over elements (squares, in "
+            "3D cubes) along horizontal cuts, on a grid with `--grid`, and with a smooth kernel with `--kernel`; "
+            "beside these distributions of forces and friction, force chains, and roses of contacts. Grains count by "
+            "their centres, and beside it by their exact parts in the element; elements that reach out of the sample "
+            "also over their part inside it. With `--from` displacements and strains between two snapshots.\n\n"
+            "Several runs are an ensemble: means over them with 95 % bands (bootstrap over runs), and under piles the "
+            "dip of the vertical pressure, 1 - its value on the axis over its largest, with its interval and p, a pile "
+            "and its mirror image being one sample.\n\n"
+            "Writes `values.csv`, `cuts.csv`, `map.csv`, `kernel.csv`, `forces.csv`, `friction.csv`, `rose.csv`, "
+            "`dips.csv`, `summary.json` (for `scree get`) and figures; docs/output.md lists the columns, "
+            "docs/theory/averages.md has the definitions. Stresses are tension positive, pressures the opposite.",
+        .argument = {{"RUN", "folder of a finished run; several are an ensemble", SCREE_VALUE_FOLDER, false, true}},
+        .option =
+            {
+                {.name = "fields",
+                 .value = "NAME,...",
+                 .meaning = "density, coordination, stress, fabric, inertia, velocity",
+                 .preset = "density,coordination,stress,fabric"},
+                {.name = "cuts",
+                 .value = "N|HEIGHTS",
+                 .meaning = "number of cuts, or their relative heights with commas, 0 lowest",
+                 .preset = "5"},
+                {.name = "element",
+                 .value = "GRAINS|LENGTH",
+                 .meaning = "grains in an element at the mean density, or its side",
+                 .preset = "150, a tenth of a sample below 1500"},
+                {.name = "points", .value = "N", .meaning = "places along a cut, odd", .preset = "41"},
+                {.name = "axis",
+                 .value = "mass|apex|X",
+                 .meaning = "about which cuts are symmetric: centre of mass, highest grain, or a place",
+                 .preset = "mass"},
+                {.name = "grid", .value = "NXxNY[xNZ]", .meaning = "a map of so many elements, which may overlap"},
+                {.name = "kernel",
+                 .value = "WIDTH",
+                 .meaning = "smooth fields, at the points of --grid or 100x50 (50x50x50): radius of the support of "
+                            "the kernel in mean diameters, or a length"},
+                {.name = "at",
+                 .value = "WHEN",
+                 .meaning =
+                     "start, end, #N (snapshot N), a STAGE (its last one), an axial strain; mean:STAGE or mean:N, "
+                     "the mean over its snapshots, or over the last N",
+                 .preset = "end"},
+                {.name = "from", .value = "WHEN", .meaning = "displacements and strains from there to --at"},
+                {.name = "threads", .letter = 't', .value = "N", .meaning = "for --kernel", .preset = "1"},
+                {.name = "output",
+                 .letter = 'o',
+                 .value = "DIR",
+                 .meaning = "folder of tables and figures",
+                 .preset = "RUN/measure, of several runs measure",
+                 .kind = SCREE_VALUE_FOLDER},
+                OPTION_NO_FIGURES},
+        .example = {{"scree measure out --fields stress,fabric,density --cuts 5 --element 150", "cuts through a pile"},
+                    {"scree measure out --grid 100x50 --kernel 3", "maps of elements and of smooth fields"},
+                    {"scree measure piles/* -o ensemble", "several piles, with bands and the dip"},
+                    {"scree measure drum --at mean:10 --fields density,velocity", "a mean over time"}},
+        .status = {SCREE_ERROR_INPUT, SCREE_ERROR_IO},
+        .function = scree_verb_measure,
+    },
+    {
         .name = "plot",
         .meaning = "draw the figures of a run again",
         .text = "Draws charts and scenes as SVG and PNG into DIR/figures and prints the path of each. The gnuplot "

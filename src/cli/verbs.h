@@ -99,6 +99,7 @@ scree_status scree_verb_bisect(const struct scree_command *command);
 scree_status scree_verb_sweep(const struct scree_command *command);
 scree_status scree_verb_reproduce(const struct scree_command *command);
 scree_status scree_verb_report(const struct scree_command *command);
+scree_status scree_verb_measure(const struct scree_command *command);
 scree_status scree_verb_get(const struct scree_command *command);
 scree_status scree_verb_plot(const struct scree_command *command);
 scree_status scree_verb_help(const struct scree_command *command);

@@ -126,8 +126,12 @@ scree_status scree_snapshot_write(const char *directory, const scree_model *mode
     scree_hdf5_set_number(&part, group, "axial_strain", info->axial_strain);
     scree_hdf5_set_integer(&part, group, "grains", scree_grain_count(state));
     scree_hdf5_set_number(&part, group, "pressure", scree_pressure_now(state));
+    scree_hdf5_set_number(&part, group, "gravity_x", model->gravity[0]);
+    scree_hdf5_set_number(&part, group, "gravity_y", model->gravity[1]);
+    scree_hdf5_set_number(&part, group, "gravity_z", model->gravity[2]);
     scree_hdf5_set_text(&part, group, "attribute_units",
-                        "step 1, dimension 1, grains 1, time s, axial_strain 1, pressure Pa, wall_triangles 1");
+                        "step 1, dimension 1, grains 1, time s, axial_strain 1, pressure Pa, gravity_x m/s2, gravity_y "
+                        "m/s2, gravity_z m/s2, wall_triangles 1");
     write_bodies(&part, group, model, state);
     write_contacts(&part, group, state, table);
     write_members(&part, group, state);

@@ -1,5 +1,8 @@
 /// What a pile that was poured tells: its grains, height, width, angles of repose, and the force on its plate against
-/// its weight (measure/pile.h); at every sample, and at the end with the table of its outline, outline.csv.
+/// its weight (measure/pile.h); at every sample, and at the end with the dip of the pressure over its plate
+/// (average/dip.h) and the table of its outline, outline.csv.
+#include "average/cuts.h"
+#include "average/dip.h"
 #include "case/check.h"
 #include "io/run_directory.h"
 #include "measure/measure.h"
@@ -117,7 +120,41 @@ static const scree_result results[] = {
     {"plate_share_middle", "1", "of the force on the plate what acts on the middle third of the foot"},
     {"unbalanced", "1", "mean unbalanced force on its particles now over the mean contact force"},
     {"grains_lost", "1", "particles that have fallen past everything that stands, and were taken out"},
+    {"dip", "1", "of the vertical pressure over the plate: 1 - that on the axis over the largest one"},
+    {"dip_element", "1", "particles in the elements that this pressure is a mean over"},
 };
+
+enum { DIP_GRAINS = 150, DIP_SHARE = 10, DIP_POINTS = 41 };
+
+/// Dip of the lowest cut (average/dip.h), in elements of DIP_GRAINS, in small piles of a tenth of the grains. NAN of
+/// what is too small for them, or stands nowhere.
+static scree_status find_dip(const scree_context *c, double *dip, double *grains, scree_error *error)
+{
+    scree_average_sample sample;
+    scree_average_view view;
+    scree_average_table table = {0};
+    double profile[DIP_POINTS];
+    scree_average_plan plan = {.fields = SCREE_AVERAGE_STRESS, .cuts = 1, .points = DIP_POINTS};
+    scree_average_dip found;
+    *dip = *grains = NAN;
+    scree_status status = scree_average_sample_of_state(c->model, c->state, c->table, &sample, error);
+    if (status) return status;
+    status = scree_average_sample_finish(&sample, error);
+    plan.grains = sample.counted < DIP_GRAINS * DIP_SHARE ? fmax(1, (double)sample.counted / DIP_SHARE) : DIP_GRAINS;
+    if (!status) status = scree_average_view_open(&sample, &plan, &view, error);
+    if (!status) {
+        status = scree_average_cuts_table(&view, &plan, &table, error);
+        const size_t column = scree_average_table_find(&table, "vertical_pressure_scaled");
+        for (size_t k = 0; k < DIP_POINTS && !status; k++) profile[k] = scree_average_table_get(&table, k, column);
+        if (!status) status = scree_average_dip_find(profile, 1, DIP_POINTS, &found, error);
+        if (!status) *dip = found.dip;
+        if (!status) *grains = view.grains;
+        scree_average_view_close(&view);
+    }
+    scree_average_table_destroy(&table);
+    scree_average_sample_destroy(&sample);
+    return status == SCREE_ERROR_INPUT ? SCREE_OK : status;
+}
 
 static scree_status conclude_numbers(const scree_context *c, size_t index, double *value, scree_error *error)
 {
@@ -143,7 +180,7 @@ static scree_status conclude_numbers(const scree_context *c, size_t index, doubl
     value[15] = scree_unbalanced_ratio(c->model, c->state, c->table);
     value[16] = (double)scree_births_of(c->state)->lost;
     scree_pile_destroy(&pile);
-    return SCREE_OK;
+    return find_dip(c, &value[17], &value[18], error);
 }
 
 static void write_outline(FILE *file, const scree_pile *pile)

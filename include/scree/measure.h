@@ -1,0 +1,44 @@
+/// Continuum averages of finished runs: fields over elements along cuts and on a grid, smooth fields, statistics of
+/// forces, the dip under a pile; of one run or of an ensemble of them.
+#ifndef SCREE_MEASURE_H
+#define SCREE_MEASURE_H
+
+#include <scree/api.h>
+#include <scree/error.h>
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// What is measured, as on the command line (`scree measure --help`); NULL or 0: as there without the option.
+typedef struct scree_measure_options {
+    const char *fields;  ///< "density,coordination,stress,fabric,inertia,velocity", or some of them
+    const char *cuts;    ///< "5", a number of cuts, or "0,0.25,0.5", their relative heights
+    const char *element; ///< "150", grains in an element, or "30 mm", its side
+    const char *grid;    ///< "100x50", points of a map; in 3D also "20x20x20"
+    const char *kernel;  ///< "15 mm", radius of the support of smooth fields, or "3", in mean diameters
+    const char *at; ///< "start", "end", "#12", a snapshot, the name of a stage, "10 %" of axial strain; "mean:STAGE" or
+                    ///< "mean:10", mean over its snapshots, or over the last ones
+    const char *from;   ///< the same but for means: displacements and strains from there on
+    const char *axis;   ///< "mass", "apex", or a place, "0 mm"
+    long points;        ///< places along a cut
+    int threads;        ///< for smooth fields
+    const char *output; ///< folder; "measure" in that of the run, or where it is called with several runs
+    bool no_figures;
+    void (*message)(void *user, const char *line); ///< what was found, line by line; may be NULL
+    void *user;
+} scree_measure_options;
+
+/// Measures the runs in these folders and writes tables, values and figures (docs/output.md, "Measured averages").
+/// Several runs are an ensemble: means with bootstrap bands over them. Errors: SCREE_ERROR_INPUT with the option as
+/// field; SCREE_ERROR_IO; memory.
+SCREE_API scree_status scree_measure(const char *const *runs, size_t count, const scree_measure_options *options,
+                                     scree_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,280 @@
+/// Strains between two instants.
+#include "average/strain.h"
+
+#include "average/tensor.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+// ---- displacements -----------------------------------------------------------------------------------------------
+
+scree_status scree_average_move(scree_average_sample *sample, const scree_average_sample *before, scree_error *error)
+{
+    size_t at = 0, moved = 0;
+    if (sample->directions)
+        return scree_error_set(error, SCREE_ERROR_INPUT,
+                               "a sample that repeats itself has no displacements: bodies leave its cell on one side "
+                               "and come back on the other");
+    // Bodies of both are in the order of their ids.
+    for (size_t p = 0; p < sample->bodies; p++) {
+        scree_average_grain *grain = &sample->grain[p];
+        while (at < before->bodies && before->grain[at].id < grain->id) at++;
+        if (at == before->bodies || before->grain[at].id != grain->id) continue;
+        scree_subtract(grain->position, before->grain[at].position, grain->displacement);
+        grain->turn = grain->angle - before->grain[at].angle;
+        grain->moved = true;
+        moved += grain->counted;
+    }
+    if (moved > 0) return SCREE_OK;
+    return scree_error_set(error, SCREE_ERROR_INPUT, "no grain is in both snapshots");
+}
+
+// ---- what is needed ----------------------------------------------------------------------------------------------
+
+static scree_status list_contacts(scree_average_strain *strain, scree_error *error)
+{
+    const scree_average_sample *sample = strain->sample;
+    scree_status status = scree_allocate(&strain->begin, sample->bodies + 2, sizeof *strain->begin, error);
+    if (!status) status = scree_allocate(&strain->contact, sample->contacts, sizeof *strain->contact, error);
+    if (status) return status;
+    for (size_t c = 0; c < sample->contacts; c++) strain->begin[sample->contact[c].first + 2]++;
+    for (size_t p = 2; p < sample->bodies + 2; p++) strain->begin[p] += strain->begin[p - 1];
+    for (size_t c = 0; c < sample->contacts; c++)
+        strain->contact[strain->begin[sample->contact[c].first + 1]++] = (uint32_t)c;
+    return SCREE_OK;
+}
+
+/// Cells of the initial centres with their gradients; none where the centres have no triangulation.
+static scree_status make_cells(scree_average_strain *strain, scree_error *error)
+{
+    const scree_average_sample *sample = strain->sample;
+    scree_assembly assembly = {.dimension = sample->dimension, .thickness = sample->thickness};
+    double *moved = NULL;
+    scree_error problem;
+    scree_status status = scree_allocate(&strain->place, 3 * sample->bodies, sizeof *strain->place, error);
+    if (!status) status = scree_allocate(&assembly.radius, sample->bodies, sizeof *assembly.radius, error);
+    if (!status) status = scree_allocate(&moved, 3 * sample->bodies, sizeof *moved, error);
+    for (size_t p = 0; p < sample->bodies && !status; p++) {
+        const scree_average_grain *grain = &sample->grain[p];
+        if (!grain->counted || !grain->moved || sample->own[p].contacts == 0) continue;
+        scree_subtract(grain->position, grain->displacement, strain->place + 3 * assembly.count);
+        memcpy(moved + 3 * assembly.count, grain->displacement, sizeof grain->displacement);
+        assembly.radius[assembly.count++] = grain->radius;
+    }
+    assembly.position = strain->place;
+    if (!status && !scree_cells_build(&assembly, sample->mean_radius, &strain->cells, &problem)) {
+        status = scree_allocate(&strain->gradient, strain->cells.count, sizeof *strain->gradient, error);
+        if (!status) scree_cells_gradient(&strain->cells, strain->place, moved, strain->gradient);
+    }
+    scree_release(&assembly.radius);
+    scree_release(&moved);
+    return status;
+}
+
+scree_status scree_average_strain_open(const scree_average_sample *sample, const scree_average_bins *bins,
+                                       scree_average_strain *strain, scree_error *error)
+{
+    *strain = (scree_average_strain){.sample = sample, .bins = bins};
+    scree_status status = list_contacts(strain, error);
+    if (!status) status = make_cells(strain, error);
+    if (status) scree_average_strain_close(strain);
+    return status;
+}
+
+void scree_average_strain_close(scree_average_strain *strain)
+{
+    scree_release(&strain->begin);
+    scree_release(&strain->contact);
+    scree_release(&strain->gradient);
+    scree_release(&strain->place);
+    scree_cells_destroy(&strain->cells);
+}
+
+// ---- fits --------------------------------------------------------------------------------------------------------
+
+/// Sums of a fit of y against G x.
+typedef struct fit {
+    double products[9], squares[9], count;
+} fit;
+
+static void fit_add(fit *f, const double y[3], const double x[3])
+{
+    scree_tensor_add(f->products, 1, y, x);
+    scree_tensor_add(f->squares, 1, x, x);
+    f->count++;
+}
+
+/// G = (sum y (x) x) (sum x (x) x)^-1; NAN where it is not determined.
+static void fit_solve(const fit *f, int dimension, double gradient[9])
+{
+    double inverse[9];
+    const int good = f->count >= dimension && scree_tensor_invert(f->squares, dimension, inverse);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            double sum = 0;
+            for (int k = 0; k < dimension && good; k++) sum += f->products[3 * i + k] * inverse[3 * k + j];
+            gradient[3 * i + j] = good ? sum : i < dimension && j < dimension ? NAN : 0;
+        }
+}
+
+/// Grains and contacts of one element. Sums about a fixed place, which keeps their digits.
+typedef struct gathering {
+    const scree_average_strain *strain;
+    const scree_average_element *element;
+    scree_vector origin;
+    fit cundall, cambou, liao;
+    double place[3], moved[3]; ///< sums over the grains
+} gathering;
+
+/// Way of the surface of a grain at its lever because it turns: (Q - 1) times the initial lever = r - Q^-1 r.
+static void add_turn(const scree_average_grain *grain, const double lever[3], double sign, double sum[3])
+{
+    const double c = cos(grain->turn), s = sin(grain->turn);
+    sum[0] += sign * (lever[0] - (c * lever[0] + s * lever[1]));
+    sum[1] += sign * (lever[1] - (c * lever[1] - s * lever[0]));
+}
+
+static void take_contact(gathering *g, const scree_average_contact *contact)
+{
+    const scree_average_sample *sample = g->strain->sample;
+    if (contact->second == SCREE_AVERAGE_OUTSIDE) return;
+    const scree_average_grain *first = &sample->grain[contact->first], *second = &sample->grain[contact->second];
+    if (!first->counted || !second->counted || !first->moved || !second->moved) return;
+    if (!scree_average_element_holds(g->element, sample->dimension, contact->point)) return;
+    double apart[3], branch[3], lever[3];
+    scree_subtract(first->displacement, second->displacement, apart);
+    scree_subtract(contact->branch, apart, branch);
+    fit_add(&g->cambou, apart, branch);
+    if (sample->dimension == 3) return;
+    for (int end = 0; end < 2; end++) {
+        scree_average_lever(sample, contact, end, lever);
+        add_turn(end ? second : first, lever, end ? -1 : 1, apart);
+    }
+    fit_add(&g->liao, apart, branch);
+}
+
+static void gather(void *user, uint32_t p)
+{
+    gathering *g = user;
+    const scree_average_strain *strain = g->strain;
+    const scree_average_grain *grain = &strain->sample->grain[p];
+    for (size_t k = strain->begin[p]; k < strain->begin[p + 1]; k++)
+        take_contact(g, &strain->sample->contact[strain->contact[k]]);
+    if (!grain->moved || !scree_average_element_holds(g->element, strain->sample->dimension, grain->position)) return;
+    double initial[3];
+    for (int k = 0; k < 3; k++) initial[k] = grain->position[k] - grain->displacement[k] - g->origin[k];
+    fit_add(&g->cundall, grain->displacement, initial);
+    scree_along(g->place, 1, initial, g->place);
+    scree_along(g->moved, 1, grain->displacement, g->moved);
+}
+
+static gathering gather_all(const scree_average_strain *strain, const scree_average_element *element)
+{
+    gathering g = {.strain = strain, .element = element};
+    for (int k = 0; k < 3; k++) g.origin[k] = 0.5 * (element->low[k] + element->high[k]);
+    scree_average_bins_visit(strain->bins, element, gather, &g);
+    return g;
+}
+
+/// Sums about the means.
+static void centre(gathering *g)
+{
+    const double n = g->cundall.count;
+    if (n == 0) return;
+    scree_tensor_add(g->cundall.products, -1 / n, g->moved, g->place);
+    scree_tensor_add(g->cundall.squares, -1 / n, g->place, g->place);
+}
+
+/// The one gradient that agrees with the mean displacements of the element and of its neighbours.
+static void find_difference(const scree_average_strain *strain, const scree_average_element *element,
+                            const gathering *here, double gradient[9])
+{
+    const int d = strain->sample->dimension;
+    fit f = {0};
+    for (int axis = 0; axis < d; axis++) {
+        scree_average_element there = *element;
+        const double side = element->high[axis] - element->low[axis];
+        there.low[axis] += side;
+        there.high[axis] += side;
+        const gathering g = gather_all(strain, &there);
+        double apart[3], moved[3];
+        if (g.cundall.count == 0 || here->cundall.count == 0) break;
+        for (int k = 0; k < 3; k++) {
+            apart[k] =
+                g.place[k] / g.cundall.count + g.origin[k] - here->place[k] / here->cundall.count - here->origin[k];
+            moved[k] = g.moved[k] / g.cundall.count - here->moved[k] / here->cundall.count;
+        }
+        fit_add(&f, moved, apart);
+    }
+    fit_solve(&f, d, gradient);
+}
+
+/// The part of a cell that counts for the element [m2, m3].
+static double cell_part(const scree_average_strain *strain, const scree_average_element *element, size_t k)
+{
+    const scree_cells *cells = &strain->cells;
+    if (cells->dimension == 3) {
+        scree_vector middle;
+        scree_cell_centre(cells, k, strain->place, middle);
+        return scree_average_element_holds(element, 3, middle) ? cells->volume[k] : 0;
+    }
+    double corner[3][2], low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (int n = 0; n < 3; n++)
+        for (int i = 0; i < 2; i++) {
+            corner[n][i] = strain->place[3 * cells->node[k][n] + (size_t)i];
+            low[i] = fmin(low[i], corner[n][i]);
+            high[i] = fmax(high[i], corner[n][i]);
+        }
+    for (int i = 0; i < 2; i++)
+        if (low[i] >= element->high[i] || high[i] <= element->low[i]) return 0;
+    return scree_average_polygon_part(3, (const double(*)[2])corner, element->low[0], element->high[0], element->low[1],
+                                      element->high[1]);
+}
+
+static void find_bagi(const scree_average_strain *strain, const scree_average_element *element, double gradient[9])
+{
+    double sum[9] = {0}, volume = 0;
+    for (size_t k = 0; k < strain->cells.count; k++) {
+        const double part = cell_part(strain, element, k);
+        if (!(part > 0)) continue;
+        scree_tensor_add_scaled(sum, part, strain->gradient[k]);
+        volume += part;
+    }
+    for (int i = 0; i < 9; i++) gradient[i] = sum[i] / volume;
+}
+
+void scree_average_strain_find(const scree_average_strain *strain, const scree_average_element *element,
+                               scree_vector displacement, double gradient[SCREE_AVERAGE_STRAINS][9])
+{
+    const int d = strain->sample->dimension;
+    gathering g = gather_all(strain, element);
+    for (int k = 0; k < 3; k++) displacement[k] = g.moved[k] / g.cundall.count;
+    find_difference(strain, element, &g, gradient[SCREE_AVERAGE_DIFFERENCE]);
+    centre(&g);
+    fit_solve(&g.cundall, d, gradient[SCREE_AVERAGE_CUNDALL]);
+    fit_solve(&g.cambou, d, gradient[SCREE_AVERAGE_CAMBOU]);
+    fit_solve(&g.liao, d, gradient[SCREE_AVERAGE_LIAO]);
+    find_bagi(strain, element, gradient[SCREE_AVERAGE_BAGI]);
+}
+
+void scree_average_strain_tell(const scree_average_strain *strain, const scree_average_element *element,
+                               scree_average_sink *sink, void *user)
+{
+    static const char *const name[SCREE_AVERAGE_STRAINS] = {"cundall", "cambou", "liao", "difference", "bagi"};
+    const int d = strain->sample->dimension;
+    scree_vector displacement;
+    double gradient[SCREE_AVERAGE_STRAINS][9];
+    char text[32];
+    scree_average_strain_find(strain, element, displacement, gradient);
+    for (int i = 0; i < d; i++) {
+        (void)snprintf(text, sizeof text, "displacement_%c", "xyz"[i]);
+        sink(user, text, "m", displacement[i]);
+    }
+    for (int s = 0; s < SCREE_AVERAGE_STRAINS; s++)
+        for (int i = 0; i < d; i++)
+            for (int j = 0; j < d; j++) {
+                (void)snprintf(text, sizeof text, "%s_%c%c", name[s], "xyz"[i], "xyz"[j]);
+                sink(user, text, "1", gradient[s][3 * i + j]);
+            }
+}

@@ -1,0 +1,177 @@
+/// Surfaces of samples by columns.
+#include "average/surface.h"
+
+#include <math.h>
+
+enum { OF_DIAMETER = 4 }; ///< columns of a mean diameter
+
+void scree_average_surface_destroy(scree_average_surface *surface)
+{
+    scree_release(&surface->bottom);
+    scree_release(&surface->top);
+}
+
+static size_t column_at(const scree_average_surface *s, int axis, double place)
+{
+    const double at = floor((place - s->origin[axis]) / s->width);
+    const size_t last = s->columns[axis] - 1;
+    return at <= 0 ? 0 : at >= (double)last ? last : (size_t)at;
+}
+
+/// Distance of a place from the middle of column k along an axis.
+static double away(const scree_average_surface *s, int axis, size_t k, double place)
+{
+    return s->origin[axis] + ((double)k + 0.5) * s->width - place;
+}
+
+/// Lets a grain raise and lower the columns that it covers.
+static void cover(scree_average_surface *s, const scree_average_grain *grain)
+{
+    const double r = grain->radius, *x = grain->position, height = x[s->dimension - 1];
+    size_t from[2] = {0, 0}, to[2] = {0, 0};
+    for (int k = 0; k < s->dimension - 1; k++) {
+        from[k] = column_at(s, k, x[k] - r);
+        to[k] = column_at(s, k, x[k] + r);
+    }
+    for (size_t i = from[0]; i <= to[0]; i++)
+        for (size_t j = from[1]; j <= to[1]; j++) {
+            const double dx = away(s, 0, i, x[0]), dy = s->dimension == 3 ? away(s, 1, j, x[1]) : 0;
+            const double square = r * r - dx * dx - dy * dy;
+            if (square < 0) continue;
+            double *top = &s->top[i * s->columns[1] + j], *bottom = &s->bottom[i * s->columns[1] + j];
+            if (!(*top >= height + sqrt(square))) *top = height + sqrt(square);
+            if (!(*bottom <= height - sqrt(square))) *bottom = height - sqrt(square);
+        }
+}
+
+/// The lowest point where a grain touches what is no grain.
+static double find_base(const scree_average_sample *sample)
+{
+    const int up = sample->dimension - 1;
+    double base = INFINITY;
+    for (size_t c = 0; c < sample->contacts; c++) {
+        const scree_average_contact *contact = &sample->contact[c];
+        const bool outer = contact->second == SCREE_AVERAGE_OUTSIDE || !sample->grain[contact->second].counted ||
+                           !sample->grain[contact->first].counted;
+        if (outer) base = fmin(base, contact->point[up]);
+    }
+    return isfinite(base) ? base : sample->low[up];
+}
+
+/// The first column within a mean diameter.
+static size_t first_near(size_t column)
+{
+    return column < OF_DIAMETER ? 0 : column - OF_DIAMETER;
+}
+
+/// The lower surface of what has no voids below it.
+static scree_status smooth_bottom(const scree_average_sample *sample, scree_average_surface *s, scree_error *error)
+{
+    const size_t count = s->columns[0] * s->columns[1], n = s->columns[1];
+    double *least;
+    scree_status status = scree_allocate(&least, count, sizeof *least, error);
+    for (size_t i = 0; i < s->columns[0] && !status; i++)
+        for (size_t j = 0; j < n; j++) {
+            double low = NAN;
+            for (size_t a = first_near(i); a <= i + OF_DIAMETER && a < s->columns[0]; a++)
+                for (size_t b = first_near(j); b <= j + OF_DIAMETER && b < n; b++)
+                    low = fmin(low, s->bottom[a * n + b]);
+            const bool near = low < s->base + 2 * sample->mean_radius;
+            least[i * n + j] = isnan(s->bottom[i * n + j]) ? NAN : near ? s->base : low;
+        }
+    for (size_t k = 0; k < count && !status; k++) s->bottom[k] = least[k];
+    scree_release(&least);
+    return status;
+}
+
+/// Whether some column at this x has a grain.
+static bool is_covered(const scree_average_surface *s, size_t i)
+{
+    for (size_t j = 0; j < s->columns[1]; j++)
+        if (!isnan(s->top[i * s->columns[1] + j])) return true;
+    return false;
+}
+
+/// The last covered column from the apex on in the direction of `step`, before a gap of a mean diameter.
+static size_t foot(const scree_average_surface *s, int step)
+{
+    size_t last = column_at(s, 0, s->apex);
+    int gap = 0;
+    for (size_t k = last; k < s->columns[0] && gap < OF_DIAMETER; k += (size_t)step) { // below 0 it is large
+        gap = is_covered(s, k) ? 0 : gap + 1;
+        if (gap == 0) last = k;
+    }
+    return last;
+}
+
+static void find_ends(const scree_average_sample *sample, scree_average_surface *s)
+{
+    const int up = s->dimension - 1;
+    s->highest = -INFINITY;
+    for (size_t p = 0; p < sample->bodies; p++) {
+        const scree_average_grain *grain = &sample->grain[p];
+        if (!grain->counted || sample->own[p].contacts == 0) continue;
+        const double top = grain->position[up] + grain->radius;
+        if (top <= s->highest) continue;
+        s->highest = top;
+        s->apex = grain->position[0];
+    }
+    s->left = s->origin[0] + (double)foot(s, -1) * s->width;
+    s->right = s->origin[0] + (double)(foot(s, 1) + 1) * s->width;
+    for (size_t k = 0; k < s->columns[0] * s->columns[1]; k++)
+        if (!isnan(s->top[k]))
+            s->volume += fmax(0, s->top[k] - s->bottom[k]) * (s->dimension == 3 ? s->width * s->width : s->width);
+}
+
+scree_status scree_average_surface_find(const scree_average_sample *sample, scree_average_surface *s,
+                                        scree_error *error)
+{
+    *s = (scree_average_surface){.dimension = sample->dimension,
+                                 .width = 2 * sample->mean_radius / OF_DIAMETER,
+                                 .columns = {1, 1},
+                                 .base = find_base(sample)};
+    for (int k = 0; k < sample->dimension - 1; k++) {
+        s->origin[k] = sample->low[k];
+        s->columns[k] = (size_t)ceil((sample->high[k] - sample->low[k]) / s->width);
+        if (s->columns[k] == 0) s->columns[k] = 1;
+    }
+    const size_t count = s->columns[0] * s->columns[1];
+    double reach = -INFINITY;
+    scree_status status = scree_allocate(&s->top, count, sizeof *s->top, error);
+    if (!status) status = scree_allocate(&s->bottom, count, sizeof *s->bottom, error);
+    for (size_t k = 0; k < count && !status; k++) s->top[k] = s->bottom[k] = NAN;
+    for (size_t p = 0; p < sample->bodies && !status; p++)
+        if (sample->own[p].contacts > 0) reach = fmax(reach, sample->grain[p].position[sample->dimension - 1]);
+    for (size_t p = 0; p < sample->bodies && !status; p++) {
+        const scree_average_grain *grain = &sample->grain[p];
+        if (grain->counted && grain->position[sample->dimension - 1] <= reach) cover(s, grain);
+    }
+    if (!status) status = smooth_bottom(sample, s, error);
+    if (!status) find_ends(sample, s);
+    if (status) scree_average_surface_destroy(s);
+    return status;
+}
+
+double scree_average_surface_part(const scree_average_surface *s, const scree_average_element *e)
+{
+    const int up = s->dimension - 1;
+    const double low = e->low[up], high = e->high[up];
+    double inside = 0;
+    size_t from[2] = {0, 0}, to[2] = {0, 0};
+    for (int k = 0; k < up; k++) {
+        from[k] = column_at(s, k, e->low[k]);
+        to[k] = column_at(s, k, e->high[k]);
+    }
+    for (size_t i = from[0]; i <= to[0]; i++)
+        for (size_t j = from[1]; j <= to[1]; j++) {
+            const size_t k = i * s->columns[1] + j, place[2] = {i, j};
+            if (isnan(s->top[k])) continue;
+            double area = fmax(0, fmin(high, s->top[k]) - fmax(low, s->bottom[k]));
+            for (int a = 0; a < up; a++) {
+                const double begin = s->origin[a] + (double)place[a] * s->width;
+                area *= fmax(0, fmin(e->high[a], begin + s->width) - fmax(e->low[a], begin));
+            }
+            inside += area;
+        }
+    return inside / scree_average_element_volume(e, s->dimension);
+}

@@ -1,0 +1,25 @@
+/// Samples to average over, read from the snapshots of a run (average/sample.h).
+#ifndef SCREE_IO_SAMPLE_FILE_H
+#define SCREE_IO_SAMPLE_FILE_H
+
+#include "average/sample.h"
+
+/// What a snapshot is of.
+typedef struct scree_snapshot_mark {
+    int64_t index;       ///< its number
+    double time;         ///< s
+    double axial_strain; ///< NAN outside loading
+    char stage[32];
+} scree_snapshot_mark;
+
+/// All snapshots of a run in their order; free *marks with scree_release. Errors: SCREE_ERROR_IO, SCREE_ERROR_INPUT (no
+/// run, none in it); memory.
+scree_status scree_snapshot_marks(const char *directory, scree_snapshot_mark **marks, size_t *count,
+                                  scree_error *error) SCREE_MUST_USE;
+
+/// Reads the sample of a snapshot. Thickness and, where the snapshot was written before it kept gravity, gravity are
+/// those of the case in the folder. Free *sample. Errors: SCREE_ERROR_IO; SCREE_ERROR_INPUT; memory.
+scree_status scree_sample_read(const char *directory, int64_t index, scree_average_sample *sample,
+                               scree_error *error) SCREE_MUST_USE;
+
+#endif

@@ -1,0 +1,140 @@
+/// Averages of runs and of ensembles of runs.
+#include "library/measure.h"
+
+#include "io/run_directory.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+
+enum { BANDS = 60000 };  ///< numbers of a table that has bands; each is resampled
+#define SIGNIFICANT 0.05 /* largest p of a dip that is one */
+
+// ---- ensembles ---------------------------------------------------------------------------------------------------
+
+static void found_destroy(measure_found *found)
+{
+    measure_tables_destroy(&found->mean);
+    measure_tables_destroy(&found->low);
+    measure_tables_destroy(&found->high);
+    scree_release(&found->dip);
+}
+
+static scree_status find_means(const measure_tables *each, size_t count, measure_found *found, scree_error *error)
+{
+    scree_average_table *same;
+    scree_status status = scree_allocate(&same, count, sizeof *same, error);
+    for (int k = 0; k < MEASURE_PRODUCTS && !status; k++) {
+        if (each[0].of[k].rows == 0) continue;
+        for (size_t i = 0; i < count; i++) same[i] = each[i].of[k];
+        status =
+            scree_average_table_mean(same, count, &found->mean.of[k], &found->low.of[k], &found->high.of[k], error);
+    }
+    scree_release(&same);
+    return status;
+}
+
+/// Profiles of the vertical pressure of a cut, run by run. Those of an ensemble are scaled by what a pile without voids
+/// of its bulk density and height would bear, where there is gravity, so that piles of other sizes weigh alike.
+static void take_profiles(const measure_tables *each, size_t count, const measure_plan *plan, size_t cut, size_t column,
+                          double sign, double *profile)
+{
+    const size_t points = plan->average.points;
+    for (size_t i = 0; i < count; i++)
+        for (size_t j = 0; j < points; j++)
+            profile[i * points + j] =
+                sign * scree_average_table_get(&each[i].of[MEASURE_CUTS], cut * points + j, column);
+}
+
+static scree_status find_dips(const measure_tables *each, size_t count, const measure_plan *plan, measure_found *found,
+                              scree_error *error)
+{
+    const scree_average_table *cuts = &each[0].of[MEASURE_CUTS];
+    const size_t cut_count = plan->average.cuts, column = scree_average_table_find(cuts, "vertical_pressure_scaled");
+    double *profile;
+    if (column == SIZE_MAX || isnan(scree_average_table_get(cuts, 0, column))) return SCREE_OK;
+    scree_status status = scree_allocate(&profile, count * plan->average.points, sizeof *profile, error);
+    if (!status) status = scree_allocate(&found->dip, cut_count, sizeof *found->dip, error);
+    for (size_t k = 0; k < cut_count && !status; k++) {
+        take_profiles(each, count, plan, k, column, 1, profile);
+        status = scree_average_dip_find(profile, count, plan->average.points, &found->dip[k], error);
+    }
+    found->dip_height = count > 1 ? 0 : NAN;
+    for (size_t k = 0; k < cut_count && !status && found->dip[k].p <= SIGNIFICANT; k++)
+        found->dip_height = plan->average.height[k];
+    scree_release(&profile);
+    return status;
+}
+
+// ---- what is printed ---------------------------------------------------------------------------------------------
+
+static void say_values(const measure_plan *plan, const measure_found *found)
+{
+    const scree_average_table *values = &found->mean.of[MEASURE_VALUES];
+    for (size_t k = 0; k < values->columns; k++) {
+        const scree_average_column *column = &values->column[k];
+        if (found->runs == 1)
+            measure_say(plan, "%-26s %-12.6g %s", column->name, values->value[k], column->unit);
+        else
+            measure_say(plan, "%-26s %-12.6g %-5s (%.6g to %.6g)", column->name, values->value[k], column->unit,
+                        found->low.of[MEASURE_VALUES].value[k], found->high.of[MEASURE_VALUES].value[k]);
+    }
+}
+
+static void say_dips(const measure_plan *plan, const measure_found *found)
+{
+    if (!found->dip) return;
+    measure_say(plan, "%-8s %-10s %-22s %-10s %-8s %s", "height", "dip", "interval", "checked", "p", "place");
+    for (size_t k = 0; k < plan->average.cuts; k++) {
+        const scree_average_dip *dip = &found->dip[k];
+        measure_say(plan, "%-8.3g %-10.4f %8.4f to %-10.4f %-10.4f %-8.3g %.3g", plan->average.height[k], dip->dip,
+                    dip->low, dip->high, dip->checked, dip->p, dip->place);
+    }
+    if (found->runs == 1) measure_say(plan, "one run has no interval and no p: give the folders of several piles");
+}
+
+// ---- the whole ---------------------------------------------------------------------------------------------------
+
+static scree_status find_folder(const char *const *runs, size_t count, const measure_plan *plan, char *folder,
+                                size_t size, scree_error *error)
+{
+    const char *given = plan->options->output;
+    if (!given && count == 1) return scree_path_join(folder, size, runs[0], "measure", error);
+    (void)snprintf(folder, size, "%s", given ? given : "measure");
+    return SCREE_OK;
+}
+
+static scree_status measure_all(const char *const *runs, size_t count, const measure_plan *plan, measure_tables *each,
+                                measure_found *found, scree_error *error)
+{
+    scree_status status = SCREE_OK;
+    for (size_t k = 0; k < count && !status; k++) status = measure_run(runs[k], plan, &each[k], error);
+    if (!status) status = find_means(each, count, found, error);
+    if (!status) status = find_dips(each, count, plan, found, error);
+    return status;
+}
+
+scree_status scree_measure(const char *const *runs, size_t count, const scree_measure_options *options,
+                           scree_error *error)
+{
+    char folder[PATH_MAX];
+    measure_plan plan;
+    measure_tables *each = NULL;
+    measure_found found = {.runs = count, .dip_height = NAN};
+    if (count == 0) return scree_error_set(error, SCREE_ERROR_INPUT, "no run is named");
+    scree_status status = measure_plan_read(options, &plan, error);
+    if (!status) status = find_folder(runs, count, &plan, folder, sizeof folder, error);
+    if (!status) status = scree_allocate(&each, count, sizeof *each, error);
+    if (!status) status = measure_all(runs, count, &plan, each, &found, error);
+    if (!status) {
+        say_values(&plan, &found);
+        say_dips(&plan, &found);
+        status = scree_folders_make(folder, error);
+    }
+    if (!status) status = measure_write(folder, &plan, &found, error);
+    if (!status && !options->no_figures) status = measure_draw(folder, &plan, &found, error);
+    for (size_t k = 0; k < count && each; k++) measure_tables_destroy(&each[k]);
+    scree_release(&each);
+    found_destroy(&found);
+    return status;
+}

@@ -1,0 +1,71 @@
+/// What `scree_measure` measures and what it has found. Private to src/library/.
+#ifndef SCREE_LIBRARY_MEASURE_H
+#define SCREE_LIBRARY_MEASURE_H
+
+#include "average/cuts.h"
+#include "average/dip.h"
+#include "average/kernel.h"
+#include "io/sample_file.h"
+
+#include <scree/measure.h>
+
+/// Tables of a run, each a file.
+typedef enum measure_product {
+    MEASURE_VALUES, ///< one row
+    MEASURE_CUTS,
+    MEASURE_MAP,
+    MEASURE_KERNEL,
+    MEASURE_FORCES,
+    MEASURE_FRICTION,
+    MEASURE_ROSE,
+    MEASURE_PRODUCTS
+} measure_product;
+
+enum { MEASURE_FEW = 30 };   ///< an element with fewer grains is warned of
+#define MEASURE_AT_REST 1e-2 /* what is not at rest has a larger unbalanced ratio */
+
+/// The options, read.
+typedef struct measure_plan {
+    scree_average_plan average;
+    bool element_given, kernel;
+    double kernel_width;     ///< m, 0: kernel_diameters
+    double kernel_diameters; ///< mean diameters
+    const char *at, *from;
+    bool mean; ///< over all snapshots of the stage `at`
+    int threads;
+    const scree_measure_options *options;
+} measure_plan;
+
+typedef struct measure_tables {
+    scree_average_table of[MEASURE_PRODUCTS];
+} measure_tables;
+
+/// What there is of an ensemble.
+typedef struct measure_found {
+    size_t runs;
+    measure_tables mean, low, high;
+    scree_average_dip *dip; ///< a cut; NULL: no stress along cuts
+    double dip_height;      ///< 1, relative height above which no dip is significant; NAN with one run
+} measure_found;
+
+/// Reads the options. Errors: SCREE_ERROR_INPUT with the option as field.
+scree_status measure_plan_read(const scree_measure_options *options, measure_plan *plan, scree_error *error);
+
+/// Measures one run. Errors: as scree_measure.
+scree_status measure_run(const char *directory, const measure_plan *plan, measure_tables *tables, scree_error *error);
+void measure_tables_destroy(measure_tables *tables);
+
+/// Writes what was found into the folder. Errors: SCREE_ERROR_IO.
+scree_status measure_write(const char *folder, const measure_plan *plan, const measure_found *found,
+                           scree_error *error);
+
+/// Draws it. Errors: SCREE_ERROR_IO; memory.
+scree_status measure_draw(const char *folder, const measure_plan *plan, const measure_found *found, scree_error *error);
+
+/// Tells a line, printf-like.
+__attribute__((format(printf, 2, 3))) void measure_say(const measure_plan *plan, const char *format, ...);
+
+/// Names of the files of the products.
+extern const char *const measure_files[MEASURE_PRODUCTS];
+
+#endif

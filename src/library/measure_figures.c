@@ -1,0 +1,276 @@
+/// Figures of averages: cuts by height with bands, maps, distributions of forces and friction, roses.
+#include "library/measure.h"
+
+#include "io/run_directory.h"
+#include "view/chart.h"
+#include "view/map.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MOST_LINES = 7, SECTORS = 36 };
+
+/// A figure that has nothing to show is left out.
+static scree_status forgive(scree_status status)
+{
+    return status == SCREE_ERROR_INPUT ? SCREE_OK : status;
+}
+
+// ---- cuts --------------------------------------------------------------------------------------------------------
+
+/// A quantity of the cuts: its column in 2D (where a component ends in y, that of z in 3D), and sign for pressures,
+/// which are tension positive in tables.
+typedef struct cut_figure {
+    const char *file, *column, *title, *label;
+    double factor;
+} cut_figure;
+
+static const cut_figure cut_figures[] = {
+    {"cuts-pressure-scaled", "vertical_pressure_scaled", "Vertical pressure by height",
+     "vertical pressure / (bulk density g height)", 1},
+    {"cuts-stress-vertical", "stress_yy", "Vertical pressure by height", "vertical pressure (kPa)", -1e-3},
+    {"cuts-stress-horizontal", "stress_xx", "Horizontal pressure by height", "minus stress xx (kPa)", -1e-3},
+    {"cuts-stress-shear", "stress_xy", "Shear stress by height", "shear stress (kPa)", 1e-3},
+    {"cuts-density", "volume_fraction", "Volume fraction by height", "volume fraction of whole elements", 1},
+    {"cuts-density-inside", "volume_fraction_parts_inside", "Volume fraction by height, inside the surface",
+     "volume fraction of the part inside", 1},
+    {"cuts-coordination", "coordination", "Contacts by height", "contacts per grain", 1},
+    {"cuts-fabric", "fabric_trace", "Trace of the fabric tensor by height", "tr F", 1},
+    {"cuts-fabric-angle", "fabric_angle", "Major axis of the fabric tensor by height", "angle (degrees)", 1},
+    {"cuts-long-axis", "long_axis_angle", "Long axis of the mean inertia tensor by height", "angle (degrees)", 1},
+    {"cuts-velocity", "velocity_x", "Horizontal velocity by height", "velocity x (m/s)", 1},
+    {"cuts-strain", "cambou_yy", "Vertical strain by height (Cambou)", "vertical strain, compression positive", -1},
+};
+
+/// The column of a figure; up is y in 2D and z in 3D.
+static size_t find_column(const scree_average_table *table, const char *name)
+{
+    char upright[64];
+    const size_t length = strlen(name);
+    (void)snprintf(upright, sizeof upright, "%s", name);
+    if (scree_average_table_find(table, "z") != SIZE_MAX && length > 3 && length < sizeof upright) {
+        for (size_t k = length - 2; k < length; k++)
+            if (upright[length - 3] == '_' && upright[k] == 'y') upright[k] = 'z';
+    }
+    return scree_average_table_find(table, upright);
+}
+
+/// Values of a column over the rows of a cut, times a factor; NULL when memory ran out.
+static double *take(const scree_average_table *table, size_t column, size_t first, size_t count, double factor,
+                    scree_error *error)
+{
+    double *value = NULL;
+    if (scree_allocate(&value, count, sizeof *value, error)) return NULL;
+    for (size_t k = 0; k < count; k++) value[k] = factor * scree_average_table_get(table, first + k, column);
+    return value;
+}
+
+static scree_status draw_cuts(const char *folder, const measure_plan *plan, const measure_found *found,
+                              const cut_figure *figure, scree_error *error)
+{
+    const scree_average_table *cuts = &found->mean.of[MEASURE_CUTS];
+    const size_t column = find_column(cuts, figure->column), x = scree_average_table_find(cuts, "x");
+    const size_t count = plan->average.cuts < MOST_LINES ? plan->average.cuts : MOST_LINES, n = plan->average.points;
+    const bool bands = found->runs > 1 && found->low.of[MEASURE_CUTS].rows > 0;
+    scree_chart_line line[MOST_LINES] = {{0}};
+    double *part[MOST_LINES][4] = {{NULL}};
+    char label[MOST_LINES][32], path[PATH_MAX];
+    if (column == SIZE_MAX || x == SIZE_MAX) return SCREE_OK;
+    scree_status status = scree_path_join(path, sizeof path, folder, figure->file, error);
+    for (size_t k = 0; k < count && !status; k++) {
+        part[k][0] = take(cuts, x, k * n, n, 1e3, error);
+        part[k][1] = take(cuts, column, k * n, n, figure->factor, error);
+        // A factor below zero exchanges the ends of the band.
+        const scree_average_table *low = &found->low.of[MEASURE_CUTS], *high = &found->high.of[MEASURE_CUTS];
+        part[k][2] = bands ? take(figure->factor > 0 ? low : high, column, k * n, n, figure->factor, error) : NULL;
+        part[k][3] = bands ? take(figure->factor > 0 ? high : low, column, k * n, n, figure->factor, error) : NULL;
+        if (!part[k][0] || !part[k][1] || (bands && (!part[k][2] || !part[k][3]))) status = SCREE_ERROR_IO;
+        (void)snprintf(label[k], sizeof label[k], "height %.2g", plan->average.height[k]);
+        line[k] = (scree_chart_line){.x = part[k][0],
+                                     .y = part[k][1],
+                                     .low = part[k][2],
+                                     .high = part[k][3],
+                                     .count = n,
+                                     .label = label[k],
+                                     .points = n < 3};
+    }
+    const scree_chart chart = {.title = figure->title,
+                               .x_label = "x from the axis (mm)",
+                               .y_label = figure->label,
+                               .line = line,
+                               .line_count = count};
+    if (!status) status = forgive(scree_chart_draw(path, &chart, error));
+    for (size_t k = 0; k < count; k++)
+        for (int i = 0; i < 4; i++) scree_release(&part[k][i]);
+    return status;
+}
+
+// ---- maps --------------------------------------------------------------------------------------------------------
+
+typedef struct map_figure {
+    int product;
+    const char *file, *column, *title, *label;
+    double factor;
+    scree_colour_map colours;
+    const char *axis; ///< column of an angle [degree]; NULL: no lines
+} map_figure;
+
+#define SEQUENTIAL SCREE_COLOUR_SEQUENTIAL
+static const map_figure map_figures[] = {
+    {MEASURE_MAP, "map-density", "volume_fraction_parts_inside", "Volume fraction, exact parts inside the surface",
+     "volume fraction", 1, SEQUENTIAL, NULL},
+    {MEASURE_MAP, "map-stress-vertical", "stress_yy_inside",
+     "Vertical pressure inside, and the axis of the largest one", "minus stress yy (kPa)", -1e-3, SEQUENTIAL,
+     "pressure_angle"},
+    {MEASURE_MAP, "map-stress-horizontal", "stress_xx_inside", "Horizontal pressure inside", "minus stress xx (kPa)",
+     -1e-3, SEQUENTIAL, NULL},
+    {MEASURE_MAP, "map-fabric", "fabric_trace", "Trace of the fabric tensor, and its major axis", "tr F", 1, SEQUENTIAL,
+     "fabric_angle"},
+    {MEASURE_MAP, "map-long-axis", "axes_order", "Order of the long axes, and their mean direction",
+     "order (0 none, 1 all alike)", 1, SEQUENTIAL, "axes_angle"},
+    {MEASURE_KERNEL, "kernel-density", "volume_fraction", "Volume fraction, smooth", "volume fraction", 1, SEQUENTIAL,
+     NULL},
+    {MEASURE_KERNEL, "kernel-stress-vertical", "stress_yy", "Vertical pressure, smooth", "minus stress yy (kPa)", -1e-3,
+     SEQUENTIAL, NULL},
+    {MEASURE_KERNEL, "kernel-stress-horizontal", "stress_xx", "Horizontal pressure, smooth", "minus stress xx (kPa)",
+     -1e-3, SEQUENTIAL, NULL},
+    {MEASURE_KERNEL, "kernel-stress-shear", "stress_xy", "Shear stress, smooth", "stress xy (kPa)", 1e-3,
+     SCREE_COLOUR_DIVERGING, NULL},
+};
+
+/// Empty places are white: no grain counts there.
+static void blank(const scree_average_table *table, double *value)
+{
+    const size_t inside = scree_average_table_find(table, "inside"), full = scree_average_table_find(table, "density");
+    for (size_t k = 0; k < table->rows; k++) {
+        const bool empty = inside != SIZE_MAX ? !(scree_average_table_get(table, k, inside) > 0.05)
+                                              : !(scree_average_table_get(table, k, full) > 0);
+        if (empty) value[k] = NAN;
+    }
+}
+
+static scree_status draw_map(const char *folder, const measure_found *found, const map_figure *figure,
+                             scree_error *error)
+{
+    const scree_average_table *table = &found->mean.of[figure->product];
+    const size_t column = scree_average_table_find(table, figure->column), n = table->rows;
+    const size_t angle = figure->axis ? scree_average_table_find(table, figure->axis) : SIZE_MAX;
+    char path[PATH_MAX];
+    if (n == 0 || column == SIZE_MAX || scree_average_table_find(table, "z") != SIZE_MAX) return SCREE_OK;
+    size_t columns = 1;
+    while (columns < n && scree_average_table_get(table, columns, 1) == scree_average_table_get(table, 0, 1)) columns++;
+    scree_map map = {.title = figure->title,
+                     .name = figure->label,
+                     .columns = columns,
+                     .rows = n / columns,
+                     .colours = figure->colours};
+    if (map.columns < 2 || map.rows < 2) return SCREE_OK;
+    for (size_t i = 0; i < 2; i++) {
+        const double first = scree_average_table_get(table, 0, i), last = scree_average_table_get(table, n - 1, i);
+        const double gap = (last - first) / (double)((i == 0 ? map.columns : map.rows) - 1);
+        map.low[i] = first - 0.5 * gap;
+        map.high[i] = last + 0.5 * gap;
+    }
+    double *value = take(table, column, 0, n, figure->factor, error);
+    double *axis = angle == SIZE_MAX || n > 1500 ? NULL : take(table, angle, 0, n, M_PI / 180, error);
+    scree_status status = value ? scree_path_join(path, sizeof path, folder, figure->file, error) : SCREE_ERROR_IO;
+    map.value = value;
+    map.axis = axis;
+    if (!status) {
+        blank(table, value);
+        status = forgive(scree_map_draw(path, &map, error));
+    }
+    scree_release(&value);
+    scree_release(&axis);
+    return status;
+}
+
+// ---- forces ------------------------------------------------------------------------------------------------------
+
+/// The distribution of a kind of force in bins of equal width.
+static scree_status draw_distribution(const char *folder, const measure_found *found, scree_error *error)
+{
+    const scree_average_table *table = &found->mean.of[MEASURE_FORCES];
+    const size_t from = scree_average_table_find(table, "from"), to = scree_average_table_find(table, "to");
+    const size_t of[2] = {scree_average_table_find(table, "contacts"), scree_average_table_find(table, "bottom")};
+    char path[PATH_MAX];
+    size_t n = 0;
+    while (n < table->rows && scree_average_table_get(table, n, 0) == 0) n++;
+    double *x = take(table, from, 0, n, 0.5, error),
+           *y[2] = {take(table, of[0], 0, n, 1, error), take(table, of[1], 0, n, 1, error)};
+    scree_status status = x && y[0] && y[1] ? SCREE_OK : SCREE_ERROR_IO;
+    for (size_t k = 0; k < n && !status; k++) x[k] += 0.5 * scree_average_table_get(table, k, to);
+    if (!status) status = scree_path_join(path, sizeof path, folder, "force-distribution", error);
+    const scree_chart_line line[] = {
+        {.x = x, .y = y[0], .count = n, .label = "normal forces of contacts", .points = true},
+        {.x = x, .y = y[1], .count = n, .label = "vertical forces on what it stands on", .points = true}};
+    const scree_chart chart = {.title = "Distribution of forces",
+                               .x_label = "force over its mean, n",
+                               .y_label = "P(n)",
+                               .line = line,
+                               .line_count = 2,
+                               .log_y = true};
+    if (!status) status = forgive(scree_chart_draw(path, &chart, error));
+    scree_release(&x);
+    scree_release(&y[0]);
+    scree_release(&y[1]);
+    return status;
+}
+
+static scree_status draw_friction(const char *folder, const measure_found *found, scree_error *error)
+{
+    const scree_average_table *table = &found->mean.of[MEASURE_FRICTION];
+    char path[PATH_MAX];
+    double *x = take(table, 1, 0, table->rows, 1, error), *y = take(table, 2, 0, table->rows, 1, error);
+    scree_status status =
+        x && y ? scree_path_join(path, sizeof path, folder, "friction-distribution", error) : SCREE_ERROR_IO;
+    const scree_chart_line line = {.x = x, .y = y, .count = table->rows, .points = true};
+    const scree_chart chart = {.title = "Mobilised friction",
+                               .x_label = "tangential over normal force",
+                               .y_label = "density",
+                               .line = &line,
+                               .line_count = 1};
+    if (!status) status = forgive(scree_chart_draw(path, &chart, error));
+    scree_release(&x);
+    scree_release(&y);
+    return status;
+}
+
+static scree_status draw_rose(const char *folder, const measure_found *found, scree_error *error)
+{
+    const scree_average_table *table = &found->mean.of[MEASURE_ROSE];
+    const size_t n = table->rows;
+    char path[PATH_MAX];
+    // Sectors of equal solid angle have no place in a plane.
+    if (n != SECTORS) return SCREE_OK;
+    double *angle = take(table, 0, 0, n, M_PI / 180, error), *petal = take(table, 1, 0, n, 1, error);
+    double *line = take(table, 2, 0, n, 1, error);
+    scree_status status =
+        angle && petal && line ? scree_path_join(path, sizeof path, folder, "rose", error) : SCREE_ERROR_IO;
+    const scree_rose rose = {.title = "Directions of contacts and of their forces",
+                             .name = "number of contacts by the direction of their normals, 1 where all are alike",
+                             .line_name = "mean normal force by direction over that of all",
+                             .sectors = n,
+                             .angle = angle,
+                             .petal = petal,
+                             .line = line};
+    if (!status) status = forgive(scree_rose_draw(path, &rose, error));
+    scree_release(&angle);
+    scree_release(&petal);
+    scree_release(&line);
+    return status;
+}
+
+scree_status measure_draw(const char *folder, const measure_plan *plan, const measure_found *found, scree_error *error)
+{
+    scree_status status = SCREE_OK;
+    for (size_t k = 0; k < sizeof cut_figures / sizeof *cut_figures && !status; k++)
+        status = draw_cuts(folder, plan, found, &cut_figures[k], error);
+    for (size_t k = 0; k < sizeof map_figures / sizeof *map_figures && !status; k++)
+        status = draw_map(folder, found, &map_figures[k], error);
+    if (!status) status = draw_distribution(folder, found, error);
+    if (!status) status = draw_friction(folder, found, error);
+    return status ? status : draw_rose(folder, found, error);
+}

@@ -1,0 +1,144 @@
+/// Options of scree_measure.
+#include "library/measure.h"
+
+#include "base/units.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+__attribute__((format(printf, 4, 5))) static scree_status refuse(scree_error *error, const char *field,
+                                                                 const char *accepted, const char *format, ...)
+{
+    char text[400];
+    va_list list;
+    va_start(list, format);
+    (void)vsnprintf(text, sizeof text, format, list);
+    va_end(list);
+    (void)scree_error_set(error, SCREE_ERROR_INPUT, "%s", text);
+    if (error) (void)snprintf(error->field, sizeof error->field, "--%s", field);
+    if (error) (void)snprintf(error->accepted, sizeof error->accepted, "%s", accepted);
+    return SCREE_ERROR_INPUT;
+}
+
+/// A number and nothing behind it.
+static bool read_number(const char *text, double *value)
+{
+    char *end;
+    *value = strtod(text, &end);
+    return end != text && *end == 0 && isfinite(*value);
+}
+
+static scree_status read_fields(const char *text, unsigned *fields, scree_error *error)
+{
+    const char *accepted = "density, coordination, stress, fabric, inertia, velocity";
+    *fields = 0;
+    for (const char *at = text; *at;) {
+        const size_t length = strcspn(at, ",");
+        int k = 0;
+        while (k < SCREE_AVERAGE_FIELDS && !(strlen(scree_average_field_names[k]) == length &&
+                                             strncmp(scree_average_field_names[k], at, length) == 0))
+            k++;
+        if (k == SCREE_AVERAGE_FIELDS)
+            return refuse(error, "fields", accepted, "there is no field '%.*s'", (int)length, at);
+        *fields |= 1U << k;
+        at += length;
+        at += *at == ',';
+    }
+    return *fields ? SCREE_OK : refuse(error, "fields", accepted, "no field is named");
+}
+
+/// A number of cuts, or their heights.
+static scree_status read_cuts(const char *text, scree_average_plan *plan, scree_error *error)
+{
+    const char *accepted = "a number from 1 to 64, or relative heights from 0 to 1 with commas";
+    double value;
+    plan->cuts = 0;
+    if (read_number(text, &value) && value == floor(value) && value >= 1 && value <= SCREE_AVERAGE_CUTS) {
+        plan->cuts = (size_t)value;
+        for (size_t k = 0; k < plan->cuts; k++) plan->height[k] = (double)k / (double)plan->cuts;
+        return SCREE_OK;
+    }
+    for (const char *at = text; *at;) {
+        char *end;
+        value = strtod(at, &end);
+        if (end == at || (*end && *end != ',') || !(value >= 0 && value <= 1) || plan->cuts == SCREE_AVERAGE_CUTS)
+            return refuse(error, "cuts", accepted, "'%s' says no heights of cuts", text);
+        plan->height[plan->cuts++] = value;
+        at = end + (*end == ',');
+    }
+    return plan->cuts > 0 ? SCREE_OK : refuse(error, "cuts", accepted, "no cut is named");
+}
+
+static scree_status read_element(const char *text, scree_average_plan *plan, scree_error *error)
+{
+    const char *accepted = "a number of grains, such as 150, or a length, such as 30 mm";
+    scree_error problem = {0};
+    if (read_number(text, &plan->grains))
+        return plan->grains >= 1 ? SCREE_OK : refuse(error, "element", accepted, "'%s' are no grains", text);
+    if (scree_units_parse(text, "m", &plan->side, &problem) || !(plan->side > 0))
+        return refuse(error, "element", accepted, "'%s' is neither a number of grains nor a length", text);
+    return SCREE_OK;
+}
+
+static scree_status read_grid(const char *text, scree_average_plan *plan, scree_error *error)
+{
+    char rest;
+    size_t *n = plan->grid;
+    n[2] = 1;
+    const int read = sscanf(text, "%zux%zu%c", &n[0], &n[1], &rest) == 2
+                         ? 2
+                         : (sscanf(text, "%zux%zux%zu%c", &n[0], &n[1], &n[2], &rest) == 3 ? 3 : 0);
+    if (read == 0 || n[0] < 1 || n[1] < 1 || n[2] < 1 || n[0] > 4096 || n[1] > 4096 || n[2] > 4096)
+        return refuse(error, "grid", "points, such as 100x50 or in 3D 20x20x20, up to 4096 each", "'%s' is no grid",
+                      text);
+    return SCREE_OK;
+}
+
+static scree_status read_kernel(const char *text, measure_plan *plan, scree_error *error)
+{
+    scree_error problem = {0};
+    plan->kernel = true;
+    if (read_number(text, &plan->kernel_diameters) && plan->kernel_diameters > 0) return SCREE_OK;
+    if (!scree_units_parse(text, "m", &plan->kernel_width, &problem) && plan->kernel_width > 0) return SCREE_OK;
+    return refuse(error, "kernel", "mean diameters, such as 3, or a length, such as 15 mm", "'%s' is no width", text);
+}
+
+static scree_status read_axis(const char *text, scree_average_plan *plan, scree_error *error)
+{
+    scree_error problem = {0};
+    plan->axis = SCREE_AVERAGE_AXIS_GIVEN;
+    if (strcmp(text, "mass") == 0) plan->axis = SCREE_AVERAGE_AXIS_MASS;
+    if (strcmp(text, "apex") == 0) plan->axis = SCREE_AVERAGE_AXIS_APEX;
+    if (plan->axis != SCREE_AVERAGE_AXIS_GIVEN) return SCREE_OK;
+    if (!scree_units_parse(text, "m", &plan->axis_given, &problem)) return SCREE_OK;
+    return refuse(error, "axis", "mass, apex, or a place, such as 0 mm", "'%s' is no place of the axis", text);
+}
+
+scree_status measure_plan_read(const scree_measure_options *options, measure_plan *plan, scree_error *error)
+{
+    static const char mean[] = "mean:";
+    *plan = (measure_plan){.options = options,
+                           .at = options->at ? options->at : "end",
+                           .from = options->from,
+                           .threads = options->threads,
+                           .element_given = options->element != NULL};
+    plan->mean = strncmp(plan->at, mean, sizeof mean - 1) == 0;
+    if (plan->mean) plan->at += sizeof mean - 1;
+    if (plan->mean && plan->from)
+        return refuse(error, "from", "--at with one snapshot", "a mean over a stage has no displacements");
+    plan->average.points = 41;
+    if (options->points != 0 && (options->points < 1 || options->points > 10001 || options->points % 2 == 0))
+        return refuse(error, "points", "an odd number from 1 to 10001", "%ld places have no middle", options->points);
+    if (options->points != 0) plan->average.points = (size_t)options->points;
+    scree_status status = read_fields(options->fields ? options->fields : "density,coordination,stress,fabric",
+                                      &plan->average.fields, error);
+    if (!status) status = read_cuts(options->cuts ? options->cuts : "5", &plan->average, error);
+    if (!status && options->element) status = read_element(options->element, &plan->average, error);
+    if (!status && options->grid) status = read_grid(options->grid, &plan->average, error);
+    if (!status && options->kernel) status = read_kernel(options->kernel, plan, error);
+    if (!status) status = read_axis(options->axis ? options->axis : "mass", &plan->average, error);
+    return status;
+}

@@ -1,0 +1,331 @@
+/// What is measured of one run: its tables, of one snapshot or as a mean over those of a stage.
+#include "library/measure.h"
+
+#include "average/chains.h"
+#include "average/force_statistics.h"
+#include "base/units.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    USUAL = 150,  ///< grains of an element unless the user says
+    SHARE = 10,   ///< and in small samples the whole over this
+    GRID_X = 100, ///< points of smooth fields unless there is a grid
+    GRID_Y = 50
+};
+
+void measure_tables_destroy(measure_tables *tables)
+{
+    for (int k = 0; k < MEASURE_PRODUCTS; k++) scree_average_table_destroy(&tables->of[k]);
+}
+
+void measure_say(const measure_plan *plan, const char *format, ...)
+{
+    char line[512];
+    va_list list;
+    if (!plan->options->message) return;
+    va_start(list, format);
+    (void)vsnprintf(line, sizeof line, format, list);
+    va_end(list);
+    plan->options->message(plan->options->user, line);
+}
+
+// ---- which snapshot ----------------------------------------------------------------------------------------------
+
+/// The stages that there are snapshots of.
+static void list_stages(const scree_snapshot_mark *mark, size_t count, char *text, size_t size)
+{
+    size_t used = (size_t)snprintf(text, size, "start, end, #N for snapshot N, an axial strain of the run");
+    for (size_t k = 0; k < count && used < size; k++)
+        if (k == 0 || strcmp(mark[k].stage, mark[k - 1].stage) != 0)
+            used += (size_t)snprintf(text + used, size - used, ", %s", mark[k].stage);
+}
+
+static scree_status refuse_when(const char *directory, const char *option, const char *when,
+                                const scree_snapshot_mark *mark, size_t count, scree_error *error)
+{
+    (void)scree_error_set(error, SCREE_ERROR_INPUT, "the run in '%s' has no snapshot of '%s'", directory, when);
+    if (error) (void)snprintf(error->field, sizeof error->field, "--%s", option);
+    if (error) list_stages(mark, count, error->accepted, sizeof error->accepted);
+    return SCREE_ERROR_INPUT;
+}
+
+/// The snapshot of a time that is named.
+static scree_status find_mark(const char *directory, const char *option, const char *when,
+                              const scree_snapshot_mark *mark, size_t count, size_t *found, scree_error *error)
+{
+    scree_error problem = {0};
+    double strain;
+    *found = strcmp(when, "start") == 0 ? 0 : count - 1;
+    if (strcmp(when, "end") == 0 || strcmp(when, "start") == 0) return SCREE_OK;
+    for (size_t k = count; k-- > 0;)
+        if (strcmp(mark[k].stage, when) == 0 || (*when == '#' && strtoll(when + 1, NULL, 10) == mark[k].index)) {
+            *found = k;
+            return SCREE_OK;
+        }
+    if (scree_units_parse(when, "1", &strain, &problem))
+        return refuse_when(directory, option, when, mark, count, error);
+    size_t best = SIZE_MAX;
+    for (size_t k = 0; k < count; k++)
+        if (isfinite(mark[k].axial_strain) &&
+            (best == SIZE_MAX || fabs(mark[k].axial_strain - strain) < fabs(mark[best].axial_strain - strain)))
+            best = k;
+    *found = best;
+    return best == SIZE_MAX ? refuse_when(directory, option, when, mark, count, error) : SCREE_OK;
+}
+
+// ---- tables ------------------------------------------------------------------------------------------------------
+
+/// Mean coordination and the like, of the whole sample.
+static void tell_whole(const scree_average_view *view, scree_average_table *values)
+{
+    const scree_average_sample *sample = view->sample;
+    double contacts = 0, averages, above;
+    for (size_t p = 0; p < sample->bodies; p++)
+        if (sample->grain[p].counted) contacts += sample->own[p].contacts;
+    scree_average_plate_force(view, &averages, &above);
+    scree_average_table_take(values, "time", "s", sample->time);
+    scree_average_table_take(values, "grains", "1", (double)sample->counted);
+    scree_average_table_take(values, "contacts", "1", (double)sample->contacts);
+    scree_average_table_take(values, "coordination", "1", contacts / (double)sample->counted);
+    scree_average_table_take(values, "volume_fraction", "1", sample->solid / view->surface.volume);
+    scree_average_table_take(values, "unbalanced_ratio", "1", sample->unbalanced_ratio);
+    scree_average_table_take(values, "element_side", "m", view->side);
+    scree_average_table_take(values, "element_grains", "1", view->grains);
+    scree_average_table_take(values, "height", "m", view->height);
+    scree_average_table_take(values, "half_width", "m", view->half);
+    scree_average_table_take(values, "axis", "m", view->axis);
+    scree_average_table_take(values, "weight", "N", view->weight);
+    scree_average_table_take(values, "outside_force", "N", view->plate);
+    scree_average_table_take(values, "outside_force_ratio", "1", view->weight > 0 ? view->plate / view->weight : NAN);
+    scree_average_table_take(values, "bottom_row_ratio", "1", view->weight > 0 ? averages / above : NAN);
+}
+
+static scree_status tell_chains(const scree_average_sample *sample, scree_average_table *values, scree_error *error)
+{
+    scree_average_chains chains;
+    scree_status status = scree_average_chains_find(sample, M_PI / 4, NULL, &chains, error);
+    if (status) return status;
+    scree_average_table_take(values, "chains", "1", (double)chains.chains);
+    scree_average_table_take(values, "chain_grain_share", "1", chains.grain_share);
+    scree_average_table_take(values, "chain_pressure_share", "1", chains.pressure_share);
+    scree_average_table_take(values, "chain_length", "1", chains.length);
+    scree_average_table_take(values, "chain_longest", "1", (double)chains.longest);
+    return SCREE_OK;
+}
+
+static scree_average_points points_of(const scree_average_view *view, const scree_average_plan *plan)
+{
+    const scree_average_sample *sample = view->sample;
+    const double low[3] = {view->surface.left, sample->dimension == 2 ? view->base : sample->low[1], view->base};
+    const double high[3] = {view->surface.right, sample->dimension == 2 ? view->surface.highest : sample->high[1],
+                            view->surface.highest};
+    scree_average_points points = {.number = {GRID_X, GRID_Y, 1}};
+    if (sample->dimension == 3) points.number[0] = points.number[1] = points.number[2] = GRID_Y;
+    for (int k = 0; k < 3; k++) {
+        if (plan->grid[0] > 0) points.number[k] = plan->grid[k];
+        points.gap[k] = (high[k] - low[k]) / (double)points.number[k];
+        points.first[k] = low[k] + 0.5 * points.gap[k];
+        if (k < sample->dimension) continue;
+        points.first[k] = 0;
+        points.gap[k] = 1;
+        points.number[k] = 1;
+    }
+    return points;
+}
+
+/// Rows of the smooth fields.
+static scree_status fill_kernel_table(const scree_average_kernel *kernel, scree_average_table *table,
+                                      scree_error *error)
+{
+    const size_t d = (size_t)kernel->dimension, *n = kernel->points.number;
+    char name[32];
+    scree_status status = SCREE_OK;
+    for (size_t p = 0; p < kernel->count && !status; p++) {
+        const size_t number[3] = {p % n[0], p / n[0] % n[1], p / n[0] / n[1]};
+        status = scree_average_table_begin_row(table, error);
+        if (status) break;
+        for (size_t a = 0; a < d; a++)
+            scree_average_table_take(table, (const char *[]){"x", "y", "z"}[a], "m",
+                                     kernel->points.first[a] + (double)number[a] * kernel->points.gap[a]);
+        scree_average_table_take(table, "density", "kg/m3", kernel->density[p]);
+        scree_average_table_take(table, "volume_fraction", "1", kernel->fraction[p]);
+        for (size_t a = 0; a < d * d; a++) {
+            (void)snprintf(name, sizeof name, "stress_%c%c", "xyz"[a / d], "xyz"[a % d]);
+            scree_average_table_take(table, name, "Pa", kernel->stress[d * d * p + a]);
+        }
+        for (size_t a = 0; a < d; a++) {
+            (void)snprintf(name, sizeof name, "boundary_%c", "xyz"[a]);
+            scree_average_table_take(table, name, "N/m3", kernel->boundary[d * p + a]);
+        }
+        for (size_t a = 0; a < d; a++) {
+            (void)snprintf(name, sizeof name, "velocity_%c", "xyz"[a]);
+            scree_average_table_take(table, name, "m/s", kernel->momentum[d * p + a] / kernel->density[p]);
+        }
+        status = scree_average_table_end_row(table, error);
+    }
+    return status;
+}
+
+static scree_status measure_kernel(scree_average_sample *sample, const scree_average_view *view,
+                                   const measure_plan *plan, measure_tables *tables, scree_error *error)
+{
+    const double width = plan->kernel_width > 0 ? plan->kernel_width : 2 * plan->kernel_diameters * sample->mean_radius;
+    const scree_average_points points = points_of(view, &plan->average);
+    scree_average_kernel kernel;
+    scree_status status = scree_average_kernel_find(sample, width, &points, true, plan->threads, &kernel, error);
+    if (status) return status;
+    const scree_average_balance balance = scree_average_kernel_balance(sample, &kernel);
+    scree_average_table *values = &tables->of[MEASURE_VALUES];
+    scree_average_table_take(values, "kernel_width", "m", width);
+    scree_average_table_take(values, "kernel_residual", "1", balance.residual / balance.scale);
+    scree_average_table_take(values, "kernel_imbalance", "1", balance.rest / balance.scale);
+    status = fill_kernel_table(&kernel, &tables->of[MEASURE_KERNEL], error);
+    scree_average_kernel_destroy(&kernel);
+    return status;
+}
+
+static scree_status measure_view(scree_average_sample *sample, const scree_average_view *view, const measure_plan *plan,
+                                 measure_tables *tables, scree_error *error)
+{
+    scree_average_table *values = &tables->of[MEASURE_VALUES];
+    scree_status status = scree_average_table_begin_row(values, error);
+    if (!status) tell_whole(view, values);
+    if (!status) status = scree_average_forces_tell(sample, scree_average_table_take, values, error);
+    if (!status) status = tell_chains(sample, values, error);
+    if (!status && plan->kernel) status = measure_kernel(sample, view, plan, tables, error);
+    if (!status) status = scree_average_table_end_row(values, error);
+    if (!status) status = scree_average_cuts_table(view, &plan->average, &tables->of[MEASURE_CUTS], error);
+    if (!status && plan->average.grid[0] > 0)
+        status = scree_average_map_table(view, &plan->average, &tables->of[MEASURE_MAP], error);
+    if (!status) status = scree_average_forces_table(sample, &tables->of[MEASURE_FORCES], error);
+    if (!status) status = scree_average_friction_table(sample, &tables->of[MEASURE_FRICTION], error);
+    if (!status) status = scree_average_rose_table(sample, &tables->of[MEASURE_ROSE], error);
+    return status;
+}
+
+/// What a reader has to know of the run before he believes its averages.
+static void warn(const char *directory, const measure_plan *plan, const scree_average_view *view)
+{
+    const scree_average_sample *sample = view->sample;
+    if (view->grains < MEASURE_FEW)
+        measure_say(plan, "warning: %s: an element holds %.3g grains, fewer than %d: averages over it are noise",
+                    directory, view->grains, MEASURE_FEW);
+    if (!(sample->unbalanced_ratio < MEASURE_AT_REST))
+        measure_say(plan,
+                    "warning: %s: not at rest: the mean force that is left on a grain is %.3g of the mean contact "
+                    "force (averages of stress miss what moves the grains)",
+                    directory, sample->unbalanced_ratio);
+}
+
+/// Moves the grains from where they were in the snapshot `from`, if any.
+static scree_status move(const char *directory, const scree_snapshot_mark *from, scree_average_sample *sample,
+                         scree_error *error)
+{
+    scree_average_sample before;
+    if (!from) return SCREE_OK;
+    scree_status status = scree_sample_read(directory, from->index, &before, error);
+    if (status) return status;
+    status = scree_average_move(sample, &before, error);
+    scree_average_sample_destroy(&before);
+    return status;
+}
+
+static scree_status measure_snapshot(const char *directory, const scree_snapshot_mark *mark,
+                                     const scree_snapshot_mark *from, const measure_plan *plan, bool first,
+                                     measure_tables *tables, scree_error *error)
+{
+    scree_average_sample sample;
+    scree_average_view view;
+    measure_plan own = *plan;
+    scree_status status = scree_sample_read(directory, mark->index, &sample, error);
+    if (status) return status;
+    status = move(directory, from, &sample, error);
+    if (!status) status = scree_average_sample_finish(&sample, error);
+    if (!status && !own.element_given)
+        own.average.grains = sample.counted < SHARE * USUAL ? fmax(1, (double)(sample.counted / SHARE)) : USUAL;
+    // Kernels reach out of a periodic cell as far as they are wide, branches included.
+    if (!status && own.kernel)
+        status = scree_average_sample_repeat(
+            &sample, fmax(own.kernel_width, 2 * own.kernel_diameters * sample.mean_radius) + 4 * sample.mean_radius,
+            error);
+    if (!status) status = scree_average_view_open(&sample, &own.average, &view, error);
+    if (!status) {
+        if (first) warn(directory, plan, &view);
+        status = measure_view(&sample, &view, &own, tables, error);
+        scree_average_view_close(&view);
+    }
+    scree_average_sample_destroy(&sample);
+    if (status && error && !error->file[0]) (void)snprintf(error->file, sizeof error->file, "%s", directory);
+    return status;
+}
+
+// ---- a run -------------------------------------------------------------------------------------------------------
+
+/// Mean over some snapshots, table by table.
+static scree_status average_over(const measure_tables *each, size_t count, measure_tables *tables, scree_error *error)
+{
+    scree_average_table *same;
+    scree_status status = scree_allocate(&same, count, sizeof *same, error);
+    for (int k = 0; k < MEASURE_PRODUCTS && !status; k++) {
+        if (each[0].of[k].rows == 0) continue;
+        for (size_t i = 0; i < count; i++) same[i] = each[i].of[k];
+        status = scree_average_table_mean(same, count, &tables->of[k], NULL, NULL, error);
+    }
+    scree_release(&same);
+    return status;
+}
+
+/// Whether snapshot k is one of those that a mean is taken over: of a stage, or the last ones.
+static bool is_meant(const measure_plan *plan, bool by_number, unsigned long last, const scree_snapshot_mark *mark,
+                     size_t count, size_t k)
+{
+    return by_number ? k + last >= count : strcmp(mark[k].stage, plan->at) == 0;
+}
+
+static scree_status measure_stage(const char *directory, const scree_snapshot_mark *mark, size_t count,
+                                  const measure_plan *plan, measure_tables *tables, scree_error *error)
+{
+    measure_tables *each;
+    size_t taken = 0, of_stage = 0;
+    char *end;
+    // A whole number means so many snapshots, the last ones.
+    const unsigned long last = strtoul(plan->at, &end, 10);
+    const bool by_number = *plan->at && *end == 0 && last > 0;
+    for (size_t k = 0; k < count; k++) of_stage += is_meant(plan, by_number, last, mark, count, k);
+    if (of_stage == 0) return refuse_when(directory, "at", plan->at, mark, count, error);
+    scree_status status = scree_allocate(&each, of_stage, sizeof *each, error);
+    for (size_t k = 0; k < count && !status; k++) {
+        if (!is_meant(plan, by_number, last, mark, count, k)) continue;
+        status = measure_snapshot(directory, &mark[k], NULL, plan, taken == 0, &each[taken], error);
+        taken++;
+    }
+    if (!status) measure_say(plan, "%s: mean over %zu snapshots", directory, taken);
+    if (!status) status = average_over(each, taken, tables, error);
+    for (size_t k = 0; k < taken; k++) measure_tables_destroy(&each[k]);
+    scree_release(&each);
+    return status;
+}
+
+scree_status measure_run(const char *directory, const measure_plan *plan, measure_tables *tables, scree_error *error)
+{
+    scree_snapshot_mark *mark;
+    size_t count, which = 0, from = 0;
+    scree_status status = scree_snapshot_marks(directory, &mark, &count, error);
+    if (status) return status;
+    if (plan->mean) {
+        status = measure_stage(directory, mark, count, plan, tables, error);
+    } else {
+        status = find_mark(directory, "at", plan->at, mark, count, &which, error);
+        if (!status && plan->from) status = find_mark(directory, "from", plan->from, mark, count, &from, error);
+        if (!status)
+            status =
+                measure_snapshot(directory, &mark[which], plan->from ? &mark[from] : NULL, plan, true, tables, error);
+    }
+    scree_release(&mark);
+    return status;
+}

@@ -1,0 +1,125 @@
+/// Tables of averages as CSV, and the values as summary.json.
+#include "library/measure.h"
+
+#include "io/run_directory.h"
+#include "io/summary.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+const char *const measure_files[MEASURE_PRODUCTS] = {"values.csv", "cuts.csv",     "map.csv", "kernel.csv",
+                                                     "forces.csv", "friction.csv", "rose.csv"};
+
+/// A header with units, and rows; of an ensemble every number with both ends of its band behind it.
+static void write_rows(FILE *file, const scree_average_table *mean, const scree_average_table *low,
+                       const scree_average_table *high)
+{
+    for (size_t k = 0; k < mean->columns; k++) {
+        const scree_average_column *c = &mean->column[k];
+        fprintf(file, "%s%s [%s]", k > 0 ? "," : "", c->name, c->unit);
+        if (low) fprintf(file, ",%s_low [%s],%s_high [%s]", c->name, c->unit, c->name, c->unit);
+    }
+    fputc('\n', file);
+    for (size_t row = 0; row < mean->rows; row++) {
+        for (size_t k = 0; k < mean->columns; k++) {
+            fprintf(file, "%s%.9g", k > 0 ? "," : "", scree_average_table_get(mean, row, k));
+            if (low)
+                fprintf(file, ",%.9g,%.9g", scree_average_table_get(low, row, k),
+                        scree_average_table_get(high, row, k));
+        }
+        fputc('\n', file);
+    }
+}
+
+static scree_status write_table(const char *folder, const measure_found *found, int product, scree_error *error)
+{
+    char path[PATH_MAX];
+    FILE *file;
+    const bool bands = found->runs > 1 && found->low.of[product].rows > 0;
+    if (found->mean.of[product].rows == 0) return SCREE_OK;
+    scree_status status = scree_path_join(path, sizeof path, folder, measure_files[product], error);
+    if (!status) status = scree_replace_begin(path, &file, error);
+    if (status) return status;
+    write_rows(file, &found->mean.of[product], bands ? &found->low.of[product] : NULL, &found->high.of[product]);
+    return scree_replace_finish(path, file, true, error);
+}
+
+static scree_status write_dips(const char *folder, const measure_plan *plan, const measure_found *found,
+                               scree_error *error)
+{
+    char path[PATH_MAX];
+    FILE *file;
+    if (!found->dip) return SCREE_OK;
+    scree_status status = scree_path_join(path, sizeof path, folder, "dips.csv", error);
+    if (!status) status = scree_replace_begin(path, &file, error);
+    if (status) return status;
+    fputs("height [1],dip [1],dip_low [1],dip_high [1],checked [1],p [1],place [1],centre [1],most [1]\n", file);
+    for (size_t k = 0; k < plan->average.cuts; k++) {
+        const scree_average_dip *d = &found->dip[k];
+        fprintf(file, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", plan->average.height[k], d->dip, d->low,
+                d->high, d->checked, d->p, d->place, d->centre, d->most);
+    }
+    return scree_replace_finish(path, file, true, error);
+}
+
+/// What has to be known before the averages are believed.
+static void set_warnings(scree_summary *summary, const scree_average_table *values)
+{
+    const double grains = values->value[scree_average_table_find(values, "element_grains")];
+    const double rest = values->value[scree_average_table_find(values, "unbalanced_ratio")];
+    char text[200] = "";
+    if (grains < MEASURE_FEW)
+        (void)snprintf(text, sizeof text, "elements hold %.3g grains, fewer than %d", grains, MEASURE_FEW);
+    if (!(rest < MEASURE_AT_REST)) {
+        const size_t used = strlen(text);
+        (void)snprintf(text + used, sizeof text - used, "%snot at rest, unbalanced ratio %.3g", used ? "; " : "", rest);
+    }
+    scree_summary_set_text(summary, "warnings", text);
+}
+
+static void set_values(scree_summary *summary, const measure_found *found)
+{
+    const scree_average_table *mean = &found->mean.of[MEASURE_VALUES];
+    char name[64];
+    scree_summary_set_integer(summary, "runs", (int64_t)found->runs);
+    set_warnings(summary, mean);
+    for (size_t k = 0; k < mean->columns; k++) {
+        scree_summary_set_number(summary, mean->column[k].name, mean->value[k]);
+        if (found->runs < 2) continue;
+        (void)snprintf(name, sizeof name, "%s_low", mean->column[k].name);
+        scree_summary_set_number(summary, name, found->low.of[MEASURE_VALUES].value[k]);
+        (void)snprintf(name, sizeof name, "%s_high", mean->column[k].name);
+        scree_summary_set_number(summary, name, found->high.of[MEASURE_VALUES].value[k]);
+    }
+    if (!found->dip) return;
+    scree_summary_set_number(summary, "dip", found->dip->dip);
+    scree_summary_set_number(summary, "dip_low", found->dip->low);
+    scree_summary_set_number(summary, "dip_high", found->dip->high);
+    scree_summary_set_number(summary, "dip_checked", found->dip->checked);
+    scree_summary_set_number(summary, "dip_p", found->dip->p);
+    scree_summary_set_number(summary, "dip_place", found->dip->place);
+    scree_summary_set_number(summary, "dip_height", found->dip_height);
+}
+
+static scree_status write_summary(const char *folder, const measure_found *found, scree_error *error)
+{
+    char path[PATH_MAX];
+    scree_summary *summary;
+    scree_status status = scree_path_join(path, sizeof path, folder, "summary.json", error);
+    if (!status) status = scree_summary_create(&summary, error);
+    if (status) return status;
+    set_values(summary, found);
+    status = scree_summary_write(summary, path, error);
+    scree_summary_destroy(summary);
+    return status;
+}
+
+scree_status measure_write(const char *folder, const measure_plan *plan, const measure_found *found, scree_error *error)
+{
+    scree_status status = SCREE_OK;
+    for (int k = 0; k < MEASURE_PRODUCTS && !status; k++) status = write_table(folder, found, k, error);
+    if (!status) status = write_dips(folder, plan, found, error);
+    return status ? status : write_summary(folder, found, error);
+}

@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# Averages of small piles: tables, values and figures; the same dip as the run's own; an ensemble; strains between two
+# snapshots; what cannot be measured is said with its option and the way out.
+# shellcheck source=tests/cli/check.sh
+. "$(dirname "$0")/check.sh"
+
+small=(--set particles.count=60 --set sources.spout.interval="20 ms" --set output.paraview=no --set output.figures=no)
+for seed in 1 2; do
+    expect 0 '' "$scree" run pour-discs "${small[@]}" --set seed=$seed --threads 1 --quiet -o pile$seed
+done
+
+# One pile: everything there is.
+expect 0 'kernel_residual' "$scree" measure pile1 --fields density,coordination,stress,fabric,inertia,velocity \
+    --grid 12x8 --kernel 3 --cuts 2 -o one
+for file in values.csv cuts.csv map.csv kernel.csv forces.csv friction.csv rose.csv dips.csv summary.json \
+    cuts-pressure-scaled.png map-stress-vertical.png kernel-stress-shear.png force-distribution.png rose.png; do
+    checks=$((checks + 1))
+    [ -s "one/$file" ] || complain "there is no one/$file"
+done
+same "$(wc -l <one/cuts.csv)" 83 "rows of two cuts of 41 places"
+same "$(wc -l <one/map.csv)" 97 "rows of the map"
+# The same numbers, added up in another order of the grains.
+for pair in "dip dip" "element_grains dip_element"; do
+    checks=$((checks + 1))
+    awk -v a="$("$scree" get one "${pair% *}")" -v b="$("$scree" get pile1 "${pair#* }")" \
+        'BEGIN { exit !(a > 0 && (a / b - 1) ^ 2 < 1e-18) }' || complain "the run's own $pair"
+done
+same "$("$scree" get one grains)" 60 "grains"
+same "$("$scree" get one warnings)" "elements hold 6 grains, fewer than 30" "warnings"
+checks=$((checks + 1))
+awk -v plate="$("$scree" get one outside_force_ratio)" -v row="$("$scree" get one bottom_row_ratio)" \
+    -v residual="$("$scree" get one kernel_residual)" -v run="$("$scree" get pile1 weight_ratio)" \
+    'BEGIN { exit !(plate > 0.999 && plate < 1.001 && row > 0.98 && row < 1.02 && residual < 1e-9 && (plate - run) ^ 2 < 1e-16) }' ||
+    complain "plate, lowest row or residual"
+# Elements of 6 grains are few, and said to be.
+expect 0 'warning: pile1: an element holds 6 grains, fewer than 30' "$scree" measure pile1 --no-figures -o few
+
+# An ensemble: bands, and an interval of the dip.
+expect 0 'height +dip +interval' "$scree" measure pile1 pile2 --cuts 0,0.4 --no-figures -o both
+head -1 both/cuts.csv | grep -q 'stress_yy_low \[Pa\]' || complain "no bands in both/cuts.csv"
+same "$("$scree" get both runs)" 2 runs
+checks=$((checks + 1))
+awk -v low="$("$scree" get both dip_low)" -v dip="$("$scree" get both dip)" -v high="$("$scree" get both dip_high)" -v p="$("$scree" get both dip_p)" \
+    'BEGIN { exit !(low <= dip && dip <= high && p >= 0.25 && p <= 1) }' || complain "interval or p of the dip"
+same "$("$scree" get one dip_low)" nan "one pile has no interval"
+
+# Strains between two snapshots of a relaxing pile; a mean over snapshots.
+expect 0 'grains' "$scree" measure pile1 --from "#15" --no-figures -o moved
+head -1 moved/cuts.csv | grep -q 'cambou_xx.*liao_xy.*bagi_yy' || complain "no strains in moved/cuts.csv"
+expect 0 'mean over 3 snapshots' "$scree" measure pile1 --at mean:3 --no-figures -o mean
+
+# What cannot be.
+expect 2 '--element: .* larger than the sample.*take fewer grains' "$scree" measure pile1 --element 5000
+expect 2 "--fields: there is no field 'stres'.*density" "$scree" measure pile1 --fields stres
+expect 2 '--cuts: .*relative heights' "$scree" measure pile1 --cuts 0.5,1.5
+expect 2 '--grid: .*100x50' "$scree" measure pile1 --grid 10
+expect 2 '--kernel: .*mean diameters' "$scree" measure pile1 --kernel -1
+expect 2 '--axis: ' "$scree" measure pile1 --axis nowhere
+expect 2 '--points: .*odd' "$scree" measure pile1 --points 40
+expect 2 '--at: .*no snapshot of .nostage.*end.*pour' "$scree" measure pile1 --at nostage
+expect 2 '--from: ' "$scree" measure pile1 --at mean:2 --from start
+expect 2 'no grain to average over' "$scree" measure pile1 --at start
+expect 2 'no grain is in both' "$scree" measure pile1 --from start
+expect 4 'cannot open|no such' "$scree" measure nothing
+finish

@@ -1,0 +1,274 @@
+/// Dips of ensembles, means with bands, distributions of forces of known laws, chains, roses.
+#include "average_fixture.h"
+
+#include "average/chains.h"
+#include "average/dip.h"
+#include "average/force_statistics.h"
+#include "average/table.h"
+
+enum { POINTS = 21 };
+
+/// Profiles of `piles`: a dome with a dip of `depth`, noise of `noise`, the mirror image of every second one leaning.
+static void make_profiles(double *profile, size_t piles, double depth, double noise, uint64_t seed)
+{
+    for (size_t i = 0; i < piles; i++)
+        for (size_t j = 0; j < POINTS; j++) {
+            const double x = ((double)j - 10) / 10, top = 1 - x * x;
+            profile[i * POINTS + j] = top - depth * exp(-25 * x * x) + 0.2 * x * (i % 2 ? -1 : 1) +
+                                      noise * (average_random(seed + i * POINTS + j) - 0.5);
+        }
+}
+
+static scree_average_dip dip_of(const double *profile, size_t piles)
+{
+    scree_average_dip dip;
+    scree_error error;
+    check(scree_average_dip_find(profile, piles, POINTS, &dip, &error), &error);
+    return dip;
+}
+
+/// Without noise: the dip by its definition, of the mean of each pile and its mirror image.
+static void test_dip_exact(void **state)
+{
+    (void)state;
+    double profile[POINTS], most = 0;
+    make_profiles(profile, 1, 0.3, 0, 0);
+    for (size_t j = 0; j <= 10; j++) most = fmax(most, 0.5 * (profile[10 - j] + profile[10 + j]));
+    const scree_average_dip dip = dip_of(profile, 1);
+    near(dip.dip, 1 - profile[10] / most, 1e-15);
+    near(dip.centre, 0.7, 1e-15);
+    assert_true(dip.place > 0.2 && dip.place < 0.5);
+    assert_true(isnan(dip.low) && isnan(dip.p) && isnan(dip.checked)); // one pile
+    // The mirror image is the same sample.
+    double mirror[POINTS];
+    for (size_t j = 0; j < POINTS; j++) mirror[j] = profile[POINTS - 1 - j];
+    near(dip_of(mirror, 1).dip, dip.dip, 1e-15);
+}
+
+/// A dip that is there is found; the least p of 8 piles is 1/256.
+static void test_dip_there(void **state)
+{
+    (void)state;
+    double profile[8 * POINTS];
+    make_profiles(profile, 8, 0.3, 0.05, 0);
+    const scree_average_dip dip = dip_of(profile, 8);
+    near(dip.p, 1.0 / 256, 1e-15);
+    assert_true(dip.low > 0.1 && dip.low <= dip.dip && dip.dip <= dip.high);
+    near(dip.checked, dip.dip, 0.05);
+}
+
+/// Without one p is spread as it should be: below 0.05 in at most one of 20 ensembles or so. With a dome no noise of
+/// this size moves the largest place far, and with a plateau looking for the largest one does not fool the test.
+static void test_dip_absent(void **state)
+{
+    (void)state;
+    double profile[8 * POINTS];
+    int small = 0;
+    double naive = 0, checked = 0;
+    for (uint64_t trial = 0; trial < 100; trial++) {
+        for (size_t k = 0; k < 8 * POINTS; k++)
+            profile[k] = 1 + 0.3 * (average_random(90000 + trial * 8 * POINTS + k) - 0.5);
+        const scree_average_dip dip = dip_of(profile, 8);
+        small += dip.p <= 0.05;
+        naive += dip.dip / 100;
+        checked += dip.checked / 100;
+    }
+    // 100 trials at 5 %: more than 12 of them have a probability of 0.2 %. p <= 0.05 is 12 of 256 flips.
+    assert_true(small <= 12);
+    // The definition finds a dip in noise, the check none.
+    assert_true(naive > 0.03);
+    near(checked, 0, 0.012);
+}
+
+// ---- tables ------------------------------------------------------------------------------------------------------
+
+static void fill(scree_average_table *table, double a, double angle)
+{
+    scree_error error;
+    check(scree_average_table_begin_row(table, &error), &error);
+    scree_average_table_take(table, "a", "1", a);
+    scree_average_table_take(table, "some_angle", "degree", angle);
+    check(scree_average_table_end_row(table, &error), &error);
+}
+
+static void test_means(void **state)
+{
+    (void)state;
+    scree_average_table table[4] = {{0}}, mean, low, high;
+    scree_error error;
+    const double value[4] = {1, 2, 3, NAN}, angle[4] = {85, -85, 89, -89};
+    for (int k = 0; k < 4; k++) {
+        fill(&table[k], value[k], angle[k]);
+        fill(&table[k], 7, 20);
+    }
+    check(scree_average_table_mean(table, 4, &mean, &low, &high, &error), &error);
+    near(scree_average_table_get(&mean, 0, 0), 2, 1e-15);       // of those that have it
+    near(fabs(scree_average_table_get(&mean, 0, 1)), 90, 1e-9); // axes on both sides of the vertical
+    assert_true(scree_average_table_get(&low, 0, 0) >= 1 && scree_average_table_get(&high, 0, 0) <= 3);
+    assert_true(scree_average_table_get(&high, 0, 1) - scree_average_table_get(&low, 0, 1) < 12);
+    near(scree_average_table_get(&low, 1, 0), 7, 0);
+    near(scree_average_table_get(&mean, 1, 1), 20, 1e-12);
+    assert_int_equal(scree_average_table_find(&mean, "some_angle"), 1);
+    assert_true(scree_average_table_find(&mean, "other") == SIZE_MAX);
+    // Tables of another form are refused.
+    fill(&table[1], 0, 0);
+    scree_average_table_destroy(&mean);
+    assert_int_equal(scree_average_table_mean(table, 4, &mean, NULL, NULL, &error), SCREE_ERROR_INPUT);
+    for (int k = 0; k < 4; k++) scree_average_table_destroy(&table[k]);
+    scree_average_table_destroy(&low);
+    scree_average_table_destroy(&high);
+}
+
+/// The band of a mean of normal numbers covers it in about 95 % of ensembles: of 20 somewhat fewer, 92 to 94 %.
+static void test_coverage(void **state)
+{
+    (void)state;
+    enum { SAMPLES = 20, TRIALS = 200 };
+    int covered = 0;
+    for (uint64_t trial = 0; trial < TRIALS; trial++) {
+        scree_average_table table[SAMPLES] = {{0}}, mean, low, high;
+        scree_error error;
+        for (uint64_t k = 0; k < SAMPLES; k++)
+            fill(&table[k], scree_random_normal(3, SCREE_RANDOM_TEST, trial * SAMPLES + k), 0);
+        check(scree_average_table_mean(table, SAMPLES, &mean, &low, &high, &error), &error);
+        covered += low.value[0] < 0 && high.value[0] > 0;
+        for (int k = 0; k < SAMPLES; k++) scree_average_table_destroy(&table[k]);
+        scree_average_table_destroy(&mean);
+        scree_average_table_destroy(&low);
+        scree_average_table_destroy(&high);
+    }
+    assert_true(covered >= 176 && covered <= 196); // 188 +- 3.4 sigma
+}
+
+// ---- forces ------------------------------------------------------------------------------------------------------
+
+/// Exponential forces: the rate above the mean is 1, and the interval covers it in 95 % of 200 sets.
+static void test_decay(void **state)
+{
+    (void)state;
+    enum { N = 400 };
+    double force[N];
+    int covered = 0;
+    for (uint64_t trial = 0; trial < 200; trial++) {
+        for (uint64_t k = 0; k < N; k++) force[k] = -log(1 - average_random(500000 + trial * N + k)) * 17;
+        const scree_average_decay decay = scree_average_decay_fit(force, N);
+        covered += decay.low < 1 && decay.high > 1;
+        assert_true(decay.count > 100);
+        // Many forces: the interval is that of a normal mean, with corrections of order 1 / k.
+        const double k = (double)decay.count;
+        near(decay.low / decay.rate, 1 - 1.96 / sqrt(k), 2 / k);
+        near(decay.high / decay.rate, 1 + 1.96 / sqrt(k), 2 / k);
+    }
+    assert_true(covered >= 178 && covered <= 200); // 190, 4 sigma
+    const double few[3] = {1, 1, 4};
+    assert_true(isnan(scree_average_decay_fit(few, 3).rate));
+}
+
+static void pick(void *user, const char *name, const char *unit, double value)
+{
+    (void)unit;
+    if (strcmp(name, "sliding_share") == 0) ((double *)user)[0] = value;
+    if (strcmp(name, "mobilised_friction") == 0) ((double *)user)[1] = value;
+    if (strcmp(name, "force_mean") == 0) ((double *)user)[2] = value;
+    if (strcmp(name, "bottom_force_mean") == 0) ((double *)user)[3] = value;
+}
+
+/// A lattice: all forces known, densities integrate to one, contacts in four directions.
+static void test_lattice_forces(void **state)
+{
+    (void)state;
+    const double fx = 3, fy = 5;
+    scree_average_sample s = average_lattice(8, 0.5, fx, fy);
+    scree_error error;
+    double of[4] = {0}, sum[2] = {0}, contacts = 0;
+    for (size_t c = 0; c < s.contacts; c++) s.contact[c].sliding = c % 2 == 0;
+    for (size_t c = 0; c < s.contacts; c++) s.contact[c].tangential_force = 0.25 * s.contact[c].normal_force;
+    average_finish(&s);
+    check(scree_average_forces_tell(&s, pick, of, &error), &error);
+    near(of[0], 0.5, 1e-15);
+    near(of[1], 0.25, 1e-14);
+    near(of[2], 0.5 * (fx + fy), 1e-13);
+    near(of[3], fy, 1e-13);
+    scree_average_table forces = {0}, rose = {0}, friction = {0};
+    check(scree_average_forces_table(&s, &forces, &error), &error);
+    check(scree_average_rose_table(&s, &rose, &error), &error);
+    check(scree_average_friction_table(&s, &friction, &error), &error);
+    for (size_t k = 0; k < forces.rows; k++) {
+        const int scale = (int)scree_average_table_get(&forces, k, 0);
+        sum[scale] += scree_average_table_get(&forces, k, 3) *
+                      (scree_average_table_get(&forces, k, 2) - scree_average_table_get(&forces, k, 1));
+        if (k > 0 && scale == (int)scree_average_table_get(&forces, k - 1, 0))
+            near(scree_average_table_get(&forces, k, 1), scree_average_table_get(&forces, k - 1, 2), 1e-12);
+    }
+    near(sum[0], 1, 1e-13);
+    near(sum[1], 1, 1e-13);
+    for (size_t k = 0; k < rose.rows; k++) {
+        const double density = scree_average_table_get(&rose, k, 1);
+        contacts += density / (double)rose.rows;
+        near(density, k % 9 == 0 ? 9 : 0, 1e-13); // right, up, left, down
+        if (k % 9 == 0) near(scree_average_table_get(&rose, k, 2), (k % 18 ? fy : fx) / 4, 1e-13);
+    }
+    near(contacts, 1, 1e-13);
+    for (size_t k = 0; k < friction.rows; k++) near(scree_average_table_get(&friction, k, 2), k == 10 ? 40 : 0, 1e-12);
+    scree_average_table_destroy(&forces);
+    scree_average_table_destroy(&rose);
+    scree_average_table_destroy(&friction);
+    scree_average_sample_destroy(&s);
+}
+
+// ---- chains ------------------------------------------------------------------------------------------------------
+
+/// A loaded column among grains that bear little is one chain; a bend of more than the angle ends it.
+static void test_chains(void **state)
+{
+    (void)state;
+    enum { N = 10 };
+    for (int bent = 0; bent < 2; bent++) {
+        scree_average_sample s = average_begin(2);
+        scree_average_chains chains;
+        scree_error error;
+        uint8_t linked[ROOM];
+        for (uint32_t k = 0; k < N; k++) {
+            // Upwards, or from the middle on to the right.
+            const double right = bent && k > 4 ? 2.0 * (k - 4) : 0, up = bent && k > 4 ? 8 : 2.0 * k;
+            (void)average_add(&s, right, up, 0, 1);
+            const double along[3] = {right > 0 ? 12 : 0, right > 0 ? 0 : 10, 0};
+            if (k > 0) average_touch(&s, k, k - 1, along);
+        }
+        average_stand(&s, 0, (double[3]){0, -1, 0}, (double[3]){0, 10, 0});
+        const double *end = s.grain[N - 1].position, out = bent ? 1 : 0;
+        average_stand(&s, N - 1, (double[3]){end[0] + out, end[1] + 1 - out, 0},
+                      (double[3]){-12 * out, -10 + 10 * out, 0});
+        for (int k = 0; k < 30; k++) { // bystanders
+            const uint32_t one = average_add(&s, 50 + 3 * k, 0, 0, 1);
+            average_stand(&s, one, (double[3]){50 + 3 * k, -1, 0}, (double[3]){0, 0.1, 0});
+            average_stand(&s, one, (double[3]){50 + 3 * k, 1, 0}, (double[3]){0, -0.1, 0});
+        }
+        for (int k = 0; k < 3; k++) { // a column that bears less than the mean is none
+            const uint32_t one = average_add(&s, 300, 2.0 * k, 0, 1);
+            if (k > 0) average_touch(&s, one, one - 1, (double[3]){0, 0.1, 0});
+        }
+        average_finish(&s);
+        check(scree_average_chains_find(&s, M_PI / 6, linked, &chains, &error), &error);
+        assert_int_equal(chains.chains, bent ? 2 : 1);
+        assert_int_equal(chains.longest, bent ? 6 : N);
+        // The grain at the bend, pressed more from the side, belongs to the chain that goes there.
+        assert_int_equal(chains.grains, N);
+        near(chains.grain_share, N / 43.0, 1e-15);
+        assert_true(chains.pressure_share > 0.85);
+        size_t links = 0;
+        for (size_t c = 0; c < s.contacts; c++) links += linked[c];
+        assert_int_equal(links, bent ? N - 2 : N - 1);
+        scree_average_sample_destroy(&s);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_dip_exact),      cmocka_unit_test(test_dip_there), cmocka_unit_test(test_dip_absent),
+        cmocka_unit_test(test_means),          cmocka_unit_test(test_coverage),  cmocka_unit_test(test_decay),
+        cmocka_unit_test(test_lattice_forces), cmocka_unit_test(test_chains),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,162 @@
+/// Strains of elements between two instants: affine motions of any size, rotations, turning grains, known faults.
+#include "average_fixture.h"
+
+#include "average/strain.h"
+
+#define TURN 0.3
+
+/// A sample of discs that touch at random, hexagonally placed and shaken, moved by u = G X + c; grains turn by `turn`.
+static scree_average_sample moved(int dimension, const double gradient[9], double turn)
+{
+    scree_average_sample s = average_begin(dimension), before;
+    const size_t n = dimension == 2 ? 14 : 8;
+    uint64_t at = 5000;
+    for (size_t k = 0; k < (dimension == 2 ? n * n : n * n * n); k++) {
+        double x[3] = {(double)(k % n), (double)(k / n % n), (double)(k / n / n)};
+        for (int i = 0; i < dimension; i++) x[i] += 0.3 * average_random(at++);
+        if (dimension == 2) x[2] = 0;
+        (void)average_add(&s, x[0], x[1], x[2], 0.5);
+    }
+    before = s;
+    assert_int_equal(scree_allocate(&before.grain, s.bodies, sizeof *before.grain, NULL), SCREE_OK);
+    memcpy(before.grain, s.grain, s.bodies * sizeof *s.grain);
+    for (size_t p = 0; p < s.bodies; p++) {
+        s.grain[p].angle += turn;
+        for (int i = 0; i < dimension; i++) {
+            s.grain[p].position[i] += 0.2;
+            for (int j = 0; j < dimension; j++)
+                s.grain[p].position[i] += gradient[3 * i + j] * before.grain[p].position[j];
+        }
+    }
+    for (uint32_t k = 0; k + n < s.bodies; k++) {
+        average_touch(&s, k, k + 1, (double[3]){1, 0, 0});
+        average_touch(&s, k, k + (uint32_t)n, (double[3]){0, 1, 0});
+        if (dimension == 3 && k + n * n < s.bodies) average_touch(&s, k, k + (uint32_t)(n * n), (double[3]){0, 0, 1});
+    }
+    scree_error error;
+    check(scree_average_move(&s, &before, &error), &error);
+    scree_release(&before.grain);
+    average_finish(&s);
+    return s;
+}
+
+static void find(scree_average_sample *s, scree_vector displacement, double gradient[SCREE_AVERAGE_STRAINS][9])
+{
+    scree_average_bins bins;
+    scree_average_strain strain;
+    scree_error error;
+    double middle[3];
+    for (int k = 0; k < 3; k++) middle[k] = 0.5 * (s->low[k] + s->high[k]);
+    const double side = s->dimension == 2 ? 4.5 : 3;
+    scree_average_element element =
+        scree_average_element_at(middle, (double[3]){side, side, s->dimension == 3 ? side : 0});
+    check(scree_average_bins_make(s, 1, &bins, &error), &error);
+    check(scree_average_strain_open(s, &bins, &strain, &error), &error);
+    scree_average_strain_find(&strain, &element, displacement, gradient);
+    scree_average_strain_close(&strain);
+    scree_average_bins_destroy(&bins);
+}
+
+/// Every definition but liao's (grains turn by another angle than the whole) finds an affine motion of any size.
+static void test_affine(void **state)
+{
+    (void)state;
+    const double g[2][9] = {{0.2, -0.1, 0, 0.05, -0.3, 0, 0, 0, 0},
+                            {0.2, -0.1, 0.07, 0.05, -0.3, 0.02, 0.1, -0.06, 0.15}};
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        scree_vector displacement;
+        double gradient[SCREE_AVERAGE_STRAINS][9];
+        const double *wanted = g[dimension - 2];
+        scree_average_sample s = moved(dimension, wanted, 0);
+        find(&s, displacement, gradient);
+        for (int d = 0; d < SCREE_AVERAGE_STRAINS; d++)
+            for (int i = 0; i < dimension; i++)
+                for (int j = 0; j < dimension; j++) {
+                    if (dimension == 3 && d == SCREE_AVERAGE_LIAO)
+                        assert_true(isnan(gradient[d][3 * i + j])); // spheres have no angle
+                    else
+                        near(gradient[d][3 * i + j], wanted[3 * i + j], 1e-12);
+                }
+        scree_average_sample_destroy(&s);
+    }
+}
+
+/// A rotation of the whole by any angle: the gradient is Q - 1; liao finds nothing where grains turn along.
+static void test_rotation(void **state)
+{
+    (void)state;
+    const double c = cos(TURN), si = sin(TURN), q[9] = {c - 1, -si, 0, si, c - 1, 0, 0, 0, 0};
+    scree_vector displacement;
+    double gradient[SCREE_AVERAGE_STRAINS][9];
+    scree_average_sample s = moved(2, q, TURN);
+    find(&s, displacement, gradient);
+    for (int d = 0; d < SCREE_AVERAGE_STRAINS; d++)
+        for (int i = 0; i < 2; i++)
+            for (int j = 0; j < 2; j++) near(gradient[d][3 * i + j], d == SCREE_AVERAGE_LIAO ? 0 : q[3 * i + j], 1e-12);
+    // A small one has no strain: the symmetric part is of second order.
+    const double small[9] = {cos(1e-4) - 1, -sin(1e-4), 0, sin(1e-4), cos(1e-4) - 1, 0, 0, 0, 0};
+    scree_average_sample_destroy(&s);
+    s = moved(2, small, 0);
+    find(&s, displacement, gradient);
+    for (int d = 0; d < SCREE_AVERAGE_STRAINS; d++) {
+        near(gradient[d][1] + gradient[d][3], 0, 1e-11);
+        near(gradient[d][0], -5e-9, 1e-11);
+    }
+    scree_average_sample_destroy(&s);
+}
+
+/// Grains that turn on the spot: liao alone sees it, as a rotation the other way (surfaces move past each other).
+static void test_turning(void **state)
+{
+    (void)state;
+    const double none[9] = {0};
+    const double small = 1e-5;
+    scree_vector displacement;
+    double gradient[SCREE_AVERAGE_STRAINS][9];
+    scree_average_sample s = moved(2, none, small);
+    find(&s, displacement, gradient);
+    near(displacement[0], 0.2, 1e-13);
+    for (int i = 0; i < 4; i++) near(gradient[SCREE_AVERAGE_CAMBOU][3 * (i / 2) + i % 2], 0, 1e-14);
+    // dv = turn x (r_first - r_second) = - turn x branch, whatever the sizes are.
+    near(gradient[SCREE_AVERAGE_LIAO][1], small, 1e-9);
+    near(gradient[SCREE_AVERAGE_LIAO][3], -small, 1e-9);
+    scree_average_sample_destroy(&s);
+}
+
+/// What cannot be found is NAN and not zero; what cannot be compared is refused.
+static void test_refused(void **state)
+{
+    (void)state;
+    const double none[9] = {0};
+    scree_error error;
+    scree_average_sample s = moved(2, none, 0), other = average_begin(2);
+    assert_int_equal(scree_average_move(&s, &other, &error), SCREE_ERROR_INPUT);
+    s.directions = 1;
+    assert_int_equal(scree_average_move(&s, &s, &error), SCREE_ERROR_INPUT);
+    s.directions = 0;
+    scree_average_bins bins;
+    scree_average_strain strain;
+    scree_vector displacement;
+    double gradient[SCREE_AVERAGE_STRAINS][9];
+    check(scree_average_bins_make(&s, 1, &bins, &error), &error);
+    check(scree_average_strain_open(&s, &bins, &strain, &error), &error);
+    const scree_average_element away = {{100, 100, 0}, {101, 101, 0}};
+    scree_average_strain_find(&strain, &away, displacement, gradient);
+    for (int d = 0; d < SCREE_AVERAGE_STRAINS; d++) assert_true(isnan(gradient[d][0]));
+    assert_true(isnan(displacement[0]));
+    scree_average_strain_close(&strain);
+    scree_average_bins_destroy(&bins);
+    scree_average_sample_destroy(&s);
+    scree_average_sample_destroy(&other);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_affine),
+        cmocka_unit_test(test_rotation),
+        cmocka_unit_test(test_turning),
+        cmocka_unit_test(test_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
